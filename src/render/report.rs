@@ -1,0 +1,36 @@
+//! What a view says of itself, as plain data that the interface can show.
+
+/// What the renderer is doing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Activity {
+    /// Nothing: the picture is finished and the GPU rests.
+    #[default]
+    Idle,
+    /// Following a movement on a sparse lattice.
+    Moving,
+    /// Completing the lattice or adding samples.
+    Refining,
+    /// A kernel is being prepared; the text names it ("power 5").
+    Compiling(String),
+}
+
+/// A view's state, for the status line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// What it is doing.
+    pub activity: Activity,
+    /// Width and height of the picture in pixels.
+    pub size_px: [u32; 2],
+    /// Whole samples that each pixel holds; 0 while the lattice is incomplete.
+    pub samples_done: u32,
+    /// Samples that each pixel will hold.
+    pub samples_wanted: u32,
+    /// One pixel of this many has been computed in the picture shown; 1 once the lattice is complete.
+    pub pixels_per_sample: u32,
+    /// Seconds from the last change to the newest picture, or to the finish once idle.
+    pub elapsed_secs: f64,
+    /// GPU milliseconds of the last displayed frame's work, as far as could be measured.
+    pub frame_ms: f64,
+    /// Pictures finished since the view was made (each display update counts).
+    pub pictures: u64,
+}

@@ -1,0 +1,63 @@
+//! What to draw: pure data, its units and ranges, and the document it is kept in.
+//!
+//! In: edits from panels, files and links. Out: a [`Scene`] that is always within its
+//! ranges. This layer knows no GPU and no user interface.
+//!
+//! | file | what lives there |
+//! |---|---|
+//! | [`param`] | every number's unit, range, default and help text, in one table |
+//! | `fractal`, `camera`, `light`, `surface`, `background`, `tone`, `quality` | the parts of a scene |
+//! | [`precise`] | positions that stay exact at any zoom |
+//! | [`document`] | the versioned JSON form, and what is said of a bad one |
+//! | [`link`] | the same document as an address's fragment |
+//! | [`history`] | undo and redo, grouped by gesture |
+//! | [`presets`] | the opening scenes |
+
+mod background;
+mod camera;
+mod fractal;
+mod light;
+mod quality;
+mod surface;
+mod tone;
+
+pub mod color;
+pub mod document;
+pub mod history;
+pub mod link;
+pub mod param;
+pub mod precise;
+pub mod presets;
+mod validate;
+
+pub use background::Background;
+pub use camera::{Camera, Quaternion};
+pub use fractal::{Fractal, Variant};
+pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
+pub use precise::{Precise, PrecisePoint};
+pub use quality::Quality;
+pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
+pub use tone::{Tone, ToneCurve};
+pub use validate::Invalid;
+
+use serde::{Deserialize, Serialize};
+
+/// Everything a picture depends on, except its size in pixels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Scene {
+    /// The set that is drawn.
+    pub fractal: Fractal,
+    /// Where it is seen from.
+    pub camera: Camera,
+    /// What lights it: at most [`MAX_LIGHTS`] in all.
+    pub lights: Lights,
+    /// How its surface answers light, and its colours.
+    pub surface: Surface,
+    /// What is seen where a ray meets nothing.
+    pub background: Background,
+    /// How scene radiance becomes display values.
+    pub tone: Tone,
+    /// How much work a picture is given.
+    pub quality: Quality,
+}

@@ -1,0 +1,154 @@
+//! Every number of the scene document: its unit, range, default and help text.
+//!
+//! This is the one place. The document's checks, the panels' sliders, the command line and
+//! `docs/scene.md` all read it (a test holds the docs to it).
+
+/// What a number counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// A plain ratio or exponent.
+    None,
+    /// A whole number of things.
+    Count,
+    /// Degrees of arc.
+    Degrees,
+    /// The fractal's own length unit; the power-8 bulb is about 2.2 of them across.
+    SceneUnits,
+    /// Multiples of the distance from the camera to its pivot.
+    ViewUnits,
+    /// Photographic stops: one more doubles the light.
+    Stops,
+    /// Thousandths of a second.
+    Milliseconds,
+    /// Cone radii of a pixel at the depth in question.
+    Footprints,
+}
+
+impl Unit {
+    /// The suffix shown after a value, with its leading space where one belongs.
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Self::None | Self::Count => "",
+            Self::Degrees => "°",
+            Self::SceneUnits => " u",
+            Self::ViewUnits => " view",
+            Self::Stops => " EV",
+            Self::Milliseconds => " ms",
+            Self::Footprints => " px",
+        }
+    }
+
+    /// The unit in words, for hover texts and docs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "ratio",
+            Self::Count => "count",
+            Self::Degrees => "degrees",
+            Self::SceneUnits => "scene units",
+            Self::ViewUnits => "view units (camera to pivot)",
+            Self::Stops => "stops",
+            Self::Milliseconds => "milliseconds",
+            Self::Footprints => "pixel cone radii",
+        }
+    }
+}
+
+/// How a slider spreads a range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal steps.
+    Linear,
+    /// Equal ratios; a range that starts at zero is linear close to it.
+    Logarithmic,
+    /// Whole numbers only.
+    Integer,
+}
+
+/// One number of the document.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Param {
+    /// The field's path in the document, `[]` standing for any index.
+    pub path: &'static str,
+    /// The panel's name for it.
+    pub label: &'static str,
+    /// What it counts.
+    pub unit: Unit,
+    /// Smallest value accepted.
+    pub min: f64,
+    /// Largest value accepted.
+    pub max: f64,
+    /// Value in a new scene, light or stop.
+    pub default: f64,
+    /// How a slider spreads the range.
+    pub scale: Scale,
+    /// The change made by one arrow-key press or drag notch.
+    pub step: f64,
+    /// What it does and what higher and lower mean.
+    pub help: &'static str,
+}
+
+impl Param {
+    /// True where `value` is finite, in range and, for [`Scale::Integer`], whole.
+    pub fn accepts(&self, value: f64) -> bool {
+        value.is_finite()
+            && (self.min..=self.max).contains(&value)
+            && (self.scale != Scale::Integer || value.fract() == 0.0)
+    }
+}
+
+macro_rules! params {
+    ($($name:ident = $path:literal, $label:literal, $unit:ident, $min:expr, $max:expr, default $default:expr, $scale:ident by $step:expr, $help:literal;)*) => {
+        $(
+            #[doc = $help]
+            pub const $name: Param = Param {
+                path: $path, label: $label, unit: Unit::$unit, min: $min, max: $max,
+                default: $default, scale: Scale::$scale, step: $step, help: $help,
+            };
+        )*
+        /// Every parameter, in document order.
+        pub const ALL: &[&Param] = &[$(&$name),*];
+    };
+}
+
+params! {
+    POWER = "fractal.power", "Power", None, 2.0, 16.0, default 8.0, Linear by 0.1,
+        "The exponent n of z → zⁿ + c. Whole numbers are fastest; higher gives more and smaller lobes.";
+    ITERATIONS = "fractal.iterations", "Iterations", Count, 2.0, 100.0, default 16.0, Integer by 1.0,
+        "The most steps an orbit is followed. More shows finer detail and costs time near the surface.";
+    BAILOUT = "fractal.bailout", "Bailout", SceneUnits, 2.0, 256.0, default 4.0, Logarithmic by 0.1,
+        "The radius past which an orbit counts as escaped. Larger makes distances and colours smoother. At most (1.8e19)^(1/power).";
+    JULIA_CONSTANT = "fractal.julia_constant[]", "Julia constant", SceneUnits, -2.0, 2.0, default 0.0, Linear by 0.01,
+        "One coordinate of the constant c that the Julia form adds at every step.";
+    VERTICAL_FOV = "camera.vertical_fov_deg", "Field of view", Degrees, 5.0, 120.0, default 40.0, Linear by 1.0,
+        "The angle between the picture's lower and upper edges. Wider shows more and bends more.";
+    ENVIRONMENT_INTENSITY = "lights.environment[].intensity", "Intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
+        "How strong the light is: 1 lights a white surface that faces it to 1.";
+    SHADOW_REACH = "lights.environment[].shadow_reach", "Shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+        "How far away a surface can be and still shade another. Shorter is brighter in crevices and faster.";
+    POINT_INTENSITY = "lights.point[].intensity", "Intensity", None, 0.0, 10000.0, default 1.0, Logarithmic by 0.05,
+        "How strong the light is at one scene unit; it falls with the square of the distance.";
+    AMBIENT = "surface.ambient", "Ambient", None, 0.0, 1.0, default 0.04, Linear by 0.01,
+        "Light that reaches every point alike, as a part of the surface's colour. Higher lifts the shadows.";
+    DIFFUSE = "surface.diffuse", "Diffuse", None, 0.0, 1.0, default 0.9, Linear by 0.01,
+        "How much light the surface scatters in all directions.";
+    SPECULAR = "surface.specular", "Specular", None, 0.0, 1.0, default 0.25, Linear by 0.01,
+        "How strong the highlights are.";
+    SHININESS = "surface.shininess", "Shininess", None, 1.0, 1000.0, default 40.0, Logarithmic by 1.0,
+        "How tight the highlights are: the Blinn-Phong exponent.";
+    COLOR_REPEATS = "surface.coloring.repeats", "Repeats", None, 0.01, 50.0, default 1.0, Logarithmic by 0.05,
+        "How often the gradient runs through per unit of its driving value.";
+    COLOR_OFFSET = "surface.coloring.offset", "Offset", None, 0.0, 1.0, default 0.0, Linear by 0.01,
+        "Where in the gradient the colours start; 0 and 1 are the same.";
+    STOP_POSITION = "surface.gradient[].position", "Position", None, 0.0, 1.0, default 0.0, Linear by 0.01,
+        "Where along the gradient the stop lies.";
+    EXPOSURE = "tone.exposure", "Exposure", Stops, -10.0, 10.0, default 0.0, Linear by 0.1,
+        "Brightens or darkens the picture before the tone curve.";
+    WHITE_POINT = "tone.white_point", "White point", None, 0.5, 100.0, default 4.0, Logarithmic by 0.1,
+        "The luminance that becomes pure white under Reinhard's curve. Higher keeps more of the highlights.";
+    MOTION_BUDGET = "quality.motion_budget_ms", "Motion budget", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
+        "The GPU time a frame may take while something moves. Higher is sharper in motion and less fluid.";
+    SAMPLES = "quality.samples", "Samples", Count, 1.0, 1024.0, default 16.0, Integer by 1.0,
+        "How many jittered samples each pixel averages once the view rests. More is smoother.";
+    DETAIL = "quality.detail", "Detail", Footprints, 0.1, 8.0, default 1.0, Logarithmic by 0.1,
+        "How close a ray comes to the surface before it counts as a hit. Lower is finer and slower.";
+}

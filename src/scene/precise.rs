@@ -1,0 +1,207 @@
+//! Positions that stay exact at any zoom: decimal numbers of up to 90 digits (299 bits).
+//!
+//! An f64 places the eye to 1e-16 of a scene unit, too coarse for a zoom of 1e-27. A
+//! position is kept as the decimal number that the document shows, so that what is saved is
+//! what was seen; differences of positions are small and go on as f64.
+
+use std::{fmt, ops::Sub, str::FromStr};
+
+use dashu_float::DBig;
+use glam::DVec3;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+/// Most significant digits kept.
+pub const MAX_DIGITS: usize = 90;
+/// Largest magnitude of a coordinate, in scene units.
+pub const MAX_COORDINATE: f64 = 100.0;
+/// Longest text accepted for one coordinate.
+const MAX_TEXT_BYTES: usize = 120;
+/// The last decimal place kept: 10^−80.
+const LAST_PLACE: isize = -80;
+
+/// One exact coordinate, in scene units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Precise(DBig);
+
+/// Why a text is no coordinate.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ParsePreciseError {
+    /// Not a decimal number.
+    #[error("is not a decimal number such as \"-0.125\"")]
+    NotANumber,
+    /// Too many characters or digits.
+    #[error("has more than {MAX_DIGITS} digits")]
+    TooLong,
+    /// Magnitude above [`MAX_COORDINATE`].
+    #[error("is farther than {MAX_COORDINATE} scene units from the origin")]
+    TooFar,
+}
+
+impl Precise {
+    /// The nearest f64.
+    pub fn to_f64(&self) -> f64 {
+        self.0.to_f64().value()
+    }
+
+    /// `self + delta`, rounded to a decimal place no coarser than `grain` (both in scene
+    /// units), so that the digits say no more than a viewer can see. The result is kept
+    /// within [`MAX_COORDINATE`].
+    pub fn moved_by(&self, delta: f64, grain: f64) -> Self {
+        let sum = Self(&self.0 + decimal(delta).0);
+        if sum.to_f64().abs() >= MAX_COORDINATE {
+            return decimal(MAX_COORDINATE.copysign(sum.to_f64()));
+        }
+        let place = if grain > 0.0 { grain.log10().floor() as isize } else { LAST_PLACE };
+        Self(rounded_to_place(sum.0, place.max(LAST_PLACE)))
+    }
+}
+
+/// The shortest decimal that reads back as `value`; zero where it isn't finite.
+fn decimal(value: f64) -> Precise {
+    let value = if value.is_finite() { value } else { 0.0 };
+    // Every finite f64 prints as a decimal number, so the parse cannot fail.
+    Precise(rounded_to_place(DBig::from_str(&format!("{value:e}")).unwrap_or(DBig::ZERO), LAST_PLACE))
+}
+
+/// `value` rounded to a multiple of `10^place`, with at most [`MAX_DIGITS`] digits.
+fn rounded_to_place(value: DBig, place: isize) -> DBig {
+    let repr = value.repr();
+    if repr.significand().is_zero() {
+        return DBig::ZERO.with_precision(MAX_DIGITS).value();
+    }
+    let excess = place - repr.exponent();
+    let digits = repr.digits() as isize;
+    let keep = if excess > 0 { digits - excess } else { digits };
+    if keep <= 0 {
+        return DBig::ZERO.with_precision(MAX_DIGITS).value();
+    }
+    // Round first, then allow later sums the full precision again.
+    value.with_precision((keep as usize).min(MAX_DIGITS)).value().with_precision(MAX_DIGITS).value()
+}
+
+impl FromStr for Precise {
+    type Err = ParsePreciseError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text.len() > MAX_TEXT_BYTES {
+            return Err(ParsePreciseError::TooLong);
+        }
+        // Only plain decimal notation with an optional small exponent: a huge exponent would
+        // ask the next sum for as many digits.
+        let plain = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
+        if !plain || !text.bytes().any(|b| b.is_ascii_digit()) {
+            return Err(ParsePreciseError::NotANumber);
+        }
+        if let Some((_, exponent)) = text.split_once(['e', 'E']) {
+            let exponent: i32 = exponent.parse().map_err(|_| ParsePreciseError::NotANumber)?;
+            if exponent.abs() > -LAST_PLACE as i32 {
+                return Err(if exponent > 0 { ParsePreciseError::TooFar } else { ParsePreciseError::TooLong });
+            }
+        }
+        let value = DBig::from_str(text).map_err(|_| ParsePreciseError::NotANumber)?;
+        if value.repr().digits() > MAX_DIGITS {
+            return Err(ParsePreciseError::TooLong);
+        }
+        if value.to_f64().value().abs() > MAX_COORDINATE {
+            return Err(ParsePreciseError::TooFar);
+        }
+        Ok(Self(rounded_to_place(value, LAST_PLACE)))
+    }
+}
+
+impl fmt::Display for Precise {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.0, f)
+    }
+}
+
+impl Serialize for Precise {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Precise {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(|error| de::Error::custom(format!("\"{}\" {error}", text.chars().take(40).collect::<String>())))
+    }
+}
+
+/// An exact point, in scene units; three decimal strings in the document.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PrecisePoint(pub [Precise; 3]);
+
+impl PrecisePoint {
+    /// The nearest f64 point.
+    pub fn to_dvec3(&self) -> DVec3 {
+        DVec3::from_array(self.0.each_ref().map(Precise::to_f64))
+    }
+
+    /// `self + delta`, each coordinate rounded to a decimal place no coarser than `grain`.
+    pub fn moved_by(&self, delta: DVec3, grain: f64) -> Self {
+        let [x, y, z] = &self.0;
+        Self([x.moved_by(delta.x, grain), y.moved_by(delta.y, grain), z.moved_by(delta.z, grain)])
+    }
+}
+
+impl From<DVec3> for PrecisePoint {
+    fn from(point: DVec3) -> Self {
+        Self(point.to_array().map(|v| decimal(v.clamp(-MAX_COORDINATE, MAX_COORDINATE))))
+    }
+}
+
+impl Sub for &PrecisePoint {
+    type Output = DVec3;
+
+    /// The difference, formed exactly and then rounded once to f64.
+    fn sub(self, other: &PrecisePoint) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|i| (&self.0[i].0 - &other.0[i].0).to_f64().value()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn precise(text: &str) -> Precise {
+        text.parse().expect("a decimal number")
+    }
+
+    #[test]
+    fn keeps_every_digit_of_a_deep_position() {
+        let text = "1.00000000000000000000000000000000000000000000000000000012345678";
+        assert_eq!(precise(text).to_string(), text);
+    }
+
+    #[test]
+    fn moves_by_less_than_an_f64_can_hold() {
+        let start = precise("1.25");
+        let moved = start.moved_by(3e-40, 1e-42);
+        let a = PrecisePoint([moved.clone(), start.clone(), start.clone()]);
+        let b = PrecisePoint([start.clone(), start.clone(), start]);
+        assert_eq!((&a - &b).x, 3e-40);
+        assert_eq!(moved.moved_by(-3e-40, 1e-42), precise("1.25"));
+    }
+
+    #[test]
+    fn rounds_to_the_grain() {
+        assert_eq!(precise("0").moved_by(0.123456, 1e-3).to_string(), "0.123");
+        assert_eq!(precise("0").moved_by(1e-9, 1e-3).to_string(), "0");
+        assert_eq!(precise("1e-60").moved_by(0.5, 1e-3).to_string(), "0.5");
+    }
+
+    #[test]
+    fn refuses_what_is_no_coordinate() {
+        for text in ["", "-", "1e", "abc", "nan", "inf", "1e999999999", "1e-999999999", "101", "0x10", "1_0"] {
+            assert!(text.parse::<Precise>().is_err(), "{text:?} was accepted");
+        }
+        assert_eq!("9".repeat(121).parse::<Precise>(), Err(ParsePreciseError::TooLong));
+    }
+
+    #[test]
+    fn sums_keep_full_precision_after_a_short_number() {
+        let moved = precise("1").moved_by(1.0, 0.1).moved_by(1e-30, 1e-33);
+        assert_eq!(moved.to_string(), "2.000000000000000000000000000001");
+    }
+}

@@ -1,0 +1,4 @@
+//! pending
+/// pending
+#[derive(Debug)]
+pub struct Invalid;
