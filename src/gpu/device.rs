@@ -1,15 +1,26 @@
-//! The adapter and the device, always with WebGPU's default limits.
+//! The adapter and the device, always with WebGPU's default limits, so that what works on one
+//! adapter fits them all.
 
-use std::sync::Arc;
+use std::sync::{
+    Arc,
+    atomic::{AtomicU64, Ordering},
+};
 
 /// Why there is no usable GPU.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
-    /// No adapter was offered.
-    #[error("no GPU adapter was found: install a Vulkan driver (Mesa's lavapipe will do), or use a browser with WebGPU")]
-    NoAdapter(String),
+    /// No adapter was offered, or none of the wanted name.
+    #[error(
+        "no GPU adapter was found{wanted}: install a Vulkan driver (Mesa's lavapipe will do), or use a browser with WebGPU; found: {found}"
+    )]
+    NoAdapter {
+        /// ` named "…"` where a name was asked for.
+        wanted: String,
+        /// What there is, or "none".
+        found: String,
+    },
     /// The adapter refused a device with default limits.
-    #[error("the adapter {adapter} gave no device: {reason}")]
+    #[error("the adapter {adapter} gave no device with WebGPU's default limits: {reason}")]
     NoDevice {
         /// The adapter's name.
         adapter: String,
@@ -21,7 +32,7 @@ pub enum GpuError {
 /// A device, its queue and what they came from. Clones share the same device.
 #[derive(Clone)]
 pub struct Gpu {
-    /// For eframe's `WgpuSetup::Existing`.
+    /// What the adapter came from; a window's surface needs the same one.
     pub instance: wgpu::Instance,
     /// Where the device came from.
     pub adapter: wgpu::Adapter,
@@ -29,20 +40,95 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
+    faults: Arc<AtomicU64>,
 }
 
 impl Gpu {
-    /// Opens the first adapter that offers a device with default limits.
-    /// On the web `surface_canvas` compatibility isn't needed: WebGPU adapters present anywhere.
-    pub async fn open() -> Result<Self, GpuError> {
-        unimplemented!()
+    /// Opens the adapter that the platform prefers, natively the first whose name contains
+    /// `wanted` (any case) where that is given.
+    pub async fn open(wanted: Option<&str>) -> Result<Self, GpuError> {
+        let instance =
+            wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        let adapter = match wanted {
+            Some(name) => named_adapter(&instance, name).await?,
+            None => instance
+                .request_adapter(&wgpu::RequestAdapterOptions {
+                    power_preference: wgpu::PowerPreference::HighPerformance,
+                    ..Default::default()
+                })
+                .await
+                .map_err(|error| GpuError::NoAdapter {
+                    wanted: String::new(),
+                    found: format!("none ({error})"),
+                })?,
+        };
+        let (device, queue) = adapter
+            .request_device(&wgpu::DeviceDescriptor {
+                label: Some("mandelight"),
+                required_limits: wgpu::Limits::default(),
+                ..Default::default()
+            })
+            .await
+            .map_err(|error| GpuError::NoDevice {
+                adapter: adapter.get_info().name,
+                reason: error.to_string(),
+            })?;
+        let faults = Arc::new(AtomicU64::new(0));
+        let counted = faults.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            counted.fetch_add(1, Ordering::Relaxed);
+            log::error!("GPU error: {error}");
+        }));
+        Ok(Self { instance, adapter, device, queue, faults })
     }
 
-    /// The adapter's name and backend, for people: `"llvmpipe (LLVM 15) · Vulkan"`.
+    /// The adapter's name and backend, for people: `llvmpipe (LLVM 15.0.6) · Vulkan`.
     pub fn name(&self) -> String {
-        unimplemented!()
+        adapter_name(&self.adapter)
+    }
+
+    /// Errors that the device has reported and nothing handled: 0 in a correct program.
+    pub fn faults(&self) -> u64 {
+        self.faults.load(Ordering::Relaxed)
+    }
+
+    /// Lets callbacks of finished work run. On the web they run by themselves.
+    pub fn poll(&self) {
+        if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
+            log::warn!("polling the GPU: {error}");
+        }
+    }
+
+    /// Waits until all submitted work is done. On the web this returns at once.
+    pub fn wait(&self) {
+        if let Err(error) = self.device.poll(wgpu::PollType::wait_indefinitely()) {
+            log::warn!("waiting for the GPU: {error}");
+        }
     }
 }
 
-/// Shared handle used across layers.
-pub type SharedGpu = Arc<Gpu>;
+/// Names of all adapters, as [`Gpu::name`] has them. Empty in browsers, which tell only one.
+pub async fn adapter_names() -> Vec<String> {
+    let instance =
+        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    instance.enumerate_adapters(wgpu::Backends::all()).await.iter().map(adapter_name).collect()
+}
+
+async fn named_adapter(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Adapter, GpuError> {
+    let adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    let names: Vec<String> = adapters.iter().map(adapter_name).collect();
+    let wanted = name.to_lowercase();
+    adapters
+        .into_iter()
+        .find(|adapter| adapter_name(adapter).to_lowercase().contains(&wanted))
+        .ok_or_else(|| GpuError::NoAdapter {
+            wanted: format!(" named \"{name}\""),
+            found: if names.is_empty() { "none".into() } else { names.join(", ") },
+        })
+}
+
+fn adapter_name(adapter: &wgpu::Adapter) -> String {
+    let info = adapter.get_info();
+    let name = if info.name.is_empty() { info.description } else { info.name };
+    format!("{} · {:?}", if name.is_empty() { "GPU" } else { &name }, info.backend)
+}

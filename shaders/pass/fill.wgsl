@@ -1,0 +1,61 @@
+// Fills the pixels between those of a sparse lattice, one lattice level a dispatch. Each new
+// pixel has four known neighbours in two opposite pairs; the pair that differs less lies along
+// the edge, and counts more.
+
+fn luminance(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
+}
+
+// Contrast as the eye sees it: the difference of the tone-compressed luminances.
+fn contrast(a: vec3f, b: vec3f) -> f32 {
+    let la = luminance(a);
+    let lb = luminance(b);
+    return abs(la / (1.0 + la) - lb / (1.0 + lb));
+}
+
+fn film_at(position: vec2i) -> vec3f {
+    return film_mean(pixel_index(vec2u(position)));
+}
+
+fn in_region(position: vec2i) -> bool {
+    return all(position >= vec2i(0)) && all(position < vec2i(picture.size_px));
+}
+
+// The known colours on both sides of a new pixel. At the region's border the one that is
+// missing is replaced by the other, and where both are, by `sure`.
+fn pair(at: vec2i, offset: vec2i, sure: vec3f) -> array<vec3f, 2> {
+    let ahead = in_region(at + offset);
+    let behind = in_region(at - offset);
+    var colors = array<vec3f, 2>(sure, sure);
+    if (ahead) { colors[0] = film_at(at + offset); }
+    if (behind) { colors[1] = film_at(at - offset); }
+    if (ahead && !behind) { colors[1] = colors[0]; }
+    if (behind && !ahead) { colors[0] = colors[1]; }
+    return colors;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    let at = vec2i(pixel);
+    let s = i32(slice.spacing);
+    // Staggered levels have neighbours beside and above, the others on the diagonals. One of
+    // those toward the origin is always there: a staggered pixel of the first column lies in
+    // an odd row.
+    let staggered = slice.stagger != 0u;
+    var sure = at - vec2i(s, s);
+    if (staggered) { sure = select(at - vec2i(0, s), at - vec2i(s, 0), at.x >= s); }
+    let fallback = film_at(sure);
+    let first = pair(at, select(vec2i(s, s), vec2i(s, 0), staggered), fallback);
+    let second = pair(at, select(vec2i(-s, s), vec2i(0, s), staggered), fallback);
+    // Squared: the better pair wins clearly, without a visible switch.
+    let along_first = 1.0 / (contrast(first[0], first[1]) + 0.01);
+    let along_second = 1.0 / (contrast(second[0], second[1]) + 0.01);
+    let w1 = along_first * along_first;
+    let w2 = along_second * along_second;
+    let color = 0.5 * ((first[0] + first[1]) * w1 + (second[0] + second[1]) * w2) / (w1 + w2);
+    let index = pixel_index(pixel);
+    film_rg[index] = color.rg;
+    film_bw[index] = vec2f(color.b, 1.0);
+}

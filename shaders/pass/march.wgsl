@@ -1,0 +1,46 @@
+// Camera rays to surface points: depth, normal and colour data of each sample.
+
+// Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone. 0 on a miss.
+fn march(direction: vec3f) -> f32 {
+    let interval = bounding_interval(picture.camera.origin, direction);
+    var t = interval.x;
+    for (var i = 0u; i < picture.fractal.march_steps; i++) {
+        if (t > interval.y) { return 0.0; }
+        let estimate = distance_estimate(picture.camera.origin + t * direction);
+        if (estimate < hit_distance(t)) { return max(t, 1e-30); }
+        t += estimate * picture.fractal.step_scale;
+    }
+    // Out of steps while creeping along the surface: closer than any pixel can tell.
+    return t;
+}
+
+// Central differences on the six axis neighbours (thesis 3.2, fig. 3.3c), a footprint away.
+fn surface_normal(point: vec3f, spacing: f32, fallback: vec3f) -> vec3f {
+    var gradient = vec3f(0.0);
+    for (var k = 0u; k < 6u; k++) {
+        var side = vec3f(0.0);
+        side[k >> 1u] = select(1.0, -1.0, (k & 1u) != 0u);
+        gradient += side * distance_estimate(point + spacing * side);
+    }
+    let length_squared = dot(gradient, gradient);
+    if (length_squared <= 0.0) { return fallback; }
+    return gradient * inverseSqrt(length_squared);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    let index = sample_index(pixel, workgroup.x, local_index);
+    let direction = ray_direction(pixel);
+    let t = march(direction);
+    depth[index] = t;
+    if (t == 0.0) { return; }
+    let point = picture.camera.origin + t * direction;
+    normal[index] = octahedral_pack(surface_normal(point, hit_distance(t), -direction));
+    let colors = orbit_colors(point);
+    color_data[index] = vec2u(
+        pack2x16unorm(vec2f(colors.smooth_iterations / f32(picture.fractal.iterations + 1u), colors.traps.x * 0.5)),
+        pack2x16unorm(colors.traps.yz * 0.5),
+    );
+}

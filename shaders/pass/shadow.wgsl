@@ -1,0 +1,51 @@
+// One visibility bit for each light of the slice's range: does it reach the sample's point?
+// Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
+// their long steps come first.
+
+// A blocker counts once it fills this cone about the ray, in radius for distance to the point:
+// half the sun's own size in the sky.
+const SHADOW_CONE = 0.004;
+
+fn light_reaches(point: vec3f, surface_distance: f32, light: Light) -> bool {
+    var direction = light.vector;
+    var farthest = light.shadow_reach;
+    if (light.kind == LIGHT_POINT) {
+        let to_light = light.vector - point;
+        farthest = min(farthest, length(to_light));
+        direction = to_light / max(farthest, 1e-30);
+    }
+    var s = min(farthest, bounding_interval(point, direction).y);
+    for (var i = 0u; i < picture.fractal.shadow_steps; i++) {
+        if (s <= surface_distance) { return true; }
+        let estimate = distance_estimate(point + s * direction);
+        if (estimate < max(SHADOW_CONE * s, 0.5 * surface_distance)) { return false; }
+        s -= estimate * picture.fractal.step_scale;
+    }
+    return true;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    let index = sample_index(pixel, workgroup.x, local_index);
+    var bits = vec2u(0u);
+    if (slice.first_light > 0u) { bits = visibility[index]; }
+    let t = depth[index];
+    if (t > 0.0) {
+        let n = octahedral_unpack(normal[index]);
+        let surface_distance = hit_distance(t);
+        // Lifted off the surface, so that the point's own neighbourhood does not shade it.
+        let point = picture.camera.origin + t * ray_direction(pixel) + n * (2.0 * surface_distance);
+        let end = slice.first_light + slice.light_count;
+        for (var k = slice.first_light; k < end; k++) {
+            let light = lights[k];
+            let toward = select(light.vector, light.vector - point, light.kind == LIGHT_POINT);
+            if (dot(n, toward) <= 0.0) { continue; }
+            if (light.casts_shadows == 0u || light_reaches(point, surface_distance, light)) {
+                bits[k >> 5u] |= 1u << (k & 31u);
+            }
+        }
+    }
+    visibility[index] = bits;
+}

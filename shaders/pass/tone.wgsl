@@ -1,0 +1,35 @@
+// Film to display: mean of the samples, exposure, tone curve, sRGB, dither.
+
+const CURVE_REINHARD_LUMINANCE = 1u;
+
+@group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
+
+// Reinhard et al. 2002, eq. 4, on luminance: colours keep their hue.
+fn reinhard_luminance(color: vec3f) -> vec3f {
+    let l = dot(color, vec3f(0.2126, 0.7152, 0.0722));
+    return color * ((1.0 + l * picture.tone.inverse_white_squared) / (1.0 + l));
+}
+
+// IEC 61966-2-1.
+fn srgb_from_linear(linear: vec3f) -> vec3f {
+    let low = linear * 12.92;
+    let high = 1.055 * pow(max(linear, vec3f(1e-10)), vec3f(1.0 / 2.4)) - 0.055;
+    return select(high, low, linear <= vec3f(0.0031308));
+}
+
+// Interleaved gradient noise (Jimenez 2014), -1/2 to 1/2: one dither step keeps dark
+// gradients free of bands. A function of the whole picture's pixel, so that tiles join.
+fn dither(pixel: vec2u) -> f32 {
+    let p = vec2f(pixel);
+    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715)))) - 0.5;
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    if (any(id.xy >= picture.size_px)) { return; }
+    var color = film_mean(id.y * picture.size_px.x + id.x) * picture.tone.exposure;
+    if (picture.tone.curve == CURVE_REINHARD_LUMINANCE) { color = reinhard_luminance(color); }
+    let encoded = srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
+    let dithered = encoded + dither(picture.origin_px + id.xy) / 255.0;
+    textureStore(display, id.xy, vec4f(dithered, 1.0));
+}

@@ -1,0 +1,22 @@
+// One light as the shaders see it. Host twin: `render::uniforms::Light`.
+
+struct Light {
+    // Environment: unit vector toward the light. Point: its position. World space.
+    vector: vec3f,
+    // 0 environment, 1 point.
+    kind: u32,
+    // Linear radiance; black while muted.
+    color: vec3f,
+    // 1 where surfaces block it.
+    casts_shadows: u32,
+    // How far a blocker may be, in scene units.
+    shadow_reach: f32,
+    unused_a: u32,
+    unused_b: u32,
+    unused_c: u32,
+}
+
+const MAX_LIGHTS = 64u;
+const LIGHT_POINT = 1u;
+
+@group(0) @binding(2) var<uniform> lights: array<Light, MAX_LIGHTS>;

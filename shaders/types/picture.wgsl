@@ -1,0 +1,84 @@
+// What every pass knows of the picture. Host twin: `render::uniforms`.
+
+struct Camera {
+    // The eye, in scene units.
+    origin: vec3f,
+    // Half the picture's height at depth one.
+    half_height: f32,
+    // The camera's axes in world space.
+    right: vec3f,
+    // Width over height of the whole picture.
+    aspect: f32,
+    up: vec3f,
+    // Cone radius of a pixel at depth one.
+    cone: f32,
+    forward: vec3f,
+    // Hit distance at depth one.
+    hit_cone: f32,
+}
+
+struct Fractal {
+    julia_constant: vec3f,
+    power: f32,
+    // The power as a whole number, 0 where it is none.
+    integer_power: u32,
+    iterations: u32,
+    bailout: f32,
+    // Nothing of the set lies outside this sphere about the origin.
+    bounding_radius: f32,
+    // 1 for the Julia form.
+    julia: u32,
+    // Sign of the sine term.
+    z_sign: f32,
+    // Part of the distance estimate that is a safe step.
+    step_scale: f32,
+    // Derivatives are cut off here so that the next step cannot overflow.
+    derivative_max: f32,
+    // Most steps of a camera ray and of a shadow ray.
+    march_steps: u32,
+    shadow_steps: u32,
+    // Hit distances never go below this: f32 resolves no finer.
+    finest_hit: f32,
+    log2_bailout: f32,
+}
+
+struct Surface {
+    ambient: f32,
+    diffuse: f32,
+    specular: f32,
+    shininess: f32,
+    color_source: u32,
+    color_repeats: f32,
+    color_offset: f32,
+    light_count: u32,
+}
+
+struct Background {
+    // Linear Rec. 709; w unused.
+    top: vec4f,
+    bottom: vec4f,
+}
+
+struct Tone {
+    // Factor on radiance.
+    exposure: f32,
+    // 1 / white point².
+    inverse_white_squared: f32,
+    curve: u32,
+    unused: u32,
+}
+
+struct Picture {
+    camera: Camera,
+    fractal: Fractal,
+    surface: Surface,
+    background: Background,
+    tone: Tone,
+    // The whole picture, the region's corner in it and the region, in pixels.
+    picture_px: vec2u,
+    origin_px: vec2u,
+    size_px: vec2u,
+    unused: vec2u,
+}
+
+@group(0) @binding(0) var<uniform> picture: Picture;

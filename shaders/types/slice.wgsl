@@ -1,0 +1,27 @@
+// The part of a picture that one dispatch computes. Host twin: `render::uniforms::Slice`.
+
+struct Slice {
+    // Lattice to pixel: see `lib/lattice.wgsl`.
+    step: vec2u,
+    offset: vec2u,
+    stagger: u32,
+    row_phase: u32,
+    shift: u32,
+    // Columns of workgroups in the lattice's grid.
+    workgroup_columns: u32,
+    // Where in the grid the dispatch starts, counted in workgroups.
+    first_workgroup: u32,
+    // 1: G-buffer records are packed in dispatch order; 0: one for each pixel of the region.
+    compact: u32,
+    // 1: add to the film; 0: replace what it holds.
+    accumulate: u32,
+    // The lights that a shadow dispatch marches toward.
+    first_light: u32,
+    // Position of the sample inside its pixel, 0 to 1.
+    jitter: vec2f,
+    light_count: u32,
+    // The spacing of the lattice that a fill reads, in pixels.
+    spacing: u32,
+}
+
+@group(0) @binding(1) var<uniform> slice: Slice;

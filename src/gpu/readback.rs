@@ -1,0 +1,99 @@
+//! Copies from the GPU that never block: begin, and ask again later.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicU8, Ordering},
+};
+
+use super::Gpu;
+
+const PENDING: u8 = 0;
+const MAPPED: u8 = 1;
+const FAILED: u8 = 2;
+
+/// The device was lost, or the copy was refused.
+#[derive(Debug, thiserror::Error)]
+#[error("the GPU did not hand its buffer back")]
+pub struct ReadbackError;
+
+/// A copy on its way from the GPU.
+pub struct Readback {
+    buffer: wgpu::Buffer,
+    state: Arc<AtomicU8>,
+    /// Bytes of a row that are wanted, and bytes from one row to the next.
+    row_bytes: usize,
+    stride_bytes: usize,
+}
+
+impl Readback {
+    /// Starts to copy a whole `Rgba8Unorm` texture's first `size_px`.
+    pub fn texture(gpu: &Gpu, texture: &wgpu::Texture, size_px: [u32; 2]) -> Self {
+        let row_bytes = 4 * size_px[0];
+        let stride_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = staging(gpu, u64::from(stride_bytes) * u64::from(size_px[1]));
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(stride_bytes),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d { width: size_px[0], height: size_px[1], depth_or_array_layers: 1 },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        Self::begin(buffer, row_bytes as usize, stride_bytes as usize)
+    }
+
+    /// Starts to copy a whole storage buffer.
+    pub fn buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Self {
+        let buffer = staging(gpu, source.size());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, source.size());
+        gpu.queue.submit([encoder.finish()]);
+        let bytes = source.size() as usize;
+        Self::begin(buffer, bytes, bytes)
+    }
+
+    fn begin(buffer: wgpu::Buffer, row_bytes: usize, stride_bytes: usize) -> Self {
+        let state = Arc::new(AtomicU8::new(PENDING));
+        let written = state.clone();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            written.store(if result.is_ok() { MAPPED } else { FAILED }, Ordering::Release);
+        });
+        Self { buffer, state, row_bytes, stride_bytes }
+    }
+
+    /// The bytes, rows packed, once they have arrived; none before.
+    pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<u8>>, ReadbackError> {
+        gpu.poll();
+        match self.state.load(Ordering::Acquire) {
+            PENDING => Ok(None),
+            MAPPED => {
+                let view = self.buffer.get_mapped_range(..).map_err(|_| ReadbackError)?;
+                let packed =
+                    view.chunks(self.stride_bytes).flat_map(|row| &row[..self.row_bytes]).copied();
+                Ok(Some(packed.collect()))
+            }
+            _ => Err(ReadbackError),
+        }
+    }
+
+    /// Waits for the bytes; natively only, for on the web nothing may wait.
+    pub fn wait(mut self, gpu: &Gpu) -> Result<Vec<u8>, ReadbackError> {
+        gpu.wait();
+        self.take(gpu)?.ok_or(ReadbackError)
+    }
+}
+
+fn staging(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
