@@ -129,6 +129,6 @@ async fn named_adapter(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Ad
 
 fn adapter_name(adapter: &wgpu::Adapter) -> String {
     let info = adapter.get_info();
-    let name = if info.name.is_empty() { info.description } else { info.name };
-    format!("{} · {:?}", if name.is_empty() { "GPU" } else { &name }, info.backend)
+    // Browsers may keep the name to themselves.
+    format!("{} · {}", if info.name.is_empty() { "GPU" } else { &info.name }, info.backend)
 }
