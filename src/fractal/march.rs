@@ -1,0 +1,152 @@
+//! Rays against a distance field: sphere tracing, normals, and what lies under a pixel.
+//!
+//! Conventions, shared with the kernels: pixel (x, y) is seen through its centre
+//! (x + 0.5, y + 0.5); normalised device coordinates run from −1 to 1, x right and y up;
+//! depth is Euclidean distance along the unit ray. A pixel's cone has the radius
+//! `half_height / height_px` per unit of depth, half the pixel's width; a ray has hit where the
+//! distance is below that cone's radius times the scene's detail setting.
+
+use glam::{DVec2, DVec3};
+
+use super::Estimator;
+use crate::scene::{Camera, Scene};
+
+/// Most steps of one ray; one that is still travelling then counts as a miss.
+pub const MAX_MARCH_STEPS: u32 = 4096;
+
+/// Anything that can say how far away its surface is.
+pub trait DistanceField {
+    /// Estimated distance from `point` to the surface, in scene units; zero inside.
+    fn distance(&self, point: DVec3) -> f64;
+
+    /// The part of [`Self::distance`] that is a safe step, above 0 and at most 1.
+    fn step_scale(&self) -> f64 {
+        1.0
+    }
+
+    /// The longest safe step, in scene units, above 0.
+    fn max_step(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// The step that is safe where the estimate is `distance`.
+    fn step(&self, distance: f64) -> f64 {
+        (distance * self.step_scale()).min(self.max_step())
+    }
+
+    /// Radius of a sphere about the origin that holds all of the surface, in scene units.
+    fn bounding_radius(&self) -> f64;
+
+    /// Sphere-traces `ray` and returns the depth of the first hit. `cone` is the hit distance
+    /// per unit of depth (not negative); nothing past `max_depth` is looked at. A ray that
+    /// starts inside has hit at depth zero.
+    fn march(&self, ray: Ray, cone: f64, max_depth: f64) -> Option<f64> {
+        let (near, far) = ray.sphere_span(self.bounding_radius())?;
+        let far = far.min(max_depth);
+        let mut depth = near;
+        for _ in 0..MAX_MARCH_STEPS {
+            if depth > far {
+                return None;
+            }
+            let distance = self.distance(ray.at(depth));
+            if distance <= cone * depth {
+                return Some(depth);
+            }
+            depth += self.step(distance);
+        }
+        None
+    }
+
+    /// Where along `ray` it comes closest to the surface as seen from its origin (least
+    /// distance over depth), for a ray that misses: a depth of at least zero.
+    fn closest_approach(&self, ray: Ray, max_depth: f64) -> f64 {
+        let Some((near, far)) = ray.sphere_span(self.bounding_radius()) else {
+            return ray.toward_origin().clamp(0.0, max_depth);
+        };
+        let far = far.min(max_depth);
+        let (mut depth, mut best, mut best_ratio) = (near, near, f64::INFINITY);
+        for _ in 0..MAX_MARCH_STEPS {
+            if depth > far {
+                break;
+            }
+            let distance = self.distance(ray.at(depth));
+            let ratio = distance / depth.max(f64::MIN_POSITIVE);
+            if ratio < best_ratio {
+                (best, best_ratio) = (depth, ratio);
+            }
+            if distance <= 0.0 {
+                break;
+            }
+            depth += self.step(distance);
+        }
+        best
+    }
+
+    /// The unit normal at `point` from six samples at ± `spacing` on the main axes (thesis
+    /// figure 3.3 c). Where they say nothing, the direction away from the origin.
+    fn normal(&self, point: DVec3, spacing: f64) -> DVec3 {
+        let slope = |axis: DVec3| {
+            self.distance(point + axis * spacing) - self.distance(point - axis * spacing)
+        };
+        DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z))
+            .try_normalize()
+            .unwrap_or_else(|| point.normalize_or(DVec3::Z))
+    }
+}
+
+/// A half-line in scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it starts.
+    pub origin: DVec3,
+    /// Where it goes: a unit vector.
+    pub direction: DVec3,
+}
+
+impl Ray {
+    /// The point at `depth`.
+    pub fn at(&self, depth: f64) -> DVec3 {
+        self.origin + self.direction * depth
+    }
+
+    /// The depth at which it comes closest to the origin of the scene; negative if behind.
+    fn toward_origin(&self) -> f64 {
+        -self.origin.dot(self.direction)
+    }
+
+    /// Entry and exit depths of the sphere of `radius` about the scene's origin, the entry no
+    /// less than zero; none where the ray misses it.
+    pub fn sphere_span(&self, radius: f64) -> Option<(f64, f64)> {
+        let middle = self.toward_origin();
+        // The foot of the perpendicular: no cancellation of large squares for a far eye.
+        let half_chord_squared = radius * radius - self.at(middle).length_squared();
+        let half_chord = half_chord_squared.max(0.0).sqrt();
+        (half_chord_squared > 0.0 && middle + half_chord > 0.0)
+            .then(|| ((middle - half_chord).max(0.0), middle + half_chord))
+    }
+}
+
+/// The ray through `ndc` of a picture whose width over height is `aspect`.
+pub fn camera_ray(camera: &Camera, ndc: DVec2, aspect: f64) -> Ray {
+    let half_height = camera.half_height();
+    let in_camera = DVec3::new(ndc.x * aspect * half_height, ndc.y * half_height, -1.0);
+    Ray {
+        origin: camera.position.to_dvec3(),
+        direction: camera.rotation() * in_camera.normalize(),
+    }
+}
+
+/// The radius of one pixel's cone per unit of depth, for a picture `height_px` pixels high.
+pub fn pixel_cone(camera: &Camera, height_px: f64) -> f64 {
+    camera.half_height() / height_px.max(1.0)
+}
+
+/// Depth of the surface that the picture shows at `ndc`, in scene units; none over the background.
+pub fn pick(scene: &Scene, ndc: DVec2, aspect: f64, height_px: f64) -> Option<f64> {
+    let cone = pixel_cone(&scene.camera, height_px) * scene.quality.detail;
+    Estimator::new(&scene.fractal).march(
+        camera_ray(&scene.camera, ndc, aspect),
+        cone,
+        f64::INFINITY,
+    )
+}

@@ -1,0 +1,172 @@
+//! The triplex power zⁿ (thesis eq. 2.3 and 2.4, and Algorithm 1).
+//!
+//! With `r = |z|`, latitude φ and longitude θ,
+//! `zⁿ = rⁿ (cos nφ cos nθ, cos nφ sin nθ, sin nφ)`. For a whole n no angle is needed: with
+//! `ρ = √(x² + y²)`, the rotor `u = (x + iy)/ρ` and `w = ρ + iz`,
+//! `zⁿ = (Re wⁿ · Re uⁿ, Re wⁿ · Im uⁿ, Im wⁿ)`.
+
+use glam::{DVec2, DVec3};
+
+use crate::scene::{Fractal, Variant};
+
+/// The map z → zⁿ of one fractal, and its scalar derivative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriplexPower {
+    exponent: Exponent,
+    /// What the sine of the latitude is multiplied by: 1 or −1.
+    sine_sign: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Exponent {
+    Whole(u32),
+    Real(f64),
+}
+
+impl TriplexPower {
+    /// The power of `fractal`, in its variant.
+    pub fn new(fractal: &Fractal) -> Self {
+        Self {
+            exponent: fractal
+                .integer_power()
+                .map_or(Exponent::Real(fractal.power), Exponent::Whole),
+            sine_sign: match fractal.variant {
+                Variant::PositiveSine => 1.0,
+                Variant::NegativeSine => -1.0,
+            },
+        }
+    }
+
+    /// The exponent n.
+    pub fn exponent(&self) -> f64 {
+        match self.exponent {
+            Exponent::Whole(n) => f64::from(n),
+            Exponent::Real(n) => n,
+        }
+    }
+
+    /// zⁿ. The z axis, where the longitude means nothing, takes longitude zero.
+    pub fn apply(&self, z: DVec3) -> DVec3 {
+        let raised = match self.exponent {
+            Exponent::Whole(n) => whole_power(z, n),
+            Exponent::Real(n) => real_power(z, n),
+        };
+        DVec3::new(raised.x, raised.y, raised.z * self.sine_sign)
+    }
+
+    /// `n · r^(n−1)`: what one step multiplies the scalar derivative by at radius `r`.
+    pub fn growth(&self, r: f64) -> f64 {
+        match self.exponent {
+            Exponent::Whole(n) => f64::from(n) * r.powi(n as i32 - 1),
+            Exponent::Real(n) => n * r.powf(n - 1.0),
+        }
+    }
+}
+
+fn whole_power(z: DVec3, n: u32) -> DVec3 {
+    let rho = z.x.hypot(z.y);
+    let rotor = if rho > 0.0 {
+        DVec2::new(z.x, z.y) / rho
+    } else {
+        DVec2::X
+    };
+    let w = complex_power(DVec2::new(rho, z.z), n);
+    let u = complex_power(rotor, n);
+    DVec3::new(w.x * u.x, w.x * u.y, w.y)
+}
+
+/// By squaring, from the exponent's highest bit down.
+fn complex_power(base: DVec2, n: u32) -> DVec2 {
+    let mut power = DVec2::X;
+    for bit in (0..u32::BITS - n.leading_zeros()).rev() {
+        power = power.rotate(power);
+        if n >> bit & 1 == 1 {
+            power = power.rotate(base);
+        }
+    }
+    power
+}
+
+/// atan2 for the latitude too: asin loses half its digits near the poles.
+fn real_power(z: DVec3, n: f64) -> DVec3 {
+    let rho = z.x.hypot(z.y);
+    let latitude = n * z.z.atan2(rho);
+    let longitude = if rho > 0.0 { n * z.y.atan2(z.x) } else { 0.0 };
+    let (sin_lat, cos_lat) = latitude.sin_cos();
+    let (sin_lon, cos_lon) = longitude.sin_cos();
+    z.length().powf(n) * DVec3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map(power: f64, variant: Variant) -> TriplexPower {
+        TriplexPower::new(&Fractal {
+            power,
+            variant,
+            ..Fractal::default()
+        })
+    }
+
+    #[test]
+    fn whole_and_real_paths_agree() {
+        let points = [
+            DVec3::new(0.3, -0.7, 0.2),
+            DVec3::new(-1.1, 0.4, -0.9),
+            DVec3::new(1e-9, 2e-9, 0.8),
+        ];
+        for n in 2..=16 {
+            for z in points {
+                let (whole, real) = (whole_power(z, n), real_power(z, f64::from(n)));
+                assert!(
+                    (whole - real).length() <= 1e-13 * real.length(),
+                    "n = {n}, z = {z}: {whole} and {real}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_length_is_raised_exactly_as_a_number() {
+        let z = DVec3::new(0.6, -0.5, 0.9);
+        for power in [2.0, 2.5, 7.0, 8.0, 15.9] {
+            for variant in [Variant::PositiveSine, Variant::NegativeSine] {
+                let raised = map(power, variant).apply(z).length();
+                assert!((raised / z.length().powf(power) - 1.0).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn the_negative_sine_mirrors_the_result() {
+        let z = DVec3::new(0.6, -0.5, 0.4);
+        let (plus, minus) = (
+            map(8.0, Variant::PositiveSine).apply(z),
+            map(8.0, Variant::NegativeSine).apply(z),
+        );
+        assert_eq!(minus, DVec3::new(plus.x, plus.y, -plus.z));
+    }
+
+    #[test]
+    fn the_axis_and_the_origin_are_tame() {
+        for power in [2.0, 3.5, 8.0] {
+            assert_eq!(
+                map(power, Variant::PositiveSine).apply(DVec3::ZERO),
+                DVec3::ZERO
+            );
+        }
+        // Latitude 90°, times eight: a whole number of turns, so the pole goes to +x.
+        let pole = map(8.0, Variant::PositiveSine).apply(DVec3::new(0.0, 0.0, 1.1));
+        assert!((pole - DVec3::new(1.1_f64.powi(8), 0.0, 0.0)).length() < 1e-12);
+    }
+
+    #[test]
+    fn growth_is_the_derivative_of_the_length() {
+        for power in [2.0, 3.3, 8.0] {
+            let (r, h) = (1.07_f64, 1e-6);
+            let slope = ((r + h).powf(power) - (r - h).powf(power)) / (2.0 * h);
+            assert!((map(power, Variant::PositiveSine).growth(r) / slope - 1.0).abs() < 1e-8);
+        }
+    }
+}
