@@ -1,1 +1,141 @@
-//! pending
+//! Colour arithmetic: the sRGB transfer curve, and the gradient that colours the surface.
+//!
+//! In and out: linear Rec. 709 channels, unless a name says sRGB.
+
+use super::GradientStop;
+
+/// Entries of a gradient's table.
+pub const GRADIENT_ENTRIES: usize = 256;
+
+/// Linear light of an sRGB-encoded channel (IEC 61966-2-1); both 0 to 1, and clamped to it.
+pub fn linear_from_srgb(encoded: f32) -> f32 {
+    let encoded = encoded.clamp(0.0, 1.0);
+    if encoded <= 0.04045 {
+        encoded / 12.92
+    } else {
+        ((encoded + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The sRGB encoding of a linear channel (IEC 61966-2-1); both 0 to 1, and clamped to it.
+pub fn srgb_from_linear(linear: f32) -> f32 {
+    let linear = linear.clamp(0.0, 1.0);
+    if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// The gradient's linear colour at `u`, of which only the fraction counts. Between stops it
+/// blends in linear light; after the last one it blends to the first, across the wrap. Of
+/// stops at one position the later begins there: a hard edge. Without stops it is black.
+pub fn gradient_at(stops: &[GradientStop], u: f64) -> [f32; 3] {
+    let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
+        return [0.0; 3];
+    };
+    let u = if u.is_finite() {
+        u.rem_euclid(1.0)
+    } else {
+        0.0
+    };
+    let next = stops.partition_point(|stop| stop.position <= u);
+    // The neighbours on both sides, one of them a turn away where the pair spans the wrap.
+    let (before, before_at) = match next {
+        0 => (last, last.position - 1.0),
+        _ => (&stops[next - 1], stops[next - 1].position),
+    };
+    let (after, after_at) = match stops.get(next) {
+        Some(stop) => (stop, stop.position),
+        None => (first, first.position + 1.0),
+    };
+    let span = after_at - before_at;
+    let t = if span > 0.0 {
+        ((u - before_at) / span).clamp(0.0, 1.0) as f32
+    } else {
+        0.0
+    };
+    std::array::from_fn(|i| before.color[i] + (after.color[i] - before.color[i]) * t)
+}
+
+/// The gradient as a cyclic table: entry `i` is linear RGBA, opaque, at `u = i / 256`. A reader
+/// blends between neighbours, the last entry's being the first.
+pub fn gradient_lut(stops: &[GradientStop]) -> [[f32; 4]; GRADIENT_ENTRIES] {
+    std::array::from_fn(|i| {
+        let [r, g, b] = gradient_at(stops, i as f64 / GRADIENT_ENTRIES as f64);
+        [r, g, b, 1.0]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RED: [f32; 3] = [1.0, 0.0, 0.0];
+    const BLUE: [f32; 3] = [0.0, 0.0, 1.0];
+
+    fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
+        list.iter()
+            .map(|&(position, color)| GradientStop { position, color })
+            .collect()
+    }
+
+    #[test]
+    fn srgb_agrees_with_the_standards_values() {
+        // 8-bit code values and their linear light, from the definition in exact arithmetic.
+        for (code, linear) in [
+            (0, 0.0),
+            (1, 0.000_303_527),
+            (10, 0.003_035_27),
+            (11, 0.003_346_54),
+            (128, 0.215_860_5),
+            (188, 0.502_886_5),
+            (255, 1.0),
+        ] {
+            let encoded = code as f32 / 255.0;
+            assert!((linear_from_srgb(encoded) - linear).abs() < 1e-6, "{code}");
+            assert!((srgb_from_linear(linear) - encoded).abs() < 2e-6, "{code}");
+        }
+        assert_eq!(srgb_from_linear(-1.0), 0.0);
+        assert!((srgb_from_linear(7.0) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_gradient_blends_between_stops_and_across_the_wrap() {
+        let stops = stops(&[(0.2, RED), (0.6, BLUE)]);
+        assert_eq!(gradient_at(&stops, 0.2), RED);
+        assert_eq!(gradient_at(&stops, 0.6), BLUE);
+        let near = |u: f64, red: f32| (gradient_at(&stops, u)[0] - red).abs() < 1e-6;
+        // A quarter of the way from red to blue, then half and all but a sixth of the way back.
+        assert!(near(0.3, 0.75) && near(0.9, 0.5) && near(0.1, 5.0 / 6.0));
+        assert!(near(7.3, 0.75) && near(-0.7, 0.75));
+    }
+
+    #[test]
+    fn stops_at_one_position_make_a_hard_edge() {
+        let stops = stops(&[(0.0, RED), (0.5, RED), (0.5, BLUE), (1.0, BLUE)]);
+        assert_eq!(gradient_at(&stops, 0.499_999), RED);
+        assert_eq!(gradient_at(&stops, 0.5), BLUE);
+        assert_eq!(gradient_at(&stops, 0.999_999), BLUE);
+    }
+
+    #[test]
+    fn odd_gradients_give_a_color() {
+        assert_eq!(gradient_at(&[], 0.5), [0.0; 3]);
+        assert_eq!(gradient_at(&stops(&[(0.7, BLUE)]), 0.1), BLUE);
+        assert_eq!(gradient_at(&stops(&[(0.7, BLUE)]), f64::NAN), BLUE);
+        for u in [0.0, 0.3, 0.99] {
+            let disordered = gradient_at(&stops(&[(0.9, RED), (0.1, BLUE)]), u);
+            assert!(disordered.iter().all(|c| (0.0..=1.0).contains(c)));
+        }
+    }
+
+    #[test]
+    fn the_table_samples_the_gradient() {
+        let stops = stops(&[(0.0, RED), (0.5, BLUE)]);
+        let lut = gradient_lut(&stops);
+        assert_eq!(lut[0], [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(lut[64], [0.5, 0.0, 0.5, 1.0]);
+        assert_eq!(lut[128], [0.0, 0.0, 1.0, 1.0]);
+    }
+}

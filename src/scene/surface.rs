@@ -68,7 +68,8 @@ pub struct Surface {
     pub shininess: f64,
     /// What runs through the gradient.
     pub coloring: Coloring,
-    /// One to [`MAX_GRADIENT_STOPS`] stops, positions not decreasing; it closes on itself.
+    /// One to [`MAX_GRADIENT_STOPS`] stops, positions not decreasing; after the last it blends
+    /// back to the first.
     pub gradient: Vec<GradientStop>,
 }
 
@@ -81,12 +82,13 @@ impl Default for Surface {
             specular: param::SPECULAR.default,
             shininess: param::SHININESS.default,
             coloring: Coloring::default(),
+            // The last stop leaves room for the blend back to the first.
             gradient: vec![
                 stop(0.0, [0.10, 0.02, 0.05]),
-                stop(0.35, [0.62, 0.16, 0.06]),
-                stop(0.6, [0.90, 0.55, 0.20]),
-                stop(0.8, [0.92, 0.82, 0.62]),
-                stop(1.0, [0.25, 0.32, 0.42]),
+                stop(0.3, [0.62, 0.16, 0.06]),
+                stop(0.52, [0.90, 0.55, 0.20]),
+                stop(0.7, [0.92, 0.82, 0.62]),
+                stop(0.85, [0.25, 0.32, 0.42]),
             ],
         }
     }
