@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{PrecisePoint, param};
 
+/// Least distance from eye to pivot, in scene units: below the deepest zoom that can be drawn.
+pub const MIN_VIEW_UNIT: f64 = 1e-30;
+
 /// A rotation in the document: `[x, y, z, w]`, length 1 within 1e-6.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -28,7 +31,8 @@ impl From<Quaternion> for DQuat {
 pub struct Camera {
     /// The eye, in scene units.
     pub position: PrecisePoint,
-    /// The point that orbiting turns about; its distance to the eye is the view unit.
+    /// The point that orbiting turns about; its distance to the eye, at least
+    /// [`MIN_VIEW_UNIT`], is the view unit.
     pub pivot: PrecisePoint,
     /// Rotation `world_from_camera`.
     pub orientation: Quaternion,

@@ -1,1 +1,169 @@
-//! pending
+//! The scene as an address's fragment: `#s1=` and base64url of deflated JSON.
+//!
+//! In: a scene, or text from an address that may come from anyone. Out: the other one. Fields
+//! that have their default are left out, which keeps links short and makes the defaults part
+//! of the version (see [`super::document`]). The digit is the document's version.
+
+use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
+use miniz_oxide::{
+    deflate::compress_to_vec,
+    inflate::{TINFLStatus, decompress_to_vec_with_limit},
+};
+use serde::Serialize;
+use serde_json::Value;
+
+use super::{
+    EnvironmentLight, PointLight, Scene,
+    document::{self, DocumentError},
+};
+
+/// The longest fragment made or read, in bytes.
+pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
+/// The most that a fragment may inflate to, in bytes.
+pub const MAX_INFLATED_BYTES: usize = 64 << 10;
+
+/// What a fragment of this version begins with.
+const PREFIX: &str = "s1=";
+/// The best of deflate's levels that miniz has: a scene is small.
+const DEFLATE_LEVEL: u8 = 10;
+
+/// Why a scene has no link, or a link no scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LinkError {
+    /// Longer than [`MAX_FRAGMENT_BYTES`].
+    #[error(
+        "the link would be {bytes} characters long, more than the {MAX_FRAGMENT_BYTES} that links may have; save the scene as a file instead"
+    )]
+    TooLong {
+        /// Its length.
+        bytes: usize,
+    },
+    /// Does not begin as a scene's link does.
+    #[error("the address holds no scene")]
+    NotAScene,
+    /// Made by another version of the format.
+    #[error(
+        "the link holds a scene of version {found}; this program reads version {}",
+        document::VERSION
+    )]
+    Version {
+        /// The digits in the link.
+        found: String,
+    },
+    /// Not base64url, not deflated, or not text: cut short or changed on its way.
+    #[error("the link is damaged or incomplete; copy it again in full")]
+    Damaged,
+    /// Inflates to more than [`MAX_INFLATED_BYTES`].
+    #[error("the link unpacks to more than {MAX_INFLATED_BYTES} bytes, which no scene does")]
+    TooLarge,
+    /// A scene that cannot be used.
+    #[error("the link's scene: {0}")]
+    Document(#[from] DocumentError),
+}
+
+/// The fragment that holds `scene`, without its `#`: letters, digits, `=`, `-` and `_` only.
+///
+/// # Errors
+///
+/// [`LinkError::TooLong`] for scenes with very many different lights.
+pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
+    let deflated = compress_to_vec(differences(scene).to_string().as_bytes(), DEFLATE_LEVEL);
+    let fragment = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(deflated));
+    if fragment.len() > MAX_FRAGMENT_BYTES {
+        return Err(LinkError::TooLong {
+            bytes: fragment.len(),
+        });
+    }
+    Ok(fragment)
+}
+
+/// Reads a fragment, with or without its `#`.
+///
+/// # Errors
+///
+/// See [`LinkError`]. The caller's scene is as it was.
+pub fn from_fragment(fragment: &str) -> Result<Scene, LinkError> {
+    if fragment.len() > MAX_FRAGMENT_BYTES {
+        return Err(LinkError::TooLong {
+            bytes: fragment.len(),
+        });
+    }
+    let payload = payload_of(fragment.strip_prefix('#').unwrap_or(fragment))?;
+    let deflated = URL_SAFE_NO_PAD
+        .decode(payload)
+        .map_err(|_| LinkError::Damaged)?;
+    let inflated =
+        decompress_to_vec_with_limit(&deflated, MAX_INFLATED_BYTES).map_err(|error| match error
+            .status
+        {
+            TINFLStatus::HasMoreOutput => LinkError::TooLarge,
+            _ => LinkError::Damaged,
+        })?;
+    let text = String::from_utf8(inflated).map_err(|_| LinkError::Damaged)?;
+    Ok(document::scene_from_json(&text)?)
+}
+
+/// What follows the prefix, where it is this version's.
+fn payload_of(fragment: &str) -> Result<&str, LinkError> {
+    if let Some(payload) = fragment.strip_prefix(PREFIX) {
+        return Ok(payload);
+    }
+    let version = fragment
+        .strip_prefix('s')
+        .and_then(|rest| rest.split_once('='));
+    match version {
+        Some((digits, _))
+            if (1..=6).contains(&digits.len()) && digits.bytes().all(|b| b.is_ascii_digit()) =>
+        {
+            Err(LinkError::Version {
+                found: digits.into(),
+            })
+        }
+        _ => Err(LinkError::NotAScene),
+    }
+}
+
+/// The scene's JSON without the fields that have their default.
+fn differences(scene: &Scene) -> Value {
+    let mut value = value_of(scene);
+    drop_defaults(&mut value, &value_of(&Scene::default()));
+    drop_list_defaults(&mut value, "environment", &EnvironmentLight::default());
+    drop_list_defaults(&mut value, "point", &PointLight::default());
+    value
+}
+
+fn drop_list_defaults(scene: &mut Value, list: &str, default: &impl Serialize) {
+    let Some(lights) = scene
+        .pointer_mut(&format!("/lights/{list}"))
+        .and_then(Value::as_array_mut)
+    else {
+        return;
+    };
+    let default = value_of(default);
+    lights
+        .iter_mut()
+        .for_each(|light| drop_defaults(light, &default));
+}
+
+/// Removes from `value` every field that `default` has alike. Lists stay whole.
+fn drop_defaults(value: &mut Value, default: &Value) {
+    let (Value::Object(fields), Value::Object(defaults)) = (value, default) else {
+        return;
+    };
+    fields.retain(|key, field| match defaults.get(key) {
+        Some(same) if same == field => false,
+        Some(default) => {
+            drop_defaults(field, default);
+            true
+        }
+        None => true,
+    });
+}
+
+/// The JSON of `part`, by way of text: straight to a [`Value`], an f32 of 0.1 would become
+/// 0.10000000149011612.
+fn value_of(part: &impl Serialize) -> Value {
+    // Every key is a string, and what serde_json writes it also reads.
+    let text = serde_json::to_string(part).expect("a part of a scene is JSON");
+    serde_json::from_str(&text).expect("serde_json reads what it writes")
+}

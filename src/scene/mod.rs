@@ -12,6 +12,8 @@
 //! | [`link`] | the same document as an address's fragment |
 //! | [`history`] | undo and redo, grouped by gesture |
 //! | [`presets`] | the opening scenes |
+//! | `validate` | the check that every loaded scene has passed |
+//! | [`color`] | sRGB, and the gradient as a table |
 
 mod background;
 mod camera;
@@ -31,7 +33,7 @@ pub mod presets;
 mod validate;
 
 pub use background::Background;
-pub use camera::{Camera, Quaternion};
+pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use fractal::{Fractal, Variant};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
 pub use precise::{Precise, PrecisePoint};

@@ -94,6 +94,34 @@ impl Param {
             && (self.min..=self.max).contains(&value)
             && (self.scale != Scale::Integer || value.fract() == 0.0)
     }
+
+    /// The accepted range in words: `5 to 120 degrees`; whole numbers say so.
+    pub fn range_text(&self) -> String {
+        let range = format!("{} to {}", self.min, self.max);
+        match (self.scale, self.unit) {
+            (Scale::Integer, _) => format!("{range}, whole numbers"),
+            (_, Unit::None | Unit::Count) => range,
+            (_, unit) => format!("{range} {}", unit.name()),
+        }
+    }
+
+    /// The field's path with `index` in place of its `[]`.
+    pub fn path_at(&self, index: usize) -> String {
+        self.path.replacen("[]", &format!("[{index}]"), 1)
+    }
+}
+
+/// The parameter that governs the field at `path`, such as `lights.environment[2].intensity`.
+pub fn find(path: &str) -> Option<&'static Param> {
+    let mut inside = false;
+    let pattern: String = path
+        .chars()
+        .filter(|&c| {
+            inside = c == '[' || (inside && c != ']');
+            c == '[' || !inside
+        })
+        .collect();
+    ALL.iter().copied().find(|param| param.path == pattern)
 }
 
 macro_rules! params {
@@ -151,4 +179,42 @@ params! {
         "How many jittered samples each pixel averages once the view rests. More is smoother.";
     DETAIL = "quality.detail", "Detail", Footprints, 0.1, 8.0, default 1.0, Logarithmic by 0.1,
         "How close a ray comes to the surface before it counts as a hit. Lower is finer and slower.";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_the_parameter_of_an_indexed_path() {
+        assert_eq!(
+            find("lights.environment[12].intensity"),
+            Some(&ENVIRONMENT_INTENSITY)
+        );
+        assert_eq!(find("fractal.julia_constant[2]"), Some(&JULIA_CONSTANT));
+        assert_eq!(find("fractal.power"), Some(&POWER));
+        assert_eq!(find("fractal.variant"), None);
+        assert_eq!(find("lights.environment[[[].intensity]"), None);
+    }
+
+    #[test]
+    fn every_table_row_is_consistent() {
+        for (i, param) in ALL.iter().enumerate() {
+            assert!(param.min < param.max && param.step > 0.0, "{}", param.path);
+            assert!(param.accepts(param.default), "{}: default", param.path);
+            assert!(
+                param.path.matches("[]").count() <= 1,
+                "{}: path_at fills one index",
+                param.path
+            );
+            assert_eq!(find(&param.path_at(i)), Some(*param));
+        }
+    }
+
+    #[test]
+    fn ranges_read_well() {
+        assert_eq!(VERTICAL_FOV.range_text(), "5 to 120 degrees");
+        assert_eq!(SAMPLES.range_text(), "1 to 1024, whole numbers");
+        assert_eq!(AMBIENT.range_text(), "0 to 1");
+    }
 }

@@ -1,4 +1,185 @@
-//! pending
-/// pending
-#[derive(Debug)]
-pub struct Invalid;
+//! Whether a scene keeps to its ranges.
+//!
+//! In: any [`Scene`]. Out: nothing, or the first field at fault by its path in the document,
+//! with what is wrong. The ranges themselves are [`param`]'s. Positions need no check here:
+//! a [`Precise`](super::Precise) cannot hold a coordinate out of range.
+
+use glam::{DVec3, DVec4};
+
+use super::{
+    Camera, Fractal, Lights, MAX_GRADIENT_STOPS, MAX_LIGHTS, MIN_VIEW_UNIT, Scene, Surface,
+    param::{self, Param},
+};
+
+/// How far the length of a direction or orientation may be from 1.
+pub(super) const UNIT_TOLERANCE: f64 = 1e-6;
+
+/// A field whose value cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{path}: {message}")]
+pub struct Invalid {
+    /// The field in the document: `lights.environment[2].intensity`.
+    pub path: String,
+    /// What is wrong: `1000 is outside 0 to 100`.
+    pub message: String,
+}
+
+impl Invalid {
+    fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            message: message.into(),
+        }
+    }
+}
+
+impl Scene {
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    ///
+    /// The first field at fault, in document order.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        check_fractal(&self.fractal)?;
+        check_camera(&self.camera)?;
+        check_lights(&self.lights)?;
+        check_surface(&self.surface)?;
+        check_color(|| "background.top".into(), self.background.top)?;
+        check_color(|| "background.bottom".into(), self.background.bottom)?;
+        check(&param::EXPOSURE, self.tone.exposure)?;
+        check(&param::WHITE_POINT, self.tone.white_point)?;
+        check(&param::MOTION_BUDGET, self.quality.motion_budget_ms)?;
+        check(&param::SAMPLES, self.quality.samples.into())?;
+        check(&param::DETAIL, self.quality.detail)
+    }
+}
+
+/// A number at a path without an index.
+fn check(param: &Param, value: f64) -> Result<(), Invalid> {
+    check_at(param, 0, value)
+}
+
+/// A number at `param`'s path, `index` in place of its `[]`.
+fn check_at(param: &Param, index: usize, value: f64) -> Result<(), Invalid> {
+    if param.accepts(value) {
+        return Ok(());
+    }
+    let message = format!("{} is outside {}", shown(value), param.range_text());
+    Err(Invalid::new(param.path_at(index), message))
+}
+
+/// A number as a person would write it: no row of 300 zeros.
+fn shown(value: f64) -> String {
+    let plain = value == 0.0 || (1e-5..1e9).contains(&value.abs());
+    if plain {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
+    check(&param::POWER, fractal.power)?;
+    check(&param::ITERATIONS, fractal.iterations.into())?;
+    check(&param::BAILOUT, fractal.bailout)?;
+    let most = fractal.max_bailout();
+    if fractal.bailout > most {
+        let (value, power) = (shown(fractal.bailout), fractal.power);
+        let message = format!("{value} is above {most:.2}, the most that power {power} allows");
+        return Err(Invalid::new(param::BAILOUT.path, message));
+    }
+    let mut coordinates = fractal.julia_constant.into_iter().enumerate();
+    coordinates.try_for_each(|(i, value)| check_at(&param::JULIA_CONSTANT, i, value))
+}
+
+fn check_camera(camera: &Camera) -> Result<(), Invalid> {
+    let distance = (&camera.pivot - &camera.position).length();
+    if distance < MIN_VIEW_UNIT {
+        let message = format!(
+            "is {} from camera.position; it must be {MIN_VIEW_UNIT:e} or more away",
+            shown(distance)
+        );
+        return Err(Invalid::new("camera.pivot", message));
+    }
+    let length = DVec4::from_array(camera.orientation.0).length();
+    check_unit_length(|| "camera.orientation".into(), length)?;
+    check(&param::VERTICAL_FOV, camera.vertical_fov_deg)
+}
+
+fn check_lights(lights: &Lights) -> Result<(), Invalid> {
+    if lights.len() > MAX_LIGHTS {
+        let message = format!(
+            "{} lights are too many; a scene has at most {MAX_LIGHTS} in all",
+            lights.len()
+        );
+        return Err(Invalid::new("lights", message));
+    }
+    for (i, light) in lights.environment.iter().enumerate() {
+        let length = DVec3::from_array(light.direction).length();
+        check_unit_length(|| format!("lights.environment[{i}].direction"), length)?;
+        check_color(|| format!("lights.environment[{i}].color"), light.color)?;
+        check_at(&param::ENVIRONMENT_INTENSITY, i, light.intensity)?;
+        if let Some(reach) = light.shadow_reach {
+            check_at(&param::SHADOW_REACH, i, reach)?;
+        }
+    }
+    for (i, light) in lights.point.iter().enumerate() {
+        check_color(|| format!("lights.point[{i}].color"), light.color)?;
+        check_at(&param::POINT_INTENSITY, i, light.intensity)?;
+    }
+    Ok(())
+}
+
+fn check_surface(surface: &Surface) -> Result<(), Invalid> {
+    check(&param::AMBIENT, surface.ambient)?;
+    check(&param::DIFFUSE, surface.diffuse)?;
+    check(&param::SPECULAR, surface.specular)?;
+    check(&param::SHININESS, surface.shininess)?;
+    check(&param::COLOR_REPEATS, surface.coloring.repeats)?;
+    check(&param::COLOR_OFFSET, surface.coloring.offset)?;
+    let count = surface.gradient.len();
+    if !(1..=MAX_GRADIENT_STOPS).contains(&count) {
+        let message = format!("has {count} stops; a gradient has 1 to {MAX_GRADIENT_STOPS}");
+        return Err(Invalid::new("surface.gradient", message));
+    }
+    let mut before = 0.0;
+    for (i, stop) in surface.gradient.iter().enumerate() {
+        check_at(&param::STOP_POSITION, i, stop.position)?;
+        if stop.position < before {
+            let message = format!(
+                "{} lies before the stop ahead of it, at {}",
+                shown(stop.position),
+                shown(before)
+            );
+            return Err(Invalid::new(param::STOP_POSITION.path_at(i), message));
+        }
+        before = stop.position;
+        check_color(|| format!("surface.gradient[{i}].color"), stop.color)?;
+    }
+    Ok(())
+}
+
+/// A linear colour: each channel 0 to 1.
+fn check_color(path: impl Fn() -> String, color: [f32; 3]) -> Result<(), Invalid> {
+    match color
+        .iter()
+        .position(|channel| !(0.0..=1.0).contains(channel))
+    {
+        None => Ok(()),
+        Some(i) => {
+            let message = format!("{} is outside 0 to 1", shown(color[i].into()));
+            Err(Invalid::new(format!("{}[{i}]", path()), message))
+        }
+    }
+}
+
+/// The length of a direction or an orientation.
+fn check_unit_length(path: impl Fn() -> String, length: f64) -> Result<(), Invalid> {
+    if (length - 1.0).abs() <= UNIT_TOLERANCE {
+        return Ok(());
+    }
+    Err(Invalid::new(
+        path(),
+        format!("has length {}; it must be 1", shown(length)),
+    ))
+}

@@ -1,0 +1,227 @@
+//! Any valid scene.
+
+use glam::{DQuat, DVec3};
+use mandelight::scene::{
+    Background, Camera, ColorSource, Coloring, EnvironmentLight, Fractal, GradientStop, LightFrame,
+    Lights, PointLight, Precise, PrecisePoint, Quality, Scene, Surface, Tone, ToneCurve, Variant,
+    param::{self, Param},
+};
+use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
+
+fn value(param: &'static Param) -> impl Strategy<Value = f64> {
+    param.min..=param.max
+}
+
+fn count(param: &'static Param) -> impl Strategy<Value = u32> {
+    param.min as u32..=param.max as u32
+}
+
+fn color() -> impl Strategy<Value = [f32; 3]> {
+    uniform3(0.0..=1.0_f32)
+}
+
+fn direction() -> impl Strategy<Value = [f64; 3]> {
+    uniform3(-1.0..1.0).prop_map(|v| DVec3::from_array(v).normalize_or(DVec3::X).to_array())
+}
+
+/// A coordinate as people and deep zooms write it: up to 75 decimal places.
+fn precise() -> impl Strategy<Value = Precise> {
+    (any::<bool>(), 0..100_u32, "[0-9]{0,75}").prop_map(|(minus, whole, places)| {
+        let sign = if minus { "-" } else { "" };
+        let text = format!("{sign}{whole}.{places}0");
+        text.parse()
+            .unwrap_or_else(|error| panic!("{text} {error}"))
+    })
+}
+
+fn point() -> impl Strategy<Value = PrecisePoint> {
+    uniform3(precise()).prop_map(PrecisePoint)
+}
+
+fn fractal() -> impl Strategy<Value = Fractal> {
+    let variant = select(vec![Variant::PositiveSine, Variant::NegativeSine]);
+    let julia_constant = uniform3(value(&param::JULIA_CONSTANT));
+    (
+        value(&param::POWER),
+        count(&param::ITERATIONS),
+        0.0..=1.0_f64,
+        variant,
+        any::<bool>(),
+        julia_constant,
+    )
+        .prop_map(|(power, iterations, t, variant, julia, julia_constant)| {
+            let mut fractal = Fractal {
+                power,
+                iterations,
+                variant,
+                julia,
+                julia_constant,
+                ..Default::default()
+            };
+            let span = fractal.max_bailout() - param::BAILOUT.min;
+            fractal.bailout = (param::BAILOUT.min + t * span).min(fractal.max_bailout());
+            fractal
+        })
+}
+
+fn camera() -> impl Strategy<Value = Camera> {
+    let turn = (direction(), 0.0..std::f64::consts::TAU);
+    (point(), point(), turn, value(&param::VERTICAL_FOV))
+        .prop_filter("the pivot is not the eye", |(eye, pivot, ..)| {
+            (eye - pivot).length() > 1e-20
+        })
+        .prop_map(
+            |(position, pivot, (axis, angle), vertical_fov_deg)| Camera {
+                position,
+                pivot,
+                orientation: DQuat::from_axis_angle(DVec3::from_array(axis), angle)
+                    .normalize()
+                    .into(),
+                vertical_fov_deg,
+            },
+        )
+}
+
+fn environment_light() -> impl Strategy<Value = EnvironmentLight> {
+    let frame = select(vec![LightFrame::Scene, LightFrame::View]);
+    let reach = option::of(value(&param::SHADOW_REACH));
+    (
+        direction(),
+        color(),
+        value(&param::ENVIRONMENT_INTENSITY),
+        reach,
+        frame,
+        any::<[bool; 3]>(),
+    )
+        .prop_map(
+            |(direction, color, intensity, shadow_reach, frame, [casts_shadows, muted, solo])| {
+                EnvironmentLight {
+                    direction,
+                    color,
+                    intensity,
+                    casts_shadows,
+                    shadow_reach,
+                    frame,
+                    muted,
+                    solo,
+                }
+            },
+        )
+}
+
+fn point_light() -> impl Strategy<Value = PointLight> {
+    (
+        point(),
+        color(),
+        value(&param::POINT_INTENSITY),
+        any::<[bool; 3]>(),
+    )
+        .prop_map(
+            |(position, color, intensity, [casts_shadows, muted, solo])| PointLight {
+                position,
+                color,
+                intensity,
+                casts_shadows,
+                muted,
+                solo,
+            },
+        )
+}
+
+fn lights() -> impl Strategy<Value = Lights> {
+    (vec(environment_light(), 0..4), vec(point_light(), 0..4))
+        .prop_map(|(environment, point)| Lights { environment, point })
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    let source = select(vec![
+        ColorSource::Iterations,
+        ColorSource::OriginTrap,
+        ColorSource::AxisTrap,
+        ColorSource::PlaneTrap,
+    ]);
+    let coloring = (
+        source,
+        value(&param::COLOR_REPEATS),
+        value(&param::COLOR_OFFSET),
+    )
+        .prop_map(|(source, repeats, offset)| Coloring {
+            source,
+            repeats,
+            offset,
+        });
+    let gradient = vec((value(&param::STOP_POSITION), color()), 1..=16).prop_map(|mut stops| {
+        stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+        stops
+            .into_iter()
+            .map(|(position, color)| GradientStop { position, color })
+            .collect()
+    });
+    let light = (
+        value(&param::AMBIENT),
+        value(&param::DIFFUSE),
+        value(&param::SPECULAR),
+        value(&param::SHININESS),
+    );
+    (light, coloring, gradient).prop_map(
+        |((ambient, diffuse, specular, shininess), coloring, gradient)| Surface {
+            ambient,
+            diffuse,
+            specular,
+            shininess,
+            coloring,
+            gradient,
+        },
+    )
+}
+
+fn tone() -> impl Strategy<Value = Tone> {
+    let curve = select(vec![ToneCurve::Linear, ToneCurve::ReinhardLuminance]);
+    (value(&param::EXPOSURE), curve, value(&param::WHITE_POINT)).prop_map(
+        |(exposure, curve, white_point)| Tone {
+            exposure,
+            curve,
+            white_point,
+        },
+    )
+}
+
+fn quality() -> impl Strategy<Value = Quality> {
+    (
+        value(&param::MOTION_BUDGET),
+        count(&param::SAMPLES),
+        any::<bool>(),
+        value(&param::DETAIL),
+    )
+        .prop_map(|(motion_budget_ms, samples, shadows, detail)| Quality {
+            motion_budget_ms,
+            samples,
+            shadows,
+            detail,
+        })
+}
+
+/// Any valid scene of a few lights.
+pub fn scene() -> impl Strategy<Value = Scene> {
+    let background = (color(), color()).prop_map(|(top, bottom)| Background { top, bottom });
+    (
+        fractal(),
+        camera(),
+        lights(),
+        surface(),
+        background,
+        tone(),
+        quality(),
+    )
+        .prop_map(
+            |(fractal, camera, lights, surface, background, tone, quality)| Scene {
+                fractal,
+                camera,
+                lights,
+                surface,
+                background,
+                tone,
+                quality,
+            },
+        )
+}
