@@ -1,0 +1,284 @@
+//! From the library to the folder that a browser loads.
+//!
+//! In: the crate, `www/`. Out: a folder of `index.html` and files whose names carry a hash of their
+//! content, so that a host may let browsers keep them for ever. All addresses are relative.
+
+use std::{
+    fs,
+    io::Write as _,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use anyhow::{Context as _, Result, bail, ensure};
+use flate2::{Compression, write::GzEncoder};
+use sha2::{Digest as _, Sha256};
+use wasm_bindgen_cli_support::Bindgen;
+
+use crate::{need, shell};
+
+/// What is done to the module after it is compiled.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Finish {
+    /// Nothing more: for trying things out.
+    Quick,
+    /// Optimised by Binaryen and stripped of names: for publishing.
+    Small,
+}
+
+/// Features that Rust's wasm32 target may use, for a module that no longer lists its own.
+/// Fast maths stays off: what the page computes on the CPU has to match the native program.
+const WASM_OPT_FLAGS: [&str; 9] = [
+    "-O3",
+    "--strip-debug",
+    "--strip-producers",
+    "--enable-bulk-memory",
+    "--enable-nontrapping-float-to-int",
+    "--enable-sign-ext",
+    "--enable-mutable-globals",
+    "--enable-reference-types",
+    "--enable-multivalue",
+];
+
+/// Where boot.js keeps the module's size, for its progress: a host that compresses doesn't tell it.
+const SIZE_MARK: &str = "const WASM_BYTES = 0;";
+
+/// Digits of the hash in a file name: 48 bits, plenty for a handful of files.
+const HASH_DIGITS: usize = 12;
+
+/// Builds the folder for publishing, and returns it.
+pub fn dist() -> Result<PathBuf> {
+    let folder = shell::root()?.join("dist");
+    build(&folder, Finish::Small)?;
+    Ok(folder)
+}
+
+/// Builds the page into `folder`, whose old content goes.
+pub fn build(folder: &Path, finish: Finish) -> Result<()> {
+    need::wasm_target()?;
+    if finish == Finish::Small {
+        need::node_packages()?;
+    }
+    let bound = bind(&compile()?)?;
+    let module = bound.join("mandelight_bg.wasm");
+    if finish == Finish::Small {
+        optimise(&module)?;
+    }
+    let page = link(parts(&bound, &shell::root()?.join("www"))?)?;
+    write(folder, &page)?;
+    print_sizes(folder, &page)
+}
+
+/// Compiles the library as a wasm module and returns its path.
+fn compile() -> Result<PathBuf> {
+    let target = shell::target()?;
+    let mut cargo = shell::cargo()?;
+    cargo.args(["rustc", "--lib", "--crate-type", "cdylib", "--release"]);
+    cargo.args(["--target", need::WASM_TARGET, "--target-dir"]).arg(&target);
+    shell::run(&mut cargo)?;
+    Ok(target.join(need::WASM_TARGET).join("release/mandelight.wasm"))
+}
+
+/// Writes the module that browsers load and its JavaScript half, and returns their folder.
+fn bind(wasm: &Path) -> Result<PathBuf> {
+    let folder = shell::target()?.join("page-parts");
+    clear(&folder)?;
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(wasm).typescript(false).omit_default_module_path(true);
+    bindgen.web(true)?.generate(&folder).context("wasm-bindgen")?;
+    Ok(folder)
+}
+
+/// Runs Binaryen's wasm-opt over the module.
+fn optimise(module: &Path) -> Result<()> {
+    let wasm_opt = shell::root()?.join("node_modules/binaryen/bin/wasm-opt");
+    let mut node = Command::new("node");
+    node.arg(wasm_opt).args(WASM_OPT_FLAGS).arg(module).arg("-o").arg(module);
+    shell::run(&mut node)
+}
+
+/// One file of the page.
+struct Part {
+    /// Its name, with `/` between folders; others refer to it as `./name`.
+    name: String,
+    bytes: Vec<u8>,
+}
+
+/// Gathers the page's files, each after all those that it refers to.
+fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
+    let read = |folder: &Path, name: &str| -> Result<Part> {
+        let file = folder.join(name);
+        let bytes = fs::read(&file).with_context(|| file.display().to_string())?;
+        Ok(Part { name: name.to_owned(), bytes })
+    };
+    let mut parts = Vec::new();
+    for name in snippets(bound)? {
+        parts.push(read(bound, &name)?);
+    }
+    let module = read(bound, "mandelight_bg.wasm")?;
+    let size = format!("const WASM_BYTES = {};", module.bytes.len());
+    parts.push(module);
+    parts.push(read(bound, "mandelight.js")?);
+    let mut boot = read(www, "boot.js")?;
+    boot.bytes = replaced(&boot.bytes, SIZE_MARK, &size).context("boot.js lost its size mark")?;
+    parts.push(boot);
+    for name in ["favicon.svg", "style.css", "index.html"] {
+        parts.push(read(www, name)?);
+    }
+    Ok(parts)
+}
+
+/// The scripts that wasm-bindgen takes out of the crates (`#[wasm_bindgen(inline_js)]`).
+fn snippets(bound: &Path) -> Result<Vec<String>> {
+    let mut names = Vec::new();
+    let mut folders = vec!["snippets".to_owned()];
+    while let Some(folder) = folders.pop() {
+        let Ok(entries) = fs::read_dir(bound.join(&folder)) else { continue };
+        for entry in entries {
+            let entry = entry?;
+            let name = format!("{folder}/{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() { folders.push(name) } else { names.push(name) }
+        }
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// Gives each part but the page itself a name with its hash, in every part that refers to it.
+fn link(parts: Vec<Part>) -> Result<Vec<Part>> {
+    let mut linked: Vec<Part> = Vec::new();
+    let mut names: Vec<(String, String, bool)> = Vec::new();
+    for Part { name, mut bytes } in parts {
+        for (old, new, used) in &mut names {
+            if let Some(changed) = replaced(&bytes, &format!("./{old}"), &format!("./{new}")) {
+                bytes = changed;
+                *used = true;
+            }
+        }
+        if name != "index.html" {
+            let hashed = hashed_name(&name, &bytes);
+            names.push((name, hashed.clone(), false));
+            linked.push(Part { name: hashed, bytes });
+        } else {
+            linked.push(Part { name, bytes });
+        }
+    }
+    let unused: Vec<_> = names.iter().filter(|name| !name.2).map(|name| name.0.as_str()).collect();
+    ensure!(unused.is_empty(), "no file of the page refers to {}", unused.join(", "));
+    Ok(linked)
+}
+
+/// `style.css` becomes `style-0123456789ab.css`.
+fn hashed_name(name: &str, bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    let hash: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash = &hash[..HASH_DIGITS];
+    match name.rsplit_once('.') {
+        Some((stem, ending)) => format!("{stem}-{hash}.{ending}"),
+        None => format!("{name}-{hash}"),
+    }
+}
+
+/// `text` with every `old` made `new`; nothing where it is no text or has no `old`.
+fn replaced(text: &[u8], old: &str, new: &str) -> Option<Vec<u8>> {
+    let text = std::str::from_utf8(text).ok()?;
+    text.contains(old).then(|| text.replace(old, new).into_bytes())
+}
+
+/// Writes the page's files into `folder` and nothing else.
+fn write(folder: &Path, page: &[Part]) -> Result<()> {
+    clear(folder)?;
+    for part in page {
+        let file = folder.join(&part.name);
+        let parent = file.parent().unwrap_or(folder);
+        fs::create_dir_all(parent).with_context(|| parent.display().to_string())?;
+        fs::write(&file, &part.bytes).with_context(|| file.display().to_string())?;
+    }
+    Ok(())
+}
+
+/// Empties `folder`, which must be one that this program made.
+fn clear(folder: &Path) -> Result<()> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).with_context(|| folder.display().to_string())?;
+    }
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())
+}
+
+/// Says how large each file is, as it is and as a host sends it.
+fn print_sizes(folder: &Path, page: &[Part]) -> Result<()> {
+    let mut sum = (0, 0);
+    let line = |name: &str, raw: usize, gzip: usize| {
+        eprintln!("{:>9.1} kB  {:>9.1} kB gzip  {name}", raw as f64 / 1e3, gzip as f64 / 1e3);
+    };
+    for part in page {
+        let mut gzip = GzEncoder::new(Vec::new(), Compression::default());
+        gzip.write_all(&part.bytes)?;
+        let gzip = gzip.finish()?.len();
+        line(&part.name, part.bytes.len(), gzip);
+        sum = (sum.0 + part.bytes.len(), sum.1 + gzip);
+    }
+    line(&folder.display().to_string(), sum.0, sum.1);
+    if page.is_empty() {
+        bail!("the page is empty");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(name: &str, text: &str) -> Part {
+        Part { name: name.to_owned(), bytes: text.as_bytes().to_vec() }
+    }
+
+    fn names_of(style: &str) -> Vec<String> {
+        let boot = part("boot.js", "import('./module.js')");
+        let page = part("index.html", "<script src=\"./boot.js\"> <link href=\"./style.css\">");
+        let parts = vec![part("module.js", "1"), boot, part("style.css", style), page];
+        link(parts).unwrap().into_iter().map(|part| part.name).collect()
+    }
+
+    #[test]
+    fn names_follow_content() {
+        let (one, two) = (names_of("a {}"), names_of("b {}"));
+        assert_eq!(one, names_of("a {}"));
+        assert_eq!(one[..2], two[..2], "a style sheet does not rename scripts");
+        assert_ne!(one[2], two[2]);
+        assert_eq!(one[3], "index.html");
+        // The SHA-256 of "abc" begins with ba7816bf8f01 (FIPS 180-2, appendix B.1).
+        assert_eq!(hashed_name("snippets/x/a.js", b"abc"), "snippets/x/a-ba7816bf8f01.js");
+    }
+
+    #[test]
+    fn a_change_below_renames_everything_above() {
+        let names = |module: &str| {
+            let boot = part("boot.js", "import('./module.js')");
+            let page = part("index.html", "./boot.js");
+            let linked = link(vec![part("module.js", module), boot, page]).unwrap();
+            assert!(replaced(&linked[1].bytes, &format!("./{}", linked[0].name), "").is_some());
+            assert!(replaced(&linked[2].bytes, &format!("./{}", linked[1].name), "").is_some());
+            linked[1].name.clone()
+        };
+        assert_ne!(names("1"), names("2"));
+    }
+
+    #[test]
+    fn a_file_that_nothing_loads_is_refused() {
+        let parts = vec![part("lost.css", ""), part("index.html", "")];
+        let error = link(parts).map(|_| ()).unwrap_err();
+        assert!(error.to_string().contains("lost.css"), "{error}");
+    }
+
+    #[test]
+    fn wasm_bindgen_has_one_version() {
+        let lock = include_str!("../../Cargo.lock");
+        let version = |package: &str| {
+            let head = format!("name = \"{package}\"\nversion = ");
+            let at = lock.find(&head).unwrap_or_else(|| panic!("no {package} in Cargo.lock"));
+            lock[at + head.len()..].lines().next().unwrap()
+        };
+        assert_eq!(version("wasm-bindgen"), version("wasm-bindgen-cli-support"));
+    }
+}

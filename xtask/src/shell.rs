@@ -1,0 +1,71 @@
+//! Running other programs. In: a command. Out: success, or an error that shows the command.
+
+use std::{
+    path::PathBuf,
+    process::{Command, Stdio},
+};
+
+use anyhow::{Context as _, Result, bail};
+
+/// The repository's top folder. Cargo tells it at run time, so a moved checkout needs no rebuild.
+pub fn root() -> Result<PathBuf> {
+    let xtask = std::env::var_os("CARGO_MANIFEST_DIR").context("start this as `cargo xtask`")?;
+    let root = PathBuf::from(xtask).join("..");
+    root.canonicalize().with_context(|| format!("no folder {}", root.display()))
+}
+
+/// Cargo's output folder, where `CARGO_TARGET_DIR` says or in the usual place.
+pub fn target() -> Result<PathBuf> {
+    Ok(match std::env::var_os("CARGO_TARGET_DIR") {
+        Some(folder) => root()?.join(folder),
+        None => root()?.join("target"),
+    })
+}
+
+/// The cargo that runs this program, standing in the top folder.
+pub fn cargo() -> Result<Command> {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(root()?);
+    Ok(cargo)
+}
+
+/// Runs `command` with its output on the terminal; anything but exit code 0 is an error.
+pub fn run(command: &mut Command) -> Result<()> {
+    let line = line_of(command);
+    eprintln!("$ {line}");
+    let status = command.status().with_context(|| format!("could not start `{line}`"))?;
+    if !status.success() {
+        bail!("`{line}` failed ({status})");
+    }
+    Ok(())
+}
+
+/// Runs `command` silently and gives its standard output, or nothing where it could not run or failed.
+pub fn output(command: &mut Command) -> Option<String> {
+    let done = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
+    done.status.success().then(|| String::from_utf8_lossy(&done.stdout).trim().to_owned())
+}
+
+/// The command as it would be typed, with the program's folder left out.
+fn line_of(command: &Command) -> String {
+    let program = PathBuf::from(command.get_program());
+    let program = program.file_name().unwrap_or(command.get_program()).to_string_lossy();
+    let words = command.get_args().map(|word| word.to_string_lossy());
+    std::iter::once(program).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failing_command_is_shown() {
+        let error = run(Command::new("cargo").arg("no-such-subcommand")).unwrap_err();
+        assert!(error.to_string().contains("cargo no-such-subcommand"), "{error}");
+    }
+
+    #[test]
+    fn a_missing_program_gives_no_output() {
+        assert_eq!(output(&mut Command::new("a-program-that-is-not-there")), None);
+    }
+}
