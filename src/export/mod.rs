@@ -1,1 +1,59 @@
-//! pending
+//! Pictures to keep: stills of any size, rendered tile by tile and written as PNG.
+//!
+//! In: [`crate::render::Kernels`], a scene, a size in pixels and something to write to. Out:
+//! the file's bytes, in order, while the picture is still being made. Nothing here holds a
+//! whole picture, opens a file, or waits for the GPU (but for [`still::StillJob::run`], which
+//! says so): the same job runs in a page and in a terminal.
+//!
+//! | file | what lives there |
+//! |---|---|
+//! | [`still`] | the job: render a tile, read it back, hand its rows on |
+//! | `tiles` | how a picture is cut |
+//! | [`png`] | rows to a PNG that carries its scene, and the scene out of one |
+
+pub mod png;
+pub mod still;
+mod tiles;
+
+pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
+pub use still::{StillJob, StillOptions, StillStatus};
+
+use crate::scene::Invalid;
+
+/// Largest width or height of a picture, in pixels.
+pub const MAX_PICTURE_PX: u32 = 16_384;
+
+/// Why a picture was not made.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// A side is zero or above [`MAX_PICTURE_PX`].
+    #[error("a picture of {}x{} pixels: both sides must be from 1 to {MAX_PICTURE_PX}", .0[0], .0[1])]
+    Size([u32; 2]),
+    /// The scene, or the samples asked for, are out of range.
+    #[error(transparent)]
+    Scene(#[from] Invalid),
+    /// The destination took no more bytes.
+    #[error("the picture could not be written: {0}")]
+    Write(#[from] std::io::Error),
+    /// The PNG encoder refused its input.
+    #[error("the PNG encoder failed: {0}")]
+    Encode(String),
+    /// The device was lost or reported an error.
+    #[error("the GPU failed: {0}")]
+    Gpu(String),
+    /// Whoever watched the job ended it.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// `size_px` where both sides are from 1 to [`MAX_PICTURE_PX`].
+///
+/// # Errors
+/// [`ExportError::Size`].
+pub fn checked_size(size_px: [u32; 2]) -> Result<[u32; 2], ExportError> {
+    if size_px.iter().all(|side| (1..=MAX_PICTURE_PX).contains(side)) {
+        Ok(size_px)
+    } else {
+        Err(ExportError::Size(size_px))
+    }
+}

@@ -1,0 +1,274 @@
+//! One picture, rendered tile by tile and written band by band.
+//!
+//! While one tile is drawn, the last one is on its way back from the GPU, and the rows of the
+//! band before are being packed. So the whole cost in memory is one view of a tile, one tile's
+//! pixels in flight and two bands of rows, whatever the picture's height.
+
+use std::{io::Write, ops::ControlFlow, sync::Arc};
+
+use web_time::Instant;
+
+use super::{ExportError, checked_size, png::PngStream, tiles::Tiling};
+use crate::{
+    gpu::readback::Readback,
+    render::{Kernels, Pace, Region, View},
+    scene::{Scene, document},
+};
+
+/// Largest tile unless told otherwise, in pixels: wide, so that bands stay thin.
+const TILE_PX: [u32; 2] = [2048, 256];
+
+/// How many bytes of rows one step packs at most: a few hundredths of a second's work, for a
+/// page has to stay fluid meanwhile.
+const BYTES_PER_STEP: usize = 1 << 19;
+
+/// How much of the picture, and how many seconds, before the rest is foretold.
+const FORETELL_FROM: (f64, f64) = (0.02, 1.0);
+
+/// What still to make.
+#[derive(Clone, Copy, Debug)]
+pub struct StillOptions {
+    /// Width and height in pixels, each 1 to [`super::MAX_PICTURE_PX`].
+    pub size_px: [u32; 2],
+    /// Samples a pixel, in [`crate::scene::param::SAMPLES`]; none for the scene's own.
+    pub samples: Option<u32>,
+    /// Largest width and height of a tile. Smaller needs less memory, larger wastes less time
+    /// between tiles; the picture is the same.
+    pub tile_px: [u32; 2],
+}
+
+impl StillOptions {
+    /// A picture of `size_px` with the scene's own samples.
+    pub fn new(size_px: [u32; 2]) -> Self {
+        Self { size_px, samples: None, tile_px: TILE_PX }
+    }
+}
+
+/// How far a still is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StillStatus {
+    /// There is more to do: call [`StillJob::step`] again.
+    Working {
+        /// Part of the work done, 0 to 1; never decreases.
+        done: f64,
+        /// Seconds to go, once there is something to judge by.
+        remaining_secs: Option<f64>,
+    },
+    /// All bytes have been written: call [`StillJob::finish`].
+    Done,
+}
+
+/// A still in progress. Dropping it cancels it; what it wrote so far is no complete file.
+pub struct StillJob<W: Write> {
+    kernels: Arc<Kernels>,
+    view: View,
+    tiling: Tiling,
+    /// The tile being drawn; the count of tiles once all are.
+    drawing: u32,
+    /// The tile on its way back.
+    arriving: Option<(Region, bool, Readback)>,
+    /// The band that tiles are put into.
+    filling: Band,
+    /// The band that is being packed.
+    packing: Band,
+    png: PngStream<W>,
+    rows_left: u32,
+    started_secs: Option<f64>,
+    furthest: f64,
+    faults_before: u64,
+}
+
+/// Whole rows of RGB bytes.
+#[derive(Default)]
+struct Band {
+    rgb: Vec<u8>,
+    /// All its tiles are in.
+    is_full: bool,
+    /// Bytes that have been packed.
+    packed: usize,
+}
+
+impl Band {
+    fn is_packed(&self) -> bool {
+        self.packed == self.rgb.len()
+    }
+
+    /// Puts a tile's RGBA pixels in their place, without their alpha.
+    fn place(&mut self, tile: Region, rgba: &[u8]) {
+        let [width, height] = tile.size_px.map(|px| px as usize);
+        let stride = tile.picture_px[0] as usize * 3;
+        self.rgb.resize(stride * height, 0);
+        let left = tile.origin_px[0] as usize * 3;
+        for (row, pixels) in self.rgb.chunks_exact_mut(stride).zip(rgba.chunks_exact(width * 4)) {
+            for (to, from) in row[left..].chunks_exact_mut(3).zip(pixels.chunks_exact(4)) {
+                to.copy_from_slice(&from[..3]);
+            }
+        }
+    }
+}
+
+impl<W: Write> StillJob<W> {
+    /// Starts a still of `scene` that goes to `sink` as a PNG. The header, with the scene
+    /// document, is written at once.
+    ///
+    /// # Errors
+    /// [`ExportError::Size`] and [`ExportError::Scene`] where a size, the samples or the scene are
+    /// out of range, [`ExportError::Write`] where `sink` refuses.
+    pub fn new(
+        kernels: &Arc<Kernels>,
+        scene: &Scene,
+        options: StillOptions,
+        sink: W,
+    ) -> Result<Self, ExportError> {
+        let size_px = checked_size(options.size_px)?;
+        let mut scene = scene.clone();
+        if let Some(samples) = options.samples {
+            // The document in the file says what the file shows.
+            scene.quality.samples = samples;
+        }
+        scene.validate()?;
+
+        let tiling = Tiling::new(size_px, options.tile_px);
+        let mut view = View::new(kernels, tiling.tile(0), Pace::Still);
+        view.set_scene(&scene, false);
+        Ok(Self {
+            kernels: kernels.clone(),
+            view,
+            tiling,
+            drawing: 0,
+            arriving: None,
+            filling: Band::default(),
+            packing: Band::default(),
+            png: PngStream::new(sink, size_px, &document::to_json_compact(&scene))?,
+            rows_left: size_px[1],
+            started_secs: None,
+            furthest: 0.0,
+            faults_before: kernels.gpu.faults(),
+        })
+    }
+
+    /// Does what can be done without waiting: submits GPU work, takes a tile that has come
+    /// back, packs some rows. Call it until it says [`StillStatus::Done`]: once per displayed
+    /// frame in a page, natively with a poll of the device in between. `now_secs` is any
+    /// steady clock.
+    ///
+    /// # Errors
+    /// [`ExportError::Gpu`] where the device fails, [`ExportError::Write`] where the sink
+    /// does. After an error the job is of no more use.
+    pub fn step(&mut self, now_secs: f64) -> Result<StillStatus, ExportError> {
+        let started_secs = *self.started_secs.get_or_insert(now_secs);
+        self.draw(now_secs);
+        self.collect()?;
+        self.pack()?;
+        if self.kernels.gpu.faults() > self.faults_before {
+            return Err(ExportError::Gpu("the device reported an error".to_owned()));
+        }
+        if self.rows_left == 0 {
+            return Ok(StillStatus::Done);
+        }
+        self.furthest = self.furthest.max(self.part_done());
+        let elapsed_secs = now_secs - started_secs;
+        let can_tell = self.furthest > FORETELL_FROM.0 && elapsed_secs > FORETELL_FROM.1;
+        let remaining_secs = can_tell.then(|| elapsed_secs * (1.0 - self.furthest) / self.furthest);
+        Ok(StillStatus::Working { done: self.furthest, remaining_secs })
+    }
+
+    /// Ends the file and gives the sink back.
+    ///
+    /// # Errors
+    /// [`ExportError::Encode`] before [`StillStatus::Done`], [`ExportError::Write`] from the
+    /// sink.
+    pub fn finish(self) -> Result<W, ExportError> {
+        self.png.finish()
+    }
+
+    /// Draws more of the current tile, or sends it on its way and turns to the next.
+    fn draw(&mut self, now_secs: f64) {
+        if self.drawing == self.tiling.count()
+            || self.view.pump(now_secs)
+            || self.arriving.is_some()
+        {
+            return;
+        }
+        let tile = self.view.region();
+        let readback = Readback::texture(&self.kernels.gpu, self.view.texture(), tile.size_px);
+        self.arriving = Some((tile, self.tiling.ends_band(self.drawing), readback));
+        self.drawing += 1;
+        if self.drawing < self.tiling.count() {
+            // The copy is submitted, so the texture may be drawn over.
+            self.view.set_region(self.tiling.tile(self.drawing));
+        }
+    }
+
+    /// Puts an arrived tile into its band, and a full band where it is packed.
+    fn collect(&mut self) -> Result<(), ExportError> {
+        if !self.filling.is_full
+            && let Some((tile, ends_band, readback)) = &mut self.arriving
+        {
+            let arrived = readback
+                .take(&self.kernels.gpu)
+                .map_err(|error| ExportError::Gpu(error.to_string()))?;
+            if let Some(rgba) = arrived {
+                self.filling.place(*tile, &rgba);
+                self.filling.is_full = *ends_band;
+                self.arriving = None;
+            }
+        }
+        if self.filling.is_full && self.packing.is_packed() {
+            // The packed band's memory is filled again.
+            let Band { mut rgb, .. } = std::mem::take(&mut self.packing);
+            rgb.clear();
+            self.packing = std::mem::replace(&mut self.filling, Band { rgb, ..Band::default() });
+        }
+        Ok(())
+    }
+
+    /// Packs some rows.
+    fn pack(&mut self) -> Result<(), ExportError> {
+        if self.packing.is_packed() {
+            return Ok(());
+        }
+        let row_bytes = self.tiling.tile(0).picture_px[0] as usize * 3;
+        let rows = (BYTES_PER_STEP / row_bytes).max(1);
+        let waiting = &self.packing.rgb[self.packing.packed..];
+        let now = &waiting[..waiting.len().min(rows * row_bytes)];
+        self.png.write_rgb(now)?;
+        self.packing.packed += now.len();
+        // A band has at most the picture's rows, so this fits.
+        self.rows_left -= (now.len() / row_bytes) as u32;
+        Ok(())
+    }
+
+    /// Part of the samples that have been drawn, 0 to 1.
+    fn part_done(&self) -> f64 {
+        let report = self.view.report();
+        let of_tile = f64::from(report.samples_done) / f64::from(report.samples_wanted.max(1));
+        let tiles = f64::from(self.drawing)
+            + if self.drawing < self.tiling.count() { of_tile } else { 0.0 };
+        (tiles / f64::from(self.tiling.count())).min(1.0)
+    }
+}
+
+impl<W: Write> StillJob<W> {
+    /// Runs the job to its end, waiting for the GPU: for native programs only. `watch` sees
+    /// every status, and ends the job by breaking.
+    ///
+    /// # Errors
+    /// As [`Self::step`] and [`Self::finish`]; [`ExportError::Cancelled`] where `watch` broke.
+    pub fn run(
+        mut self,
+        mut watch: impl FnMut(StillStatus) -> ControlFlow<()>,
+    ) -> Result<W, ExportError> {
+        let clock = Instant::now();
+        loop {
+            let status = self.step(clock.elapsed().as_secs_f64())?;
+            if watch(status).is_break() {
+                return Err(ExportError::Cancelled);
+            }
+            if status == StillStatus::Done {
+                return self.finish();
+            }
+            self.kernels.gpu.wait();
+        }
+    }
+}
