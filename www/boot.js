@@ -34,7 +34,7 @@ async function missing() {
       text: "This address is not secure",
       detail:
         "Mandelight computes on the graphics card, through WebGPU, and browsers offer that only to " +
-        "pages from https:// addresses and from this computer itself.\n" +
+        "pages from https:// addresses and from this computer itself.\n\n" +
         "Open the page by its https:// address, or from localhost.",
     };
   }
@@ -43,7 +43,7 @@ async function missing() {
       text: "This browser has no WebGPU",
       detail:
         "Mandelight computes on the graphics card, through WebGPU, which this browser does not have " +
-        "or has turned off.\n" +
+        "or has turned off.\n\n" +
         "A current Chrome or Edge has it, as do Safari from version 26 on and current Firefox on " +
         "Windows and macOS. On Linux it may have to be turned on in the browser's settings.",
     };
@@ -53,7 +53,7 @@ async function missing() {
     return {
       text: "No graphics card is on offer",
       detail:
-        "This browser has WebGPU, but gives it no graphics card to compute on.\n" +
+        "This browser has WebGPU, but gives it no graphics card to compute on.\n\n" +
         "Turn on graphics (or hardware) acceleration in the browser's settings and start the " +
         "browser again; update the graphics driver; or try another browser, such as Chrome or Edge.",
     };
@@ -92,7 +92,7 @@ async function boot() {
     await mandelight.default({ module_or_path: fetched(module) });
   } catch (error) {
     console.error(error);
-    notice("Mandelight could not be loaded", `${error}\nIs the connection up? Then try again.`);
+    notice("Mandelight could not be loaded", `${error}\n\nIs the connection up? Then try again.`);
     return;
   }
   try {
@@ -104,7 +104,7 @@ async function boot() {
     const reason = error instanceof Error ? error.message : String(error);
     notice(
       "Mandelight could not start",
-      `${reason}\nClosing other pages that use the graphics card, or updating its driver, may help.`,
+      `${reason}\n\nClosing other pages that use the graphics card, or updating its driver, may help.`,
     );
   }
 }

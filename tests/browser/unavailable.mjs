@@ -1,0 +1,32 @@
+// Visits where the page cannot draw: it has to say so, and to load nothing that it cannot use.
+
+import { visit } from "./visit.mjs";
+
+/** The notice once it is final: only then it offers to try again. */
+const finalNotice = (v) =>
+  v.until("a notice", async () => {
+    const notice = await v.notice();
+    return notice?.again && notice;
+  }, 60);
+
+await visit({ gpu: false, context: { viewport: { width: 1280, height: 720 } } }, async (v) => {
+  // A browser without a GPU, as it is.
+  await v.tab.goto(v.address);
+  v.seen.without_gpu = await finalNotice(v);
+
+  // A browser that has never heard of WebGPU.
+  await v.tab.addInitScript(() => {
+    Object.defineProperty(navigator, "gpu", { value: undefined, configurable: true });
+  });
+  await v.tab.reload();
+  v.seen.without_webgpu = await finalNotice(v);
+  await v.screenshot("without-webgpu-1280x720");
+  await v.tab.setViewportSize({ width: 390, height: 844 });
+  await v.screenshot("without-webgpu-390x844");
+
+  // The notice's button loads the page again.
+  const loaded = v.tab.waitForEvent("load");
+  await v.tab.click("#notice-again");
+  await loaded;
+  v.seen.again = await finalNotice(v);
+});
