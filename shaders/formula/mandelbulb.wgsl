@@ -71,6 +71,12 @@ fn distance_estimate(point: vec3f) -> f32 {
     return 0.5 * log(r) * r / max(dr, 1e-37);
 }
 
+// How far a ray may go where the estimate is `estimate`: dr is a scalar, no true bound of the
+// orbit's Jacobian.
+fn safe_step(estimate: f32) -> f32 {
+    return min(estimate * picture.fractal.step_scale, picture.fractal.max_step);
+}
+
 struct OrbitColors {
     // N - log_n(ln r / ln bailout): thesis eq. 3.1 for any power and bailout.
     smooth_iterations: f32,

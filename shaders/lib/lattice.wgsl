@@ -15,7 +15,8 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
 // The thread's pixel in the region; it may lie outside of it.
 fn lattice_pixel(workgroup: u32, local_index: u32) -> vec2u {
     let id = slice.first_workgroup + workgroup;
-    let corner = vec2u(id % slice.workgroup_columns, id / slice.workgroup_columns) * WORKGROUP_SIDE;
+    let place = vec2u(id % slice.workgroups.x, id / slice.workgroups.x);
+    let corner = (place * slice.scatter) % slice.workgroups * WORKGROUP_SIDE;
     let thread = corner + place_in_workgroup(local_index);
     let shifted = slice.stagger * ((thread.y + slice.row_phase) & 1u);
     return (thread * slice.step + slice.offset + vec2u(shifted, 0u)) << vec2u(slice.shift);

@@ -8,7 +8,7 @@ fn march(direction: vec3f) -> f32 {
         if (t > interval.y) { return 0.0; }
         let estimate = distance_estimate(picture.camera.origin + t * direction);
         if (estimate < hit_distance(t)) { return max(t, 1e-30); }
-        t += estimate * picture.fractal.step_scale;
+        t += safe_step(estimate);
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

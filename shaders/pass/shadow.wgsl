@@ -19,7 +19,7 @@ fn light_reaches(point: vec3f, surface_distance: f32, light: Light) -> bool {
         if (s <= surface_distance) { return true; }
         let estimate = distance_estimate(point + s * direction);
         if (estimate < max(SHADOW_CONE * s, 0.5 * surface_distance)) { return false; }
-        s -= estimate * picture.fractal.step_scale;
+        s -= safe_step(estimate);
     }
     return true;
 }

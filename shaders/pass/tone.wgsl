@@ -24,12 +24,13 @@ fn dither(pixel: vec2u) -> f32 {
     return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
-@compute @workgroup_size(8, 8)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    if (any(id.xy >= picture.size_px)) { return; }
-    var color = film_mean(id.y * picture.size_px.x + id.x) * picture.tone.exposure;
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    var color = film_mean(pixel_index(pixel)) * picture.tone.exposure;
     if (picture.tone.curve == CURVE_REINHARD_LUMINANCE) { color = reinhard_luminance(color); }
     let encoded = srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
-    let dithered = encoded + dither(picture.origin_px + id.xy) / 255.0;
-    textureStore(display, id.xy, vec4f(dithered, 1.0));
+    let dithered = encoded + dither(picture.origin_px + pixel) / 255.0;
+    textureStore(display, pixel, vec4f(dithered, 1.0));
 }

@@ -40,6 +40,11 @@ struct Fractal {
     // Hit distances never go below this: f32 resolves no finer.
     finest_hit: f32,
     log2_bailout: f32,
+    // No step is longer than this.
+    max_step: f32,
+    unused_a: u32,
+    unused_b: u32,
+    unused_c: u32,
 }
 
 struct Surface {

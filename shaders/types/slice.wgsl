@@ -7,21 +7,24 @@ struct Slice {
     stagger: u32,
     row_phase: u32,
     shift: u32,
-    // Columns of workgroups in the lattice's grid.
-    workgroup_columns: u32,
     // Where in the grid the dispatch starts, counted in workgroups.
     first_workgroup: u32,
+    // Columns and rows of workgroups in the lattice's grid, and the strides in which they are
+    // visited: coprime to the counts, so that a slice is spread over the whole region.
+    workgroups: vec2u,
+    scatter: vec2u,
+    // Position of the sample inside its pixel, 0 to 1.
+    jitter: vec2f,
     // 1: G-buffer records are packed in dispatch order; 0: one for each pixel of the region.
     compact: u32,
     // 1: add to the film; 0: replace what it holds.
     accumulate: u32,
     // The lights that a shadow dispatch marches toward.
     first_light: u32,
-    // Position of the sample inside its pixel, 0 to 1.
-    jitter: vec2f,
     light_count: u32,
     // The spacing of the lattice that a fill reads, in pixels.
     spacing: u32,
+    unused: u32,
 }
 
 @group(0) @binding(1) var<uniform> slice: Slice;

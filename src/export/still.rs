@@ -191,7 +191,8 @@ impl<W: Write> StillJob<W> {
             return;
         }
         let tile = self.view.region();
-        let readback = Readback::texture(&self.kernels.gpu, self.view.texture(), tile.size_px);
+        let Some(texture) = self.view.texture() else { return };
+        let readback = Readback::texture(&self.kernels.gpu, texture, tile.size_px);
         self.arriving = Some((tile, self.tiling.ends_band(self.drawing), readback));
         self.drawing += 1;
         if self.drawing < self.tiling.count() {

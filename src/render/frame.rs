@@ -1,0 +1,128 @@
+//! The life of a frame: its passes, in the order in which they run.
+
+use super::{
+    kernels::{Kernels, Marchers},
+    lattice::Grid,
+    pass,
+    schedule::{Points, Trace, Work},
+    targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
+    uniforms::{Inputs, Slice},
+};
+
+/// Records one piece of work.
+pub fn record(recorder: &mut Recorder<'_>, work: Work) {
+    match work {
+        Work::Trace(trace) => {
+            let grid = trace.points.grid(recorder.inputs.picture.size_px);
+            if trace.march {
+                pass::march::record(recorder, &trace, &grid);
+            }
+            pass::shadow::record(recorder, &trace, &grid);
+            pass::shade::record(recorder, &trace, &grid);
+        }
+        Work::Show { fill_from } => {
+            pass::fill::record(recorder, fill_from);
+            pass::tone::record(recorder);
+        }
+    }
+}
+
+/// How many dispatches of each pass there have been.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dispatches {
+    /// Camera rays.
+    pub march: u64,
+    /// Shadow rays.
+    pub shadow: u64,
+    /// Shading.
+    pub shade: u64,
+    /// Filling in.
+    pub fill: u64,
+    /// Tone mapping.
+    pub tone: u64,
+}
+
+impl Dispatches {
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        self.march + self.shadow + self.shade + self.fill + self.tone
+    }
+}
+
+/// Records the dispatches of one submit: they run in order, each sees what the last one wrote.
+pub struct Recorder<'a> {
+    /// The pipelines.
+    pub kernels: &'a Kernels,
+    /// Those that evaluate the formula.
+    pub marchers: &'a Marchers,
+    /// The buffers.
+    pub targets: &'a Targets,
+    /// What the buffers hold of the scene.
+    pub inputs: &'a Inputs,
+    /// Counted by each pass.
+    pub dispatches: &'a mut Dispatches,
+    compute: wgpu::ComputePass<'static>,
+    encoder: wgpu::CommandEncoder,
+    slices: u32,
+}
+
+impl<'a> Recorder<'a> {
+    /// An empty submit.
+    pub fn new(
+        kernels: &'a Kernels,
+        marchers: &'a Marchers,
+        targets: &'a Targets,
+        inputs: &'a Inputs,
+        dispatches: &'a mut Dispatches,
+    ) -> Self {
+        let mut encoder = kernels.gpu.device.create_command_encoder(&Default::default());
+        let mut compute = encoder.begin_compute_pass(&Default::default()).forget_lifetime();
+        compute.set_bind_group(1, &targets.center.group, &[]);
+        compute.set_bind_group(2, &targets.film_group, &[]);
+        Self { kernels, marchers, targets, inputs, dispatches, compute, encoder, slices: 0 }
+    }
+
+    /// The uniform of a trace; also binds the G-buffer that its samples live in.
+    pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
+        let mut slice = grid.slice(trace.first_workgroup);
+        if let Points::Sample(index) = trace.points {
+            slice.jitter = super::lattice::jitter(index);
+            slice.compact = 1;
+            slice.accumulate = 1;
+            self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
+        }
+        slice
+    }
+
+    /// Adds a dispatch over all of a grid.
+    pub fn dispatch_grid(&mut self, pipeline: &wgpu::ComputePipeline, grid: &Grid) {
+        // More workgroups than one dispatch may have go into several.
+        const MOST: u32 = 65_535;
+        let total = grid.workgroups();
+        for first in (0..total).step_by(MOST as usize) {
+            self.dispatch(pipeline, grid.slice(first), MOST.min(total - first));
+        }
+    }
+
+    /// Adds a dispatch of `workgroups`.
+    pub fn dispatch(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice, workgroups: u32) {
+        debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
+        let offset = self.slices * SLICE_STRIDE_BYTES;
+        // Writes take effect in order with submits: the last submit has its own slices already.
+        self.kernels.gpu.queue.write_buffer(
+            &self.targets.slices,
+            u64::from(offset),
+            bytemuck::bytes_of(&slice),
+        );
+        self.slices += 1;
+        self.compute.set_pipeline(pipeline);
+        self.compute.set_bind_group(0, &self.targets.picture_group, &[offset]);
+        self.compute.dispatch_workgroups(workgroups, 1, 1);
+    }
+
+    /// The commands, ready for submission.
+    pub fn finish(self) -> wgpu::CommandBuffer {
+        drop(self.compute);
+        self.encoder.finish()
+    }
+}

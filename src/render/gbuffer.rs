@@ -1,0 +1,47 @@
+//! The G-buffer as plain numbers, for tests and tools.
+
+use glam::{Vec2, Vec3};
+
+/// The centre samples of a region, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples {
+    /// Depth along each pixel's unit ray, scene units; 0 where it met nothing.
+    pub depth: Vec<f32>,
+    /// Unit normals; meaningless where depth is 0.
+    pub normal: Vec<Vec3>,
+    /// One bit a light, environment lights first.
+    pub visibility: Vec<u64>,
+}
+
+impl Samples {
+    /// Decodes the bytes of the buffers that `shaders/types/gbuffer.wgsl` declares.
+    pub fn decode(depth: &[u8], normal: &[u8], visibility: &[u8]) -> Self {
+        let words = |bytes: &[u8]| -> Vec<u32> {
+            bytes.as_chunks::<4>().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
+        };
+        Self {
+            depth: words(depth).into_iter().map(f32::from_bits).collect(),
+            normal: words(normal).into_iter().map(octahedral_unpack).collect(),
+            visibility: visibility
+                .as_chunks::<8>()
+                .0
+                .iter()
+                .map(|pair| u64::from_le_bytes(*pair))
+                .collect(),
+        }
+    }
+}
+
+/// The inverse of `octahedral_pack` in `shaders/lib/octahedral.wgsl`.
+fn octahedral_unpack(packed: u32) -> Vec3 {
+    let part = |bits: u32| (f32::from(bits as u16 as i16) / 32767.0).max(-1.0);
+    let flat = Vec2::new(part(packed), part(packed >> 16));
+    let z = 1.0 - flat.x.abs() - flat.y.abs();
+    let sign = |v: f32| if v < 0.0 { -1.0 } else { 1.0 };
+    let folded = if z < 0.0 {
+        Vec2::new((1.0 - flat.y.abs()) * sign(flat.x), (1.0 - flat.x.abs()) * sign(flat.y))
+    } else {
+        flat
+    };
+    folded.extend(z).normalize_or_zero()
+}

@@ -1,0 +1,183 @@
+//! The compute pipelines of one device, shared by every view on it.
+
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use super::pass;
+use crate::gpu::{Gpu, shader::Module};
+
+/// The bind group layouts that all passes of a picture share.
+pub struct Layouts {
+    /// Group 0: picture, slice (dynamic offset), lights, gradient; all uniform.
+    pub picture: wgpu::BindGroupLayout,
+    /// Group 1: depth, normal, colour data, visibility; all storage.
+    pub gbuffer: wgpu::BindGroupLayout,
+    /// Group 2: the film's two halves and the display texture.
+    pub film: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    fn new(device: &wgpu::Device) -> Self {
+        let group = |label, kinds: &[wgpu::BindingType]| {
+            let entries: Vec<_> = (0..).zip(kinds).map(|(i, kind)| entry(i, *kind)).collect();
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            })
+        };
+        let display = wgpu::BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: super::targets::DISPLAY_FORMAT,
+            view_dimension: wgpu::TextureViewDimension::D2,
+        };
+        Self {
+            picture: group(
+                "picture",
+                &[uniform(false), uniform(true), uniform(false), uniform(false)],
+            ),
+            gbuffer: group("gbuffer", &[STORAGE; 4]),
+            film: group("film", &[STORAGE, STORAGE, display]),
+        }
+    }
+}
+
+const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: false },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+const fn uniform(has_dynamic_offset: bool) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset,
+        min_binding_size: None,
+    }
+}
+
+const fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None }
+}
+
+/// Makes one pipeline; `power` is the value of the `POWER` override where the module has it.
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    label: &str,
+    power: Option<u32>,
+) -> wgpu::ComputePipeline {
+    let constants: Vec<_> = power.iter().map(|&power| ("POWER", f64::from(power))).collect();
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(label),
+        layout: Some(layout),
+        module,
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants: &constants,
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
+/// The two passes that evaluate the formula, for one power.
+#[derive(Clone)]
+pub struct Marchers {
+    /// Camera rays to the G-buffer.
+    pub march: wgpu::ComputePipeline,
+    /// Shadow rays to visibility bits.
+    pub shadow: wgpu::ComputePipeline,
+}
+
+/// The pipelines that every picture needs, and those specialised so far.
+pub struct Kernels {
+    /// The device.
+    pub gpu: Gpu,
+    /// What bind groups look like.
+    pub layouts: Layouts,
+    /// Any power, whole or real: always ready.
+    general: Marchers,
+    /// One pair for each whole power that has been asked for.
+    special: Mutex<HashMap<u32, Marchers>>,
+    march_module: wgpu::ShaderModule,
+    shadow_module: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
+    /// Light and colour onto the film.
+    pub shade: wgpu::ComputePipeline,
+    /// Pixels between those of a sparse lattice.
+    pub fill: wgpu::ComputePipeline,
+    /// Film to display.
+    pub tone: wgpu::ComputePipeline,
+}
+
+impl Kernels {
+    /// Makes the pipelines that every picture needs. Specialised ones come with
+    /// [`Self::specialise`].
+    pub fn new(gpu: &Gpu) -> Arc<Self> {
+        let device = &gpu.device;
+        let layouts = Layouts::new(device);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("picture passes"),
+            bind_group_layouts: &[
+                Some(&layouts.picture),
+                Some(&layouts.gbuffer),
+                Some(&layouts.film),
+            ],
+            immediate_size: 0,
+        });
+        let plain =
+            |module: &Module| pipeline(device, &layout, &module.create(device), module.label, None);
+        let march_module = pass::march::MODULE.create(device);
+        let shadow_module = pass::shadow::MODULE.create(device);
+        let general = Marchers {
+            march: pipeline(device, &layout, &march_module, "march", Some(0)),
+            shadow: pipeline(device, &layout, &shadow_module, "shadow", Some(0)),
+        };
+        Arc::new(Self {
+            gpu: gpu.clone(),
+            general,
+            special: Mutex::default(),
+            shade: plain(&pass::shade::MODULE),
+            fill: plain(&pass::fill::MODULE),
+            tone: plain(&pass::tone::MODULE),
+            march_module,
+            shadow_module,
+            layout,
+            layouts,
+        })
+    }
+
+    /// The fastest pipelines that are ready for a power (0 where it isn't whole).
+    pub fn marchers(&self, integer_power: u32) -> Marchers {
+        self.lock().get(&integer_power).unwrap_or(&self.general).clone()
+    }
+
+    /// True where [`Self::specialise`] has nothing to do for this power.
+    pub fn is_specialised(&self, integer_power: u32) -> bool {
+        integer_power == 0 || self.lock().contains_key(&integer_power)
+    }
+
+    /// Compiles the pipelines of a whole power. This may take a second and blocks.
+    pub fn specialise(&self, integer_power: u32) {
+        if self.is_specialised(integer_power) {
+            return;
+        }
+        let make = |module, label: &str| {
+            let label = format!("{label}, power {integer_power}");
+            pipeline(&self.gpu.device, &self.layout, module, &label, Some(integer_power))
+        };
+        let marchers = Marchers {
+            march: make(&self.march_module, "march"),
+            shadow: make(&self.shadow_module, "shadow"),
+        };
+        self.lock().insert(integer_power, marchers);
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, HashMap<u32, Marchers>> {
+        // Whole entries are inserted: the map is valid whatever interrupted its holder.
+        self.special.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,118 @@
+//! Distance estimates and colour data at given points: how tests ask the kernels themselves.
+
+use glam::DVec3;
+
+use crate::{
+    gpu::{
+        Gpu,
+        readback::{Readback, ReadbackError},
+        shader::Module,
+    },
+    render::{Region, uniforms::Picture},
+    scene::Scene,
+    shader_file,
+};
+
+/// The pass's shader; `POWER` specialises it.
+pub const MODULE: Module = Module {
+    label: "probe",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("lib/numeric.wgsl"),
+        shader_file!("lib/complex.wgsl"),
+        shader_file!("formula/mandelbulb.wgsl"),
+        shader_file!("pass/probe.wgsl"),
+    ],
+};
+
+/// What the kernels say of one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// Distance estimate, scene units.
+    pub distance: f32,
+    /// Smooth iteration count.
+    pub smooth_iterations: f32,
+    /// Least distance of the orbit from the origin, after its start; at most 2.
+    pub origin_trap: f32,
+    /// The same from the z axis.
+    pub axis_trap: f32,
+}
+
+/// Asks the formula's kernel about `points` of the scene's set and waits: natively only.
+/// `specialised` chooses the pipeline of the set's whole power instead of the general one.
+pub fn ask(
+    gpu: &Gpu,
+    scene: &Scene,
+    points: &[DVec3],
+    specialised: bool,
+) -> Result<Vec<Answer>, ReadbackError> {
+    let device = &gpu.device;
+    let power = if specialised { scene.fractal.integer_power().unwrap_or(0) } else { 0 };
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(MODULE.label),
+        layout: None,
+        module: &MODULE.create(device),
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants: &[("POWER", f64::from(power))],
+            ..Default::default()
+        },
+        cache: None,
+    });
+    let inputs: Vec<[f32; 4]> = points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
+    let uniform = filled(
+        gpu,
+        wgpu::BufferUsages::UNIFORM,
+        bytemuck::bytes_of(&Picture::new(scene, Region::whole([64, 64]))),
+    );
+    let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&inputs));
+    let answers = filled(
+        gpu,
+        wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        &vec![0; 16 * points.len()],
+    );
+    let group = |index: u32, buffers: &[&wgpu::Buffer]| {
+        let entries: Vec<_> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(MODULE.label),
+            layout: &pipeline.get_bind_group_layout(index),
+            entries: &entries,
+        })
+    };
+    let mut encoder = device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group(0, &[&uniform]), &[]);
+        pass.set_bind_group(1, &group(1, &[&questions, &answers]), &[]);
+        pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = Readback::buffer(gpu, &answers).wait(gpu)?;
+    Ok(bytes
+        .as_chunks::<16>()
+        .0
+        .iter()
+        .map(|chunk| {
+            let [distance, smooth_iterations, origin_trap, axis_trap] = bytemuck::cast(*chunk);
+            Answer { distance, smooth_iterations, origin_trap, axis_trap }
+        })
+        .collect())
+}
+
+fn filled(gpu: &Gpu, usage: wgpu::BufferUsages, bytes: &[u8]) -> wgpu::Buffer {
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(MODULE.label),
+        size: bytes.len() as u64,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    gpu.queue.write_buffer(&buffer, 0, bytes);
+    buffer
+}

@@ -1,0 +1,31 @@
+//! Light and colour of each sample, onto the film. Marches nothing.
+
+use crate::{
+    gpu::shader::Module,
+    render::{frame::Recorder, lattice::Grid, schedule::Trace},
+    shader_file,
+};
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "shade",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/light.wgsl"),
+        shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/film.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/camera.wgsl"),
+        shader_file!("lib/octahedral.wgsl"),
+        shader_file!("pass/shade.wgsl"),
+    ],
+};
+
+/// Shades the samples of `trace`.
+pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
+    let pipeline = recorder.kernels.shade.clone();
+    let slice = recorder.slice(trace, grid);
+    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatches.shade += 1;
+}

@@ -1,0 +1,27 @@
+//! Film to display: exposure, tone curve, sRGB, dither.
+
+use crate::{
+    gpu::shader::Module,
+    render::{frame::Recorder, lattice::Grid},
+    shader_file,
+};
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "tone",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/film.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("pass/tone.wgsl"),
+    ],
+};
+
+/// Makes the whole region's display picture.
+pub fn record(recorder: &mut Recorder<'_>) {
+    let pipeline = recorder.kernels.tone.clone();
+    let grid = Grid::level(0, recorder.inputs.picture.size_px);
+    recorder.dispatch_grid(&pipeline, &grid);
+    recorder.dispatches.tone += 1;
+}

@@ -1,0 +1,369 @@
+//! What to compute next: a state machine without a GPU, a clock or a scene of its own.
+//!
+//! In: what became stale, the time, and how long finished work took. Out: [`Work`], one piece
+//! at a time, sized to take [`SLICE_MS`] or less. A view that changes opens on a lattice as
+//! sparse as the motion budget demands, is shown, and is then completed level by level; jittered
+//! samples follow until there are enough, and then there is no more work.
+
+use super::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
+
+mod cost;
+
+use cost::Cost;
+
+/// Pieces of work on the GPU at any time.
+pub const MOST_IN_FLIGHT: usize = 2;
+
+/// Most workgroups of jittered samples in one piece: their G-buffer has this size.
+pub const SAMPLE_WORKGROUPS: u32 = 8192;
+
+/// Most workgroups in any piece: WebGPU's default limit for one dispatch.
+const MOST_WORKGROUPS: u32 = 65_535;
+
+/// GPU time that one piece aims at while someone is watching, milliseconds.
+pub const SLICE_MS: f64 = 8.0;
+
+/// GPU time that one piece of a still aims at, milliseconds.
+pub const STILL_SLICE_MS: f64 = 60.0;
+
+/// Longest wait between two displays of a picture that refines, seconds.
+const SHOW_INTERVAL_SECS: f64 = 0.25;
+
+/// A movement counts as over when nothing has changed for this long, seconds.
+const QUIET_SECS: f64 = 0.12;
+
+/// How a view spends GPU time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// Someone is watching: sparse lattices while things change, small slices.
+    Interactive,
+    /// A still: straight to all samples, larger slices.
+    Still,
+}
+
+/// What an edit makes stale; each level contains those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stale {
+    /// Exposure, tone curve: the film stays.
+    Tone,
+    /// Lights, surface, colours: the centre samples' G-buffer stays.
+    Light,
+    /// Camera, fractal, size: nothing stays.
+    Geometry,
+}
+
+/// Which sample points a trace computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Points {
+    /// Centre samples of every pixel of a lattice level.
+    Level(u32),
+    /// Centre samples of the pixels that a level adds to the next coarser one.
+    Added(u32),
+    /// The jittered sample of this index, of every pixel.
+    Sample(u32),
+}
+
+impl Points {
+    /// The grid of pixels that they lie in.
+    pub fn grid(self, size_px: [u32; 2]) -> Grid {
+        match self {
+            Self::Level(level) => Grid::level(level, size_px),
+            Self::Added(level) => Grid::added(level, size_px),
+            Self::Sample(_) => Grid::level(0, size_px),
+        }
+    }
+}
+
+/// A run of workgroups over some sample points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Trace {
+    /// The sample points.
+    pub points: Points,
+    /// Whether camera rays are marched; otherwise the G-buffer is shaded again.
+    pub march: bool,
+    /// First workgroup of the points' grid.
+    pub first_workgroup: u32,
+    /// How many workgroups.
+    pub workgroups: u32,
+}
+
+/// One piece of work: one submit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// Compute sample points, from march to film.
+    Trace(Trace),
+    /// Make the display picture from the film, filling in from lattice level `fill_from` first.
+    Show {
+        /// The finest complete level; 0 where the film is complete.
+        fill_from: u32,
+    },
+}
+
+/// What the schedule says of itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Status {
+    /// Whole samples on the film; 0 while the lattice is incomplete.
+    pub samples_done: u32,
+    /// Level of the lattice in the picture shown last.
+    pub shown_level: u32,
+    /// True while the opening lattice follows a movement.
+    pub moving: bool,
+    /// True when there is no more work.
+    pub idle: bool,
+}
+
+/// The state machine.
+#[derive(Clone, Debug)]
+pub struct Schedule {
+    pace: Pace,
+    size_px: [u32; 2],
+    budget_ms: f64,
+    samples_wanted: u32,
+    /// Finest level whose every centre sample has been marched, and shaded.
+    marched: Option<u32>,
+    shaded: Option<u32>,
+    samples_done: u32,
+    /// The points under way and the next workgroup to submit.
+    under_way: Option<(Points, u32)>,
+    /// The film holds something that the display does not.
+    show_due: bool,
+    /// Since the last restart nothing has been shown yet.
+    opening: bool,
+    shown_level: u32,
+    moving: bool,
+    changed_at: f64,
+    shown_at: f64,
+    in_flight: usize,
+    slice_ms: f64,
+    cost: Cost,
+}
+
+impl Schedule {
+    /// A schedule for a region; everything is stale.
+    pub fn new(pace: Pace, size_px: [u32; 2]) -> Self {
+        Self {
+            pace,
+            size_px,
+            budget_ms: 16.0,
+            samples_wanted: 1,
+            marched: None,
+            shaded: None,
+            samples_done: 0,
+            under_way: None,
+            show_due: false,
+            opening: true,
+            shown_level: COARSEST,
+            moving: false,
+            changed_at: 0.0,
+            shown_at: f64::NEG_INFINITY,
+            in_flight: 0,
+            slice_ms: match pace {
+                Pace::Interactive => SLICE_MS,
+                Pace::Still => STILL_SLICE_MS,
+            },
+            cost: Cost::default(),
+        }
+    }
+
+    /// Sets the GPU time of a frame while something moves, milliseconds, and the samples that
+    /// each pixel is to have, at least one.
+    pub fn aim(&mut self, budget_ms: f64, samples: u32) {
+        self.budget_ms = budget_ms;
+        self.samples_wanted = samples.max(1);
+        // More samples go on from those that are there; fewer would need a film without them.
+        if self.samples_done > self.samples_wanted {
+            self.restart(Stale::Light);
+        }
+    }
+
+    /// Gives the schedule another region; everything becomes stale.
+    pub fn resize(&mut self, size_px: [u32; 2]) {
+        self.size_px = size_px;
+        self.restart(Stale::Geometry);
+    }
+
+    /// False while the opening picture of the last change is under way: the next change waits
+    /// until that one has been shown, so that a slow device shows every movement at some rate
+    /// rather than none.
+    pub fn accepts_changes(&self) -> bool {
+        self.pace == Pace::Still || !self.opening || (self.under_way.is_none() && !self.show_due)
+    }
+
+    /// Something changed at `now_secs`. `moving` says that more changes are expected at once.
+    pub fn change(&mut self, stale: Stale, moving: bool, now_secs: f64) {
+        self.moving = moving;
+        self.changed_at = now_secs;
+        self.restart(stale);
+    }
+
+    /// Says whether more changes are expected, without one.
+    pub fn set_moving(&mut self, moving: bool) {
+        self.moving = moving;
+    }
+
+    fn restart(&mut self, stale: Stale) {
+        if stale == Stale::Tone {
+            self.show_due |= self.shaded.is_some();
+            // A picture that was never shown is shown by its own opening.
+            if !self.opening {
+                self.shown_at = f64::NEG_INFINITY;
+            }
+            return;
+        }
+        if stale == Stale::Geometry {
+            self.marched = None;
+        }
+        self.shaded = None;
+        self.samples_done = 0;
+        self.under_way = None;
+        self.show_due = false;
+        self.opening = true;
+    }
+
+    /// A piece of work that [`Self::next`] gave has finished, after `busy_ms` of the GPU's time.
+    pub fn finished(&mut self, work: Work, busy_ms: f64) {
+        self.in_flight = self.in_flight.saturating_sub(1);
+        match work {
+            Work::Trace(trace) => {
+                let pixels = trace.workgroups * WORKGROUP_THREADS;
+                self.cost.traced(trace.march, pixels, busy_ms);
+            }
+            Work::Show { .. } => self.cost.shown(busy_ms),
+        }
+    }
+
+    /// The next piece of work at `now_secs`; none where enough is in flight, where a movement
+    /// is being followed and has been shown, or where all is done.
+    pub fn next(&mut self, now_secs: f64) -> Option<Work> {
+        if self.in_flight >= MOST_IN_FLIGHT {
+            return None;
+        }
+        let work = self.choose(now_secs)?;
+        self.in_flight += 1;
+        Some(work)
+    }
+
+    fn choose(&mut self, now_secs: f64) -> Option<Work> {
+        if self.show_due && self.show_now(now_secs) {
+            return Some(self.show(now_secs));
+        }
+        let following = self.moving && now_secs - self.changed_at < QUIET_SECS;
+        if following && !self.opening {
+            return None;
+        }
+        loop {
+            let (points, first_workgroup) = match self.under_way {
+                Some(state) => state,
+                None => (self.next_points()?, 0),
+            };
+            if points.grid(self.size_px).workgroups() > 0 {
+                return Some(Work::Trace(self.slice(points, first_workgroup)));
+            }
+            // A small region has no pixels of this kind.
+            self.complete(points);
+        }
+    }
+
+    /// A finished level or sample is shown at once where it is the first, and otherwise no
+    /// oftener than [`SHOW_INTERVAL_SECS`], for showing costs time too. A still is shown once.
+    fn show_now(&self, now_secs: f64) -> bool {
+        let finished = self.samples_done >= self.samples_wanted;
+        if self.pace == Pace::Still {
+            return finished;
+        }
+        let level_done = self.under_way.is_none() && self.samples_done == 0;
+        self.opening
+            || finished
+            || (level_done && self.shaded.is_some_and(|level| level <= 4))
+            || now_secs - self.shown_at >= SHOW_INTERVAL_SECS
+    }
+
+    fn show(&mut self, now_secs: f64) -> Work {
+        self.show_due = false;
+        self.opening = false;
+        self.shown_at = now_secs;
+        let level = self.shaded.unwrap_or(0);
+        // A level under way has put true pixels where the fill would go: only fill when whole.
+        let fill_from = if self.under_way.is_some() { 0 } else { level };
+        self.shown_level = level;
+        Work::Show { fill_from }
+    }
+
+    /// What comes after everything computed so far.
+    fn next_points(&self) -> Option<Points> {
+        match self.shaded {
+            None if self.pace == Pace::Still => Some(Points::Level(0)),
+            None => Some(Points::Level(self.opening_level())),
+            Some(0) if self.samples_done < self.samples_wanted => {
+                Some(Points::Sample(self.samples_done))
+            }
+            Some(0) => None,
+            Some(level) => Some(Points::Added(level - 1)),
+        }
+    }
+
+    /// The finest lattice that the budget allows, and none finer than the G-buffer where only
+    /// light is stale.
+    fn opening_level(&self) -> u32 {
+        let allowed = self.cost.level_within(self.budget_ms, self.marched.is_none(), self.size_px);
+        self.marched.map_or(allowed, |marched| allowed.max(marched))
+    }
+
+    fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
+        let march = match points {
+            Points::Level(level) | Points::Added(level) => {
+                self.marched.is_none_or(|marched| level < marched)
+            }
+            Points::Sample(_) => true,
+        };
+        let total = points.grid(self.size_px).workgroups();
+        // An opening goes out whole where the budget has room for it: it and its display are
+        // then the two pieces in flight, and every displayed frame can have one.
+        let opening = self.opening && self.pace == Pace::Interactive;
+        let aim_ms = if opening { self.slice_ms.max(self.budget_ms) } else { self.slice_ms };
+        let most = match points {
+            Points::Sample(_) => SAMPLE_WORKGROUPS,
+            _ => MOST_WORKGROUPS,
+        };
+        let wanted = self.cost.slice_workgroups(aim_ms, march).min(most);
+        let workgroups = wanted.min(total - first_workgroup);
+        let next = first_workgroup + workgroups;
+        if next < total {
+            self.under_way = Some((points, next));
+            // A complete lattice is below: what has come so far may be shown.
+            self.show_due |= self.shaded.is_some() && self.pace == Pace::Interactive;
+        } else {
+            self.complete(points);
+        }
+        Trace { points, march, first_workgroup, workgroups }
+    }
+
+    fn complete(&mut self, points: Points) {
+        self.under_way = None;
+        self.show_due = true;
+        match points {
+            Points::Level(level) | Points::Added(level) => {
+                self.shaded = Some(level);
+                self.marched = Some(self.marched.map_or(level, |marched| marched.min(level)));
+                self.samples_done = u32::from(level == 0);
+            }
+            Points::Sample(index) => self.samples_done = index + 1,
+        }
+    }
+
+    /// What the schedule says of itself at `now_secs`.
+    pub fn status(&self, now_secs: f64) -> Status {
+        Status {
+            samples_done: self.samples_done,
+            shown_level: self.shown_level,
+            moving: self.moving && now_secs - self.changed_at < QUIET_SECS,
+            idle: self.in_flight == 0
+                && !self.show_due
+                && self.under_way.is_none()
+                && self.samples_done >= self.samples_wanted,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

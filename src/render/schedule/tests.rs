@@ -1,0 +1,243 @@
+//! The schedule against simulated devices, from fast to 200 times slower, with spikes.
+
+use super::*;
+
+const SIZE: [u32; 2] = [1280, 720];
+const FRAME_SECS: f64 = 1.0 / 60.0;
+
+/// A GPU that takes `overhead_ms` for a submit and `pixel_ns` for a pixel, runs submits one
+/// after another, and stumbles for `spike_ms` at every 97th.
+struct Device {
+    overhead_ms: f64,
+    pixel_ns: f64,
+    spike_ms: f64,
+    busy_until: f64,
+    submits: u32,
+    queue: Vec<(Work, f64, f64)>,
+    longest_ms: f64,
+}
+
+impl Device {
+    fn new(slowness: f64, spike_ms: f64) -> Self {
+        Self {
+            overhead_ms: 0.05,
+            // 20 ns a pixel: 18 ms for a full 1280x720 frame at slowness 1.
+            pixel_ns: 20.0 * slowness,
+            spike_ms,
+            busy_until: 0.0,
+            submits: 0,
+            queue: Vec::new(),
+            longest_ms: 0.0,
+        }
+    }
+
+    fn submit(&mut self, work: Work, now: f64) {
+        self.submits += 1;
+        let pixels = match work {
+            Work::Trace(trace) => {
+                let whole = f64::from(trace.workgroups * WORKGROUP_THREADS);
+                if trace.march { whole } else { 0.6 * whole }
+            }
+            Work::Show { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
+        };
+        let spike = if self.submits.is_multiple_of(97) { self.spike_ms } else { 0.0 };
+        let ms = self.overhead_ms + pixels * self.pixel_ns * 1e-6 + spike;
+        if spike == 0.0 {
+            self.longest_ms = self.longest_ms.max(ms);
+        }
+        self.busy_until = self.busy_until.max(now) + ms * 1e-3;
+        self.queue.push((work, self.busy_until, ms));
+    }
+
+    fn collect(&mut self, schedule: &mut Schedule, now: f64) -> usize {
+        let mut shows = 0;
+        while self.queue.first().is_some_and(|(_, end, _)| *end <= now) {
+            let (work, _, ms) = self.queue.remove(0);
+            schedule.finished(work, ms);
+            shows += usize::from(matches!(work, Work::Show { .. }));
+        }
+        shows
+    }
+}
+
+/// Runs displayed frames until `stop` says so; returns how many there were.
+fn run(
+    schedule: &mut Schedule,
+    device: &mut Device,
+    now: &mut f64,
+    most_frames: usize,
+    mut each: impl FnMut(&mut Schedule, f64, usize) -> bool,
+) -> usize {
+    for frame in 0..most_frames {
+        let shows = device.collect(schedule, *now);
+        if each(schedule, *now, shows) {
+            return frame;
+        }
+        while let Some(work) = schedule.next(*now) {
+            device.submit(work, *now);
+            assert!(device.queue.len() <= MOST_IN_FLIGHT);
+        }
+        *now += FRAME_SECS;
+    }
+    most_frames
+}
+
+fn settle(schedule: &mut Schedule, device: &mut Device, now: &mut f64) -> usize {
+    run(schedule, device, now, 400_000, |s, now, _| s.status(now).idle)
+}
+
+#[test]
+fn every_device_finishes_and_then_rests() {
+    for slowness in [0.05, 1.0, 20.0, 200.0] {
+        for spike_ms in [0.0, 80.0] {
+            let mut device = Device::new(slowness, spike_ms);
+            let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+            schedule.aim(16.0, 4);
+            let mut now = 0.0;
+            let frames = settle(&mut schedule, &mut device, &mut now);
+            assert!(frames < 400_000, "slowness {slowness} never rests");
+            assert_eq!(schedule.status(now).samples_done, 4);
+            assert_eq!(schedule.status(now).shown_level, 0);
+            let submits = device.submits;
+            run(&mut schedule, &mut device, &mut now, 100, |_, _, _| false);
+            assert_eq!(device.submits, submits, "work was given at rest");
+        }
+    }
+}
+
+#[test]
+fn slices_stay_short() {
+    for slowness in [0.05, 1.0, 20.0, 200.0] {
+        let mut device = Device::new(slowness, 0.0);
+        let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+        schedule.aim(16.0, 4);
+        settle(&mut schedule, &mut device, &mut 0.0);
+        // The display of a whole picture cannot be cut; it is small on anything but the slowest.
+        let show_ms = f64::from(SIZE[0] * SIZE[1]) * 0.02 * device.pixel_ns * 1e-6;
+        let bound = (2.0 * SLICE_MS).max(show_ms + 1.0);
+        assert!(device.longest_ms <= bound, "slowness {slowness}: {} ms", device.longest_ms);
+    }
+}
+
+#[test]
+fn a_movement_is_followed_within_the_budget() {
+    for (slowness, spike_ms) in [(0.05, 0.0), (1.0, 40.0), (20.0, 0.0), (20.0, 40.0)] {
+        let mut device = Device::new(slowness, spike_ms);
+        let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+        schedule.aim(16.0, 4);
+        let mut now = 0.0;
+        settle(&mut schedule, &mut device, &mut now);
+        let mut pictures = 0;
+        run(&mut schedule, &mut device, &mut now, 600, |s, now, shows| {
+            pictures += shows;
+            if s.accepts_changes() {
+                s.change(Stale::Geometry, true, now);
+            }
+            false
+        });
+        // A new picture for at least three of four displayed frames.
+        assert!(pictures >= 440, "slowness {slowness}: {pictures} pictures in 600 frames");
+    }
+}
+
+#[test]
+fn the_slowest_device_still_shows_movement() {
+    let mut device = Device::new(200.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 1);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    let mut pictures = 0;
+    run(&mut schedule, &mut device, &mut now, 600, |s, now, shows| {
+        pictures += shows;
+        if s.accepts_changes() {
+            s.change(Stale::Geometry, true, now);
+        }
+        false
+    });
+    assert!(pictures >= 60, "{pictures} pictures in ten seconds");
+}
+
+#[test]
+fn light_edits_march_no_centre_sample() {
+    let mut device = Device::new(1.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 1);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    schedule.change(Stale::Light, false, now);
+    let mut marched = false;
+    while !schedule.status(now).idle {
+        while let Some(work) = schedule.next(now) {
+            marched |= matches!(work, Work::Trace(Trace { march: true, .. }));
+            device.submit(work, now);
+        }
+        now += FRAME_SECS;
+        device.collect(&mut schedule, now);
+    }
+    assert!(!marched);
+}
+
+#[test]
+fn tone_edits_only_show() {
+    let mut device = Device::new(1.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 3);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    schedule.change(Stale::Tone, true, now);
+    assert_eq!(schedule.next(now), Some(Work::Show { fill_from: 0 }));
+    assert_eq!(schedule.next(now), None);
+}
+
+#[test]
+fn more_samples_go_on_and_fewer_start_again() {
+    let mut device = Device::new(1.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 2);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    schedule.aim(16.0, 4);
+    assert!(matches!(
+        schedule.next(now),
+        Some(Work::Trace(Trace { points: Points::Sample(2), .. }))
+    ));
+    settle(&mut schedule, &mut device, &mut now);
+    schedule.aim(16.0, 1);
+    assert_eq!(schedule.status(now).samples_done, 0);
+}
+
+#[test]
+fn a_still_goes_straight_to_every_pixel_and_shows_once() {
+    let mut device = Device::new(1.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Still, SIZE);
+    schedule.aim(16.0, 3);
+    let mut now = 0.0;
+    let mut shows = 0;
+    while !schedule.status(now).idle {
+        while let Some(work) = schedule.next(now) {
+            match work {
+                Work::Show { fill_from } => {
+                    assert_eq!(fill_from, 0);
+                    shows += 1;
+                }
+                Work::Trace(trace) => {
+                    assert!(matches!(trace.points, Points::Level(0) | Points::Sample(_)));
+                }
+            }
+            device.submit(work, now);
+        }
+        now += FRAME_SECS;
+        device.collect(&mut schedule, now);
+    }
+    assert_eq!(shows, 1);
+}
+
+#[test]
+fn a_region_of_one_pixel_works() {
+    let mut device = Device::new(1.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Interactive, [1, 1]);
+    schedule.aim(16.0, 2);
+    let mut now = 0.0;
+    assert!(settle(&mut schedule, &mut device, &mut now) < 1000);
+}

@@ -1,0 +1,189 @@
+//! The buffers of one region: uniforms, G-buffers, film, display.
+//!
+//! Bytes a pixel: G-buffer 24, film 16, display 4; the G-buffer of jittered samples is a slice
+//! large, whatever the region.
+
+use super::{
+    kernels::Kernels,
+    lattice::{Grid, WORKGROUP_THREADS},
+    schedule::SAMPLE_WORKGROUPS,
+    uniforms::{self, GRADIENT_ENTRIES, Light, Picture, Slice},
+};
+use crate::scene::MAX_LIGHTS;
+
+/// Gamma-space 8-bit colour: what egui shows and PNG stores.
+pub const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Distance between two slices in their uniform buffer, the default alignment of dynamic offsets.
+pub const SLICE_STRIDE_BYTES: u32 = 256;
+
+/// Most dispatches of one submit: march, a shadow dispatch a light, shade.
+pub const MOST_SLICES: u32 = MAX_LIGHTS as u32 + 2;
+
+/// One element a sample point in each buffer; see `shaders/types/gbuffer.wgsl`.
+pub struct GBuffer {
+    /// f32: depth along the ray in scene units, 0 on a miss.
+    pub depth: wgpu::Buffer,
+    /// u32: octahedral normal.
+    pub normal: wgpu::Buffer,
+    /// 2 × u32: smooth iterations and traps.
+    pub color_data: wgpu::Buffer,
+    /// 2 × u32: a bit a light.
+    pub visibility: wgpu::Buffer,
+    /// All four.
+    pub group: wgpu::BindGroup,
+}
+
+/// Everything a region is rendered with and into.
+pub struct Targets {
+    /// [`Picture`].
+    pub picture: wgpu::Buffer,
+    /// [`MOST_SLICES`] of [`Slice`], [`SLICE_STRIDE_BYTES`] apart.
+    pub slices: wgpu::Buffer,
+    /// [`MAX_LIGHTS`] of [`Light`].
+    pub lights: wgpu::Buffer,
+    /// [`GRADIENT_ENTRIES`] colours.
+    pub gradient: wgpu::Buffer,
+    /// All four.
+    pub picture_group: wgpu::BindGroup,
+    /// Every pixel's centre sample, kept.
+    pub center: GBuffer,
+    /// The jittered samples of one slice.
+    pub jittered: GBuffer,
+    /// The film and the display texture.
+    pub film_group: wgpu::BindGroup,
+    /// The display picture.
+    pub texture: wgpu::Texture,
+}
+
+impl Targets {
+    /// Allocates what a region of `size_px` needs.
+    pub fn new(kernels: &Kernels, size_px: [u32; 2]) -> Self {
+        let device = &kernels.gpu.device;
+        let layouts = &kernels.layouts;
+        let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
+        // A slice holds whole workgroups, some of them past the region's last pixels.
+        let slice_samples =
+            Grid::level(0, size_px).threads().min(SAMPLE_WORKGROUPS * WORKGROUP_THREADS);
+        let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
+        let picture = uniform("picture", size_of::<Picture>() as u64);
+        let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
+        let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
+        let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
+        let one_slice = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &slices,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<Slice>() as u64),
+        });
+        let picture_group = group(
+            device,
+            &layouts.picture,
+            "picture",
+            [
+                picture.as_entire_binding(),
+                one_slice,
+                lights.as_entire_binding(),
+                gradient.as_entire_binding(),
+            ],
+        );
+        let film_rg = storage(device, "film red green", 8 * pixels);
+        let film_bw = storage(device, "film blue weight", 8 * pixels);
+        let texture = display_texture(device, size_px);
+        let texture_view = texture.create_view(&Default::default());
+        let film_group = group(
+            device,
+            &layouts.film,
+            "film",
+            [
+                film_rg.as_entire_binding(),
+                film_bw.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&texture_view),
+            ],
+        );
+        Self {
+            picture,
+            slices,
+            lights,
+            gradient,
+            picture_group,
+            center: GBuffer::new(kernels, pixels),
+            jittered: GBuffer::new(kernels, u64::from(slice_samples)),
+            film_group,
+            texture,
+        }
+    }
+
+    /// Uploads a picture's uniforms.
+    pub fn upload(&self, queue: &wgpu::Queue, inputs: &uniforms::Inputs) {
+        queue.write_buffer(&self.picture, 0, bytemuck::bytes_of(&inputs.picture));
+        queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(&inputs.lights));
+        queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));
+    }
+}
+
+impl GBuffer {
+    fn new(kernels: &Kernels, samples: u64) -> Self {
+        let device = &kernels.gpu.device;
+        let depth = storage(device, "depth", 4 * samples);
+        let normal = storage(device, "normal", 4 * samples);
+        let color_data = storage(device, "colour data", 8 * samples);
+        let visibility = storage(device, "visibility", 8 * samples);
+        let group = group(
+            device,
+            &kernels.layouts.gbuffer,
+            "gbuffer",
+            [&depth, &normal, &color_data, &visibility].map(wgpu::Buffer::as_entire_binding),
+        );
+        Self { depth, normal, color_data, visibility, group }
+    }
+}
+
+fn buffer(
+    device: &wgpu::Device,
+    label: &str,
+    size: u64,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn storage(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Buffer {
+    buffer(device, label, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
+}
+
+fn group<const N: usize>(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    label: &str,
+    resources: [wgpu::BindingResource<'_>; N],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
+}
+
+fn display_texture(device: &wgpu::Device, [width, height]: [u32; 2]) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("display"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DISPLAY_FORMAT,
+        usage: wgpu::TextureUsages::STORAGE_BINDING
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
