@@ -39,19 +39,11 @@ impl Random {
 }
 
 fn bulb(power: f64) -> Fractal {
-    Fractal {
-        power,
-        ..Fractal::default()
-    }
+    Fractal { power, ..Fractal::default() }
 }
 
 fn julia(power: f64, julia_constant: [f64; 3]) -> Fractal {
-    Fractal {
-        power,
-        julia: true,
-        julia_constant,
-        ..Fractal::default()
-    }
+    Fractal { power, julia: true, julia_constant, ..Fractal::default() }
 }
 
 /// The same field, marched in fixed parts of its estimate.
@@ -83,35 +75,20 @@ fn every_orbit_from_outside_the_bounding_sphere_escapes() {
     fractals.push(julia(2.0, [-0.2, 0.6, 0.2]));
     fractals.push(julia(3.0, [2.0, 2.0, -2.0]));
     for few in [2, 3] {
-        fractals.extend(
-            fractals
-                .clone()
-                .into_iter()
-                .map(|f| Fractal {
-                    iterations: few,
-                    ..f
-                })
-                .take(5),
-        );
+        fractals
+            .extend(fractals.clone().into_iter().map(|f| Fractal { iterations: few, ..f }).take(5));
     }
     for fractal in fractals {
         let estimator = Estimator::new(&fractal);
         let radius = estimator.bounding_radius();
         // An orbit that has passed the bailout b gives an estimate of at least ½ ln b · b / dr,
         // so one with an unlimited iteration count says the same as the limited one.
-        let patient = Estimator::new(&Fractal {
-            iterations: 100,
-            ..fractal.clone()
-        });
+        let patient = Estimator::new(&Fractal { iterations: 100, ..fractal.clone() });
         for _ in 0..2000 {
             let point = random.direction() * radius * (1.0 + random.unit() * random.unit());
             let distance = estimator.distance(point);
             assert!(distance > 0.0, "{fractal:?} at {point}");
-            assert_eq!(
-                distance,
-                patient.distance(point),
-                "{fractal:?} at {point} had not escaped"
-            );
+            assert_eq!(distance, patient.distance(point), "{fractal:?} at {point} had not escaped");
         }
     }
 }
@@ -122,10 +99,7 @@ fn the_bounding_sphere_is_no_larger_than_it_need_be() {
     for power in [2.0, 3.0, 8.0] {
         let radius = Estimator::new(&bulb(power)).bounding_radius();
         let fixed_point = 2.0_f64.powf(1.0 / (power - 1.0));
-        assert!(
-            (1.005..1.02).contains(&(radius / fixed_point)),
-            "power {power}: {radius}"
-        );
+        assert!((1.005..1.02).contains(&(radius / fixed_point)), "power {power}: {radius}");
     }
 }
 
@@ -164,36 +138,22 @@ fn passed(fractal: &Fractal, count: usize) -> (usize, usize) {
 
 #[test]
 fn safe_steps_pass_the_surface_on_under_one_ray_in_a_thousand() {
-    for fractal in [
-        bulb(3.0),
-        bulb(4.0),
-        bulb(6.0),
-        bulb(8.0),
-        bulb(16.0),
-        julia(8.0, [0.35, -0.4, 0.55]),
-    ] {
+    for fractal in
+        [bulb(3.0), bulb(4.0), bulb(6.0), bulb(8.0), bulb(16.0), julia(8.0, [0.35, -0.4, 0.55])]
+    {
         let (missed, late) = passed(&fractal, 2000);
-        assert!(
-            missed < 2 && late < 20,
-            "{fractal:?}: {missed} missed, {late} late of 2000"
-        );
+        assert!(missed < 2 && late < 20, "{fractal:?}: {missed} missed, {late} late of 2000");
     }
 }
 
 #[test]
 fn low_powers_and_open_julia_sets_lose_under_one_ray_in_fifty() {
     // Their estimate is no bound at any fixed scale (see `step_scale`): measured 0.2 to 1 %.
-    for fractal in [
-        bulb(2.0),
-        bulb(2.5),
-        julia(2.0, [-0.2, 0.6, 0.2]),
-        julia(8.0, [0.9, 0.3, -0.4]),
-    ] {
+    for fractal in
+        [bulb(2.0), bulb(2.5), julia(2.0, [-0.2, 0.6, 0.2]), julia(8.0, [0.9, 0.3, -0.4])]
+    {
         let (missed, late) = passed(&fractal, 1000);
-        assert!(
-            missed < 20 && late < 20,
-            "{fractal:?}: {missed} missed, {late} late of 1000"
-        );
+        assert!(missed < 20 && late < 20, "{fractal:?}: {missed} missed, {late} late of 1000");
     }
 }
 
@@ -261,19 +221,10 @@ fn rays_run_through_the_corners_that_the_convention_names() {
 #[test]
 fn rays_beside_the_sphere_and_away_from_it_miss() {
     let estimator = Estimator::new(&bulb(8.0));
-    let away = Ray {
-        origin: DVec3::X * 3.0,
-        direction: DVec3::X,
-    };
-    let beside = Ray {
-        origin: DVec3::new(3.0, 2.0, 0.0),
-        direction: DVec3::NEG_X,
-    };
+    let away = Ray { origin: DVec3::X * 3.0, direction: DVec3::X };
+    let beside = Ray { origin: DVec3::new(3.0, 2.0, 0.0), direction: DVec3::NEG_X };
     assert_eq!(estimator.march(away, 0.0, f64::INFINITY), None);
     assert_eq!(estimator.march(beside, 0.0, f64::INFINITY), None);
-    let inside = Ray {
-        origin: DVec3::ZERO,
-        direction: DVec3::X,
-    };
+    let inside = Ray { origin: DVec3::ZERO, direction: DVec3::X };
     assert_eq!(estimator.march(inside, 1e-3, f64::INFINITY), Some(0.0));
 }

@@ -31,9 +31,7 @@ pub struct Estimator {
 impl Estimator {
     /// Prepares `fractal`, which must be within its ranges.
     pub fn new(fractal: &Fractal) -> Self {
-        let julia_constant = fractal
-            .julia
-            .then(|| DVec3::from_array(fractal.julia_constant));
+        let julia_constant = fractal.julia.then(|| DVec3::from_array(fractal.julia_constant));
         let bounding_radius = bounding_radius(fractal);
         Self {
             power: TriplexPower::new(fractal),
@@ -62,11 +60,7 @@ impl Estimator {
             z = self.power.apply(z) + added;
             r = z.length();
         }
-        if r > 1.0 {
-            0.5 * r.ln() * r / dr.max(LEAST_DERIVATIVE)
-        } else {
-            0.0
-        }
+        if r > 1.0 { 0.5 * r.ln() * r / dr.max(LEAST_DERIVATIVE) } else { 0.0 }
     }
 
     /// [`Self::distance`] from the f64 nearest to `point`: exact enough down to about 1e-13.
@@ -126,11 +120,7 @@ pub fn step_scale(fractal: &Fractal) -> f64 {
 /// A Julia orbit that passes the origin on its way out makes dr vanish, so that the estimate
 /// grows without bound close to the surface; with the Mandelbulb's + 1 it cannot.
 pub fn max_step(fractal: &Fractal, bounding_radius: f64) -> f64 {
-    if fractal.julia {
-        0.05 * bounding_radius
-    } else {
-        f64::INFINITY
-    }
+    if fractal.julia { 0.05 * bounding_radius } else { f64::INFINITY }
 }
 
 /// The radius of the sphere about the origin outside of which every orbit passes the bailout
@@ -140,9 +130,7 @@ pub fn max_step(fractal: &Fractal, bounding_radius: f64) -> f64 {
 /// radius R is x₀ = R, x ← xⁿ − K with K = R (Mandelbulb) or |c| (Julia form). The least R whose
 /// slowest orbit escapes is found by bisection; whatever starts past the bailout has escaped.
 pub fn bounding_radius(fractal: &Fractal) -> f64 {
-    let constant = fractal
-        .julia
-        .then(|| DVec3::from_array(fractal.julia_constant).length());
+    let constant = fractal.julia.then(|| DVec3::from_array(fractal.julia_constant).length());
     let escapes = |radius: f64| {
         let pull = constant.unwrap_or(radius);
         let mut x = radius;

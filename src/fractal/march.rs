@@ -37,6 +37,16 @@ pub trait DistanceField {
     /// Radius of a sphere about the origin that holds all of the surface, in scene units.
     fn bounding_radius(&self) -> f64;
 
+    /// [`Self::distance`], mended where the estimate is far too large: past the bounding sphere,
+    /// never less than the way to it, never more than the way to its centre. For speeds and
+    /// collisions; rays need it not, since they start at the sphere.
+    fn clear_distance(&self, point: DVec3) -> f64 {
+        let from_centre = point.length();
+        let to_sphere = from_centre - self.bounding_radius();
+        let distance = self.distance(point);
+        if to_sphere > 0.0 { distance.clamp(to_sphere, from_centre) } else { distance }
+    }
+
     /// Sphere-traces `ray` and returns the depth of the first hit. `cone` is the hit distance
     /// per unit of depth (not negative); nothing past `max_depth` is looked at. A ray that
     /// starts inside has hit at depth zero.
@@ -130,10 +140,7 @@ impl Ray {
 pub fn camera_ray(camera: &Camera, ndc: DVec2, aspect: f64) -> Ray {
     let half_height = camera.half_height();
     let in_camera = DVec3::new(ndc.x * aspect * half_height, ndc.y * half_height, -1.0);
-    Ray {
-        origin: camera.position.to_dvec3(),
-        direction: camera.rotation() * in_camera.normalize(),
-    }
+    Ray { origin: camera.position.to_dvec3(), direction: camera.rotation() * in_camera.normalize() }
 }
 
 /// The radius of one pixel's cone per unit of depth, for a picture `height_px` pixels high.

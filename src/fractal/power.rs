@@ -65,11 +65,7 @@ impl TriplexPower {
 
 fn whole_power(z: DVec3, n: u32) -> DVec3 {
     let rho = z.x.hypot(z.y);
-    let rotor = if rho > 0.0 {
-        DVec2::new(z.x, z.y) / rho
-    } else {
-        DVec2::X
-    };
+    let rotor = if rho > 0.0 { DVec2::new(z.x, z.y) / rho } else { DVec2::X };
     let w = complex_power(DVec2::new(rho, z.z), n);
     let u = complex_power(rotor, n);
     DVec3::new(w.x * u.x, w.x * u.y, w.y)
@@ -102,20 +98,13 @@ mod tests {
     use super::*;
 
     fn map(power: f64, variant: Variant) -> TriplexPower {
-        TriplexPower::new(&Fractal {
-            power,
-            variant,
-            ..Fractal::default()
-        })
+        TriplexPower::new(&Fractal { power, variant, ..Fractal::default() })
     }
 
     #[test]
     fn whole_and_real_paths_agree() {
-        let points = [
-            DVec3::new(0.3, -0.7, 0.2),
-            DVec3::new(-1.1, 0.4, -0.9),
-            DVec3::new(1e-9, 2e-9, 0.8),
-        ];
+        let points =
+            [DVec3::new(0.3, -0.7, 0.2), DVec3::new(-1.1, 0.4, -0.9), DVec3::new(1e-9, 2e-9, 0.8)];
         for n in 2..=16 {
             for z in points {
                 let (whole, real) = (whole_power(z, n), real_power(z, f64::from(n)));
@@ -141,20 +130,15 @@ mod tests {
     #[test]
     fn the_negative_sine_mirrors_the_result() {
         let z = DVec3::new(0.6, -0.5, 0.4);
-        let (plus, minus) = (
-            map(8.0, Variant::PositiveSine).apply(z),
-            map(8.0, Variant::NegativeSine).apply(z),
-        );
+        let (plus, minus) =
+            (map(8.0, Variant::PositiveSine).apply(z), map(8.0, Variant::NegativeSine).apply(z));
         assert_eq!(minus, DVec3::new(plus.x, plus.y, -plus.z));
     }
 
     #[test]
     fn the_axis_and_the_origin_are_tame() {
         for power in [2.0, 3.5, 8.0] {
-            assert_eq!(
-                map(power, Variant::PositiveSine).apply(DVec3::ZERO),
-                DVec3::ZERO
-            );
+            assert_eq!(map(power, Variant::PositiveSine).apply(DVec3::ZERO), DVec3::ZERO);
         }
         // Latitude 90°, times eight: a whole number of turns, so the pole goes to +x.
         let pole = map(8.0, Variant::PositiveSine).apply(DVec3::new(0.0, 0.0, 1.1));

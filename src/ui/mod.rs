@@ -1,1 +1,3 @@
 //! pending
+
+pub mod navigation;

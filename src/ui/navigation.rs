@@ -1,0 +1,275 @@
+//! Moving the camera: orbit, pan, dolly, fly, home and frame-all.
+//!
+//! In: a [`Camera`], what surrounds it (a [`DistanceField`] and the picture's shape), pointer
+//! positions and time steps. Out: the same camera, moved. Nothing here knows egui, and nothing
+//! moves unless a method is called.
+//!
+//! | file | what lives there |
+//! |---|---|
+//! | this one | the surroundings, and the pointer's gestures |
+//! | [`collide`] | how far the eye may go, and how it slides along what stops it |
+//! | [`turn`] | rotations that keep the horizon |
+//! | [`fly`] | travel by keys, at a speed that follows the distance to the surface |
+//! | [`flight`] | eased journeys: home, frame-all, level |
+//!
+//! Pointer positions are normalised device coordinates: −1 to 1, x right, y up. Amounts of
+//! zoom are natural logarithms: +1 comes nearer by a factor of e.
+//!
+//! The rules that hold for every movement:
+//! - the eye never passes the surface, and stays [`World::clearance`] away from it;
+//! - it comes no nearer to what it looks at than [`World::nearest`], where f32 pictures still
+//!   hold, and goes no farther from the origin than [`FARTHEST_EYE`];
+//! - positions are rounded to 10⁻⁴ of a pixel at the distance of the surface, so that a scene
+//!   says no more than can be seen.
+
+pub mod collide;
+pub mod flight;
+pub mod fly;
+pub mod turn;
+
+use glam::{DVec2, DVec3};
+
+use crate::{
+    fractal::{DistanceField, Ray, camera_ray, pixel_cone},
+    scene::{Camera, PrecisePoint},
+};
+use flight::Flight;
+pub use fly::FlyInput;
+use fly::Pace;
+use turn::Turntable;
+
+/// The least radius of a pixel's cone at the surface, in scene units, where f32 pictures hold.
+pub const LEAST_FOOTPRINT: f64 = 2e-7;
+/// The farthest that the eye goes from the origin, in scene units.
+pub const FARTHEST_EYE: f64 = 90.0;
+/// What the eye keeps from any surface, in parts of [`World::nearest`].
+const CLEARANCE: f64 = 0.25;
+/// The coarseness of positions, in pixels at the surface's distance.
+const GRAIN_PX: f64 = 1e-4;
+/// How far a drag over half the picture's height turns, in radians.
+const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
+
+/// The picture's shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewport {
+    /// Width over height.
+    pub aspect: f64,
+    /// Height in pixels.
+    pub height_px: f64,
+    /// Hit distance in cone radii of a pixel: the scene's `quality.detail`.
+    pub detail: f64,
+}
+
+/// What surrounds the camera.
+#[derive(Clone, Copy)]
+pub struct World<'a> {
+    /// The surface.
+    pub field: &'a dyn DistanceField,
+    /// The picture through which it is seen.
+    pub viewport: Viewport,
+}
+
+/// Where a camera stands, for the status line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// Estimated distance from the eye to the nearest surface, in scene units.
+    pub distance: f64,
+    /// Radius of a pixel's cone at that distance, in scene units.
+    pub footprint: f64,
+    /// True where coming nearer would show rounding instead of detail.
+    pub at_precision_limit: bool,
+}
+
+impl World<'_> {
+    /// The least depth of a point that the camera looks at, in scene units.
+    pub fn nearest(&self, camera: &Camera) -> f64 {
+        LEAST_FOOTPRINT / pixel_cone(camera, self.viewport.height_px)
+    }
+
+    /// The least distance between eye and surface, in scene units.
+    pub fn clearance(&self, camera: &Camera) -> f64 {
+        CLEARANCE * self.nearest(camera)
+    }
+
+    /// Where `camera` stands.
+    pub fn standing(&self, camera: &Camera) -> Standing {
+        let distance = self.field.clear_distance(camera.position.to_dvec3());
+        Standing {
+            distance,
+            footprint: distance * pixel_cone(camera, self.viewport.height_px),
+            at_precision_limit: distance <= self.nearest(camera),
+        }
+    }
+
+    /// The vector from the eye to the surface seen at `ndc`; none over the background.
+    pub fn pick(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
+        let ray = camera_ray(camera, ndc, self.viewport.aspect);
+        let depth = self.field.march(ray, self.hit_cone(camera), f64::INFINITY)?;
+        Some(ray.direction * depth.max(self.nearest(camera)))
+    }
+
+    /// The vector from the eye to what `ndc` points at: the surface or, over the background,
+    /// the place on that ray that comes closest to it. Never zero.
+    fn target(&self, camera: &Camera, ndc: DVec2) -> DVec3 {
+        self.pick(camera, ndc).unwrap_or_else(|| {
+            let ray: Ray = camera_ray(camera, ndc, self.viewport.aspect);
+            let least = self.field.clear_distance(ray.origin).max(self.nearest(camera));
+            ray.direction
+                * self.field.closest_approach(ray, f64::INFINITY).clamp(least, 2.0 * FARTHEST_EYE)
+        })
+    }
+
+    fn hit_cone(&self, camera: &Camera) -> f64 {
+        pixel_cone(camera, self.viewport.height_px) * self.viewport.detail
+    }
+
+    /// How coarse positions may be here, in scene units.
+    fn grain(&self, camera: &Camera) -> f64 {
+        let distance =
+            self.field.clear_distance(camera.position.to_dvec3()).max(self.clearance(camera));
+        GRAIN_PX * 2.0 * pixel_cone(camera, self.viewport.height_px) * distance
+    }
+
+    /// Where in the picture the point at `offset` from the eye appears; none behind the eye.
+    fn ndc_of(&self, camera: &Camera, offset: DVec3) -> Option<DVec2> {
+        let seen = camera.rotation().inverse() * offset;
+        let scale = camera.half_height() * -seen.z;
+        (seen.z < 0.0).then(|| DVec2::new(seen.x / (scale * self.viewport.aspect), seen.y / scale))
+    }
+}
+
+/// A pointer's gesture in progress.
+#[derive(Clone, Debug)]
+enum Gesture {
+    Orbit { last: DVec2, turntable: Turntable },
+    Pan { held: PrecisePoint },
+}
+
+/// The state that movements carry from one event to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Navigator {
+    gesture: Option<Gesture>,
+    pace: Pace,
+    flight: Option<Flight>,
+}
+
+impl Navigator {
+    /// True between the begin and the end of a gesture, or during a flight.
+    pub fn is_active(&self) -> bool {
+        self.gesture.is_some() || self.flight.is_some()
+    }
+
+    /// Begins turning about the surface under the pointer, which becomes the pivot. Over the
+    /// background the pivot stays where it is if it is in the picture; otherwise it moves to
+    /// where the pointer's ray comes closest to the surface.
+    pub fn begin_orbit(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) {
+        self.cancel();
+        let pivot_in_picture = world
+            .ndc_of(camera, &camera.pivot - &camera.position)
+            .is_some_and(|seen| seen.abs().max_element() <= 1.0);
+        let pivot = match world.pick(camera, ndc) {
+            Some(picked) => Some(picked),
+            None if pivot_in_picture => None,
+            None => Some(world.target(camera, ndc)),
+        };
+        if let Some(offset) = pivot {
+            camera.pivot = camera.position.moved_by(offset, world.grain(camera));
+        }
+        self.gesture = Some(Gesture::Orbit { last: ndc, turntable: Turntable::of(camera) });
+    }
+
+    /// Begins dragging the surface under the pointer, which [`Self::drag`] then keeps there.
+    pub fn begin_pan(&mut self, camera: &Camera, world: World<'_>, ndc: DVec2) {
+        self.cancel();
+        let held = camera.position.moved_by(world.target(camera, ndc), world.grain(camera));
+        self.gesture = Some(Gesture::Pan { held });
+    }
+
+    /// Continues the gesture with the pointer at `ndc`. Returns whether the camera changed.
+    pub fn drag(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) -> bool {
+        let before = camera.clone();
+        match &mut self.gesture {
+            Some(Gesture::Orbit { last, turntable }) => {
+                let moved = (ndc - *last)
+                    * DVec2::new(world.viewport.aspect, 1.0)
+                    * TURN_PER_HALF_HEIGHT_RAD;
+                *last = ndc;
+                // The scene follows the pointer, so the eye goes the other way.
+                turntable.orbit(camera, world, DVec2::new(-moved.x, moved.y));
+            }
+            Some(Gesture::Pan { held }) => pan(camera, world, held, ndc),
+            None => {}
+        }
+        *camera != before
+    }
+
+    /// Ends the gesture.
+    pub fn end(&mut self) {
+        self.gesture = None;
+    }
+
+    /// Stops whatever is in progress, a flight included; the camera stays where it is.
+    pub fn cancel(&mut self) {
+        self.gesture = None;
+        self.flight = None;
+        self.pace.rest();
+    }
+
+    /// Comes nearer to what is under the pointer by a factor of `exp(amount)`, or recedes from it
+    /// where `amount` is negative, along the pointer's ray: what is under the pointer stays there.
+    /// During a pan (two fingers) it is the held point that is approached. The pivot keeps its
+    /// place in the picture. Returns whether the camera changed.
+    pub fn dolly(
+        &mut self,
+        camera: &mut Camera,
+        world: World<'_>,
+        ndc: DVec2,
+        amount: f64,
+    ) -> bool {
+        self.flight = None;
+        self.pace.rest();
+        let target = match &self.gesture {
+            Some(Gesture::Pan { held }) => held - &camera.position,
+            _ => world.target(camera, ndc),
+        };
+        let depth = target.length();
+        if !amount.is_finite() || amount == 0.0 || depth == 0.0 {
+            return false;
+        }
+        let wanted = depth * (-amount.clamp(-20.0, 20.0)).exp();
+        let nearest = world.nearest(camera).min(depth);
+        let way = target * ((depth - wanted.max(nearest)) / depth);
+        let moved = collide::advance(world, camera, way);
+        // All else scales about the target as the eye's own distance does.
+        let scale = (target - moved).length() / depth;
+        let grain = world.grain(camera) * scale.min(1.0);
+        let pivot_offset = (&camera.pivot - &camera.position) * scale;
+        let before = camera.clone();
+        camera.position = camera.position.moved_by(moved, grain);
+        camera.pivot = camera.position.moved_by(pivot_offset, grain);
+        *camera != before
+    }
+}
+
+/// Moves the camera in its own plane until `held` appears at `ndc`.
+fn pan(camera: &mut Camera, world: World<'_>, held: &PrecisePoint, ndc: DVec2) {
+    let rotation = camera.rotation();
+    let seen = rotation.inverse() * (held - &camera.position);
+    let depth = -seen.z;
+    if depth <= 0.0 {
+        return;
+    }
+    let half_height = camera.half_height();
+    let wanted = DVec2::new(ndc.x * world.viewport.aspect, ndc.y) * half_height * depth;
+    let way = rotation * DVec3::new(seen.x - wanted.x, seen.y - wanted.y, 0.0);
+    let moved = collide::slide(world, camera, way);
+    shift(camera, world, moved);
+}
+
+/// Moves eye and pivot together by `moved`, in scene units.
+fn shift(camera: &mut Camera, world: World<'_>, moved: DVec3) {
+    let grain = world.grain(camera);
+    let pivot_offset = &camera.pivot - &camera.position;
+    camera.position = camera.position.moved_by(moved, grain);
+    camera.pivot = camera.position.moved_by(pivot_offset, grain);
+}

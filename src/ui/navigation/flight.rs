@@ -1,0 +1,166 @@
+//! Eased journeys of the camera to a place it was asked to go: home, frame-all, level.
+//!
+//! A journey goes straight where that is free. Otherwise it backs out along the ray from the
+//! origin through the eye, turns about the origin outside the bounding sphere, and comes in the
+//! same way. Where the surface bars that too, it is a cut: no journey shows the inside.
+
+use glam::DVec3;
+
+use super::{FARTHEST_EYE, Navigator, World, collide};
+use crate::scene::{Camera, PrecisePoint};
+
+/// How long a journey takes.
+pub const FLIGHT_SECS: f64 = 0.9;
+/// Straight pieces that a route is tried in.
+const TRIED_PIECES: u32 = 48;
+/// Room around the bounding sphere in frame-all, and for turning about the origin.
+const ROOM: f64 = 1.04;
+
+/// The way from one eye to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Route {
+    /// A line; the logarithm of how much larger the surroundings are at its end.
+    Straight { growth: f64 },
+    /// Out from the origin to this radius, around, and in again.
+    Around { radius: f64 },
+}
+
+/// A journey in progress.
+#[derive(Clone, Debug)]
+pub struct Flight {
+    from: Camera,
+    to: Camera,
+    route: Route,
+    elapsed_secs: f64,
+}
+
+impl Flight {
+    /// Plans the journey; none where the surface bars every route.
+    fn plan(world: World<'_>, from: &Camera, to: &Camera) -> Option<Self> {
+        let (start, end) = (from.position.to_dvec3(), to.position.to_dvec3());
+        let room = |eye: DVec3| world.field.clear_distance(eye).max(world.clearance(from));
+        let straight = Route::Straight { growth: (room(end) / room(start)).ln() };
+        let outside = world.field.bounding_radius() * ROOM;
+        let around = Route::Around { radius: start.length().max(end.length()).max(outside) };
+        let clearance = world.clearance(from).min(0.5 * room(start)).min(0.5 * room(end));
+        let is_free = |route: &Route| {
+            let places = (0..=TRIED_PIECES)
+                .map(|i| route.at(start, end, f64::from(i) / f64::from(TRIED_PIECES)));
+            let places: Vec<_> = places.collect();
+            places.windows(2).all(|pair| collide::is_free(world.field, pair[0], pair[1], clearance))
+        };
+        let route = [straight, around].into_iter().find(is_free)?;
+        Some(Self { from: from.clone(), to: to.clone(), route, elapsed_secs: 0.0 })
+    }
+
+    /// The camera after `elapsed_secs`.
+    fn camera(&self) -> Camera {
+        let progress = (self.elapsed_secs / FLIGHT_SECS).clamp(0.0, 1.0);
+        if progress >= 1.0 {
+            return self.to.clone();
+        }
+        let (from, to) = (&self.from, &self.to);
+        let eased = ease(progress);
+        let mix = |a: f64, b: f64| a + (b - a) * eased;
+        let eye = self.route.at(from.position.to_dvec3(), to.position.to_dvec3(), progress);
+        let pivot = from.pivot.to_dvec3().lerp(to.pivot.to_dvec3(), eased);
+        Camera {
+            position: PrecisePoint::from(eye),
+            pivot: PrecisePoint::from(pivot),
+            orientation: from.rotation().slerp(to.rotation(), eased).into(),
+            vertical_fov_deg: mix(from.vertical_fov_deg, to.vertical_fov_deg),
+        }
+    }
+}
+
+impl Route {
+    /// The eye at `progress`, 0 to 1.
+    fn at(self, start: DVec3, end: DVec3, progress: f64) -> DVec3 {
+        match self {
+            Self::Straight { growth } => start.lerp(end, geometric(ease(progress), growth)),
+            Self::Around { radius } => {
+                // Out in the first third, around in the second, in during the last.
+                let third = |i: f64| ease((3.0 * progress - i).clamp(0.0, 1.0));
+                let (out, around, back) = (third(0.0), third(1.0), third(2.0));
+                let (near, far) = (start.length(), end.length());
+                let length = near * (radius / near.max(1e-9)).powf(out) * (far / radius).powf(back);
+                let (from, to) = (start.normalize_or(DVec3::Z), end.normalize_or(DVec3::Z));
+                from.slerp(to, around) * length
+            }
+        }
+    }
+}
+
+/// Smoothstep: from rest to rest.
+fn ease(progress: f64) -> f64 {
+    progress * progress * (3.0 - 2.0 * progress)
+}
+
+/// The part of a line covered at `progress` if each step is as large as the surroundings, which
+/// grow by `exp(growth)` along it.
+fn geometric(progress: f64, growth: f64) -> f64 {
+    if growth.abs() < 1e-3 { progress } else { (growth * progress).exp_m1() / growth.exp_m1() }
+}
+
+impl Navigator {
+    /// Sets off to `to`; at once there where the surface bars the way.
+    pub fn fly_to(&mut self, camera: &mut Camera, world: World<'_>, to: &Camera) {
+        self.cancel();
+        self.flight = Flight::plan(world, camera, to);
+        if self.flight.is_none() {
+            *camera = to.clone();
+        }
+    }
+
+    /// Sets off to `home` (a scene's camera), as [`framed`] for the picture's shape.
+    pub fn go_home(&mut self, camera: &mut Camera, world: World<'_>, home: &Camera) {
+        self.fly_to(camera, world, &framed(home, world));
+    }
+
+    /// Sets off to where the whole bounding sphere fits the picture, in the present direction.
+    pub fn frame_all(&mut self, camera: &mut Camera, world: World<'_>) {
+        let half_height = camera.half_height();
+        let half_angle = half_height.min(half_height * world.viewport.aspect).atan();
+        let depth = (world.field.bounding_radius() * ROOM / half_angle.sin()).min(FARTHEST_EYE);
+        let to = Camera {
+            position: PrecisePoint::from(camera.forward() * -depth),
+            pivot: PrecisePoint::from(DVec3::ZERO),
+            ..camera.clone()
+        };
+        self.fly_to(camera, world, &to);
+    }
+
+    /// Turns a rolled camera upright where it stands.
+    pub fn level(&mut self, camera: &mut Camera, world: World<'_>) {
+        let eye = camera.position.to_dvec3();
+        let upright = Camera::looking_at(eye, eye + camera.forward(), DVec3::Z);
+        let to = Camera { orientation: upright.orientation, ..camera.clone() };
+        self.fly_to(camera, world, &to);
+    }
+
+    /// Continues a flight by `dt_secs`. Returns whether one was in progress: call it once a frame
+    /// until it says no.
+    pub fn advance(&mut self, camera: &mut Camera, dt_secs: f64) -> bool {
+        let Some(flight) = &mut self.flight else { return false };
+        flight.elapsed_secs += if dt_secs.is_finite() { dt_secs.max(0.0) } else { FLIGHT_SECS };
+        *camera = flight.camera();
+        if flight.elapsed_secs >= FLIGHT_SECS {
+            self.flight = None;
+        }
+        true
+    }
+}
+
+/// `camera`, drawn back from its pivot where the picture is higher than wide, so that it shows as
+/// much to the sides as a square one would; unchanged where the surface is in the way.
+pub fn framed(camera: &Camera, world: World<'_>) -> Camera {
+    let aspect = world.viewport.aspect;
+    if !(aspect > 0.0 && aspect < 1.0) {
+        return camera.clone();
+    }
+    let way = (&camera.position - &camera.pivot) * (1.0 / aspect - 1.0);
+    if collide::advance(world, camera, way) != way {
+        return camera.clone();
+    }
+    Camera { position: camera.position.moved_by(way, world.grain(camera)), ..camera.clone() }
+}
