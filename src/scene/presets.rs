@@ -1,1 +1,356 @@
-//! pending
+//! The opening scenes.
+//!
+//! In: nothing. Out: eight scenes to start from, each valid, the eye outside of the set and
+//! the pivot on or near what it shows. The first is the default scene.
+
+use glam::DVec3;
+
+use super::{
+    Background, Camera, ColorSource, Coloring, EnvironmentLight, Fractal, GradientStop, LightFrame,
+    Lights, PointLight, Scene, Surface, Tone,
+};
+
+/// A scene to start from.
+#[derive(Clone, Copy, Debug)]
+pub struct Preset {
+    /// A short name, one of its own.
+    pub name: &'static str,
+    /// What it shows, in a sentence.
+    pub blurb: &'static str,
+    /// The scene.
+    pub scene: fn() -> Scene,
+}
+
+/// The opening scenes, the default first.
+pub fn all() -> &'static [Preset] {
+    &[
+        Preset {
+            name: "Mandelbulb",
+            blurb: "Power 8, whole: the set that gave the others their name.",
+            scene: Scene::default,
+        },
+        Preset {
+            name: "Coral reef",
+            blurb: "Close to the power-8 bulb, where lobes grow on lobes.",
+            scene: coral_reef,
+        },
+        Preset {
+            name: "Four petals",
+            blurb: "Power 4: few lobes, deep folds.",
+            scene: four_petals,
+        },
+        Preset {
+            name: "Quadratic",
+            blurb: "Power 2, the Mandelbrot set's own exponent in space.",
+            scene: quadratic,
+        },
+        Preset {
+            name: "Sea urchin",
+            blurb: "Power 16: a ball beset with small buds.",
+            scene: sea_urchin,
+        },
+        Preset {
+            name: "In between",
+            blurb: "Power 5.5: the seam where the turns do not close.",
+            scene: in_between,
+        },
+        Preset {
+            name: "Julia",
+            blurb: "One constant for every point: the bulb's Julia form.",
+            scene: julia,
+        },
+        Preset {
+            name: "Lantern",
+            blurb: "A crevice of the power-8 bulb, lit from within by two points of light.",
+            scene: lantern,
+        },
+    ]
+}
+
+/// The camera at `eye`, looking at `pivot`, the world's z upward.
+fn camera(eye: [f64; 3], pivot: [f64; 3], vertical_fov_deg: f64) -> Camera {
+    let (eye, pivot) = (DVec3::from_array(eye), DVec3::from_array(pivot));
+    Camera {
+        vertical_fov_deg,
+        ..Camera::looking_at(eye, pivot, DVec3::Z)
+    }
+}
+
+/// A light from `direction`, of any length.
+fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
+    let direction = DVec3::from_array(direction)
+        .normalize_or(DVec3::Z)
+        .to_array();
+    EnvironmentLight {
+        direction,
+        color,
+        intensity,
+        ..Default::default()
+    }
+}
+
+/// A light that stays with the camera, from `direction` in its frame.
+fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
+    EnvironmentLight {
+        frame: LightFrame::View,
+        ..light(direction, color, intensity)
+    }
+}
+
+fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
+    list.iter()
+        .map(|&(position, color)| GradientStop { position, color })
+        .collect()
+}
+
+fn coral_reef() -> Scene {
+    Scene {
+        camera: camera([0.62, -1.1, 0.62], [0.3, -0.62, 0.42], 45.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.5, -0.6, 0.9], [1.0, 0.84, 0.66], 2.6),
+                light([0.9, -0.2, 0.2], [0.3, 0.6, 0.9], 0.9),
+                headlight([0.0, 0.3, 1.0], [0.9, 0.95, 1.0], 0.25),
+            ],
+            point: vec![],
+        },
+        surface: Surface {
+            coloring: Coloring {
+                source: ColorSource::OriginTrap,
+                repeats: 1.4,
+                offset: 0.1,
+            },
+            gradient: stops(&[
+                (0.0, [0.02, 0.08, 0.13]),
+                (0.3, [0.75, 0.18, 0.14]),
+                (0.5, [0.95, 0.52, 0.32]),
+                (0.7, [0.90, 0.84, 0.68]),
+                (0.85, [0.08, 0.34, 0.36]),
+            ]),
+            specular: 0.35,
+            shininess: 60.0,
+            ..Default::default()
+        },
+        background: Background {
+            top: [0.004, 0.02, 0.035],
+            bottom: [0.01, 0.07, 0.09],
+        },
+        ..Default::default()
+    }
+}
+
+fn four_petals() -> Scene {
+    Scene {
+        fractal: Fractal {
+            power: 4.0,
+            iterations: 14,
+            ..Default::default()
+        },
+        camera: camera([1.7, -2.6, 1.5], [0.0, 0.0, 0.0], 42.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.4, -0.8, 0.7], [1.0, 0.9, 0.95], 2.4),
+                light([0.9, 0.1, 0.1], [0.9, 0.35, 0.6], 0.9),
+                light([-0.2, 0.9, 0.4], [0.5, 0.6, 1.0], 1.3),
+            ],
+            point: vec![],
+        },
+        surface: Surface {
+            gradient: stops(&[
+                (0.0, [0.07, 0.01, 0.10]),
+                (0.25, [0.48, 0.07, 0.30]),
+                (0.5, [0.88, 0.36, 0.46]),
+                (0.7, [0.97, 0.78, 0.66]),
+                (0.85, [0.40, 0.22, 0.50]),
+            ]),
+            ..Default::default()
+        },
+        background: Background {
+            top: [0.012, 0.006, 0.022],
+            bottom: [0.07, 0.035, 0.08],
+        },
+        ..Default::default()
+    }
+}
+
+fn quadratic() -> Scene {
+    Scene {
+        fractal: Fractal {
+            power: 2.0,
+            iterations: 18,
+            ..Default::default()
+        },
+        camera: camera([0.9, -1.75, 1.3], [-0.2, 0.0, 0.0], 40.0),
+        lights: Lights {
+            environment: vec![
+                light([0.5, -0.6, 0.9], [1.0, 0.93, 0.8], 2.4),
+                light([-0.9, -0.4, 0.1], [0.4, 0.6, 1.0], 0.8),
+                light([-0.2, 0.9, 0.3], [0.6, 1.0, 0.8], 1.0),
+            ],
+            point: vec![],
+        },
+        surface: Surface {
+            gradient: stops(&[
+                (0.0, [0.01, 0.05, 0.05]),
+                (0.3, [0.05, 0.30, 0.22]),
+                (0.55, [0.45, 0.62, 0.26]),
+                (0.75, [0.93, 0.86, 0.55]),
+                (0.88, [0.20, 0.35, 0.35]),
+            ]),
+            ..Default::default()
+        },
+        background: Background {
+            top: [0.004, 0.012, 0.012],
+            bottom: [0.03, 0.06, 0.055],
+        },
+        ..Default::default()
+    }
+}
+
+fn sea_urchin() -> Scene {
+    Scene {
+        fractal: Fractal {
+            power: 16.0,
+            iterations: 12,
+            bailout: 3.0,
+            ..Default::default()
+        },
+        camera: camera([1.5, -2.3, 1.2], [0.0, 0.0, 0.0], 44.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.7, -0.5, 0.7], [0.85, 0.9, 1.0], 2.4),
+                light([0.9, -0.2, -0.1], [1.0, 0.5, 0.25], 1.0),
+                light([0.1, 0.9, 0.5], [0.6, 0.4, 1.0], 1.6),
+            ],
+            point: vec![],
+        },
+        surface: Surface {
+            coloring: Coloring {
+                source: ColorSource::OriginTrap,
+                repeats: 1.0,
+                offset: 0.0,
+            },
+            gradient: stops(&[
+                (0.0, [0.03, 0.02, 0.12]),
+                (0.3, [0.16, 0.12, 0.50]),
+                (0.5, [0.30, 0.45, 0.80]),
+                (0.7, [0.85, 0.88, 0.95]),
+                (0.9, [0.35, 0.20, 0.45]),
+            ]),
+            specular: 0.4,
+            shininess: 90.0,
+            ..Default::default()
+        },
+        background: Background {
+            top: [0.006, 0.006, 0.02],
+            bottom: [0.03, 0.03, 0.07],
+        },
+        ..Default::default()
+    }
+}
+
+fn in_between() -> Scene {
+    Scene {
+        fractal: Fractal {
+            power: 5.5,
+            iterations: 14,
+            ..Default::default()
+        },
+        camera: camera([-2.3, -1.7, 1.3], [0.0, 0.0, 0.0], 44.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.7, -0.2, 0.8], [1.0, 0.88, 0.6], 2.6),
+                light([0.3, -0.9, 0.0], [0.5, 0.7, 1.0], 0.6),
+                light([0.6, 0.7, 0.3], [1.0, 0.6, 0.35], 1.2),
+            ],
+            point: vec![],
+        },
+        surface: Surface {
+            coloring: Coloring {
+                source: ColorSource::AxisTrap,
+                repeats: 1.2,
+                offset: 0.05,
+            },
+            gradient: stops(&[
+                (0.0, [0.08, 0.04, 0.02]),
+                (0.3, [0.50, 0.26, 0.05]),
+                (0.55, [0.92, 0.66, 0.22]),
+                (0.75, [0.98, 0.92, 0.72]),
+                (0.88, [0.22, 0.28, 0.30]),
+            ]),
+            ..Default::default()
+        },
+        ..Default::default()
+    }
+}
+
+fn julia() -> Scene {
+    Scene {
+        fractal: Fractal {
+            iterations: 14,
+            julia: true,
+            ..Default::default()
+        },
+        camera: camera([1.5, -2.5, 1.4], [0.0, 0.0, 0.0], 45.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.5, -0.7, 0.7], [1.0, 0.95, 0.88], 2.4),
+                light([0.9, -0.3, 0.2], [0.25, 0.75, 0.9], 0.9),
+                light([0.0, 0.9, 0.5], [0.9, 0.9, 1.0], 1.3),
+            ],
+            point: vec![],
+        },
+        surface: Surface {
+            gradient: stops(&[
+                (0.0, [0.01, 0.04, 0.09]),
+                (0.3, [0.03, 0.28, 0.42]),
+                (0.55, [0.25, 0.68, 0.70]),
+                (0.75, [0.92, 0.90, 0.78]),
+                (0.88, [0.55, 0.28, 0.12]),
+            ]),
+            specular: 0.35,
+            shininess: 70.0,
+            ..Default::default()
+        },
+        background: Background {
+            top: [0.004, 0.01, 0.018],
+            bottom: [0.03, 0.055, 0.07],
+        },
+        ..Default::default()
+    }
+}
+
+fn lantern() -> Scene {
+    let lamp = |position: [f64; 3], color, intensity| PointLight {
+        position: DVec3::from_array(position).into(),
+        color,
+        intensity,
+        ..Default::default()
+    };
+    Scene {
+        camera: camera([0.35, -1.25, 0.25], [0.1, -0.85, 0.15], 55.0),
+        lights: Lights {
+            environment: vec![EnvironmentLight {
+                casts_shadows: false,
+                ..light([0.2, -0.4, 0.9], [0.35, 0.45, 0.8], 0.12)
+            }],
+            point: vec![
+                lamp([0.2, -0.95, 0.2], [1.0, 0.62, 0.28], 0.06),
+                lamp([0.0, -1.0, 0.35], [0.3, 0.55, 1.0], 0.04),
+            ],
+        },
+        surface: Surface {
+            ambient: 0.02,
+            ..Default::default()
+        },
+        tone: Tone {
+            exposure: 0.3,
+            ..Default::default()
+        },
+        background: Background {
+            top: [0.002, 0.002, 0.005],
+            bottom: [0.01, 0.01, 0.016],
+        },
+        ..Default::default()
+    }
+}

@@ -1,0 +1,133 @@
+//! The opening scenes: valid, told apart, and seen from outside of what they show.
+
+use glam::DVec3;
+use mandelight::scene::{Fractal, Scene, Variant, document, link, presets};
+
+/// Distance estimate of thesis Algorithm 1, with trigonometry; zero inside.
+fn distance_estimate(fractal: &Fractal, point: DVec3) -> f64 {
+    let n = fractal.power;
+    let sign = if fractal.variant == Variant::NegativeSine {
+        -1.0
+    } else {
+        1.0
+    };
+    let c = if fractal.julia {
+        DVec3::from_array(fractal.julia_constant)
+    } else {
+        point
+    };
+    let (mut z, mut dr) = (point, 1.0);
+    for _ in 0..fractal.iterations {
+        let r = z.length();
+        if r > fractal.bailout {
+            return 0.5 * r.ln() * r / dr;
+        }
+        let (phi, theta) = ((z.z / r).asin(), z.y.atan2(z.x));
+        dr = n * r.powf(n - 1.0) * dr + if fractal.julia { 0.0 } else { 1.0 };
+        let direction = DVec3::new(
+            (n * phi).cos() * (n * theta).cos(),
+            (n * phi).cos() * (n * theta).sin(),
+            sign * (n * phi).sin(),
+        );
+        z = r.powf(n) * direction + c;
+    }
+    0.0
+}
+
+#[test]
+fn there_are_eight_and_the_first_is_the_default() {
+    let presets = presets::all();
+    assert_eq!(presets.len(), 8);
+    assert_eq!((presets[0].scene)(), Scene::default());
+    for (i, preset) in presets.iter().enumerate() {
+        assert!(!preset.name.is_empty() && preset.blurb.ends_with('.'));
+        for other in &presets[..i] {
+            assert_ne!(preset.name, other.name);
+            assert_ne!(
+                (preset.scene)(),
+                (other.scene)(),
+                "{} and {}",
+                preset.name,
+                other.name
+            );
+        }
+    }
+}
+
+#[test]
+fn each_is_valid_and_fits_a_link() {
+    for preset in presets::all() {
+        let scene = (preset.scene)();
+        scene
+            .validate()
+            .unwrap_or_else(|error| panic!("{}: {error}", preset.name));
+        assert_eq!(
+            document::from_json(&document::to_json(&scene)),
+            Ok(scene.clone())
+        );
+        let fragment = link::to_fragment(&scene).unwrap();
+        println!("{}: {} characters", preset.name, fragment.len());
+        assert!(
+            fragment.len() < 1200,
+            "{}: {} characters",
+            preset.name,
+            fragment.len()
+        );
+        assert_eq!(link::from_fragment(&fragment), Ok(scene));
+    }
+}
+
+#[test]
+fn each_eye_and_lamp_is_outside_of_the_set() {
+    for preset in presets::all() {
+        let scene = (preset.scene)();
+        let eye = scene.camera.position.to_dvec3();
+        let distance = distance_estimate(&scene.fractal, eye);
+        assert!(
+            distance > 0.1 * scene.camera.view_unit(),
+            "{}: {distance}",
+            preset.name
+        );
+        for light in &scene.lights.point {
+            let lamp = light.position.to_dvec3();
+            let distance = distance_estimate(&scene.fractal, lamp);
+            assert!(
+                distance > 0.005,
+                "{}: lamp at {lamp}: {distance}",
+                preset.name
+            );
+        }
+    }
+}
+
+#[test]
+fn each_shows_a_surface_in_the_middle() {
+    for preset in presets::all() {
+        let scene = (preset.scene)();
+        let (camera, fractal) = (&scene.camera, &scene.fractal);
+        let pivot = camera.pivot.to_dvec3();
+        assert!(
+            pivot.length() < 3.0 && camera.view_unit() < 4.0,
+            "{}",
+            preset.name
+        );
+        // A slow march through the picture's centre and around it.
+        let hits = (0..25).filter(|i| {
+            let (x, y) = (f64::from(i % 5) - 2.0, f64::from(i / 5) - 2.0);
+            let spread = 0.15 * camera.half_height();
+            let direction =
+                (camera.rotation() * DVec3::new(x * spread, y * spread, -1.0)).normalize();
+            let mut t = 0.0;
+            for _ in 0..2000 {
+                let step = distance_estimate(fractal, camera.position.to_dvec3() + t * direction);
+                if step < 1e-3 * t {
+                    return true;
+                }
+                t += 0.3 * step.min(0.1);
+            }
+            false
+        });
+        let hits = hits.count();
+        assert!(hits > 12, "{}: {hits} of 25 rays hit", preset.name);
+    }
+}
