@@ -1,0 +1,141 @@
+//! A file that is there whole or not at all.
+//!
+//! In: a path. Out: something to write to; until it is committed the path keeps what it had.
+
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, BufWriter, IsTerminal, Write},
+    path::{Path, PathBuf},
+    process,
+};
+
+/// Where a picture goes.
+pub enum Output {
+    /// A file under a temporary name beside its final one.
+    File(PartFile),
+    /// Standard output, a device or a named pipe: there is nothing to replace.
+    Stream(Box<dyn Write>),
+}
+
+impl Output {
+    /// Opens `path` for writing; `-` is standard output, where that is no terminal.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        if path == "-" {
+            if io::stdout().is_terminal() {
+                return Err(io::Error::other("a picture is not written to a terminal"));
+            }
+            return Ok(Self::Stream(Box::new(io::stdout().lock())));
+        }
+        match fs::metadata(path) {
+            Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            // A rename would put a file in the place of /dev/null.
+            Ok(there) if !there.is_file() => {
+                Ok(Self::Stream(Box::new(OpenOptions::new().write(true).open(path)?)))
+            }
+            // Through a link, so that the link stays one.
+            Ok(_) => Ok(Self::File(PartFile::create(&fs::canonicalize(path)?)?)),
+            Err(_) => Ok(Self::File(PartFile::create(path)?)),
+        }
+    }
+
+    /// Makes what was written final.
+    pub fn commit(self) -> io::Result<()> {
+        match self {
+            Self::File(part) => part.commit(),
+            Self::Stream(mut stream) => stream.flush(),
+        }
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::File(part) => part.file.write(bytes),
+            Self::Stream(stream) => stream.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::File(part) => part.file.flush(),
+            Self::Stream(stream) => stream.flush(),
+        }
+    }
+}
+
+/// A file that takes its name at the end; dropped before, it is removed.
+pub struct PartFile {
+    file: BufWriter<File>,
+    part_path: PathBuf,
+    final_path: PathBuf,
+}
+
+impl PartFile {
+    fn create(final_path: &Path) -> io::Result<Self> {
+        let name = final_path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
+        let part_name = format!(".{}.{}.part", name.to_string_lossy(), process::id());
+        let part_path = final_path.with_file_name(part_name);
+        // Never through a link that someone else has put there.
+        let file = OpenOptions::new().write(true).create_new(true).open(&part_path)?;
+        Ok(Self { file: BufWriter::new(file), part_path, final_path: final_path.to_owned() })
+    }
+
+    fn commit(mut self) -> io::Result<()> {
+        self.file.flush()?;
+        self.file.get_ref().sync_all()?;
+        fs::rename(&self.part_path, &self.final_path)
+    }
+}
+
+impl Drop for PartFile {
+    fn drop(&mut self) {
+        // After a commit there is nothing under this name.
+        let _ = fs::remove_file(&self.part_path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names_in(folder: &Path) -> Vec<String> {
+        fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect()
+    }
+
+    #[test]
+    fn a_file_appears_only_when_committed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.png");
+        let mut output = Output::create(&path).unwrap();
+        output.write_all(b"new").unwrap();
+        output.flush().unwrap();
+        assert!(!path.exists());
+        output.commit().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(names_in(folder.path()), ["out.png"]);
+    }
+
+    #[test]
+    fn what_was_there_outlives_a_failure() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.png");
+        fs::write(&path, b"old").unwrap();
+        let mut output = Output::create(&path).unwrap();
+        output.write_all(b"half").unwrap();
+        drop(output);
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names_in(folder.path()), ["out.png"]);
+    }
+
+    #[test]
+    fn a_folder_and_a_missing_folder_are_errors() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(Output::create(folder.path()).is_err());
+        assert!(Output::create(&folder.path().join("none/out.png")).is_err());
+        assert!(Output::create(Path::new("")).is_err());
+        assert!(names_in(folder.path()).is_empty());
+    }
+}

@@ -1,0 +1,51 @@
+//! `mandelight scene`: a document to start from.
+
+use mandelight::scene::{document, presets};
+
+use super::{
+    Failure,
+    input::{self, Change},
+    print,
+};
+
+/// What `mandelight scene` takes.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// Print this opening scene instead of the first one
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// List the opening scenes
+    #[arg(long, conflicts_with_all = ["preset", "set"])]
+    list_presets: bool,
+    /// Change a field, such as fractal.power=3 or lights.environment[0].intensity=2
+    #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
+    set: Vec<Change>,
+}
+
+/// Prints what was asked for.
+pub fn run(arguments: Arguments) -> Result<(), Failure> {
+    if arguments.list_presets {
+        let names: Vec<String> = presets::all().iter().map(|preset| name_of(preset.name)).collect();
+        let width = names.iter().map(String::len).max().unwrap_or(0);
+        let lines = names.iter().zip(presets::all());
+        let list: String =
+            lines.map(|(name, preset)| format!("{name:width$}  {}\n", preset.blurb)).collect();
+        return print(&list);
+    }
+    let wanted = arguments.preset.as_deref().map(name_of);
+    let preset = presets::all()
+        .iter()
+        .find(|preset| wanted.as_ref().is_none_or(|wanted| name_of(preset.name) == *wanted))
+        .ok_or_else(|| {
+            let names: Vec<String> = presets::all().iter().map(|p| name_of(p.name)).collect();
+            let wanted = wanted.unwrap_or_default();
+            Failure::usage(format!("--preset: no \"{wanted}\"; there are {}", names.join(", ")))
+        })?;
+    let scene = input::changed((preset.scene)(), &arguments.set)?;
+    print(&document::to_json(&scene))
+}
+
+/// A preset's name as it is typed: `coral-reef` for "Coral reef".
+fn name_of(name: &str) -> String {
+    name.to_lowercase().replace(' ', "-")
+}
