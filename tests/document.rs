@@ -18,33 +18,21 @@ fn full_document() -> Value {
     // The power that allows every bailout of the table.
     scene.fractal.power = 2.0;
     scene.lights = Lights {
-        environment: vec![EnvironmentLight {
-            shadow_reach: Some(1.0),
-            ..Default::default()
-        }],
+        environment: vec![EnvironmentLight { shadow_reach: Some(1.0), ..Default::default() }],
         point: vec![PointLight::default()],
     };
-    scene.surface.gradient = vec![GradientStop {
-        position: 0.5,
-        color: [1.0; 3],
-    }];
+    scene.surface.gradient = vec![GradientStop { position: 0.5, color: [1.0; 3] }];
     serde_json::from_str(&to_json(&scene)).unwrap()
 }
 
 /// The field at a path such as `lights.point[0].intensity` in a document.
 fn field<'a>(document: &'a mut Value, path: &str) -> &'a mut Value {
     let pointer = format!("/scene/{}", path.replace(['.', '['], "/").replace(']', ""));
-    document
-        .pointer_mut(&pointer)
-        .unwrap_or_else(|| panic!("no field {path}"))
+    document.pointer_mut(&pointer).unwrap_or_else(|| panic!("no field {path}"))
 }
 
 fn number(param: &Param, value: f64) -> Value {
-    if param.scale == Scale::Integer {
-        json!(value as i64)
-    } else {
-        json!(value)
-    }
+    if param.scale == Scale::Integer { json!(value as i64) } else { json!(value) }
 }
 
 fn read_with(path: &str, value: Value) -> Result<Scene, DocumentError> {
@@ -94,10 +82,7 @@ fn numbers_that_are_not_finite_are_refused_by_name() {
     assert_eq!(scene.validate().unwrap_err().path, "tone.exposure");
     scene = Scene::default();
     scene.lights.environment[1].direction[2] = f64::INFINITY;
-    assert_eq!(
-        scene.validate().unwrap_err().path,
-        "lights.environment[1].direction"
-    );
+    assert_eq!(scene.validate().unwrap_err().path, "lights.environment[1].direction");
 }
 
 #[test]
@@ -112,20 +97,14 @@ fn scalar_defaults_are_those_of_the_parameter_table() {
         if [&param::JULIA_CONSTANT, &param::SHADOW_REACH].contains(param) {
             continue;
         }
-        assert_eq!(
-            field(&mut document, &path).as_f64(),
-            Some(param.default),
-            "{path}"
-        );
+        assert_eq!(field(&mut document, &path).as_f64(), Some(param.default), "{path}");
     }
 }
 
 /// The error that a scene's JSON gives.
 fn error_of(scene: Value) -> String {
     let document = json!({ "mandelight": "scene", "version": 1, "scene": scene });
-    from_json(&document.to_string())
-        .expect_err("refused")
-        .to_string()
+    from_json(&document.to_string()).expect_err("refused").to_string()
 }
 
 #[test]
@@ -151,10 +130,7 @@ fn errors_name_the_field_and_say_what_is_wrong() {
             json!({ "fractal": { "powr": 8 } }),
             "fractal.powr: unknown field `powr`, expected one of `power`",
         ),
-        (
-            json!({ "fractal": { "variant": "other" } }),
-            "fractal.variant: unknown variant `other`",
-        ),
+        (json!({ "fractal": { "variant": "other" } }), "fractal.variant: unknown variant `other`"),
         (json!({ "fog": {} }), "fog: unknown field `fog`"),
         (
             json!({ "fractal": { "power": 16, "bailout": 16 } }),
@@ -184,34 +160,16 @@ fn errors_name_the_field_and_say_what_is_wrong() {
             json!({ "lights": { "point": [{ "color": [0, 1.5, 0] }] } }),
             "lights.point[0].color[1]: 1.5 is outside 0 to 1",
         ),
-        (
-            json!({ "background": { "top": [0, 0, -1] } }),
-            "background.top[2]: -1 is outside 0 to 1",
-        ),
+        (json!({ "background": { "top": [0, 0, -1] } }), "background.top[2]: -1 is outside 0 to 1"),
         // The three environment lights of the default, and these.
-        (
-            lights(62),
-            "lights: 65 lights are too many; a scene has at most 64",
-        ),
+        (lights(62), "lights: 65 lights are too many; a scene has at most 64"),
         (gradient(vec![]), "surface.gradient: has 0 stops"),
-        (
-            gradient(vec![stop(0.5); 17]),
-            "surface.gradient: has 17 stops",
-        ),
-        (
-            gradient(vec![stop(0.5), stop(0.2)]),
-            "surface.gradient[1].position: 0.2 lies before",
-        ),
-        (
-            gradient(vec![json!({ "position": 0 })]),
-            "surface.gradient[0]: missing field `color`",
-        ),
+        (gradient(vec![stop(0.5); 17]), "surface.gradient: has 17 stops"),
+        (gradient(vec![stop(0.5), stop(0.2)]), "surface.gradient[1].position: 0.2 lies before"),
+        (gradient(vec![json!({ "position": 0 })]), "surface.gradient[0]: missing field `color`"),
     ] {
         let error = error_of(scene);
-        assert!(
-            error.starts_with(beginning),
-            "{error}\nshould begin with\n{beginning}"
-        );
+        assert!(error.starts_with(beginning), "{error}\nshould begin with\n{beginning}");
     }
     assert!(
         from_json(&json!({ "mandelight": "scene", "version": 1, "scene": lights(61) }).to_string())
@@ -223,30 +181,18 @@ fn errors_name_the_field_and_say_what_is_wrong() {
 fn errors_about_the_document_itself() {
     for (text, beginning) in [
         ("", "line 1, column 0: EOF"),
-        (
-            "{\n  \"mandelight\": \"scene\",\n  oops",
-            "line 3, column 3: key must be a string",
-        ),
+        ("{\n  \"mandelight\": \"scene\",\n  oops", "line 3, column 3: key must be a string"),
         ("[]", "not a Mandelight scene"),
         ("[\"scene\", 1, {}]", "not a Mandelight scene"),
         ("12", "not a Mandelight scene"),
         ("{}", "not a Mandelight scene"),
-        (
-            "{\"mandelight\": \"recipe\", \"version\": 1}",
-            "not a Mandelight scene",
-        ),
+        ("{\"mandelight\": \"recipe\", \"version\": 1}", "not a Mandelight scene"),
         (
             "{\"mandelight\": \"scene\", \"scene\": {}}",
             "version: none cannot be read; this program reads version 1",
         ),
-        (
-            "{\"mandelight\": \"scene\", \"version\": 2, \"stage\": {}}",
-            "version: 2 cannot be read",
-        ),
-        (
-            "{\"mandelight\": \"scene\", \"version\": \"1\"}",
-            "version: \"1\" cannot be read",
-        ),
+        ("{\"mandelight\": \"scene\", \"version\": 2, \"stage\": {}}", "version: 2 cannot be read"),
+        ("{\"mandelight\": \"scene\", \"version\": \"1\"}", "version: \"1\" cannot be read"),
         (
             "{\"mandelight\": \"scene\", \"version\": 1}",
             "document: missing field `scene` (line 1, column 37)",
@@ -267,15 +213,8 @@ fn errors_about_the_document_itself() {
         let error = from_json(text).expect_err(text).to_string();
         assert!(error.starts_with(beginning), "{text}\ngave\n{error}");
     }
-    let long = format!(
-        "{}{}",
-        to_json(&Scene::default()),
-        " ".repeat(document::MAX_BYTES)
-    );
-    assert!(matches!(
-        from_json(&long),
-        Err(DocumentError::TooLarge { .. })
-    ));
+    let long = format!("{}{}", to_json(&Scene::default()), " ".repeat(document::MAX_BYTES));
+    assert!(matches!(from_json(&long), Err(DocumentError::TooLarge { .. })));
 }
 
 #[test]
@@ -286,11 +225,7 @@ fn what_is_left_out_takes_its_default() {
 
 #[test]
 fn a_direction_written_with_three_digits_is_brought_to_length_one() {
-    let scene = read_with(
-        "lights.environment[0].direction",
-        json!([0.707, 0.0, 0.707]),
-    )
-    .unwrap();
+    let scene = read_with("lights.environment[0].direction", json!([0.707, 0.0, 0.707])).unwrap();
     let [x, _, z] = scene.lights.environment[0].direction;
     assert_eq!(x, z);
     assert!((x.hypot(z) - 1.0).abs() < 1e-15);
@@ -340,10 +275,7 @@ fn links_from_before_still_open() {
     assert_eq!(scene.fractal.power, 5.5);
     assert_eq!(scene.lights.environment.len(), 1);
     assert_eq!(scene.lights.environment[0].shadow_reach, Some(2.0));
-    assert_eq!(
-        scene.lights.environment[0].color,
-        EnvironmentLight::default().color
-    );
+    assert_eq!(scene.lights.environment[0].color, EnvironmentLight::default().color);
     assert_eq!(scene.camera, Scene::default().camera);
 }
 
@@ -387,41 +319,23 @@ fn bad_links_are_told_apart() {
     let deflated = |text: &str| {
         use base64::Engine;
         let bytes = miniz_oxide::deflate::compress_to_vec(text.as_bytes(), 9);
-        format!(
-            "s1={}",
-            base64::engine::general_purpose::URL_SAFE_NO_PAD.encode(bytes)
-        )
+        format!("s1={}", base64::engine::general_purpose::URL_SAFE_NO_PAD.encode(bytes))
     };
     let good = to_fragment(&Scene {
-        quality: mandelight::scene::Quality {
-            samples: 99,
-            ..Default::default()
-        },
+        quality: mandelight::scene::Quality { samples: 99, ..Default::default() },
         ..Default::default()
     })
     .unwrap();
-    assert_eq!(
-        from_fragment(&format!("#{good}")).unwrap().quality.samples,
-        99
-    );
+    assert_eq!(from_fragment(&format!("#{good}")).unwrap().quality.samples, 99);
 
     assert_eq!(from_fragment(""), Err(LinkError::NotAScene));
     assert_eq!(from_fragment("#section-2"), Err(LinkError::NotAScene));
-    assert_eq!(
-        from_fragment("#s2=abc"),
-        Err(LinkError::Version { found: "2".into() })
-    );
+    assert_eq!(from_fragment("#s2=abc"), Err(LinkError::Version { found: "2".into() }));
     assert_eq!(from_fragment("#s1="), Err(LinkError::Damaged));
     assert_eq!(from_fragment("#s1=!!!"), Err(LinkError::Damaged));
-    assert_eq!(
-        from_fragment(&good[..good.len() - 4]),
-        Err(LinkError::Damaged)
-    );
+    assert_eq!(from_fragment(&good[..good.len() - 4]), Err(LinkError::Damaged));
     let long = format!("s1={}", "A".repeat(link::MAX_FRAGMENT_BYTES));
-    assert!(matches!(
-        from_fragment(&long),
-        Err(LinkError::TooLong { .. })
-    ));
+    assert!(matches!(from_fragment(&long), Err(LinkError::TooLong { .. })));
     let bomb = deflated(&" ".repeat(4 << 20));
     assert!(bomb.len() < link::MAX_FRAGMENT_BYTES);
     assert_eq!(from_fragment(&bomb), Err(LinkError::TooLarge));

@@ -6,16 +6,8 @@ use mandelight::scene::{Fractal, Scene, Variant, document, link, presets};
 /// Distance estimate of thesis Algorithm 1, with trigonometry; zero inside.
 fn distance_estimate(fractal: &Fractal, point: DVec3) -> f64 {
     let n = fractal.power;
-    let sign = if fractal.variant == Variant::NegativeSine {
-        -1.0
-    } else {
-        1.0
-    };
-    let c = if fractal.julia {
-        DVec3::from_array(fractal.julia_constant)
-    } else {
-        point
-    };
+    let sign = if fractal.variant == Variant::NegativeSine { -1.0 } else { 1.0 };
+    let c = if fractal.julia { DVec3::from_array(fractal.julia_constant) } else { point };
     let (mut z, mut dr) = (point, 1.0);
     for _ in 0..fractal.iterations {
         let r = z.length();
@@ -43,13 +35,7 @@ fn there_are_eight_and_the_first_is_the_default() {
         assert!(!preset.name.is_empty() && preset.blurb.ends_with('.'));
         for other in &presets[..i] {
             assert_ne!(preset.name, other.name);
-            assert_ne!(
-                (preset.scene)(),
-                (other.scene)(),
-                "{} and {}",
-                preset.name,
-                other.name
-            );
+            assert_ne!((preset.scene)(), (other.scene)(), "{} and {}", preset.name, other.name);
         }
     }
 }
@@ -58,21 +44,11 @@ fn there_are_eight_and_the_first_is_the_default() {
 fn each_is_valid_and_fits_a_link() {
     for preset in presets::all() {
         let scene = (preset.scene)();
-        scene
-            .validate()
-            .unwrap_or_else(|error| panic!("{}: {error}", preset.name));
-        assert_eq!(
-            document::from_json(&document::to_json(&scene)),
-            Ok(scene.clone())
-        );
+        scene.validate().unwrap_or_else(|error| panic!("{}: {error}", preset.name));
+        assert_eq!(document::from_json(&document::to_json(&scene)), Ok(scene.clone()));
         let fragment = link::to_fragment(&scene).unwrap();
         println!("{}: {} characters", preset.name, fragment.len());
-        assert!(
-            fragment.len() < 1200,
-            "{}: {} characters",
-            preset.name,
-            fragment.len()
-        );
+        assert!(fragment.len() < 1200, "{}: {} characters", preset.name, fragment.len());
         assert_eq!(link::from_fragment(&fragment), Ok(scene));
     }
 }
@@ -83,19 +59,11 @@ fn each_eye_and_lamp_is_outside_of_the_set() {
         let scene = (preset.scene)();
         let eye = scene.camera.position.to_dvec3();
         let distance = distance_estimate(&scene.fractal, eye);
-        assert!(
-            distance > 0.1 * scene.camera.view_unit(),
-            "{}: {distance}",
-            preset.name
-        );
+        assert!(distance > 0.1 * scene.camera.view_unit(), "{}: {distance}", preset.name);
         for light in &scene.lights.point {
             let lamp = light.position.to_dvec3();
             let distance = distance_estimate(&scene.fractal, lamp);
-            assert!(
-                distance > 0.005,
-                "{}: lamp at {lamp}: {distance}",
-                preset.name
-            );
+            assert!(distance > 0.005, "{}: lamp at {lamp}: {distance}", preset.name);
         }
     }
 }
@@ -106,11 +74,7 @@ fn each_shows_a_surface_in_the_middle() {
         let scene = (preset.scene)();
         let (camera, fractal) = (&scene.camera, &scene.fractal);
         let pivot = camera.pivot.to_dvec3();
-        assert!(
-            pivot.length() < 3.0 && camera.view_unit() < 4.0,
-            "{}",
-            preset.name
-        );
+        assert!(pivot.length() < 3.0 && camera.view_unit() < 4.0, "{}", preset.name);
         // A slow march through the picture's centre and around it.
         let hits = (0..25).filter(|i| {
             let (x, y) = (f64::from(i % 5) - 2.0, f64::from(i / 5) - 2.0);

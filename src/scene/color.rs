@@ -10,21 +10,13 @@ pub const GRADIENT_ENTRIES: usize = 256;
 /// Linear light of an sRGB-encoded channel (IEC 61966-2-1); both 0 to 1, and clamped to it.
 pub fn linear_from_srgb(encoded: f32) -> f32 {
     let encoded = encoded.clamp(0.0, 1.0);
-    if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The sRGB encoding of a linear channel (IEC 61966-2-1); both 0 to 1, and clamped to it.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
+    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// The gradient's linear colour at `u`, of which only the fraction counts. Between stops it
@@ -34,11 +26,7 @@ pub fn gradient_at(stops: &[GradientStop], u: f64) -> [f32; 3] {
     let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
         return [0.0; 3];
     };
-    let u = if u.is_finite() {
-        u.rem_euclid(1.0)
-    } else {
-        0.0
-    };
+    let u = if u.is_finite() { u.rem_euclid(1.0) } else { 0.0 };
     let next = stops.partition_point(|stop| stop.position <= u);
     // The neighbours on both sides, one of them a turn away where the pair spans the wrap.
     let (before, before_at) = match next {
@@ -50,11 +38,7 @@ pub fn gradient_at(stops: &[GradientStop], u: f64) -> [f32; 3] {
         None => (first, first.position + 1.0),
     };
     let span = after_at - before_at;
-    let t = if span > 0.0 {
-        ((u - before_at) / span).clamp(0.0, 1.0) as f32
-    } else {
-        0.0
-    };
+    let t = if span > 0.0 { ((u - before_at) / span).clamp(0.0, 1.0) as f32 } else { 0.0 };
     std::array::from_fn(|i| before.color[i] + (after.color[i] - before.color[i]) * t)
 }
 
@@ -75,9 +59,7 @@ mod tests {
     const BLUE: [f32; 3] = [0.0, 0.0, 1.0];
 
     fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
-        list.iter()
-            .map(|&(position, color)| GradientStop { position, color })
-            .collect()
+        list.iter().map(|&(position, color)| GradientStop { position, color }).collect()
     }
 
     #[test]

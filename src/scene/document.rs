@@ -87,11 +87,7 @@ struct Document<S> {
 const KIND: &str = "scene";
 
 fn document(scene: &Scene) -> Document<&Scene> {
-    Document {
-        mandelight: KIND.into(),
-        version: VERSION,
-        scene,
-    }
+    Document { mandelight: KIND.into(), version: VERSION, scene }
 }
 
 /// The document, indented for people; fields in the order of the types.
@@ -99,9 +95,7 @@ pub fn to_json(scene: &Scene) -> String {
     let mut bytes = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Indented::default());
     // Writing to memory does not fail, and every key of a scene is a string.
-    document(scene)
-        .serialize(&mut serializer)
-        .expect("a scene is JSON");
+    document(scene).serialize(&mut serializer).expect("a scene is JSON");
     bytes.push(b'\n');
     // The serializer writes only UTF-8.
     String::from_utf8(bytes).expect("JSON is UTF-8")
@@ -126,12 +120,7 @@ pub fn from_json(text: &str) -> Result<Scene, DocumentError> {
     // Some editors put a byte order mark first.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     // The JSON reader would take a list for an object, field by field.
-    if text
-        .trim_start()
-        .chars()
-        .next()
-        .is_some_and(|first| first != '{')
-    {
+    if text.trim_start().chars().next().is_some_and(|first| first != '{') {
         return Err(DocumentError::NotAScene);
     }
     // The version first: another version's fields would only be called unknown.
@@ -140,9 +129,7 @@ pub fn from_json(text: &str) -> Result<Scene, DocumentError> {
         return Err(DocumentError::NotAScene);
     }
     if header.version.as_ref().and_then(|version| version.as_u64()) != Some(VERSION.into()) {
-        let found = header
-            .version
-            .map_or("none".into(), |version| clipped(&version.to_string()));
+        let found = header.version.map_or("none".into(), |version| clipped(&version.to_string()));
         return Err(DocumentError::Version { found });
     }
     checked(parse::<Document<Scene>>(text)?.scene)

@@ -70,9 +70,7 @@ pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
     let deflated = compress_to_vec(differences(scene).to_string().as_bytes(), DEFLATE_LEVEL);
     let fragment = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(deflated));
     if fragment.len() > MAX_FRAGMENT_BYTES {
-        return Err(LinkError::TooLong {
-            bytes: fragment.len(),
-        });
+        return Err(LinkError::TooLong { bytes: fragment.len() });
     }
     Ok(fragment)
 }
@@ -84,14 +82,10 @@ pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
 /// See [`LinkError`]. The caller's scene is as it was.
 pub fn from_fragment(fragment: &str) -> Result<Scene, LinkError> {
     if fragment.len() > MAX_FRAGMENT_BYTES {
-        return Err(LinkError::TooLong {
-            bytes: fragment.len(),
-        });
+        return Err(LinkError::TooLong { bytes: fragment.len() });
     }
     let payload = payload_of(fragment.strip_prefix('#').unwrap_or(fragment))?;
-    let deflated = URL_SAFE_NO_PAD
-        .decode(payload)
-        .map_err(|_| LinkError::Damaged)?;
+    let deflated = URL_SAFE_NO_PAD.decode(payload).map_err(|_| LinkError::Damaged)?;
     let inflated =
         decompress_to_vec_with_limit(&deflated, MAX_INFLATED_BYTES).map_err(|error| match error
             .status
@@ -108,16 +102,12 @@ fn payload_of(fragment: &str) -> Result<&str, LinkError> {
     if let Some(payload) = fragment.strip_prefix(PREFIX) {
         return Ok(payload);
     }
-    let version = fragment
-        .strip_prefix('s')
-        .and_then(|rest| rest.split_once('='));
+    let version = fragment.strip_prefix('s').and_then(|rest| rest.split_once('='));
     match version {
         Some((digits, _))
             if (1..=6).contains(&digits.len()) && digits.bytes().all(|b| b.is_ascii_digit()) =>
         {
-            Err(LinkError::Version {
-                found: digits.into(),
-            })
+            Err(LinkError::Version { found: digits.into() })
         }
         _ => Err(LinkError::NotAScene),
     }
@@ -133,16 +123,12 @@ fn differences(scene: &Scene) -> Value {
 }
 
 fn drop_list_defaults(scene: &mut Value, list: &str, default: &impl Serialize) {
-    let Some(lights) = scene
-        .pointer_mut(&format!("/lights/{list}"))
-        .and_then(Value::as_array_mut)
+    let Some(lights) = scene.pointer_mut(&format!("/lights/{list}")).and_then(Value::as_array_mut)
     else {
         return;
     };
     let default = value_of(default);
-    lights
-        .iter_mut()
-        .for_each(|light| drop_defaults(light, &default));
+    lights.iter_mut().for_each(|light| drop_defaults(light, &default));
 }
 
 /// Removes from `value` every field that `default` has alike. Lists stay whole.

@@ -187,10 +187,7 @@ mod tests {
 
     #[test]
     fn finds_the_parameter_of_an_indexed_path() {
-        assert_eq!(
-            find("lights.environment[12].intensity"),
-            Some(&ENVIRONMENT_INTENSITY)
-        );
+        assert_eq!(find("lights.environment[12].intensity"), Some(&ENVIRONMENT_INTENSITY));
         assert_eq!(find("fractal.julia_constant[2]"), Some(&JULIA_CONSTANT));
         assert_eq!(find("fractal.power"), Some(&POWER));
         assert_eq!(find("fractal.variant"), None);

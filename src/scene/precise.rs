@@ -60,7 +60,10 @@ impl Precise {
 fn decimal(value: f64) -> Precise {
     let value = if value.is_finite() { value } else { 0.0 };
     // Every finite f64 prints as a decimal number, so the parse cannot fail.
-    Precise(rounded_to_place(DBig::from_str(&format!("{value:e}")).unwrap_or(DBig::ZERO), LAST_PLACE))
+    Precise(rounded_to_place(
+        DBig::from_str(&format!("{value:e}")).unwrap_or(DBig::ZERO),
+        LAST_PLACE,
+    ))
 }
 
 /// `value` rounded to a multiple of `10^place`, with at most [`MAX_DIGITS`] digits.
@@ -95,7 +98,11 @@ impl FromStr for Precise {
         if let Some((_, exponent)) = text.split_once(['e', 'E']) {
             let exponent: i32 = exponent.parse().map_err(|_| ParsePreciseError::NotANumber)?;
             if exponent.abs() > -LAST_PLACE as i32 {
-                return Err(if exponent > 0 { ParsePreciseError::TooFar } else { ParsePreciseError::TooLong });
+                return Err(if exponent > 0 {
+                    ParsePreciseError::TooFar
+                } else {
+                    ParsePreciseError::TooLong
+                });
             }
         }
         let value = DBig::from_str(text).map_err(|_| ParsePreciseError::NotANumber)?;
@@ -124,7 +131,9 @@ impl Serialize for Precise {
 impl<'de> Deserialize<'de> for Precise {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
-        text.parse().map_err(|error| de::Error::custom(format!("\"{}\" {error}", text.chars().take(40).collect::<String>())))
+        text.parse().map_err(|error| {
+            de::Error::custom(format!("\"{}\" {error}", text.chars().take(40).collect::<String>()))
+        })
     }
 }
 
@@ -193,7 +202,19 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_coordinate() {
-        for text in ["", "-", "1e", "abc", "nan", "inf", "1e999999999", "1e-999999999", "101", "0x10", "1_0"] {
+        for text in [
+            "",
+            "-",
+            "1e",
+            "abc",
+            "nan",
+            "inf",
+            "1e999999999",
+            "1e-999999999",
+            "101",
+            "0x10",
+            "1_0",
+        ] {
             assert!(text.parse::<Precise>().is_err(), "{text:?} was accepted");
         }
         assert_eq!("9".repeat(121).parse::<Precise>(), Err(ParsePreciseError::TooLong));

@@ -70,37 +70,22 @@ pub fn all() -> &'static [Preset] {
 /// The camera at `eye`, looking at `pivot`, the world's z upward.
 fn camera(eye: [f64; 3], pivot: [f64; 3], vertical_fov_deg: f64) -> Camera {
     let (eye, pivot) = (DVec3::from_array(eye), DVec3::from_array(pivot));
-    Camera {
-        vertical_fov_deg,
-        ..Camera::looking_at(eye, pivot, DVec3::Z)
-    }
+    Camera { vertical_fov_deg, ..Camera::looking_at(eye, pivot, DVec3::Z) }
 }
 
 /// A light from `direction`, of any length.
 fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    let direction = DVec3::from_array(direction)
-        .normalize_or(DVec3::Z)
-        .to_array();
-    EnvironmentLight {
-        direction,
-        color,
-        intensity,
-        ..Default::default()
-    }
+    let direction = DVec3::from_array(direction).normalize_or(DVec3::Z).to_array();
+    EnvironmentLight { direction, color, intensity, ..Default::default() }
 }
 
 /// A light that stays with the camera, from `direction` in its frame.
 fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    EnvironmentLight {
-        frame: LightFrame::View,
-        ..light(direction, color, intensity)
-    }
+    EnvironmentLight { frame: LightFrame::View, ..light(direction, color, intensity) }
 }
 
 fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
-    list.iter()
-        .map(|&(position, color)| GradientStop { position, color })
-        .collect()
+    list.iter().map(|&(position, color)| GradientStop { position, color }).collect()
 }
 
 fn coral_reef() -> Scene {
@@ -115,11 +100,7 @@ fn coral_reef() -> Scene {
             point: vec![],
         },
         surface: Surface {
-            coloring: Coloring {
-                source: ColorSource::OriginTrap,
-                repeats: 1.4,
-                offset: 0.1,
-            },
+            coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.4, offset: 0.1 },
             gradient: stops(&[
                 (0.0, [0.02, 0.08, 0.13]),
                 (0.3, [0.75, 0.18, 0.14]),
@@ -131,21 +112,14 @@ fn coral_reef() -> Scene {
             shininess: 60.0,
             ..Default::default()
         },
-        background: Background {
-            top: [0.004, 0.02, 0.035],
-            bottom: [0.01, 0.07, 0.09],
-        },
+        background: Background { top: [0.004, 0.02, 0.035], bottom: [0.01, 0.07, 0.09] },
         ..Default::default()
     }
 }
 
 fn four_petals() -> Scene {
     Scene {
-        fractal: Fractal {
-            power: 4.0,
-            iterations: 14,
-            ..Default::default()
-        },
+        fractal: Fractal { power: 4.0, iterations: 14, ..Default::default() },
         camera: camera([1.7, -2.6, 1.5], [0.0, 0.0, 0.0], 42.0),
         lights: Lights {
             environment: vec![
@@ -165,21 +139,14 @@ fn four_petals() -> Scene {
             ]),
             ..Default::default()
         },
-        background: Background {
-            top: [0.012, 0.006, 0.022],
-            bottom: [0.07, 0.035, 0.08],
-        },
+        background: Background { top: [0.012, 0.006, 0.022], bottom: [0.07, 0.035, 0.08] },
         ..Default::default()
     }
 }
 
 fn quadratic() -> Scene {
     Scene {
-        fractal: Fractal {
-            power: 2.0,
-            iterations: 18,
-            ..Default::default()
-        },
+        fractal: Fractal { power: 2.0, iterations: 18, ..Default::default() },
         camera: camera([0.9, -1.75, 1.3], [-0.2, 0.0, 0.0], 40.0),
         lights: Lights {
             environment: vec![
@@ -199,22 +166,14 @@ fn quadratic() -> Scene {
             ]),
             ..Default::default()
         },
-        background: Background {
-            top: [0.004, 0.012, 0.012],
-            bottom: [0.03, 0.06, 0.055],
-        },
+        background: Background { top: [0.004, 0.012, 0.012], bottom: [0.03, 0.06, 0.055] },
         ..Default::default()
     }
 }
 
 fn sea_urchin() -> Scene {
     Scene {
-        fractal: Fractal {
-            power: 16.0,
-            iterations: 12,
-            bailout: 3.0,
-            ..Default::default()
-        },
+        fractal: Fractal { power: 16.0, iterations: 12, bailout: 3.0, ..Default::default() },
         camera: camera([1.5, -2.3, 1.2], [0.0, 0.0, 0.0], 44.0),
         lights: Lights {
             environment: vec![
@@ -225,11 +184,7 @@ fn sea_urchin() -> Scene {
             point: vec![],
         },
         surface: Surface {
-            coloring: Coloring {
-                source: ColorSource::OriginTrap,
-                repeats: 1.0,
-                offset: 0.0,
-            },
+            coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.0, offset: 0.0 },
             gradient: stops(&[
                 (0.0, [0.03, 0.02, 0.12]),
                 (0.3, [0.16, 0.12, 0.50]),
@@ -241,21 +196,14 @@ fn sea_urchin() -> Scene {
             shininess: 90.0,
             ..Default::default()
         },
-        background: Background {
-            top: [0.006, 0.006, 0.02],
-            bottom: [0.03, 0.03, 0.07],
-        },
+        background: Background { top: [0.006, 0.006, 0.02], bottom: [0.03, 0.03, 0.07] },
         ..Default::default()
     }
 }
 
 fn in_between() -> Scene {
     Scene {
-        fractal: Fractal {
-            power: 5.5,
-            iterations: 14,
-            ..Default::default()
-        },
+        fractal: Fractal { power: 5.5, iterations: 14, ..Default::default() },
         camera: camera([-2.3, -1.7, 1.3], [0.0, 0.0, 0.0], 44.0),
         lights: Lights {
             environment: vec![
@@ -266,11 +214,7 @@ fn in_between() -> Scene {
             point: vec![],
         },
         surface: Surface {
-            coloring: Coloring {
-                source: ColorSource::AxisTrap,
-                repeats: 1.2,
-                offset: 0.05,
-            },
+            coloring: Coloring { source: ColorSource::AxisTrap, repeats: 1.2, offset: 0.05 },
             gradient: stops(&[
                 (0.0, [0.08, 0.04, 0.02]),
                 (0.3, [0.50, 0.26, 0.05]),
@@ -286,11 +230,7 @@ fn in_between() -> Scene {
 
 fn julia() -> Scene {
     Scene {
-        fractal: Fractal {
-            iterations: 14,
-            julia: true,
-            ..Default::default()
-        },
+        fractal: Fractal { iterations: 14, julia: true, ..Default::default() },
         camera: camera([1.5, -2.5, 1.4], [0.0, 0.0, 0.0], 45.0),
         lights: Lights {
             environment: vec![
@@ -312,10 +252,7 @@ fn julia() -> Scene {
             shininess: 70.0,
             ..Default::default()
         },
-        background: Background {
-            top: [0.004, 0.01, 0.018],
-            bottom: [0.03, 0.055, 0.07],
-        },
+        background: Background { top: [0.004, 0.01, 0.018], bottom: [0.03, 0.055, 0.07] },
         ..Default::default()
     }
 }
@@ -339,18 +276,9 @@ fn lantern() -> Scene {
                 lamp([0.0, -1.0, 0.35], [0.3, 0.55, 1.0], 0.04),
             ],
         },
-        surface: Surface {
-            ambient: 0.02,
-            ..Default::default()
-        },
-        tone: Tone {
-            exposure: 0.3,
-            ..Default::default()
-        },
-        background: Background {
-            top: [0.002, 0.002, 0.005],
-            bottom: [0.01, 0.01, 0.016],
-        },
+        surface: Surface { ambient: 0.02, ..Default::default() },
+        tone: Tone { exposure: 0.3, ..Default::default() },
+        background: Background { top: [0.002, 0.002, 0.005], bottom: [0.01, 0.01, 0.016] },
         ..Default::default()
     }
 }

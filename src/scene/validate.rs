@@ -26,10 +26,7 @@ pub struct Invalid {
 
 impl Invalid {
     fn new(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            path: path.into(),
-            message: message.into(),
-        }
+        Self { path: path.into(), message: message.into() }
     }
 }
 
@@ -71,11 +68,7 @@ fn check_at(param: &Param, index: usize, value: f64) -> Result<(), Invalid> {
 /// A number as a person would write it: no row of 300 zeros.
 fn shown(value: f64) -> String {
     let plain = value == 0.0 || (1e-5..1e9).contains(&value.abs());
-    if plain {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
+    if plain { value.to_string() } else { format!("{value:e}") }
 }
 
 fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
@@ -161,10 +154,7 @@ fn check_surface(surface: &Surface) -> Result<(), Invalid> {
 
 /// A linear colour: each channel 0 to 1.
 fn check_color(path: impl Fn() -> String, color: [f32; 3]) -> Result<(), Invalid> {
-    match color
-        .iter()
-        .position(|channel| !(0.0..=1.0).contains(channel))
-    {
+    match color.iter().position(|channel| !(0.0..=1.0).contains(channel)) {
         None => Ok(()),
         Some(i) => {
             let message = format!("{} is outside 0 to 1", shown(color[i].into()));
@@ -178,8 +168,5 @@ fn check_unit_length(path: impl Fn() -> String, length: f64) -> Result<(), Inval
     if (length - 1.0).abs() <= UNIT_TOLERANCE {
         return Ok(());
     }
-    Err(Invalid::new(
-        path(),
-        format!("has length {}; it must be 1", shown(length)),
-    ))
+    Err(Invalid::new(path(), format!("has length {}; it must be 1", shown(length))))
 }

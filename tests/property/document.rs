@@ -27,13 +27,12 @@ fn junk() -> impl Strategy<Value = Value> {
 fn pointers(value: &Value, here: &str, found: &mut Vec<String>) {
     found.push(here.to_owned());
     match value {
-        Value::Object(fields) => fields
-            .iter()
-            .for_each(|(key, v)| pointers(v, &format!("{here}/{key}"), found)),
-        Value::Array(list) => list
-            .iter()
-            .enumerate()
-            .for_each(|(i, v)| pointers(v, &format!("{here}/{i}"), found)),
+        Value::Object(fields) => {
+            fields.iter().for_each(|(key, v)| pointers(v, &format!("{here}/{key}"), found))
+        }
+        Value::Array(list) => {
+            list.iter().enumerate().for_each(|(i, v)| pointers(v, &format!("{here}/{i}"), found))
+        }
         _ => {}
     }
 }

@@ -29,8 +29,7 @@ fn precise() -> impl Strategy<Value = Precise> {
     (any::<bool>(), 0..100_u32, "[0-9]{0,75}").prop_map(|(minus, whole, places)| {
         let sign = if minus { "-" } else { "" };
         let text = format!("{sign}{whole}.{places}0");
-        text.parse()
-            .unwrap_or_else(|error| panic!("{text} {error}"))
+        text.parse().unwrap_or_else(|error| panic!("{text} {error}"))
     })
 }
 
@@ -50,14 +49,8 @@ fn fractal() -> impl Strategy<Value = Fractal> {
         julia_constant,
     )
         .prop_map(|(power, iterations, t, variant, julia, julia_constant)| {
-            let mut fractal = Fractal {
-                power,
-                iterations,
-                variant,
-                julia,
-                julia_constant,
-                ..Default::default()
-            };
+            let mut fractal =
+                Fractal { power, iterations, variant, julia, julia_constant, ..Default::default() };
             let span = fractal.max_bailout() - param::BAILOUT.min;
             fractal.bailout = (param::BAILOUT.min + t * span).min(fractal.max_bailout());
             fractal
@@ -67,32 +60,19 @@ fn fractal() -> impl Strategy<Value = Fractal> {
 fn camera() -> impl Strategy<Value = Camera> {
     let turn = (direction(), 0.0..std::f64::consts::TAU);
     (point(), point(), turn, value(&param::VERTICAL_FOV))
-        .prop_filter("the pivot is not the eye", |(eye, pivot, ..)| {
-            (eye - pivot).length() > 1e-20
+        .prop_filter("the pivot is not the eye", |(eye, pivot, ..)| (eye - pivot).length() > 1e-20)
+        .prop_map(|(position, pivot, (axis, angle), vertical_fov_deg)| Camera {
+            position,
+            pivot,
+            orientation: DQuat::from_axis_angle(DVec3::from_array(axis), angle).normalize().into(),
+            vertical_fov_deg,
         })
-        .prop_map(
-            |(position, pivot, (axis, angle), vertical_fov_deg)| Camera {
-                position,
-                pivot,
-                orientation: DQuat::from_axis_angle(DVec3::from_array(axis), angle)
-                    .normalize()
-                    .into(),
-                vertical_fov_deg,
-            },
-        )
 }
 
 fn environment_light() -> impl Strategy<Value = EnvironmentLight> {
     let frame = select(vec![LightFrame::Scene, LightFrame::View]);
     let reach = option::of(value(&param::SHADOW_REACH));
-    (
-        direction(),
-        color(),
-        value(&param::ENVIRONMENT_INTENSITY),
-        reach,
-        frame,
-        any::<[bool; 3]>(),
-    )
+    (direction(), color(), value(&param::ENVIRONMENT_INTENSITY), reach, frame, any::<[bool; 3]>())
         .prop_map(
             |(direction, color, intensity, shadow_reach, frame, [casts_shadows, muted, solo])| {
                 EnvironmentLight {
@@ -110,22 +90,16 @@ fn environment_light() -> impl Strategy<Value = EnvironmentLight> {
 }
 
 fn point_light() -> impl Strategy<Value = PointLight> {
-    (
-        point(),
-        color(),
-        value(&param::POINT_INTENSITY),
-        any::<[bool; 3]>(),
+    (point(), color(), value(&param::POINT_INTENSITY), any::<[bool; 3]>()).prop_map(
+        |(position, color, intensity, [casts_shadows, muted, solo])| PointLight {
+            position,
+            color,
+            intensity,
+            casts_shadows,
+            muted,
+            solo,
+        },
     )
-        .prop_map(
-            |(position, color, intensity, [casts_shadows, muted, solo])| PointLight {
-                position,
-                color,
-                intensity,
-                casts_shadows,
-                muted,
-                solo,
-            },
-        )
 }
 
 fn lights() -> impl Strategy<Value = Lights> {
@@ -140,22 +114,11 @@ fn surface() -> impl Strategy<Value = Surface> {
         ColorSource::AxisTrap,
         ColorSource::PlaneTrap,
     ]);
-    let coloring = (
-        source,
-        value(&param::COLOR_REPEATS),
-        value(&param::COLOR_OFFSET),
-    )
-        .prop_map(|(source, repeats, offset)| Coloring {
-            source,
-            repeats,
-            offset,
-        });
+    let coloring = (source, value(&param::COLOR_REPEATS), value(&param::COLOR_OFFSET))
+        .prop_map(|(source, repeats, offset)| Coloring { source, repeats, offset });
     let gradient = vec((value(&param::STOP_POSITION), color()), 1..=16).prop_map(|mut stops| {
         stops.sort_by(|a, b| a.0.total_cmp(&b.0));
-        stops
-            .into_iter()
-            .map(|(position, color)| GradientStop { position, color })
-            .collect()
+        stops.into_iter().map(|(position, color)| GradientStop { position, color }).collect()
     });
     let light = (
         value(&param::AMBIENT),
@@ -177,22 +140,12 @@ fn surface() -> impl Strategy<Value = Surface> {
 
 fn tone() -> impl Strategy<Value = Tone> {
     let curve = select(vec![ToneCurve::Linear, ToneCurve::ReinhardLuminance]);
-    (value(&param::EXPOSURE), curve, value(&param::WHITE_POINT)).prop_map(
-        |(exposure, curve, white_point)| Tone {
-            exposure,
-            curve,
-            white_point,
-        },
-    )
+    (value(&param::EXPOSURE), curve, value(&param::WHITE_POINT))
+        .prop_map(|(exposure, curve, white_point)| Tone { exposure, curve, white_point })
 }
 
 fn quality() -> impl Strategy<Value = Quality> {
-    (
-        value(&param::MOTION_BUDGET),
-        count(&param::SAMPLES),
-        any::<bool>(),
-        value(&param::DETAIL),
-    )
+    (value(&param::MOTION_BUDGET), count(&param::SAMPLES), any::<bool>(), value(&param::DETAIL))
         .prop_map(|(motion_budget_ms, samples, shadows, detail)| Quality {
             motion_budget_ms,
             samples,
@@ -204,24 +157,15 @@ fn quality() -> impl Strategy<Value = Quality> {
 /// Any valid scene of a few lights.
 pub fn scene() -> impl Strategy<Value = Scene> {
     let background = (color(), color()).prop_map(|(top, bottom)| Background { top, bottom });
-    (
-        fractal(),
-        camera(),
-        lights(),
-        surface(),
-        background,
-        tone(),
-        quality(),
+    (fractal(), camera(), lights(), surface(), background, tone(), quality()).prop_map(
+        |(fractal, camera, lights, surface, background, tone, quality)| Scene {
+            fractal,
+            camera,
+            lights,
+            surface,
+            background,
+            tone,
+            quality,
+        },
     )
-        .prop_map(
-            |(fractal, camera, lights, surface, background, tone, quality)| Scene {
-                fractal,
-                camera,
-                lights,
-                surface,
-                background,
-                tone,
-                quality,
-            },
-        )
 }

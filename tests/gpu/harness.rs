@@ -1,0 +1,64 @@
+//! One device for all tests of the binary, and short ways to a finished picture.
+
+use std::sync::{Arc, OnceLock};
+
+use mandelight::{
+    gpu::{Gpu, readback::Readback},
+    render::{Kernels, Pace, Region, View},
+    scene::Scene,
+};
+
+/// The pipelines of the one device.
+pub fn kernels() -> &'static Arc<Kernels> {
+    static KERNELS: OnceLock<Arc<Kernels>> = OnceLock::new();
+    KERNELS.get_or_init(|| {
+        let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+        Kernels::new(&gpu)
+    })
+}
+
+/// Pumps a view until it rests.
+pub fn settle(view: &mut View) {
+    let start = std::time::Instant::now();
+    while view.pump(start.elapsed().as_secs_f64()) {
+        kernels().gpu.wait();
+        assert!(start.elapsed().as_secs() < 300, "the view never rests: {:?}", view.report());
+    }
+}
+
+/// A view of the whole scene, finished.
+pub fn finished(scene: &Scene, size_px: [u32; 2], pace: Pace) -> View {
+    let mut view = View::new(kernels(), Region::whole(size_px), pace);
+    view.set_scene(scene, false);
+    settle(&mut view);
+    view
+}
+
+/// The bytes of a view's picture, RGBA.
+pub fn pixels(view: &View) -> Vec<u8> {
+    let gpu = &kernels().gpu;
+    let texture = view.texture().expect("a picture");
+    let size_px = [texture.width(), texture.height()];
+    let bytes = Readback::texture(gpu, texture, size_px).wait(gpu).expect("the picture's bytes");
+    assert_eq!(gpu.faults(), 0, "the device reported errors");
+    bytes
+}
+
+/// A finished still's bytes, RGBA.
+pub fn still(scene: &Scene, size_px: [u32; 2]) -> Vec<u8> {
+    pixels(&finished(scene, size_px, Pace::Still))
+}
+
+/// The scene with so many samples a pixel.
+pub fn sampled(mut scene: Scene, samples: u32) -> Scene {
+    scene.quality.samples = samples;
+    scene
+}
+
+/// Mean and largest difference of two pictures' colour channels, in steps of 1/255.
+pub fn difference(a: &[u8], b: &[u8]) -> (f64, u8) {
+    assert_eq!(a.len(), b.len(), "pictures of different sizes");
+    let steps = || a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
+    let sum: u64 = steps().map(u64::from).sum();
+    (sum as f64 / a.len() as f64 * 4.0 / 3.0, steps().max().unwrap_or(0))
+}

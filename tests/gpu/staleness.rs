@@ -1,0 +1,117 @@
+//! The three levels of staleness, held by counting dispatches: an edit restarts only its own.
+
+use mandelight::{
+    render::{Activity, Pace, View, frame::Dispatches},
+    scene::Scene,
+};
+
+use crate::harness::{difference, finished, kernels, pixels, sampled, settle};
+
+const SIZE: [u32; 2] = [96, 64];
+
+/// Settles an interactive view, edits its scene, settles it again; returns the dispatches that
+/// the edit cost.
+fn cost_of(samples: u32, edit: impl FnOnce(&mut Scene)) -> Dispatches {
+    let mut scene = sampled(Scene::default(), samples);
+    let mut view = finished(&scene, SIZE, Pace::Interactive);
+    let before = view.dispatches();
+    edit(&mut scene);
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    let after = view.dispatches();
+    Dispatches {
+        march: after.march - before.march,
+        shadow: after.shadow - before.shadow,
+        shade: after.shade - before.shade,
+        fill: after.fill - before.fill,
+        tone: after.tone - before.tone,
+    }
+}
+
+#[test]
+fn a_tone_edit_touches_only_the_film() {
+    let cost = cost_of(3, |scene| scene.tone.exposure = 1.0);
+    assert_eq!(Dispatches { tone: cost.tone, ..Dispatches::default() }, cost);
+    assert_eq!(cost.tone, 1);
+}
+
+#[test]
+fn a_light_edit_marches_no_camera_ray() {
+    let edits: [fn(&mut Scene); 5] = [
+        |scene| scene.lights.environment[0].intensity = 1.0,
+        |scene| scene.lights.environment[0].direction = [0.0, -1.0, 0.0],
+        |scene| scene.surface.diffuse = 0.5,
+        |scene| scene.quality.shadows = false,
+        |scene| scene.background.top = [0.5; 3],
+    ];
+    for edit in edits {
+        let cost = cost_of(1, edit);
+        assert_eq!(cost.march, 0);
+        assert!(cost.shade > 0);
+    }
+}
+
+#[test]
+fn further_samples_after_a_light_edit_march_again() {
+    assert!(cost_of(2, |scene| scene.surface.diffuse = 0.5).march > 0);
+}
+
+#[test]
+fn a_geometry_edit_marches() {
+    let edits: [fn(&mut Scene); 4] = [
+        |scene| scene.fractal.power = 7.0,
+        |scene| scene.fractal.iterations = 10,
+        |scene| scene.camera.vertical_fov_deg = 30.0,
+        |scene| scene.quality.detail = 2.0,
+    ];
+    for edit in edits {
+        assert!(cost_of(1, edit).march > 0);
+    }
+}
+
+#[test]
+fn the_same_scene_costs_nothing() {
+    assert_eq!(cost_of(2, |_| ()), Dispatches::default());
+}
+
+#[test]
+fn a_resting_view_submits_nothing() {
+    let mut view = finished(&sampled(Scene::default(), 2), SIZE, Pace::Interactive);
+    let before = view.dispatches();
+    for frame in 0..50 {
+        assert!(!view.pump(1000.0 + f64::from(frame)));
+    }
+    assert_eq!(view.dispatches(), before);
+    assert_eq!(view.report().activity, Activity::Idle);
+    assert_eq!(view.report().samples_done, 2);
+}
+
+/// However the lattice was completed, the picture is the one that a still makes at once.
+#[test]
+fn refinement_ends_in_the_still() {
+    let scene = sampled(Scene::default(), 3);
+    kernels().specialise(8);
+    for size in [SIZE, [101, 67], [5, 3]] {
+        let refined = pixels(&finished(&scene, size, Pace::Interactive));
+        let direct = pixels(&finished(&scene, size, Pace::Still));
+        assert!(refined == direct, "{size:?}: {:?}", difference(&refined, &direct));
+    }
+}
+
+/// A view whose scene went through edits shows what a fresh one does.
+#[test]
+fn edits_leave_nothing_behind() {
+    let first = sampled(Scene::default(), 2);
+    let mut second = first.clone();
+    second.fractal.power = 5.0;
+    let mut third = second.clone();
+    third.surface.ambient = 0.3;
+    let mut view: View = finished(&first, SIZE, Pace::Interactive);
+    for scene in [&second, &third] {
+        view.set_scene(scene, false);
+        settle(&mut view);
+    }
+    // The centre samples of a new power come from the general pipelines.
+    let (mean, _) = difference(&pixels(&view), &pixels(&finished(&third, SIZE, Pace::Still)));
+    assert!(mean < 0.5, "mean difference {mean}");
+}
