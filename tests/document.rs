@@ -1,6 +1,8 @@
 //! The document format: every parameter's range, what is said of bad documents, the defaults
 //! that version 1 is bound to, and links.
 
+use std::fmt::Write;
+
 use mandelight::scene::{
     EnvironmentLight, GradientStop, Lights, PointLight, Scene,
     document::{self, DocumentError, from_json, to_json, to_json_compact},
@@ -282,7 +284,6 @@ fn links_from_before_still_open() {
 #[test]
 fn links_are_short() {
     let default = to_fragment(&Scene::default()).unwrap();
-    assert!(default.len() < 16, "{default}");
     let mut scene = Scene::default();
     scene.camera = mandelight::scene::Camera::looking_at(
         glam::DVec3::new(0.713_482_913, -0.981_723_412, 0.612_349_871),
@@ -291,8 +292,9 @@ fn links_are_short() {
     );
     scene.fractal.power = 7.25;
     let moved = to_fragment(&scene).unwrap();
-    println!("another view and power: {} characters", moved.len());
-    assert!(moved.len() < 400, "{}", moved.len());
+    // docs/scene.md tells these lengths.
+    assert_eq!(default.len(), 9, "{default}");
+    assert!((210..=250).contains(&moved.len()), "{} characters", moved.len());
 }
 
 #[test]
@@ -344,4 +346,79 @@ fn bad_links_are_told_apart() {
         hang.to_string(),
         "the link's scene: fractal.iterations: 4e9 is outside 2 to 100, whole numbers"
     );
+}
+
+/// The rows of the table in `docs/scene.md`.
+fn parameter_table() -> String {
+    let mut table =
+        "| path | unit | range | default | what it does |\n|---|---|---|---|---|\n".to_owned();
+    let defaults = json!(Scene::default().fractal.julia_constant);
+    for param in param::ALL {
+        // These two defaults are not the table's single number.
+        let default = match *param {
+            p if p == &param::JULIA_CONSTANT => defaults.to_string(),
+            p if p == &param::SHADOW_REACH => "null".into(),
+            p if p == &param::STOP_POSITION => "none".into(),
+            p => p.default.to_string(),
+        };
+        let whole = if param.scale == Scale::Integer { ", whole" } else { "" };
+        let (path, unit) = (param.path, param.unit.name());
+        let (min, max, help) = (param.min, param.max, param.help);
+        writeln!(table, "| `{path}` | {unit} | {min} to {max}{whole} | {default} | {help} |")
+            .unwrap();
+    }
+    table
+}
+
+#[test]
+fn the_docs_list_every_parameter() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scene.md");
+    let text = std::fs::read_to_string(file).expect("docs/scene.md");
+    let (before, rest) = text.split_once("<!-- parameters:").expect("the mark before the table");
+    let (mark, rest) = rest.split_once("-->\n").expect("the mark's end");
+    let (table, after) =
+        rest.split_once("<!-- end of parameters -->").expect("the mark after the table");
+    if std::env::var_os("MANDELIGHT_BLESS").is_some() {
+        let blessed = format!(
+            "{before}<!-- parameters:{mark}-->\n{}<!-- end of parameters -->{after}",
+            parameter_table()
+        );
+        std::fs::write(file, blessed).unwrap();
+    } else {
+        assert_eq!(
+            table,
+            parameter_table(),
+            "MANDELIGHT_BLESS=1 cargo test --test document writes it anew"
+        );
+    }
+}
+
+#[test]
+fn the_docs_example_can_be_read() {
+    let text =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scene.md")).unwrap();
+    let (_, rest) = text.split_once("```json\n").unwrap();
+    let scene = from_json(rest.split_once("```").unwrap().0).unwrap();
+    assert_eq!(scene.tone.exposure, 0.5);
+    for power in [8.0, 16.0] {
+        let most = mandelight::scene::Fractal { power, ..Default::default() }.max_bailout();
+        assert!(text.contains(&format!("{most:.2} for power {power}")), "{most}");
+    }
+    // Every field of the default document is named in the docs, by its last word.
+    fn names(value: &Value, found: &mut Vec<String>) {
+        match value {
+            Value::Object(fields) => fields.iter().for_each(|(name, value)| {
+                found.push(name.clone());
+                names(value, found);
+            }),
+            Value::Array(list) => list.iter().for_each(|value| names(value, found)),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    names(&full_document()["scene"], &mut found);
+    assert!(found.len() > 40);
+    for name in found {
+        assert!(text.contains(&name), "docs/scene.md does not name {name}");
+    }
 }
