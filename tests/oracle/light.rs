@@ -1,0 +1,134 @@
+//! Oracle: Blinn-Phong, the gradient, Reinhard's curve on luminance, sRGB.
+
+use glam::DVec3;
+use mandelight::scene::{
+    ColorSource, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene, ToneCurve,
+};
+
+use super::{
+    estimate::{orbit, smooth_iterations},
+    rays::ShadowRay,
+};
+
+/// One light as a point sees it.
+pub struct Incoming {
+    /// Where the shadow ray comes from.
+    pub ray: ShadowRay,
+    /// Radiance that arrives if nothing blocks it.
+    pub radiance: DVec3,
+    /// Whether something may block it.
+    pub casts_shadows: bool,
+}
+
+/// All lights of the scene at `point`, environment lights first: black where another is solo.
+pub fn incoming(scene: &Scene, point: DVec3) -> Vec<Incoming> {
+    let lights = &scene.lights;
+    let any_solo = lights.environment.iter().any(|l| l.solo) || lights.point.iter().any(|l| l.solo);
+    let shines = |muted: bool, solo: bool| !muted && (solo || !any_solo);
+    let shadows = scene.quality.shadows;
+    let environment = |light: &EnvironmentLight| {
+        let direction = DVec3::from_array(light.direction).normalize();
+        let toward = match light.frame {
+            LightFrame::Scene => direction,
+            LightFrame::View => scene.camera.rotation() * direction,
+        };
+        let reach =
+            light.shadow_reach.map_or(f64::INFINITY, |views| views * scene.camera.view_unit());
+        let strength = if shines(light.muted, light.solo) { light.intensity } else { 0.0 };
+        Incoming {
+            ray: ShadowRay { toward, reach },
+            radiance: rgb(light.color) * strength,
+            casts_shadows: light.casts_shadows && shadows,
+        }
+    };
+    let from_point = |light: &PointLight| {
+        let way = light.position.to_dvec3() - point;
+        let strength = if shines(light.muted, light.solo) { light.intensity } else { 0.0 };
+        Incoming {
+            ray: ShadowRay { toward: way.normalize(), reach: way.length() },
+            radiance: rgb(light.color) * strength / way.length_squared(),
+            casts_shadows: light.casts_shadows && shadows,
+        }
+    };
+    lights.environment.iter().map(environment).chain(lights.point.iter().map(from_point)).collect()
+}
+
+/// Blinn-Phong: ambient + Σ radiance · (diffuse · colour · n·l + specular · (n·h)^shininess) over
+/// the lights that `reaches` lets through and that the surface faces.
+pub fn shade(
+    scene: &Scene,
+    point: DVec3,
+    normal: DVec3,
+    toward_eye: DVec3,
+    reaches: impl Fn(usize) -> bool,
+) -> DVec3 {
+    let surface = &scene.surface;
+    let color = surface_color(scene, point);
+    let mut sum = color * surface.ambient;
+    for (index, light) in incoming(scene, point).iter().enumerate() {
+        let cosine = normal.dot(light.ray.toward);
+        if cosine > 0.0 && reaches(index) {
+            let halfway = (light.ray.toward + toward_eye).normalize();
+            let highlight = normal.dot(halfway).max(0.0).powf(surface.shininess);
+            sum +=
+                light.radiance * (color * surface.diffuse * cosine + surface.specular * highlight);
+        }
+    }
+    sum
+}
+
+/// The surface's colour at `point`.
+pub fn surface_color(scene: &Scene, point: DVec3) -> DVec3 {
+    let coloring = &scene.surface.coloring;
+    let traps = orbit(&scene.fractal, point).traps;
+    let value = match coloring.source {
+        ColorSource::Iterations => smooth_iterations(&scene.fractal, point),
+        ColorSource::OriginTrap => traps[0],
+        ColorSource::AxisTrap => traps[1],
+        ColorSource::PlaneTrap => traps[2],
+    };
+    gradient(&scene.surface.gradient, value * coloring.repeats + coloring.offset)
+}
+
+/// The gradient at `u`, around a circle of length one: linear between neighbouring stops.
+fn gradient(stops: &[GradientStop], u: f64) -> DVec3 {
+    let u = u - u.floor();
+    // Each stop and its image one turn on: the pair around u or around u + 1 decides.
+    let mut circle: Vec<(f64, DVec3)> = Vec::new();
+    for turn in [-1.0, 0.0, 1.0] {
+        circle.extend(stops.iter().map(|stop| (stop.position + turn, rgb(stop.color))));
+    }
+    let right = circle.iter().position(|(at, _)| *at > u).expect("a stop one turn on");
+    let ((a, left_color), (b, right_color)) = (circle[right - 1], circle[right]);
+    if b > a { left_color.lerp(right_color, (u - a) / (b - a)) } else { left_color }
+}
+
+/// What lies behind, at `height` from 0 (upper edge) to 1.
+pub fn background(scene: &Scene, height: f64) -> DVec3 {
+    rgb(scene.background.top).lerp(rgb(scene.background.bottom), height)
+}
+
+/// Display channels, 0 to 255, of a radiance: exposure in stops, then L(1 + L/Lw²)/(1 + L) on
+/// luminance (Reinhard et al. 2002, eq. 4), then sRGB.
+pub fn display(scene: &Scene, radiance: DVec3) -> DVec3 {
+    let tone = &scene.tone;
+    let exposed = radiance * 2.0_f64.powf(tone.exposure);
+    let curved = match tone.curve {
+        ToneCurve::Linear => exposed,
+        ToneCurve::ReinhardLuminance => {
+            let l = 0.2126 * exposed.x + 0.7152 * exposed.y + 0.0722 * exposed.z;
+            let white = tone.white_point * tone.white_point;
+            let mapped = l * (1.0 + l / white) / (1.0 + l);
+            if l > 0.0 { exposed * (mapped / l) } else { exposed }
+        }
+    };
+    DVec3::from_array(curved.to_array().map(|v| 255.0 * srgb(v.clamp(0.0, 1.0))))
+}
+
+fn srgb(v: f64) -> f64 {
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+fn rgb(color: [f32; 3]) -> DVec3 {
+    DVec3::from_array(color.map(f64::from))
+}

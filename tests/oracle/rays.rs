@@ -1,0 +1,104 @@
+//! Oracle: rays through pixels, sphere tracing in small steps, normals, shadow rays.
+
+use glam::{DVec2, DVec3};
+use mandelight::scene::{Camera, Fractal, Scene};
+
+use super::estimate::distance;
+
+/// Part of the estimate that a step covers: small, since the estimate is no true bound.
+const STEP_PART: f64 = 0.2;
+/// Longest step, scene units: a Julia orbit close to the origin makes estimates of any size.
+const LONGEST_STEP: f64 = 0.05;
+/// A sphere that holds every set: from |z| ≥ 2.5 and |c| ≤ 2√3, |z|² − |c| > |z|.
+const HOLDS_ALL: f64 = 2.5;
+/// A ray that is still on its way after so many steps is as near as it will get.
+const MOST_STEPS: u32 = 20_000;
+
+/// A picture's width and height in pixels.
+pub type Size = [u32; 2];
+
+/// The unit direction through the centre of pixel (x, y), counted from the upper left.
+pub fn direction(camera: &Camera, size: Size, [x, y]: [u32; 2]) -> DVec3 {
+    let [width, height] = size.map(f64::from);
+    let ndc = DVec2::new(
+        (f64::from(x) + 0.5) / width * 2.0 - 1.0,
+        1.0 - (f64::from(y) + 0.5) / height * 2.0,
+    );
+    let half_height = (camera.vertical_fov_deg.to_radians() / 2.0).tan();
+    let seen = DVec3::new(ndc.x * half_height * width / height, ndc.y * half_height, -1.0);
+    (camera.rotation() * seen).normalize()
+}
+
+/// Radius of a pixel's cone at depth one.
+pub fn cone(camera: &Camera, size: Size) -> f64 {
+    (camera.vertical_fov_deg.to_radians() / 2.0).tan() / f64::from(size[1])
+}
+
+/// How near counts as a hit at `depth`.
+pub fn hit_distance(scene: &Scene, size: Size, depth: f64) -> f64 {
+    scene.quality.detail * cone(&scene.camera, size) * depth
+}
+
+/// Where a line crosses the sphere of [`HOLDS_ALL`].
+fn crossing(origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
+    let b = origin.dot(direction);
+    let under_root = b * b - origin.length_squared() + HOLDS_ALL * HOLDS_ALL;
+    (under_root > 0.0).then(|| (-b - under_root.sqrt(), -b + under_root.sqrt()))
+}
+
+/// Depth of the surface along the ray of a pixel.
+pub fn march(scene: &Scene, size: Size, pixel: [u32; 2]) -> Option<f64> {
+    let origin = scene.camera.position.to_dvec3();
+    let direction = direction(&scene.camera, size, pixel);
+    let (near, far) = crossing(origin, direction)?;
+    let mut t = near.max(0.0);
+    for _ in 0..MOST_STEPS {
+        if t > far {
+            return None;
+        }
+        let d = distance(&scene.fractal, origin + direction * t);
+        if d < hit_distance(scene, size, t) {
+            return Some(t);
+        }
+        t += (STEP_PART * d).min(LONGEST_STEP);
+    }
+    Some(t)
+}
+
+/// The normal from six samples on the main axes of a grid (thesis figure 3.3 c).
+pub fn normal(fractal: &Fractal, p: DVec3, spacing: f64) -> DVec3 {
+    let along =
+        |axis: DVec3| distance(fractal, p + axis * spacing) - distance(fractal, p - axis * spacing);
+    DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)).normalize_or_zero()
+}
+
+/// A light for one point: where it is, and how far away a blocker may be.
+pub struct ShadowRay {
+    /// Unit vector from the point to the light.
+    pub toward: DVec3,
+    /// Greatest distance of a blocker from the point.
+    pub reach: f64,
+}
+
+/// How wide a blocker must be to count: its distance from the ray over that to the point.
+pub const SHADOW_CONE: f64 = 0.004;
+
+/// How near the surface comes to the light's ray, over how near counts as blocking: below 1 the
+/// light is blocked. The ray runs from outside toward the point (thesis 4.5) and ends one hit
+/// distance before it; half of that is the least that blocks. The point is lifted off the surface
+/// by two hit distances.
+pub fn openness(fractal: &Fractal, point: DVec3, normal: DVec3, hit: f64, ray: &ShadowRay) -> f64 {
+    let origin = point + normal * (2.0 * hit);
+    let Some((_, far)) = crossing(origin, ray.toward) else { return f64::INFINITY };
+    let mut s = far.min(ray.reach);
+    let mut least = f64::INFINITY;
+    while s > hit {
+        let d = distance(fractal, origin + ray.toward * s);
+        least = least.min(d / (SHADOW_CONE * s).max(0.5 * hit));
+        if least < 0.5 {
+            break;
+        }
+        s -= (STEP_PART * d).min(LONGEST_STEP);
+    }
+    least
+}
