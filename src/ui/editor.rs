@@ -1,0 +1,97 @@
+//! The scene under edit and its undo history.
+//!
+//! Panels change the scene in place. Once a frame the session compares it with the frame's
+//! start and records what changed; all changes of one gesture (a drag, a flight, a run of
+//! wheel notches) become one step.
+
+use crate::scene::{
+    Scene,
+    history::{GestureId, History},
+};
+
+/// A scene with its history.
+#[derive(Clone, Debug)]
+pub struct Editor {
+    scene: Scene,
+    history: History,
+    gesture: GestureId,
+    last_change_secs: f64,
+}
+
+impl Editor {
+    /// A session that starts at `scene`, with nothing to undo.
+    pub fn new(scene: Scene) -> Self {
+        Self {
+            scene,
+            history: History::new(),
+            gesture: GestureId(0),
+            last_change_secs: f64::NEG_INFINITY,
+        }
+    }
+
+    /// The scene as it is now.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene, for the panels; [`Self::note_changes`] must follow in the same frame.
+    pub(super) fn scene_mut(&mut self) -> &mut Scene {
+        &mut self.scene
+    }
+
+    /// Puts another scene in its place, as one step that can be undone.
+    pub fn replace(&mut self, scene: Scene) {
+        if scene != self.scene {
+            self.next_gesture();
+            let before = std::mem::replace(&mut self.scene, scene);
+            self.history.record(&before, None);
+        }
+    }
+
+    /// Records what has changed since `before`. Changes made `during_gesture` join one step.
+    pub(super) fn note_changes(&mut self, before: &Scene, during_gesture: bool, now_secs: f64) {
+        if self.scene != *before {
+            self.history.record(before, Some(self.gesture));
+            self.last_change_secs = now_secs;
+        }
+        if !during_gesture {
+            self.next_gesture();
+        }
+    }
+
+    /// Ends the step that later changes would have joined.
+    pub(super) fn next_gesture(&mut self) {
+        self.gesture.0 += 1;
+    }
+
+    /// Seconds since the last change made by hand.
+    pub(super) fn secs_since_change(&self, now_secs: f64) -> f64 {
+        now_secs - self.last_change_secs
+    }
+
+    /// Goes one step back, where there is one.
+    pub fn undo(&mut self) {
+        self.next_gesture();
+        if let Some(scene) = self.history.undo(&self.scene) {
+            self.scene = scene;
+        }
+    }
+
+    /// Goes one step forward again, where there is one.
+    pub fn redo(&mut self) {
+        self.next_gesture();
+        if let Some(scene) = self.history.redo(&self.scene) {
+            self.scene = scene;
+        }
+    }
+
+    /// Whether there is a step back.
+    pub fn can_undo(&self) -> bool {
+        self.history.can_undo()
+    }
+
+    /// Whether there is a step forward.
+    pub fn can_redo(&self) -> bool {
+        self.history.can_redo()
+    }
+}

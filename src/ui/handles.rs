@@ -1,0 +1,156 @@
+//! Point lights as handles in the view.
+//!
+//! A drag moves a light in the plane through it that is parallel to the screen; with Shift it
+//! moves along its ray, upward away from the eye. Lights behind the eye have no handle.
+
+use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
+use glam::DVec3;
+
+use super::{panel::LightRef, pilot::Frame, theme};
+use crate::scene::{Camera, Scene};
+
+/// Side of the square that can be grabbed, in points.
+const GRIP: f32 = 30.0;
+/// Natural logarithm of the distance per point of a drag with Shift.
+const DEPTH_PER_POINT: f64 = 0.01;
+/// Nearest and farthest a drag puts a light, in scene units from the eye.
+const DEPTHS: std::ops::RangeInclusive<f64> = 1e-9..=90.0;
+/// How coarsely positions are rounded, in pixels at the light's depth.
+const GRAIN_PX: f64 = 1e-2;
+
+/// Draws the handles of all point lights over the view and moves those that are dragged.
+/// Returns the light that was clicked or dragged.
+pub fn point_lights(
+    ui: &Ui,
+    frame: Frame,
+    scene: &mut Scene,
+    selected: Option<LightRef>,
+) -> Option<LightRef> {
+    let mut touched = None;
+    let any_solo = scene.lights.any_solo();
+    for (index, light) in scene.lights.point.iter_mut().enumerate() {
+        let offset = &light.position - &scene.camera.position;
+        let Some(at) = project(&scene.camera, frame, offset) else {
+            continue;
+        };
+        let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+        let response =
+            ui.interact(area, ui.scope_id().with(("point light", index)), Sense::click_and_drag());
+        response.widget_info(|| {
+            WidgetInfo::labeled(
+                Role::Slider,
+                true,
+                format!("Point light {} in the view", index + 1),
+            )
+        });
+        let this = LightRef::Point(index);
+        if response.clicked() || response.drag_started() {
+            touched = Some(this);
+        }
+        if response.dragged() {
+            let away = ui.input(|i| i.modifiers.shift);
+            let moved = displacement(&scene.camera, frame, offset, response.drag_delta(), away);
+            let grain = offset.length() * scene.camera.half_height() * 2.0
+                / f64::from(frame.height_px.max(1))
+                * GRAIN_PX;
+            light.position = light.position.moved_by(moved, grain);
+        }
+        let shines = !light.muted && (!any_solo || light.solo);
+        let lit = response.hovered() || response.dragged() || selected == Some(this);
+        paint(ui, at, theme::display_color(light.color), shines, lit);
+        response.on_hover_text("Drag to move this light; with Shift toward or away from you.");
+    }
+    touched
+}
+
+/// Where in the window the point at `offset` from the eye appears, within a margin around the
+/// picture; none behind the eye.
+fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
+    let seen = camera.rotation().inverse() * offset;
+    if seen.z >= -f64::MIN_POSITIVE {
+        return None;
+    }
+    let half = f64::from(frame.rect.height()) / 2.0;
+    let scale = half / (camera.half_height() * -seen.z);
+    let at = frame.rect.center() + Vec2::new((seen.x * scale) as f32, (-seen.y * scale) as f32);
+    frame.rect.contains(at).then_some(at)
+}
+
+/// How far a drag by `delta` points moves the point at `offset` from the eye, in scene units.
+fn displacement(camera: &Camera, frame: Frame, offset: DVec3, delta: Vec2, away: bool) -> DVec3 {
+    if away {
+        let distance = offset.length().max(f64::MIN_POSITIVE);
+        let wanted = distance * (-f64::from(delta.y) * DEPTH_PER_POINT).exp();
+        return offset * (wanted.clamp(*DEPTHS.start(), *DEPTHS.end()) / distance - 1.0);
+    }
+    let rotation = camera.rotation();
+    let depth = offset.dot(camera.forward()).max(0.0);
+    let per_point = 2.0 * camera.half_height() * depth / f64::from(frame.rect.height().max(1.0));
+    (rotation * DVec3::X * f64::from(delta.x) - rotation * DVec3::Y * f64::from(delta.y))
+        * per_point
+}
+
+fn paint(ui: &Ui, at: Pos2, color: Color32, shines: bool, lit: bool) {
+    let painter = ui.painter();
+    let opacity = if lit { 1.0 } else { 0.7 };
+    painter.circle_filled(at, 8.0, Color32::from_black_alpha(110));
+    if shines {
+        for ray in 0..8 {
+            let out = Vec2::angled(ray as f32 * std::f32::consts::TAU / 8.0);
+            painter.line_segment(
+                [at + out * 8.0, at + out * 11.0],
+                Stroke::new(1.5, color.gamma_multiply(opacity)),
+            );
+        }
+        painter.circle_filled(at, 4.5, color.gamma_multiply(opacity));
+    } else {
+        painter.circle_stroke(at, 4.5, Stroke::new(1.5, color.gamma_multiply(0.5)));
+    }
+    if lit {
+        painter.circle_stroke(at, 13.5, Stroke::new(1.5, theme::ACCENT));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dragged_light_stays_under_the_pointer() {
+        let camera = Camera::default();
+        let frame = Frame {
+            rect: Rect::from_min_size(Pos2::new(10.0, 20.0), Vec2::new(800.0, 600.0)),
+            height_px: 600,
+        };
+        let offset = camera.rotation() * DVec3::new(0.3, -0.2, -2.0);
+        let before = project(&camera, frame, offset).expect("in the picture");
+        let delta = Vec2::new(35.0, -12.0);
+        let moved = offset + displacement(&camera, frame, offset, delta, false);
+        let after = project(&camera, frame, moved).expect("in the picture");
+        assert!((after - before - delta).length() < 1e-3, "{before} went to {after}");
+    }
+
+    #[test]
+    fn with_shift_a_light_keeps_its_place_in_the_picture() {
+        let camera = Camera::default();
+        let frame = Frame {
+            rect: Rect::from_min_size(Pos2::ZERO, Vec2::new(800.0, 600.0)),
+            height_px: 600,
+        };
+        let offset = camera.rotation() * DVec3::new(0.3, -0.2, -2.0);
+        let moved = offset + displacement(&camera, frame, offset, Vec2::new(0.0, -50.0), true);
+        assert!(moved.length() > offset.length(), "upward is away");
+        let (a, b) = (project(&camera, frame, offset), project(&camera, frame, moved));
+        assert!((a.expect("seen") - b.expect("seen")).length() < 1e-3);
+    }
+
+    #[test]
+    fn a_light_behind_the_eye_has_no_handle() {
+        let camera = Camera::default();
+        let frame = Frame {
+            rect: Rect::from_min_size(Pos2::ZERO, Vec2::new(800.0, 600.0)),
+            height_px: 600,
+        };
+        assert_eq!(project(&camera, frame, camera.rotation() * DVec3::Z), None);
+    }
+}

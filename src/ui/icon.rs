@@ -1,0 +1,96 @@
+//! Small drawn icons: the bundled fonts lack most symbols, and lines stay crisp at any scale.
+
+use egui::{Button, Color32, Painter, Pos2, Response, Sense, Stroke, Ui, Vec2, vec2};
+
+/// What is drawn, in a box of about 16 points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    /// An arrow that turns back.
+    Undo,
+    /// An arrow that turns forward.
+    Redo,
+    /// A question mark's place: help.
+    Help,
+    /// Three sliders.
+    Controls,
+    /// Points down or, turned by the openness, sideways.
+    ChevronDown,
+    /// Points up.
+    ChevronUp,
+    /// Points right.
+    ChevronRight,
+    /// A diagonal cross.
+    Cross,
+    /// Four corners.
+    Fullscreen,
+}
+
+/// A square button with an icon, named for those who cannot see it.
+pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, hover: &str) -> Response {
+    let side = ui.spacing().interact_size.y.max(26.0);
+    let response = ui
+        .add(
+            Button::new("")
+                .min_size(Vec2::splat(side))
+                .sense(Sense::click())
+                .frame_when_inactive(false),
+        )
+        .accessible_name(name)
+        .on_hover_text(hover);
+    let color = if ui.is_enabled() {
+        ui.style().interact(&response).fg_stroke.color
+    } else {
+        super::theme::LINE
+    };
+    paint(ui.painter(), icon, response.rect.center(), 16.0, color);
+    response
+}
+
+/// Draws `icon` about `center`, `size` points large.
+pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Color32) {
+    let stroke = Stroke::new(1.5, color);
+    let at = |x: f32, y: f32| center + vec2(x, y) * (size / 16.0);
+    let line = |points: &[(f32, f32)]| {
+        painter.line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke);
+    };
+    match icon {
+        Icon::ChevronDown => line(&[(-4.0, -2.0), (0.0, 2.0), (4.0, -2.0)]),
+        Icon::ChevronUp => line(&[(-4.0, 2.0), (0.0, -2.0), (4.0, 2.0)]),
+        Icon::ChevronRight => line(&[(-2.0, -4.0), (2.0, 0.0), (-2.0, 4.0)]),
+        Icon::Cross => {
+            line(&[(-4.0, -4.0), (4.0, 4.0)]);
+            line(&[(-4.0, 4.0), (4.0, -4.0)]);
+        }
+        Icon::Undo | Icon::Redo => {
+            let s = if icon == Icon::Undo { 1.0 } else { -1.0 };
+            line(&[(-3.0 * s, -7.0), (-6.0 * s, -3.5), (-3.0 * s, 0.0)]);
+            let mut arc = vec![(-6.0 * s, -3.5), (1.5 * s, -3.5)];
+            arc.extend((0..=8).map(|i| {
+                let a = -std::f32::consts::FRAC_PI_2 + std::f32::consts::PI * i as f32 / 8.0;
+                ((1.5 + 4.5 * a.cos()) * s, 1.0 + 4.5 * a.sin())
+            }));
+            arc.push((-2.0 * s, 5.5));
+            line(&arc);
+        }
+        Icon::Help => {
+            painter.text(
+                center,
+                egui::Align2::CENTER_CENTER,
+                "?",
+                egui::FontId::proportional(size),
+                color,
+            );
+        }
+        Icon::Controls => {
+            for (y, x) in [(-4.5, 2.0), (0.0, -3.0), (4.5, 3.5)] {
+                line(&[(-7.0, y), (7.0, y)]);
+                painter.circle_filled(at(x, y), 2.4 * size / 16.0, color);
+            }
+        }
+        Icon::Fullscreen => {
+            for (sx, sy) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+                line(&[(6.0 * sx, 2.5 * sy), (6.0 * sx, 6.0 * sy), (2.5 * sx, 6.0 * sy)]);
+            }
+        }
+    }
+}

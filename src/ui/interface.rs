@@ -1,0 +1,370 @@
+//! One frame of the interface: layout, dispatch, undo.
+
+use egui::{Align2, Color32, Frame as Box, Margin, Panel, Rect, RichText, Ui, vec2};
+
+use super::{
+    Action, Inputs, Notice,
+    editor::Editor,
+    handles,
+    icon::{Icon, icon_button},
+    navigation::Standing,
+    panel::{self, Context, Selection, Settings},
+    pilot::{Frame, Pilot},
+    rects::Rects,
+    shortcuts::{self, Command},
+    status, theme, view,
+};
+use crate::scene::{Camera, Scene, presets};
+
+/// A movement that pauses for this long, while the hand still holds on, gets a full picture.
+const STILL_SECS: f64 = 0.25;
+/// Highest part of a narrow window that the sheet covers.
+const SHEET_PART: f32 = 0.55;
+/// Height of the sheet's heading, in points.
+const SHEET_HEADING: f32 = 54.0;
+
+/// The interface and the scene it edits.
+#[derive(Debug)]
+pub struct Interface {
+    editor: Editor,
+    settings: Settings,
+    selection: Selection,
+    pilot: Pilot,
+    /// The camera that Home returns to.
+    home: Camera,
+    /// Whether the camera is still to be fitted to the picture's shape.
+    arriving: bool,
+    help_open: bool,
+    standing: Option<Standing>,
+    rects: Rects,
+    view_px: [u32; 2],
+    /// The view of the last frame; none before the first.
+    frame: Option<Frame>,
+    moving: bool,
+}
+
+impl Interface {
+    /// An interface to `scene`, seen exactly from where it says.
+    pub fn new(scene: Scene, settings: Settings) -> Self {
+        Self {
+            home: scene.camera.clone(),
+            editor: Editor::new(scene),
+            settings,
+            selection: Selection::default(),
+            pilot: Pilot::default(),
+            arriving: false,
+            help_open: false,
+            standing: None,
+            rects: Rects::default(),
+            view_px: [1, 1],
+            frame: None,
+            moving: false,
+        }
+    }
+
+    /// An interface to an opening scene, drawn back as far as the window's shape asks for.
+    pub fn opening(scene: Scene, settings: Settings) -> Self {
+        Self { arriving: true, ..Self::new(scene, settings) }
+    }
+
+    /// The scene as it is now.
+    pub fn scene(&self) -> &Scene {
+        self.editor.scene()
+    }
+
+    /// Puts a loaded scene in place of the present one, which undo brings back. Its camera
+    /// becomes home.
+    pub fn replace_scene(&mut self, scene: Scene) {
+        self.home = scene.camera.clone();
+        self.editor.replace(scene);
+        self.pilot.cancel();
+    }
+
+    /// Width and height that the picture should have, in pixels.
+    pub fn view_size_px(&self) -> [u32; 2] {
+        self.view_px
+    }
+
+    /// Whether more changes are expected at once: a drag, a flight, a run of wheel notches.
+    pub fn is_moving(&self) -> bool {
+        self.moving
+    }
+
+    /// Where the key widgets are.
+    pub fn rects(&self) -> &Rects {
+        &self.rects
+    }
+
+    /// What is to be remembered until the next visit.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The same, to change it.
+    pub fn settings_mut(&mut self) -> &mut Settings {
+        &mut self.settings
+    }
+
+    /// The session, for undo and redo from outside.
+    pub fn editor_mut(&mut self) -> &mut Editor {
+        &mut self.editor
+    }
+
+    /// Draws one frame over all of `ui` and returns what the shell is to do. The scene, the
+    /// view's size and [`Self::is_moving`] are up to date afterwards.
+    pub fn show(&mut self, ui: &mut Ui, inputs: &Inputs<'_>) -> Vec<Action> {
+        let now_secs = ui.input(|i| i.time);
+        let (pressed, held) =
+            ui.input(|i| (i.pointer.any_pressed(), i.pointer.any_down() || i.any_touches()));
+        if pressed || !(held || self.pilot.is_moving(now_secs)) {
+            self.editor.next_gesture();
+        }
+        let mut before = self.scene().clone();
+        self.rects.clear();
+        let mut commands = shortcuts::commands(ui.ctx(), self.pilot.is_flying());
+        let mut actions = Vec::new();
+
+        let wide = ui.available_width() >= theme::WIDE_FROM;
+        theme::fit_to_hand(ui, !wide || ui.input(|i| i.has_touch_screen()));
+        self.panels(ui, inputs, wide, &mut commands, &mut actions);
+        self.status(ui, inputs);
+        if self.view(ui, inputs, wide, &mut commands) {
+            // Fitting the opening view to the window is nobody's edit.
+            before = self.scene().clone();
+        }
+        notice(ui, inputs.notice, self.rects.get("view"), &mut actions);
+        panel::help_window(ui.ctx(), &mut self.help_open);
+
+        self.note_changes(ui, &before, now_secs, held);
+        for command in commands {
+            self.dispatch(command, &mut actions);
+        }
+        actions
+    }
+
+    fn panels(
+        &mut self,
+        ui: &mut Ui,
+        inputs: &Inputs<'_>,
+        wide: bool,
+        commands: &mut Vec<Command>,
+        actions: &mut Vec<Action>,
+    ) {
+        let open = self.settings.panel_open;
+        if wide && !open {
+            return;
+        }
+        let height = ui.available_height();
+        let (can_undo, can_redo) = Context::history_of(&self.editor);
+        let mut cx = Context {
+            scene: self.editor.scene_mut(),
+            settings: &mut self.settings,
+            selection: &mut self.selection,
+            rects: &mut self.rects,
+            commands,
+            actions,
+            inputs,
+            standing: self.standing,
+            view_px: self.view_px,
+            flying: self.pilot.is_flying(),
+            can_undo,
+            can_redo,
+        };
+        let frame = Box::new().fill(theme::PANEL);
+        let shown = if wide {
+            Panel::right("panel")
+                .resizable(false)
+                .exact_size(theme::PANEL_WIDTH)
+                .frame(frame)
+                .show(ui, |ui| panel::side(ui, &mut cx))
+        } else {
+            let size =
+                if open { (height * SHEET_PART).floor().max(SHEET_HEADING) } else { SHEET_HEADING };
+            Panel::bottom("sheet")
+                .exact_size(size)
+                .frame(frame)
+                .show(ui, |ui| panel::sheet(ui, &mut cx, open))
+        };
+        self.rects.note("panel", &shown.response);
+    }
+
+    fn status(&mut self, ui: &mut Ui, inputs: &Inputs<'_>) {
+        let frame = Box::new().fill(theme::PANEL);
+        let status = status::Status {
+            report: inputs.report,
+            camera: &self.editor.scene().camera,
+            adapter: inputs.adapter,
+            standing: self.standing,
+            flight: self.pilot.is_flying().then(|| self.pilot.speed()),
+        };
+        let shown = Panel::bottom("status")
+            .exact_size(status::HEIGHT)
+            .frame(frame)
+            .show_separator_line(false)
+            .show(ui, |ui| {
+                status::status_line(ui, &status);
+            });
+        self.rects.note("status", &shown.response);
+    }
+
+    /// The picture and what moves its camera; true where the opening view was fitted to it.
+    fn view(
+        &mut self,
+        ui: &mut Ui,
+        inputs: &Inputs<'_>,
+        wide: bool,
+        commands: &mut Vec<Command>,
+    ) -> bool {
+        let area = ui.available_rect_before_wrap();
+        let (rect, size_px) = view::snap_to_pixels(area, ui.ctx().pixels_per_point());
+        self.view_px = size_px;
+        let frame = Frame { rect, height_px: size_px[1] };
+        self.frame = Some(frame);
+        let scene = self.editor.scene_mut();
+        let arriving = std::mem::take(&mut self.arriving);
+        if arriving {
+            self.pilot.arrive(scene, &self.home, frame);
+        }
+        let response = view::show(ui, frame, inputs.picture);
+        self.rects.note("view", &response);
+        self.pilot.steer(ui, &response, frame, scene, &self.home, commands);
+        if !self.pilot.is_flying()
+            && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)
+        {
+            self.selection.light = Some(light);
+        }
+        self.standing = Some(self.pilot.standing(scene, frame));
+        if wide && !self.settings.panel_open {
+            self.panel_button(ui, rect, commands);
+        }
+        if inputs.picture.is_none() {
+            ui.painter().text(
+                rect.center(),
+                Align2::CENTER_CENTER,
+                "Preparing the first picture…",
+                egui::FontId::proportional(15.0),
+                theme::TEXT_DIM,
+            );
+        }
+        ui.allocate_rect(area, egui::Sense::hover());
+        arriving
+    }
+
+    /// What is left of a hidden side panel.
+    fn panel_button(&mut self, ui: &mut Ui, view: Rect, commands: &mut Vec<Command>) {
+        let at = Rect::from_min_size(view.right_top() + vec2(-44.0, 10.0), vec2(34.0, 34.0));
+        ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
+        let button = ui.put(at, |ui: &mut Ui| {
+            icon_button(ui, Icon::Controls, "Show panel", "Show the panel (P)")
+        });
+        self.rects.note("panel toggle", &button);
+        if button.clicked() {
+            commands.push(Command::TogglePanel);
+        }
+    }
+
+    /// Records the frame's changes, and whether more of them are on their way.
+    fn note_changes(&mut self, ui: &Ui, before: &Scene, now_secs: f64, held: bool) {
+        let changed = *before != *self.scene();
+        if changed && ui.input(stepped_by_key) {
+            self.pilot.extend_run(now_secs);
+        }
+        let still_down = ui.input(|i| i.pointer.any_down() || i.any_touches());
+        let gesture = (held && still_down) || self.pilot.is_moving(now_secs);
+        self.editor.note_changes(before, gesture, now_secs);
+        self.moving = gesture && self.editor.secs_since_change(now_secs) < STILL_SECS;
+        if self.moving {
+            ui.ctx().request_repaint_after_secs(STILL_SECS as f32);
+        }
+    }
+
+    fn dispatch(&mut self, command: Command, actions: &mut Vec<Action>) {
+        match command {
+            Command::Undo => {
+                self.pilot.cancel();
+                self.editor.undo();
+            }
+            Command::Redo => {
+                self.pilot.cancel();
+                self.editor.redo();
+            }
+            Command::SavePicture => {
+                actions.push(Action::SavePicture {
+                    size_px: self.settings.export.resolve(self.view_px),
+                });
+            }
+            Command::SaveScene => actions.push(Action::SaveScene),
+            Command::LoadScene => actions.push(Action::LoadScene),
+            Command::CopyLink => actions.push(Action::CopyLink),
+            Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
+            Command::Preset(index) => self.choose_preset(index),
+            Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
+            Command::Leave if self.help_open => self.help_open = false,
+            Command::Leave => self.pilot.set_flying(false),
+            Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
+            Command::ToggleHelp => self.help_open = !self.help_open,
+            // The pilot has seen to these.
+            Command::Home
+            | Command::FrameAll
+            | Command::Orbit(..)
+            | Command::Pan(..)
+            | Command::Dolly(_) => {}
+        }
+    }
+
+    /// Opens a preset. How much work pictures get stays as this machine's owner chose it.
+    fn choose_preset(&mut self, index: usize) {
+        if let Some(preset) = presets::all().get(index) {
+            let mut scene = (preset.scene)();
+            scene.quality = self.scene().quality.clone();
+            let home = scene.camera.clone();
+            match self.frame {
+                Some(frame) => self.pilot.arrive(&mut scene, &home, frame),
+                None => self.arriving = true,
+            }
+            self.replace_scene(scene);
+            self.home = home;
+            self.selection = Selection::default();
+        }
+    }
+}
+
+/// Whether this frame's keys nudge a value: a run of such presses is one step of the history.
+fn stepped_by_key(input: &egui::InputState) -> bool {
+    use egui::Key;
+    let keys =
+        [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::PageUp, Key::PageDown];
+    keys.into_iter().any(|key| input.key_pressed(key))
+}
+
+/// The shell's line, over the view's upper edge.
+fn notice(ui: &mut Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut Vec<Action>) {
+    let (Some(notice), Some(view)) = (notice, view) else {
+        return;
+    };
+    let width = (view.width() - 24.0).clamp(120.0, 460.0);
+    egui::Area::new(egui::Id::unique("notice"))
+        .fixed_pos(view.center_top() + vec2(0.0, 12.0))
+        .pivot(Align2::CENTER_TOP)
+        .constrain_to(view)
+        .show(ui.ctx(), |ui| {
+            let edge = if notice.is_error { theme::ERROR } else { theme::ACCENT };
+            Box::new()
+                .fill(theme::PANEL)
+                .stroke(egui::Stroke::new(1.0, edge))
+                .corner_radius(8)
+                .inner_margin(Margin { left: 12, right: 6, top: 6, bottom: 6 })
+                .show(ui, |ui| {
+                    ui.set_max_width(width);
+                    ui.horizontal(|ui| {
+                        let color = if notice.is_error { theme::ERROR } else { Color32::WHITE };
+                        let text =
+                            egui::Label::new(RichText::new(&notice.text).color(color)).wrap();
+                        ui.add_sized(vec2((width - 64.0).max(60.0), 0.0), text);
+                        if icon_button(ui, Icon::Cross, "Dismiss", "Close this message").clicked() {
+                            actions.push(Action::DismissNotice);
+                        }
+                    });
+                });
+        });
+}

@@ -1,0 +1,66 @@
+//! Where the scene is seen from.
+
+use egui::{RichText, Ui};
+
+use super::Context;
+use crate::{
+    scene::param,
+    ui::{
+        shortcuts::Command,
+        status::{zoom, zoom_text},
+        theme,
+        widgets::param_slider,
+    },
+};
+
+/// Field of view, ways home, fly mode, and where the eye is.
+pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    param_slider(ui, &param::VERTICAL_FOV, &mut cx.scene.camera.vertical_fov_deg);
+    ui.columns(3, |columns| {
+        let mut button = |index: usize, name: &str, hover: &str, command: Command| {
+            let ui: &mut Ui = &mut columns[index];
+            let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+            let chosen = command == Command::ToggleFlight && cx.flying;
+            let button = egui::Button::selectable(chosen, name).fill(if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED });
+            if ui.add_sized(size, button.truncate()).on_hover_text(hover).clicked() {
+                cx.commands.push(command);
+            }
+        };
+        button(0, "Home", "Back to the scene's opening view (H)", Command::Home);
+        button(1, "Frame all", "Show the whole fractal from this side (A)", Command::FrameAll);
+        button(2, "Fly", "Fly with W A S D and E Q by their place on the keyboard; Shift is faster, a drag looks around (F)", Command::ToggleFlight);
+    });
+    let camera = &cx.scene.camera;
+    let mut line = |name: &str, value: String, hover: &str| {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(name).small().color(theme::TEXT_DIM));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(RichText::new(value).small()).truncate());
+            });
+        })
+        .response
+        .on_hover_text(hover);
+    };
+    let eye = camera.position.to_dvec3();
+    line(
+        "Eye",
+        format!("{:.5}, {:.5}, {:.5}", eye.x, eye.y, eye.z),
+        "The eye's position in scene units: x, y, z",
+    );
+    line(
+        "Zoom",
+        zoom_text(zoom(camera)),
+        "How much larger things appear than from where a new scene is seen",
+    );
+    if let Some(standing) = cx.standing {
+        line(
+            "To the surface",
+            format!("{} u", significant(standing.distance)),
+            "Estimated distance from the eye to the nearest surface, in scene units; the speed of flight follows it",
+        );
+    }
+}
+
+fn significant(value: f64) -> String {
+    if (1e-3..1e4).contains(&value) { format!("{value:.4}") } else { format!("{value:.2e}") }
+}

@@ -1,0 +1,181 @@
+//! Saving: the picture at its size, and the scene as a file or a link.
+
+use egui::{Button, ProgressBar, RichText, Ui, vec2};
+use serde::{Deserialize, Serialize};
+
+use super::Context;
+use crate::{
+    scene::param::{Param, Scale, Unit},
+    ui::{
+        Action, ExportProgress,
+        shortcuts::Command,
+        status::duration_text,
+        theme,
+        widgets::{caption, choice, number},
+    },
+};
+
+/// Largest width or height of a saved picture, in pixels.
+pub const MAX_EXPORT_SIDE_PX: u32 = 16384;
+
+/// A side of a typed size. It belongs to no scene, so it stands here and not in the scene's table.
+const SIDE: Param = Param {
+    path: "export.side_px",
+    label: "Side",
+    unit: Unit::Count,
+    min: 1.0,
+    max: MAX_EXPORT_SIDE_PX as f64,
+    default: 3840.0,
+    scale: Scale::Integer,
+    step: 1.0,
+    help: "One side of the saved picture, in pixels.",
+};
+
+/// How large pictures are saved.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ExportSize {
+    /// Times the view's size: 1, 2 or 4; 0 for the typed size.
+    pub times: u32,
+    /// The typed width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
+    pub typed_px: [u32; 2],
+}
+
+impl Default for ExportSize {
+    fn default() -> Self {
+        Self { times: 1, typed_px: [3840, 2160] }
+    }
+}
+
+impl ExportSize {
+    /// Width and height of the saved picture in pixels; a view too large for its factor keeps
+    /// its shape.
+    pub fn resolve(&self, view_px: [u32; 2]) -> [u32; 2] {
+        let limit = f64::from(MAX_EXPORT_SIDE_PX);
+        let side = |length: f64| length.round().clamp(1.0, limit) as u32;
+        if self.times == 0 {
+            return self.typed_px.map(|length| side(f64::from(length)));
+        }
+        let longest = f64::from(view_px[0].max(view_px[1]).max(1));
+        let times = f64::from(self.times.min(16)).min(limit / longest);
+        view_px.map(|length| side(f64::from(length) * times))
+    }
+}
+
+/// The button that saves the picture, or the progress of saving it.
+pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
+    if let Some(progress) = cx.inputs.export {
+        return saving(ui, cx, progress);
+    }
+    let [width, height] = cx.settings.export.resolve(cx.view_px);
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y.max(36.0));
+    let text = RichText::new("Save picture").size(15.0).color(theme::ON_ACCENT);
+    let response = ui
+        .add_sized(size, Button::new(text).fill(theme::ACCENT))
+        .on_hover_text(format!("Renders the view as a PNG of {width} × {height} pixels that carries its scene (Ctrl S). Other sizes: More, Export."));
+    cx.rects.note("save picture", &response);
+    if response.clicked() {
+        cx.commands.push(Command::SavePicture);
+    }
+}
+
+fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress) {
+    let left = match progress.remaining_secs {
+        Some(secs) => format!("Saving, {} left", duration_text(secs)),
+        None => "Saving…".to_owned(),
+    };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(left).small().color(theme::TEXT_DIM));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let cancel = ui.button("Cancel").on_hover_text("Stop saving; nothing is written");
+            cx.rects.note("cancel export", &cancel);
+            if cancel.clicked() {
+                cx.actions.push(Action::CancelExport);
+            }
+        });
+    });
+    let done = if progress.done.is_finite() { progress.done.clamp(0.0, 1.0) } else { 0.0 };
+    ui.add(ProgressBar::new(done).desired_height(6.0).corner_radius(3.0).fill(theme::ACCENT));
+}
+
+/// The picture's size, and the scene's file and link.
+pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    let export = &mut cx.settings.export;
+    let response = choice(
+        ui,
+        "Picture size",
+        &mut export.times,
+        &[
+            (1, "View", "As many pixels as the view shows"),
+            (2, "2×", "Twice the view's width and height"),
+            (4, "4×", "Four times the view's width and height"),
+            (0, "Typed", "A size of your own"),
+        ],
+    );
+    cx.rects.note("picture size", &response);
+    if export.times == 0 {
+        typed(ui, export);
+    }
+    let [width, height] = export.resolve(cx.view_px);
+    ui.label(RichText::new(format!("{width} × {height} pixels")).small().color(theme::TEXT_DIM))
+        .on_hover_text("The width and height of the picture that Save picture writes");
+    caption(ui, "Scene");
+    ui.columns(3, |columns| {
+        let mut button = |index: usize, name: &str, hover: &str, command: Command| {
+            let ui: &mut Ui = &mut columns[index];
+            let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+            if ui.add_sized(size, Button::new(name).truncate()).on_hover_text(hover).clicked() {
+                cx.commands.push(command);
+            }
+        };
+        button(0, "Save scene", "Save the scene as a JSON file (Ctrl Shift S)", Command::SaveScene);
+        button(
+            1,
+            "Open…",
+            "Open a scene file, or a picture that carries one (Ctrl O)",
+            Command::LoadScene,
+        );
+        button(2, "Copy link", "Copy an address that shares this view (L)", Command::CopyLink);
+    });
+}
+
+fn typed(ui: &mut Ui, export: &mut ExportSize) {
+    ui.horizontal(|ui| {
+        for (index, label) in ["Width", "Height"].into_iter().enumerate() {
+            let param = Param { label, ..SIDE };
+            let mut value = f64::from(export.typed_px[index]);
+            ui.label(RichText::new(label).color(theme::TEXT_DIM));
+            let response = ui.push_id(label, |ui| number(ui, &param, &mut value)).inner;
+            response.on_hover_text(format!(
+                "{label} of the saved picture in pixels, 1 to {MAX_EXPORT_SIDE_PX}"
+            ));
+            export.typed_px[index] = value as u32;
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_multiples_of_the_view() {
+        let view = [1280, 720];
+        let size = |times| ExportSize { times, ..Default::default() }.resolve(view);
+        assert_eq!((size(1), size(2), size(4)), ([1280, 720], [2560, 1440], [5120, 2880]));
+    }
+
+    #[test]
+    fn too_large_a_view_keeps_its_shape() {
+        let export = ExportSize { times: 4, ..Default::default() };
+        assert_eq!(export.resolve([8192, 4096]), [16384, 8192]);
+    }
+
+    #[test]
+    fn remembered_nonsense_does_no_harm() {
+        let export = ExportSize { times: 0, typed_px: [0, u32::MAX] };
+        assert_eq!(export.resolve([800, 600]), [1, MAX_EXPORT_SIDE_PX]);
+        let export = ExportSize { times: u32::MAX, typed_px: [1, 1] };
+        assert_eq!(export.resolve([1600, 400]), [16384, 4096]);
+    }
+}

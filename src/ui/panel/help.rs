@@ -1,0 +1,58 @@
+//! Keys and gestures, listed from the tables that the program itself obeys.
+
+use egui::{Align2, Grid, RichText, ScrollArea, Ui, vec2};
+
+use crate::ui::{
+    shortcuts::{FLIGHT, GESTURES, SHORTCUTS},
+    theme,
+    widgets::caption,
+};
+
+/// The help window, in the middle of the screen while `open`.
+pub(in crate::ui) fn help_window(ctx: &egui::Context, open: &mut bool) {
+    let screen = ctx.content_rect();
+    let width = (screen.width() - 40.0).min(420.0);
+    egui::Window::new("Keys and gestures")
+        .open(open)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .collapsible(false)
+        .resizable(false)
+        .fixed_size(vec2(width, (screen.height() - 90.0).clamp(120.0, 560.0)))
+        .show(ctx, |ui| {
+            ScrollArea::vertical().auto_shrink([false, true]).show(ui, |ui| {
+                caption(ui, "In the view");
+                table(ui, "gestures", width, GESTURES.iter().copied());
+                caption(ui, "Keys");
+                table(ui, "keys", width, SHORTCUTS.iter().filter_map(|shortcut| shortcut.help));
+                caption(ui, "In fly mode, by their place on the keyboard");
+                let faster = [("Shift", "Fly faster")];
+                table(
+                    ui,
+                    "flight",
+                    width,
+                    FLIGHT.iter().filter_map(|flight| flight.help).chain(faster),
+                );
+            });
+        });
+}
+
+fn table(
+    ui: &mut Ui,
+    id: &str,
+    width: f32,
+    lines: impl Iterator<Item = (&'static str, &'static str)>,
+) {
+    let first = (width * 0.4).min(160.0);
+    Grid::new(id)
+        .num_columns(2)
+        .spacing([10.0, 4.0])
+        .min_col_width(first)
+        .max_col_width(width - first - 40.0)
+        .show(ui, |ui| {
+            for (keys, what) in lines {
+                ui.label(RichText::new(keys).color(theme::ACCENT));
+                ui.add(egui::Label::new(what).wrap());
+                ui.end_row();
+            }
+        });
+}

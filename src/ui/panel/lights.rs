@@ -1,0 +1,401 @@
+//! The lights: a list, and the selected one's properties.
+
+use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
+use glam::DVec3;
+
+use super::Context;
+use crate::{
+    scene::{Camera, EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight, param},
+    ui::{
+        theme,
+        widgets::{ball, caption, choice, color, param_slider},
+    },
+};
+
+/// One light of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::ui) enum LightRef {
+    /// Light from a direction.
+    Environment(usize),
+    /// Light from a point.
+    Point(usize),
+}
+
+impl LightRef {
+    /// Whether the scene has it.
+    pub(in crate::ui) fn exists(self, lights: &Lights) -> bool {
+        match self {
+            Self::Environment(index) => index < lights.environment.len(),
+            Self::Point(index) => index < lights.point.len(),
+        }
+    }
+
+    fn name(self) -> String {
+        match self {
+            Self::Environment(index) => format!("Light {}", index + 1),
+            Self::Point(index) => format!("Point {}", index + 1),
+        }
+    }
+}
+
+/// The first things to try: the key light's direction, and the exposure.
+pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
+    caption(ui, "Light");
+    // With all lights unfolded below, the ball stands there.
+    let unfolded = cx.settings.more_open && cx.settings.sections.lights;
+    let key = match cx.selection.light {
+        Some(LightRef::Environment(index)) => index,
+        _ => 0,
+    };
+    if !unfolded && let Some(light) = cx.scene.lights.environment.get_mut(key) {
+        let camera = &cx.scene.camera;
+        ui.horizontal(|ui| {
+            let response = direction_ball(ui, 84.0, light, camera);
+            cx.rects.note("light ball", &response);
+            ui.vertical(|ui| {
+                ui.add_space(4.0);
+                ui.label(
+                    RichText::new(format!(
+                        "Drag the dot to move {}.",
+                        LightRef::Environment(key).name().to_lowercase()
+                    ))
+                    .color(theme::TEXT_DIM),
+                );
+                ui.add_space(4.0);
+                color(ui, "Key light colour", "The light's colour", &mut light.color);
+            });
+        });
+    }
+    let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
+    cx.rects.note("exposure", &response);
+}
+
+/// All lights and the selected one's properties.
+pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    if cx.selection.light.is_none_or(|light| !light.exists(&cx.scene.lights)) {
+        cx.selection.light = first(&cx.scene.lights);
+    }
+    list(ui, cx);
+    buttons(ui, cx);
+    match cx.selection.light {
+        Some(LightRef::Environment(index)) => {
+            let camera = &cx.scene.camera;
+            if let Some(light) = cx.scene.lights.environment.get_mut(index) {
+                let ball = environment(ui, light, camera);
+                cx.rects.note("light ball", &ball);
+            }
+        }
+        Some(LightRef::Point(index)) => {
+            if let Some(light) = cx.scene.lights.point.get_mut(index) {
+                point(ui, light);
+            }
+        }
+        None => {
+            ui.label(
+                RichText::new("There is no light: only the ambient part shows.")
+                    .color(theme::TEXT_DIM),
+            );
+        }
+    }
+}
+
+fn first(lights: &Lights) -> Option<LightRef> {
+    [LightRef::Environment(0), LightRef::Point(0)].into_iter().find(|light| light.exists(lights))
+}
+
+fn list(ui: &mut Ui, cx: &mut Context<'_>) {
+    let selected = &mut cx.selection.light;
+    let lights = &mut cx.scene.lights;
+    ScrollArea::vertical().id_salt("light list").max_height(190.0).auto_shrink([false, true]).show(
+        ui,
+        |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for (index, light) in lights.environment.iter_mut().enumerate() {
+                let this = LightRef::Environment(index);
+                row(ui, this, selected, &mut light.color, &mut light.muted, &mut light.solo);
+            }
+            for (index, light) in lights.point.iter_mut().enumerate() {
+                let this = LightRef::Point(index);
+                row(ui, this, selected, &mut light.color, &mut light.muted, &mut light.solo);
+            }
+        },
+    );
+}
+
+fn row(
+    ui: &mut Ui,
+    this: LightRef,
+    selected: &mut Option<LightRef>,
+    linear: &mut [f32; 3],
+    muted: &mut bool,
+    solo: &mut bool,
+) {
+    let name = this.name();
+    ui.push_id((this.name(), "row"), |ui| {
+        ui.horizontal(|ui| {
+            let height = ui.spacing().interact_size.y;
+            color(ui, &format!("{name} colour"), "The light's colour", linear);
+            let width = (ui.available_width()
+                - 2.0 * (height.max(30.0) + ui.spacing().item_spacing.x))
+                .max(40.0);
+            let chosen = *selected == Some(this);
+            let text =
+                RichText::new(&name).color(if *muted { theme::TEXT_DIM } else { theme::TEXT });
+            let button = Button::selectable(chosen, text).min_size(vec2(width, height)).truncate();
+            if ui
+                .add_sized(vec2(width, height), button)
+                .on_hover_text("Select this light to edit it below")
+                .clicked()
+            {
+                *selected = Some(this);
+            }
+            toggle(ui, "M", &format!("Mute {name}"), "Mute: switch this light off for now", muted);
+            toggle(
+                ui,
+                "S",
+                &format!("Solo {name}"),
+                "Solo: while any light is solo, only solo lights shine",
+                solo,
+            );
+        });
+    });
+}
+
+fn toggle(ui: &mut Ui, letter: &str, name: &str, hover: &str, on: &mut bool) {
+    let side = ui.spacing().interact_size.y;
+    let fill = if *on { theme::ACCENT } else { theme::RAISED };
+    let text =
+        RichText::new(letter).small().color(if *on { theme::ON_ACCENT } else { theme::TEXT_DIM });
+    let response =
+        ui.add_sized(vec2(side.max(30.0), side), Button::new(text).fill(fill)).on_hover_text(hover);
+    if response.clicked() {
+        *on = !*on;
+    }
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_toggled((*on).into()));
+    response.accessible_name(name);
+}
+
+fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
+    let room = cx.scene.lights.len() < MAX_LIGHTS;
+    let full = format!("A scene holds at most {MAX_LIGHTS} lights.");
+    let size = |ui: &Ui| {
+        vec2(
+            (ui.available_width() - ui.spacing().item_spacing.x) / 2.0,
+            ui.spacing().interact_size.y,
+        )
+    };
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        let size = size(ui);
+        let add = |ui: &mut Ui, name: &str, hover: &str| -> Response {
+            ui.add_enabled_ui(room, |ui| ui.add_sized(size, Button::new(name).truncate()))
+                .inner
+                .on_hover_text(hover)
+                .on_disabled_hover_text(&full)
+        };
+        let environment =
+            add(ui, "Add light", "Add light from a direction, at first over your left shoulder");
+        let point = add(
+            ui,
+            "Add point light",
+            "Add light from a point, at first between you and the fractal",
+        );
+        cx.rects.note("add light", &environment);
+        cx.rects.note("add point light", &point);
+        let Context { scene, selection, .. } = cx;
+        if environment.clicked() {
+            scene.lights.environment.push(new_environment(&scene.camera));
+            selection.light = Some(LightRef::Environment(scene.lights.environment.len() - 1));
+        }
+        if point.clicked() {
+            scene.lights.point.push(new_point(&scene.camera));
+            selection.light = Some(LightRef::Point(scene.lights.point.len() - 1));
+        }
+    });
+    ui.horizontal(|ui| {
+        let size = size(ui);
+        let any = cx.selection.light.is_some();
+        let change = |ui: &mut Ui, name: &str, hover: &str, enabled: bool| -> Response {
+            ui.add_enabled_ui(enabled, |ui| ui.add_sized(size, Button::new(name).truncate()))
+                .inner
+                .on_hover_text(hover)
+        };
+        let duplicate = change(ui, "Duplicate", "Add a copy of the selected light", any && room);
+        let remove = change(ui, "Remove", "Remove the selected light", any);
+        if let Some(light) = cx.selection.light {
+            if duplicate.clicked() {
+                cx.selection.light = Some(duplicated(&mut cx.scene.lights, light));
+            } else if remove.clicked() {
+                cx.selection.light = removed(&mut cx.scene.lights, light);
+            }
+        }
+    });
+    ui.add_space(4.0);
+}
+
+/// Adds a copy of `light` at the end of its list.
+fn duplicated(lights: &mut Lights, light: LightRef) -> LightRef {
+    match light {
+        LightRef::Environment(index) => {
+            if let Some(copy) = lights.environment.get(index).cloned() {
+                lights.environment.push(copy);
+            }
+            LightRef::Environment(lights.environment.len().saturating_sub(1))
+        }
+        LightRef::Point(index) => {
+            if let Some(copy) = lights.point.get(index).cloned() {
+                lights.point.push(copy);
+            }
+            LightRef::Point(lights.point.len().saturating_sub(1))
+        }
+    }
+}
+
+/// Removes `light` and returns its neighbour.
+fn removed(lights: &mut Lights, light: LightRef) -> Option<LightRef> {
+    let neighbour = match light {
+        LightRef::Environment(index) if index < lights.environment.len() => {
+            lights.environment.remove(index);
+            LightRef::Environment(index.min(lights.environment.len().saturating_sub(1)))
+        }
+        LightRef::Point(index) if index < lights.point.len() => {
+            lights.point.remove(index);
+            LightRef::Point(index.min(lights.point.len().saturating_sub(1)))
+        }
+        gone => gone,
+    };
+    if neighbour.exists(lights) { Some(neighbour) } else { first(lights) }
+}
+
+fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Camera) -> Response {
+    let ball = ui
+        .horizontal(|ui| {
+            let ball = direction_ball(ui, 112.0, light, camera);
+            ui.vertical(|ui| {
+                ui.add_space(6.0);
+                let mut behind = toward_light_in_view(light, camera).z < 0.0;
+                if ui.checkbox(&mut behind, "From behind").on_hover_text("Whether the light comes from behind the fractal, as you see it").changed() {
+                    let mut direction = toward_light_in_view(light, camera);
+                    direction.z = -direction.z;
+                    set_direction(light, camera, direction);
+                }
+                ui.checkbox(&mut light.casts_shadows, "Shadows").on_hover_text("Whether surfaces block this light");
+                let mut limited = light.shadow_reach.is_some();
+                let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Limit reach"));
+                if reach.on_hover_text("Let only near surfaces cast shadows, up to the shadow reach below; otherwise the whole scene does").changed() {
+                    light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
+                }
+            });
+            ball
+        })
+        .inner;
+    param_slider(ui, &param::ENVIRONMENT_INTENSITY, &mut light.intensity);
+    if let Some(reach) = &mut light.shadow_reach {
+        ui.add_enabled_ui(light.casts_shadows, |ui| param_slider(ui, &param::SHADOW_REACH, reach));
+    }
+    let mut frame = light.frame;
+    choice(
+        ui,
+        "Fixed to",
+        &mut frame,
+        &[
+            (LightFrame::Scene, "Scene", "The light stays where it is as the camera moves"),
+            (LightFrame::View, "View", "The light moves with the camera"),
+        ],
+    );
+    if frame != light.frame {
+        // Fixed to something else, it still comes from where it came from.
+        let direction = toward_light_in_view(light, camera);
+        light.frame = frame;
+        set_direction(light, camera, direction);
+    }
+    ball
+}
+
+fn point(ui: &mut Ui, light: &mut PointLight) {
+    param_slider(ui, &param::POINT_INTENSITY, &mut light.intensity);
+    ui.checkbox(&mut light.casts_shadows, "Shadows")
+        .on_hover_text("Whether surfaces block this light");
+    let at = light.position.to_dvec3();
+    ui.label(RichText::new(format!("At {:.4}, {:.4}, {:.4}", at.x, at.y, at.z)).small().color(theme::TEXT_DIM))
+        .on_hover_text("The light's position in scene units. Drag its handle in the view; with Shift it moves toward or away from you.");
+}
+
+fn direction_ball(
+    ui: &mut Ui,
+    diameter: f32,
+    light: &mut EnvironmentLight,
+    camera: &Camera,
+) -> Response {
+    let mut direction = toward_light_in_view(light, camera);
+    let response = ball(ui, "Light direction", diameter, light.color, &mut direction);
+    if response.changed() {
+        set_direction(light, camera, direction);
+    }
+    response
+}
+
+/// The unit vector toward the light in the camera's frame, whatever it is fixed to.
+fn toward_light_in_view(light: &EnvironmentLight, camera: &Camera) -> DVec3 {
+    let direction = DVec3::from_array(light.direction).normalize_or(DVec3::Z);
+    match light.frame {
+        LightFrame::View => direction,
+        LightFrame::Scene => camera.rotation().inverse() * direction,
+    }
+}
+
+/// Turns the light to a direction in the camera's frame.
+fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_view: DVec3) {
+    let direction = match light.frame {
+        LightFrame::View => in_view,
+        LightFrame::Scene => camera.rotation() * in_view,
+    };
+    light.direction = direction.normalize_or(DVec3::Z).to_array();
+}
+
+fn new_environment(camera: &Camera) -> EnvironmentLight {
+    let mut light = EnvironmentLight::default();
+    set_direction(&mut light, camera, DVec3::new(-0.55, 0.5, 0.67));
+    light
+}
+
+/// A point light that reaches the pivot with about the strength of an environment light.
+fn new_point(camera: &Camera) -> PointLight {
+    let unit = camera.view_unit();
+    let offset = camera.rotation() * (DVec3::new(-0.22, 0.22, -0.6) * unit);
+    let distance = 0.5 * unit;
+    PointLight {
+        position: camera.position.moved_by(offset, unit * 1e-4),
+        intensity: (distance * distance)
+            .clamp(param::POINT_INTENSITY.min, param::POINT_INTENSITY.max),
+        ..Default::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_survives_both_frames() {
+        let camera = Camera::default();
+        let wanted = DVec3::new(0.2, -0.7, 0.4).normalize();
+        for frame in [LightFrame::Scene, LightFrame::View] {
+            let mut light = EnvironmentLight { frame, ..Default::default() };
+            set_direction(&mut light, &camera, wanted);
+            assert!((toward_light_in_view(&light, &camera) - wanted).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_removed_light_leaves_a_light_selected_while_there_is_one() {
+        let mut lights = Lights {
+            environment: vec![EnvironmentLight::default()],
+            point: vec![PointLight::default(); 2],
+        };
+        assert_eq!(removed(&mut lights, LightRef::Point(1)), Some(LightRef::Point(0)));
+        assert_eq!(removed(&mut lights, LightRef::Point(0)), Some(LightRef::Environment(0)));
+        assert_eq!(removed(&mut lights, LightRef::Environment(0)), None);
+        assert_eq!(removed(&mut lights, LightRef::Environment(7)), None);
+    }
+}

@@ -1,0 +1,274 @@
+//! The panels, one a file. Each draws itself into a `Ui`, edits the scene in place, and leaves
+//! what it cannot do itself as a [`Command`] or an [`Action`].
+
+mod camera;
+mod fractal;
+mod help;
+mod lights;
+mod quality;
+mod scenes;
+mod surface;
+mod tone;
+
+pub mod export;
+
+use egui::{Frame, Margin, RichText, ScrollArea, Ui};
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Action, Inputs,
+    editor::Editor,
+    icon::{Icon, icon_button},
+    navigation::Standing,
+    rects::Rects,
+    shortcuts::Command,
+    theme,
+    widgets::section,
+};
+use crate::scene::Scene;
+pub(super) use help::help_window;
+pub(super) use lights::LightRef;
+
+/// What the interface remembers from one visit to the next. It belongs to no scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Whether the panel is shown.
+    pub panel_open: bool,
+    /// Whether the panel shows more than the first things.
+    pub more_open: bool,
+    /// What is unfolded.
+    pub sections: Sections,
+    /// The size of saved pictures.
+    pub export: export::ExportSize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            panel_open: true,
+            more_open: false,
+            sections: Sections::default(),
+            export: export::ExportSize::default(),
+        }
+    }
+}
+
+/// Which sections are unfolded.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+#[expect(missing_docs, reason = "each field is the section of its name")]
+pub struct Sections {
+    pub fractal: bool,
+    pub camera: bool,
+    pub lights: bool,
+    pub surface: bool,
+    pub tone: bool,
+    pub quality: bool,
+    pub export: bool,
+}
+
+impl Sections {
+    /// All unfolded.
+    pub fn all() -> Self {
+        Self {
+            fractal: true,
+            camera: true,
+            lights: true,
+            surface: true,
+            tone: true,
+            quality: true,
+            export: true,
+        }
+    }
+}
+
+/// What is selected for editing; it belongs to no scene either.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Selection {
+    pub light: Option<LightRef>,
+    pub stop: usize,
+}
+
+/// What the panels work on.
+pub(super) struct Context<'a> {
+    pub scene: &'a mut Scene,
+    pub settings: &'a mut Settings,
+    pub selection: &'a mut Selection,
+    pub rects: &'a mut Rects,
+    pub commands: &'a mut Vec<Command>,
+    pub actions: &'a mut Vec<Action>,
+    pub inputs: &'a Inputs<'a>,
+    /// Where the camera stood in the last frame.
+    pub standing: Option<Standing>,
+    /// Size of the view in the last frame, in pixels.
+    pub view_px: [u32; 2],
+    pub flying: bool,
+    pub can_undo: bool,
+    pub can_redo: bool,
+}
+
+impl Context<'_> {
+    /// Whether there is something to undo and to redo.
+    pub(super) fn history_of(editor: &Editor) -> (bool, bool) {
+        (editor.can_undo(), editor.can_redo())
+    }
+}
+
+/// The panel at the window's side: heading above, saving below, the rest scrolls between.
+pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
+    let bar = |margin| Frame::new().inner_margin(margin).fill(theme::PANEL);
+    egui::Panel::top("heading")
+        .frame(bar(Margin { left: 14, right: 8, top: 8, bottom: 6 }))
+        .show_separator_line(false)
+        .show(ui, |ui| heading(ui, cx, true));
+    egui::Panel::bottom("saving")
+        .frame(bar(Margin { left: 14, right: 14, top: 10, bottom: 12 }))
+        .show_separator_line(true)
+        .show(ui, |ui| export::save(ui, cx));
+    scrolled(ui, cx, false);
+}
+
+/// The sheet at the window's lower edge: the same, with saving at the end of what scrolls.
+pub(super) fn sheet(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
+    egui::Panel::top("heading")
+        .frame(
+            Frame::new()
+                .inner_margin(Margin { left: 14, right: 8, top: 4, bottom: 4 })
+                .fill(theme::PANEL),
+        )
+        .show_separator_line(false)
+        .show(ui, |ui| heading(ui, cx, open));
+    if open {
+        scrolled(ui, cx, true);
+    }
+}
+
+fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
+    let margin = Margin { left: 14, right: 14, top: 0, bottom: 10 };
+    egui::CentralPanel::no_frame().show(ui, |ui| {
+        ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+            Frame::new().inner_margin(margin).show(ui, |ui| {
+                ui.set_width(ui.available_width());
+                essentials(ui, cx);
+                if with_saving {
+                    ui.add_space(6.0);
+                    export::save(ui, cx);
+                    ui.add_space(4.0);
+                }
+                more(ui, cx);
+            });
+        });
+    });
+}
+
+fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
+    ui.horizontal(|ui| {
+        ui.add(egui::Label::new(RichText::new("Mandelight").heading().color(theme::ACCENT)));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            let narrow = ui.available_width() < 150.0;
+            let (icon, hover) = if open {
+                (Icon::ChevronDown, "Hide the panel (P)")
+            } else {
+                (Icon::ChevronUp, "Show the panel (P)")
+            };
+            let icon = if open && cx.settings.panel_open && !narrow { Icon::Cross } else { icon };
+            let toggle =
+                icon_button(ui, icon, if open { "Hide panel" } else { "Show panel" }, hover);
+            cx.rects.note("panel toggle", &toggle);
+            if toggle.clicked() {
+                cx.commands.push(Command::TogglePanel);
+            }
+            if icon_button(ui, Icon::Help, "Help", "Keys and gestures (?)").clicked() {
+                cx.commands.push(Command::ToggleHelp);
+            }
+            if icon_button(ui, Icon::Fullscreen, "Fullscreen", "Fill the screen (Shift F)")
+                .clicked()
+            {
+                cx.commands.push(Command::ToggleFullscreen);
+            }
+            let redo = ui.add_enabled_ui(cx.can_redo, |ui| {
+                icon_button(ui, Icon::Redo, "Redo", "Redo (Ctrl Shift Z)")
+            });
+            if redo.inner.clicked() {
+                cx.commands.push(Command::Redo);
+            }
+            let undo = ui.add_enabled_ui(cx.can_undo, |ui| {
+                icon_button(ui, Icon::Undo, "Undo", "Undo (Ctrl Z)")
+            });
+            cx.rects.note("undo", &undo.inner);
+            if undo.inner.clicked() {
+                cx.commands.push(Command::Undo);
+            }
+        });
+    });
+}
+
+/// What a first-time visitor needs: scenes, power, light.
+fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
+    scenes::show(ui, cx);
+    ui.add_space(8.0);
+    fractal::power(ui, cx);
+    ui.add_space(8.0);
+    lights::key_light(ui, cx);
+}
+
+/// The rest, folded away.
+fn more(ui: &mut Ui, cx: &mut Context<'_>) {
+    ui.add_space(8.0);
+    let mut open = cx.settings.more_open;
+    let response = section(ui, "More", "Everything else that can be set", &mut open, |ui| {
+        let mut sections = cx.settings.sections.clone();
+        section(ui, "Fractal", "Form, iterations, bailout", &mut sections.fractal, |ui| {
+            fractal::show(ui, cx)
+        });
+        section(ui, "Camera", "Field of view, home, fly mode", &mut sections.camera, |ui| {
+            camera::show(ui, cx)
+        });
+        let lights = section(
+            ui,
+            "Lights",
+            "All lights, their colours and shadows",
+            &mut sections.lights,
+            |ui| {
+                lights::show(ui, cx);
+            },
+        );
+        cx.rects.note("lights section", &lights);
+        section(
+            ui,
+            "Surface",
+            "How the surface answers light, and its colours",
+            &mut sections.surface,
+            |ui| {
+                surface::show(ui, cx);
+            },
+        );
+        section(
+            ui,
+            "Tone and background",
+            "The tone curve and what lies behind",
+            &mut sections.tone,
+            |ui| {
+                tone::show(ui, cx);
+            },
+        );
+        section(ui, "Quality", "How much work a picture is given", &mut sections.quality, |ui| {
+            quality::show(ui, cx)
+        });
+        let export = section(
+            ui,
+            "Export",
+            "The size of saved pictures, and scene files",
+            &mut sections.export,
+            |ui| {
+                export::show(ui, cx);
+            },
+        );
+        cx.rects.note("export section", &export);
+        cx.settings.sections = sections;
+    });
+    cx.rects.note("more", &response);
+    cx.settings.more_open = open;
+}

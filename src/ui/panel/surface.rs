@@ -1,0 +1,69 @@
+//! How the surface answers light, and its colours.
+
+use egui::{Button, Ui};
+
+use super::Context;
+use crate::{
+    scene::{ColorSource, param},
+    ui::widgets::{choice, color, gradient, move_stop, param_slider},
+};
+
+/// Reflectance, the gradient, and what drives it.
+pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    let surface = &mut cx.scene.surface;
+    param_slider(ui, &param::AMBIENT, &mut surface.ambient);
+    param_slider(ui, &param::DIFFUSE, &mut surface.diffuse);
+    param_slider(ui, &param::SPECULAR, &mut surface.specular);
+    param_slider(ui, &param::SHININESS, &mut surface.shininess);
+
+    choice(
+        ui,
+        "Colour by",
+        &mut surface.coloring.source,
+        &[
+            (
+                ColorSource::Iterations,
+                "Steps",
+                "The smooth iteration count: how soon the orbit escapes",
+            ),
+            (ColorSource::OriginTrap, "Origin", "The orbit's least distance from the origin"),
+            (ColorSource::AxisTrap, "Axis", "The orbit's least distance from the z axis"),
+            (ColorSource::PlaneTrap, "Plane", "The orbit's least distance from the plane z = 0"),
+        ],
+    );
+    ui.add_space(4.0);
+    let bar = gradient(ui, &mut surface.gradient, &mut cx.selection.stop);
+    cx.rects.note("gradient", &bar);
+    stop(ui, cx);
+    let coloring = &mut cx.scene.surface.coloring;
+    param_slider(ui, &param::COLOR_REPEATS, &mut coloring.repeats);
+    param_slider(ui, &param::COLOR_OFFSET, &mut coloring.offset);
+}
+
+/// The selected stop: its place, its colour, its removal.
+fn stop(ui: &mut Ui, cx: &mut Context<'_>) {
+    let stops = &mut cx.scene.surface.gradient;
+    let selected = &mut cx.selection.stop;
+    *selected = (*selected).min(stops.len().saturating_sub(1));
+    let Some(stop) = stops.get(*selected) else {
+        return;
+    };
+    let mut position = stop.position;
+    if param_slider(ui, &param::STOP_POSITION, &mut position).changed() {
+        move_stop(stops, *selected, position);
+    }
+    ui.horizontal(|ui| {
+        color(ui, "Stop colour", "The stop's colour", &mut stops[*selected].color);
+        ui.label(format!("Stop {} of {}", *selected + 1, stops.len()));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let removable = stops.len() > 1;
+            let remove = ui
+                .add_enabled(removable, Button::new("Remove stop"))
+                .on_hover_text("Remove the selected stop");
+            if remove.clicked() {
+                stops.remove(*selected);
+                *selected = selected.saturating_sub(1);
+            }
+        });
+    });
+}

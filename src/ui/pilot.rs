@@ -1,0 +1,296 @@
+//! From pointer, fingers and keys to the camera's movements.
+//!
+//! In: the view's response and this frame's commands. Out: a moved camera, by way of
+//! [`Navigator`]. Knows which gesture means what; how a camera moves is the navigator's.
+
+use egui::{Context, PointerButton, Rect, Response, Ui};
+use glam::{DVec2, DVec3};
+
+use super::{
+    navigation::{FlyInput, Navigator, Standing, Viewport, World, flight::framed},
+    shortcuts::{Command, HeldKeys},
+};
+use crate::{
+    fractal::Estimator,
+    scene::{Camera, Fractal, Scene},
+};
+
+/// Natural logarithm of the approach per point of wheel travel; a notch is about 100 points.
+const WHEEL_PER_POINT: f64 = 0.002;
+/// The same for one press of the plus key.
+const KEY_DOLLY: f64 = 0.2;
+/// Turn of one arrow key press, in half heights of the picture: five degrees.
+const KEY_ORBIT: f64 = 1.0 / 18.0;
+/// Shift of one arrow key press, in half heights of the picture.
+const KEY_PAN: f64 = 0.1;
+/// Notches closer together than this belong to one step of the history.
+const RUN_SECS: f64 = 0.5;
+
+/// Who moves the camera.
+#[derive(Debug, Default)]
+pub struct Pilot {
+    navigator: Navigator,
+    keys: HeldKeys,
+    flying: bool,
+    /// Whether two fingers hold the view.
+    pinching: bool,
+    /// Whether a drag of the view looks around.
+    looking: bool,
+    /// Until when further notches join the gesture, on egui's clock.
+    run_until_secs: f64,
+    measured: Option<(Fractal, Estimator)>,
+}
+
+/// The picture's place in the window.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// Its rectangle, in points.
+    pub rect: Rect,
+    /// Its height in pixels.
+    pub height_px: u32,
+}
+
+impl Frame {
+    /// The window position in normalised device coordinates.
+    pub fn ndc(&self, at: egui::Pos2) -> DVec2 {
+        let part = (at - self.rect.min) / self.rect.size().max(egui::Vec2::splat(1.0));
+        DVec2::new(f64::from(part.x) * 2.0 - 1.0, 1.0 - f64::from(part.y) * 2.0)
+    }
+
+    /// Width over height.
+    pub fn aspect(&self) -> f64 {
+        f64::from(self.rect.width().max(1.0)) / f64::from(self.rect.height().max(1.0))
+    }
+}
+
+impl Pilot {
+    /// Whether keys fly.
+    pub fn is_flying(&self) -> bool {
+        self.flying
+    }
+
+    /// The speed of flight, in scene units per second; zero at rest.
+    pub fn speed(&self) -> f64 {
+        self.navigator.speed().unwrap_or(0.0)
+    }
+
+    /// Turns fly mode on or off.
+    pub fn set_flying(&mut self, flying: bool) {
+        self.flying = flying;
+        self.navigator.cancel();
+        self.looking = false;
+    }
+
+    /// Drops whatever is in progress: the scene was replaced.
+    pub fn cancel(&mut self) {
+        self.navigator.cancel();
+        self.pinching = false;
+        self.run_until_secs = 0.0;
+    }
+
+    /// True while changes at `now_secs` belong to the movement before them.
+    pub fn is_moving(&self, now_secs: f64) -> bool {
+        self.navigator.is_active() || now_secs < self.run_until_secs
+    }
+
+    /// Lets further changes join the present step of the history for a while.
+    pub fn extend_run(&mut self, now_secs: f64) {
+        self.run_until_secs = now_secs + RUN_SECS;
+    }
+
+    /// Where the camera stands, for the camera panel.
+    pub fn standing(&mut self, scene: &Scene, frame: Frame) -> Standing {
+        let field = self.field(&scene.fractal);
+        world(&field, scene, frame).standing(&scene.camera)
+    }
+
+    /// `home` as it fits the picture's shape.
+    pub fn arrive(&mut self, scene: &mut Scene, home: &Camera, frame: Frame) {
+        let field = self.field(&scene.fractal);
+        scene.camera = framed(home, world(&field, scene, frame));
+    }
+
+    /// Moves the scene's camera by this frame's input.
+    pub fn steer(
+        &mut self,
+        ui: &Ui,
+        view: &Response,
+        frame: Frame,
+        scene: &mut Scene,
+        home: &Camera,
+        commands: &[Command],
+    ) {
+        let field = self.field(&scene.fractal);
+        let mut camera = scene.camera.clone();
+        let world = world(&field, scene, frame);
+        let ctx = ui.ctx();
+        for &command in commands {
+            self.command(command, &mut camera, world, home, ctx);
+        }
+        self.fingers(ui, &mut camera, world, frame);
+        if !self.pinching {
+            self.drag(ui, view, &mut camera, world, frame);
+        }
+        self.wheel(ui, view, &mut camera, world, frame);
+        self.travel(ui, view, &mut camera, world);
+        let dt_secs = f64::from(ctx.input(|i| i.stable_dt));
+        if self.navigator.advance(&mut camera, dt_secs) {
+            ctx.request_repaint();
+        }
+        scene.camera = camera;
+    }
+
+    fn field(&mut self, fractal: &Fractal) -> Estimator {
+        match &self.measured {
+            Some((known, estimator)) if known == fractal => *estimator,
+            _ => {
+                let estimator = Estimator::new(fractal);
+                self.measured = Some((fractal.clone(), estimator));
+                estimator
+            }
+        }
+    }
+
+    fn command(
+        &mut self,
+        command: Command,
+        camera: &mut Camera,
+        world: World<'_>,
+        home: &Camera,
+        ctx: &Context,
+    ) {
+        let now_secs = ctx.input(|i| i.time);
+        let wide = DVec2::new(1.0 / world.viewport.aspect, 1.0);
+        let steps = |right: i8, up: i8| DVec2::new(f64::from(right), f64::from(up)) * wide;
+        match command {
+            Command::Home => self.navigator.go_home(camera, world, home),
+            Command::FrameAll => self.navigator.frame_all(camera, world),
+            Command::Orbit(right, up) => {
+                self.navigator.begin_orbit(camera, world, DVec2::ZERO);
+                self.navigator.drag(camera, world, -steps(right, up) * KEY_ORBIT);
+                self.navigator.end();
+                self.extend_run(now_secs);
+            }
+            Command::Pan(right, up) => {
+                self.navigator.begin_pan(camera, world, DVec2::ZERO);
+                self.navigator.drag(camera, world, -steps(right, up) * KEY_PAN);
+                self.navigator.end();
+                self.extend_run(now_secs);
+            }
+            Command::Dolly(steps) => {
+                self.navigator.dolly(camera, world, DVec2::ZERO, f64::from(steps) * KEY_DOLLY);
+                self.extend_run(now_secs);
+            }
+            _ => {}
+        }
+    }
+
+    /// Two fingers pan and pinch; what is between them stays there.
+    fn fingers(&mut self, ui: &Ui, camera: &mut Camera, world: World<'_>, frame: Frame) {
+        let touch = ui.input(|i| i.multi_touch());
+        let Some(touch) =
+            touch.filter(|touch| self.pinching || frame.rect.contains(touch.start_pos))
+        else {
+            if self.pinching {
+                self.pinching = false;
+                self.navigator.end();
+            }
+            return;
+        };
+        let ndc = frame.ndc(touch.center_pos);
+        if !self.pinching {
+            self.pinching = true;
+            self.navigator.begin_pan(camera, world, ndc);
+        }
+        self.navigator.dolly(camera, world, ndc, f64::from(touch.zoom_delta).ln());
+        self.navigator.drag(camera, world, ndc);
+    }
+
+    fn drag(
+        &mut self,
+        ui: &Ui,
+        view: &Response,
+        camera: &mut Camera,
+        world: World<'_>,
+        frame: Frame,
+    ) {
+        if view.drag_started()
+            && let Some(from) = ui.input(|i| i.pointer.press_origin())
+        {
+            let pans = ui.input(|i| i.modifiers.shift) || !view.dragged_by(PointerButton::Primary);
+            let ndc = frame.ndc(from);
+            self.looking = self.flying && !pans;
+            if pans {
+                self.navigator.begin_pan(camera, world, ndc);
+            } else if !self.looking {
+                self.navigator.begin_orbit(camera, world, ndc);
+            }
+        }
+        if view.dragged()
+            && !self.looking
+            && let Some(at) = view.interact_pointer_pos()
+        {
+            self.navigator.drag(camera, world, frame.ndc(at));
+        }
+        if view.drag_stopped() {
+            self.looking = false;
+            self.navigator.end();
+        }
+    }
+
+    fn wheel(
+        &mut self,
+        ui: &Ui,
+        view: &Response,
+        camera: &mut Camera,
+        world: World<'_>,
+        frame: Frame,
+    ) {
+        let Some(at) = view.hover_pos().filter(|_| view.contains_pointer() && !self.pinching)
+        else {
+            return;
+        };
+        let (scrolled, zoomed, now_secs) =
+            ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta(), i.time));
+        let amount = f64::from(scrolled) * WHEEL_PER_POINT + f64::from(zoomed.max(1e-3)).ln();
+        if amount != 0.0 {
+            self.navigator.dolly(camera, world, frame.ndc(at), amount);
+            self.extend_run(now_secs);
+        }
+    }
+
+    /// Flies on while keys are held or the pointer looks around.
+    fn travel(&mut self, ui: &Ui, view: &Response, camera: &mut Camera, world: World<'_>) {
+        self.keys.follow(ui.ctx());
+        if !self.flying {
+            return;
+        }
+        let look_rad = if self.looking && view.dragged() {
+            let rad_per_point =
+                camera.vertical_fov_deg.to_radians() / f64::from(view.rect.height().max(1.0));
+            let moved = view.drag_delta();
+            DVec2::new(f64::from(moved.x), -f64::from(moved.y)) * rad_per_point
+        } else {
+            DVec2::ZERO
+        };
+        let (faster, dt_secs, now_secs) =
+            ui.input(|i| (i.modifiers.shift, f64::from(i.stable_dt), i.time));
+        let travel = DVec3::from_array(self.keys.direction());
+        let input = FlyInput { travel, roll: 0.0, look_rad, faster };
+        // A call without any wish lets the speed come to rest.
+        self.navigator.fly(camera, world, input, dt_secs);
+        if travel != DVec3::ZERO {
+            self.extend_run(now_secs);
+            ui.ctx().request_repaint();
+        }
+    }
+}
+
+fn world<'a>(field: &'a Estimator, scene: &Scene, frame: Frame) -> World<'a> {
+    let viewport = Viewport {
+        aspect: frame.aspect(),
+        height_px: f64::from(frame.height_px.max(1)),
+        detail: scene.quality.detail,
+    };
+    World { field, viewport }
+}

@@ -1,0 +1,233 @@
+//! The status line: what the renderer does, in words that fit the width.
+//!
+//! In: the renderer's report and the camera. Out: text. Knows nothing of how pictures are made.
+
+use egui::{Rect, RichText, Sense, Ui, pos2};
+
+use super::{navigation::Standing, theme};
+use crate::{
+    render::report::{Activity, Report},
+    scene::Camera,
+};
+
+/// Height of the line, in points.
+pub const HEIGHT: f32 = 24.0;
+/// Lines narrower than this, in points, say less.
+const SHORT_BELOW: f32 = 560.0;
+/// What the line speaks of.
+#[derive(Clone, Copy, Debug)]
+pub struct Status<'a> {
+    /// What the renderer says of itself.
+    pub report: &'a Report,
+    /// Where the scene is seen from.
+    pub camera: &'a Camera,
+    /// The device that draws.
+    pub adapter: &'a str,
+    /// Where the camera stands; none before the first frame.
+    pub standing: Option<Standing>,
+    /// In fly mode, the speed in scene units per second, zero at rest.
+    pub flight: Option<f64>,
+}
+
+/// Draws the line over the width of `ui`.
+pub fn status_line(ui: &mut Ui, status: &Status<'_>) {
+    let report = status.report;
+    let size = egui::vec2(ui.available_width(), HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let short = rect.width() < SHORT_BELOW;
+    let painter = ui.painter().with_clip_rect(rect);
+    painter.rect_filled(rect, 0.0, theme::PANEL);
+    progress(&painter, rect, report);
+
+    let font = egui::FontId::proportional(11.5);
+    let right = right_text(status, short);
+    let right = painter.layout_no_wrap(right, font.clone(), theme::TEXT_DIM);
+    let right_at =
+        pos2(rect.right() - 10.0 - right.size().x, rect.center().y - right.size().y / 2.0);
+    let left_width = right_at.x - rect.left() - 20.0;
+    painter.galley(right_at, right, theme::TEXT_DIM);
+
+    let words = activity_text(report, short);
+    let words = match status.flight {
+        Some(speed) if speed > 0.0 => format!("Flying at {speed:.2e} u/s · {words}"),
+        Some(_) => format!("Fly mode · {words}"),
+        None => words,
+    };
+    let mut job = egui::text::LayoutJob::simple_singleline(words.clone(), font, theme::TEXT);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(left_width.max(0.0));
+    let left = painter.layout_job(job);
+    painter.galley(
+        pos2(rect.left() + 10.0, rect.center().y - left.size().y / 2.0),
+        left,
+        theme::TEXT,
+    );
+
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_role(egui::accesskit::Role::Status);
+        node.set_label(words);
+    });
+    response.on_hover_ui(|ui| {
+        let line = |ui: &mut Ui, text: String| ui.label(RichText::new(text).small());
+        line(ui, activity_text(report, false));
+        line(ui, right_text(status, false));
+        line(ui, format!("GPU time of the last frame: {:.1} ms", report.frame_ms));
+        line(ui, format!("Drawn by {}", status.adapter));
+    });
+}
+
+/// A hairline along the top that fills with the samples.
+fn progress(painter: &egui::Painter, rect: Rect, report: &Report) {
+    painter.hline(rect.x_range(), rect.top() + 0.5, egui::Stroke::new(1.0, theme::LINE));
+    if report.activity == Activity::Refining && report.samples_wanted > 0 {
+        let done = (report.samples_done as f32 / report.samples_wanted as f32).clamp(0.0, 1.0);
+        let to = rect.left() + rect.width() * done;
+        painter.hline(rect.left()..=to, rect.top() + 0.5, egui::Stroke::new(1.0, theme::ACCENT));
+    }
+}
+
+/// What the renderer is doing, in words.
+pub fn activity_text(report: &Report, short: bool) -> String {
+    match &report.activity {
+        Activity::Idle if report.pictures == 0 => "Starting".to_owned(),
+        Activity::Idle if short => format!("Done in {}", duration_text(report.elapsed_secs)),
+        Activity::Idle => format!(
+            "Done: {} in {}",
+            count(report.samples_done, "sample"),
+            duration_text(report.elapsed_secs)
+        ),
+        Activity::Moving if report.pixels_per_sample <= 1 => "Moving".to_owned(),
+        Activity::Moving if short => format!("Moving, 1/{}", report.pixels_per_sample),
+        Activity::Moving => format!("Moving: one pixel of {}", report.pixels_per_sample),
+        Activity::Refining if report.samples_done == 0 => {
+            if short {
+                "Sharpening".to_owned()
+            } else {
+                "Sharpening: first sample".to_owned()
+            }
+        }
+        Activity::Refining => {
+            let sample = (report.samples_done + 1).min(report.samples_wanted.max(1));
+            if short {
+                format!("Refining {sample}/{}", report.samples_wanted)
+            } else {
+                format!(
+                    "Refining: sample {sample} of {}, {}",
+                    report.samples_wanted,
+                    duration_text(report.elapsed_secs)
+                )
+            }
+        }
+        Activity::Compiling(what) => format!("Preparing {what}…"),
+    }
+}
+
+fn right_text(status: &Status<'_>, short: bool) -> String {
+    let [width, height] = status.report.size_px;
+    let zoom = zoom_text(zoom(status.camera));
+    let mut parts = Vec::new();
+    if status.standing.is_some_and(|standing| standing.at_precision_limit) {
+        parts.push(if short { "limit" } else { "precision limit" }.to_owned());
+    }
+    parts.push(zoom);
+    if width > 0 {
+        parts.push(format!("{width} × {height}"));
+    }
+    parts.join("  ·  ")
+}
+
+/// How much larger things appear at the pivot than from where a new scene is seen.
+pub fn zoom(camera: &Camera) -> f64 {
+    let height = |camera: &Camera| camera.view_unit() * camera.half_height();
+    height(&Camera::default()) / height(camera).max(f64::MIN_POSITIVE)
+}
+
+/// A zoom as `1.5×`, from ten thousand on as a power of ten: `3.2 × 10⁵`.
+pub fn zoom_text(zoom: f64) -> String {
+    if !zoom.is_finite() || zoom <= 0.0 {
+        return "–".to_owned();
+    }
+    if zoom < 1e4 {
+        let places = if zoom < 0.1 {
+            2
+        } else if zoom < 100.0 {
+            1
+        } else {
+            0
+        };
+        return format!("{zoom:.places$}×");
+    }
+    // A mantissa that rounds to 10.0 belongs to the next power.
+    let exponent = zoom.log10().floor();
+    let mantissa = (zoom / 10f64.powf(exponent) * 10.0).round() / 10.0;
+    let (mantissa, exponent) =
+        if mantissa >= 10.0 { (1.0, exponent + 1.0) } else { (mantissa, exponent) };
+    format!("{mantissa:.1} × 10{}", superscript(exponent as i32))
+}
+
+fn superscript(number: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    number.to_string().chars().map(|c| c.to_digit(10).map_or(c, |d| DIGITS[d as usize])).collect()
+}
+
+/// A time as people say it: `0.8 s`, `1 min 05 s`, `2 h 10 min`.
+pub fn duration_text(secs: f64) -> String {
+    if !secs.is_finite() || secs < 0.0 {
+        return "–".to_owned();
+    }
+    let whole = secs.round() as u64;
+    match whole {
+        0..10 => format!("{secs:.1} s"),
+        10..60 => format!("{whole} s"),
+        60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
+        _ => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
+    }
+}
+
+fn count(number: u32, what: &str) -> String {
+    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zooms_read_well() {
+        assert_eq!(zoom_text(1.0), "1.0×");
+        assert_eq!(zoom_text(0.054), "0.05×");
+        assert_eq!(zoom_text(812.3), "812×");
+        assert_eq!(zoom_text(320_000.0), "3.2 × 10⁵");
+        assert_eq!(zoom_text(9.99e11), "1.0 × 10¹²");
+        assert_eq!(zoom_text(f64::NAN), "–");
+    }
+
+    #[test]
+    fn a_new_scene_has_zoom_one() {
+        assert!((zoom(&Camera::default()) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn durations_read_well() {
+        assert_eq!(duration_text(0.84), "0.8 s");
+        assert_eq!(duration_text(42.4), "42 s");
+        assert_eq!(duration_text(65.0), "1 min 05 s");
+        assert_eq!(duration_text(7860.0), "2 h 11 min");
+        assert_eq!(duration_text(f64::INFINITY), "–");
+    }
+
+    #[test]
+    fn the_activity_counts_from_one() {
+        let mut report = Report {
+            activity: Activity::Refining,
+            samples_done: 4,
+            samples_wanted: 16,
+            elapsed_secs: 2.0,
+            pictures: 5,
+            ..Default::default()
+        };
+        assert_eq!(activity_text(&report, false), "Refining: sample 5 of 16, 2.0 s");
+        assert_eq!(activity_text(&report, true), "Refining 5/16");
+        report.activity = Activity::Compiling("power 5".into());
+        assert_eq!(activity_text(&report, false), "Preparing power 5…");
+    }
+}

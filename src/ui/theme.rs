@@ -1,0 +1,146 @@
+//! The look: one dark palette, roomy spacing, and touch-sized rows where fingers are at work.
+//!
+//! In: an egui context once, and a `Ui` each frame. Out: their style. Knows no scene.
+
+use egui::{
+    Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle,
+    Theme, Ui, Vec2, style::WidgetVisuals, vec2,
+};
+
+/// Behind everything.
+pub const BACKGROUND: Color32 = Color32::from_rgb(0x0b, 0x0d, 0x12);
+/// Panels.
+pub const PANEL: Color32 = Color32::from_rgb(0x14, 0x18, 0x22);
+/// Wells: slider rails, text fields.
+pub const WELL: Color32 = Color32::from_rgb(0x0d, 0x10, 0x17);
+/// Buttons at rest.
+pub const RAISED: Color32 = Color32::from_rgb(0x22, 0x28, 0x36);
+/// Buttons under the pointer.
+pub const RAISED_HOVER: Color32 = Color32::from_rgb(0x2d, 0x35, 0x47);
+/// Hairlines between parts.
+pub const LINE: Color32 = Color32::from_rgb(0x25, 0x2b, 0x39);
+/// Text.
+pub const TEXT: Color32 = Color32::from_rgb(0xdf, 0xe4, 0xee);
+/// Text that steps back: labels, captions. 4.5:1 or better on [`PANEL`].
+pub const TEXT_DIM: Color32 = Color32::from_rgb(0x97, 0xa1, 0xb5);
+/// What is chosen, and what acts.
+pub const ACCENT: Color32 = Color32::from_rgb(0xe8, 0xa1, 0x3c);
+/// Text on [`ACCENT`].
+pub const ON_ACCENT: Color32 = Color32::from_rgb(0x1a, 0x12, 0x06);
+/// Errors.
+pub const ERROR: Color32 = Color32::from_rgb(0xff, 0x7a, 0x6b);
+
+/// Windows at least this wide, in points, have the panel at the side; narrower ones below.
+pub const WIDE_FROM: f32 = 700.0;
+/// Width of the side panel, in points.
+pub const PANEL_WIDTH: f32 = 304.0;
+/// Corner radius of buttons and wells, in points.
+pub const RADIUS: u8 = 6;
+
+/// Gives the context the palette and the text sizes. Call it once, before the first frame.
+pub fn install(ctx: &Context) {
+    ctx.set_theme(Theme::Dark);
+    ctx.all_styles_mut(|style| {
+        text_sizes(style);
+        colors(style);
+        spacing(style);
+    });
+    // Ctrl +/− belong to the browser's own zoom.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+}
+
+/// Sizes the rows of this `Ui` for a finger or for a pointer.
+pub fn fit_to_hand(ui: &mut Ui, touch: bool) {
+    let spacing = ui.spacing_mut();
+    if touch {
+        spacing.interact_size.y = 44.0;
+        spacing.item_spacing = vec2(8.0, 6.0);
+        spacing.icon_width = 22.0;
+        spacing.icon_width_inner = 14.0;
+    }
+}
+
+fn text_sizes(style: &mut Style) {
+    let proportional = |size| FontId::new(size, FontFamily::Proportional);
+    style.text_styles = [
+        (TextStyle::Small, proportional(11.5)),
+        (TextStyle::Body, proportional(13.5)),
+        (TextStyle::Button, proportional(13.5)),
+        (TextStyle::Heading, proportional(17.0)),
+        (TextStyle::Monospace, FontId::new(12.0, FontFamily::Monospace)),
+    ]
+    .into();
+}
+
+fn colors(style: &mut Style) {
+    let visuals = &mut style.visuals;
+    *visuals = egui::Visuals::dark();
+    visuals.override_text_color = None;
+    visuals.weak_text_color = Some(TEXT_DIM);
+    visuals.panel_fill = PANEL;
+    visuals.window_fill = PANEL;
+    visuals.window_stroke = Stroke::new(1.0, LINE);
+    visuals.window_corner_radius = CornerRadius::same(10);
+    visuals.menu_corner_radius = CornerRadius::same(8);
+    visuals.extreme_bg_color = WELL;
+    visuals.faint_bg_color = Color32::from_rgb(0x18, 0x1d, 0x29);
+    visuals.code_bg_color = RAISED;
+    visuals.hyperlink_color = ACCENT;
+    visuals.warn_fg_color = ACCENT;
+    visuals.error_fg_color = ERROR;
+    visuals.selection.bg_fill = Color32::from_rgb(0x5a, 0x42, 0x1c);
+    visuals.selection.stroke = Stroke::new(1.0, Color32::from_rgb(0xff, 0xdc, 0xa6));
+    visuals.slider_trailing_fill = true;
+    visuals.handle_shape = egui::style::HandleShape::Circle;
+    visuals.indent_has_left_vline = false;
+    visuals.interact_cursor = None;
+    let shadow =
+        Shadow { offset: [0, 4], blur: 16, spread: 0, color: Color32::from_black_alpha(110) };
+    visuals.window_shadow = shadow;
+    visuals.popup_shadow = shadow;
+
+    let widget = |fill, text: Color32, outline: Color32| WidgetVisuals {
+        bg_fill: fill,
+        weak_bg_fill: fill,
+        bg_stroke: Stroke::new(1.0, outline),
+        fg_stroke: Stroke::new(1.0, text),
+        corner_radius: CornerRadius::same(RADIUS),
+        expansion: 0.0,
+    };
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive = widget(PANEL, TEXT, LINE);
+    widgets.inactive = widget(RAISED, TEXT, Color32::TRANSPARENT);
+    widgets.hovered = widget(RAISED_HOVER, Color32::WHITE, Color32::TRANSPARENT);
+    widgets.active = widget(RAISED_HOVER, Color32::WHITE, ACCENT);
+    widgets.open = widget(RAISED_HOVER, TEXT, LINE);
+}
+
+fn spacing(style: &mut Style) {
+    let spacing = &mut style.spacing;
+    spacing.item_spacing = vec2(6.0, 5.0);
+    spacing.button_padding = vec2(9.0, 3.0);
+    spacing.interact_size = vec2(28.0, 26.0);
+    spacing.menu_margin = Margin::same(8);
+    spacing.window_margin = Margin::same(12);
+    spacing.tooltip_width = 280.0;
+    spacing.icon_width = 17.0;
+    spacing.icon_width_inner = 10.0;
+    spacing.icon_spacing = 7.0;
+    spacing.combo_width = 60.0;
+    spacing.scroll = egui::style::ScrollStyle::thin();
+    spacing.default_area_size = Vec2::new(320.0, 480.0);
+    style.interaction.tooltip_delay = 0.4;
+    style.interaction.selectable_labels = false;
+    style.animation_time = 0.08;
+}
+
+/// `text` in characters that the bundled fonts have.
+pub fn printable(text: &str) -> String {
+    text.replace('ⁿ', "^n").replace('→', "to")
+}
+
+/// A linear Rec. 709 colour as the display shows it; channels outside 0 to 1 are cut off.
+pub fn display_color(linear: [f32; 3]) -> Color32 {
+    let [r, g, b] = linear.map(|v| v.clamp(0.0, 1.0));
+    egui::Rgba::from_rgb(r, g, b).into()
+}

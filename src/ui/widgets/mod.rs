@@ -1,0 +1,13 @@
+//! Widgets that egui lacks: each takes a plain value and returns a `Response`.
+
+mod ball;
+mod color;
+mod gradient;
+mod param;
+mod section;
+
+pub use ball::ball;
+pub use color::color;
+pub use gradient::{gradient, move_stop};
+pub use param::{number, param_slider, param_slider_count};
+pub use section::{caption, choice, section};

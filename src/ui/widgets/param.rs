@@ -1,0 +1,423 @@
+//! One row for any number of the parameter table: its name, a slider, and the value to type.
+//!
+//! In: a [`Param`] and the value. Out: the value, always accepted by the param where it was
+//! before, and a `Response` that says whether it changed.
+
+use egui::{
+    Button, DragValue, EventFilter, Key, NumExt as _, Rect, Response, Sense, TextEdit, Ui, Vec2,
+    WidgetInfo, WidgetText, accesskit, lerp, pos2,
+    text::{CCursor, CCursorRange},
+    vec2,
+};
+
+use crate::{
+    scene::param::{Param, Scale, Unit},
+    ui::theme,
+};
+
+/// Width of the value at a row's right end, in points.
+const VALUE_WIDTH: f32 = 64.0;
+/// Radius of a slider's handle, in points.
+const HANDLE_RADIUS: f32 = 7.0;
+/// Part of the rail that one arrow key moves a logarithmic value.
+const LOG_KEY_FRACTION: f64 = 0.01;
+
+/// A row with the param's name, a slider over its range, and its value. A double click on the
+/// slider or the name resets it; arrow keys step it while it has the focus.
+pub fn param_slider(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
+    let before = *value;
+    let height = ui.spacing().interact_size.y;
+    let width = ui.available_width();
+    let label_width = (width * 0.34).clamp(70.0, 108.0);
+    let row = ui.push_id(param.path, |ui| {
+        let (row, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+        let label = Rect::from_min_size(row.min, vec2(label_width, height));
+        let number_at = Rect::from_min_max(pos2(row.right() - VALUE_WIDTH, row.top()), row.max);
+        let rail = Rect::from_min_max(
+            pos2(label.right(), row.top()),
+            pos2(number_at.left() - 6.0, row.bottom()),
+        );
+
+        let label = label_ui(ui, label, param.label);
+        let rail = rail_ui(ui, rail, param, value);
+        if label.double_clicked() || rail.double_clicked() {
+            *value = param.default;
+        }
+        let number = ui.put(number_at, |ui: &mut Ui| number(ui, param, value));
+        let hover = hover_text(param);
+        let label = label.on_hover_text(&hover);
+        let rail = rail.on_hover_text(&hover);
+        rail.union(label).union(number.on_hover_text(hover))
+    });
+    let mut response = row.inner;
+    if *value != before {
+        response.mark_changed();
+    }
+    response
+}
+
+/// [`param_slider`] for a whole number.
+pub fn param_slider_count(ui: &mut Ui, param: &Param, value: &mut u32) -> Response {
+    let mut float = f64::from(*value);
+    let response = param_slider(ui, param, &mut float);
+    // The tidied value is whole and within the param's range, which fits a u32.
+    *value = float as u32;
+    response
+}
+
+/// The value as a button that turns into a text field; what is typed is clamped to the range.
+pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
+    let id = ui.next_auto_id();
+    let size =
+        vec2(ui.available_width().at_most(VALUE_WIDTH), ui.spacing().interact_size.y.at_most(34.0));
+    let name = format!("{} value", param.label);
+    if ui.memory(|memory| memory.has_focus(id)) {
+        let mut typed = *value;
+        let field = DragValue::new(&mut typed)
+            .speed(param.step)
+            .range(param.min..=param.max)
+            .custom_formatter(|v, _| format_value(param, v))
+            .update_while_editing(false)
+            .clip_text(true)
+            .min_size(size);
+        let mut response = ui.add(field).accessible_name(name);
+        if typed != *value && typed.is_finite() {
+            *value = tidy_typed(param, typed);
+            response.mark_changed();
+        }
+        return response;
+    }
+    let shown = format!("{}{}", format_value(param, *value), param.unit.suffix());
+    // Added directly, so that the field that takes the button's place has the same id.
+    let button = Button::new(WidgetText::from(shown.as_str())).frame_when_inactive(false);
+    let response = ui.add(button.min_size(size).truncate());
+    if response.clicked() {
+        let text = format_value(param, *value);
+        let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+        let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
+        state.cursor.set_char_range(Some(all));
+        state.store(ui.ctx(), id);
+        response.request_focus();
+    }
+    response.accessible_name(name)
+}
+
+/// What the parameter does, its unit, range and default, for a hover text.
+pub fn hover_text(param: &Param) -> String {
+    let unit = match param.unit {
+        Unit::None => String::new(),
+        Unit::Count => "Whole number. ".to_owned(),
+        unit => format!("In {}. ", unit.name()),
+    };
+    format!(
+        "{}\n{unit}{} to {}, default {}. Double click resets.",
+        theme::printable(param.help),
+        format_value(param, param.min),
+        format_value(param, param.max),
+        format_value(param, param.default),
+    )
+}
+
+fn label_ui(ui: &mut Ui, rect: Rect, text: &str) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with("label"), Sense::click());
+    let color = if response.hovered() { theme::TEXT } else { theme::TEXT_DIM };
+    let galley = WidgetText::from(text).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        rect.width() - 6.0,
+        egui::TextStyle::Body,
+    );
+    let at = pos2(rect.left(), rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley_with_override_text_color(at, galley, color);
+    response
+}
+
+fn rail_ui(ui: &mut Ui, rect: Rect, param: &Param, value: &mut f64) -> Response {
+    let travel = rect.shrink2(vec2(HANDLE_RADIUS + 1.0, 0.0)).x_range();
+    let handle_x = |value: f64| lerp(travel.min..=travel.max, fraction(param, value) as f32);
+
+    // Under a finger only the handle drags, so that the panel can be scrolled across its rails.
+    let touch = ui.input(|i| i.has_touch_screen());
+    let id = ui.scope_id().with("rail");
+    let sense = if touch { Sense::click() } else { Sense::click_and_drag() };
+    let mut rail = ui.interact(rect, id, sense);
+    let held = if touch {
+        let grip = Rect::from_center_size(
+            pos2(handle_x(*value), rect.center().y),
+            Vec2::splat(rect.height().at_least(40.0)),
+        );
+        let handle =
+            ui.interact(grip.intersect(rect.expand(8.0)), id.with("handle"), Sense::drag());
+        let jumped = rail.clicked();
+        let held = handle.dragged();
+        rail |= handle;
+        held || jumped
+    } else {
+        rail.is_pointer_button_down_on()
+    };
+    if held {
+        follow_pointer(ui, &rail, param, value, handle_x(*value), travel);
+    }
+    keyboard(ui, &rail, param, value);
+    rail.widget_info(|| WidgetInfo::slider(ui.is_enabled(), *value, param.label));
+    describe(ui, &rail, param);
+    paint_rail(ui, rect, handle_x(*value), &rail);
+    rail
+}
+
+/// Moves the value with the pointer; a handle that was grabbed off its centre does not jump.
+fn follow_pointer(
+    ui: &Ui,
+    rail: &Response,
+    param: &Param,
+    value: &mut f64,
+    handle_x: f32,
+    travel: egui::Rangef,
+) {
+    let Some(pointer) = ui.input(|i| i.pointer.interact_pos()) else {
+        return;
+    };
+    let grab_id = rail.id.with("grab");
+    if ui.input(|i| i.pointer.any_pressed()) {
+        let offset = handle_x - pointer.x;
+        let offset = if offset.abs() <= HANDLE_RADIUS + 3.0 { offset } else { 0.0 };
+        ui.data_mut(|data| data.insert_temp(grab_id, (offset, pointer.x)));
+    }
+    let (offset, pressed_x) = ui.data(|data| data.get_temp(grab_id)).unwrap_or((0.0, f32::NAN));
+    if offset != 0.0 && pressed_x == pointer.x {
+        return;
+    }
+    let position = f64::from((pointer.x + offset - travel.min) / travel.span().at_least(1.0));
+    *value = tidy(param, at_fraction(param, position.clamp(0.0, 1.0)));
+}
+
+fn keyboard(ui: &Ui, rail: &Response, param: &Param, value: &mut f64) {
+    let mut steps = 0.0;
+    if rail.has_focus() {
+        ui.memory_mut(|memory| {
+            let arrows = EventFilter { horizontal_arrows: true, ..Default::default() };
+            memory.set_focus_lock_filter(rail.id, arrows);
+        });
+        ui.input(|i| {
+            let presses = |key| i.num_presses(key) as f64;
+            steps += presses(Key::ArrowRight) - presses(Key::ArrowLeft);
+            steps += 10.0 * (presses(Key::PageUp) - presses(Key::PageDown));
+        });
+    }
+    ui.input(|i| {
+        use accesskit::{Action, ActionData};
+        let asked = |action| i.num_accesskit_action_requests(rail.id, action) as f64;
+        steps += asked(Action::Increment) - asked(Action::Decrement);
+        for request in i.accesskit_action_requests(rail.id, Action::SetValue) {
+            if let Some(ActionData::NumericValue(new)) = request.data
+                && new.is_finite()
+            {
+                *value = tidy(param, new);
+            }
+        }
+    });
+    if steps != 0.0 {
+        let moved = if is_logarithmic(param) && param.scale != Scale::Integer {
+            at_fraction(param, (fraction(param, *value) + steps * LOG_KEY_FRACTION).clamp(0.0, 1.0))
+        } else {
+            *value + steps * param.step
+        };
+        *value = tidy(param, moved);
+    }
+}
+
+fn describe(ui: &Ui, rail: &Response, param: &Param) {
+    ui.ctx().accesskit_node_builder(rail.id, |node| {
+        node.set_author_id(param.path);
+        node.set_min_numeric_value(param.min);
+        node.set_max_numeric_value(param.max);
+        node.set_numeric_value_step(param.step);
+        for action in [
+            accesskit::Action::SetValue,
+            accesskit::Action::Increment,
+            accesskit::Action::Decrement,
+        ] {
+            node.add_action(action);
+        }
+    });
+}
+
+fn paint_rail(ui: &Ui, rect: Rect, handle_x: f32, rail: &Response) {
+    if !ui.is_rect_visible(rect) {
+        return;
+    }
+    let y = rect.center().y;
+    let bar = |from: f32, to: f32| Rect::from_min_max(pos2(from, y - 2.0), pos2(to, y + 2.0));
+    let painter = ui.painter();
+    painter.rect_filled(bar(rect.left(), rect.right()), 2.0, theme::RAISED);
+    let enabled = ui.is_enabled();
+    let fill = if enabled { theme::ACCENT.gamma_multiply(0.75) } else { theme::RAISED_HOVER };
+    painter.rect_filled(bar(rect.left(), handle_x), 2.0, fill);
+    let busy = rail.hovered() || rail.is_pointer_button_down_on() || rail.has_focus();
+    let color = match (enabled, busy) {
+        (false, _) => theme::TEXT_DIM,
+        (true, true) => egui::Color32::WHITE,
+        (true, false) => theme::TEXT,
+    };
+    painter.circle_filled(pos2(handle_x, y), HANDLE_RADIUS - 1.0, color);
+    if rail.has_focus() {
+        painter.circle_stroke(
+            pos2(handle_x, y),
+            HANDLE_RADIUS + 2.0,
+            egui::Stroke::new(1.5, theme::ACCENT),
+        );
+    }
+}
+
+/// Whether equal lengths of the rail are equal ratios.
+fn is_logarithmic(param: &Param) -> bool {
+    match param.scale {
+        Scale::Linear => false,
+        Scale::Logarithmic => true,
+        Scale::Integer => param.min >= 1.0 && param.max / param.min > 100.0,
+    }
+}
+
+/// Where `value` lies along the rail, 0 to 1. A logarithmic range that starts at zero is linear
+/// below its step.
+fn fraction(param: &Param, value: f64) -> f64 {
+    let value = value.clamp(param.min, param.max);
+    let fraction = if !is_logarithmic(param) {
+        (value - param.min) / (param.max - param.min)
+    } else if param.min > 0.0 {
+        (value / param.min).ln() / (param.max / param.min).ln()
+    } else {
+        (value / param.step).ln_1p() / (param.max / param.step).ln_1p()
+    };
+    fraction.clamp(0.0, 1.0)
+}
+
+/// The value at a fraction of the rail: the inverse of [`fraction`].
+fn at_fraction(param: &Param, fraction: f64) -> f64 {
+    if !is_logarithmic(param) {
+        param.min + fraction * (param.max - param.min)
+    } else if param.min > 0.0 {
+        param.min * (param.max / param.min).powf(fraction)
+    } else {
+        param.step * ((param.max / param.step).ln_1p() * fraction).exp_m1()
+    }
+}
+
+/// `value` within the range, at the precision that a hand on a slider means: a multiple of the
+/// step, or three significant digits where the range is logarithmic.
+pub fn tidy(param: &Param, value: f64) -> f64 {
+    let rounded = match param.scale {
+        Scale::Integer => value.round(),
+        Scale::Linear => {
+            round_to_decimals((value / param.step).round() * param.step, decimals(param.step))
+        }
+        Scale::Logarithmic => round_to_decimals(value, significant_decimals(value)),
+    };
+    rounded.clamp(param.min, param.max)
+}
+
+/// A typed value within the range; only whole numbers are rounded.
+fn tidy_typed(param: &Param, value: f64) -> f64 {
+    let value = if param.scale == Scale::Integer { value.round() } else { value };
+    value.clamp(param.min, param.max)
+}
+
+fn format_value(param: &Param, value: f64) -> String {
+    let places = match param.scale {
+        Scale::Integer => 0,
+        Scale::Linear => decimals(param.step).max(needed_decimals(value)),
+        Scale::Logarithmic => significant_decimals(value),
+    };
+    let text = format!("{value:.places$}");
+    if param.scale == Scale::Logarithmic && text.contains('.') {
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    text
+}
+
+/// Decimal places of a step such as 0.05.
+fn decimals(step: f64) -> usize {
+    (0..6)
+        .find(|&places| {
+            (step * 10f64.powi(places) - (step * 10f64.powi(places)).round()).abs() < 1e-9
+        })
+        .unwrap_or(6) as usize
+}
+
+/// Decimal places, four at most, that tell `value` from its neighbours as typed.
+fn needed_decimals(value: f64) -> usize {
+    decimals(value).min(4)
+}
+
+/// Decimal places that leave three significant digits.
+fn significant_decimals(value: f64) -> usize {
+    if value == 0.0 || !value.is_finite() {
+        return 0;
+    }
+    (2.0 - value.abs().log10().floor()).clamp(0.0, 8.0) as usize
+}
+
+fn round_to_decimals(value: f64, places: usize) -> f64 {
+    let scale = 10f64.powi(places as i32);
+    (value * scale).round() / scale
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::param;
+
+    #[test]
+    fn the_rail_runs_from_end_to_end_and_back() {
+        for param in param::ALL {
+            assert_eq!(fraction(param, param.min), 0.0, "{}", param.path);
+            assert_eq!(fraction(param, param.max), 1.0, "{}", param.path);
+            let mut last = f64::NEG_INFINITY;
+            for i in 0..=100 {
+                let f = f64::from(i) / 100.0;
+                let value = at_fraction(param, f);
+                assert!(value > last, "{}: the rail runs one way", param.path);
+                assert!((fraction(param, value) - f).abs() < 1e-9, "{}", param.path);
+                last = value;
+            }
+        }
+    }
+
+    #[test]
+    fn tidied_values_are_accepted() {
+        for param in param::ALL {
+            for i in 0..=1000 {
+                let value = tidy(param, at_fraction(param, f64::from(i) / 1000.0));
+                assert!(param.accepts(value), "{}: {value}", param.path);
+            }
+            assert!(
+                param.accepts(tidy(param, 1e300)) && param.accepts(tidy(param, -1e300)),
+                "{}",
+                param.path
+            );
+        }
+    }
+
+    #[test]
+    fn defaults_can_be_reached_by_dragging() {
+        for param in param::ALL {
+            assert_eq!(tidy(param, param.default), param.default, "{}", param.path);
+        }
+    }
+
+    #[test]
+    fn small_intensities_get_their_share_of_the_rail() {
+        let one = fraction(&param::ENVIRONMENT_INTENSITY, 1.0);
+        assert!((0.25..0.6).contains(&one), "1 lies at {one} of the rail");
+    }
+
+    #[test]
+    fn values_read_without_noise() {
+        assert_eq!(format_value(&param::POWER, 8.0), "8.0");
+        assert_eq!(format_value(&param::POWER, 2.25), "2.25");
+        assert_eq!(format_value(&param::SAMPLES, 16.0), "16");
+        assert_eq!(format_value(&param::SHADOW_REACH, 0.0123456), "0.0123");
+        assert_eq!(format_value(&param::ENVIRONMENT_INTENSITY, 2.6), "2.6");
+        assert_eq!(tidy(&param::POWER, 2.299_999_9), 2.3);
+    }
+}

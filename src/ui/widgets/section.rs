@@ -1,0 +1,105 @@
+//! Headings that fold, captions, and a choice between a few words.
+
+use egui::{
+    Button, Response, RichText, Sense, Ui, WidgetInfo, accesskit::Role,
+    collapsing_header::CollapsingState, pos2, vec2,
+};
+
+use crate::ui::{
+    icon::{Icon, paint},
+    theme,
+};
+
+/// A heading over the full width that folds what `body` adds; `open` is flipped by a click.
+/// Returns the heading's response.
+pub fn section(
+    ui: &mut Ui,
+    title: &str,
+    hover: &str,
+    open: &mut bool,
+    body: impl FnOnce(&mut Ui),
+) -> Response {
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y.max(30.0));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    if response.clicked() {
+        *open = !*open;
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::DisclosureTriangle, ui.is_enabled(), title));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(*open));
+    if ui.is_rect_visible(rect) {
+        let lit = response.hovered() || response.has_focus();
+        let color = if lit { egui::Color32::WHITE } else { theme::TEXT };
+        let painter = ui.painter();
+        painter.hline(rect.x_range(), rect.top(), egui::Stroke::new(1.0, theme::LINE));
+        let icon = if *open { Icon::ChevronDown } else { Icon::ChevronRight };
+        paint(painter, icon, pos2(rect.left() + 7.0, rect.center().y), 12.0, theme::TEXT_DIM);
+        let at = pos2(rect.left() + 20.0, rect.center().y);
+        painter.text(at, egui::Align2::LEFT_CENTER, title, egui::FontId::proportional(14.0), color);
+        if response.has_focus() {
+            painter.rect_stroke(
+                rect,
+                theme::RADIUS,
+                egui::Stroke::new(1.0, theme::ACCENT),
+                egui::StrokeKind::Inside,
+            );
+        }
+    }
+    let mut state =
+        CollapsingState::load_with_default_open(ui.ctx(), response.id.with("fold"), *open);
+    state.set_open(*open);
+    state.show_body_unindented(ui, |ui| {
+        body(ui);
+        ui.add_space(8.0);
+    });
+    response.on_hover_text(hover)
+}
+
+/// A small dimmed heading.
+pub fn caption(ui: &mut Ui, text: &str) {
+    ui.add_space(4.0);
+    ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
+}
+
+/// A caption, and buttons side by side of which one is chosen: `(value, name, hover text)` each.
+/// To those who cannot see it a button is called `caption: name`. The union of their responses
+/// says whether the choice changed.
+pub fn choice<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    title: &str,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) -> Response {
+    caption(ui, title);
+    let gap = 4.0;
+    let columns = options.len().max(1) as f32;
+    let width = (ui.available_width() - gap * (columns - 1.0)) / columns;
+    let height = ui.spacing().interact_size.y;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = gap;
+        ui.spacing_mut().button_padding.x = 4.0;
+        let mut all: Option<Response> = None;
+        for (option, name, hover) in options {
+            let button = Button::selectable(*value == *option, *name)
+                .min_size(vec2(width, height))
+                .truncate()
+                .fill(if *value == *option {
+                    ui.visuals().selection.bg_fill
+                } else {
+                    theme::RAISED
+                });
+            let mut response = ui.add_sized(vec2(width, height), button).on_hover_text(*hover);
+            if response.clicked() && *value != *option {
+                *value = *option;
+                response.mark_changed();
+            }
+            let response = response.accessible_name(format!("{title}: {name}"));
+            all = Some(match all {
+                Some(all) => all.union(response),
+                None => response,
+            });
+        }
+        all
+    })
+    .inner
+    .unwrap_or_else(|| ui.allocate_response(egui::Vec2::ZERO, Sense::hover()))
+}
