@@ -1,0 +1,211 @@
+//! Every control changes what it says it changes.
+
+use egui::{Key, Modifiers, PointerButton, accesskit::Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use mandelight::{
+    scene::{Scene, param, presets},
+    ui::Action,
+};
+
+use crate::stage::*;
+
+#[test]
+fn the_power_slider_changes_the_power_and_nothing_else() {
+    let mut harness = workshop();
+    slider(&harness, "Power").set_value_accesskit(5.0);
+    harness.run();
+    let mut expected = Scene::default();
+    expected.fractal.power = 5.0;
+    assert_eq!(*scene(&harness), expected);
+}
+
+#[test]
+fn dragging_the_rail_moves_the_value_and_a_double_click_resets_it() {
+    let mut harness = workshop();
+    let rail = slider(&harness, "Power").rect();
+    drag(&mut harness, rail.center(), rail.center() + egui::vec2(rail.width() * 0.4, 0.0), 4);
+    let dragged = scene(&harness).fractal.power;
+    assert!(dragged > 12.0 && dragged <= 16.0, "dragged to {dragged}");
+    let at = rail.center();
+    harness.event(egui::Event::PointerMoved(at));
+    for pressed in [true, false, true, false] {
+        pointer(&harness, at, PointerButton::Primary, pressed, Modifiers::NONE);
+    }
+    harness.run();
+    assert_eq!(scene(&harness).fractal.power, param::POWER.default);
+}
+
+#[test]
+fn every_slider_in_reach_of_the_scene_moves_its_value() {
+    // Turning each rail to its ends changes the scene and keeps it valid: no dead control.
+    let mut harness = workshop();
+    press(&mut harness, "Form: Julia");
+    press(&mut harness, "Add point light");
+    for param in param::ALL {
+        let rails: Vec<_> = rails_of(&harness, param.path);
+        for id in rails {
+            let before = scene(&harness).clone();
+            for value in [param.min, param.max] {
+                let rail = harness.get_by(|node| {
+                    node.author_id() == Some(param.path) && node.label() == Some(id.clone())
+                });
+                rail.set_value_accesskit(value);
+                harness.run();
+                assert_eq!(scene(&harness).validate(), Ok(()), "{} at {value}", param.path);
+            }
+            assert_ne!(*scene(&harness), before, "{} does nothing", param.path);
+        }
+    }
+}
+
+fn rails_of(harness: &egui_kittest::Harness<'_, Stage>, path: &str) -> Vec<String> {
+    harness
+        .query_all(
+            egui_kittest::kittest::By::new().predicate(|node| node.author_id() == Some(path)),
+        )
+        .filter_map(|node| node.accesskit_node().label())
+        .collect()
+}
+
+#[test]
+fn every_parameter_has_a_control() {
+    let mut harness = workshop();
+    press(&mut harness, "Form: Julia");
+    press(&mut harness, "Add light");
+    harness.get_by_role_and_label(Role::CheckBox, "Limit reach").click();
+    harness.run();
+    let mut missing: Vec<_> =
+        param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
+    press(&mut harness, "Add point light");
+    missing.retain(|param| rails_of(&harness, param.path).is_empty());
+    assert!(missing.is_empty(), "no control for {missing:#?}");
+}
+
+#[test]
+fn typed_values_are_clamped() {
+    let mut harness = workshop();
+    press(&mut harness, "Power value");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.get_by_label("Power value").type_text("99");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(scene(&harness).fractal.power, param::POWER.max);
+    assert_eq!(undo_all(&mut harness), 1, "typing is one step");
+}
+
+#[test]
+fn nonsense_typed_changes_nothing() {
+    for text in ["nan", "inf", "-inf", "", "8 apples", "1e999"] {
+        let mut harness = workshop();
+        press(&mut harness, "Ambient value");
+        harness.get_by_label("Ambient value").type_text(text);
+        harness.key_press(Key::Enter);
+        harness.run();
+        assert_eq!(scene(&harness).validate(), Ok(()), "{text:?}");
+    }
+}
+
+#[test]
+fn arrow_keys_step_a_focused_slider_and_do_not_turn_the_view() {
+    let mut harness = workshop();
+    slider(&harness, "Power").focus();
+    harness.run();
+    for _ in 0..3 {
+        harness.key_press(Key::ArrowRight);
+    }
+    harness.run();
+    assert!((scene(&harness).fractal.power - 8.3).abs() < 1e-9);
+    assert_eq!(scene(&harness).camera, Scene::default().camera);
+    assert_eq!(undo_all(&mut harness), 1, "a run of presses is one step");
+}
+
+#[test]
+fn lights_are_added_copied_muted_soloed_and_removed() {
+    let mut harness = workshop();
+    let start = Scene::default().lights.environment.len();
+    press(&mut harness, "Add light");
+    assert_eq!(scene(&harness).lights.environment.len(), start + 1);
+    press(&mut harness, "Duplicate");
+    let lights = &scene(&harness).lights.environment;
+    assert_eq!(lights.len(), start + 2);
+    assert_eq!(lights[start], lights[start + 1]);
+    let name = format!("Light {}", start + 1);
+    press(&mut harness, &format!("Mute {name}"));
+    press(&mut harness, &format!("Solo {name}"));
+    let light = &scene(&harness).lights.environment[start];
+    assert!(light.muted && light.solo);
+    press(&mut harness, "Remove");
+    assert_eq!(scene(&harness).lights.environment.len(), start + 1);
+    press(&mut harness, "Add point light");
+    press(&mut harness, "Duplicate");
+    assert_eq!(scene(&harness).lights.point.len(), 2);
+    press(&mut harness, "Remove");
+    press(&mut harness, "Remove");
+    assert!(scene(&harness).lights.point.is_empty());
+    undo_all(&mut harness);
+    assert_eq!(*scene(&harness), Scene::default());
+}
+
+#[test]
+fn gradient_stops_are_added_and_removed() {
+    let mut harness = workshop();
+    let bar = button(&harness, "Gradient").rect();
+    harness.hover_at(bar.center());
+    let at = bar.left_center() + egui::vec2(bar.width() * 0.5, 0.0);
+    for pressed in [true, false] {
+        pointer(&harness, at, PointerButton::Primary, pressed, Modifiers::NONE);
+    }
+    harness.run();
+    let count = Scene::default().surface.gradient.len();
+    let stops = &scene(&harness).surface.gradient;
+    assert_eq!(stops.len(), count + 1);
+    assert!(stops.iter().any(|stop| (stop.position - 0.5).abs() < 0.01));
+    for _ in 0..count + 5 {
+        let remove = button(&harness, "Remove stop");
+        if !remove.accesskit_node().is_disabled() {
+            remove.click();
+        }
+        harness.run();
+    }
+    assert_eq!(scene(&harness).surface.gradient.len(), 1, "the last stop stays");
+}
+
+#[test]
+fn presets_open_and_keep_the_quality_that_was_chosen() {
+    let mut harness = workshop();
+    slider(&harness, "Samples").set_value_accesskit(3.0);
+    harness.run();
+    for (index, preset) in presets::all().iter().enumerate() {
+        press(&mut harness, preset.name);
+        let expected = (preset.scene)();
+        assert_eq!(scene(&harness).fractal, expected.fractal, "{}", preset.name);
+        assert_eq!(scene(&harness).lights, expected.lights, "{}", preset.name);
+        assert_eq!(scene(&harness).quality.samples, 3);
+        assert_eq!(scene(&harness).validate(), Ok(()), "preset {index}");
+    }
+}
+
+#[test]
+fn saving_asks_for_the_chosen_size() {
+    let mut harness = workshop();
+    let [width, height] = harness.state().interface.view_size_px();
+    press(&mut harness, "Save picture");
+    press(&mut harness, "Picture size: 2×");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    harness.run();
+    let expected =
+        [[width, height], [2 * width, 2 * height]].map(|size_px| Action::SavePicture { size_px });
+    assert_eq!(harness.state().actions, expected);
+}
+
+#[test]
+fn an_export_shows_its_progress_and_can_be_cancelled() {
+    let mut harness = workshop();
+    harness.state_mut().export =
+        Some(mandelight::ui::ExportProgress { done: 0.4, remaining_secs: Some(75.0) });
+    harness.run();
+    assert!(harness.query_by_label("Save picture").is_none());
+    harness.get_by_label_contains("1 min 15 s left");
+    press(&mut harness, "Cancel");
+    assert_eq!(harness.state().actions, [Action::CancelExport]);
+}

@@ -1,0 +1,152 @@
+//! Everything is where it can be reached, in every window.
+
+use egui::Rect;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use mandelight::{
+    scene::Scene,
+    ui::{Notice, Settings},
+};
+
+use crate::stage::*;
+
+const WINDOWS: [[f32; 2]; 6] = [
+    [360.0, 640.0],
+    [390.0, 844.0],
+    [844.0, 390.0],
+    [699.0, 500.0],
+    [1280.0, 720.0],
+    [3840.0, 2160.0],
+];
+
+/// Widgets that stick out of the window sideways, or out of it below without being in the
+/// scrolled part of the panel.
+fn misfits(harness: &egui_kittest::Harness<'_, Stage>, window: Rect) -> Vec<String> {
+    harness
+        .root()
+        .children_recursive()
+        .filter(|node| egui::accessibility::is_input(node.accesskit_node().role()))
+        .filter(|node| node.accesskit_node().bounding_box().is_some())
+        .filter(|node| {
+            let rect = node.rect();
+            rect.left() < window.left() - 0.5 || rect.right() > window.right() + 0.5
+        })
+        .map(|node| {
+            format!(
+                "{:?} {:?} {:?}",
+                node.accesskit_node().role(),
+                node.accesskit_node().label(),
+                node.rect()
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn nothing_is_cut_off_at_the_sides() {
+    for size in WINDOWS {
+        for settings in [Settings::default(), unfolded()] {
+            let mut harness = stage(Scene::default(), settings, size);
+            press_add_point(&mut harness);
+            let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+            let misfits = misfits(&harness, window);
+            assert!(misfits.is_empty(), "in {size:?}: {misfits:#?}");
+        }
+    }
+}
+
+fn press_add_point(harness: &mut egui_kittest::Harness<'_, Stage>) {
+    if let Some(button) = harness.query_by_label("Add point light") {
+        button.click_accesskit();
+        harness.run();
+    }
+}
+
+#[test]
+fn the_parts_of_the_window_do_not_overlap_and_the_view_has_room() {
+    for size in WINDOWS {
+        let harness = stage(Scene::default(), Settings::default(), size);
+        let rects = harness.state().interface.rects();
+        let [view, panel, status] =
+            ["view", "panel", "status"].map(|name| rects.get(name).expect(name));
+        for (a, b) in [(view, panel), (view, status), (panel, status)] {
+            let both = a.intersect(b);
+            assert!(both.width() < 0.6 || both.height() < 0.6, "{a:?} and {b:?} in {size:?}");
+        }
+        let part = view.area() / (size[0] * size[1]);
+        assert!(part > 0.35, "the view has {part} of {size:?}");
+        let size_px = harness.state().interface.view_size_px();
+        assert_eq!(size_px, [view.width().round() as u32, view.height().round() as u32]);
+    }
+}
+
+#[test]
+fn the_picture_has_the_view_s_pixels_at_any_pixel_ratio() {
+    for ratio in [0.75, 1.0, 1.5, 2.0, 2.625, 3.0] {
+        let mut harness = stage(Scene::default(), Settings::default(), [390.0, 844.0]);
+        harness.set_pixels_per_point(ratio);
+        harness.run();
+        let view = harness.state().interface.rects().get("view").expect("the view is there");
+        let [width, height] = harness.state().interface.view_size_px();
+        assert!((view.width() * ratio - width as f32).abs() < 0.51, "width at {ratio}");
+        assert!((view.height() * ratio - height as f32).abs() < 0.51, "height at {ratio}");
+    }
+}
+
+#[test]
+fn rows_are_finger_sized_in_narrow_windows() {
+    let harness = stage(Scene::default(), Settings::default(), [390.0, 844.0]);
+    let rects = harness.state().interface.rects();
+    for name in ["power", "first scene", "save picture"] {
+        let height = rects.get(name).expect(name).height();
+        assert!(height >= 43.9, "{name} is {height} points high");
+    }
+}
+
+#[test]
+fn a_hidden_panel_leaves_the_window_to_the_picture() {
+    for size in WINDOWS {
+        let settings = Settings { panel_open: false, ..Settings::default() };
+        let mut harness = stage(Scene::default(), settings, size);
+        let view = harness.state().interface.rects().get("view").expect("the view is there");
+        assert_eq!(view.width(), size[0]);
+        assert!(view.height() >= size[1] - 80.0, "{view:?} of {size:?}");
+        press(&mut harness, "Show panel");
+        assert!(harness.state().interface.settings().panel_open);
+    }
+}
+
+#[test]
+fn a_long_notice_stays_in_the_window() {
+    for size in WINDOWS {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        let text = "The file could not be read: ".to_owned()
+            + &"lights.environment[2].intensity ".repeat(6);
+        harness.state_mut().notice = Some(Notice { text, is_error: true });
+        harness.run();
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        let dismiss = harness.get_by_label("Dismiss").rect();
+        assert!(window.contains_rect(dismiss), "{dismiss:?} in {size:?}");
+        press(&mut harness, "Dismiss");
+        assert_eq!(harness.state().actions, [mandelight::ui::Action::DismissNotice]);
+    }
+}
+
+#[test]
+fn help_lists_the_shortcuts_and_fits() {
+    for size in WINDOWS {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        harness.key_press(egui::Key::F1);
+        harness.run();
+        for (_, what) in
+            mandelight::ui::shortcuts::SHORTCUTS.iter().filter_map(|shortcut| shortcut.help)
+        {
+            // A word of a help line may also stand elsewhere.
+            let lines: Vec<_> = harness.get_all_by_label(what).map(|line| line.rect()).collect();
+            let fits = |line: &Rect| line.left() >= 0.0 && line.right() <= size[0];
+            assert!(lines.iter().all(fits), "{what} in {size:?}: {lines:?}");
+        }
+        harness.key_press(egui::Key::Escape);
+        harness.run();
+        assert!(harness.query_by_label("Keys and gestures").is_none());
+    }
+}

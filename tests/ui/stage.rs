@@ -1,0 +1,123 @@
+//! An interface on a stage: a harness around it, and shorthands for what tests do with it.
+
+use egui::{Event, Modifiers, PointerButton, Pos2, Vec2, accesskit::Role};
+use egui_kittest::{Harness, Node, kittest::Queryable as _};
+use mandelight::{
+    render::report::{Activity, Report},
+    scene::Scene,
+    ui::{Action, ExportProgress, Inputs, Interface, Notice, Sections, Settings, theme},
+};
+
+/// What the harness carries from frame to frame.
+pub struct Stage {
+    pub interface: Interface,
+    pub actions: Vec<Action>,
+    pub report: Report,
+    pub export: Option<ExportProgress>,
+    pub notice: Option<Notice>,
+}
+
+/// Settings with everything unfolded.
+pub fn unfolded() -> Settings {
+    Settings { more_open: true, sections: Sections::all(), ..Settings::default() }
+}
+
+/// An interface to `scene` in a window of `size` points.
+pub fn stage(scene: Scene, settings: Settings, size: [f32; 2]) -> Harness<'static, Stage> {
+    let report = Report {
+        activity: Activity::Refining,
+        size_px: [size[0] as u32, size[1] as u32],
+        samples_done: 4,
+        samples_wanted: 16,
+        pixels_per_sample: 1,
+        elapsed_secs: 1.5,
+        frame_ms: 7.0,
+        pictures: 9,
+    };
+    let stage = Stage {
+        interface: Interface::new(scene, settings),
+        actions: Vec::new(),
+        report,
+        export: None,
+        notice: None,
+    };
+    Harness::builder()
+        .with_size(Vec2::from(size))
+        .with_step_dt(1.0 / 60.0)
+        .with_max_steps(60)
+        .with_context_setup(theme::install)
+        .build_ui_state(
+            |ui, stage: &mut Stage| {
+                let inputs = Inputs {
+                    picture: None,
+                    report: &stage.report,
+                    export: stage.export,
+                    notice: stage.notice.as_ref(),
+                    adapter: "a test",
+                };
+                // The harness insets what it shows; the page doesn't.
+                let whole = egui::UiBuilder::new().max_rect(ui.ctx().content_rect());
+                let actions = ui.scope_builder(whole, |ui| stage.interface.show(ui, &inputs));
+                stage.actions.extend(actions.inner);
+            },
+            stage,
+        )
+}
+
+/// A new scene on a wide stage, everything unfolded.
+pub fn workshop() -> Harness<'static, Stage> {
+    stage(Scene::default(), unfolded(), [1280.0, 4000.0])
+}
+
+pub fn scene<'h>(harness: &'h Harness<'_, Stage>) -> &'h Scene {
+    harness.state().interface.scene()
+}
+
+pub fn slider<'h>(harness: &'h Harness<'_, Stage>, label: &'h str) -> Node<'h> {
+    harness.get_by_role_and_label(Role::Slider, label)
+}
+
+pub fn button<'h>(harness: &'h Harness<'_, Stage>, label: &'h str) -> Node<'h> {
+    harness.get_by_role_and_label(Role::Button, label)
+}
+
+pub fn press(harness: &mut Harness<'_, Stage>, label: &str) {
+    button(harness, label).click();
+    harness.run();
+}
+
+pub fn pointer(
+    harness: &Harness<'_, Stage>,
+    at: Pos2,
+    button: PointerButton,
+    pressed: bool,
+    modifiers: Modifiers,
+) {
+    harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
+}
+
+/// A drag with the primary button from one place to another, in `steps` moves.
+pub fn drag(harness: &mut Harness<'_, Stage>, from: Pos2, to: Pos2, steps: u32) {
+    harness.event(Event::PointerMoved(from));
+    harness.step();
+    pointer(harness, from, PointerButton::Primary, true, Modifiers::NONE);
+    harness.step();
+    for i in 1..=steps {
+        harness.event(Event::PointerMoved(from + (to - from) * (i as f32 / steps as f32)));
+        harness.step();
+    }
+    pointer(harness, to, PointerButton::Primary, false, Modifiers::NONE);
+    harness.run();
+}
+
+/// Steps back in the history until there is none, and counts them.
+pub fn undo_all(harness: &mut Harness<'_, Stage>) -> usize {
+    let mut count = 0;
+    while harness.state_mut().interface.editor_mut().can_undo() {
+        harness.key_press_modifiers(Modifiers::COMMAND, egui::Key::Z);
+        harness.run();
+        count += 1;
+        assert!(count < 1000, "undo has no end");
+    }
+    count
+}
