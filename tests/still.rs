@@ -1,0 +1,214 @@
+//! Stills in tiles against the same picture in one piece, and stills that come to nothing.
+
+use std::{
+    cell::Cell,
+    io::{self, Cursor, Write},
+    ops::ControlFlow,
+    rc::Rc,
+    sync::{Arc, LazyLock},
+};
+
+use mandelight::{
+    export::{ExportError, StillJob, StillOptions, StillStatus},
+    gpu::{Gpu, readback::Readback},
+    render::{Kernels, Pace, Region, View},
+    scene::{Scene, presets},
+};
+
+static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU, if only a software one");
+    Kernels::new(&gpu)
+});
+
+/// The largest difference of one channel that a cut may make, of 255.
+const TOLERANCE: u8 = 0;
+
+fn options(size_px: [u32; 2], samples: u32, tile_px: [u32; 2]) -> StillOptions {
+    StillOptions { samples: Some(samples), tile_px, ..StillOptions::new(size_px) }
+}
+
+fn still(scene: &Scene, options: StillOptions) -> Vec<u8> {
+    let job = StillJob::new(&KERNELS, scene, options, Vec::new()).unwrap();
+    let file = job.run(|_| ControlFlow::Continue(())).unwrap();
+    let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+    assert_eq!([reader.info().width, reader.info().height], options.size_px);
+    let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut rgb).unwrap();
+    rgb
+}
+
+/// The picture as a view of the whole shows it.
+fn whole_view(scene: &Scene, size_px: [u32; 2], samples: u32) -> Vec<u8> {
+    let gpu = &KERNELS.gpu;
+    let mut scene = scene.clone();
+    scene.quality.samples = samples;
+    let mut view = View::new(&KERNELS, Region::whole(size_px), Pace::Still);
+    view.set_scene(&scene, false);
+    let mut now_secs = 0.0;
+    while view.pump(now_secs) {
+        gpu.wait();
+        now_secs += 0.01;
+    }
+    let rgba = Readback::texture(gpu, view.texture().unwrap(), size_px).wait(gpu).unwrap();
+    rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+}
+
+fn largest_difference(a: &[u8], b: &[u8]) -> u8 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
+}
+
+fn is_a_picture(rgb: &[u8]) -> bool {
+    rgb.chunks_exact(3).collect::<std::collections::HashSet<_>>().len() > 100
+}
+
+#[test]
+fn tiles_join_without_a_seam() {
+    // A size that no tile divides; lights, point lights and traps all at work.
+    let size_px = [101, 67];
+    for preset in presets::all() {
+        let scene = (preset.scene)();
+        let whole = whole_view(&scene, size_px, 2);
+        assert!(is_a_picture(&whole), "{} is empty", preset.name);
+        for tile_px in [[32, 24], [101, 67], [101, 13], [51, 67]] {
+            let tiled = still(&scene, options(size_px, 2, tile_px));
+            let difference = largest_difference(&whole, &tiled);
+            assert!(difference <= TOLERANCE, "{}: {difference} of 255 in {tile_px:?}", preset.name);
+        }
+    }
+}
+
+#[test]
+fn the_smallest_and_the_thinnest_pictures() {
+    for size_px in [[1, 1], [1, 40], [40, 1]] {
+        let rgb = still(&Scene::default(), options(size_px, 1, [16, 16]));
+        assert_eq!(rgb.len(), (size_px[0] * size_px[1] * 3) as usize);
+    }
+}
+
+#[test]
+fn more_samples_are_other_pixels() {
+    let [one, many] = [1, 8].map(|n| still(&Scene::default(), options([48, 32], n, [48, 32])));
+    assert!(largest_difference(&one, &many) > TOLERANCE);
+}
+
+/// A sink that tells how much it has, and whether it is still held.
+#[derive(Clone, Default)]
+struct Counter(Rc<Cell<usize>>);
+
+impl Write for Counter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.set(self.0.get() + bytes.len());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn progress_grows_to_the_end_and_rows_leave_on_the_way() {
+    let sink = Counter::default();
+    let job =
+        StillJob::new(&KERNELS, &Scene::default(), options([500, 400], 1, [250, 20]), sink.clone())
+            .unwrap();
+    let header_bytes = sink.0.get();
+    assert!(header_bytes > 0);
+
+    let mut parts = Vec::new();
+    let mut half_way_bytes = 0;
+    let mut ended = false;
+    job.run(|status| {
+        assert!(!ended, "a status after the last");
+        match status {
+            StillStatus::Working { done, remaining_secs } => {
+                assert!((0.0..=1.0).contains(&done));
+                assert!(remaining_secs.is_none_or(|secs| secs.is_finite() && secs >= 0.0));
+                parts.push(done);
+                if done < 0.6 {
+                    half_way_bytes = sink.0.get();
+                }
+            }
+            StillStatus::Done => ended = true,
+        }
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert!(ended && parts.is_sorted());
+    assert!(parts.first() < Some(&0.05) && parts.last() > Some(&0.95), "{parts:?}");
+    // A band is 30 kB of rows and a chunk 64 kB, so by then some have been written.
+    assert!(half_way_bytes > header_bytes, "nothing was written before the picture was whole");
+    assert!(sink.0.get() > half_way_bytes);
+}
+
+#[test]
+fn a_cancelled_still_lets_go_of_its_sink() {
+    let sink = Counter::default();
+    let job =
+        StillJob::new(&KERNELS, &Scene::default(), options([64, 48], 4, [16, 16]), sink.clone())
+            .unwrap();
+    let result = job.run(|status| match status {
+        StillStatus::Working { done, .. } if done < 0.3 => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    });
+    assert!(matches!(result, Err(ExportError::Cancelled)));
+    assert_eq!(Rc::strong_count(&sink.0), 1);
+
+    // The device is as good as before.
+    assert!(is_a_picture(&still(&Scene::default(), options([64, 48], 1, [64, 48]))));
+}
+
+/// A disk with room for a header and little more.
+struct Full(usize);
+
+impl Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if bytes.len() > self.0 {
+            return Err(io::ErrorKind::StorageFull.into());
+        }
+        self.0 -= bytes.len();
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_ends_the_job() {
+    let options = options([64, 48], 1, [64, 48]);
+    assert!(matches!(
+        StillJob::new(&KERNELS, &Scene::default(), options, Full(100)),
+        Err(ExportError::Write(_))
+    ));
+    let job = StillJob::new(&KERNELS, &Scene::default(), options, Full(6000)).unwrap();
+    assert!(matches!(job.run(|_| ControlFlow::Continue(())), Err(ExportError::Write(_))));
+}
+
+#[test]
+fn what_is_out_of_range_is_refused_by_name() {
+    let refused = |scene: &Scene, options| {
+        StillJob::new(&KERNELS, scene, options, Vec::new()).err().unwrap().to_string()
+    };
+    let fine = Scene::default();
+    for size_px in [[0, 10], [10, 0], [16_385, 1], [1, u32::MAX]] {
+        assert!(refused(&fine, StillOptions::new(size_px)).contains("1 to 16384"));
+    }
+    for samples in [0, 1025, u32::MAX] {
+        assert!(refused(&fine, options([8, 8], samples, [8, 8])).starts_with("quality.samples: "));
+    }
+    let mut wild = Scene::default();
+    wild.fractal.power = f64::NAN;
+    assert!(refused(&wild, StillOptions::new([8, 8])).starts_with("fractal.power: "));
+}
+
+#[test]
+fn an_unfinished_job_does_not_pass_for_a_file() {
+    let mut job =
+        StillJob::new(&KERNELS, &Scene::default(), options([64, 48], 1, [64, 48]), Vec::new())
+            .unwrap();
+    job.step(0.0).unwrap();
+    assert!(matches!(job.finish(), Err(ExportError::Encode(_))));
+}
