@@ -335,6 +335,37 @@ fn an_interrupted_render_leaves_nothing() {
     }
 }
 
+/// The most memory that rendering a picture of this height took, in kB.
+#[cfg(target_os = "linux")]
+fn peak_kb(height_px: u32) -> u64 {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.json");
+    fs::write(&scene, run(&["scene", "--set", "quality.shadows=false"]).stdout).unwrap();
+    let (size, out) = (format!("512x{height_px}"), folder.path().join("out.png"));
+    let (scene, out) = (scene.to_str().unwrap(), out.to_str().unwrap());
+    let mut child =
+        program(&["render", scene, "--size", &size, "--samples", "2", "-o", out]).spawn().unwrap();
+    let mut peak_kb = 0;
+    while child.try_wait().unwrap().is_none() {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kb = line.and_then(|line| line.trim().strip_suffix(" kB")?.parse().ok());
+        peak_kb = peak_kb.max(kb.unwrap_or(0));
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert_eq!(code(&child.wait_with_output().unwrap()), 0);
+    assert!(peak_kb > 0);
+    peak_kb
+}
+
+/// Eight times the rows took 1 MB more; 83 MB more while lavapipe kept a shader a dispatch.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_higher_picture_takes_no_more_memory() {
+    let [low, high] = [256, 2048].map(peak_kb);
+    assert!(high < low + 16_000, "{low} kB for 256 rows, {high} kB for 2048");
+}
+
 #[test]
 fn the_manual_names_every_option() {
     let manual =

@@ -86,4 +86,4 @@ struct Picture {
     unused: vec2u,
 }
 
-@group(0) @binding(0) var<uniform> picture: Picture;
+@group(0) @binding(0) var<storage, read> picture: Picture;

@@ -10,7 +10,7 @@ use crate::gpu::{Gpu, shader::Module};
 
 /// The bind group layouts that all passes of a picture share.
 pub struct Layouts {
-    /// Group 0: picture, slice (dynamic offset), lights, gradient; all uniform.
+    /// Group 0: picture, slice (dynamic offset), lights, gradient; uniform but for the picture.
     pub picture: wgpu::BindGroupLayout,
     /// Group 1: depth, normal, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
@@ -33,15 +33,20 @@ impl Layouts {
             view_dimension: wgpu::TextureViewDimension::D2,
         };
         Self {
-            picture: group(
-                "picture",
-                &[uniform(false), uniform(true), uniform(false), uniform(false)],
-            ),
+            picture: group("picture", &[PICTURE, uniform(true), uniform(false), uniform(false)]),
             gbuffer: group("gbuffer", &[STORAGE; 4]),
             film: group("film", &[STORAGE, STORAGE, display]),
         }
     }
 }
+
+/// Not uniform: Mesa's lavapipe puts the values of a uniform buffer that decide branches into
+/// the shader, anew for each dispatch, and keeps every shader so made. Seen with Mesa 22.3.6.
+const PICTURE: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: true },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
 
 const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: false },

@@ -66,7 +66,7 @@ impl Targets {
         let slice_samples =
             Grid::level(0, size_px).threads().min(SAMPLE_WORKGROUPS * WORKGROUP_THREADS);
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
-        let picture = uniform("picture", size_of::<Picture>() as u64);
+        let picture = storage(device, "picture", size_of::<Picture>() as u64);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
         let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
         let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);

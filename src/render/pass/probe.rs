@@ -60,9 +60,9 @@ pub fn ask(
         cache: None,
     });
     let inputs: Vec<[f32; 4]> = points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
-    let uniform = filled(
+    let picture = filled(
         gpu,
-        wgpu::BufferUsages::UNIFORM,
+        wgpu::BufferUsages::STORAGE,
         bytemuck::bytes_of(&Picture::new(scene, Region::whole([64, 64]))),
     );
     let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&inputs));
@@ -89,7 +89,7 @@ pub fn ask(
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group(0, &[&uniform]), &[]);
+        pass.set_bind_group(0, &group(0, &[&picture]), &[]);
         pass.set_bind_group(1, &group(1, &[&questions, &answers]), &[]);
         pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
     }
