@@ -1,1 +1,33 @@
-//! pending
+//! The page: start-up, device loss, downloads, drops, the address bar, storage.
+//!
+//! In: a canvas and the browser's events. Out: the interface on that canvas, the renderer's work in
+//! small pieces, and everything that the interface asks for but does not do itself.
+//!
+//! | file | what lives there |
+//! |---|---|
+//! | [`start`] | opening the GPU, and again when it is lost |
+//! | `session` | what outlives the GPU: the interface, its scene, where they are kept |
+//! | `app` | one frame |
+//! | `picture` | the view in the window and its texture in egui |
+//! | `still` | a picture on its way to a download |
+//! | `files`, `address`, `storage` | what the browser takes and gives |
+//! | `keeper` | writes the scene to storage and address at rest |
+//! | `loss` | how often, and how carefully, to start again |
+//! | `mailbox` | what callbacks leave for the next frame |
+//! | `faults`, `hook` | what went wrong, and the handle that browser tests have |
+//! | `page` | the window: clocks, timers, listeners |
+
+mod address;
+mod app;
+mod faults;
+mod files;
+mod hook;
+mod keeper;
+mod loss;
+mod mailbox;
+mod page;
+mod picture;
+mod session;
+pub mod start;
+mod still;
+mod storage;

@@ -1,0 +1,103 @@
+//! The browser's window as the rest of this layer wants it: clocks, timers, the query, a plain notice.
+//!
+//! In: nothing. Out: values that are absent rather than a panic where a browser withholds them.
+//! It knows neither scenes nor the interface.
+
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{Document, Window};
+
+#[wasm_bindgen]
+extern "C" {
+    /// The page's own notice, drawn by the boot script without any GPU.
+    #[wasm_bindgen(catch, js_namespace = window, js_name = mandelightNotice)]
+    fn mandelight_notice(text: &str, detail: &str) -> Result<(), JsValue>;
+}
+
+/// The browser's window; absent in a worker, where this program never runs.
+pub fn window() -> Option<Window> {
+    web_sys::window()
+}
+
+/// The window's document.
+pub fn document() -> Option<Document> {
+    window()?.document()
+}
+
+/// Seconds since the page was opened, steady.
+pub fn now_secs() -> f64 {
+    window().and_then(|window| window.performance()).map_or(0.0, |clock| clock.now() / 1000.0)
+}
+
+/// Seconds since 1970, comparable across reloads.
+pub fn epoch_secs() -> f64 {
+    js_sys::Date::now() / 1000.0
+}
+
+/// Whether the address's query asks for the test hook.
+pub fn is_test() -> bool {
+    window()
+        .and_then(|window| window.location().search().ok())
+        .is_some_and(|search| search.trim_start_matches('?').split('&').any(|word| word == "test"))
+}
+
+/// Shows `text` and `detail` over the page, for when the interface cannot be drawn.
+pub fn notice(text: &str, detail: &str) {
+    if mandelight_notice(text, detail).is_err() {
+        log::error!("{text}: {detail}");
+    }
+}
+
+/// Lets the page fill the screen, or no longer. Does nothing where the browser refuses.
+pub fn toggle_fullscreen() {
+    let Some(document) = document() else { return };
+    match document.document_element().filter(|_| document.fullscreen_element().is_none()) {
+        Some(root) => call(&root, "requestFullscreen"),
+        None => call(&document, "exitFullscreen"),
+    }
+}
+
+/// Calls a method that a browser may lack, and notes its refusal, at once or by a promise.
+fn call(target: &JsValue, method: &'static str) {
+    let outcome = js_sys::Reflect::get(target, &JsValue::from_str(method))
+        .and_then(|function| function.dyn_into::<js_sys::Function>())
+        .and_then(|function| function.call0(target));
+    spawn_local(async move {
+        let settled = match outcome {
+            Ok(value) => JsFuture::from(js_sys::Promise::resolve(&value)).await,
+            Err(error) => Err(error),
+        };
+        if let Err(error) = settled {
+            log::warn!("{method}: {}", describe(&error));
+        }
+    });
+}
+
+/// Calls `action` once after `delay_ms` milliseconds.
+pub fn after_ms(delay_ms: i32, action: impl FnOnce() + 'static) {
+    let Some(window) = window() else { return };
+    let callback = Closure::once_into_js(action);
+    if let Err(error) = window
+        .set_timeout_with_callback_and_timeout_and_arguments_0(callback.unchecked_ref(), delay_ms)
+    {
+        log::warn!("no timer: {}", describe(&error));
+    }
+}
+
+/// Calls `action` at every `event` of `target` for as long as the page lives.
+pub fn listen(target: &web_sys::EventTarget, event: &str, action: impl FnMut() + 'static) {
+    let callback = Closure::<dyn FnMut()>::new(action);
+    match target.add_event_listener_with_callback(event, callback.as_ref().unchecked_ref()) {
+        // The page's own listeners are never removed, so the closure is the page's to keep.
+        Ok(()) => callback.forget(),
+        Err(error) => log::warn!("no listener for {event}: {}", describe(&error)),
+    }
+}
+
+/// A thrown JavaScript value as text.
+pub fn describe(value: &JsValue) -> String {
+    match value.dyn_ref::<js_sys::Error>() {
+        Some(error) => String::from(error.message()),
+        None => value.as_string().unwrap_or_else(|| format!("{value:?}")),
+    }
+}
