@@ -48,7 +48,7 @@ impl Default for EnvironmentLight {
             color: [1.0; 3],
             intensity: param::ENVIRONMENT_INTENSITY.default,
             casts_shadows: true,
-            shadow_reach: None,
+            shadow_reach: Some(param::SHADOW_REACH.default),
             frame: LightFrame::Scene,
             muted: false,
             solo: false,
@@ -119,23 +119,28 @@ impl Default for Lights {
         let toward = |x, y, z| DVec3::new(x, y, z).normalize().to_array();
         Self {
             environment: vec![
-                // A warm key from the upper left, a cool fill without shadows, a rim from behind.
+                // A warm key from the upper left.
                 EnvironmentLight {
                     direction: toward(-0.35, -0.75, 0.8),
                     color: [1.0, 0.86, 0.68],
                     intensity: 2.6,
                     ..Default::default()
                 },
+                // A cool rim from behind.
                 EnvironmentLight {
-                    direction: toward(0.9, -0.5, 0.1),
-                    color: [0.45, 0.62, 1.0],
-                    intensity: 0.5,
+                    direction: toward(0.6, 0.75, 0.35),
+                    color: [0.6, 0.75, 1.0],
+                    intensity: 1.4,
                     ..Default::default()
                 },
+                // A faint fill that comes along with the camera, so that what the others leave
+                // in shadow keeps its shape at any depth.
                 EnvironmentLight {
-                    direction: toward(0.3, 0.9, 0.35),
-                    color: [0.7, 0.8, 1.0],
-                    intensity: 1.2,
+                    direction: toward(0.5, 0.35, 0.8),
+                    color: [0.5, 0.66, 1.0],
+                    intensity: 0.4,
+                    casts_shadows: false,
+                    frame: LightFrame::View,
                     ..Default::default()
                 },
             ],
