@@ -199,7 +199,9 @@ fn picks_what_the_picture_shows() {
     let ray = camera_ray(&scene.camera, DVec2::ZERO, 16.0 / 9.0);
     assert!((ray.direction - scene.camera.forward()).length() < 1e-12);
     let estimator = Estimator::new(&scene.fractal);
-    assert!(estimator.distance(ray.at(depth)) <= pixel_cone(&scene.camera, 540.0) * depth);
+    assert!(
+        estimator.distance(ray.at(depth)) <= pixel_cone(&scene.camera, 16.0 / 9.0, 540.0) * depth
+    );
     assert_eq!(
         pick(&scene, DVec2::new(0.99, 0.99), 16.0 / 9.0, 540.0),
         None,
@@ -210,12 +212,21 @@ fn picks_what_the_picture_shows() {
 #[test]
 fn rays_run_through_the_corners_that_the_convention_names() {
     let camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);
-    let (aspect, half_height) = (2.0, camera.half_height());
+    let (aspect, half_height) = (2.0, camera.half_height(2.0));
     let corner = camera_ray(&camera, DVec2::new(1.0, 1.0), aspect).direction;
     // Seen from −y the right is +x and up is +z.
     assert!(
         (corner / corner.y - DVec3::new(aspect * half_height, 1.0, half_height)).length() < 1e-12
     );
+}
+
+#[test]
+fn a_picture_taller_than_wide_spans_the_angle_across_its_width() {
+    let camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);
+    let side = |aspect| camera_ray(&camera, DVec2::new(1.0, 0.0), aspect).direction;
+    assert!((side(0.5) - side(1.0)).length() < 1e-12);
+    let top = |aspect| camera_ray(&camera, DVec2::new(0.0, 1.0), aspect).direction;
+    assert!((top(2.0) - top(1.0)).length() < 1e-12);
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn each_shows_a_surface_in_the_middle() {
         // A slow march through the picture's centre and around it.
         let hits = (0..25).filter(|i| {
             let (x, y) = (f64::from(i % 5) - 2.0, f64::from(i / 5) - 2.0);
-            let spread = 0.15 * camera.half_height();
+            let spread = 0.15 * camera.half_height(1.0);
             let direction =
                 (camera.rotation() * DVec3::new(x * spread, y * spread, -1.0)).normalize();
             let mut t = 0.0;

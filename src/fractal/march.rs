@@ -138,19 +138,20 @@ impl Ray {
 
 /// The ray through `ndc` of a picture whose width over height is `aspect`.
 pub fn camera_ray(camera: &Camera, ndc: DVec2, aspect: f64) -> Ray {
-    let half_height = camera.half_height();
+    let half_height = camera.half_height(aspect);
     let in_camera = DVec3::new(ndc.x * aspect * half_height, ndc.y * half_height, -1.0);
     Ray { origin: camera.position.to_dvec3(), direction: camera.rotation() * in_camera.normalize() }
 }
 
-/// The radius of one pixel's cone per unit of depth, for a picture `height_px` pixels high.
-pub fn pixel_cone(camera: &Camera, height_px: f64) -> f64 {
-    camera.half_height() / height_px.max(1.0)
+/// The radius of one pixel's cone per unit of depth, for a picture `height_px` pixels high whose
+/// width over height is `aspect`.
+pub fn pixel_cone(camera: &Camera, aspect: f64, height_px: f64) -> f64 {
+    camera.half_height(aspect) / height_px.max(1.0)
 }
 
 /// Depth of the surface that the picture shows at `ndc`, in scene units; none over the background.
 pub fn pick(scene: &Scene, ndc: DVec2, aspect: f64, height_px: f64) -> Option<f64> {
-    let cone = pixel_cone(&scene.camera, height_px) * scene.quality.detail;
+    let cone = pixel_cone(&scene.camera, aspect, height_px) * scene.quality.detail;
     Estimator::new(&scene.fractal).march(
         camera_ray(&scene.camera, ndc, aspect),
         cone,

@@ -230,15 +230,17 @@ impl Picture {
         let [width, height] = region.picture_px.map(f64::from);
         let camera = &scene.camera;
         let rotation = camera.rotation();
-        let cone = camera.half_height() / height;
+        let aspect = width / height;
+        let half_height = camera.half_height(aspect);
+        let cone = half_height / height;
         let tone = &scene.tone;
         let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
         Self {
             camera: Camera {
                 origin: camera.position.to_dvec3().as_vec3().to_array(),
-                half_height: camera.half_height() as f32,
+                half_height: half_height as f32,
                 right: (rotation * DVec3::X).as_vec3().to_array(),
-                aspect: (width / height) as f32,
+                aspect: aspect as f32,
                 up: (rotation * DVec3::Y).as_vec3().to_array(),
                 cone: cone as f32,
                 forward: camera.forward().as_vec3().to_array(),

@@ -36,7 +36,8 @@ pub struct Camera {
     pub pivot: PrecisePoint,
     /// Rotation `world_from_camera`.
     pub orientation: Quaternion,
-    /// Angle between the picture's lower and upper edges, in [`param::VERTICAL_FOV`], degrees.
+    /// Angle between the picture's lower and upper edges, in [`param::VERTICAL_FOV`], degrees;
+    /// see [`Self::half_height`] for pictures taller than wide.
     pub vertical_fov_deg: f64,
 }
 
@@ -69,9 +70,11 @@ impl Camera {
         (&self.pivot - &self.position).length().max(f64::MIN_POSITIVE)
     }
 
-    /// Half the picture's height at distance one: `tan(fov/2)`.
-    pub fn half_height(&self) -> f64 {
-        (self.vertical_fov_deg.to_radians() * 0.5).tan()
+    /// Half the height, at distance one, of a picture whose width over height is `aspect`:
+    /// `tan(fov/2)`. A picture taller than wide spans the angle across its width instead, so
+    /// that a view framed on a desktop's screen fits a phone's.
+    pub fn half_height(&self, aspect: f64) -> f64 {
+        (self.vertical_fov_deg.to_radians() * 0.5).tan() / aspect.min(1.0)
     }
 }
 

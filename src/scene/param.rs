@@ -148,7 +148,7 @@ params! {
     JULIA_CONSTANT = "fractal.julia_constant[]", "Julia constant", SceneUnits, -2.0, 2.0, default 0.0, Linear by 0.01,
         "One coordinate of the constant c that the Julia form adds at every step.";
     VERTICAL_FOV = "camera.vertical_fov_deg", "Field of view", Degrees, 5.0, 120.0, default 40.0, Linear by 1.0,
-        "The angle between the picture's lower and upper edges. Wider shows more and bends more.";
+        "The angle between the picture's lower and upper edges; across its width where it is taller than wide. Wider shows more and bends more.";
     ENVIRONMENT_INTENSITY = "lights.environment[].intensity", "Intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
         "How strong the light is: 1 lights a white surface that faces it to 1.";
     SHADOW_REACH = "lights.environment[].shadow_reach", "Shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,

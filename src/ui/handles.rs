@@ -50,7 +50,7 @@ pub fn point_lights(
         if response.dragged() {
             let away = ui.input(|i| i.modifiers.shift);
             let moved = displacement(&scene.camera, frame, offset, response.drag_delta(), away);
-            let grain = offset.length() * scene.camera.half_height() * 2.0
+            let grain = offset.length() * scene.camera.half_height(frame.aspect()) * 2.0
                 / f64::from(frame.height_px.max(1))
                 * GRAIN_PX;
             light.position = light.position.moved_by(moved, grain);
@@ -71,7 +71,7 @@ fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
         return None;
     }
     let half = f64::from(frame.rect.height()) / 2.0;
-    let scale = half / (camera.half_height() * -seen.z);
+    let scale = half / (camera.half_height(frame.aspect()) * -seen.z);
     let at = frame.rect.center() + Vec2::new((seen.x * scale) as f32, (-seen.y * scale) as f32);
     frame.rect.contains(at).then_some(at)
 }
@@ -85,7 +85,8 @@ fn displacement(camera: &Camera, frame: Frame, offset: DVec3, delta: Vec2, away:
     }
     let rotation = camera.rotation();
     let depth = offset.dot(camera.forward()).max(0.0);
-    let per_point = 2.0 * camera.half_height() * depth / f64::from(frame.rect.height().max(1.0));
+    let per_point =
+        2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0));
     (rotation * DVec3::X * f64::from(delta.x) - rotation * DVec3::Y * f64::from(delta.y))
         * per_point
 }

@@ -32,8 +32,6 @@ pub struct Interface {
     pilot: Pilot,
     /// The camera that Home returns to.
     home: Camera,
-    /// Whether the camera is still to be fitted to the picture's shape.
-    arriving: bool,
     help_open: bool,
     standing: Option<Standing>,
     rects: Rects,
@@ -52,7 +50,6 @@ impl Interface {
             settings,
             selection: Selection::default(),
             pilot: Pilot::default(),
-            arriving: false,
             help_open: false,
             standing: None,
             rects: Rects::default(),
@@ -60,11 +57,6 @@ impl Interface {
             frame: None,
             moving: false,
         }
-    }
-
-    /// An interface to an opening scene, drawn back as far as the window's shape asks for.
-    pub fn opening(scene: Scene, settings: Settings) -> Self {
-        Self { arriving: true, ..Self::new(scene, settings) }
     }
 
     /// The scene as it is now.
@@ -119,7 +111,7 @@ impl Interface {
         if pressed || !(held || self.pilot.is_moving(now_secs)) {
             self.editor.next_gesture();
         }
-        let mut before = self.scene().clone();
+        let before = self.scene().clone();
         self.rects.clear();
         let mut commands = shortcuts::commands(ui.ctx(), self.pilot.is_flying());
         let mut actions = Vec::new();
@@ -128,10 +120,7 @@ impl Interface {
         theme::fit_to_hand(ui, !wide || ui.input(|i| i.has_touch_screen()));
         self.panels(ui, inputs, wide, &mut commands, &mut actions);
         self.status(ui, inputs);
-        if self.view(ui, inputs, wide, &mut commands) {
-            // Fitting the opening view to the window is nobody's edit.
-            before = self.scene().clone();
-        }
+        self.view(ui, inputs, wide, &mut commands);
         notice(ui, inputs.notice, self.rects.get("view"), &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open);
 
@@ -207,24 +196,14 @@ impl Interface {
         self.rects.note("status", &shown.response);
     }
 
-    /// The picture and what moves its camera; true where the opening view was fitted to it.
-    fn view(
-        &mut self,
-        ui: &mut Ui,
-        inputs: &Inputs<'_>,
-        wide: bool,
-        commands: &mut Vec<Command>,
-    ) -> bool {
+    /// The picture and what moves its camera.
+    fn view(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, wide: bool, commands: &mut Vec<Command>) {
         let area = ui.available_rect_before_wrap();
         let (rect, size_px) = view::snap_to_pixels(area, ui.ctx().pixels_per_point());
         self.view_px = size_px;
         let frame = Frame { rect, height_px: size_px[1] };
         self.frame = Some(frame);
         let scene = self.editor.scene_mut();
-        let arriving = std::mem::take(&mut self.arriving);
-        if arriving {
-            self.pilot.arrive(scene, &self.home, frame);
-        }
         let response = view::show(ui, frame, inputs.picture);
         self.rects.note("view", &response);
         self.pilot.steer(ui, &response, frame, scene, &self.home, commands);
@@ -247,7 +226,6 @@ impl Interface {
             );
         }
         ui.allocate_rect(area, egui::Sense::hover());
-        arriving
     }
 
     /// What is left of a hidden side panel.
@@ -318,10 +296,6 @@ impl Interface {
             let mut scene = (preset.scene)();
             scene.quality = self.scene().quality.clone();
             let home = scene.camera.clone();
-            match self.frame {
-                Some(frame) => self.pilot.arrive(&mut scene, &home, frame),
-                None => self.arriving = true,
-            }
             self.replace_scene(scene);
             self.home = home;
             self.selection = Selection::default();

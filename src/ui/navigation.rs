@@ -83,7 +83,7 @@ pub struct Standing {
 impl World<'_> {
     /// The least depth of a point that the camera looks at, in scene units.
     pub fn nearest(&self, camera: &Camera) -> f64 {
-        LEAST_FOOTPRINT / pixel_cone(camera, self.viewport.height_px)
+        LEAST_FOOTPRINT / pixel_cone(camera, self.viewport.aspect, self.viewport.height_px)
     }
 
     /// The least distance between eye and surface, in scene units.
@@ -96,7 +96,7 @@ impl World<'_> {
         let distance = self.field.clear_distance(camera.position.to_dvec3());
         Standing {
             distance,
-            footprint: distance * pixel_cone(camera, self.viewport.height_px),
+            footprint: distance * pixel_cone(camera, self.viewport.aspect, self.viewport.height_px),
             at_precision_limit: distance <= self.nearest(camera),
         }
     }
@@ -120,20 +120,23 @@ impl World<'_> {
     }
 
     fn hit_cone(&self, camera: &Camera) -> f64 {
-        pixel_cone(camera, self.viewport.height_px) * self.viewport.detail
+        pixel_cone(camera, self.viewport.aspect, self.viewport.height_px) * self.viewport.detail
     }
 
     /// How coarse positions may be here, in scene units.
     fn grain(&self, camera: &Camera) -> f64 {
         let distance =
             self.field.clear_distance(camera.position.to_dvec3()).max(self.clearance(camera));
-        GRAIN_PX * 2.0 * pixel_cone(camera, self.viewport.height_px) * distance
+        GRAIN_PX
+            * 2.0
+            * pixel_cone(camera, self.viewport.aspect, self.viewport.height_px)
+            * distance
     }
 
     /// Where in the picture the point at `offset` from the eye appears; none behind the eye.
     fn ndc_of(&self, camera: &Camera, offset: DVec3) -> Option<DVec2> {
         let seen = camera.rotation().inverse() * offset;
-        let scale = camera.half_height() * -seen.z;
+        let scale = camera.half_height(self.viewport.aspect) * -seen.z;
         (seen.z < 0.0).then(|| DVec2::new(seen.x / (scale * self.viewport.aspect), seen.y / scale))
     }
 }
@@ -259,7 +262,7 @@ fn pan(camera: &mut Camera, world: World<'_>, held: &PrecisePoint, ndc: DVec2) {
     if depth <= 0.0 {
         return;
     }
-    let half_height = camera.half_height();
+    let half_height = camera.half_height(world.viewport.aspect);
     let wanted = DVec2::new(ndc.x * world.viewport.aspect, ndc.y) * half_height * depth;
     let way = rotation * DVec3::new(seen.x - wanted.x, seen.y - wanted.y, 0.0);
     let moved = collide::slide(world, camera, way);

@@ -7,7 +7,7 @@ use egui::{Context, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
 
 use super::{
-    navigation::{FlyInput, Navigator, Standing, Viewport, World, flight::framed},
+    navigation::{FlyInput, Navigator, Standing, Viewport, World},
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
@@ -104,12 +104,6 @@ impl Pilot {
         world(&field, scene, frame).standing(&scene.camera)
     }
 
-    /// `home` as it fits the picture's shape.
-    pub fn arrive(&mut self, scene: &mut Scene, home: &Camera, frame: Frame) {
-        let field = self.field(&scene.fractal);
-        scene.camera = framed(home, world(&field, scene, frame));
-    }
-
     /// Moves the scene's camera by this frame's input.
     pub fn steer(
         &mut self,
@@ -163,7 +157,7 @@ impl Pilot {
         let wide = DVec2::new(1.0 / world.viewport.aspect, 1.0);
         let steps = |right: i8, up: i8| DVec2::new(f64::from(right), f64::from(up)) * wide;
         match command {
-            Command::Home => self.navigator.go_home(camera, world, home),
+            Command::Home => self.navigator.fly_to(camera, world, home),
             Command::FrameAll => self.navigator.frame_all(camera, world),
             Command::Orbit(right, up) => {
                 self.navigator.begin_orbit(camera, world, DVec2::ZERO);

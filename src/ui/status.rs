@@ -137,7 +137,7 @@ fn right_text(status: &Status<'_>, short: bool) -> String {
 
 /// How much larger things appear at the pivot than from where a new scene is seen.
 pub fn zoom(camera: &Camera) -> f64 {
-    let height = |camera: &Camera| camera.view_unit() * camera.half_height();
+    let height = |camera: &Camera| camera.view_unit() * camera.half_height(1.0);
     height(&Camera::default()) / height(camera).max(f64::MIN_POSITIVE)
 }
 

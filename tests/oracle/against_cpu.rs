@@ -64,7 +64,11 @@ fn rays_and_cones_are_those_of_the_pixels() {
     let [width, height] = views::SIZE.map(f64::from);
     for view in views::all() {
         let camera = &view.scene.camera;
-        assert!((pixel_cone(camera, height) / rays::cone(camera, views::SIZE) - 1.0).abs() < 1e-14);
+        assert!(
+            (pixel_cone(camera, width / height, height) / rays::cone(camera, views::SIZE) - 1.0)
+                .abs()
+                < 1e-14
+        );
         for pixel in [[0, 0], [95, 0], [17, 60]] {
             let [x, y] = pixel.map(|v| f64::from(v) + 0.5);
             let ndc = DVec2::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height);

@@ -237,7 +237,7 @@ fn a_point_light_is_dragged_in_the_view() {
         &scene(&harness).lights.point[0].position - &scene_with_point.lights.point[0].position;
     let right = scene_with_point.camera.rotation() * glam::DVec3::X;
     let height = harness.state().interface.rects().get("view").expect("the view is there").height();
-    let expected = 90.0 * 2.0 * scene_with_point.camera.half_height() * 1.5 / f64::from(height);
+    let expected = 90.0 * 2.0 * scene_with_point.camera.half_height(1.0) * 1.5 / f64::from(height);
     assert!((moved - right * expected).length() < 0.01 * expected, "{moved} for {expected}");
     assert_eq!(undo_all(&mut harness), 1);
 }

@@ -112,15 +112,9 @@ impl Navigator {
         }
     }
 
-    /// Sets off to `home` (a scene's camera), as [`framed`] for the picture's shape.
-    pub fn go_home(&mut self, camera: &mut Camera, world: World<'_>, home: &Camera) {
-        self.fly_to(camera, world, &framed(home, world));
-    }
-
     /// Sets off to where the whole bounding sphere fits the picture, in the present direction.
     pub fn frame_all(&mut self, camera: &mut Camera, world: World<'_>) {
-        let half_height = camera.half_height();
-        let half_angle = half_height.min(half_height * world.viewport.aspect).atan();
+        let half_angle = camera.half_height(1.0).atan();
         let depth = (world.field.bounding_radius() * ROOM / half_angle.sin()).min(FARTHEST_EYE);
         let to = Camera {
             position: PrecisePoint::from(camera.forward() * -depth),
@@ -149,18 +143,4 @@ impl Navigator {
         }
         true
     }
-}
-
-/// `camera`, drawn back from its pivot where the picture is higher than wide, so that it shows as
-/// much to the sides as a square one would; unchanged where the surface is in the way.
-pub fn framed(camera: &Camera, world: World<'_>) -> Camera {
-    let aspect = world.viewport.aspect;
-    if !(aspect > 0.0 && aspect < 1.0) {
-        return camera.clone();
-    }
-    let way = (&camera.position - &camera.pivot) * (1.0 / aspect - 1.0);
-    if collide::advance(world, camera, way) != way {
-        return camera.clone();
-    }
-    Camera { position: camera.position.moved_by(way, world.grain(camera)), ..camera.clone() }
 }
