@@ -68,10 +68,7 @@ impl Session {
         let address = Address::default();
         let settings = stored_settings();
         let (scene, complaint) = known_scene(&address);
-        let interface = match scene {
-            Some(scene) => Interface::new(scene, settings),
-            None => Interface::opening(Scene::default(), settings),
-        };
+        let interface = Interface::new(scene.unwrap_or_default(), settings);
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
         let mut session = Self {

@@ -1,6 +1,6 @@
 //! Every control changes what it says it changes.
 
-use egui::{Key, Modifiers, PointerButton, accesskit::Role};
+use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
     scene::{Scene, param, presets},
