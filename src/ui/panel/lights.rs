@@ -3,12 +3,12 @@
 use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
-use super::Context;
+use super::{Context, light};
 use crate::{
-    scene::{Camera, EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight, param},
+    scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, param},
     ui::{
         theme,
-        widgets::{ball, caption, choice, color, param_slider},
+        widgets::{caption, color, param_slider},
     },
 };
 
@@ -50,7 +50,7 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     if !unfolded && let Some(light) = cx.scene.lights.environment.get_mut(key) {
         let camera = &cx.scene.camera;
         ui.horizontal(|ui| {
-            let response = direction_ball(ui, 84.0, light, camera);
+            let response = light::direction_ball(ui, 84.0, light, camera);
             cx.rects.note("light ball", &response);
             ui.vertical(|ui| {
                 ui.add_space(4.0);
@@ -81,13 +81,13 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         Some(LightRef::Environment(index)) => {
             let camera = &cx.scene.camera;
             if let Some(light) = cx.scene.lights.environment.get_mut(index) {
-                let ball = environment(ui, light, camera);
+                let ball = light::environment(ui, light, camera);
                 cx.rects.note("light ball", &ball);
             }
         }
         Some(LightRef::Point(index)) => {
             if let Some(light) = cx.scene.lights.point.get_mut(index) {
-                point(ui, light);
+                light::point(ui, light);
             }
         }
         None => {
@@ -267,95 +267,9 @@ fn removed(lights: &mut Lights, light: LightRef) -> Option<LightRef> {
     if neighbour.exists(lights) { Some(neighbour) } else { first(lights) }
 }
 
-fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Camera) -> Response {
-    let ball = ui
-        .horizontal(|ui| {
-            let ball = direction_ball(ui, 112.0, light, camera);
-            ui.vertical(|ui| {
-                ui.add_space(6.0);
-                let mut behind = toward_light_in_view(light, camera).z < 0.0;
-                if ui.checkbox(&mut behind, "From behind").on_hover_text("Whether the light comes from behind the fractal, as you see it").changed() {
-                    let mut direction = toward_light_in_view(light, camera);
-                    direction.z = -direction.z;
-                    set_direction(light, camera, direction);
-                }
-                ui.checkbox(&mut light.casts_shadows, "Shadows").on_hover_text("Whether surfaces block this light");
-                let mut limited = light.shadow_reach.is_some();
-                let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Limit reach"));
-                if reach.on_hover_text("Let only near surfaces cast shadows, up to the shadow reach below; otherwise the whole scene does").changed() {
-                    light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
-                }
-            });
-            ball
-        })
-        .inner;
-    param_slider(ui, &param::ENVIRONMENT_INTENSITY, &mut light.intensity);
-    if let Some(reach) = &mut light.shadow_reach {
-        ui.add_enabled_ui(light.casts_shadows, |ui| param_slider(ui, &param::SHADOW_REACH, reach));
-    }
-    let mut frame = light.frame;
-    choice(
-        ui,
-        "Fixed to",
-        &mut frame,
-        &[
-            (LightFrame::Scene, "Scene", "The light stays where it is as the camera moves"),
-            (LightFrame::View, "View", "The light moves with the camera"),
-        ],
-    );
-    if frame != light.frame {
-        // Fixed to something else, it still comes from where it came from.
-        let direction = toward_light_in_view(light, camera);
-        light.frame = frame;
-        set_direction(light, camera, direction);
-    }
-    ball
-}
-
-fn point(ui: &mut Ui, light: &mut PointLight) {
-    param_slider(ui, &param::POINT_INTENSITY, &mut light.intensity);
-    ui.checkbox(&mut light.casts_shadows, "Shadows")
-        .on_hover_text("Whether surfaces block this light");
-    let at = light.position.to_dvec3();
-    ui.label(RichText::new(format!("At {:.4}, {:.4}, {:.4}", at.x, at.y, at.z)).small().color(theme::TEXT_DIM))
-        .on_hover_text("The light's position in scene units. Drag its handle in the view; with Shift it moves toward or away from you.");
-}
-
-fn direction_ball(
-    ui: &mut Ui,
-    diameter: f32,
-    light: &mut EnvironmentLight,
-    camera: &Camera,
-) -> Response {
-    let mut direction = toward_light_in_view(light, camera);
-    let response = ball(ui, "Light direction", diameter, light.color, &mut direction);
-    if response.changed() {
-        set_direction(light, camera, direction);
-    }
-    response
-}
-
-/// The unit vector toward the light in the camera's frame, whatever it is fixed to.
-fn toward_light_in_view(light: &EnvironmentLight, camera: &Camera) -> DVec3 {
-    let direction = DVec3::from_array(light.direction).normalize_or(DVec3::Z);
-    match light.frame {
-        LightFrame::View => direction,
-        LightFrame::Scene => camera.rotation().inverse() * direction,
-    }
-}
-
-/// Turns the light to a direction in the camera's frame.
-fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_view: DVec3) {
-    let direction = match light.frame {
-        LightFrame::View => in_view,
-        LightFrame::Scene => camera.rotation() * in_view,
-    };
-    light.direction = direction.normalize_or(DVec3::Z).to_array();
-}
-
 fn new_environment(camera: &Camera) -> EnvironmentLight {
     let mut light = EnvironmentLight::default();
-    set_direction(&mut light, camera, DVec3::new(-0.55, 0.5, 0.67));
+    light::set_direction(&mut light, camera, DVec3::new(-0.55, 0.5, 0.67));
     light
 }
 
@@ -375,17 +289,6 @@ fn new_point(camera: &Camera) -> PointLight {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_direction_survives_both_frames() {
-        let camera = Camera::default();
-        let wanted = DVec3::new(0.2, -0.7, 0.4).normalize();
-        for frame in [LightFrame::Scene, LightFrame::View] {
-            let mut light = EnvironmentLight { frame, ..Default::default() };
-            set_direction(&mut light, &camera, wanted);
-            assert!((toward_light_in_view(&light, &camera) - wanted).length() < 1e-12);
-        }
-    }
 
     #[test]
     fn a_removed_light_leaves_a_light_selected_while_there_is_one() {

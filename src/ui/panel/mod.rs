@@ -4,6 +4,7 @@
 mod camera;
 mod fractal;
 mod help;
+mod light;
 mod lights;
 mod quality;
 mod scenes;

@@ -4,6 +4,7 @@ mod ball;
 mod color;
 mod gradient;
 mod param;
+mod scale;
 mod section;
 
 pub use ball::ball;

@@ -10,6 +10,7 @@ use egui::{
     vec2,
 };
 
+use super::scale::{at_fraction, format_value, fraction, is_logarithmic, tidy, tidy_typed};
 use crate::{
     scene::param::{Param, Scale, Unit},
     ui::theme,
@@ -28,7 +29,7 @@ pub fn param_slider(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     let before = *value;
     let height = ui.spacing().interact_size.y;
     let width = ui.available_width();
-    let label_width = (width * 0.34).clamp(70.0, 108.0);
+    let label_width = (width * 0.37).clamp(70.0, 108.0);
     let row = ui.push_id(param.path, |ui| {
         let (row, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
         let label = Rect::from_min_size(row.min, vec2(label_width, height));
@@ -89,7 +90,8 @@ pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     }
     let shown = format!("{}{}", format_value(param, *value), param.unit.suffix());
     // Added directly, so that the field that takes the button's place has the same id.
-    let button = Button::new(WidgetText::from(shown.as_str())).frame_when_inactive(false);
+    let text = egui::RichText::new(shown).color(theme::TEXT);
+    let button = Button::new("").right_text(text).frame_when_inactive(false);
     let response = ui.add(button.min_size(size).truncate());
     if response.clicked() {
         let text = format_value(param, *value);
@@ -266,158 +268,5 @@ fn paint_rail(ui: &Ui, rect: Rect, handle_x: f32, rail: &Response) {
             HANDLE_RADIUS + 2.0,
             egui::Stroke::new(1.5, theme::ACCENT),
         );
-    }
-}
-
-/// Whether equal lengths of the rail are equal ratios.
-fn is_logarithmic(param: &Param) -> bool {
-    match param.scale {
-        Scale::Linear => false,
-        Scale::Logarithmic => true,
-        Scale::Integer => param.min >= 1.0 && param.max / param.min > 100.0,
-    }
-}
-
-/// Where `value` lies along the rail, 0 to 1. A logarithmic range that starts at zero is linear
-/// below its step.
-fn fraction(param: &Param, value: f64) -> f64 {
-    let value = value.clamp(param.min, param.max);
-    let fraction = if !is_logarithmic(param) {
-        (value - param.min) / (param.max - param.min)
-    } else if param.min > 0.0 {
-        (value / param.min).ln() / (param.max / param.min).ln()
-    } else {
-        (value / param.step).ln_1p() / (param.max / param.step).ln_1p()
-    };
-    fraction.clamp(0.0, 1.0)
-}
-
-/// The value at a fraction of the rail: the inverse of [`fraction`].
-fn at_fraction(param: &Param, fraction: f64) -> f64 {
-    if !is_logarithmic(param) {
-        param.min + fraction * (param.max - param.min)
-    } else if param.min > 0.0 {
-        param.min * (param.max / param.min).powf(fraction)
-    } else {
-        param.step * ((param.max / param.step).ln_1p() * fraction).exp_m1()
-    }
-}
-
-/// `value` within the range, at the precision that a hand on a slider means: a multiple of the
-/// step, or three significant digits where the range is logarithmic.
-pub fn tidy(param: &Param, value: f64) -> f64 {
-    let rounded = match param.scale {
-        Scale::Integer => value.round(),
-        Scale::Linear => {
-            round_to_decimals((value / param.step).round() * param.step, decimals(param.step))
-        }
-        Scale::Logarithmic => round_to_decimals(value, significant_decimals(value)),
-    };
-    rounded.clamp(param.min, param.max)
-}
-
-/// A typed value within the range; only whole numbers are rounded.
-fn tidy_typed(param: &Param, value: f64) -> f64 {
-    let value = if param.scale == Scale::Integer { value.round() } else { value };
-    value.clamp(param.min, param.max)
-}
-
-fn format_value(param: &Param, value: f64) -> String {
-    let places = match param.scale {
-        Scale::Integer => 0,
-        Scale::Linear => decimals(param.step).max(needed_decimals(value)),
-        Scale::Logarithmic => significant_decimals(value),
-    };
-    let text = format!("{value:.places$}");
-    if param.scale == Scale::Logarithmic && text.contains('.') {
-        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
-    }
-    text
-}
-
-/// Decimal places of a step such as 0.05.
-fn decimals(step: f64) -> usize {
-    (0..6)
-        .find(|&places| {
-            (step * 10f64.powi(places) - (step * 10f64.powi(places)).round()).abs() < 1e-9
-        })
-        .unwrap_or(6) as usize
-}
-
-/// Decimal places, four at most, that tell `value` from its neighbours as typed.
-fn needed_decimals(value: f64) -> usize {
-    decimals(value).min(4)
-}
-
-/// Decimal places that leave three significant digits.
-fn significant_decimals(value: f64) -> usize {
-    if value == 0.0 || !value.is_finite() {
-        return 0;
-    }
-    (2.0 - value.abs().log10().floor()).clamp(0.0, 8.0) as usize
-}
-
-fn round_to_decimals(value: f64, places: usize) -> f64 {
-    let scale = 10f64.powi(places as i32);
-    (value * scale).round() / scale
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::param;
-
-    #[test]
-    fn the_rail_runs_from_end_to_end_and_back() {
-        for param in param::ALL {
-            assert_eq!(fraction(param, param.min), 0.0, "{}", param.path);
-            assert_eq!(fraction(param, param.max), 1.0, "{}", param.path);
-            let mut last = f64::NEG_INFINITY;
-            for i in 0..=100 {
-                let f = f64::from(i) / 100.0;
-                let value = at_fraction(param, f);
-                assert!(value > last, "{}: the rail runs one way", param.path);
-                assert!((fraction(param, value) - f).abs() < 1e-9, "{}", param.path);
-                last = value;
-            }
-        }
-    }
-
-    #[test]
-    fn tidied_values_are_accepted() {
-        for param in param::ALL {
-            for i in 0..=1000 {
-                let value = tidy(param, at_fraction(param, f64::from(i) / 1000.0));
-                assert!(param.accepts(value), "{}: {value}", param.path);
-            }
-            assert!(
-                param.accepts(tidy(param, 1e300)) && param.accepts(tidy(param, -1e300)),
-                "{}",
-                param.path
-            );
-        }
-    }
-
-    #[test]
-    fn defaults_can_be_reached_by_dragging() {
-        for param in param::ALL {
-            assert_eq!(tidy(param, param.default), param.default, "{}", param.path);
-        }
-    }
-
-    #[test]
-    fn small_intensities_get_their_share_of_the_rail() {
-        let one = fraction(&param::ENVIRONMENT_INTENSITY, 1.0);
-        assert!((0.25..0.6).contains(&one), "1 lies at {one} of the rail");
-    }
-
-    #[test]
-    fn values_read_without_noise() {
-        assert_eq!(format_value(&param::POWER, 8.0), "8.0");
-        assert_eq!(format_value(&param::POWER, 2.25), "2.25");
-        assert_eq!(format_value(&param::SAMPLES, 16.0), "16");
-        assert_eq!(format_value(&param::SHADOW_REACH, 0.0123456), "0.0123");
-        assert_eq!(format_value(&param::ENVIRONMENT_INTENSITY, 2.6), "2.6");
-        assert_eq!(tidy(&param::POWER, 2.299_999_9), 2.3);
     }
 }

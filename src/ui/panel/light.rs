@@ -1,0 +1,117 @@
+//! One light's properties, and its direction as the camera sees it.
+
+use egui::{Response, RichText, Ui};
+use glam::DVec3;
+
+use crate::{
+    scene::{Camera, EnvironmentLight, LightFrame, PointLight, param},
+    ui::{
+        theme,
+        widgets::{ball, choice, param_slider},
+    },
+};
+
+/// Direction, shadows, strength, frame of a light from a direction. Returns the ball's response.
+pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Camera) -> Response {
+    let ball = ui
+        .horizontal(|ui| {
+            let ball = direction_ball(ui, 112.0, light, camera);
+            ui.vertical(|ui| {
+                ui.add_space(6.0);
+                let mut behind = toward_light_in_view(light, camera).z < 0.0;
+                if ui.checkbox(&mut behind, "From behind").on_hover_text("Whether the light comes from behind the fractal, as you see it").changed() {
+                    let mut direction = toward_light_in_view(light, camera);
+                    direction.z = -direction.z;
+                    set_direction(light, camera, direction);
+                }
+                ui.checkbox(&mut light.casts_shadows, "Shadows").on_hover_text("Whether surfaces block this light");
+                let mut limited = light.shadow_reach.is_some();
+                let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Limit reach"));
+                if reach.on_hover_text("Let only near surfaces cast shadows, up to the shadow reach below; otherwise the whole scene does").changed() {
+                    light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
+                }
+            });
+            ball
+        })
+        .inner;
+    param_slider(ui, &param::ENVIRONMENT_INTENSITY, &mut light.intensity);
+    if let Some(reach) = &mut light.shadow_reach {
+        ui.add_enabled_ui(light.casts_shadows, |ui| param_slider(ui, &param::SHADOW_REACH, reach));
+    }
+    let mut frame = light.frame;
+    choice(
+        ui,
+        "Fixed to",
+        &mut frame,
+        &[
+            (LightFrame::Scene, "Scene", "The light stays where it is as the camera moves"),
+            (LightFrame::View, "View", "The light moves with the camera"),
+        ],
+    );
+    if frame != light.frame {
+        // Fixed to something else, it still comes from where it came from.
+        let direction = toward_light_in_view(light, camera);
+        light.frame = frame;
+        set_direction(light, camera, direction);
+    }
+    ball
+}
+
+/// Strength, shadows, place of a light from a point.
+pub(super) fn point(ui: &mut Ui, light: &mut PointLight) {
+    param_slider(ui, &param::POINT_INTENSITY, &mut light.intensity);
+    ui.checkbox(&mut light.casts_shadows, "Shadows")
+        .on_hover_text("Whether surfaces block this light");
+    let at = light.position.to_dvec3();
+    ui.label(RichText::new(format!("At {:.4}, {:.4}, {:.4}", at.x, at.y, at.z)).small().color(theme::TEXT_DIM))
+        .on_hover_text("The light's position in scene units. Drag its handle in the view; with Shift it moves toward or away from you.");
+}
+
+/// The ball on which the light's direction is dragged.
+pub(super) fn direction_ball(
+    ui: &mut Ui,
+    diameter: f32,
+    light: &mut EnvironmentLight,
+    camera: &Camera,
+) -> Response {
+    let mut direction = toward_light_in_view(light, camera);
+    let response = ball(ui, "Light direction", diameter, light.color, &mut direction);
+    if response.changed() {
+        set_direction(light, camera, direction);
+    }
+    response
+}
+
+/// The unit vector toward the light in the camera's frame, whatever it is fixed to.
+fn toward_light_in_view(light: &EnvironmentLight, camera: &Camera) -> DVec3 {
+    let direction = DVec3::from_array(light.direction).normalize_or(DVec3::Z);
+    match light.frame {
+        LightFrame::View => direction,
+        LightFrame::Scene => camera.rotation().inverse() * direction,
+    }
+}
+
+/// Turns the light to a direction in the camera's frame.
+pub(super) fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_view: DVec3) {
+    let direction = match light.frame {
+        LightFrame::View => in_view,
+        LightFrame::Scene => camera.rotation() * in_view,
+    };
+    light.direction = direction.normalize_or(DVec3::Z).to_array();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_survives_both_frames() {
+        let camera = Camera::default();
+        let wanted = DVec3::new(0.2, -0.7, 0.4).normalize();
+        for frame in [LightFrame::Scene, LightFrame::View] {
+            let mut light = EnvironmentLight { frame, ..Default::default() };
+            set_direction(&mut light, &camera, wanted);
+            assert!((toward_light_in_view(&light, &camera) - wanted).length() < 1e-12);
+        }
+    }
+}
