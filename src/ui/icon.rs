@@ -36,11 +36,12 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, hover: &str) -> Response
                 .frame_when_inactive(false),
         )
         .accessible_name(name)
-        .on_hover_text(hover);
+        .on_hover_text(hover)
+        .on_disabled_hover_text(hover);
     let color = if ui.is_enabled() {
         ui.style().interact(&response).fg_stroke.color
     } else {
-        super::theme::LINE
+        super::theme::TEXT_DIM
     };
     paint(ui.painter(), icon, response.rect.center(), 16.0, color);
     response

@@ -1,6 +1,6 @@
 //! One frame of the interface: layout, dispatch, undo.
 
-use egui::{Align2, Color32, Frame as Box, Margin, Panel, Rect, RichText, Ui, vec2};
+use egui::{Align2, Color32, Frame as Box, Margin, Panel, Rect, Ui, vec2};
 
 use super::{
     Action, Inputs, Notice,
@@ -36,8 +36,6 @@ pub struct Interface {
     standing: Option<Standing>,
     rects: Rects,
     view_px: [u32; 2],
-    /// The view of the last frame; none before the first.
-    frame: Option<Frame>,
     moving: bool,
 }
 
@@ -54,7 +52,6 @@ impl Interface {
             standing: None,
             rects: Rects::default(),
             view_px: [1, 1],
-            frame: None,
             moving: false,
         }
     }
@@ -202,7 +199,6 @@ impl Interface {
         let (rect, size_px) = view::snap_to_pixels(area, ui.ctx().pixels_per_point());
         self.view_px = size_px;
         let frame = Frame { rect, height_px: size_px[1] };
-        self.frame = Some(frame);
         let scene = self.editor.scene_mut();
         let response = view::show(ui, frame, inputs.picture);
         self.rects.note("view", &response);
@@ -295,9 +291,7 @@ impl Interface {
         if let Some(preset) = presets::all().get(index) {
             let mut scene = (preset.scene)();
             scene.quality = self.scene().quality.clone();
-            let home = scene.camera.clone();
             self.replace_scene(scene);
-            self.home = home;
             self.selection = Selection::default();
         }
     }
@@ -329,13 +323,21 @@ fn notice(ui: &mut Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mu
                 .corner_radius(8)
                 .inner_margin(Margin { left: 12, right: 6, top: 6, bottom: 6 })
                 .show(ui, |ui| {
-                    ui.set_max_width(width);
                     ui.horizontal(|ui| {
                         let color = if notice.is_error { theme::ERROR } else { Color32::WHITE };
-                        let text =
-                            egui::Label::new(RichText::new(&notice.text).color(color)).wrap();
-                        ui.add_sized(vec2((width - 64.0).max(60.0), 0.0), text);
-                        if icon_button(ui, Icon::Cross, "Dismiss", "Close this message").clicked() {
+                        let font = egui::FontId::proportional(13.5);
+                        let text = notice.text.clone();
+                        let text = ui.painter().layout(text, font, color, width - 52.0);
+                        let size = vec2(text.size().x, text.size().y.max(28.0));
+                        let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
+                        ui.ctx().accesskit_node_builder(shown.id, |node| {
+                            node.set_role(egui::accesskit::Role::Alert);
+                            node.set_label(notice.text.as_str());
+                        });
+                        let at = rect.left_center() - vec2(0.0, text.size().y / 2.0);
+                        ui.painter().galley(at, text, color);
+                        let dismiss = icon_button(ui, Icon::Cross, "Dismiss", "Close this message");
+                        if dismiss.clicked() {
                             actions.push(Action::DismissNotice);
                         }
                     });

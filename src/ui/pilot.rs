@@ -260,8 +260,8 @@ impl Pilot {
             return;
         }
         let look_rad = if self.looking && view.dragged() {
-            let rad_per_point =
-                camera.vertical_fov_deg.to_radians() / f64::from(view.rect.height().max(1.0));
+            let half_angle_rad = camera.half_height(world.viewport.aspect).atan();
+            let rad_per_point = 2.0 * half_angle_rad / f64::from(view.rect.height().max(1.0));
             let moved = view.drag_delta();
             DVec2::new(f64::from(moved.x), -f64::from(moved.y)) * rad_per_point
         } else {

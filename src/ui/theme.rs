@@ -136,7 +136,7 @@ fn spacing(style: &mut Style) {
 
 /// `text` in characters that the bundled fonts have.
 pub fn printable(text: &str) -> String {
-    text.replace('ⁿ', "^n").replace('→', "to")
+    text.replace('ⁿ', "^n").replace('→', "->")
 }
 
 /// A linear Rec. 709 colour as the display shows it; channels outside 0 to 1 are cut off.

@@ -59,7 +59,8 @@ fn stop(ui: &mut Ui, cx: &mut Context<'_>) {
             let removable = stops.len() > 1;
             let remove = ui
                 .add_enabled(removable, Button::new("Remove stop"))
-                .on_hover_text("Remove the selected stop");
+                .on_hover_text("Remove the selected stop")
+                .on_disabled_hover_text("A gradient keeps at least one stop.");
             if remove.clicked() {
                 stops.remove(*selected);
                 *selected = selected.saturating_sub(1);
