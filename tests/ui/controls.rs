@@ -207,3 +207,68 @@ fn an_export_shows_its_progress_and_can_be_cancelled() {
     press(&mut harness, "Cancel");
     assert_eq!(harness.state().actions, [Action::CancelExport]);
 }
+
+#[test]
+fn every_control_has_a_hover_text() {
+    let mut harness = workshop();
+    press(&mut harness, "Form: Julia");
+    press(&mut harness, "Picture size: Typed");
+    press(&mut harness, "Add point light");
+    // The parts of a control share its text, so one look at each name is enough.
+    let controls: std::collections::BTreeMap<_, _> = harness
+        .root()
+        .children_recursive()
+        .filter(|node| egui::accessibility::is_input(node.accesskit_node().role()))
+        .filter_map(|node| Some((node.accesskit_node().label()?, node.rect().center())))
+        .collect();
+    assert!(controls.len() > 60, "only {} controls found", controls.len());
+    let mut silent = Vec::new();
+    for (label, at) in controls {
+        harness.event(egui::Event::PointerGone);
+        harness.run_steps(2);
+        harness.hover_at(at);
+        harness.run_steps(40);
+        let layers = harness.ctx.memory(|memory| memory.areas().visible_layer_ids());
+        if !layers.iter().any(|layer| layer.order == egui::Order::Tooltip) {
+            silent.push(label);
+        }
+    }
+    assert!(silent.is_empty(), "no hover text: {silent:#?}");
+}
+
+#[test]
+fn settings_survive_as_json() {
+    let settings = unfolded();
+    let text = serde_json::to_string(&settings).expect("plain data");
+    assert_eq!(
+        serde_json::from_str::<mandelight::ui::Settings>(&text).expect("its own text"),
+        settings
+    );
+    // What an older visit did not know takes its default.
+    let sparse: mandelight::ui::Settings = serde_json::from_str("{}").expect("an empty object");
+    assert_eq!(sparse, mandelight::ui::Settings::default());
+}
+
+#[test]
+fn a_colour_is_picked_in_the_square_and_typed() {
+    let mut harness = workshop();
+    let before = scene(&harness).background.top;
+    harness.get_by_label("Background top").click();
+    harness.run();
+    let square = slider(&harness, "Saturation and brightness").rect();
+    drag(&mut harness, square.center(), square.right_top() + egui::vec2(-2.0, 2.0), 5);
+    let bright = scene(&harness).background.top;
+    assert!(bright.into_iter().fold(0.0, f32::max) > 0.9, "{before:?} became {bright:?}");
+    harness.get_by_label("Colour value").click();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.get_by_label("Colour value").type_text("#ff0000");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(scene(&harness).background.top, [1.0, 0.0, 0.0]);
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("Hue").is_none(), "the picker closes");
+    assert_eq!(undo_all(&mut harness), 2, "one step for the drag, one for the text");
+    assert_eq!(*scene(&harness), Scene::default());
+}

@@ -121,8 +121,9 @@ fn a_long_notice_stays_in_the_window() {
         let mut harness = stage(Scene::default(), Settings::default(), size);
         let text = "The file could not be read: ".to_owned()
             + &"lights.environment[2].intensity ".repeat(6);
-        harness.state_mut().notice = Some(Notice { text, is_error: true });
+        harness.state_mut().notice = Some(Notice { text: text.clone(), is_error: true });
         harness.run();
+        harness.get_by_role_and_label(egui::accesskit::Role::Alert, &text);
         let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
         let dismiss = harness.get_by_label("Dismiss").rect();
         assert!(window.contains_rect(dismiss), "{dismiss:?} in {size:?}");

@@ -253,3 +253,49 @@ fn the_bailout_follows_the_power_into_its_range() {
     harness.run();
     assert_eq!(scene(&harness).validate(), Ok(()));
 }
+
+/// A finger that goes down, along, and up again.
+fn swipe(harness: &mut egui_kittest::Harness<'_, Stage>, from: Pos2, to: Pos2) {
+    let touch = |phase, pos| Event::Touch {
+        device_id: TouchDeviceId(1),
+        id: TouchId(7),
+        phase,
+        pos,
+        force: None,
+    };
+    harness.event(touch(TouchPhase::Start, from));
+    harness.event(Event::PointerMoved(from));
+    pointer(harness, from, PointerButton::Primary, true, Modifiers::NONE);
+    for i in 1..=12 {
+        let at = from + (to - from) * (i as f32 / 12.0);
+        harness.event(touch(TouchPhase::Move, at));
+        harness.event(Event::PointerMoved(at));
+    }
+    harness.event(touch(TouchPhase::End, to));
+    pointer(harness, to, PointerButton::Primary, false, Modifiers::NONE);
+    harness.event(Event::PointerGone);
+    harness.run_steps(90);
+}
+
+#[test]
+fn a_finger_scrolls_across_a_rail_and_drags_its_handle() {
+    let mut harness = stage(Scene::default(), unfolded(), [390.0, 844.0]);
+    let rail = |harness: &egui_kittest::Harness<'_, Stage>| {
+        harness.state().interface.rects().get("power").expect("the power row is there")
+    };
+    // A first touch tells the interface that there are fingers.
+    let center = view_center(&harness);
+    swipe(&mut harness, center, center + vec2(40.0, 0.0));
+    undo_all(&mut harness);
+    let before = rail(&harness);
+    let end = before.right_center() - vec2(90.0, 0.0);
+    swipe(&mut harness, end, end - vec2(0.0, 60.0));
+    assert_eq!(scene(&harness).fractal.power, param::POWER.default, "scrolling changes nothing");
+    let after = rail(&harness);
+    assert!(after.top() < before.top() - 20.0, "the panel scrolled from {before:?} to {after:?}");
+    let handle = slider(&harness, "Power").rect();
+    let part = (param::POWER.default - param::POWER.min) / (param::POWER.max - param::POWER.min);
+    let handle = handle.left_center() + vec2(handle.width() * part as f32, 0.0);
+    swipe(&mut harness, handle, handle + vec2(40.0, 0.0));
+    assert!(scene(&harness).fractal.power > param::POWER.default + 1.0, "the handle follows");
+}
