@@ -7,7 +7,8 @@
 //! |---|---|
 //! | [`start`] | opening the GPU, and again when it is lost |
 //! | `session` | what outlives the GPU: the interface, its scene, where they are kept |
-//! | `app` | one frame |
+//! | `app` | one frame of the interface |
+//! | `engine` | the GPU's work between frames |
 //! | `picture` | the view in the window and its texture in egui |
 //! | `still` | a picture on its way to a download |
 //! | `files`, `address`, `storage` | what the browser takes and gives |
@@ -19,6 +20,7 @@
 
 mod address;
 mod app;
+mod engine;
 mod faults;
 mod files;
 mod hook;

@@ -41,6 +41,11 @@ pub fn is_test() -> bool {
         .is_some_and(|search| search.trim_start_matches('?').split('&').any(|word| word == "test"))
 }
 
+/// Whether the page is hidden: another tab is in front, or the window is minimised.
+pub fn is_hidden() -> bool {
+    document().is_some_and(|document| document.hidden())
+}
+
 /// Shows `text` and `detail` over the page, for when the interface cannot be drawn.
 pub fn notice(text: &str, detail: &str) {
     if mandelight_notice(text, detail).is_err() {

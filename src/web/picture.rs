@@ -84,10 +84,16 @@ impl Picture {
         None
     }
 
-    /// Draws as much of `scene` as fits now. Returns whether there is more to do.
-    pub fn draw(&mut self, scene: &Scene, moving: bool, now_secs: f64) -> bool {
+    /// Gives the view its scene; `moving` says that more changes are expected at once.
+    pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
+        if let Some(view) = &mut self.view {
+            view.set_scene(scene, moving);
+        }
+    }
+
+    /// Draws as much as fits now. Returns whether there is more to do.
+    pub fn pump(&mut self, now_secs: f64) -> bool {
         let Some(view) = &mut self.view else { return false };
-        view.set_scene(scene, moving);
         let busy = view.pump(now_secs);
         self.show_newest();
         busy

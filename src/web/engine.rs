@@ -1,0 +1,222 @@
+//! The GPU work of the page, which goes on between frames of the interface.
+//!
+//! In: the scene and the view's size, once a frame. Out: pictures, stills, and a frame asked for
+//! when there is something new to show. Compute is fed by a timer of its own, so that a slow frame
+//! leaves no GPU idle, and a picture that refines does not redraw the panels at every step. A hidden
+//! page draws no frames at all: there the end of one piece of work starts the next.
+
+use std::{
+    cell::RefCell,
+    rc::{Rc, Weak},
+    sync::Arc,
+};
+
+use eframe::egui_wgpu::RenderState;
+
+use super::{
+    loss::Caution,
+    page,
+    picture::Picture,
+    session::{Session, Status},
+    still::{Progress, Still},
+};
+use crate::{
+    export::StillOptions,
+    gpu::Gpu,
+    render::{Activity, Kernels},
+    ui::{self, ExportProgress},
+};
+
+/// Between two looks at what the GPU has finished, milliseconds: the least that browsers allow.
+const TICK_MS: i32 = 4;
+
+/// Numbers in the interface that change all the time are shown this often, seconds.
+const TELL_EVERY_SECS: f64 = 0.2;
+
+thread_local! {
+    /// The engine at work. Callbacks of the GPU must be `Send`, so they cannot carry it.
+    static ENGINE: RefCell<Weak<RefCell<Engine>>> = const { RefCell::new(Weak::new()) };
+}
+
+/// The work on one device.
+pub struct Engine {
+    gpu: Gpu,
+    kernels: Arc<Kernels>,
+    picture: Picture,
+    still: Option<Still>,
+    progress: Option<ExportProgress>,
+    context: egui::Context,
+    /// Whether a tick is on its way.
+    is_ticking: bool,
+    told_at_secs: f64,
+    /// Errors of the device that the person at the page was told of.
+    faults_told: u64,
+    session: Rc<RefCell<Session>>,
+}
+
+impl Engine {
+    /// An engine that rests. It replaces the one on the device before.
+    pub fn new(
+        gpu: Gpu,
+        state: RenderState,
+        context: egui::Context,
+        session: Rc<RefCell<Session>>,
+    ) -> Rc<RefCell<Self>> {
+        let kernels = Kernels::new(&gpu);
+        let engine = Rc::new(RefCell::new(Self {
+            gpu,
+            picture: Picture::new(kernels.clone(), state),
+            kernels,
+            still: None,
+            progress: None,
+            context,
+            is_ticking: false,
+            told_at_secs: 0.0,
+            faults_told: 0,
+            session,
+        }));
+        ENGINE.with(|slot| slot.replace(Rc::downgrade(&engine)));
+        engine
+    }
+
+    /// The picture to show, once there is one.
+    pub fn shown(&self) -> Option<ui::Picture> {
+        self.picture.shown()
+    }
+
+    /// How far the still in progress is.
+    pub fn progress(&self) -> Option<ExportProgress> {
+        self.progress
+    }
+
+    /// Starts a still of the scene in view.
+    pub fn start_still(&mut self, size_px: [u32; 2], session: &mut Session) {
+        let options = StillOptions::new(size_px);
+        match Still::start(&self.kernels, session.interface.scene(), options) {
+            Ok(still) => {
+                self.still = Some(still);
+                self.progress = Some(ExportProgress { done: 0.0, remaining_secs: None });
+            }
+            Err(error) => session.complain(format!("The picture was not saved: {error}")),
+        }
+    }
+
+    /// Drops the still in progress.
+    pub fn cancel_still(&mut self) {
+        self.still = None;
+        self.progress = None;
+    }
+
+    /// Takes over what this frame of the interface changed, and does what can be done at once.
+    /// Returns after how many seconds to call again where that is known.
+    pub fn follow(&mut self, session: &mut Session) -> Option<f64> {
+        let now_secs = page::now_secs();
+        let scale = session.caution().scale();
+        let interface = &session.interface;
+        let settling = self.picture.resize(interface.view_size_px(), scale, now_secs);
+        self.picture.set_scene(interface.scene(), interface.is_moving());
+        if self.step(session, now_secs) {
+            self.tick_later();
+        }
+        settling
+    }
+
+    /// Does what can be done without waiting. Returns whether there is more to do.
+    fn step(&mut self, session: &mut Session, now_secs: f64) -> bool {
+        // A still has the GPU to itself, and a scene that lost it waits for a hand.
+        let busy = if self.still.is_some() {
+            self.step_still(session, now_secs);
+            // What the still kept waiting comes next.
+            true
+        } else if session.caution() == Caution::Paused {
+            false
+        } else {
+            let busy = self.picture.pump(now_secs);
+            let report = self.picture.report();
+            if !busy && report.activity == Activity::Idle && report.pictures > 0 {
+                session.note_finished();
+            }
+            busy
+        };
+        self.note_faults(session);
+        self.tell(session);
+        busy
+    }
+
+    fn step_still(&mut self, session: &mut Session, now_secs: f64) {
+        let Some(still) = self.still.take() else { return };
+        let (still, progress) = still.step(now_secs);
+        self.still = still;
+        self.progress = match progress {
+            Progress::Working(done, remaining_secs) => {
+                Some(ExportProgress { done: done as f32, remaining_secs })
+            }
+            Progress::Saved(name) => {
+                session.say(format!("Saved {name}."));
+                None
+            }
+            Progress::Failed(reason) => {
+                session.complain(format!("The picture was not saved: {reason}"));
+                None
+            }
+        };
+    }
+
+    fn note_faults(&mut self, session: &mut Session) {
+        let faults = self.gpu.faults();
+        if faults > std::mem::replace(&mut self.faults_told, faults) {
+            session.complain(
+                "The graphics card reported an error, so the picture may be wrong. A smaller window or a simpler scene may help; your scene is kept.",
+            );
+        }
+    }
+
+    fn tell(&self, session: &mut Session) {
+        session.status = Status {
+            report: self.picture.report(),
+            texture: self.picture.texture().cloned(),
+            dispatches: self.picture.dispatches(),
+            frames: session.status.frames,
+            is_exporting: self.still.is_some(),
+        };
+    }
+
+    /// Sees to it that the work goes on.
+    fn tick_later(&mut self) {
+        if std::mem::replace(&mut self.is_ticking, true) {
+            return;
+        }
+        if page::is_hidden() {
+            // Browsers hold timers of hidden pages back, but not the GPU's own word.
+            self.gpu.queue.on_submitted_work_done(tick);
+        } else {
+            page::after_ms(TICK_MS, tick);
+        }
+    }
+
+    /// Asks for a frame where there is something new to show.
+    fn show(&mut self, pictures_before: u64, busy: bool, report: &crate::render::Report) {
+        let now_secs = page::now_secs();
+        let is_new = report.pictures != pictures_before || !busy;
+        if is_new || now_secs - self.told_at_secs > TELL_EVERY_SECS {
+            self.told_at_secs = now_secs;
+            self.context.request_repaint();
+        }
+    }
+}
+
+/// Takes the engine at work a step further.
+fn tick() {
+    let Some(engine) = ENGINE.with(|slot| slot.borrow().upgrade()) else { return };
+    // Ticks come between frames, when nobody else holds these.
+    let Ok(mut engine) = engine.try_borrow_mut() else { return };
+    let session = engine.session.clone();
+    let Ok(mut session) = session.try_borrow_mut() else { return };
+    engine.is_ticking = false;
+    let pictures_before = session.status.report.pictures;
+    let busy = engine.step(&mut session, page::now_secs());
+    engine.show(pictures_before, busy, &session.status.report);
+    if busy {
+        engine.tick_later();
+    }
+}
