@@ -109,15 +109,21 @@ async function boot() {
   }
 }
 
+/** Whether the module itself has said what is the matter: it knows more than the trap tells. */
+let told = false;
+
 // A trap in the module ends it for good: better said than a picture that stands still.
 const stopped = (error) => {
-  if (error instanceof WebAssembly.RuntimeError) {
+  if (error instanceof WebAssembly.RuntimeError && !told) {
     notice("Mandelight stopped", `Something went wrong inside (${error.message}).`);
   }
 };
 window.addEventListener("error", (event) => stopped(event.error));
 window.addEventListener("unhandledrejection", (event) => stopped(event.reason));
 
-window.mandelightNotice = (text, detail) => notice(text, detail);
+window.mandelightNotice = (text, detail) => {
+  told = true;
+  notice(text, detail);
+};
 part("notice-again").addEventListener("click", () => window.location.reload());
 boot();

@@ -40,8 +40,8 @@ pub fn watch() {
     std::panic::set_hook(Box::new(move |info| {
         note(info.to_string());
         page::notice(
-            "Mandelight stopped because of a mistake of its own. Reload the page to go on; your scene is kept.",
-            &info.to_string(),
+            "Mandelight stopped",
+            &format!("It made a mistake; your scene is kept. Try again to go on.\n{info}"),
         );
         before(info);
     }));

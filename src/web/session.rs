@@ -201,11 +201,13 @@ impl Session {
         }
     }
 
-    /// Lets go of what the lost GPU held, and keeps the rest.
-    pub fn lose_gpu(&mut self) {
+    /// Lets go of what the lost GPU held, and keeps the rest. Returns whether a still was lost.
+    pub fn lose_gpu(&mut self) -> bool {
+        let was_exporting = self.status.is_exporting;
         self.gpu = None;
         self.status = Status { frames: self.status.frames, ..Status::default() };
         self.write_down();
+        was_exporting
     }
 
     /// Keeps the scene and the interface's layout, without waiting for rest.

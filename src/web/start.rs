@@ -110,26 +110,28 @@ fn watch_device(device: &wgpu::Device, generation: u32) {
 /// Puts a new device under the session, as often as is wise.
 async fn recover(stage: &Rc<Stage>, message: &str) {
     stage.runner.destroy();
-    let caution = {
+    let (was_exporting, caution) = {
         let mut session = stage.session.borrow_mut();
-        session.lose_gpu();
-        loss::note_loss(session.fragment())
+        (session.lose_gpu(), loss::note_loss(session.fragment()))
     };
     let Some(caution) = caution else {
         give_up(message);
         return;
     };
     stage.session.borrow_mut().be_cautious(caution);
+    if was_exporting {
+        stage.session.borrow_mut().complain(
+            "The graphics card was lost, and the picture that was being saved with it. A smaller one may go well.",
+        );
+    }
     if let Err(error) = raise(stage).await {
         give_up(&error);
     }
 }
 
 fn give_up(detail: &str) {
-    page::notice(
-        "The graphics card was lost again and again. Your scene is kept: wait two minutes, close other heavy pages, and reload this one.",
-        detail,
-    );
+    let help = "Your scene is kept. Close other pages that use the graphics card, wait two minutes, then try again.";
+    page::notice("The graphics card was lost too often", &format!("{help}\n{detail}"));
 }
 
 /// Keeps the canvas within the largest texture: eframe makes its surface as large as the canvas.
