@@ -26,8 +26,11 @@ pub const SLICE_MS: f64 = 8.0;
 /// GPU time that one piece of a still aims at, milliseconds.
 pub const STILL_SLICE_MS: f64 = 60.0;
 
-/// Longest wait between two displays of a picture that refines, seconds.
+/// Least time between two displays of a picture that refines, seconds.
 const SHOW_INTERVAL_SECS: f64 = 0.25;
+
+/// Most of the GPU's time that displays of a refining picture may take.
+const SHOW_SHARE: f64 = 0.1;
 
 /// A movement counts as over when nothing has changed for this long, seconds.
 const QUIET_SECS: f64 = 0.12;
@@ -264,18 +267,16 @@ impl Schedule {
         }
     }
 
-    /// A finished level or sample is shown at once where it is the first, and otherwise no
-    /// oftener than [`SHOW_INTERVAL_SECS`], for showing costs time too. A still is shown once.
+    /// A first picture, an edit and a finished picture are shown at once; what refines in
+    /// between no oftener than [`SHOW_INTERVAL_SECS`] and [`SHOW_SHARE`] say, for showing costs
+    /// time too. A still is shown once.
     fn show_now(&self, now_secs: f64) -> bool {
         let finished = self.samples_done >= self.samples_wanted;
         if self.pace == Pace::Still {
             return finished;
         }
-        let level_done = self.under_way.is_none() && self.samples_done == 0;
-        self.opening
-            || finished
-            || (level_done && self.shaded.is_some_and(|level| level <= 4))
-            || now_secs - self.shown_at >= SHOW_INTERVAL_SECS
+        let interval_secs = SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
+        self.opening || finished || now_secs - self.shown_at >= interval_secs
     }
 
     fn show(&mut self, now_secs: f64) -> Work {

@@ -73,10 +73,10 @@ pub fn build(folder: &Path, finish: Finish) -> Result<()> {
 fn compile() -> Result<PathBuf> {
     let target = shell::target()?;
     let mut cargo = shell::cargo()?;
-    cargo.args(["rustc", "--lib", "--crate-type", "cdylib", "--release"]);
+    cargo.args(["rustc", "--lib", "--crate-type", "cdylib", "--profile", "web"]);
     cargo.args(["--target", need::WASM_TARGET, "--target-dir"]).arg(&target);
     shell::run(&mut cargo)?;
-    Ok(target.join(need::WASM_TARGET).join("release/mandelight.wasm"))
+    Ok(target.join(need::WASM_TARGET).join("web/mandelight.wasm"))
 }
 
 /// Writes the module that browsers load and its JavaScript half, and returns their folder.

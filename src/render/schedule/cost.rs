@@ -60,6 +60,11 @@ impl Cost {
         self.show_ms += 0.5 * (busy_ms - self.show_ms);
     }
 
+    /// What a show takes, milliseconds.
+    pub fn show_ms(&self) -> f64 {
+        self.show_ms
+    }
+
     fn rate(&self, march: bool) -> Rate {
         // Shading again never costs more than marching and shading.
         let known = if march { self.march } else { self.light };
