@@ -24,11 +24,31 @@ fn dither(pixel: vec2u) -> f32 {
     return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
+// A film pixel, or the nearest one inside the region.
+fn film_near(position: vec2i) -> vec3f {
+    let inside = clamp(position, vec2i(0), vec2i(picture.size_px) - 1);
+    return film_mean(pixel_index(vec2u(inside)));
+}
+
+// What the film says of a pixel. On a sparse lattice a lone sample can be brighter or darker
+// than all that was filled in around it along the edges; it would stand out as a dot, and is
+// held to its neighbours' range.
+fn reconstructed(pixel: vec2u) -> vec3f {
+    let own = film_mean(pixel_index(pixel));
+    if (slice.spacing < 2u) { return own; }
+    let at = vec2i(pixel);
+    let left = film_near(at - vec2i(1, 0));
+    let right = film_near(at + vec2i(1, 0));
+    let above = film_near(at - vec2i(0, 1));
+    let below = film_near(at + vec2i(0, 1));
+    return clamp(own, min(min(left, right), min(above, below)), max(max(left, right), max(above, below)));
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
-    var color = film_mean(pixel_index(pixel)) * picture.tone.exposure;
+    var color = reconstructed(pixel) * picture.tone.exposure;
     if (picture.tone.curve == CURVE_REINHARD_LUMINANCE) { color = reinhard_luminance(color); }
     let encoded = srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
     let dithered = encoded + dither(picture.origin_px + pixel) / 255.0;

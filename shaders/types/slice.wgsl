@@ -22,7 +22,7 @@ struct Slice {
     // The lights that a shadow dispatch marches toward.
     first_light: u32,
     light_count: u32,
-    // The spacing of the lattice that a fill reads, in pixels.
+    // The spacing of the lattice on the film, in pixels; 0 where it is complete.
     spacing: u32,
     unused: u32,
 }

@@ -20,9 +20,11 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
             pass::shadow::record(recorder, &trace, &grid);
             pass::shade::record(recorder, &trace, &grid);
         }
-        Work::Show { fill_from } => {
-            pass::fill::record(recorder, fill_from);
-            pass::tone::record(recorder);
+        Work::Show { level, fill } => {
+            if fill {
+                pass::fill::record(recorder, level);
+            }
+            pass::tone::record(recorder, level);
         }
     }
 }
@@ -94,13 +96,14 @@ impl<'a> Recorder<'a> {
         slice
     }
 
-    /// Adds a dispatch over all of a grid.
-    pub fn dispatch_grid(&mut self, pipeline: &wgpu::ComputePipeline, grid: &Grid) {
+    /// Adds a dispatch over all of a grid, for a lattice of `spacing` pixels.
+    pub fn dispatch_grid(&mut self, pipeline: &wgpu::ComputePipeline, grid: &Grid, spacing: u32) {
         // More workgroups than one dispatch may have go into several.
         const MOST: u32 = 65_535;
         let total = grid.workgroups();
         for first in (0..total).step_by(MOST as usize) {
-            self.dispatch(pipeline, grid.slice(first), MOST.min(total - first));
+            let slice = Slice { spacing, ..grid.slice(first) };
+            self.dispatch(pipeline, slice, MOST.min(total - first));
         }
     }
 

@@ -99,7 +99,7 @@ impl Grid {
             first_light: 0,
             jitter: [0.5, 0.5],
             light_count: 0,
-            spacing: 1 << self.shift,
+            spacing: 0,
             unused: 0,
         }
     }

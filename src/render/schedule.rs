@@ -95,10 +95,12 @@ pub struct Trace {
 pub enum Work {
     /// Compute sample points, from march to film.
     Trace(Trace),
-    /// Make the display picture from the film, filling in from lattice level `fill_from` first.
+    /// Make the display picture from the film.
     Show {
-        /// The finest complete level; 0 where the film is complete.
-        fill_from: u32,
+        /// The finest complete lattice level; 0 where the film is complete.
+        level: u32,
+        /// Whether the pixels between that lattice's have to be filled in first.
+        fill: bool,
     },
 }
 
@@ -284,10 +286,9 @@ impl Schedule {
         self.opening = false;
         self.shown_at = now_secs;
         let level = self.shaded.unwrap_or(0);
-        // A level under way has put true pixels where the fill would go: only fill when whole.
-        let fill_from = if self.under_way.is_some() { 0 } else { level };
         self.shown_level = level;
-        Work::Show { fill_from }
+        // A level under way has put true pixels where the fill would go: only fill when whole.
+        Work::Show { level, fill: level > 0 && self.under_way.is_none() }
     }
 
     /// What comes after everything computed so far.

@@ -198,7 +198,7 @@ host_shared! {
         first_light: u32,
         /// Lights of a shadow dispatch.
         light_count: u32,
-        /// Lattice spacing that a fill reads, pixels.
+        /// Spacing of the lattice on the film, pixels; 0 where it is complete.
         spacing: u32,
         /// Keeps the size a multiple of 16 bytes.
         unused: u32,

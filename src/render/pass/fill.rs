@@ -24,7 +24,7 @@ pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     for finer in (0..level).rev() {
         let grid = Grid::added(finer, recorder.inputs.picture.size_px);
         if grid.workgroups() > 0 {
-            recorder.dispatch_grid(&pipeline, &grid);
+            recorder.dispatch_grid(&pipeline, &grid, 1 << (finer / 2));
             recorder.dispatches.fill += 1;
         }
     }

@@ -18,10 +18,10 @@ pub const MODULE: Module = Module {
     ],
 };
 
-/// Makes the whole region's display picture.
-pub fn record(recorder: &mut Recorder<'_>) {
+/// Makes the whole region's display picture of a film whose finest complete lattice is `level`.
+pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     let pipeline = recorder.kernels.tone.clone();
     let grid = Grid::level(0, recorder.inputs.picture.size_px);
-    recorder.dispatch_grid(&pipeline, &grid);
+    recorder.dispatch_grid(&pipeline, &grid, if level == 0 { 0 } else { 1 << (level / 2) });
     recorder.dispatches.tone += 1;
 }

@@ -186,7 +186,7 @@ fn tone_edits_only_show() {
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
     schedule.change(Stale::Tone, true, now);
-    assert_eq!(schedule.next(now), Some(Work::Show { fill_from: 0 }));
+    assert_eq!(schedule.next(now), Some(Work::Show { level: 0, fill: false }));
     assert_eq!(schedule.next(now), None);
 }
 
@@ -217,8 +217,8 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
             match work {
-                Work::Show { fill_from } => {
-                    assert_eq!(fill_from, 0);
+                Work::Show { level, fill } => {
+                    assert_eq!((level, fill), (0, false));
                     shows += 1;
                 }
                 Work::Trace(trace) => {
