@@ -11,6 +11,9 @@ const PENDING: u8 = 0;
 const MAPPED: u8 = 1;
 const FAILED: u8 = 2;
 
+/// How often to look for bytes that are as good as there.
+const PATIENCE: u32 = 1_000_000;
+
 /// The device was lost, or the copy was refused.
 #[derive(Debug, thiserror::Error)]
 #[error("the GPU did not hand its buffer back")]
@@ -85,7 +88,14 @@ impl Readback {
     /// Waits for the bytes; natively only, for on the web nothing may wait.
     pub fn wait(mut self, gpu: &Gpu) -> Result<Vec<u8>, ReadbackError> {
         gpu.wait();
-        self.take(gpu)?.ok_or(ReadbackError)
+        // The work is done, yet another thread's poll may still be about to say so.
+        for _ in 0..PATIENCE {
+            if let Some(bytes) = self.take(gpu)? {
+                return Ok(bytes);
+            }
+            std::thread::yield_now();
+        }
+        Err(ReadbackError)
     }
 }
 

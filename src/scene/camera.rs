@@ -80,6 +80,6 @@ impl Camera {
 
 impl Default for Camera {
     fn default() -> Self {
-        Self::looking_at(DVec3::new(1.6, -2.6, 1.15), DVec3::ZERO, DVec3::Z)
+        Self::looking_at(DVec3::new(1.76, -2.86, 1.2), DVec3::ZERO, DVec3::Z)
     }
 }
