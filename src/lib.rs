@@ -1,4 +1,44 @@
-//! Mandelight draws 3D fractals: as a page in the browser and without a window on any wgpu adapter.
+//! Mandelight draws 3D fractals: as a page in the browser and without a window on any wgpu
+//! adapter, from the same WGSL kernels.
+//!
+//! # How a frame is made
+//!
+//! ```text
+//! Scene ──▶ Schedule ──▶ slice ──▶ march ──▶ shadow ──▶ shade ──▶ film ──▶ fill ──▶ tone ──▶ display
+//! pure      what is      one       rays to   one bit    lights,   sums of  between  curve,   texture,
+//! data      stale and    submit    surface   a light    colours   samples  lattice  sRGB     PNG
+//!           what fits              points                                  pixels
+//! ```
+//!
+//! 1. The interface or the command line edits a [`scene::Scene`].
+//! 2. [`render::View`] compares what the kernels would read of it with what they read last
+//!    ([`render::uniforms::Inputs`]). The difference is one of three levels of staleness:
+//!    geometry, light, tone.
+//! 3. [`render::schedule::Schedule`] says what to compute next, a piece at a time: a lattice of
+//!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
+//!    jittered samples, then nothing.
+//! 4. [`render::frame::record`] records each piece, pass by pass, in the order in which they run.
+//!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
+//! 5. What the film holds is shown: by the page's interface, or tile by tile as a PNG
+//!    ([`export::StillJob`]).
+//!
+//! # Layers
+//!
+//! ```text
+//! scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
+//! ui ──▶ scene, fractal, render::report     web, the binary ──▶ all
+//! ```
+//!
+//! Arrows only point this way; `tests/layers.rs` holds them.
+//!
+//! ```
+//! // A scene is data: it can be made, changed, written and read without any GPU.
+//! use mandelight::scene::{Scene, document};
+//! let mut scene = Scene::default();
+//! scene.fractal.power = 5.0;
+//! let text = document::to_json(&scene);
+//! assert_eq!(document::from_json(&text).unwrap(), scene);
+//! ```
 
 pub mod export;
 pub mod fractal;
