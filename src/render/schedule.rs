@@ -111,6 +111,8 @@ pub struct Status {
     pub samples_done: u32,
     /// Level of the lattice in the picture shown last.
     pub shown_level: u32,
+    /// True once something of the last change has been shown.
+    pub shown: bool,
     /// True while the opening lattice follows a movement.
     pub moving: bool,
     /// True when there is no more work.
@@ -358,6 +360,7 @@ impl Schedule {
         Status {
             samples_done: self.samples_done,
             shown_level: self.shown_level,
+            shown: !self.opening,
             moving: self.moving && now_secs - self.changed_at < QUIET_SECS,
             idle: self.in_flight == 0
                 && !self.show_due

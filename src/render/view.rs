@@ -19,6 +19,9 @@ use crate::{
     scene::{Quality, Scene},
 };
 
+/// A power that has been kept for so long, seconds, gets pipelines of its own.
+const REST_SECS: f64 = 0.3;
+
 /// Where the compilation of specialised pipelines stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Preparing {
@@ -177,7 +180,8 @@ impl View {
     }
 
     /// Sees to it that the power's own pipelines get compiled: for a still at once, otherwise
-    /// when a picture has been shown and nothing moves. True while nothing else should start.
+    /// when a picture has been shown and nothing has changed for a while. True while nothing else
+    /// should start.
     fn prepare(&mut self) -> bool {
         let power = self.integer_power();
         if self.kernels.is_specialised(power) {
@@ -192,7 +196,7 @@ impl View {
                 false
             }
             // Rest first: a drag of the power passes through many.
-            _ if self.pictures > 0 && !self.moving && !status.moving && status.samples_done > 0 => {
+            _ if status.shown && !self.moving && self.now_secs - self.changed_secs >= REST_SECS => {
                 self.preparing = Preparing::Announced;
                 true
             }
