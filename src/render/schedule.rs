@@ -142,6 +142,8 @@ pub struct Schedule {
     shown_at: f64,
     in_flight: usize,
     slice_ms: f64,
+    /// Slices so far.
+    slices: u32,
     cost: Cost,
 }
 
@@ -168,6 +170,7 @@ impl Schedule {
                 Pace::Interactive => SLICE_MS,
                 Pace::Still => STILL_SLICE_MS,
             },
+            slices: 0,
             cost: Cost::default(),
         }
     }
@@ -329,7 +332,11 @@ impl Schedule {
             Points::Sample(_) => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
         };
-        let wanted = self.cost.slice_workgroups(aim_ms, march).min(most);
+        let largest = self.cost.slice_workgroups(aim_ms, march).min(most);
+        // Slices of two sizes tell the cost of a slice from that of its pixels.
+        self.slices = self.slices.wrapping_add(1);
+        let smaller = !opening && self.slices.is_multiple_of(2);
+        let wanted = if smaller { largest.div_ceil(2) } else { largest };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;
         if next < total {

@@ -1,4 +1,9 @@
 //! What work has cost so far, and how much of it fits a time.
+//!
+//! A piece of work takes a fixed time, whatever its size, and a time for each pixel. The fixed
+//! part is small natively; in a browser the interface's own drawing and the way back of the news
+//! can make it many milliseconds, and pieces that shrank for its sake would only add to it. A
+//! straight line through recent measurements tells the two apart.
 
 use crate::render::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
 
@@ -8,27 +13,75 @@ const FIRST_PIXELS: f64 = 1024.0;
 /// Milliseconds a pixel that are assumed before anything is measured.
 const ASSUMED_MS: f64 = 0.004;
 
-/// How far a cheaper measurement pulls the estimate down; a dearer one raises it at once.
-const RELAX: f64 = 0.35;
+/// What a measurement weighs against the next one.
+const MEMORY: f64 = 0.85;
+
+/// What it weighs against one so many times above what was expected: slices then shrink at once.
+const SURPRISE: f64 = 2.0;
+const MEMORY_AFTER_SURPRISE: f64 = 0.3;
+
+/// Most of the mean time that may count as fixed: the rest keeps slices from growing at once.
+const MOST_FIXED: f64 = 0.95;
+
+/// Weighted sums over measurements of pixels and milliseconds.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    weight: f64,
+    pixels: f64,
+    ms: f64,
+    pixels_squared: f64,
+    pixels_ms: f64,
+}
+
+impl Sums {
+    fn add(&mut self, memory: f64, pixels: f64, ms: f64) {
+        *self = Self {
+            weight: self.weight * memory + 1.0,
+            pixels: self.pixels * memory + pixels,
+            ms: self.ms * memory + ms,
+            pixels_squared: self.pixels_squared * memory + pixels * pixels,
+            pixels_ms: self.pixels_ms * memory + pixels * ms,
+        };
+    }
+
+    /// The fixed part of the line of least squares; none where all slices were of one size.
+    fn fixed_ms(&self) -> Option<f64> {
+        let (pixels, ms) = (self.pixels / self.weight, self.ms / self.weight);
+        let variance = self.pixels_squared / self.weight - pixels * pixels;
+        let covariance = self.pixels_ms / self.weight - pixels * ms;
+        (variance > 0.01 * pixels * pixels).then(|| ms - covariance.max(0.0) / variance * pixels)
+    }
+}
 
 /// The cost of one kind of trace.
 #[derive(Clone, Copy, Debug)]
 struct Rate {
-    /// Milliseconds a pixel.
-    ms: f64,
+    fixed_ms: f64,
+    pixel_ms: f64,
+    sums: Sums,
     /// Pixels of the largest slice so far that was measured.
     largest_px: f64,
-    measured: bool,
 }
 
 impl Rate {
-    const UNKNOWN: Self = Self { ms: ASSUMED_MS, largest_px: FIRST_PIXELS / 2.0, measured: false };
+    const UNKNOWN: Self = Self {
+        fixed_ms: 0.0,
+        pixel_ms: ASSUMED_MS,
+        sums: Sums { weight: 0.0, pixels: 0.0, ms: 0.0, pixels_squared: 0.0, pixels_ms: 0.0 },
+        largest_px: FIRST_PIXELS / 2.0,
+    };
 
-    fn learn(&mut self, pixels: f64, busy_ms: f64) {
-        let ms = busy_ms / pixels;
-        self.ms =
-            if !self.measured || ms > self.ms { ms } else { self.ms + RELAX * (ms - self.ms) };
-        self.measured = true;
+    fn is_measured(&self) -> bool {
+        self.sums.weight > 0.0
+    }
+
+    fn learn(&mut self, pixels: f64, ms: f64) {
+        let is_surprise = ms > SURPRISE * (self.fixed_ms + self.pixel_ms * pixels);
+        self.sums.add(if is_surprise { MEMORY_AFTER_SURPRISE } else { MEMORY }, pixels, ms);
+        let mean_ms = self.sums.ms / self.sums.weight;
+        let fixed_ms = self.sums.fixed_ms().unwrap_or(self.fixed_ms);
+        self.fixed_ms = fixed_ms.clamp(0.0, MOST_FIXED * mean_ms);
+        self.pixel_ms = (mean_ms - self.fixed_ms) / (self.sums.pixels / self.sums.weight);
         self.largest_px = self.largest_px.max(pixels);
     }
 }
@@ -51,8 +104,10 @@ impl Default for Cost {
 impl Cost {
     /// A slice of so many pixels took so long; `march` where camera rays were part of it.
     pub fn traced(&mut self, march: bool, pixels: u32, busy_ms: f64) {
-        let rate = if march { &mut self.march } else { &mut self.light };
-        rate.learn(f64::from(pixels), busy_ms.max(1e-3));
+        if pixels > 0 {
+            let rate = if march { &mut self.march } else { &mut self.light };
+            rate.learn(f64::from(pixels), busy_ms.max(1e-3));
+        }
     }
 
     /// A show took so long.
@@ -68,23 +123,29 @@ impl Cost {
     fn rate(&self, march: bool) -> Rate {
         // Shading again never costs more than marching and shading.
         let known = if march { self.march } else { self.light };
-        if known.measured || march { known } else { Rate { ms: self.march.ms, ..self.light } }
+        if known.is_measured() || march {
+            return known;
+        }
+        Rate { fixed_ms: self.march.fixed_ms, pixel_ms: self.march.pixel_ms, ..self.light }
     }
 
-    /// Workgroups of a slice that is to take `aim_ms`: never more than twice the largest slice
-    /// that has been seen to end well.
+    /// Workgroups of a slice whose pixels are to take `aim_ms`, or as long as the fixed part does
+    /// where that is longer: never more than twice the largest slice that has been seen to end
+    /// well.
     pub fn slice_workgroups(&self, aim_ms: f64, march: bool) -> u32 {
         let rate = self.rate(march);
-        let pixels = (aim_ms / rate.ms).min(2.0 * rate.largest_px);
+        let pixels = (aim_ms.max(rate.fixed_ms) / rate.pixel_ms).min(2.0 * rate.largest_px);
         (pixels / f64::from(WORKGROUP_THREADS)).clamp(1.0, 1e9) as u32
     }
 
     /// The finest lattice level of a region that fits `budget_ms` together with its display.
     pub fn level_within(&self, budget_ms: f64, march: bool, size_px: [u32; 2]) -> u32 {
-        // At least a quarter of the budget goes into the lattice, however slow the display.
-        let left_ms = (budget_ms - self.show_ms).max(0.25 * budget_ms);
         let rate = self.rate(march);
-        let fits = |level| f64::from(Grid::level(level, size_px).threads()) * rate.ms <= left_ms;
+        // At least a quarter of the budget goes into the lattice's pixels, however slow the
+        // display and the way to it.
+        let left_ms = (budget_ms - self.show_ms - rate.fixed_ms).max(0.25 * budget_ms);
+        let fits =
+            |level| f64::from(Grid::level(level, size_px).threads()) * rate.pixel_ms <= left_ms;
         (0..COARSEST).find(|&level| fits(level)).unwrap_or(COARSEST)
     }
 }

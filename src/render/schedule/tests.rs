@@ -19,8 +19,12 @@ struct Device {
 
 impl Device {
     fn new(slowness: f64, spike_ms: f64) -> Self {
+        Self::with_overhead(slowness, spike_ms, 0.05)
+    }
+
+    fn with_overhead(slowness: f64, spike_ms: f64, overhead_ms: f64) -> Self {
         Self {
-            overhead_ms: 0.05,
+            overhead_ms,
             // 20 ns a pixel: 18 ms for a full 1280x720 frame at slowness 1.
             pixel_ns: 20.0 * slowness,
             spike_ms,
@@ -156,6 +160,24 @@ fn the_slowest_device_still_shows_movement() {
         false
     });
     assert!(pictures >= 60, "{pictures} pictures in ten seconds");
+}
+
+/// A browser can take long to say that even the smallest piece is done. Pieces must not shrink
+/// on that account until nothing else is left of the time.
+#[test]
+fn a_long_way_back_does_not_stall_refinement() {
+    for slowness in [1.0, 20.0] {
+        let overhead_ms = 60.0;
+        let mut device = Device::with_overhead(slowness, 0.0, overhead_ms);
+        let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+        schedule.aim(16.0, 4);
+        let mut now = 0.0;
+        settle(&mut schedule, &mut device, &mut now);
+        let pixels = f64::from(SIZE[0] * SIZE[1]) * 4.0;
+        let ideal_secs = pixels * device.pixel_ns * 1e-9;
+        // Half of the time at most is lost on the way, beside the start's small pieces and shows.
+        assert!(now < 3.0 * ideal_secs + 8.0, "slowness {slowness}: {now} s for {ideal_secs} s");
+    }
 }
 
 #[test]
