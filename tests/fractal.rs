@@ -46,27 +46,6 @@ fn julia(power: f64, julia_constant: [f64; 3]) -> Fractal {
     Fractal { power, julia: true, julia_constant, ..Fractal::default() }
 }
 
-/// The same field, marched in fixed parts of its estimate.
-struct Stepping<'a>(&'a Estimator, f64);
-
-impl DistanceField for Stepping<'_> {
-    fn distance(&self, point: DVec3) -> f64 {
-        self.0.distance(point)
-    }
-
-    fn step_scale(&self) -> f64 {
-        self.1
-    }
-
-    fn max_step(&self) -> f64 {
-        self.0.max_step()
-    }
-
-    fn bounding_radius(&self) -> f64 {
-        self.0.bounding_radius()
-    }
-}
-
 #[test]
 fn every_orbit_from_outside_the_bounding_sphere_escapes() {
     let mut random = Random::new();
@@ -116,15 +95,30 @@ fn rays_from_outside(estimator: &Estimator, count: usize) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
+/// The depth of the first hit by a fixed small part of the estimate a step.
+fn fine_march(fractal: &Fractal, ray: Ray, cone: f64) -> Option<f64> {
+    let estimator = Estimator::new(fractal);
+    let part = (fractal.power / 10.0).clamp(0.25, 1.0) / 16.0;
+    let (near, far) = ray.sphere_span(estimator.bounding_radius())?;
+    let mut depth = near;
+    while depth <= far {
+        let distance = estimator.distance(ray.at(depth));
+        if distance <= cone * depth {
+            return Some(depth);
+        }
+        depth += (part * distance).min(0.003 * estimator.bounding_radius());
+    }
+    None
+}
+
 /// Counts, of `count` rays, those that pass the surface altogether, and those that are
-/// stopped more than 16 cone radii late, against steps sixteen times shorter.
+/// stopped more than 16 cone radii late, against [`fine_march`].
 fn passed(fractal: &Fractal, count: usize) -> (usize, usize) {
     let estimator = Estimator::new(fractal);
-    let fine = Stepping(&estimator, estimator.step_scale() / 16.0);
     let cone = 0.364 / 1080.0;
     let (mut missed, mut late) = (0, 0);
     for ray in rays_from_outside(&estimator, count) {
-        let Some(expected) = fine.march(ray, cone, f64::INFINITY) else {
+        let Some(expected) = fine_march(fractal, ray, cone) else {
             continue;
         };
         match estimator.march(ray, cone, f64::INFINITY) {
@@ -142,13 +136,13 @@ fn safe_steps_pass_the_surface_on_under_one_ray_in_a_thousand() {
         [bulb(3.0), bulb(4.0), bulb(6.0), bulb(8.0), bulb(16.0), julia(8.0, [0.35, -0.4, 0.55])]
     {
         let (missed, late) = passed(&fractal, 2000);
-        assert!(missed < 2 && late < 20, "{fractal:?}: {missed} missed, {late} late of 2000");
+        assert!(missed < 2 && late < 4, "{fractal:?}: {missed} missed, {late} late of 2000");
     }
 }
 
 #[test]
 fn low_powers_and_open_julia_sets_lose_under_one_ray_in_fifty() {
-    // Their estimate is no bound at any fixed scale (see `step_scale`): measured 0.2 to 1 %.
+    // Measured 0.3 to 1.5 % missed, 0.5 to 0.8 % late.
     for fractal in
         [bulb(2.0), bulb(2.5), julia(2.0, [-0.2, 0.6, 0.2]), julia(8.0, [0.9, 0.3, -0.4])]
     {

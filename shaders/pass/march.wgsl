@@ -1,14 +1,18 @@
 // Camera rays to surface points: depth, normal and colour data of each sample.
 
+// No step is shorter than this part of the hit distance: what is thinner may be passed.
+const LEAST_STEP = 0.25;
+
 // Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone. 0 on a miss.
 fn march(direction: vec3f) -> f32 {
     let interval = bounding_interval(picture.camera.origin, direction);
     var t = interval.x;
     for (var i = 0u; i < picture.fractal.march_steps; i++) {
         if (t > interval.y) { return 0.0; }
-        let estimate = distance_estimate(picture.camera.origin + t * direction);
-        if (estimate < hit_distance(t)) { return max(t, 1e-30); }
-        t += safe_step(estimate);
+        let hit = hit_distance(t);
+        let ahead = reach(picture.camera.origin + t * direction);
+        if (ahead.distance < hit) { return max(t, 1e-30); }
+        t += max(ahead.step, LEAST_STEP * hit);
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

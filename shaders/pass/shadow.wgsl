@@ -6,6 +6,9 @@
 // half the sun's own size in the sky.
 const SHADOW_CONE = 0.004;
 
+// No step is shorter than this part of the distance that blocks.
+const LEAST_STEP = 0.25;
+
 fn light_reaches(point: vec3f, surface_distance: f32, light: Light) -> bool {
     var direction = light.vector;
     var farthest = light.shadow_reach;
@@ -17,9 +20,10 @@ fn light_reaches(point: vec3f, surface_distance: f32, light: Light) -> bool {
     var s = min(farthest, bounding_interval(point, direction).y);
     for (var i = 0u; i < picture.fractal.shadow_steps; i++) {
         if (s <= surface_distance) { return true; }
-        let estimate = distance_estimate(point + s * direction);
-        if (estimate < max(SHADOW_CONE * s, 0.5 * surface_distance)) { return false; }
-        s -= safe_step(estimate);
+        let ahead = reach(point + s * direction);
+        let blocks = max(SHADOW_CONE * s, 0.5 * surface_distance);
+        if (ahead.distance < blocks) { return false; }
+        s -= max(ahead.step, LEAST_STEP * blocks);
     }
     return true;
 }

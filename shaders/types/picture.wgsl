@@ -30,8 +30,8 @@ struct Fractal {
     julia: u32,
     // Sign of the sine term.
     z_sign: f32,
-    // Part of the distance estimate that is a safe step.
-    step_scale: f32,
+    // No step is longer than this.
+    max_step: f32,
     // Derivatives are cut off here so that the next step cannot overflow.
     derivative_max: f32,
     // Most steps of a camera ray and of a shadow ray.
@@ -40,11 +40,6 @@ struct Fractal {
     // Hit distances never go below this: f32 resolves no finer.
     finest_hit: f32,
     log2_bailout: f32,
-    // No step is longer than this.
-    max_step: f32,
-    unused_a: u32,
-    unused_b: u32,
-    unused_c: u32,
 }
 
 struct Surface {

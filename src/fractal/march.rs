@@ -14,24 +14,27 @@ use crate::scene::{Camera, Scene};
 /// Most steps of one ray; one that is still travelling then counts as a miss.
 pub const MAX_MARCH_STEPS: u32 = 4096;
 
+/// No step of a ray is shorter than this part of the hit distance; what is thinner may be passed.
+pub const LEAST_STEP: f64 = 0.25;
+
+/// What a field says of a point, in scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Estimated distance to the surface; zero inside.
+    pub distance: f64,
+    /// How far a ray may safely go, at most `distance`.
+    pub step: f64,
+}
+
 /// Anything that can say how far away its surface is.
 pub trait DistanceField {
     /// Estimated distance from `point` to the surface, in scene units; zero inside.
     fn distance(&self, point: DVec3) -> f64;
 
-    /// The part of [`Self::distance`] that is a safe step, above 0 and at most 1.
-    fn step_scale(&self) -> f64 {
-        1.0
-    }
-
-    /// The longest safe step, in scene units, above 0.
-    fn max_step(&self) -> f64 {
-        f64::INFINITY
-    }
-
-    /// The step that is safe where the estimate is `distance`.
-    fn step(&self, distance: f64) -> f64 {
-        (distance * self.step_scale()).min(self.max_step())
+    /// The same, and the safe step; all of the distance unless the field knows better.
+    fn reach(&self, point: DVec3) -> Reach {
+        let distance = self.distance(point);
+        Reach { distance, step: distance }
     }
 
     /// Radius of a sphere about the origin that holds all of the surface, in scene units.
@@ -41,10 +44,20 @@ pub trait DistanceField {
     /// never less than the way to it, never more than the way to its centre. For speeds and
     /// collisions; rays need it not, since they start at the sphere.
     fn clear_distance(&self, point: DVec3) -> f64 {
+        self.clear_reach(point).distance
+    }
+
+    /// [`Self::reach`], mended like [`Self::clear_distance`].
+    fn clear_reach(&self, point: DVec3) -> Reach {
         let from_centre = point.length();
         let to_sphere = from_centre - self.bounding_radius();
-        let distance = self.distance(point);
-        if to_sphere > 0.0 { distance.clamp(to_sphere, from_centre) } else { distance }
+        let Reach { distance, step } = self.reach(point);
+        if to_sphere > 0.0 {
+            let mend = |length: f64| length.clamp(to_sphere, from_centre);
+            Reach { distance: mend(distance), step: mend(step) }
+        } else {
+            Reach { distance, step }
+        }
     }
 
     /// Sphere-traces `ray` and returns the depth of the first hit. `cone` is the hit distance
@@ -58,11 +71,11 @@ pub trait DistanceField {
             if depth > far {
                 return None;
             }
-            let distance = self.distance(ray.at(depth));
-            if distance <= cone * depth {
+            let (reach, hit) = (self.reach(ray.at(depth)), cone * depth);
+            if reach.distance <= hit {
                 return Some(depth);
             }
-            depth += self.step(distance);
+            depth += reach.step.max(LEAST_STEP * hit);
         }
         None
     }
@@ -79,7 +92,7 @@ pub trait DistanceField {
             if depth > far {
                 break;
             }
-            let distance = self.distance(ray.at(depth));
+            let Reach { distance, step } = self.reach(ray.at(depth));
             let ratio = distance / depth.max(f64::MIN_POSITIVE);
             if ratio < best_ratio {
                 (best, best_ratio) = (depth, ratio);
@@ -87,7 +100,8 @@ pub trait DistanceField {
             if distance <= 0.0 {
                 break;
             }
-            depth += self.step(distance);
+            // Short of nothing that matters here, and no crawling along the surface.
+            depth += step.max(0.25 * distance);
         }
         best
     }

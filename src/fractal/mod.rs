@@ -15,4 +15,6 @@ pub mod march;
 pub mod power;
 
 pub use estimator::Estimator;
-pub use march::{DistanceField, MAX_MARCH_STEPS, Ray, camera_ray, pick, pixel_cone};
+pub use march::{
+    DistanceField, LEAST_STEP, MAX_MARCH_STEPS, Ray, Reach, camera_ray, pick, pixel_cone,
+};

@@ -61,6 +61,14 @@ impl TriplexPower {
             Exponent::Real(n) => n * r.powf(n - 1.0),
         }
     }
+
+    /// What one step multiplies lengths along the parallel through `z` by: `n · |Re wⁿ| / ρ`, the
+    /// third singular value of the power's Jacobian beside the two of [`Self::growth`]. `raised`
+    /// is zⁿ, whose distance from the axis is |Re wⁿ|. Infinite on the axis.
+    pub fn sideways_growth(&self, z: DVec3, raised: DVec3) -> f64 {
+        let rho = z.x.hypot(z.y);
+        if rho > 0.0 { self.exponent() * raised.x.hypot(raised.y) / rho } else { f64::INFINITY }
+    }
 }
 
 fn whole_power(z: DVec3, n: u32) -> DVec3 {
@@ -143,6 +151,19 @@ mod tests {
         // Latitude 90°, times eight: a whole number of turns, so the pole goes to +x.
         let pole = map(8.0, Variant::PositiveSine).apply(DVec3::new(0.0, 0.0, 1.1));
         assert!((pole - DVec3::new(1.1_f64.powi(8), 0.0, 0.0)).length() < 1e-12);
+    }
+
+    #[test]
+    fn sideways_growth_is_the_stretch_of_a_small_turn_about_the_axis() {
+        for power in [2.0, 3.3, 8.0] {
+            let map = map(power, Variant::NegativeSine);
+            for z in [DVec3::new(0.3, -0.7, 0.2), DVec3::new(0.1, 0.02, -1.1)] {
+                let along = DVec3::Z.cross(z).normalize() * 1e-6;
+                let stretch = (map.apply(z + along) - map.apply(z - along)).length() / 2e-6;
+                let found = map.sideways_growth(z, map.apply(z));
+                assert!((found / stretch - 1.0).abs() < 1e-6, "{power} at {z}: {found}, {stretch}");
+            }
+        }
     }
 
     #[test]

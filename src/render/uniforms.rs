@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 
 use super::{Region, schedule::Stale};
 use crate::{
-    fractal::Estimator,
+    fractal::{Estimator, estimator::SIDEWAYS_MAX},
     scene::{ColorSource, LightFrame, MAX_LIGHTS, Scene, ToneCurve, Variant, color},
 };
 
@@ -91,8 +91,8 @@ host_shared! {
         julia: u32,
         /// Sign of the sine term.
         z_sign: f32,
-        /// Part of the distance estimate that is a safe step.
-        step_scale: f32,
+        /// Longest step, scene units.
+        max_step: f32,
         /// Where the derivative is cut off.
         derivative_max: f32,
         /// Most steps of a camera ray.
@@ -103,14 +103,6 @@ host_shared! {
         finest_hit: f32,
         /// Binary logarithm of the bailout.
         log2_bailout: f32,
-        /// Longest step, scene units.
-        max_step: f32,
-        /// Keeps the size a multiple of 16 bytes.
-        unused_a: u32,
-        /// The same.
-        unused_b: u32,
-        /// The same.
-        unused_c: u32,
     }
     /// Blinn-Phong terms and colouring.
     Surface {
@@ -272,8 +264,8 @@ impl Picture {
 fn fractal(scene: &Scene) -> Fractal {
     let set = &scene.fractal;
     let estimator = Estimator::new(set);
-    // The next derivative is at most n·b^(n−1) times this one, plus one.
-    let stretch_max = set.power * set.bailout.powf(set.power - 1.0);
+    // The next derivative is at most so many times this one, plus one.
+    let stretch_max = SIDEWAYS_MAX * set.power * set.bailout.powf(set.power - 1.0);
     Fractal {
         julia_constant: set.julia_constant.map(|v| v as f32),
         power: set.power as f32,
@@ -286,14 +278,12 @@ fn fractal(scene: &Scene) -> Fractal {
             Variant::PositiveSine => 1.0,
             Variant::NegativeSine => -1.0,
         },
-        step_scale: estimator.step_scale() as f32,
+        max_step: estimator.max_step().min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
         march_steps: MARCH_STEPS.min(LOOP_TURNS / (set.iterations + 1)),
         shadow_steps: shadow_steps(set.iterations),
         finest_hit: FINEST_HIT,
         log2_bailout: set.bailout.log2() as f32,
-        max_step: estimator.max_step().min(1e30) as f32,
-        ..Fractal::zeroed()
     }
 }
 

@@ -163,12 +163,12 @@ fn hits_depths_and_normals_of_whole_views() {
 
 #[test]
 fn along_the_seam_of_a_power_that_is_not_whole() {
-    // Measured 1.3 % and 54 footprints: steps of the estimate pass thin walls there.
+    // Measured 0.2 %, and 12 footprints on the last percent: steps still pass a few thin walls there.
     let view = views::seam();
     let picture = draw(&Kernels::new(&gpu()), &view.scene);
     let Comparison { differ, depth_footprints, .. } = compare(&view.scene, &picture.samples);
-    assert!(differ < 0.03, "{differ}");
-    assert!(quantile(depth_footprints, 0.9) < 20.0);
+    assert!(differ < 0.005, "{differ}");
+    assert!(quantile(depth_footprints, 0.95) < 4.0);
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn visibility_of_lights() {
         assert!((0.02..0.95).contains(&shaded), "{}: {shaded} of all ways are blocked", view.name);
         let wrong = seen.iter().filter(|&&(reaches, open)| reaches != (open >= 1.0)).count();
         let part = wrong as f64 / seen.len() as f64;
-        assert!(part < 0.01, "{}: {part} of {} visibilities differ", view.name, seen.len());
+        assert!(part < 0.005, "{}: {part} of {} visibilities differ", view.name, seen.len());
     }
 }
 

@@ -8,7 +8,10 @@
 use glam::DVec3;
 
 use super::{FARTHEST_EYE, World};
-use crate::{fractal::DistanceField, scene::Camera};
+use crate::{
+    fractal::{DistanceField, LEAST_STEP},
+    scene::Camera,
+};
 
 /// Part of a camera ray's step that the eye takes: it must not pass what rays would hit.
 const STEP_PART: f64 = 0.5;
@@ -58,8 +61,8 @@ pub fn is_free(field: &dyn DistanceField, from: DVec3, to: DVec3, clearance: f64
 /// The part of `way` from `from` that keeps `clearance`: all of `way` itself where it is free.
 fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> DVec3 {
     let length = way.length();
-    let mut distance = field.clear_distance(from);
-    if distance <= 0.0 || length == 0.0 || !length.is_finite() {
+    let mut here = field.clear_reach(from);
+    if here.distance <= 0.0 || length == 0.0 || !length.is_finite() {
         return if length.is_finite() { way } else { DVec3::ZERO };
     }
     let direction = way / length;
@@ -67,18 +70,20 @@ fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> 
     for _ in 0..MAX_STEPS {
         // Along a surface there is no room to come nearer, yet the way may be free: a bold step
         // first, then one that the room allows.
-        let room = distance - clearance;
-        let steps = [room.max(BOLD * distance), room].map(|length| STEP_PART * field.step(length));
+        let room = here.distance - clearance;
+        let longest = here.step.max(LEAST_STEP * clearance);
+        let steps = [room.max(BOLD * here.distance), room].map(|it| STEP_PART * it.min(longest));
         let taken = steps.into_iter().filter(|&step| step > ARRIVED * clearance).find_map(|step| {
             let reached = (gone + step).min(length);
             // The estimate is no bound, so the place itself has the last word.
-            let next = field.clear_distance(from + direction * reached);
-            (next > 0.0 && (next >= clearance || next >= distance)).then_some((reached, next))
+            let next = field.clear_reach(from + direction * reached);
+            (next.distance > 0.0 && next.distance >= clearance.min(here.distance))
+                .then_some((reached, next))
         });
         match taken {
             None => break,
             Some((reached, _)) if reached >= length => return way,
-            Some(place) => (gone, distance) = place,
+            Some(place) => (gone, here) = place,
         }
     }
     direction * gone
