@@ -273,10 +273,13 @@ fn new_environment(camera: &Camera) -> EnvironmentLight {
     light
 }
 
-/// A point light that reaches the pivot with about the strength of an environment light.
+/// A point light that reaches the pivot with about the strength of an environment light. It
+/// stands up and left in the view, halfway to its edge, whatever the field of view.
 fn new_point(camera: &Camera) -> PointLight {
     let unit = camera.view_unit();
-    let offset = camera.rotation() * (DVec3::new(-0.22, 0.22, -0.6) * unit);
+    let depth = 0.6;
+    let aside = 0.5 * depth * camera.half_height(1.0);
+    let offset = camera.rotation() * (DVec3::new(-aside, aside, -depth) * unit);
     let distance = 0.5 * unit;
     PointLight {
         position: camera.position.moved_by(offset, unit * 1e-4),
@@ -289,6 +292,20 @@ fn new_point(camera: &Camera) -> PointLight {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_new_point_light_stands_in_the_view() {
+        for fov in [param::VERTICAL_FOV.min, param::VERTICAL_FOV.default, param::VERTICAL_FOV.max] {
+            let camera = Camera { vertical_fov_deg: fov, ..Camera::default() };
+            let offset = &new_point(&camera).position - &camera.position;
+            let seen = camera.rotation().inverse() * offset;
+            let edge = camera.half_height(1.0) * -seen.z;
+            assert!(
+                seen.z < 0.0 && seen.x.abs() < 0.6 * edge && seen.y.abs() < 0.6 * edge,
+                "{fov}"
+            );
+        }
+    }
 
     #[test]
     fn a_removed_light_leaves_a_light_selected_while_there_is_one() {
