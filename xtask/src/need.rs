@@ -20,6 +20,9 @@ pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 /// The oldest Node.js that the browser driver and wasm-opt are tried with.
 const OLDEST_NODE: u32 = 20;
 
+/// The environment variable that names the browser to test with.
+pub const BROWSER_VARIABLE: &str = "MANDELIGHT_CHROMIUM";
+
 /// Names under which a browser that can be driven goes. Ubuntu's `chromium` is a stub that only
 /// advertises a snap, hence each is asked for its version first.
 const BROWSERS: [&str; 6] = [
@@ -81,6 +84,9 @@ pub fn wasm_target() -> Result<()> {
 /// Everything that `cargo xtask test` needs.
 pub fn test_tools() -> Result<Tools> {
     wasm_target()?;
+    if is_set(BROWSER_VARIABLE) && find_browser().is_none() {
+        bail!("{BROWSER_VARIABLE} names a browser that does not run");
+    }
     machine_has(&[VULKAN, BROWSER, NODE])?;
     node_packages()?;
     Ok(Tools { chromium: find_browser().context("the browser went away")? })
@@ -182,16 +188,17 @@ fn major(version: &str) -> Option<u32> {
     version.trim_start_matches('v').split('.').next()?.parse().ok()
 }
 
-/// `MANDELIGHT_CHROMIUM`, or else the first of [`BROWSERS`] that answers with a version.
+/// `MANDELIGHT_CHROMIUM`, or else the first of [`BROWSERS`] that runs.
 fn find_browser() -> Option<PathBuf> {
-    let runs = |program: &Path| {
-        // On Windows asking for the version opens a window instead.
-        cfg!(windows) || shell::output(Command::new(program).arg("--version")).is_some()
-    };
-    if is_set("MANDELIGHT_CHROMIUM") {
-        return std::env::var_os("MANDELIGHT_CHROMIUM").map(PathBuf::from).filter(|p| runs(p));
+    if is_set(BROWSER_VARIABLE) {
+        return std::env::var_os(BROWSER_VARIABLE).map(PathBuf::from).filter(|file| runs(file));
     }
-    BROWSERS.iter().find_map(|name| in_path(name).filter(|program| runs(program)))
+    BROWSERS.iter().find_map(|name| in_path(name).filter(|file| runs(file)))
+}
+
+/// Whether a browser answers with its version. On Windows asking opens a window instead.
+fn runs(browser: &Path) -> bool {
+    cfg!(windows) || shell::output(Command::new(browser).arg("--version")).is_some()
 }
 
 /// The full path of a program that PATH holds, or of one that is named by a full path.

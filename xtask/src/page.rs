@@ -91,9 +91,9 @@ fn bind(wasm: &Path) -> Result<PathBuf> {
 
 /// Runs Binaryen's wasm-opt over the module.
 fn optimise(module: &Path) -> Result<()> {
-    let wasm_opt = shell::root()?.join("node_modules/binaryen/bin/wasm-opt");
     let mut node = Command::new("node");
-    node.arg(wasm_opt).args(WASM_OPT_FLAGS).arg(module).arg("-o").arg(module);
+    node.current_dir(shell::root()?).arg("node_modules/binaryen/bin/wasm-opt");
+    node.args(WASM_OPT_FLAGS).arg(module).arg("-o").arg(module);
     shell::run(&mut node)
 }
 

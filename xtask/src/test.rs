@@ -32,7 +32,7 @@ pub fn test() -> Result<()> {
     ];
     for run in runs {
         let mut cargo = shell::cargo()?;
-        cargo.args(run).env("MANDELIGHT_CHROMIUM", &tools.chromium).env_remove("MANDELIGHT_BLESS");
+        cargo.args(run).env(need::BROWSER_VARIABLE, &tools.chromium).env_remove("MANDELIGHT_BLESS");
         match &folder {
             Some(folder) => cargo.env("MANDELIGHT_DIST", folder),
             None => cargo.env_remove("MANDELIGHT_DIST"),
