@@ -1,0 +1,195 @@
+// The page's program as a visit drives it: real pointer events on widgets that the page's test hook
+// (`?test`) locates, and the hook's own view of the scene, the progress and the pixels.
+
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+
+/** A move is made of so many pointer events. */
+const MOVE_STEPS = 8;
+
+/** Parts of the panel that do not scroll, at its upper and lower end, in CSS pixels. */
+const PANEL_HEADING = 60;
+const PANEL_FOOT = 80;
+
+/** Something rests when so many looks, 50 ms apart, find it the same: frames may be that far apart. */
+const REST_LOOKS = 10;
+
+/** The longest that a picture may take on a software GPU whose cores others use as well. */
+const PICTURE_LIMIT_SECS = 420;
+
+export class Mandelight {
+  /** @param {import("./visit.mjs").Visit} visit */
+  constructor(visit) {
+    this.visit = visit;
+    this.tab = visit.tab;
+  }
+
+  /** Opens the page with its test hook and waits for a first picture. */
+  async open(fragment = "") {
+    // A change of the fragment alone would not load the page again.
+    await this.tab.goto("about:blank");
+    await this.tab.goto(`${this.visit.address}?test${fragment && `#${fragment}`}`);
+    await this.firstPicture();
+  }
+
+  /** Waits for a picture on a page that has just been loaded. */
+  firstPicture() {
+    return this.visit.until("a first picture", async () => {
+      const notice = await this.visit.notice();
+      if (notice?.again) throw new Error(`the page says: ${notice.text}: ${notice.detail}`);
+      return (await this.report())?.pictures > 0;
+    });
+  }
+
+  /** What the renderer says of itself; null before the page has started. (Until then the name is
+   * the canvas's, which browsers put on the window by its id.) */
+  report() {
+    return this.tab.evaluate(() => window.mandelight?.report?.() ?? null);
+  }
+
+  /** The scene in view, as a document. */
+  scene() {
+    return this.tab.evaluate(() => window.mandelight.scene());
+  }
+
+  /** Puts `document` in view and waits for the whole picture. */
+  show(document) {
+    return this.redrawn(() => this.tab.evaluate((json) => window.mandelight.setScene(json), document));
+  }
+
+  /** Waits until each pixel holds `samples` samples. */
+  sampled(samples) {
+    const isThere = async () => {
+      const report = await this.report();
+      return report?.samplesDone >= samples && report;
+    };
+    return this.visit.until(`${samples} samples a pixel`, isThere, PICTURE_LIMIT_SECS);
+  }
+
+  /** Waits until the picture is whole and the renderer rests. */
+  settled() {
+    return this.visit.until(
+      "the picture to be whole",
+      async () => {
+        const report = await this.report();
+        return report?.idle && report.samplesDone >= report.samplesWanted && report;
+      },
+      PICTURE_LIMIT_SECS,
+    );
+  }
+
+  /** Makes a change and waits for the whole picture of what came of it. */
+  async redrawn(change) {
+    const { pictures } = await this.report();
+    await change();
+    await this.visit.until("another picture", async () => (await this.report()).pictures > pictures);
+    return this.settled();
+  }
+
+  /** Makes a change by hand and waits until the scene shows all of it; returns the scene. */
+  async changed(what, change) {
+    const before = await this.scene();
+    await change();
+    const after = async () => {
+      const scene = await this.scene();
+      return scene !== before && scene;
+    };
+    await this.visit.until(`${what} to change the scene`, after, 60);
+    return this.rested(`the scene after ${what}`, after);
+  }
+
+  /** What `look` sees, once it is something and has stayed the same for a while. */
+  async rested(what, look) {
+    let [last, times] = [null, 0];
+    return this.visit.until(what, async () => {
+      const now = await look();
+      const isSame = now && JSON.stringify(now) === JSON.stringify(last);
+      [last, times] = [now, isSame ? times + 1 : 0];
+      return times >= REST_LOOKS && now;
+    }, 60);
+  }
+
+  /** A widget's place in CSS pixels; null while it is not shown. */
+  rect(name) {
+    return this.tab.evaluate((widget) => window.mandelight.uiRects()[widget] ?? null, name);
+  }
+
+  /** The middle of a widget, in CSS pixels, once it is there and rests. */
+  async middle(name) {
+    const { x, y, width, height } = await this.rested(`the widget ${name}`, () => this.rect(name));
+    return [x + width / 2, y + height / 2];
+  }
+
+  /** Scrolls the panel until a widget in it can be clicked, and returns the widget's middle. */
+  async reach(name) {
+    for (;;) {
+      const panel = await this.rect("panel");
+      const [x, y] = await this.middle(name);
+      const [top, bottom] = [panel.y + PANEL_HEADING, panel.y + panel.height - PANEL_FOOT];
+      if (y > top && y < bottom) return [x, y];
+      await this.tab.mouse.move(panel.x + panel.width / 2, (top + bottom) / 2);
+      await this.tab.mouse.wheel(0, y - (top + bottom) / 2);
+      await this.visit.until("the panel to scroll", async () => (await this.middle(name))[1] !== y, 60);
+    }
+  }
+
+  /** Clicks a widget of the panel, scrolling to it first. */
+  async click(name) {
+    await this.tab.mouse.click(...(await this.reach(name)));
+  }
+
+  /** Where in the window the scene's newest point light is drawn, in CSS pixels. */
+  async newestLight() {
+    const { scene } = JSON.parse(await this.scene());
+    const { position, orientation, vertical_fov_deg } = scene.camera;
+    const [qx, qy, qz, qw] = orientation;
+    const offset = scene.lights.point.at(-1).position.map((at, i) => Number(at) - Number(position[i]));
+    // The offset in the camera's frame: turned by the conjugate of the orientation.
+    const cross = (a, b) => [0, 1, 2].map((i) => {
+      const [j, k] = [(i + 1) % 3, (i + 2) % 3];
+      return a[j] * b[k] - a[k] * b[j];
+    });
+    const t = cross([-qx, -qy, -qz], offset).map((value) => 2 * value);
+    const u = cross([-qx, -qy, -qz], t);
+    const [x, y, z] = offset.map((value, i) => value + qw * t[i] + u[i]);
+    const view = await this.rect("view");
+    // The field of view spans the shorter side.
+    const half = Math.min(view.width, view.height) / 2;
+    const scale = half / (Math.tan((vertical_fov_deg * Math.PI) / 360) * -z);
+    return [view.x + view.width / 2 + x * scale, view.y + view.height / 2 - y * scale];
+  }
+
+  /** Drags from the middle of a widget, or from a point, by so many CSS pixels. */
+  async drag(from, [dx, dy]) {
+    const [x, y] = typeof from === "string" ? await this.middle(from) : from;
+    const { mouse } = this.tab;
+    await mouse.move(x, y);
+    await mouse.down();
+    await mouse.move(x + dx, y + dy, { steps: MOVE_STEPS });
+    await mouse.up();
+  }
+
+  /** Writes the picture's pixels to `<name>.rgba`, as the GPU holds them, and notes their size. */
+  async keepPixels(name) {
+    const { width, height, base64 } = await this.tab.evaluate(async () => {
+      const { width, height, data } = await window.mandelight.pixels();
+      let text = "";
+      for (let at = 0; at < data.length; at += 0x8000) {
+        text += String.fromCharCode(...data.subarray(at, at + 0x8000));
+      }
+      return { width, height, base64: btoa(text) };
+    });
+    await writeFile(join(this.visit.out, `${name}.rgba`), Buffer.from(base64, "base64"));
+    this.visit.seen.pixels ??= {};
+    this.visit.seen.pixels[name] = { width, height };
+  }
+
+  /** Presses a button that saves a file, and keeps the file as `name`. */
+  async keepDownload(name, button) {
+    const download = this.tab.waitForEvent("download", { timeout: PICTURE_LIMIT_SECS * 1000 });
+    await this.tab.mouse.click(...(await this.middle(button)));
+    const file = await download;
+    await file.saveAs(join(this.visit.out, name));
+    return file.suggestedFilename();
+  }
+}

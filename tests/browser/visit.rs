@@ -1,0 +1,100 @@
+//! Running a script of this folder, and what it left.
+//!
+//! In: a script's name. Out: its observations and files, once no error of the page is among them.
+
+use std::{
+    ffi::OsStr,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::{Mutex, PoisonError},
+};
+
+use mandelight::scene::{Scene, document};
+use serde_json::Value;
+
+use crate::picture::Picture;
+
+/// One browser at a time: each of them draws on all cores.
+static BROWSER: Mutex<()> = Mutex::new(());
+
+/// What a visit left.
+pub struct Visit {
+    /// Downloads, pictures and pixels.
+    pub folder: PathBuf,
+    /// The observations.
+    pub seen: Value,
+}
+
+impl Visit {
+    /// Runs `tests/browser/<script>.mjs`; any error of the page fails the test.
+    pub fn run(script: &str) -> Self {
+        Self::run_with(script, [("MANDELIGHT_NOTHING", "")])
+    }
+
+    /// Runs a script that is told more by environment variables.
+    pub fn run_with<V: AsRef<OsStr>>(
+        script: &str,
+        told: impl IntoIterator<Item = (&'static str, V)>,
+    ) -> Self {
+        for name in ["MANDELIGHT_DIST", "MANDELIGHT_CHROMIUM"] {
+            let is_set = std::env::var_os(name).is_some_and(|value| !value.is_empty());
+            assert!(is_set, "{name} is not set: the browser tests are run by `cargo xtask test`");
+        }
+        let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
+        let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let folder = folder_of(script);
+        if folder.exists() {
+            fs::remove_dir_all(&folder).unwrap();
+        }
+        let status = Command::new("node")
+            .arg(top.join(format!("tests/browser/{script}.mjs")))
+            .env("MANDELIGHT_OUT", &folder)
+            .envs(told)
+            .current_dir(top)
+            .status()
+            .expect("Node.js runs: `cargo xtask test` makes sure of it");
+        assert!(status.success(), "the script {script}.mjs broke down: {status}");
+
+        let seen = fs::read(folder.join("observations.json")).unwrap();
+        let visit = Self { folder, seen: serde_json::from_slice(&seen).unwrap() };
+        let failure = visit.seen["failure"].as_str();
+        let errors = visit.seen["errors"].as_array().unwrap();
+        let shown = visit.folder.display();
+        assert_eq!(failure, None, "see {shown}; errors of the page: {errors:#?}");
+        assert!(errors.is_empty(), "errors of the page (see {shown}): {errors:#?}");
+        println!("{script}: {:#}", visit.seen["secs"]);
+        visit
+    }
+
+    /// Text among the observations: `text("/notice/detail")`.
+    pub fn text(&self, pointer: &str) -> &str {
+        let found = self.seen.pointer(pointer).and_then(Value::as_str);
+        found.unwrap_or_else(|| panic!("the visit observed no {pointer}"))
+    }
+
+    /// A number among the observations.
+    pub fn number(&self, pointer: &str) -> f64 {
+        let found = self.seen.pointer(pointer).and_then(Value::as_f64);
+        found.unwrap_or_else(|| panic!("the visit observed no {pointer}"))
+    }
+
+    /// A scene among the observations, by the name that the script gave it.
+    pub fn scene(&self, name: &str) -> Scene {
+        let json = self.text(&format!("/scenes/{name}"));
+        document::from_json(json).unwrap_or_else(|error| panic!("the scene {name}: {error}"))
+    }
+
+    /// Pixels that the script read back from the page's GPU.
+    pub fn pixels(&self, name: &str) -> Picture {
+        let side = |side: &str| self.number(&format!("/pixels/{name}/{side}")) as u32;
+        let rgba = fs::read(self.folder.join(format!("{name}.rgba"))).unwrap();
+        Picture::new([side("width"), side("height")], rgba)
+    }
+}
+
+/// Where a script leaves its things.
+pub fn folder_of(script: &str) -> PathBuf {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    target.join("browser").join(script)
+}
