@@ -118,19 +118,19 @@ impl Context<'_> {
 
 /// The panel at the window's side: heading above, saving below, the rest scrolls between.
 pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
-    let bar = |margin| Frame::new().inner_margin(margin).fill(theme::PANEL);
+    let margin = Margin { left: 14, right: 8, top: 8, bottom: 6 };
     egui::Panel::top("heading")
-        .frame(bar(Margin { left: 14, right: 8, top: 8, bottom: 6 }))
+        .frame(Frame::new().inner_margin(margin).fill(theme::PANEL))
         .show_separator_line(false)
         .show(ui, |ui| heading(ui, cx, true));
-    egui::Panel::bottom("saving")
-        .frame(bar(Margin { left: 14, right: 14, top: 10, bottom: 12 }))
-        .show_separator_line(true)
-        .show(ui, |ui| export::save(ui, cx));
+    saving(ui, cx);
     scrolled(ui, cx, false);
 }
 
-/// The sheet at the window's lower edge: the same, with saving at the end of what scrolls.
+/// Least height of a sheet that has room for saving below what scrolls, in points.
+const TALL_SHEET: f32 = 320.0;
+
+/// The sheet at the window's lower edge: the same, but in a low one saving scrolls too.
 pub(super) fn sheet(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
     egui::Panel::top("heading")
         .frame(
@@ -141,8 +141,20 @@ pub(super) fn sheet(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
         .show_separator_line(false)
         .show(ui, |ui| heading(ui, cx, open));
     if open {
-        scrolled(ui, cx, true);
+        let is_tall = ui.max_rect().height() >= TALL_SHEET;
+        if is_tall {
+            saving(ui, cx);
+        }
+        scrolled(ui, cx, !is_tall);
     }
+}
+
+fn saving(ui: &mut Ui, cx: &mut Context<'_>) {
+    let margin = Margin { left: 14, right: 14, top: 10, bottom: 12 };
+    egui::Panel::bottom("saving")
+        .frame(Frame::new().inner_margin(margin).fill(theme::PANEL))
+        .show_separator_line(true)
+        .show(ui, |ui| export::save(ui, cx));
 }
 
 fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
