@@ -35,7 +35,7 @@ fn film_near(position: vec2i) -> vec3f {
 // held to its neighbours' range.
 fn reconstructed(pixel: vec2u) -> vec3f {
     let own = film_mean(pixel_index(pixel));
-    if (slice.spacing < 2u) { return own; }
+    if (slice.spacing == 0u) { return own; }
     let at = vec2i(pixel);
     let left = film_near(at - vec2i(1, 0));
     let right = film_near(at + vec2i(1, 0));

@@ -30,7 +30,7 @@ pub const STILL_SLICE_MS: f64 = 60.0;
 const SHOW_INTERVAL_SECS: f64 = 0.25;
 
 /// Most of the GPU's time that displays of a refining picture may take.
-const SHOW_SHARE: f64 = 0.1;
+const SHOW_SHARE: f64 = 0.2;
 
 /// A movement counts as over when nothing has changed for this long, seconds.
 const QUIET_SECS: f64 = 0.12;
@@ -274,16 +274,17 @@ impl Schedule {
         }
     }
 
-    /// A first picture, an edit and a finished picture are shown at once; what refines in
-    /// between no oftener than [`SHOW_INTERVAL_SECS`] and [`SHOW_SHARE`] say, for showing costs
+    /// A first picture, a complete lattice, an edit and a finished picture are shown at once; what
+    /// refines in between no oftener than [`SHOW_INTERVAL_SECS`] and [`SHOW_SHARE`] say, for showing costs
     /// time too. A still is shown once.
     fn show_now(&self, now_secs: f64) -> bool {
         let finished = self.samples_done >= self.samples_wanted;
         if self.pace == Pace::Still {
             return finished;
         }
+        let complete = self.samples_done == 1 && self.under_way.is_none();
         let interval_secs = SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
-        self.opening || finished || now_secs - self.shown_at >= interval_secs
+        self.opening || complete || finished || now_secs - self.shown_at >= interval_secs
     }
 
     fn show(&mut self, now_secs: f64) -> Work {

@@ -174,6 +174,20 @@ fn a_long_way_back_does_not_stall_refinement() {
     }
 }
 
+/// However dear a display is, the first complete lattice is not kept waiting for one.
+#[test]
+fn the_complete_lattice_is_shown_before_more_samples_come() {
+    let mut device = Device::with_overhead(20.0, 0.0, 60.0);
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 4);
+    let mut now = 0.0;
+    run(&mut schedule, &mut device, &mut now, 400_000, |s, now, _| {
+        let status = s.status(now);
+        assert!(status.samples_done < 2 || status.shown_level == 0);
+        status.idle
+    });
+}
+
 #[test]
 fn light_edits_march_no_centre_sample() {
     let mut device = Device::new(1.0, 0.0);
