@@ -10,11 +10,10 @@ struct Camera {
     // Width over height of the whole picture.
     aspect: f32,
     up: vec3f,
-    // Cone radius of a pixel at depth one.
-    cone: f32,
-    forward: vec3f,
     // Hit distance at depth one.
     hit_cone: f32,
+    forward: vec3f,
+    unused: u32,
 }
 
 struct Fractal {

@@ -17,7 +17,7 @@ use super::{
     march::{DistanceField, Reach},
     power::TriplexPower,
 };
-use crate::scene::{Fractal, PrecisePoint};
+use crate::scene::Fractal;
 
 /// How much of the bounding sphere's radius is added to it, to be safe from rounding.
 const BOUNDING_MARGIN: f64 = 0.01;
@@ -85,11 +85,6 @@ impl Estimator {
         let distance = height / dr.max(LEAST_DERIVATIVE);
         let step = (2.0 * height / dg.max(LEAST_DERIVATIVE)).min(distance).min(self.max_step);
         Reach { distance, step }
-    }
-
-    /// [`Self::distance`] from the f64 nearest to `point`: exact enough down to about 1e-13.
-    pub fn distance_at(&self, point: &PrecisePoint) -> f64 {
-        self.distance(point.to_dvec3())
     }
 
     /// The longest step a ray may take, in scene units; see [`max_step`].

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 
 use super::{Region, schedule::Stale};
 use crate::{
-    fractal::{Estimator, estimator::SIDEWAYS_MAX},
+    fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{ColorSource, LightFrame, MAX_LIGHTS, Scene, ToneCurve, Variant, color},
 };
 
@@ -66,12 +66,12 @@ host_shared! {
         aspect: f32,
         /// Unit vector upward.
         up: [f32; 3],
-        /// Cone radius of a pixel at depth one.
-        cone: f32,
-        /// Unit vector into the picture.
-        forward: [f32; 3],
         /// Hit distance at depth one.
         hit_cone: f32,
+        /// Unit vector into the picture.
+        forward: [f32; 3],
+        /// Keeps the size a multiple of 16 bytes.
+        unused: u32,
     }
     /// The set.
     Fractal {
@@ -223,20 +223,18 @@ impl Picture {
         let camera = &scene.camera;
         let rotation = camera.rotation();
         let aspect = width / height;
-        let half_height = camera.half_height(aspect);
-        let cone = half_height / height;
         let tone = &scene.tone;
         let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
         Self {
             camera: Camera {
                 origin: camera.position.to_dvec3().as_vec3().to_array(),
-                half_height: half_height as f32,
+                half_height: camera.half_height(aspect) as f32,
                 right: (rotation * DVec3::X).as_vec3().to_array(),
                 aspect: aspect as f32,
                 up: (rotation * DVec3::Y).as_vec3().to_array(),
-                cone: cone as f32,
+                hit_cone: (scene.quality.detail * pixel_cone(camera, aspect, height)) as f32,
                 forward: camera.forward().as_vec3().to_array(),
-                hit_cone: (scene.quality.detail * cone) as f32,
+                unused: 0,
             },
             fractal: fractal(scene),
             surface: surface(scene),

@@ -22,15 +22,6 @@ use crate::{
 /// A power that has been kept for so long, seconds, gets pipelines of its own.
 const REST_SECS: f64 = 0.3;
 
-/// Where the compilation of specialised pipelines stands.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Preparing {
-    /// Nothing to do.
-    No,
-    /// Announced: the next pump compiles, so that the announcement is seen first.
-    Announced,
-}
-
 /// One picture in progress.
 pub struct View {
     kernels: Arc<Kernels>,
@@ -43,7 +34,9 @@ pub struct View {
     inputs: Option<Inputs>,
     pending: Option<Scene>,
     moving: bool,
-    preparing: Preparing,
+    /// It was said that pipelines will be compiled: the next pump does so, for the word to be
+    /// seen first.
+    compile_announced: bool,
     dispatches: Dispatches,
     /// The texture of the newest picture; while a new region has none, that of the old one.
     shown: Option<wgpu::Texture>,
@@ -72,7 +65,7 @@ impl View {
             inputs: None,
             pending: None,
             moving: false,
-            preparing: Preparing::No,
+            compile_announced: false,
             dispatches: Dispatches::default(),
             shown: None,
             texture_generation: 0,
@@ -102,9 +95,7 @@ impl View {
         self.region = region;
         self.schedule.resize(region.size_px);
         if let Some(scene) = &self.scene {
-            let inputs = Inputs::new(scene, region);
-            self.targets.upload(&self.kernels.gpu.queue, &inputs);
-            self.inputs = Some(inputs);
+            self.upload(Inputs::new(scene, region));
         }
     }
 
@@ -137,7 +128,7 @@ impl View {
         }
         let idle = self.schedule.status(now_secs).idle
             && self.pending.is_none()
-            && self.preparing == Preparing::No;
+            && !self.compile_announced;
         if !idle {
             self.finished_secs = now_secs;
         }
@@ -164,15 +155,19 @@ impl View {
             None => Some(Stale::Geometry),
             Some(old) => inputs.stale_since(old),
         };
-        self.targets.upload(&self.kernels.gpu.queue, &inputs);
+        self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
         self.schedule.aim(motion_budget_ms, samples);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.now_secs);
             self.changed_secs = self.now_secs;
         }
-        self.inputs = Some(inputs);
         self.scene = Some(scene);
+    }
+
+    fn upload(&mut self, inputs: Inputs) {
+        self.targets.upload(&self.kernels.gpu.queue, &inputs);
+        self.inputs = Some(inputs);
     }
 
     fn integer_power(&self) -> u32 {
@@ -185,23 +180,19 @@ impl View {
     fn prepare(&mut self) -> bool {
         let power = self.integer_power();
         if self.kernels.is_specialised(power) {
-            self.preparing = Preparing::No;
+            self.compile_announced = false;
             return false;
         }
-        let status = self.schedule.status(self.now_secs);
-        match (self.pace, self.preparing) {
-            (Pace::Still, _) | (_, Preparing::Announced) => {
-                self.kernels.specialise(power);
-                self.preparing = Preparing::No;
-                false
-            }
-            // Rest first: a drag of the power passes through many.
-            _ if status.shown && !self.moving && self.now_secs - self.changed_secs >= REST_SECS => {
-                self.preparing = Preparing::Announced;
-                true
-            }
-            _ => false,
+        if self.pace == Pace::Still || self.compile_announced {
+            self.kernels.specialise(power);
+            self.compile_announced = false;
+            return false;
         }
+        // Rest first: a drag of the power passes through many.
+        self.compile_announced = self.schedule.status(self.now_secs).shown
+            && !self.moving
+            && self.now_secs - self.changed_secs >= REST_SECS;
+        self.compile_announced
     }
 
     fn submit(&mut self, work: Work) {
@@ -221,7 +212,7 @@ impl View {
     /// What the view is doing.
     pub fn report(&self) -> Report {
         let status = self.schedule.status(self.now_secs);
-        let activity = if self.preparing == Preparing::Announced {
+        let activity = if self.compile_announced {
             Activity::Compiling(format!("power {}", self.integer_power()))
         } else if self.inputs.is_none() || (status.idle && self.pending.is_none()) {
             Activity::Idle

@@ -89,11 +89,6 @@ impl Interface {
         &self.settings
     }
 
-    /// The same, to change it.
-    pub fn settings_mut(&mut self) -> &mut Settings {
-        &mut self.settings
-    }
-
     /// The session, for undo and redo from outside.
     pub fn editor_mut(&mut self) -> &mut Editor {
         &mut self.editor
