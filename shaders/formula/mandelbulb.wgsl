@@ -11,6 +11,62 @@ override POWER: u32 = 0u;
 // poles it would stop every ray.
 const SIDEWAYS_MAX = 10.0;
 
+// z^n in parts, which its derivatives are made of too.
+struct Turned {
+    // The rotor u and |x + iy|.
+    u: vec2f,
+    rho: f32,
+    // Their powers.
+    un: vec2f,
+    wn: vec2f,
+    // n |z|^(n - 1): what the derivative is multiplied by.
+    stretch: f32,
+}
+
+// On the polar axis the rotor's direction is taken as that of +x.
+fn rotor(z: vec3f, rho: f32) -> vec2f {
+    if (rho > 0.0) { return z.xy / rho; }
+    return vec2f(1.0, 0.0);
+}
+
+// A whole power n.
+fn turned_whole(z: vec3f, r: f32, n: u32) -> Turned {
+    let rho = length(z.xy);
+    let u = rotor(z, rho);
+    let wn = complex_power(vec2f(rho, z.z), n);
+    return Turned(u, rho, complex_power(u, n), wn, f32(n) * real_power(r, n - 1u));
+}
+
+// A real power n in polar coordinates.
+fn turned_real(z: vec3f, r: f32, n: f32) -> Turned {
+    let rho = length(z.xy);
+    let u = rotor(z, rho);
+    if (r == 0.0) { return Turned(u, rho, u, vec2f(0.0), 0.0); }
+    let log2_r = accurate_log2(r);
+    let latitude = cos_sin_turns(n * angle_turns(z.z, rho));
+    let longitude = cos_sin_turns(n * angle_turns(z.y, z.x));
+    let stretch = n * accurate_exp2((n - 1.0) * log2_r);
+    return Turned(u, rho, longitude, accurate_exp2(n * log2_r) * latitude, stretch);
+}
+
+fn turned(z: vec3f, r: f32) -> Turned {
+    if (POWER != 0u) { return turned_whole(z, r, POWER); }
+    if (picture.fractal.integer_power != 0u) {
+        return turned_whole(z, r, picture.fractal.integer_power);
+    }
+    return turned_real(z, r, picture.fractal.power);
+}
+
+fn triplex_power(t: Turned) -> vec3f {
+    return vec3f(t.wn.x * t.un, t.wn.y * picture.fractal.z_sign);
+}
+
+// The stretch along the parallels, n Re w^n / rho: 1e-15 is near enough to the axis for the
+// limit, and the quotient stays finite.
+fn sideways_stretch(t: Turned) -> f32 {
+    return picture.fractal.power * t.wn.x / max(t.rho, 1e-15);
+}
+
 struct OrbitStep {
     // z^n without the constant.
     power: vec3f,
@@ -20,49 +76,10 @@ struct OrbitStep {
     widest_stretch: f32,
 }
 
-// `sideways`: n |Re w^n| / rho, the stretch along the parallels.
-fn orbit_step_of(power: vec3f, stretch: f32, sideways: f32) -> OrbitStep {
-    return OrbitStep(power, stretch, clamp(sideways, stretch, SIDEWAYS_MAX * stretch));
-}
-
-// A whole power n.
-fn orbit_step_whole(z: vec3f, r: f32, n: u32) -> OrbitStep {
-    let rho_squared = dot(z.xy, z.xy);
-    let rho = sqrt(rho_squared);
-    // On the polar axis the rotor's direction is taken as that of +x.
-    var u = vec2f(1.0, 0.0);
-    if (rho_squared > 0.0) { u = z.xy / rho; }
-    let wn = complex_power(vec2f(rho, z.z), n);
-    let un = complex_power(u, n);
-    // 1e-15: near enough to the axis for the limit, and the quotient stays finite.
-    let sideways = f32(n) * abs(wn.x) / max(rho, 1e-15);
-    return orbit_step_of(vec3f(wn.x * un, wn.y), f32(n) * real_power(r, n - 1u), sideways);
-}
-
-// A real power n in polar coordinates.
-fn orbit_step_real(z: vec3f, r: f32, n: f32) -> OrbitStep {
-    if (r == 0.0) { return OrbitStep(vec3f(0.0), 0.0, 0.0); }
-    let log2_r = accurate_log2(r);
-    let rho = length(z.xy);
-    let latitude = cos_sin_turns(n * angle_turns(z.z, rho));
-    let longitude = cos_sin_turns(n * angle_turns(z.y, z.x));
-    let rn = accurate_exp2(n * log2_r);
-    let stretch = n * accurate_exp2((n - 1.0) * log2_r);
-    let sideways = n * rn * abs(latitude.x) / max(rho, 1e-15);
-    return orbit_step_of(rn * vec3f(latitude.x * longitude, latitude.y), stretch, sideways);
-}
-
 fn orbit_step(z: vec3f, r: f32) -> OrbitStep {
-    var next: OrbitStep;
-    if (POWER != 0u) {
-        next = orbit_step_whole(z, r, POWER);
-    } else if (picture.fractal.integer_power != 0u) {
-        next = orbit_step_whole(z, r, picture.fractal.integer_power);
-    } else {
-        next = orbit_step_real(z, r, picture.fractal.power);
-    }
-    next.power.z *= picture.fractal.z_sign;
-    return next;
+    let t = turned(z, r);
+    let widest = clamp(abs(sideways_stretch(t)), t.stretch, SIDEWAYS_MAX * t.stretch);
+    return OrbitStep(triplex_power(t), t.stretch, widest);
 }
 
 struct Reach {
@@ -99,6 +116,58 @@ fn reach(point: vec3f) -> Reach {
 
 fn distance_estimate(point: vec3f) -> f32 {
     return reach(point).distance;
+}
+
+// The Jacobian of z^n over `stretch`: a turn of the meridian's plane by n - 1 latitudes, of the
+// parallels by n - 1 longitudes, and a further stretch along these.
+fn turned_jacobian(t: Turned, height: f32, inverse_r: f32) -> mat3x3f {
+    // w^(n - 1) over its length.
+    let unit = inverse_r / max(length(t.wn), 1e-20);
+    let m = unit * complex_product(t.wn, vec2f(t.rho, -height));
+    let sideways = clamp(sideways_stretch(t) / max(t.stretch, 1e-30), -1e6, 1e6);
+    let parallel = sideways * vec2f(-t.un.y, t.un.x);
+    let sign = picture.fractal.z_sign;
+    return mat3x3f(
+        vec3f(m.x * t.u.x * t.un - t.u.y * parallel, sign * m.y * t.u.x),
+        vec3f(m.x * t.u.y * t.un + t.u.x * parallel, sign * m.y * t.u.y),
+        vec3f(-m.y * t.un, sign * m.x),
+    );
+}
+
+// The direction in which `distance_estimate` grows fastest, of any length; 0 inside. Exact: the
+// orbit's Jacobian and the gradient of dr are carried along (forward differentiation).
+//     grad DE = ((ln r + 1) dr grad r - r ln r grad dr) / (2 dr^2),  grad r = J^T z / r
+// J grows as dr does and grad dr as its square, past what an f32 holds: both are kept in units
+// of dr, which leaves the direction alone.
+fn distance_gradient(point: vec3f) -> vec3f {
+    let julia = picture.fractal.julia != 0u;
+    let constant = select(point, picture.fractal.julia_constant, julia);
+    let n = picture.fractal.power;
+    var z = point;
+    var r = length(z);
+    // J / dr, grad dr / dr^2, and the constant's own derivative over dr.
+    var jacobian = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    var slope = vec3f(0.0);
+    var added = select(1.0, 0.0, julia);
+    for (var i = 0u; i < picture.fractal.iterations; i++) {
+        if (r > picture.fractal.bailout) { break; }
+        let t = turned(z, r);
+        // This dr over the next: infinite where a Julia orbit meets the origin.
+        let shrink = 1.0 / max(t.stretch + added, 1e-9);
+        let kept = t.stretch * shrink;
+        let inverse_r = 1.0 / max(r, 1e-9);
+        slope = (kept * shrink) * ((n - 1.0) * inverse_r * inverse_r * (z * jacobian) + slope);
+        jacobian = kept * (turned_jacobian(t, z.z, inverse_r) * jacobian);
+        added *= shrink;
+        jacobian[0].x += added;
+        jacobian[1].y += added;
+        jacobian[2].z += added;
+        z = triplex_power(t) + constant;
+        r = length(z);
+    }
+    if (r <= 1.0) { return vec3f(0.0); }
+    let log_r = log(r);
+    return (log_r + 1.0) / r * (z * jacobian) - r * log_r * slope;
 }
 
 struct OrbitColors {

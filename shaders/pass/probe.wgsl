@@ -1,14 +1,26 @@
-// Distance estimates and colour data at given points: how tests ask the kernels themselves.
+// Distance estimates, their gradients and colour data at given points: how tests ask the kernels
+// themselves.
+
+struct Answer {
+    // Of any length.
+    gradient: vec3f,
+    distance: f32,
+    // Smooth iteration count, origin trap, axis trap. w: unused.
+    colors: vec4f,
+}
 
 // xyz: the point. w: unused.
 @group(1) @binding(0) var<storage, read_write> points: array<vec4f>;
-// Distance estimate, smooth iteration count, origin trap, axis trap.
-@group(1) @binding(1) var<storage, read_write> answers: array<vec4f>;
+@group(1) @binding(1) var<storage, read_write> answers: array<Answer>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
     let colors = orbit_colors(point);
-    answers[id.x] = vec4f(distance_estimate(point), colors.smooth_iterations, colors.traps.xy);
+    answers[id.x] = Answer(
+        distance_gradient(point),
+        distance_estimate(point),
+        vec4f(colors.smooth_iterations, colors.traps.xy, 0.0),
+    );
 }

@@ -13,7 +13,7 @@ use mandelight::{
     scene::{Fractal, Scene, Variant},
 };
 
-use super::{Random, estimate, in_parallel, light, quantile, rays, views};
+use super::{Random, estimate, in_parallel, light, normals, quantile, rays, views};
 
 fn gpu() -> Gpu {
     pollster::block_on(Gpu::open(None)).expect("a Vulkan driver, if only Mesa's lavapipe")
@@ -104,6 +104,63 @@ fn estimates_at_random_points() {
             // Nearer, estimates and traps are off by no more than rounding that grows along the orbit.
             let most = quantile(rounding, 0.999);
             assert!(most < 3.0, "{fractal:?}: {most} roundings");
+        }
+    }
+}
+
+/// Gradients by carried derivatives against gradients by differences, at points near and far, on
+/// both sides of the axis and of the seam.
+#[test]
+fn gradients_at_random_points() {
+    let gpu = gpu();
+    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let mut fractals: Vec<_> = [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 6.75, 15.9].map(bulb).into();
+    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
+    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(5.5) });
+    fractals.push(Fractal { julia: true, ..bulb(8.0) });
+    fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
+    for fractal in fractals {
+        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let radius = 1.2 * Estimator::new(&fractal).bounding_radius();
+        let mut random = Random(0xF00D_FACE_5BAD_5EED);
+        let points: Vec<_> =
+            (0..4096).map(|_| random.in_ball(radius).as_vec3().as_dvec3()).collect();
+        let expected = in_parallel(&points, |&point| {
+            let distance = estimate::distance(&fractal, point);
+            (distance > 1e-4).then(|| normals::gradient(&fractal, point, distance)).flatten()
+        });
+        for specialised in [false, true] {
+            let answers = probe::ask(&gpu, &scene, &points, specialised).expect("the answers");
+            let known = answers.iter().zip(&expected).filter_map(|(answer, expected)| {
+                let expected = expected.as_ref().filter(|e| e.uncertain_deg < 1e-4)?;
+                Some(normals::angle_deg(answer.gradient.as_dvec3(), expected.unit))
+            });
+            let off: Vec<_> = known.collect();
+            assert!(off.len() > 2000, "{fractal:?}: {} gradients", off.len());
+            // Rounding grows along the orbit; a few points lie across a real power's seam.
+            let (median, most) = (quantile(off.clone(), 0.5), quantile(off, 0.99));
+            assert!(median < 2e-4 && most < 0.01, "{fractal:?}: off by {median}°, {most}°");
+        }
+    }
+}
+
+/// Where formulas divide by nothing: on the axis, beside it, and at the origin.
+#[test]
+fn gradients_are_tame_on_the_axis_and_inside() {
+    let gpu = gpu();
+    for (power, julia) in [(2.0, false), (3.0, false), (8.0, false), (4.5, false), (7.0, true)] {
+        let mut scene = Scene::default();
+        scene.fractal = Fractal { power, julia, iterations: 100, ..scene.fractal };
+        scene.fractal.julia_constant = [0.0, 0.0, 0.9];
+        for specialised in [false, true] {
+            let heights = (0..512).map(|i| f64::from(i) / 256.0 - 1.0);
+            let beside = |z| [0.0, 1e-30, 1e-12].map(|x| DVec3::new(x, 0.0, z));
+            let points: Vec<_> = heights.flat_map(beside).collect();
+            for answer in probe::ask(&gpu, &scene, &points, specialised).expect("the answers") {
+                assert!(answer.gradient.is_finite(), "power {power}: {answer:?}");
+                let flat = answer.gradient == glam::Vec3::ZERO;
+                assert_eq!(flat, answer.distance == 0.0, "power {power}: {answer:?}");
+            }
         }
     }
 }

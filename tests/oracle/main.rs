@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `estimate` | oracle: orbits, distance estimate, smooth iteration count, orbit traps |
 //! | `rays` | oracle: camera rays, march, six-sample normals, shadow rays |
+//! | `normals` | oracle: the estimate's gradient, by differences |
 //! | `light` | oracle: Blinn-Phong, the gradient, tone curve, sRGB |
 //! | `views` | the views that pictures are compared on |
 //! | `against_cpu` | `src/fractal` and `src/scene` against the oracle |
@@ -14,6 +15,7 @@ mod against_cpu;
 mod against_gpu;
 mod estimate;
 mod light;
+mod normals;
 mod rays;
 mod views;
 

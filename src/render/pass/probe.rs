@@ -1,6 +1,7 @@
-//! Distance estimates and colour data at given points: how tests ask the kernels themselves.
+//! Distance estimates, their gradients and colour data at given points: how tests ask the kernels
+//! themselves.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::{
     gpu::{
@@ -28,6 +29,8 @@ pub const MODULE: Module = Module {
 /// What the kernels say of one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
+    /// The estimate's gradient, of any length; 0 inside.
+    pub gradient: Vec3,
     /// Distance estimate, scene units.
     pub distance: f32,
     /// Smooth iteration count.
@@ -69,7 +72,7 @@ pub fn ask(
     let answers = filled(
         gpu,
         wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        &vec![0; 16 * points.len()],
+        &vec![0; 32 * points.len()],
     );
     let group = |index: u32, buffers: &[&wgpu::Buffer]| {
         let entries: Vec<_> = (0..)
@@ -96,12 +99,14 @@ pub fn ask(
     gpu.queue.submit([encoder.finish()]);
     let bytes = Readback::buffer(gpu, &answers).wait(gpu)?;
     Ok(bytes
-        .as_chunks::<16>()
+        .as_chunks::<32>()
         .0
         .iter()
         .map(|chunk| {
-            let [distance, smooth_iterations, origin_trap, axis_trap] = bytemuck::cast(*chunk);
-            Answer { distance, smooth_iterations, origin_trap, axis_trap }
+            let [x, y, z, distance, smooth_iterations, origin_trap, axis_trap, _]: [f32; 8] =
+                bytemuck::cast(*chunk);
+            let gradient = Vec3::new(x, y, z);
+            Answer { gradient, distance, smooth_iterations, origin_trap, axis_trap }
         })
         .collect())
 }
