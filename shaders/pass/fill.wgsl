@@ -2,10 +2,6 @@
 // pixel has four known neighbours in two opposite pairs; the pair that differs less lies along
 // the edge, and counts more.
 
-fn luminance(color: vec3f) -> f32 {
-    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
-}
-
 // Contrast as the eye sees it: the difference of the tone-compressed luminances.
 fn contrast(a: vec3f, b: vec3f) -> f32 {
     let la = luminance(a);

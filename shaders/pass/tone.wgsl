@@ -1,14 +1,6 @@
-// Film to display: mean of the samples, exposure, tone curve, sRGB, dither.
-
-const CURVE_REINHARD_LUMINANCE = 1u;
+// Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
-
-// Reinhard et al. 2002, eq. 4, on luminance: colours keep their hue.
-fn reinhard_luminance(color: vec3f) -> vec3f {
-    let l = dot(color, vec3f(0.2126, 0.7152, 0.0722));
-    return color * ((1.0 + l * picture.tone.inverse_white_squared) / (1.0 + l));
-}
 
 // IEC 61966-2-1.
 fn srgb_from_linear(linear: vec3f) -> vec3f {
@@ -44,13 +36,37 @@ fn reconstructed(pixel: vec2u) -> vec3f {
     return clamp(own, min(min(left, right), min(above, below)), max(max(left, right), max(above, below)));
 }
 
+fn mip_element(size: vec2u, cell: vec2u) -> vec3f {
+    return mips[statistics.bloom_start + cell.y * size.x + cell.x].rgb;
+}
+
+// The light that has spread to a pixel. What spreads was blurred for the picture as a whole: the
+// pixel is looked up by its place in it, whatever region of it this is.
+fn bloom_at(pixel: vec2u) -> vec3f {
+    let place = (vec2f(picture.origin_px + pixel) + 0.5) / vec2f(picture.picture_px);
+    let level = statistics.bloom_level;
+    let size = mip_size(statistics.size_px, level);
+    let at = place * vec2f(statistics.size_px) / f32(1u << level) - 0.5;
+    let inside = clamp(at, vec2f(0.0), vec2f(size - 1u));
+    let low = vec2u(inside);
+    let high = min(low + 1u, size - 1u);
+    let part = fract(inside);
+    let above = mix(mip_element(size, low), mip_element(size, vec2u(high.x, low.y)), part.x);
+    let below = mix(mip_element(size, vec2u(low.x, high.y)), mip_element(size, high), part.x);
+    return mix(above, below, part.y);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
-    var color = reconstructed(pixel) * picture.tone.exposure;
-    if (picture.tone.curve == CURVE_REINHARD_LUMINANCE) { color = reinhard_luminance(color); }
-    let encoded = srgb_from_linear(clamp(color, vec3f(0.0), vec3f(1.0)));
+    var color = reconstructed(pixel) * exposure_factor();
+    var bloom = vec3f(0.0);
+    if (picture.bloom.strength > 0.0) { bloom = picture.bloom.strength * bloom_at(pixel); }
+    if (picture.bloom.after == 0u) { color += bloom; }
+    color = tone_mapped(color);
+    if (picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
+    let encoded = srgb_from_linear(color);
     let dithered = encoded + dither(picture.origin_px + pixel) / 255.0;
     textureStore(display, pixel, vec4f(dithered, 1.0));
 }

@@ -64,7 +64,31 @@ struct Tone {
     // 1 / white point².
     inverse_white_squared: f32,
     curve: u32,
+    // 1: Reinhard's curve on each channel; 0: on luminance.
+    per_channel: u32,
+    // 1: the film's mean is brought to the key.
+    auto_exposure: u32,
+    // 1: by the mean of the logarithm.
+    logarithmic: u32,
+    // What the mean is brought to.
+    key: f32,
     unused: u32,
+}
+
+struct Bloom {
+    // Part of the spread light that is added; 0 is off.
+    strength: f32,
+    // Half width of a single uniform kernel, as a part of the picture's height.
+    radius: f32,
+    // Luminance above which light spreads.
+    threshold: f32,
+    // 1: after the tone curve.
+    after: u32,
+    // How often the kernel is applied.
+    passes: u32,
+    unused_a: u32,
+    unused_b: u32,
+    unused_c: u32,
 }
 
 struct Picture {
@@ -73,6 +97,7 @@ struct Picture {
     surface: Surface,
     background: Background,
     tone: Tone,
+    bloom: Bloom,
     // The whole picture, the region's corner in it and the region, in pixels.
     picture_px: vec2u,
     origin_px: vec2u,

@@ -24,6 +24,14 @@ struct Slice {
     light_count: u32,
     // The spacing of the lattice on the film, in pixels; 0 where it is complete.
     spacing: u32,
+    // The mip level that a glow's pass reads, or starts from.
+    mip_level: u32,
+    // Direction of a blur: 0 along x, 1 along y.
+    axis: u32,
+    // Half the width of a blur's kernel, in elements of its mip level.
+    half_width: f32,
+    // How far exposure moves toward its goal, 0 to 1.
+    adapt: f32,
     unused: u32,
 }
 

@@ -1,6 +1,7 @@
 //! The life of a frame: its passes, in the order in which they run.
 
 use super::{
+    glow::{Glow, Tasks},
     kernels::{Kernels, Marchers},
     lattice::Grid,
     pass,
@@ -20,9 +21,22 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
             pass::shadow::record(recorder, &trace, &grid);
             pass::shade::record(recorder, &trace, &grid);
         }
-        Work::Show { level, fill } => {
+        Work::Show { level, fill, .. } => {
             if fill {
                 pass::fill::record(recorder, level);
+            }
+            let tasks = recorder.begin_whole();
+            if tasks.mean {
+                pass::mean::record(recorder);
+            }
+            if tasks.histogram {
+                pass::histogram::record(recorder);
+            }
+            if let Some(adapt) = tasks.adapt {
+                pass::expose::record(recorder, tasks.mean, adapt);
+            }
+            if tasks.bloom {
+                pass::bloom::record(recorder);
             }
             pass::tone::record(recorder, level);
         }
@@ -40,6 +54,12 @@ pub struct Dispatches {
     pub shade: u64,
     /// Filling in.
     pub fill: u64,
+    /// Means of the film, of all their mip levels together.
+    pub mean: u64,
+    /// Histograms of the film.
+    pub histogram: u64,
+    /// Blooms, of all their mip levels and blurs together.
+    pub bloom: u64,
     /// Tone mapping.
     pub tone: u64,
 }
@@ -47,7 +67,8 @@ pub struct Dispatches {
 impl Dispatches {
     /// All of them.
     pub fn total(&self) -> u64 {
-        self.march + self.shadow + self.shade + self.fill + self.tone
+        let Self { march, shadow, shade, fill, mean, histogram, bloom, tone } = *self;
+        march + shadow + shade + fill + mean + histogram + bloom + tone
     }
 }
 
@@ -61,6 +82,10 @@ pub struct Recorder<'a> {
     pub targets: &'a Targets,
     /// What the buffers hold of the scene.
     pub inputs: &'a Inputs,
+    /// What is known of the film as a whole: the targets' own unless a view puts another here.
+    pub glow: &'a Glow,
+    /// What of it a display brings up to date.
+    pub tasks: Tasks,
     /// Counted by each pass.
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
@@ -81,7 +106,25 @@ impl<'a> Recorder<'a> {
         let mut compute = encoder.begin_compute_pass(&Default::default()).forget_lifetime();
         compute.set_bind_group(1, &targets.center.group, &[]);
         compute.set_bind_group(2, &targets.film_group, &[]);
-        Self { kernels, marchers, targets, inputs, dispatches, compute, encoder, slices: 0 }
+        Self {
+            kernels,
+            marchers,
+            targets,
+            inputs,
+            glow: &targets.glow,
+            tasks: Tasks::default(),
+            dispatches,
+            compute,
+            encoder,
+            slices: 0,
+        }
+    }
+
+    /// Turns from passes over sample points to those that see the film as a whole, and says which
+    /// of them there are to be.
+    fn begin_whole(&mut self) -> Tasks {
+        self.compute.set_bind_group(1, &self.glow.group, &[]);
+        self.tasks
     }
 
     /// The uniform of a trace; also binds the G-buffer that its samples live in.

@@ -14,6 +14,9 @@ pub struct Layouts {
     pub picture: wgpu::BindGroupLayout,
     /// Group 1: depth, normal, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
+    /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
+    /// all storage.
+    pub glow: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves and the display texture.
     pub film: wgpu::BindGroupLayout,
 }
@@ -35,6 +38,7 @@ impl Layouts {
         Self {
             picture: group("picture", &[PICTURE, uniform(true), uniform(false), uniform(false)]),
             gbuffer: group("gbuffer", &[STORAGE; 4]),
+            glow: group("glow", &[STORAGE; 3]),
             film: group("film", &[STORAGE, STORAGE, display]),
         }
     }
@@ -97,6 +101,22 @@ pub struct Marchers {
     pub shadow: wgpu::ComputePipeline,
 }
 
+/// The passes that see the film as a whole.
+pub struct GlowKernels {
+    /// Film to the finest mip level.
+    pub mean: wgpu::ComputePipeline,
+    /// A mip level to the next.
+    pub reduce: wgpu::ComputePipeline,
+    /// Mean to exposure.
+    pub expose: wgpu::ComputePipeline,
+    /// Film to histogram.
+    pub histogram: wgpu::ComputePipeline,
+    /// What blooms, to the finest mip level.
+    pub bloom: wgpu::ComputePipeline,
+    /// One direction of a blur.
+    pub blur: wgpu::ComputePipeline,
+}
+
 /// The pipelines that every picture needs, and those specialised so far.
 pub struct Kernels {
     /// The device.
@@ -114,6 +134,8 @@ pub struct Kernels {
     pub shade: wgpu::ComputePipeline,
     /// Pixels between those of a sparse lattice.
     pub fill: wgpu::ComputePipeline,
+    /// Mean, histogram, bloom.
+    pub glow: GlowKernels,
     /// Film to display.
     pub tone: wgpu::ComputePipeline,
 }
@@ -133,8 +155,16 @@ impl Kernels {
             ],
             immediate_size: 0,
         });
-        let plain =
-            |module: &Module| pipeline(device, &layout, &module.create(device), module.label, None);
+        let glow_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("passes over the film as a whole"),
+            bind_group_layouts: &[Some(&layouts.picture), Some(&layouts.glow), Some(&layouts.film)],
+            immediate_size: 0,
+        });
+        let made = |layout: &wgpu::PipelineLayout, module: &Module| {
+            pipeline(device, layout, &module.create(device), module.label, None)
+        };
+        let plain = |module| made(&layout, module);
+        let whole = |module| made(&glow_layout, module);
         let march_module = pass::march::MODULE.create(device);
         let shadow_module = pass::shadow::MODULE.create(device);
         let general = Marchers {
@@ -147,7 +177,15 @@ impl Kernels {
             special: Mutex::default(),
             shade: plain(&pass::shade::MODULE),
             fill: plain(&pass::fill::MODULE),
-            tone: plain(&pass::tone::MODULE),
+            glow: GlowKernels {
+                mean: whole(&pass::mean::MODULE),
+                reduce: whole(&pass::reduce::MODULE),
+                expose: whole(&pass::expose::MODULE),
+                histogram: whole(&pass::histogram::MODULE),
+                bloom: whole(&pass::bloom::MODULE),
+                blur: whole(&pass::blur::MODULE),
+            },
+            tone: whole(&pass::tone::MODULE),
             march_module,
             shadow_module,
             layout,

@@ -100,6 +100,10 @@ impl Grid {
             jitter: [0.5, 0.5],
             light_count: 0,
             spacing: 0,
+            mip_level: 0,
+            axis: 0,
+            half_width: 0.0,
+            adapt: 0.0,
             unused: 0,
         }
     }

@@ -8,12 +8,14 @@
 //! | [`frame`] | the passes of one submit |
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`kernels`] | pipelines and bind group layouts |
+//! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`report`] | what a view says of itself |
 
 pub mod frame;
 pub mod gbuffer;
+pub mod glow;
 pub mod kernels;
 pub mod lattice;
 pub mod pass;

@@ -1,5 +1,7 @@
 //! What a view says of itself, as plain data that the interface can show.
 
+use std::sync::Arc;
+
 /// What the renderer is doing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Activity {
@@ -12,6 +14,25 @@ pub enum Activity {
     Refining,
     /// A kernel is being prepared; the text names it ("power 5").
     Compiling(String),
+}
+
+/// Bins of a [`Histogram`].
+pub const HISTOGRAM_BINS: usize = 128;
+
+/// log2 of the luminance at which the first bin of a [`Histogram`] begins.
+pub const HISTOGRAM_LOW_STOPS: f64 = -14.0;
+
+/// Bins of a [`Histogram`] to each doubling of luminance.
+pub const HISTOGRAM_BINS_PER_STOP: f64 = 5.0;
+
+/// The film's pixels by the logarithm of their luminance, before any exposure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Histogram {
+    /// [`HISTOGRAM_BINS`] counts, from dark to bright; the first and the last also count what lies
+    /// beyond them.
+    pub bins: Arc<[u32]>,
+    /// Stops that auto exposure adds, where it is on.
+    pub adapted_stops: f32,
 }
 
 /// A view's state, for the status line.
@@ -31,6 +52,8 @@ pub struct Report {
     pub elapsed_secs: f64,
     /// GPU milliseconds of the last displayed frame's work, as far as could be measured.
     pub frame_ms: f64,
+    /// The film's histogram, while the interface [asks](super::View::watch_histogram) for it.
+    pub histogram: Option<Histogram>,
     /// Pictures finished since the view was made (each display update counts).
     pub pictures: u64,
 }

@@ -35,6 +35,16 @@ const SHOW_SHARE: f64 = 0.2;
 /// A movement counts as over when nothing has changed for this long, seconds.
 const QUIET_SECS: f64 = 0.12;
 
+/// Time in which auto exposure goes 1 − 1/e of the way to its goal, seconds.
+const ADAPT_SECS: f64 = 0.15;
+
+/// After this long without a new goal it is there, seconds: what is left of a change by two
+/// stops no longer shows.
+const SETTLE_SECS: f64 = 0.9;
+
+/// Least time between two displays that only adapt, seconds.
+const ADAPT_INTERVAL_SECS: f64 = 0.03;
+
 /// How a view spends GPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
@@ -91,7 +101,7 @@ pub struct Trace {
 }
 
 /// One piece of work: one submit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Work {
     /// Compute sample points, from march to film.
     Trace(Trace),
@@ -101,6 +111,8 @@ pub enum Work {
         level: u32,
         /// Whether the pixels between that lattice's have to be filled in first.
         fill: bool,
+        /// How far auto exposure moves toward its goal, above 0 to 1: there at once.
+        adapt: f32,
     },
 }
 
@@ -140,6 +152,10 @@ pub struct Schedule {
     moving: bool,
     changed_at: f64,
     shown_at: f64,
+    /// Exposure follows the film.
+    adapts: bool,
+    /// When it will have settled; none once it has.
+    settles_at: Option<f64>,
     in_flight: usize,
     slice_ms: f64,
     /// Slices so far.
@@ -165,6 +181,8 @@ impl Schedule {
             moving: false,
             changed_at: 0.0,
             shown_at: f64::NEG_INFINITY,
+            adapts: false,
+            settles_at: None,
             in_flight: 0,
             slice_ms: match pace {
                 Pace::Interactive => SLICE_MS,
@@ -186,9 +204,26 @@ impl Schedule {
         }
     }
 
+    /// Says whether exposure follows the film. Someone who watches sees it move there over some
+    /// tenths of a second; what was never shown, and a still, has it at once.
+    pub fn set_adapting(&mut self, adapts: bool) {
+        self.adapts = adapts && self.pace == Pace::Interactive;
+        if !self.adapts {
+            self.settles_at = None;
+        }
+    }
+
+    /// Has the film shown once more as it is.
+    pub fn show_again(&mut self) {
+        self.show_due |= self.shaded.is_some();
+    }
+
     /// Gives the schedule another region; everything becomes stale.
     pub fn resize(&mut self, size_px: [u32; 2]) {
         self.size_px = size_px;
+        // Nothing of it has been shown: exposure does not come from elsewhere.
+        self.shown_at = f64::NEG_INFINITY;
+        self.settles_at = None;
         self.restart(Stale::Geometry);
     }
 
@@ -254,7 +289,7 @@ impl Schedule {
     }
 
     fn choose(&mut self, now_secs: f64) -> Option<Work> {
-        if self.show_due && self.show_now(now_secs) {
+        if (self.show_due && self.show_now(now_secs)) || self.adapt_now(now_secs) {
             return Some(self.show(now_secs));
         }
         let following = self.moving && now_secs - self.changed_at < QUIET_SECS;
@@ -287,14 +322,42 @@ impl Schedule {
         self.opening || complete || finished || now_secs - self.shown_at >= interval_secs
     }
 
+    /// Whether exposure is on its way and another step of it is due.
+    fn adapt_now(&self, now_secs: f64) -> bool {
+        let interval_secs = ADAPT_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
+        self.settles_at.is_some()
+            && self.shaded.is_some()
+            && !self.opening
+            && now_secs - self.shown_at >= interval_secs
+    }
+
+    /// How far exposure goes toward its goal in a display at `now_secs`. The first picture of a
+    /// change and those that complete the lattice set a new goal; further samples hardly move it.
+    fn adaptation(&mut self, now_secs: f64) -> f32 {
+        let since_secs = now_secs - self.shown_at;
+        if !self.adapts || since_secs == f64::INFINITY {
+            self.settles_at = None;
+            return 1.0;
+        }
+        if self.show_due && self.samples_done <= 1 {
+            self.settles_at = Some(now_secs + SETTLE_SECS);
+        }
+        if self.settles_at.is_none_or(|settles_at| now_secs >= settles_at) {
+            self.settles_at = None;
+            return 1.0;
+        }
+        (1.0 - (-since_secs / ADAPT_SECS).exp()) as f32
+    }
+
     fn show(&mut self, now_secs: f64) -> Work {
+        let adapt = self.adaptation(now_secs);
         self.show_due = false;
         self.opening = false;
         self.shown_at = now_secs;
         let level = self.shaded.unwrap_or(0);
         self.shown_level = level;
         // A level under way has put true pixels where the fill would go: only fill when whole.
-        Work::Show { level, fill: level > 0 && self.under_way.is_none() }
+        Work::Show { level, fill: level > 0 && self.under_way.is_none(), adapt }
     }
 
     /// What comes after everything computed so far.
@@ -373,6 +436,7 @@ impl Schedule {
             idle: self.in_flight == 0
                 && !self.show_due
                 && self.under_way.is_none()
+                && self.settles_at.is_none()
                 && self.samples_done >= self.samples_wanted,
         }
     }

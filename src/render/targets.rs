@@ -3,7 +3,10 @@
 //! Bytes a pixel: G-buffer 24, film 16, display 4; the G-buffer of jittered samples is a slice
 //! large, whatever the region.
 
+use std::sync::Arc;
+
 use super::{
+    glow::{Glow, Need},
     kernels::Kernels,
     lattice::{Grid, WORKGROUP_THREADS},
     schedule::SAMPLE_WORKGROUPS,
@@ -50,8 +53,14 @@ pub struct Targets {
     pub center: GBuffer,
     /// The jittered samples of one slice.
     pub jittered: GBuffer,
+    /// 2 × f32 a pixel: sums of red and green.
+    pub film_rg: wgpu::Buffer,
+    /// 2 × f32 a pixel: sum of blue, number of samples.
+    pub film_bw: wgpu::Buffer,
     /// The film and the display texture.
     pub film_group: wgpu::BindGroup,
+    /// What is known of the film as a whole: next to nothing until something needs it.
+    pub glow: Arc<Glow>,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
@@ -108,7 +117,10 @@ impl Targets {
             picture_group,
             center: GBuffer::new(kernels, pixels),
             jittered: GBuffer::new(kernels, u64::from(slice_samples)),
+            film_rg,
+            film_bw,
             film_group,
+            glow: Arc::new(Glow::new(kernels, size_px, Need::default())),
             texture,
         }
     }
@@ -152,11 +164,13 @@ fn buffer(
     })
 }
 
-fn storage(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Buffer {
+/// A storage buffer that can be read back.
+pub(super) fn storage(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Buffer {
     buffer(device, label, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
 }
 
-fn group<const N: usize>(
+/// A bind group of `resources`, in the order of their bindings.
+pub(super) fn group<const N: usize>(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     label: &str,

@@ -6,10 +6,13 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Vec3};
 
-use super::{Region, schedule::Stale};
+use super::{Region, report::HISTOGRAM_BINS, schedule::Stale};
 use crate::{
     fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
-    scene::{ColorSource, LightFrame, MAX_LIGHTS, Scene, ToneCurve, Variant, color},
+    scene::{
+        self, BloomOrder, ColorSource, LightFrame, MAX_LIGHTS, Scene, ToneChannels, ToneCurve,
+        ToneMean, Variant, color,
+    },
 };
 
 /// Entries of the gradient table that the shaders look colours up in.
@@ -136,10 +139,37 @@ host_shared! {
         exposure: f32,
         /// 1 / white point².
         inverse_white_squared: f32,
-        /// 0 linear, 1 Reinhard by luminance.
+        /// 0 linear, 1 Reinhard, 2 ACES, 3 AgX, 4 Khronos neutral.
         curve: u32,
+        /// 1: Reinhard's curve on each channel; 0: on luminance.
+        per_channel: u32,
+        /// 1: the film's mean is brought to the key.
+        auto_exposure: u32,
+        /// 1: by the mean of the logarithm.
+        logarithmic: u32,
+        /// What the mean is brought to.
+        key: f32,
         /// Keeps the size a multiple of 16 bytes.
         unused: u32,
+    }
+    /// Bloom settings.
+    Bloom {
+        /// Part of the spread light that is added; 0 is off.
+        strength: f32,
+        /// Half width of a single uniform kernel, as a part of the picture's height.
+        radius: f32,
+        /// Luminance above which light spreads.
+        threshold: f32,
+        /// 1: after the tone curve.
+        after: u32,
+        /// How often the kernel is applied.
+        passes: u32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused_a: u32,
+        /// The same.
+        unused_b: u32,
+        /// The same.
+        unused_c: u32,
     }
     /// Everything above, and the region.
     Picture {
@@ -153,6 +183,8 @@ host_shared! {
         background: Background,
         /// Tone settings.
         tone: Tone,
+        /// Bloom settings.
+        bloom: Bloom,
         /// The whole picture, pixels.
         picture_px: [u32; 2],
         /// The region's upper left corner in it, pixels.
@@ -192,8 +224,39 @@ host_shared! {
         light_count: u32,
         /// Spacing of the lattice on the film, pixels; 0 where it is complete.
         spacing: u32,
+        /// Mip level that a glow's pass reads, or starts from.
+        mip_level: u32,
+        /// Direction of a blur: 0 along x, 1 along y.
+        axis: u32,
+        /// Half width of a blur's kernel, in elements of the mip level.
+        half_width: f32,
+        /// How far exposure moves toward its goal, 0 to 1.
+        adapt: f32,
         /// Keeps the size a multiple of 16 bytes.
         unused: u32,
+    }
+    /// What is known of a film as a whole.
+    Statistics {
+        /// The film's width and height, pixels.
+        size_px: [u32; 2],
+        /// Mip level that holds the bloom.
+        bloom_level: u32,
+        /// Its first element.
+        bloom_start: u32,
+        /// Mean colour.
+        mean: [f32; 3],
+        /// Mean of log2(luminance + 1e-4).
+        mean_log2: f32,
+        /// Auto exposure, stops.
+        adapted_stops: f32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused_a: u32,
+        /// The same.
+        unused_b: u32,
+        /// The same.
+        unused_c: u32,
+        /// Pixels by luminance; see [`HISTOGRAM_BINS`].
+        bins: [u32; HISTOGRAM_BINS],
     }
     /// One light.
     Light {
@@ -223,7 +286,6 @@ impl Picture {
         let camera = &scene.camera;
         let rotation = camera.rotation();
         let aspect = width / height;
-        let tone = &scene.tone;
         let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
         Self {
             camera: Camera {
@@ -242,20 +304,43 @@ impl Picture {
                 top: opaque(scene.background.top),
                 bottom: opaque(scene.background.bottom),
             },
-            tone: Tone {
-                exposure: tone.exposure.exp2() as f32,
-                inverse_white_squared: tone.white_point.powi(-2) as f32,
-                curve: match tone.curve {
-                    ToneCurve::Linear => 0,
-                    ToneCurve::ReinhardLuminance => 1,
-                },
-                unused: 0,
-            },
+            tone: tone(&scene.tone),
+            bloom: bloom(&scene.bloom),
             picture_px: region.picture_px,
             origin_px: region.origin_px,
             size_px: region.size_px,
             unused: [0; 2],
         }
+    }
+}
+
+fn tone(tone: &scene::Tone) -> Tone {
+    Tone {
+        exposure: tone.exposure.exp2() as f32,
+        inverse_white_squared: tone.white_point.powi(-2) as f32,
+        curve: match tone.curve {
+            ToneCurve::Linear => 0,
+            ToneCurve::Reinhard => 1,
+            ToneCurve::Aces => 2,
+            ToneCurve::Agx => 3,
+            ToneCurve::KhronosNeutral => 4,
+        },
+        per_channel: u32::from(tone.channels == ToneChannels::PerChannel),
+        auto_exposure: u32::from(tone.auto_exposure),
+        logarithmic: u32::from(tone.mean == ToneMean::Logarithmic),
+        key: tone.key as f32,
+        unused: 0,
+    }
+}
+
+fn bloom(bloom: &scene::Bloom) -> Bloom {
+    Bloom {
+        strength: bloom.strength as f32,
+        radius: bloom.radius as f32,
+        threshold: bloom.threshold as f32,
+        after: u32::from(bloom.order == BloomOrder::After),
+        passes: bloom.passes,
+        ..Bloom::zeroed()
     }
 }
 
@@ -398,7 +483,9 @@ impl Inputs {
         } else if !same_light {
             Some(Stale::Light)
         } else {
-            (new_picture.tone != old_picture.tone).then_some(Stale::Tone)
+            let same_tone =
+                new_picture.tone == old_picture.tone && new_picture.bloom == old_picture.bloom;
+            (!same_tone).then_some(Stale::Tone)
         }
     }
 }

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::{
     frame::{self, Dispatches, Recorder},
+    glow::{self, Glow, Need, Tasks},
     kernels::Kernels,
     region::Region,
-    report::{Activity, Report},
+    report::{Activity, Histogram, Report},
     schedule::{Pace, Schedule, Stale, Work},
     targets::Targets,
     uniforms::Inputs,
@@ -22,6 +23,23 @@ use crate::{
 /// A power that has been kept for so long, seconds, gets pipelines of its own.
 const REST_SECS: f64 = 0.3;
 
+/// What is known of the film as it is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Known {
+    mean: bool,
+    histogram: bool,
+}
+
+/// The film's histogram on its way to the interface.
+#[derive(Default)]
+struct Watch {
+    wanted: bool,
+    reading: Option<Readback>,
+    /// There has been another picture since the reading began.
+    is_stale: bool,
+    histogram: Option<Histogram>,
+}
+
 /// One picture in progress.
 pub struct View {
     kernels: Arc<Kernels>,
@@ -34,6 +52,10 @@ pub struct View {
     inputs: Option<Inputs>,
     pending: Option<Scene>,
     moving: bool,
+    known: Known,
+    watch: Watch,
+    /// What another view knows of the whole picture, of which this one draws a part.
+    lent_glow: Option<Arc<Glow>>,
     /// It was said that pipelines will be compiled: the next pump does so, for the word to be
     /// seen first.
     compile_announced: bool,
@@ -65,6 +87,9 @@ impl View {
             inputs: None,
             pending: None,
             moving: false,
+            known: Known::default(),
+            watch: Watch::default(),
+            lent_glow: None,
             compile_announced: false,
             dispatches: Dispatches::default(),
             shown: None,
@@ -92,6 +117,7 @@ impl View {
         if region.size_px != self.region.size_px {
             self.targets = Targets::new(&self.kernels, region.size_px);
         }
+        self.known = Known::default();
         self.region = region;
         self.schedule.resize(region.size_px);
         if let Some(scene) = &self.scene {
@@ -126,7 +152,9 @@ impl View {
                 self.submit(work);
             }
         }
+        self.read_histogram();
         let idle = self.schedule.status(now_secs).idle
+            && self.watch.reading.is_none()
             && self.pending.is_none()
             && !self.compile_announced;
         if !idle {
@@ -158,6 +186,7 @@ impl View {
         self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
         self.schedule.aim(motion_budget_ms, samples);
+        self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.now_secs);
             self.changed_secs = self.now_secs;
@@ -167,6 +196,7 @@ impl View {
 
     fn upload(&mut self, inputs: Inputs) {
         self.targets.upload(&self.kernels.gpu.queue, &inputs);
+        self.fit_glow(Need::of(&inputs.picture));
         self.inputs = Some(inputs);
     }
 
@@ -195,17 +225,101 @@ impl View {
         self.compile_announced
     }
 
+    /// Allocates what the scene needs to know of its film as a whole, and frees what it doesn't.
+    fn fit_glow(&mut self, need: Need) {
+        let need = if self.lent_glow.is_some() { Need::default() } else { need };
+        if self.targets.glow.need() != need {
+            self.targets.glow = Arc::new(self.targets.glow.with_need(&self.kernels, need));
+            self.known = Known::default();
+        }
+    }
+
+    /// What the next piece of work has to find out about the film as a whole.
+    fn tasks(&mut self, work: Work) -> Tasks {
+        let Work::Show { fill, adapt, .. } = work else {
+            self.known = Known::default();
+            return Tasks::default();
+        };
+        if fill {
+            self.known = Known::default();
+        }
+        if self.lent_glow.is_some() {
+            return Tasks::default();
+        }
+        let need = self.targets.glow.need();
+        let tasks = Tasks {
+            mean: need.mean && !self.known.mean,
+            histogram: self.watch.wanted && !self.known.histogram,
+            adapt: need.mean.then_some(adapt),
+            bloom: need.bloom,
+        };
+        self.known.mean |= tasks.mean;
+        self.known.histogram |= tasks.histogram;
+        tasks
+    }
+
     fn submit(&mut self, work: Work) {
+        let tasks = self.tasks(work);
         let Some(inputs) = &self.inputs else { return };
         let marchers = self.kernels.marchers(inputs.picture.fractal.integer_power);
         let mut recorder =
             Recorder::new(&self.kernels, &marchers, &self.targets, inputs, &mut self.dispatches);
+        recorder.tasks = tasks;
+        if let Some(lent) = &self.lent_glow {
+            recorder.glow = lent;
+        }
         frame::record(&mut recorder, work);
         let commands = recorder.finish();
         self.stopwatch.submit(&self.kernels.gpu, commands, work);
         if matches!(work, Work::Show { .. }) && self.shown.as_ref() != Some(&self.targets.texture) {
             self.shown = Some(self.targets.texture.clone());
             self.texture_generation += 1;
+        }
+        self.watch.is_stale |= matches!(work, Work::Show { .. });
+    }
+
+    /// Says whether the interface shows the film's histogram: [`Report::histogram`] has it then.
+    pub fn watch_histogram(&mut self, wanted: bool) {
+        if wanted == self.watch.wanted {
+            return;
+        }
+        self.watch = Watch { wanted, ..Watch::default() };
+        if wanted {
+            self.schedule.show_again();
+        }
+    }
+
+    /// Fetches the histogram of the newest picture.
+    fn read_histogram(&mut self) {
+        let watch = &mut self.watch;
+        if let Some(reading) = &mut watch.reading {
+            match reading.take(&self.kernels.gpu) {
+                Ok(None) => return,
+                Ok(Some(bytes)) => watch.histogram = glow::histogram(&bytes),
+                // A lost device says so elsewhere.
+                Err(ReadbackError) => {}
+            }
+            watch.reading = None;
+        }
+        if watch.wanted && std::mem::take(&mut watch.is_stale) {
+            let statistics = &self.targets.glow.statistics;
+            watch.reading = Some(Readback::buffer(&self.kernels.gpu, statistics));
+        }
+    }
+
+    /// What is known of the film as a whole: for a view that draws a part of the same picture.
+    pub fn glow(&self) -> Arc<Glow> {
+        self.targets.glow.clone()
+    }
+
+    /// Has the view show its region by the exposure and the bloom of another view that draws all
+    /// of the picture, rather than by what it would find in the region; none takes that back. The
+    /// lender's picture is finished, and both have the same tone and bloom settings.
+    pub fn lend_glow(&mut self, glow: Option<Arc<Glow>>) {
+        self.lent_glow = glow;
+        if let Some(inputs) = &self.inputs {
+            self.fit_glow(Need::of(&inputs.picture));
+            self.schedule.show_again();
         }
     }
 
@@ -229,6 +343,7 @@ impl View {
             pixels_per_sample: 1 << status.shown_level,
             elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),
             frame_ms: self.frame_ms,
+            histogram: self.watch.histogram.clone(),
             pictures: self.pictures,
         }
     }
@@ -248,6 +363,19 @@ impl View {
     /// Changes whenever [`Self::texture`] is another texture than before.
     pub fn texture_generation(&self) -> u64 {
         self.texture_generation
+    }
+
+    /// Reads the film back, waiting for it: each pixel's mean radiance, linear Rec. 709, rows from
+    /// the upper edge. Natively.
+    pub fn film(&self) -> Result<Vec<[f32; 3]>, ReadbackError> {
+        let gpu = &self.kernels.gpu;
+        let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
+        let (rg, bw) = (read(&self.targets.film_rg)?, read(&self.targets.film_bw)?);
+        let pairs = |bytes: &[u8]| -> Vec<[f32; 2]> {
+            bytes.as_chunks::<8>().0.iter().map(|pair| bytemuck::cast(*pair)).collect()
+        };
+        let sums = pairs(&rg).into_iter().zip(pairs(&bw));
+        Ok(sums.map(|([r, g], [b, samples])| [r, g, b].map(|sum| sum / samples.max(1.0))).collect())
     }
 
     /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.

@@ -6,7 +6,7 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
-//! | `fractal`, `camera`, `light`, `surface`, `background`, `tone`, `quality` | the parts of a scene |
+//! | `fractal`, `camera`, `light`, `surface`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | [`precise`] | positions that stay exact at any zoom |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
@@ -16,6 +16,7 @@
 //! | [`color`] | sRGB, and the gradient as a table |
 
 mod background;
+mod bloom;
 mod camera;
 mod fractal;
 mod light;
@@ -33,13 +34,14 @@ pub mod presets;
 mod validate;
 
 pub use background::Background;
+pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use fractal::{Fractal, Variant};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
 pub use precise::{Precise, PrecisePoint};
 pub use quality::Quality;
 pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
-pub use tone::{Tone, ToneCurve};
+pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;
 
 use serde::{Deserialize, Serialize};
@@ -60,6 +62,8 @@ pub struct Scene {
     pub background: Background,
     /// How scene radiance becomes display values.
     pub tone: Tone,
+    /// Light that spreads around what is bright.
+    pub bloom: Bloom,
     /// How much work a picture is given.
     pub quality: Quality,
 }

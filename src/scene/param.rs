@@ -171,8 +171,18 @@ params! {
         "Where along the gradient the stop lies.";
     EXPOSURE = "tone.exposure", "Exposure", Stops, -10.0, 10.0, default 0.0, Linear by 0.1,
         "Brightens or darkens the picture before the tone curve.";
+    KEY = "tone.key", "Key", None, 0.01, 1.0, default 0.18, Logarithmic by 0.01,
+        "What auto exposure brings the picture's mean to. Higher is brighter; 0.18 is middle grey.";
     WHITE_POINT = "tone.white_point", "White point", None, 0.5, 100.0, default 4.0, Logarithmic by 0.1,
         "The luminance that becomes pure white under Reinhard's curve. Higher keeps more of the highlights.";
+    BLOOM_STRENGTH = "bloom.strength", "Strength", None, 0.0, 1.0, default 0.0, Linear by 0.01,
+        "How much of the spread light is added. 0 is off and costs nothing.";
+    BLOOM_RADIUS = "bloom.radius", "Radius", None, 0.005, 0.25, default 0.04, Logarithmic by 0.05,
+        "How far light spreads, as a part of the picture's height.";
+    BLOOM_THRESHOLD = "bloom.threshold", "Threshold", None, 0.0, 10.0, default 0.5, Logarithmic by 0.05,
+        "The luminance above which light spreads. 0 lets all of it spread, as in the thesis.";
+    BLOOM_PASSES = "bloom.passes", "Passes", Count, 1.0, 4.0, default 3.0, Integer by 1.0,
+        "How often the uniform kernel is applied. 1 gives the thesis's square glow; 3 and more are round.";
     MOTION_BUDGET = "quality.motion_budget_ms", "Motion budget", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
         "The GPU time a frame may take while something moves. Higher is sharper in motion and less fluid.";
     SAMPLES = "quality.samples", "Samples", Count, 1.0, 1024.0, default 16.0, Integer by 1.0,

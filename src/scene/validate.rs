@@ -44,7 +44,12 @@ impl Scene {
         check_color(|| "background.top".into(), self.background.top)?;
         check_color(|| "background.bottom".into(), self.background.bottom)?;
         check(&param::EXPOSURE, self.tone.exposure)?;
+        check(&param::KEY, self.tone.key)?;
         check(&param::WHITE_POINT, self.tone.white_point)?;
+        check(&param::BLOOM_STRENGTH, self.bloom.strength)?;
+        check(&param::BLOOM_RADIUS, self.bloom.radius)?;
+        check(&param::BLOOM_THRESHOLD, self.bloom.threshold)?;
+        check(&param::BLOOM_PASSES, self.bloom.passes.into())?;
         check(&param::MOTION_BUDGET, self.quality.motion_budget_ms)?;
         check(&param::SAMPLES, self.quality.samples.into())?;
         check(&param::DETAIL, self.quality.detail)

@@ -49,7 +49,7 @@ fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let points = Points::Level(level);
     let workgroups = points.grid(size).workgroups();
     let trace = Trace { points, march: true, first_workgroup: 0, workgroups };
-    for work in [Work::Trace(trace), Work::Show { level, fill: true }] {
+    for work in [Work::Trace(trace), Work::Show { level, fill: true, adapt: 1.0 }] {
         let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);
         kernels.gpu.queue.submit([recorder.finish()]);

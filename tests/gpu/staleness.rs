@@ -24,6 +24,9 @@ fn cost_of(samples: u32, edit: impl FnOnce(&mut Scene)) -> Dispatches {
         shadow: after.shadow - before.shadow,
         shade: after.shade - before.shade,
         fill: after.fill - before.fill,
+        mean: after.mean - before.mean,
+        histogram: after.histogram - before.histogram,
+        bloom: after.bloom - before.bloom,
         tone: after.tone - before.tone,
     }
 }

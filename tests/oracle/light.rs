@@ -1,13 +1,14 @@
-//! Oracle: Blinn-Phong, the gradient, Reinhard's curve on luminance, sRGB.
+//! Oracle: Blinn-Phong, the gradient, exposure, sRGB.
 
 use glam::DVec3;
 use mandelight::scene::{
-    ColorSource, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene, ToneCurve,
+    ColorSource, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene,
 };
 
 use super::{
     estimate::{orbit, smooth_iterations},
     rays::ShadowRay,
+    tone::curve,
 };
 
 /// One light as a point sees it.
@@ -108,21 +109,10 @@ pub fn background(scene: &Scene, height: f64) -> DVec3 {
     rgb(scene.background.top).lerp(rgb(scene.background.bottom), height)
 }
 
-/// Display channels, 0 to 255, of a radiance: exposure in stops, then L(1 + L/Lw²)/(1 + L) on
-/// luminance (Reinhard et al. 2002, eq. 4), then sRGB.
+/// Display channels, 0 to 255, of a radiance: exposure in stops, the tone curve, then sRGB.
 pub fn display(scene: &Scene, radiance: DVec3) -> DVec3 {
-    let tone = &scene.tone;
-    let exposed = radiance * 2.0_f64.powf(tone.exposure);
-    let curved = match tone.curve {
-        ToneCurve::Linear => exposed,
-        ToneCurve::ReinhardLuminance => {
-            let l = 0.2126 * exposed.x + 0.7152 * exposed.y + 0.0722 * exposed.z;
-            let white = tone.white_point * tone.white_point;
-            let mapped = l * (1.0 + l / white) / (1.0 + l);
-            if l > 0.0 { exposed * (mapped / l) } else { exposed }
-        }
-    };
-    DVec3::from_array(curved.to_array().map(|v| 255.0 * srgb(v.clamp(0.0, 1.0))))
+    let curved = curve(&scene.tone, radiance * 2.0_f64.powf(scene.tone.exposure));
+    DVec3::from_array(curved.to_array().map(|v| 255.0 * srgb(v)))
 }
 
 fn srgb(v: f64) -> f64 {

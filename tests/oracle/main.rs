@@ -7,6 +7,7 @@
 //! | `rays` | oracle: camera rays, march, six-sample normals, shadow rays |
 //! | `normals` | oracle: the estimate's gradient, by differences |
 //! | `light` | oracle: Blinn-Phong, the gradient, tone curve, sRGB |
+//! | `tone` | oracle: the tone curves |
 //! | `views` | the views that pictures are compared on |
 //! | `against_cpu` | `src/fractal` and `src/scene` against the oracle |
 //! | `against_gpu` | the kernels against the oracle, on whatever adapter there is |
@@ -17,6 +18,7 @@ mod estimate;
 mod light;
 mod normals;
 mod rays;
+mod tone;
 mod views;
 
 /// A small generator of repeatable numbers (xorshift).

@@ -2,8 +2,9 @@
 
 use glam::{DQuat, DVec3};
 use mandelight::scene::{
-    Background, Camera, ColorSource, Coloring, EnvironmentLight, Fractal, GradientStop, LightFrame,
-    Lights, PointLight, Precise, PrecisePoint, Quality, Scene, Surface, Tone, ToneCurve, Variant,
+    Background, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight, Fractal,
+    GradientStop, LightFrame, Lights, PointLight, Precise, PrecisePoint, Quality, Scene, Surface,
+    Tone, ToneChannels, ToneCurve, ToneMean, Variant,
     param::{self, Param},
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
@@ -139,9 +140,45 @@ fn surface() -> impl Strategy<Value = Surface> {
 }
 
 fn tone() -> impl Strategy<Value = Tone> {
-    let curve = select(vec![ToneCurve::Linear, ToneCurve::ReinhardLuminance]);
-    (value(&param::EXPOSURE), curve, value(&param::WHITE_POINT))
-        .prop_map(|(exposure, curve, white_point)| Tone { exposure, curve, white_point })
+    let curve = select(vec![
+        ToneCurve::Linear,
+        ToneCurve::Reinhard,
+        ToneCurve::Aces,
+        ToneCurve::Agx,
+        ToneCurve::KhronosNeutral,
+    ]);
+    let channels = select(vec![ToneChannels::Luminance, ToneChannels::PerChannel]);
+    let mean = select(vec![ToneMean::Arithmetic, ToneMean::Logarithmic]);
+    let numbers = (value(&param::EXPOSURE), value(&param::KEY), value(&param::WHITE_POINT));
+    (numbers, curve, channels, mean, any::<bool>()).prop_map(
+        |((exposure, key, white_point), curve, channels, mean, auto_exposure)| Tone {
+            exposure,
+            auto_exposure,
+            mean,
+            key,
+            curve,
+            channels,
+            white_point,
+        },
+    )
+}
+
+fn bloom() -> impl Strategy<Value = Bloom> {
+    let order = select(vec![BloomOrder::Before, BloomOrder::After]);
+    let numbers = (
+        value(&param::BLOOM_STRENGTH),
+        value(&param::BLOOM_RADIUS),
+        value(&param::BLOOM_THRESHOLD),
+    );
+    (numbers, order, count(&param::BLOOM_PASSES)).prop_map(
+        |((strength, radius, threshold), order, passes)| Bloom {
+            strength,
+            order,
+            radius,
+            threshold,
+            passes,
+        },
+    )
 }
 
 fn quality() -> impl Strategy<Value = Quality> {
@@ -157,15 +194,15 @@ fn quality() -> impl Strategy<Value = Quality> {
 /// Any valid scene of a few lights.
 pub fn scene() -> impl Strategy<Value = Scene> {
     let background = (color(), color()).prop_map(|(top, bottom)| Background { top, bottom });
-    (fractal(), camera(), lights(), surface(), background, tone(), quality()).prop_map(
-        |(fractal, camera, lights, surface, background, tone, quality)| Scene {
-            fractal,
-            camera,
-            lights,
-            surface,
-            background,
-            tone,
-            quality,
-        },
-    )
+    let parts = (fractal(), camera(), lights(), surface(), background, tone(), bloom(), quality());
+    parts.prop_map(|(fractal, camera, lights, surface, background, tone, bloom, quality)| Scene {
+        fractal,
+        camera,
+        lights,
+        surface,
+        background,
+        tone,
+        bloom,
+        quality,
+    })
 }

@@ -40,6 +40,7 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     // Turning each rail to its ends changes the scene and keeps it valid: no dead control.
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
+    press(&mut harness, "Auto exposure");
     press(&mut harness, "Add point light");
     for param in param::ALL {
         let rails: Vec<_> = rails_of(&harness, param.path);
@@ -71,6 +72,7 @@ fn rails_of(harness: &egui_kittest::Harness<'_, Stage>, path: &str) -> Vec<Strin
 fn every_parameter_has_a_control() {
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
+    press(&mut harness, "Auto exposure");
     press(&mut harness, "Add light");
     let mut missing: Vec<_> =
         param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
@@ -212,6 +214,7 @@ fn an_export_shows_its_progress_and_can_be_cancelled() {
 fn every_control_has_a_hover_text() {
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
+    press(&mut harness, "Auto exposure");
     press(&mut harness, "Picture size: Typed");
     press(&mut harness, "Add point light");
     // The parts of a control share its text, so one look at each name is enough.

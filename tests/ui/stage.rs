@@ -33,6 +33,7 @@ pub fn stage(scene: Scene, settings: Settings, size: [f32; 2]) -> Harness<'stati
         elapsed_secs: 1.5,
         frame_ms: 7.0,
         pictures: 9,
+        histogram: None,
     };
     let stage = Stage {
         interface: Interface::new(scene, settings),

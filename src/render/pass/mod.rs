@@ -3,9 +3,15 @@
 
 use crate::gpu::shader::Module;
 
+pub mod bloom;
+pub mod blur;
+pub mod expose;
 pub mod fill;
+pub mod histogram;
 pub mod march;
+pub mod mean;
 pub mod probe;
+pub mod reduce;
 pub mod shade;
 pub mod shadow;
 pub mod tone;
@@ -16,6 +22,12 @@ pub const MODULES: &[&Module] = &[
     &shadow::MODULE,
     &shade::MODULE,
     &fill::MODULE,
+    &mean::MODULE,
+    &reduce::MODULE,
+    &expose::MODULE,
+    &histogram::MODULE,
+    &bloom::MODULE,
+    &blur::MODULE,
     &tone::MODULE,
     &probe::MODULE,
 ];

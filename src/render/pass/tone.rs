@@ -1,4 +1,4 @@
-//! Film to display: exposure, tone curve, sRGB, dither.
+//! Film to display: exposure, tone curve, bloom, sRGB, dither.
 
 use crate::{
     gpu::shader::Module,
@@ -12,8 +12,12 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
+        shader_file!("types/glow.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/luminance.wgsl"),
+        shader_file!("lib/mip.wgsl"),
+        shader_file!("lib/curve.wgsl"),
         shader_file!("pass/tone.wgsl"),
     ],
 };

@@ -216,7 +216,7 @@ fn tone_edits_only_show() {
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
     schedule.change(Stale::Tone, true, now);
-    assert_eq!(schedule.next(now), Some(Work::Show { level: 0, fill: false }));
+    assert_eq!(schedule.next(now), Some(Work::Show { level: 0, fill: false, adapt: 1.0 }));
     assert_eq!(schedule.next(now), None);
 }
 
@@ -247,7 +247,7 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
             match work {
-                Work::Show { level, fill } => {
+                Work::Show { level, fill, .. } => {
                     assert_eq!((level, fill), (0, false));
                     shows += 1;
                 }

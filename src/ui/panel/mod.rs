@@ -1,6 +1,7 @@
 //! The panels, one a file. Each draws itself into a `Ui`, edits the scene in place, and leaves
 //! what it cannot do itself as a [`Command`] or an [`Action`].
 
+mod bloom;
 mod camera;
 mod fractal;
 mod help;
@@ -65,6 +66,7 @@ pub struct Sections {
     pub lights: bool,
     pub surface: bool,
     pub tone: bool,
+    pub bloom: bool,
     pub quality: bool,
     pub export: bool,
 }
@@ -78,6 +80,7 @@ impl Sections {
             lights: true,
             surface: true,
             tone: true,
+            bloom: true,
             quality: true,
             export: true,
         }
@@ -266,6 +269,13 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
             |ui| {
                 tone::show(ui, cx);
             },
+        );
+        section(
+            ui,
+            "Bloom",
+            "Light that spreads around what is bright",
+            &mut sections.bloom,
+            |ui| bloom::show(ui, cx),
         );
         section(ui, "Quality", "How much work a picture is given", &mut sections.quality, |ui| {
             quality::show(ui, cx)

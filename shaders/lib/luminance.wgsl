@@ -1,0 +1,4 @@
+// Rec. 709 luminance of a linear colour.
+fn luminance(color: vec3f) -> f32 {
+    return dot(color, vec3f(0.2126, 0.7152, 0.0722));
+}

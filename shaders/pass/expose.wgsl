@@ -1,0 +1,21 @@
+// Auto exposure: from the last mip level, `slice.mip_level`, to the stops that bring the mean to
+// the key (Reinhard et al. 2002, eq. 2). Level 0 stands for the mean that is known already.
+
+// Neither a black film nor a blinding one is exposed by more, stops.
+const MOST_STOPS = 20.0;
+
+@compute @workgroup_size(64)
+fn main(@builtin(local_invocation_index) local_index: u32) {
+    if (local_index != 0u) { return; }
+    if (slice.mip_level != 0u) {
+        let all = mips[mip_start(picture.size_px, slice.mip_level)];
+        statistics.mean = all.rgb;
+        statistics.mean_log2 = all.w;
+    }
+    let arithmetic = log2(max(luminance(statistics.mean), 1e-12));
+    let mean_stops = select(arithmetic, statistics.mean_log2, picture.tone.logarithmic != 0u);
+    let goal = clamp(log2(picture.tone.key) - mean_stops, -MOST_STOPS, MOST_STOPS);
+    // At its end the goal itself, whatever the rounding.
+    let nearer = mix(statistics.adapted_stops, goal, slice.adapt);
+    statistics.adapted_stops = select(nearer, goal, slice.adapt >= 1.0);
+}

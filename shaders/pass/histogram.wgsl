@@ -1,0 +1,31 @@
+// How many of the film's pixels have which luminance, in equal steps of its logarithm. What lies
+// beyond the first or the last bin counts there. The bins are zero before.
+
+var<workgroup> own_bins: array<atomic<u32>, HISTOGRAM_BINS>;
+
+fn bin(color: vec3f) -> u32 {
+    let stops = log2(max(luminance(color), 1e-30)) - HISTOGRAM_LOW_STOPS;
+    return u32(clamp(stops * HISTOGRAM_BINS_PER_STOP, 0.0, f32(HISTOGRAM_BINS) - 0.5));
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    // Workgroup memory starts as zeros.
+    let size = mip_size(picture.size_px, FIRST_MIP_LEVEL);
+    let index = mip_index(workgroup.x, local_index);
+    if (index < size.x * size.y) {
+        let cell = vec2u(index % size.x, index / size.x);
+        let span = mip_span(picture.size_px, FIRST_MIP_LEVEL, cell);
+        for (var y = 0u; y < span.y; y++) {
+            for (var x = 0u; x < span.x; x++) {
+                let pixel = (cell << vec2u(FIRST_MIP_LEVEL)) + vec2u(x, y);
+                atomicAdd(&own_bins[bin(film_mean(pixel_index(pixel)))], 1u);
+            }
+        }
+    }
+    workgroupBarrier();
+    for (var i = local_index; i < HISTOGRAM_BINS; i += 64u) {
+        let count = atomicLoad(&own_bins[i]);
+        if (count > 0u) { atomicAdd(&statistics.bins[i], count); }
+    }
+}

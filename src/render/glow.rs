@@ -1,0 +1,209 @@
+//! What is known of a film as a whole: its mean, its histogram, the exposure that follows from
+//! them, and the light that blooms.
+//!
+//! In: a film. Out: two things that [`tone`](super::pass::tone) reads, the statistics and the mip
+//! level that holds the bloom. They belong to the picture and not to a region of it: a view that
+//! draws a tile tones it by the [`Glow`] of a view that draws all of the picture
+//! ([`View::lend_glow`](super::View::lend_glow)), in which the tile's pixels are looked up by
+//! their place in the picture.
+//!
+//! The mip levels start with the one of 4×4 pixels and serve twice in one submit: first for the
+//! mean, which ends in the statistics, then for the bloom. Bytes a pixel: 4/3 for the levels, 1
+//! more for the blur; what the scene does not need is not allocated.
+
+use super::{
+    kernels::Kernels,
+    lattice::WORKGROUP_THREADS,
+    report::{HISTOGRAM_BINS, Histogram},
+    targets,
+    uniforms::{Picture, Statistics},
+};
+
+/// The finest mip level: one element for 4×4 pixels.
+pub const FIRST_LEVEL: u32 = 2;
+
+/// Most elements of a mip level that half the width of a blur's kernel spans. A coarser level is
+/// faster, a finer one follows what moves with smaller steps.
+const MOST_HALF_WIDTH: f32 = 6.0;
+
+const ELEMENT_BYTES: u64 = 16;
+
+/// What a scene wants to know of its film as a whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Need {
+    /// The film's mean, for auto exposure.
+    pub mean: bool,
+    /// The light that blooms.
+    pub bloom: bool,
+}
+
+impl Need {
+    /// What the tone pass of a picture reads.
+    pub fn of(picture: &Picture) -> Self {
+        Self { mean: picture.tone.auto_exposure != 0, bloom: picture.bloom.strength > 0.0 }
+    }
+
+    /// Nothing at all.
+    pub fn is_none(self) -> bool {
+        self == Self::default()
+    }
+}
+
+/// Statistics and mip levels of a film of one size.
+pub struct Glow {
+    size_px: [u32; 2],
+    need: Need,
+    /// [`Statistics`].
+    pub statistics: wgpu::Buffer,
+    mips: wgpu::Buffer,
+    half_blurred: wgpu::Buffer,
+    /// All three.
+    pub group: wgpu::BindGroup,
+}
+
+impl Glow {
+    /// Allocates what `need` takes for a film of `size_px`.
+    pub fn new(kernels: &Kernels, size_px: [u32; 2], need: Need) -> Self {
+        let bytes = size_of::<Statistics>() as u64;
+        let statistics = targets::storage(&kernels.gpu.device, "statistics", bytes);
+        // New buffers hold zeros; the size is all that no pass writes.
+        kernels.gpu.queue.write_buffer(&statistics, 0, bytemuck::bytes_of(&size_px));
+        Self::around(kernels, size_px, need, statistics)
+    }
+
+    /// One for the same film with room for `need`. The statistics stay: exposure goes on from
+    /// where it is.
+    pub fn with_need(&self, kernels: &Kernels, need: Need) -> Self {
+        Self::around(kernels, self.size_px, need, self.statistics.clone())
+    }
+
+    fn around(kernels: &Kernels, size_px: [u32; 2], need: Need, statistics: wgpu::Buffer) -> Self {
+        let device = &kernels.gpu.device;
+        let finest = u64::from(elements(size_px, FIRST_LEVEL));
+        let all: u64 =
+            (FIRST_LEVEL..=last_level(size_px)).map(|n| u64::from(elements(size_px, n))).sum();
+        let room = |wanted: bool, count: u64| ELEMENT_BYTES * if wanted { count } else { 1 };
+        let mips = targets::storage(device, "mip levels", room(!need.is_none(), all));
+        let half_blurred = targets::storage(device, "half blurred", room(need.bloom, finest));
+        let group = targets::group(
+            device,
+            &kernels.layouts.glow,
+            "glow",
+            [&statistics, &mips, &half_blurred].map(wgpu::Buffer::as_entire_binding),
+        );
+        Self { size_px, need, statistics, mips, half_blurred, group }
+    }
+
+    /// The film's width and height, in pixels.
+    pub fn size_px(&self) -> [u32; 2] {
+        self.size_px
+    }
+
+    /// What there is room for.
+    pub fn need(&self) -> Need {
+        self.need
+    }
+
+    /// GPU memory of the mip levels, and of what the blur needs beside them.
+    pub fn bytes(&self) -> [u64; 2] {
+        [&self.mips, &self.half_blurred].map(wgpu::Buffer::size)
+    }
+}
+
+/// Which parts of a glow one display brings up to date.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tasks {
+    /// The film's mean.
+    pub mean: bool,
+    /// The film's histogram.
+    pub histogram: bool,
+    /// Auto exposure: how far it moves toward its goal, above 0 to 1. None leaves it.
+    pub adapt: Option<f32>,
+    /// The light that blooms.
+    pub bloom: bool,
+}
+
+/// The level of one element.
+pub fn last_level(size_px: [u32; 2]) -> u32 {
+    let longest = size_px[0].max(size_px[1]).max(1);
+    longest.next_power_of_two().trailing_zeros().max(FIRST_LEVEL)
+}
+
+/// Elements of a level: as many as cover the film.
+pub fn elements(size_px: [u32; 2], level: u32) -> u32 {
+    size_px.map(|side| side.div_ceil(1 << level)).iter().product()
+}
+
+/// Workgroups of a dispatch over a level's elements; fewer than 65,536 for any region that
+/// [fits](super::Region::fits).
+pub fn workgroups(size_px: [u32; 2], level: u32) -> u32 {
+    elements(size_px, level).div_ceil(WORKGROUP_THREADS)
+}
+
+/// One uniform kernel: the mip level it works on, and half its width in that level's elements.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel {
+    /// The mip level.
+    pub level: u32,
+    /// Half the width, elements; at most [`MOST_HALF_WIDTH`] unless the level is the last.
+    pub half_width: f32,
+}
+
+impl Kernel {
+    /// The kernel for a radius in parts of the height of a film of `size_px`. Applied `passes`
+    /// times, it spreads light with the variance of a single one with that half width.
+    pub fn new(radius: f32, passes: u32, size_px: [u32; 2]) -> Self {
+        let half_width_px = radius * size_px[1] as f32 / (passes.max(1) as f32).sqrt();
+        let at = |level: u32| half_width_px / (1_u32 << level) as f32;
+        let last = last_level(size_px);
+        let level = (FIRST_LEVEL..last).find(|&n| at(n) <= MOST_HALF_WIDTH).unwrap_or(last);
+        Self { level, half_width: at(level) }
+    }
+}
+
+/// What the interface shows of the statistics.
+pub(super) fn histogram(bytes: &[u8]) -> Option<Histogram> {
+    let statistics: Statistics = bytemuck::try_pod_read_unaligned(bytes).ok()?;
+    let bins: [u32; HISTOGRAM_BINS] = statistics.bins;
+    Some(Histogram { bins: bins.into(), adapted_stops: statistics.adapted_stops })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_end_in_one_element() {
+        for size_px in [[1, 1], [4, 4], [5, 1], [7, 3], [101, 67], [1920, 1080], [8192, 2048]] {
+            assert_eq!(elements(size_px, last_level(size_px)), 1, "{size_px:?}");
+        }
+        assert_eq!(last_level([1920, 1080]), 11);
+    }
+
+    #[test]
+    fn every_region_takes_one_dispatch_a_level() {
+        for size_px in [[8192, 2048], [2048, 8192], [4096, 4096]] {
+            assert!(workgroups(size_px, FIRST_LEVEL) < 65_536);
+        }
+    }
+
+    #[test]
+    fn kernels_are_short_and_as_wide_as_they_should_be() {
+        for size_px in [[96, 64], [1920, 1080], [4096, 4096]] {
+            for radius in [0.005, 0.04, 0.25] {
+                for passes in 1..=4 {
+                    let kernel = Kernel::new(radius, passes, size_px);
+                    assert!(kernel.half_width <= MOST_HALF_WIDTH);
+                    // Coarser only where a finer one would be too long.
+                    assert!(
+                        kernel.level == FIRST_LEVEL || kernel.half_width > MOST_HALF_WIDTH / 2.0
+                    );
+                    let px = f64::from(kernel.half_width) * f64::from(1_u32 << kernel.level);
+                    let variance = f64::from(passes) * px * px;
+                    let single = f64::from(radius) * f64::from(size_px[1]);
+                    assert!((variance / (single * single) - 1.0).abs() < 1e-5);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The light that blooms: what is above the threshold, brought to a mip level and blurred there.
+
+use super::{blur, reduce};
+use crate::{
+    gpu::shader::Module,
+    render::{
+        frame::Recorder,
+        glow::{self, FIRST_LEVEL, Kernel},
+        uniforms::Slice,
+    },
+    shader_file,
+};
+use bytemuck::Zeroable;
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "bloom",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/glow.wgsl"),
+        shader_file!("types/film.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/luminance.wgsl"),
+        shader_file!("lib/mip.wgsl"),
+        shader_file!("lib/curve.wgsl"),
+        shader_file!("pass/bloom.wgsl"),
+    ],
+};
+
+/// Leaves the blurred light in the mip level that the statistics then name.
+pub fn record(recorder: &mut Recorder<'_>) {
+    let picture = &recorder.inputs.picture;
+    let size_px = picture.size_px;
+    let passes = picture.bloom.passes;
+    let kernel = Kernel::new(picture.bloom.radius, passes, size_px);
+    let pipeline = recorder.kernels.glow.bloom.clone();
+    recorder.dispatch(&pipeline, Slice::zeroed(), glow::workgroups(size_px, FIRST_LEVEL));
+    reduce::record(recorder, kernel.level);
+    for _ in 0..passes {
+        blur::record(recorder, kernel);
+    }
+    recorder.dispatches.bloom += 1;
+}

@@ -1,0 +1,43 @@
+//! The film's histogram.
+
+use crate::{
+    gpu::shader::Module,
+    render::{
+        frame::Recorder,
+        glow::{self, FIRST_LEVEL},
+        uniforms::{Slice, Statistics},
+    },
+    shader_file,
+};
+use bytemuck::Zeroable;
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "histogram",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/glow.wgsl"),
+        shader_file!("types/film.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/luminance.wgsl"),
+        shader_file!("lib/mip.wgsl"),
+        shader_file!("pass/histogram.wgsl"),
+    ],
+};
+
+/// Counts the film's pixels by luminance.
+pub fn record(recorder: &mut Recorder<'_>) {
+    // Writes take effect with the submit, before its passes.
+    let first_bin = std::mem::offset_of!(Statistics, bins) as u64;
+    let zeros = Statistics::zeroed().bins;
+    recorder.kernels.gpu.queue.write_buffer(
+        &recorder.glow.statistics,
+        first_bin,
+        bytemuck::bytes_of(&zeros),
+    );
+    let pipeline = recorder.kernels.glow.histogram.clone();
+    let workgroups = glow::workgroups(recorder.inputs.picture.size_px, FIRST_LEVEL);
+    recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
+    recorder.dispatches.histogram += 1;
+}

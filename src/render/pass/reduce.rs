@@ -1,0 +1,34 @@
+//! Mip levels from the finest one.
+
+use crate::{
+    gpu::shader::Module,
+    render::{
+        frame::Recorder,
+        glow::{self, FIRST_LEVEL},
+        uniforms::Slice,
+    },
+    shader_file,
+};
+use bytemuck::Zeroable;
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "reduce",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/glow.wgsl"),
+        shader_file!("lib/mip.wgsl"),
+        shader_file!("pass/reduce.wgsl"),
+    ],
+};
+
+/// Makes every level up to `last`.
+pub fn record(recorder: &mut Recorder<'_>, last: u32) {
+    let pipeline = recorder.kernels.glow.reduce.clone();
+    for level in FIRST_LEVEL..last {
+        let workgroups = glow::workgroups(recorder.inputs.picture.size_px, level + 1);
+        let slice = Slice { mip_level: level, ..Slice::zeroed() };
+        recorder.dispatch(&pipeline, slice, workgroups);
+    }
+}
