@@ -103,6 +103,12 @@ fn scalar_defaults_are_those_of_the_parameter_table() {
     }
 }
 
+#[test]
+fn the_tone_curve_is_still_read_by_its_first_name() {
+    let scene = read_with("tone.curve", json!("reinhard_luminance")).unwrap();
+    assert_eq!(scene.tone, Scene::default().tone);
+}
+
 /// The error that a scene's JSON gives.
 fn error_of(scene: Value) -> String {
     let document = json!({ "mandelight": "scene", "version": 1, "scene": scene });

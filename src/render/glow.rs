@@ -55,7 +55,8 @@ pub struct Glow {
     need: Need,
     /// [`Statistics`].
     pub statistics: wgpu::Buffer,
-    mips: wgpu::Buffer,
+    /// 4 × f32 an element: the levels from [`FIRST_LEVEL`] on, rows packed.
+    pub mips: wgpu::Buffer,
     half_blurred: wgpu::Buffer,
     /// All three.
     pub group: wgpu::BindGroup,

@@ -2,7 +2,7 @@
 
 use mandelight::{
     render::{Activity, Pace, View, frame::Dispatches},
-    scene::Scene,
+    scene::{BloomOrder, Scene, ToneCurve, ToneMean},
 };
 
 use crate::harness::{difference, finished, kernels, pixels, sampled, settle};
@@ -12,7 +12,16 @@ const SIZE: [u32; 2] = [96, 64];
 /// Settles an interactive view, edits its scene, settles it again; returns the dispatches that
 /// the edit cost.
 fn cost_of(samples: u32, edit: impl FnOnce(&mut Scene)) -> Dispatches {
-    let mut scene = sampled(Scene::default(), samples);
+    cost_from(sampled(Scene::default(), samples), |_| (), edit)
+}
+
+/// The same from another scene.
+fn cost_from(
+    mut scene: Scene,
+    prepare: impl FnOnce(&mut Scene),
+    edit: impl FnOnce(&mut Scene),
+) -> Dispatches {
+    prepare(&mut scene);
     let mut view = finished(&scene, SIZE, Pace::Interactive);
     let before = view.dispatches();
     edit(&mut scene);
@@ -70,6 +79,70 @@ fn a_geometry_edit_marches() {
     for edit in edits {
         assert!(cost_of(1, edit).march > 0);
     }
+}
+
+/// What no scene asked for is neither computed nor allocated.
+#[test]
+fn mean_histogram_and_bloom_cost_nothing_while_off() {
+    let view = finished(&sampled(Scene::default(), 3), SIZE, Pace::Interactive);
+    let Dispatches { mean, histogram, bloom, .. } = view.dispatches();
+    assert_eq!([mean, histogram, bloom], [0; 3]);
+    assert!(view.glow().bytes().into_iter().sum::<u64>() < 64);
+}
+
+#[test]
+fn tone_edits_find_out_nothing_anew() {
+    let glowing = |scene: &mut Scene| {
+        scene.tone.auto_exposure = true;
+        scene.bloom.strength = 0.3;
+    };
+    let edits: [fn(&mut Scene); 6] = [
+        |scene| scene.tone.exposure = 1.0,
+        |scene| scene.tone.key = 0.3,
+        |scene| scene.tone.mean = ToneMean::Arithmetic,
+        |scene| scene.tone.curve = ToneCurve::Agx,
+        |scene| scene.bloom.radius = 0.1,
+        |scene| scene.bloom.order = BloomOrder::Before,
+    ];
+    for edit in edits {
+        let cost = cost_from(sampled(Scene::default(), 2), glowing, edit);
+        assert_eq!(cost, Dispatches { bloom: 1, tone: 1, ..Dispatches::default() });
+    }
+    // One after the other is switched on.
+    let cost = cost_of(2, |scene| scene.tone.auto_exposure = true);
+    assert_eq!(cost, Dispatches { mean: 1, tone: 1, ..Dispatches::default() });
+    let cost = cost_of(2, |scene| scene.bloom.strength = 0.3);
+    assert_eq!(cost, Dispatches { bloom: 1, tone: 1, ..Dispatches::default() });
+}
+
+#[test]
+fn a_histogram_is_made_only_while_it_is_watched() {
+    let mut scene = sampled(Scene::default(), 2);
+    let mut view = finished(&scene, SIZE, Pace::Interactive);
+    assert_eq!(view.report().histogram, None);
+    let before = view.dispatches();
+    view.watch_histogram(true);
+    settle(&mut view);
+    let watched = view.dispatches();
+    assert_eq!(watched, Dispatches { histogram: 1, tone: before.tone + 1, ..before });
+    let histogram = view.report().histogram.expect("a histogram");
+    assert_eq!(histogram.bins.iter().sum::<u32>(), SIZE[0] * SIZE[1]);
+
+    // The film stays as it is: so does what is known of it.
+    scene.tone.exposure = 1.0;
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    assert_eq!(view.dispatches().histogram, 1);
+    scene.lights.environment[0].intensity = 20.0;
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    assert_ne!(view.report().histogram.expect("a histogram"), histogram);
+
+    let before = view.dispatches();
+    view.watch_histogram(false);
+    settle(&mut view);
+    assert_eq!(view.dispatches(), before);
+    assert_eq!(view.report().histogram, None);
 }
 
 #[test]

@@ -115,7 +115,8 @@ pub fn display(scene: &Scene, radiance: DVec3) -> DVec3 {
     DVec3::from_array(curved.to_array().map(|v| 255.0 * srgb(v)))
 }
 
-fn srgb(v: f64) -> f64 {
+/// IEC 61966-2-1.
+pub fn srgb(v: f64) -> f64 {
     if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
 }
 

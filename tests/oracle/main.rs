@@ -8,17 +8,23 @@
 //! | `normals` | oracle: the estimate's gradient, by differences |
 //! | `light` | oracle: Blinn-Phong, the gradient, tone curve, sRGB |
 //! | `tone` | oracle: the tone curves |
+//! | `bloom` | oracle: light that spreads |
+//! | `film` | films of any colours, given to the kernels |
 //! | `views` | the views that pictures are compared on |
 //! | `against_cpu` | `src/fractal` and `src/scene` against the oracle |
+//! | `toned` | what the kernels make of a film, against the oracle |
 //! | `against_gpu` | the kernels against the oracle, on whatever adapter there is |
 
 mod against_cpu;
 mod against_gpu;
+mod bloom;
 mod estimate;
+mod film;
 mod light;
 mod normals;
 mod rays;
 mod tone;
+mod toned;
 mod views;
 
 /// A small generator of repeatable numbers (xorshift).

@@ -220,6 +220,75 @@ fn tone_edits_only_show() {
     assert_eq!(schedule.next(now), None);
 }
 
+/// The parts of the way to its goal that exposure goes in each show until rest, with their times.
+fn adaptations(schedule: &mut Schedule, now: &mut f64) -> Vec<(f64, f32)> {
+    let mut device = Device::new(1.0, 0.0);
+    let mut shows = Vec::new();
+    while !schedule.status(*now).idle {
+        while let Some(work) = schedule.next(*now) {
+            if let Work::Show { adapt, .. } = work {
+                shows.push((*now, adapt));
+            }
+            device.submit(work, *now);
+        }
+        *now += FRAME_SECS;
+        device.collect(schedule, *now);
+    }
+    shows
+}
+
+#[test]
+fn exposure_settles_and_the_view_rests() {
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 3);
+    schedule.set_adapting(true);
+    let mut now = 0.0;
+    let first = adaptations(&mut schedule, &mut now)[0];
+    assert_eq!(first.1, 1.0, "the first picture has its own exposure");
+
+    schedule.change(Stale::Light, false, now);
+    let changed_at = now;
+    let shows = adaptations(&mut schedule, &mut now);
+    let (last, before) = shows.split_last().expect("shows");
+    assert_eq!(last.1, 1.0, "it ends at its goal");
+    assert!(before[0].1 < 1.0, "it does not jump there");
+    let half_way = |shows: &[(f64, f32)]| {
+        let mut left = 1.0;
+        shows
+            .iter()
+            .find(|(_, adapt)| {
+                left *= 1.0 - adapt;
+                left < 0.5
+            })
+            .map(|(at, _)| at - changed_at)
+    };
+    let secs = half_way(&shows).expect("half of the way");
+    assert!((0.05..0.4).contains(&secs), "half of the way after {secs} s");
+    // What is left before the last step no longer shows, even of a change by four stops.
+    let left: f32 = before.iter().map(|(_, adapt)| 1.0 - adapt).product();
+    assert!(4.0 * left < 0.02, "{left} of the way is left to the last step");
+    assert!(before.len() > 10, "only {} steps", before.len());
+    assert_eq!(schedule.next(now), None);
+}
+
+#[test]
+fn tone_edits_and_stills_have_their_exposure_at_once() {
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 2);
+    schedule.set_adapting(true);
+    let mut now = 0.0;
+    adaptations(&mut schedule, &mut now);
+    schedule.change(Stale::Tone, false, now);
+    let shows = adaptations(&mut schedule, &mut now);
+    assert_eq!(shows.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
+
+    let mut still = Schedule::new(Pace::Still, SIZE);
+    still.aim(16.0, 2);
+    still.set_adapting(true);
+    let shows = adaptations(&mut still, &mut now);
+    assert_eq!(shows.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
+}
+
 #[test]
 fn more_samples_go_on_and_fewer_start_again() {
     let mut device = Device::new(1.0, 0.0);

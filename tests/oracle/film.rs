@@ -1,0 +1,96 @@
+//! Films of any colours, given to the kernels as if they had been rendered.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec3;
+use mandelight::{
+    gpu::{Gpu, readback::Readback},
+    render::{
+        Kernels, Region,
+        frame::{Dispatches, Recorder, record},
+        glow::{Glow, Need, Tasks},
+        schedule::Work,
+        targets::Targets,
+        uniforms::{Inputs, Statistics},
+    },
+    scene::Scene,
+};
+
+/// The pipelines, made once.
+pub fn kernels() -> &'static Arc<Kernels> {
+    static KERNELS: OnceLock<Arc<Kernels>> = OnceLock::new();
+    KERNELS.get_or_init(|| {
+        let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+        Kernels::new(&gpu)
+    })
+}
+
+/// What the kernels made of a film.
+pub struct Toned {
+    /// Mean, exposure, histogram, where the bloom lies.
+    pub statistics: Statistics,
+    /// All mip levels, as the last pass left them.
+    pub mips: Vec<DVec3>,
+    /// Display values of each pixel, 0 to 255.
+    pub display: Vec<DVec3>,
+}
+
+/// A film of one sample a pixel, of which everything is found out.
+pub struct Film {
+    size_px: [u32; 2],
+    targets: Targets,
+}
+
+impl Film {
+    /// A film of `size_px`.
+    pub fn new(size_px: [u32; 2]) -> Self {
+        let mut targets = Targets::new(kernels(), size_px);
+        let need = Need { mean: true, bloom: true };
+        targets.glow = Arc::new(Glow::new(kernels(), size_px, need));
+        Self { size_px, targets }
+    }
+
+    /// Shows `colors` with the scene's tone and bloom.
+    pub fn tone(&self, scene: &Scene, colors: &[[f32; 3]]) -> Toned {
+        let kernels = kernels();
+        let gpu = &kernels.gpu;
+        let inputs = Inputs::new(scene, Region::whole(self.size_px));
+        self.targets.upload(&gpu.queue, &inputs);
+        let rg: Vec<_> = colors.iter().map(|[r, g, _]| [*r, *g]).collect();
+        let bw: Vec<_> = colors.iter().map(|[_, _, b]| [*b, 1.0]).collect();
+        gpu.queue.write_buffer(&self.targets.film_rg, 0, bytemuck::cast_slice(&rg));
+        gpu.queue.write_buffer(&self.targets.film_bw, 0, bytemuck::cast_slice(&bw));
+        let marchers = kernels.marchers(0);
+        let mut dispatches = Dispatches::default();
+        let mut recorder =
+            Recorder::new(kernels, &marchers, &self.targets, &inputs, &mut dispatches);
+        recorder.tasks = Tasks {
+            mean: true,
+            histogram: true,
+            adapt: Some(1.0),
+            bloom: scene.bloom.strength > 0.0,
+        };
+        record(&mut recorder, Work::Show { level: 0, fill: false, adapt: 1.0 });
+        gpu.queue.submit([recorder.finish()]);
+
+        let glow = &self.targets.glow;
+        let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("the buffer's bytes");
+        let display = Readback::texture(gpu, &self.targets.texture, self.size_px);
+        let bytes = display.wait(gpu).expect("the picture's bytes");
+        assert_eq!(gpu.faults(), 0);
+        let element = |bytes: &[u8; 16]| {
+            let [r, g, b, _]: [f32; 4] = bytemuck::cast(*bytes);
+            DVec3::new(r.into(), g.into(), b.into())
+        };
+        Toned {
+            statistics: bytemuck::pod_read_unaligned(&read(&glow.statistics)),
+            mips: read(&glow.mips).as_chunks().0.iter().map(element).collect(),
+            display: bytes
+                .as_chunks::<4>()
+                .0
+                .iter()
+                .map(|&[r, g, b, _]| DVec3::new(r.into(), g.into(), b.into()))
+                .collect(),
+        }
+    }
+}
