@@ -3,7 +3,7 @@
 //! In: text that may come from anyone. Out: a valid [`Scene`], or an error that names the
 //! field at fault (or line and column) and says what is wrong. `docs/scene.md` describes the
 //! format. A field left out takes its default, so the defaults belong to the version: a test
-//! keeps version 1's.
+//! keeps version 1's. A camera path stands beside the scene; `keys` has its form.
 
 use std::io;
 
@@ -13,7 +13,11 @@ use serde::{
     de::{DeserializeOwned, IgnoredAny},
 };
 
-use super::{Invalid, Scene, param, validate::UNIT_TOLERANCE};
+use super::{Invalid, Project, Scene, param, validate::UNIT_TOLERANCE};
+
+mod keys;
+
+pub(super) use keys::{path_value, value_of};
 
 /// The version written, and the only one read.
 pub const VERSION: u32 = 1;
@@ -75,45 +79,76 @@ struct Header {
     version: Option<serde_json::Value>,
 }
 
-/// The document; `S` is `Scene` to read and `&Scene` to write.
+/// The document; `S` is `Scene` to read and `&Scene` to write, `P` its path.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Document<S> {
+struct Document<S, P: Default + PartialEq> {
     mandelight: String,
     version: u32,
     scene: S,
+    #[serde(default, skip_serializing_if = "is_default")]
+    path: P,
+}
+
+fn is_default<P: Default + PartialEq>(path: &P) -> bool {
+    *path == P::default()
 }
 
 const KIND: &str = "scene";
 
-fn document(scene: &Scene) -> Document<&Scene> {
-    Document { mandelight: KIND.into(), version: VERSION, scene }
+fn document(scene: &Scene, path: keys::PathText) -> Document<&Scene, keys::PathText> {
+    Document { mandelight: KIND.into(), version: VERSION, scene, path }
 }
 
-/// The document, indented for people; fields in the order of the types.
-pub fn to_json(scene: &Scene) -> String {
+fn indented(document: &impl Serialize) -> String {
     let mut bytes = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Indented::default());
     // Writing to memory does not fail, and every key of a scene is a string.
-    document(scene).serialize(&mut serializer).expect("a scene is JSON");
+    document.serialize(&mut serializer).expect("a scene is JSON");
     bytes.push(b'\n');
     // The serializer writes only UTF-8.
     String::from_utf8(bytes).expect("JSON is UTF-8")
 }
 
-/// The document on one line, for text chunks and storage.
-pub fn to_json_compact(scene: &Scene) -> String {
-    // Every key of a scene is a string, which is all that could fail.
-    serde_json::to_string(&document(scene)).expect("a scene is JSON")
+/// The document of a scene alone, indented for people; fields in the order of the types.
+pub fn to_json(scene: &Scene) -> String {
+    indented(&document(scene, keys::PathText::default()))
 }
 
-/// Reads a document. Fields left out take their defaults; directions and orientations whose
-/// length is within 1e-3 of 1 are brought to 1.
+/// The document of a scene alone on one line, for text chunks and storage.
+pub fn to_json_compact(scene: &Scene) -> String {
+    // Every key of a scene is a string, which is all that could fail.
+    serde_json::to_string(&document(scene, keys::PathText::default())).expect("a scene is JSON")
+}
+
+/// The document of a scene and its path, indented for people.
+pub fn project_to_json(project: &Project) -> String {
+    indented(&document(&project.scene, keys::text_of(project)))
+}
+
+/// The document of a scene and its path on one line.
+pub fn project_to_json_compact(project: &Project) -> String {
+    // As for a scene: every key is a string.
+    serde_json::to_string(&document(&project.scene, keys::text_of(project)))
+        .expect("a project is JSON")
+}
+
+/// Reads a document's scene. Fields left out take their defaults; directions and orientations
+/// whose length is within 1e-3 of 1 are brought to 1.
 ///
 /// # Errors
 ///
-/// See [`DocumentError`]. Nothing else happens: the caller's scene is as it was.
+/// See [`DocumentError`]: a bad path too. Nothing else happens: the caller's scene is as it was.
 pub fn from_json(text: &str) -> Result<Scene, DocumentError> {
+    Ok(project_from_json(text)?.scene)
+}
+
+/// Reads a document: its scene as [`from_json`], and its path.
+///
+/// # Errors
+///
+/// See [`DocumentError`].
+pub fn project_from_json(text: &str) -> Result<Project, DocumentError> {
     if text.len() > MAX_BYTES {
         return Err(DocumentError::TooLarge { bytes: text.len() });
     }
@@ -132,7 +167,8 @@ pub fn from_json(text: &str) -> Result<Scene, DocumentError> {
         let found = header.version.map_or("none".into(), |version| clipped(&version.to_string()));
         return Err(DocumentError::Version { found });
     }
-    checked(parse::<Document<Scene>>(text)?.scene)
+    let Document { scene, path, .. } = parse::<Document<Scene, keys::PathDraft>>(text)?;
+    Ok(Project { scene: checked(scene)?, path: path.finish(text)? })
 }
 
 /// Reads a scene without its envelope, in the words of this [`VERSION`].
@@ -179,7 +215,9 @@ fn field_error(path: &str, error: &serde_json::Error) -> DocumentError {
         path => path.strip_prefix("scene.").unwrap_or(path),
     };
     let mut message = message_of(error);
-    if let Some(param) = param::find(path) {
+    // A key's scene has the same fields.
+    let field = path.split_once("].scene.").map_or(path, |(_, field)| field);
+    if let Some(param) = param::find(field) {
         message = format!("{message}; it takes {}", param.range_text());
     }
     DocumentError::Field {

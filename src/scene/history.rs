@@ -1,11 +1,11 @@
-//! Undo and redo over whole scenes, grouped by gesture.
+//! Undo and redo over whole states, grouped by gesture.
 //!
-//! In: the scene as it was before each change. Out: the scene to go back or forward to. Pure
-//! data: it knows neither keys nor panels, and keeps no clock.
+//! In: the state as it was before each change, a scene or a [`Project`]. Out: the state to go
+//! back or forward to. Pure data: it knows neither keys nor panels, and keeps no clock.
 
 use std::collections::VecDeque;
 
-use super::Scene;
+use super::Project;
 
 /// The most steps back that are kept; older ones are forgotten.
 pub const MAX_STEPS: usize = 200;
@@ -15,27 +15,27 @@ pub const MAX_STEPS: usize = 200;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GestureId(pub u64);
 
-/// The scenes before and after the present one.
-#[derive(Clone, Debug, Default)]
-pub struct History {
-    /// Earlier scenes, the latest last.
-    past: VecDeque<Scene>,
-    /// Scenes that were undone, the next one last.
-    future: Vec<Scene>,
+/// The states before and after the present one.
+#[derive(Clone, Debug)]
+pub struct History<T = Project> {
+    /// Earlier states, the latest last.
+    past: VecDeque<T>,
+    /// States that were undone, the next one last.
+    future: Vec<T>,
     /// The gesture of the last recorded change, while further changes may join it.
     open: Option<GestureId>,
 }
 
-impl History {
+impl<T: Clone> History<T> {
     /// Nothing to undo or redo.
     pub fn new() -> Self {
-        Self::default()
+        Self { past: VecDeque::new(), future: Vec::new(), open: None }
     }
 
     /// Notes that `before` is about to change, or just has. Call it for real changes only.
     /// Within one gesture only the first call counts; without one, every call is a step of its
     /// own. What was undone can no longer be redone.
-    pub fn record(&mut self, before: &Scene, gesture: Option<GestureId>) {
+    pub fn record(&mut self, before: &T, gesture: Option<GestureId>) {
         self.future.clear();
         if gesture.is_some() && gesture == self.open {
             return;
@@ -47,16 +47,16 @@ impl History {
         self.past.push_back(before.clone());
     }
 
-    /// The scene one step back, to replace `present`; none at the beginning.
-    pub fn undo(&mut self, present: &Scene) -> Option<Scene> {
+    /// The state one step back, to replace `present`; none at the beginning.
+    pub fn undo(&mut self, present: &T) -> Option<T> {
         self.open = None;
         let earlier = self.past.pop_back()?;
         self.future.push(present.clone());
         Some(earlier)
     }
 
-    /// The scene one step forward again, to replace `present`; none at the end.
-    pub fn redo(&mut self, present: &Scene) -> Option<Scene> {
+    /// The state one step forward again, to replace `present`; none at the end.
+    pub fn redo(&mut self, present: &T) -> Option<T> {
         self.open = None;
         let later = self.future.pop()?;
         self.past.push_back(present.clone());
@@ -71,5 +71,11 @@ impl History {
     /// Whether there is a step forward.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
+    }
+}
+
+impl<T: Clone> Default for History<T> {
+    fn default() -> Self {
+        Self::new()
     }
 }

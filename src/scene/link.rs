@@ -1,6 +1,6 @@
 //! The scene as an address's fragment: `#s1=` and base64url of deflated JSON.
 //!
-//! In: a scene, or text from an address that may come from anyone. Out: the other one. Fields
+//! In: a scene with its path, or text from an address that may come from anyone. Out: the other one. Fields
 //! that have their default are left out, which keeps links short and makes the defaults part
 //! of the version (see [`super::document`]). The digit is the document's version.
 
@@ -10,11 +10,11 @@ use miniz_oxide::{
     inflate::{TINFLStatus, decompress_to_vec_with_limit},
 };
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{
-    EnvironmentLight, PointLight, Scene,
-    document::{self, DocumentError},
+    EnvironmentLight, Path, PointLight, Project, Scene,
+    document::{self, DocumentError, value_of},
 };
 
 /// The longest fragment made or read, in bytes.
@@ -67,7 +67,24 @@ pub enum LinkError {
 ///
 /// [`LinkError::TooLong`] for scenes with very many different lights.
 pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
-    let deflated = compress_to_vec(differences(scene).to_string().as_bytes(), DEFLATE_LEVEL);
+    fragment_of(&differences(value_of(scene)))
+}
+
+/// The fragment that holds a scene and its path.
+///
+/// # Errors
+///
+/// [`LinkError::TooLong`], as paths of many keys are.
+pub fn project_to_fragment(project: &Project) -> Result<String, LinkError> {
+    let mut payload = differences(value_of(&project.scene));
+    if project.path != Path::default() {
+        payload["path"] = document::path_value(project, differences);
+    }
+    fragment_of(&payload)
+}
+
+fn fragment_of(payload: &Value) -> Result<String, LinkError> {
+    let deflated = compress_to_vec(payload.to_string().as_bytes(), DEFLATE_LEVEL);
     let fragment = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(deflated));
     if fragment.len() > MAX_FRAGMENT_BYTES {
         return Err(LinkError::TooLong { bytes: fragment.len() });
@@ -75,12 +92,21 @@ pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
     Ok(fragment)
 }
 
-/// Reads a fragment, with or without its `#`.
+/// Reads a fragment's scene, with or without its `#`.
 ///
 /// # Errors
 ///
-/// See [`LinkError`]. The caller's scene is as it was.
+/// See [`LinkError`]: a bad path too. The caller's scene is as it was.
 pub fn from_fragment(fragment: &str) -> Result<Scene, LinkError> {
+    Ok(project_from_fragment(fragment)?.scene)
+}
+
+/// Reads a fragment: its scene, and its path where it has one.
+///
+/// # Errors
+///
+/// See [`LinkError`].
+pub fn project_from_fragment(fragment: &str) -> Result<Project, LinkError> {
     if fragment.len() > MAX_FRAGMENT_BYTES {
         return Err(LinkError::TooLong { bytes: fragment.len() });
     }
@@ -94,7 +120,16 @@ pub fn from_fragment(fragment: &str) -> Result<Scene, LinkError> {
             _ => LinkError::Damaged,
         })?;
     let text = String::from_utf8(inflated).map_err(|_| LinkError::Damaged)?;
-    Ok(document::scene_from_json(&text)?)
+    let path = match serde_json::from_str::<Value>(&text) {
+        Ok(Value::Object(mut fields)) => fields.remove("path").map(|path| (path, fields)),
+        _ => None,
+    };
+    let Some((path, scene)) = path else {
+        return Ok(document::scene_from_json(&text)?.into());
+    };
+    // The path stands among the scene's own fields, for shortness.
+    let whole = json!({ "mandelight": "scene", "version": document::VERSION, "scene": scene, "path": path });
+    Ok(document::project_from_json(&whole.to_string())?)
 }
 
 /// What follows the prefix, where it is this version's.
@@ -113,9 +148,8 @@ fn payload_of(fragment: &str) -> Result<&str, LinkError> {
     }
 }
 
-/// The scene's JSON without the fields that have their default.
-fn differences(scene: &Scene) -> Value {
-    let mut value = value_of(scene);
+/// A scene's JSON without the fields that have their default.
+fn differences(mut value: Value) -> Value {
     drop_defaults(&mut value, &value_of(&Scene::default()));
     drop_list_defaults(&mut value, "environment", &EnvironmentLight::default());
     drop_list_defaults(&mut value, "point", &PointLight::default());
@@ -144,12 +178,4 @@ fn drop_defaults(value: &mut Value, default: &Value) {
         }
         None => true,
     });
-}
-
-/// The JSON of `part`, by way of text: straight to a [`Value`], an f32 of 0.1 would become
-/// 0.10000000149011612.
-fn value_of(part: &impl Serialize) -> Value {
-    // Every key is a string, and what serde_json writes it also reads.
-    let text = serde_json::to_string(part).expect("a part of a scene is JSON");
-    serde_json::from_str(&text).expect("serde_json reads what it writes")
 }

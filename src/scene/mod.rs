@@ -11,6 +11,8 @@
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
 //! | [`history`] | undo and redo, grouped by gesture |
+//! | [`path`] | key frames of whole scenes, and the scene at any time between them |
+//! | `project` | a scene and its path, as a document holds them |
 //! | [`presets`] | the opening scenes |
 //! | `validate` | the check that every loaded scene has passed |
 //! | [`color`] | sRGB, and the gradient as a table |
@@ -20,6 +22,7 @@ mod bloom;
 mod camera;
 mod fractal;
 mod light;
+mod project;
 mod quality;
 mod surface;
 mod tone;
@@ -29,6 +32,7 @@ pub mod document;
 pub mod history;
 pub mod link;
 pub mod param;
+pub mod path;
 pub mod precise;
 pub mod presets;
 mod validate;
@@ -38,7 +42,9 @@ pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use fractal::{Fractal, Variant};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
+pub use path::Path;
 pub use precise::{Precise, PrecisePoint};
+pub use project::Project;
 pub use quality::Quality;
 pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};

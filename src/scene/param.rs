@@ -18,6 +18,8 @@ pub enum Unit {
     ViewUnits,
     /// Photographic stops: one more doubles the light.
     Stops,
+    /// Seconds.
+    Seconds,
     /// Thousandths of a second.
     Milliseconds,
     /// Cone radii of a pixel at the depth in question.
@@ -33,6 +35,7 @@ impl Unit {
             Self::SceneUnits => " u",
             Self::ViewUnits => " view",
             Self::Stops => " EV",
+            Self::Seconds => " s",
             Self::Milliseconds => " ms",
             Self::Footprints => " px",
         }
@@ -47,6 +50,7 @@ impl Unit {
             Self::SceneUnits => "scene units",
             Self::ViewUnits => "view units (camera to pivot)",
             Self::Stops => "stops",
+            Self::Seconds => "seconds",
             Self::Milliseconds => "milliseconds",
             Self::Footprints => "pixel cone radii",
         }

@@ -1,56 +1,61 @@
-//! The scene under edit and its undo history.
+//! The scene and the path under edit, and their undo history.
 //!
-//! Panels change the scene in place. Once a frame the session compares it with the frame's
+//! Panels change them in place. Once a frame the session compares them with the frame's
 //! start and records what changed; all changes of one gesture (a drag, a flight, a run of
 //! wheel notches) become one step.
 
 use crate::scene::{
-    Scene,
+    Project, Scene,
     history::{GestureId, History},
 };
 
-/// A scene with its history.
+/// A project with its history.
 #[derive(Clone, Debug)]
 pub struct Editor {
-    scene: Scene,
+    project: Project,
     history: History,
     gesture: GestureId,
     last_change_secs: f64,
 }
 
 impl Editor {
-    /// A session that starts at `scene`, with nothing to undo.
-    pub fn new(scene: Scene) -> Self {
+    /// A session that starts at `project`, with nothing to undo.
+    pub fn new(project: Project) -> Self {
         Self {
-            scene,
+            project,
             history: History::new(),
             gesture: GestureId(0),
             last_change_secs: f64::NEG_INFINITY,
         }
     }
 
+    /// The scene and the path as they are now.
+    pub fn project(&self) -> &Project {
+        &self.project
+    }
+
     /// The scene as it is now.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        &self.project.scene
     }
 
     /// The scene, for the panels; [`Self::note_changes`] must follow in the same frame.
     pub(super) fn scene_mut(&mut self) -> &mut Scene {
-        &mut self.scene
+        &mut self.project.scene
     }
 
-    /// Puts another scene in its place, as one step that can be undone.
-    pub fn replace(&mut self, scene: Scene) {
-        if scene != self.scene {
+    /// Puts another project in its place, as one step that can be undone.
+    pub fn replace(&mut self, project: Project) {
+        if project != self.project {
             self.next_gesture();
-            let before = std::mem::replace(&mut self.scene, scene);
+            let before = std::mem::replace(&mut self.project, project);
             self.history.record(&before, None);
         }
     }
 
     /// Records what has changed since `before`. Changes made `during_gesture` join one step.
-    pub(super) fn note_changes(&mut self, before: &Scene, during_gesture: bool, now_secs: f64) {
-        if self.scene != *before {
+    pub(super) fn note_changes(&mut self, before: &Project, during_gesture: bool, now_secs: f64) {
+        if self.project != *before {
             self.history.record(before, Some(self.gesture));
             self.last_change_secs = now_secs;
         }
@@ -72,16 +77,16 @@ impl Editor {
     /// Goes one step back, where there is one.
     pub fn undo(&mut self) {
         self.next_gesture();
-        if let Some(scene) = self.history.undo(&self.scene) {
-            self.scene = scene;
+        if let Some(project) = self.history.undo(&self.project) {
+            self.project = project;
         }
     }
 
     /// Goes one step forward again, where there is one.
     pub fn redo(&mut self) {
         self.next_gesture();
-        if let Some(scene) = self.history.redo(&self.scene) {
-            self.scene = scene;
+        if let Some(project) = self.history.redo(&self.project) {
+            self.project = project;
         }
     }
 

@@ -14,7 +14,7 @@ use super::{
     shortcuts::{self, Command},
     status, theme, view,
 };
-use crate::scene::{Camera, Scene, presets};
+use crate::scene::{Camera, Project, Scene, presets};
 
 /// A movement that pauses for this long, while the hand still holds on, gets a full picture.
 const STILL_SECS: f64 = 0.25;
@@ -40,11 +40,12 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// An interface to `scene`, seen exactly from where it says.
-    pub fn new(scene: Scene, settings: Settings) -> Self {
+    /// An interface to a scene, or one with its path, seen exactly from where it says.
+    pub fn new(project: impl Into<Project>, settings: Settings) -> Self {
+        let project = project.into();
         Self {
-            home: scene.camera.clone(),
-            editor: Editor::new(scene),
+            home: project.scene.camera.clone(),
+            editor: Editor::new(project),
             settings,
             selection: Selection::default(),
             pilot: Pilot::default(),
@@ -61,11 +62,17 @@ impl Interface {
         self.editor.scene()
     }
 
-    /// Puts a loaded scene in place of the present one, which undo brings back. Its camera
-    /// becomes home.
-    pub fn replace_scene(&mut self, scene: Scene) {
-        self.home = scene.camera.clone();
-        self.editor.replace(scene);
+    /// The scene and its path as they are now.
+    pub fn project(&self) -> &Project {
+        self.editor.project()
+    }
+
+    /// Puts a loaded scene, with its path, in place of the present ones, which undo brings back.
+    /// Its camera becomes home.
+    pub fn replace_project(&mut self, project: impl Into<Project>) {
+        let project = project.into();
+        self.home = project.scene.camera.clone();
+        self.editor.replace(project);
         self.pilot.cancel();
     }
 
@@ -103,7 +110,7 @@ impl Interface {
         if pressed || !(held || self.pilot.is_moving(now_secs)) {
             self.editor.next_gesture();
         }
-        let before = self.scene().clone();
+        let before = self.project().clone();
         self.rects.clear();
         let mut commands = shortcuts::commands(ui.ctx(), self.pilot.is_flying());
         let mut actions = Vec::new();
@@ -233,8 +240,8 @@ impl Interface {
     }
 
     /// Records the frame's changes, and whether more of them are on their way.
-    fn note_changes(&mut self, ui: &Ui, before: &Scene, now_secs: f64, held: bool) {
-        let changed = *before != *self.scene();
+    fn note_changes(&mut self, ui: &Ui, before: &Project, now_secs: f64, held: bool) {
+        let changed = before != self.project();
         if changed && ui.input(stepped_by_key) {
             self.pilot.extend_run(now_secs);
         }
@@ -281,12 +288,14 @@ impl Interface {
         }
     }
 
-    /// Opens a preset. How much work pictures get stays as this machine's owner chose it.
+    /// Opens a preset. How much work pictures get stays as this machine's owner chose it, and so
+    /// does the path: a preset can become one of its keys.
     fn choose_preset(&mut self, index: usize) {
         if let Some(preset) = presets::all().get(index) {
             let mut scene = (preset.scene)();
             scene.quality = self.scene().quality.clone();
-            self.replace_scene(scene);
+            let path = self.project().path.clone();
+            self.replace_project(Project { scene, path });
             self.selection = Selection::default();
         }
     }

@@ -65,7 +65,7 @@ impl eframe::App for App {
 
         let settling = engine.follow(session);
         let moving = session.interface.is_moving();
-        let kept = session.keeper.watch(session.interface.scene(), moving, now_secs);
+        let kept = session.keeper.watch(session.interface.project(), moving, now_secs);
         session.status.frames += 1;
         for secs in [expiring, settling, kept].into_iter().flatten() {
             ui.ctx().request_repaint_after_secs(secs as f32);
@@ -86,7 +86,7 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             session.say("The picture was cancelled.");
         }
         Action::SaveScene => {
-            let text = document::to_json(session.interface.scene());
+            let text = document::project_to_json(session.interface.project());
             let saved = files::download_text("mandelight.json", "application/json", &text);
             if let Err(reason) = saved {
                 session.complain(format!("The scene was not saved: {reason}"));

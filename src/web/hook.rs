@@ -69,18 +69,18 @@ impl Hook {
         object
     }
 
-    /// The scene in view, as a document.
+    /// The scene in view with its path, as a document.
     pub fn scene(&self) -> String {
-        document::to_json(self.session.borrow().interface.scene())
+        document::project_to_json(self.session.borrow().interface.project())
     }
 
     /// Puts a scene document in view; throws what is wrong with it.
     #[wasm_bindgen(js_name = setScene)]
     pub fn set_scene(&self, json: &str) -> Result<(), JsValue> {
-        let scene =
-            document::from_json(json).map_err(|error| JsValue::from_str(&error.to_string()))?;
+        let project = document::project_from_json(json)
+            .map_err(|error| JsValue::from_str(&error.to_string()))?;
         let mut session = self.session.borrow_mut();
-        session.interface.replace_scene(scene);
+        session.interface.replace_project(project);
         session.mailbox.wake();
         Ok(())
     }

@@ -1,8 +1,8 @@
-//! Keeps the scene in view: in the browser's storage and in the address, once it has come to rest.
+//! Keeps the scene in view and its path: in the browser's storage and in the address, once it has come to rest.
 //!
-//! In: the scene of each frame. Out: writes, about half a second after the last change.
+//! In: scene and path of each frame. Out: writes, about half a second after the last change.
 
-use crate::scene::{Scene, document, link};
+use crate::scene::{Project, document, link};
 
 use super::{address::Address, storage};
 
@@ -13,7 +13,7 @@ const REST_SECS: f64 = 0.5;
 pub struct Keeper {
     address: Address,
     /// The scene of the last frame; none before the first, which fits the view to the window.
-    seen: Option<Scene>,
+    seen: Option<Project>,
     changed_at_secs: Option<f64>,
 }
 
@@ -23,11 +23,11 @@ impl Keeper {
         Self { address, seen: None, changed_at_secs: None }
     }
 
-    /// Looks at this frame's scene and writes it if it is due. Returns after how many seconds
+    /// Looks at this frame's scene and path and writes them if it is due. Returns after how many seconds
     /// to look again, if anything is still to be written.
-    pub fn watch(&mut self, scene: &Scene, moving: bool, now_secs: f64) -> Option<f64> {
-        if self.seen.as_ref() != Some(scene) {
-            let is_first = self.seen.replace(scene.clone()).is_none();
+    pub fn watch(&mut self, project: &Project, moving: bool, now_secs: f64) -> Option<f64> {
+        if self.seen.as_ref() != Some(project) {
+            let is_first = self.seen.replace(project.clone()).is_none();
             self.changed_at_secs = (!is_first).then_some(now_secs);
         } else if moving && self.changed_at_secs.is_some() {
             self.changed_at_secs = Some(now_secs);
@@ -42,12 +42,14 @@ impl Keeper {
 
     /// Writes the scene of the last frame, if that was not done yet.
     pub fn flush(&mut self) {
-        let Some(scene) = self.seen.as_ref().filter(|_| self.changed_at_secs.is_some()) else {
+        let Some(project) = self.seen.as_ref().filter(|_| self.changed_at_secs.is_some()) else {
             return;
         };
         self.changed_at_secs = None;
-        storage::SCENE.write(&document::to_json_compact(scene));
-        match link::to_fragment(scene) {
+        storage::SCENE.write(&document::project_to_json_compact(project));
+        // An address has room for any common scene, but not for every path.
+        let fragment = link::project_to_fragment(project);
+        match fragment.or_else(|_| link::to_fragment(&project.scene)) {
             Ok(fragment) => self.address.write(&fragment),
             Err(error) => log::warn!("the address does not hold this scene: {error}"),
         }

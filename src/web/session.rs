@@ -16,7 +16,7 @@ use crate::{
     export,
     gpu::Gpu,
     render::{Report, frame::Dispatches},
-    scene::{Scene, document, link},
+    scene::{Project, Scene, document, link},
     ui::{Interface, Notice, Settings},
 };
 
@@ -67,8 +67,8 @@ impl Session {
     pub fn open() -> Self {
         let address = Address::default();
         let settings = stored_settings();
-        let (scene, complaint) = known_scene(&address);
-        let interface = Interface::new(scene.unwrap_or_default(), settings);
+        let (project, complaint) = known_project(&address);
+        let interface = Interface::new(project.unwrap_or_default(), settings);
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
         let mut session = Self {
@@ -168,11 +168,17 @@ impl Session {
 
     /// Puts the address that shares this view on the clipboard.
     pub fn copy_link(&mut self) {
-        match link::to_fragment(self.interface.scene()) {
+        let project = self.interface.project();
+        let (fragment, said) = match link::project_to_fragment(project) {
+            Ok(fragment) => (Ok(fragment), "The link is on the clipboard."),
+            Err(_) => (
+                link::to_fragment(&project.scene),
+                "The link is on the clipboard, without the camera path, which is too long for one.",
+            ),
+        };
+        match fragment {
             Ok(fragment) => match Address::with_fragment(&fragment) {
-                Some(address) => {
-                    files::copy_text(address, "The link is on the clipboard.", &self.mailbox)
-                }
+                Some(address) => files::copy_text(address, said, &self.mailbox),
                 None => self.complain("This page has no address to share."),
             },
             Err(error) => self.complain(error.to_string()),
@@ -183,16 +189,17 @@ impl Session {
     pub fn read_messages(&mut self) {
         for message in self.mailbox.take() {
             match message {
-                Message::File { name, content } => match content.and_then(|bytes| scene_in(&bytes))
-                {
-                    Ok(scene) => {
-                        self.interface.replace_scene(scene);
-                        self.say(format!("Opened {name}."));
+                Message::File { name, content } => {
+                    match content.and_then(|bytes| project_in(&bytes)) {
+                        Ok(project) => {
+                            self.interface.replace_project(project);
+                            self.say(format!("Opened {name}."));
+                        }
+                        Err(reason) => self.complain(format!("{name}: {reason}")),
                     }
-                    Err(reason) => self.complain(format!("{name}: {reason}")),
-                },
-                Message::Fragment(fragment) => match link::from_fragment(&fragment) {
-                    Ok(scene) => self.interface.replace_scene(scene),
+                }
+                Message::Fragment(fragment) => match link::project_from_fragment(&fragment) {
+                    Ok(project) => self.interface.replace_project(project),
                     Err(error) => self.complain(error.to_string()),
                 },
                 Message::Notice(text) => self.say(text),
@@ -222,16 +229,16 @@ impl Session {
 
 /// The scene of the address or of the last visit, and what there is to say about an address that
 /// could not be read.
-fn known_scene(address: &Address) -> (Option<Scene>, Option<String>) {
+fn known_project(address: &Address) -> (Option<Project>, Option<String>) {
     let mut complaint = None;
     if let Some(fragment) = address.read_foreign() {
-        match link::from_fragment(&fragment) {
-            Ok(scene) => return (Some(scene), None),
+        match link::project_from_fragment(&fragment) {
+            Ok(project) => return (Some(project), None),
             Err(error) => complaint = Some(error.to_string()),
         }
     }
     let stored = storage::SCENE.read().and_then(|text| {
-        document::from_json(&text)
+        document::project_from_json(&text)
             .inspect_err(|error| log::warn!("the scene of the last visit cannot be read: {error}"))
             .ok()
     });
@@ -251,7 +258,7 @@ fn stored_settings() -> Settings {
 }
 
 /// The scene in a file: a document, or a picture that carries one.
-fn scene_in(bytes: &[u8]) -> Result<Scene, String> {
+fn project_in(bytes: &[u8]) -> Result<Project, String> {
     let text = if export::is_png(bytes) {
         export::scene_text(Cursor::new(bytes))
             .map_err(|error| error.to_string())?
@@ -260,5 +267,5 @@ fn scene_in(bytes: &[u8]) -> Result<Scene, String> {
         String::from_utf8(bytes.to_vec())
             .map_err(|_| "neither a scene document nor a PNG picture".to_owned())?
     };
-    document::from_json(&text).map_err(|error| error.to_string())
+    document::project_from_json(&text).map_err(|error| error.to_string())
 }

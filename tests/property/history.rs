@@ -15,7 +15,7 @@ fn scene(number: usize) -> Scene {
 
 /// Makes gestures of the given numbers of changes, the first of each without an id where it is
 /// a single change. Returns the history, the present scene and the scenes between gestures.
-fn after(gestures: &[usize]) -> (History, Scene, Vec<Scene>) {
+fn after(gestures: &[usize]) -> (History<Scene>, Scene, Vec<Scene>) {
     let (mut history, mut present, mut stations) = (History::new(), scene(0), vec![scene(0)]);
     let mut changes = 0;
     for (id, &count) in gestures.iter().enumerate() {

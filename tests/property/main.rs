@@ -1,6 +1,7 @@
-//! What holds for every scene and for every text: documents, links, history.
+//! What holds for every scene and for every text: documents, links, history, paths.
 
 mod document;
 mod history;
 mod link;
+mod path;
 mod scenes;

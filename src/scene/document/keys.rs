@@ -1,0 +1,143 @@
+//! A path's form in a document: keys that say only what differs from the document's scene.
+//!
+//! A key names whole parts of the scene (`camera`, `lights`, …). A part that it leaves out is as
+//! in the document's own scene; within a part, a field left out takes its default, as everywhere.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::{DocumentError, checked, field_error};
+use crate::scene::{
+    Path, Project, Scene,
+    path::{Easing, Key},
+};
+
+/// A path to write.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PathText {
+    frames_per_second: u32,
+    keys: Vec<KeyText>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct KeyText {
+    time_secs: f64,
+    easing: Easing,
+    scene: Map<String, Value>,
+}
+
+impl Default for PathText {
+    fn default() -> Self {
+        Self { frames_per_second: Path::default().frames_per_second, keys: Vec::new() }
+    }
+}
+
+/// The path of `project` to write.
+pub fn text_of(project: &Project) -> PathText {
+    let base = value_of(&project.scene);
+    let keys = project.path.keys.iter().map(|key| KeyText {
+        time_secs: key.time_secs,
+        easing: key.easing,
+        scene: parts_apart(&base, value_of(&*key.scene)),
+    });
+    PathText { frames_per_second: project.path.frames_per_second, keys: keys.collect() }
+}
+
+/// The parts of `scene` that differ from those of `base`.
+fn parts_apart(base: &Value, scene: Value) -> Map<String, Value> {
+    match scene {
+        Value::Object(mut parts) => {
+            parts.retain(|name, part| base.get(name) != Some(part));
+            parts
+        }
+        _ => Map::new(),
+    }
+}
+
+/// The path as JSON, each key's parts without the defaults that `differences` drops.
+pub(in crate::scene) fn path_value(
+    project: &Project,
+    differences: impl Fn(Value) -> Value,
+) -> Value {
+    let mut text = text_of(project);
+    for key in &mut text.keys {
+        let mut brief = differences(Value::Object(key.scene.clone()));
+        for (name, part) in &mut key.scene {
+            // A part that is all defaults must still be named, for it isn't the scene's.
+            *part = brief.get_mut(name).map_or(Value::Object(Map::new()), Value::take);
+        }
+    }
+    value_of(&text)
+}
+
+/// The JSON of `part`, by way of text: straight to a [`Value`], an f32 of 0.1 would become
+/// 0.10000000149011612.
+pub(in crate::scene) fn value_of(part: &impl Serialize) -> Value {
+    // Every key is a string, and what serde_json writes it also reads.
+    let text = serde_json::to_string(part).expect("a part of a scene is JSON");
+    serde_json::from_str(&text).expect("serde_json reads what it writes")
+}
+
+/// A path as it was read: every field is of the right kind, but a key's scene still has
+/// defaults where it left parts out.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PathDraft {
+    frames_per_second: u32,
+    keys: Vec<KeyDraft>,
+}
+
+impl Default for PathDraft {
+    fn default() -> Self {
+        Self { frames_per_second: Path::default().frames_per_second, keys: Vec::new() }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KeyDraft {
+    time_secs: f64,
+    #[serde(default)]
+    easing: Easing,
+    #[serde(default)]
+    scene: Scene,
+}
+
+impl PathDraft {
+    /// The path, valid, where `text` is the whole document that it was read from.
+    pub fn finish(self, text: &str) -> Result<Path, DocumentError> {
+        if self.keys.is_empty() {
+            let path = Path { frames_per_second: self.frames_per_second, keys: Vec::new() };
+            return path.validate().map(|()| path).map_err(DocumentError::from);
+        }
+        let document: Value = super::parse(text)?;
+        let keys = self.keys.into_iter().enumerate().map(|(i, key)| {
+            let scene = match whole_scene(&document, i) {
+                // The same fields have been read as part of this document already.
+                Some(whole) => serde_json::from_value(whole)
+                    .map_err(|error| field_error(&format!("path.keys[{i}].scene"), &error))?,
+                None => key.scene,
+            };
+            // Out of range is told by the path's own check, with the key's place.
+            let scene = checked(scene.clone()).unwrap_or(scene);
+            Ok(Key { time_secs: key.time_secs, easing: key.easing, scene: Arc::new(scene) })
+        });
+        let keys = keys.collect::<Result<Vec<_>, DocumentError>>()?;
+        let path = Path { frames_per_second: self.frames_per_second, keys };
+        path.validate()?;
+        Ok(path)
+    }
+}
+
+/// The document's scene with the parts of key `index` in place of its own.
+fn whole_scene(document: &Value, index: usize) -> Option<Value> {
+    let mut whole = document.get("scene")?.clone();
+    let key = document.get("path")?.get("keys")?.get(index)?;
+    if let Some(parts) = key.get("scene").and_then(Value::as_object) {
+        let fields = whole.as_object_mut()?;
+        fields.extend(parts.iter().map(|(name, part)| (name.clone(), part.clone())));
+    }
+    Some(whole)
+}

@@ -1,0 +1,264 @@
+//! The scene between two keys: every number of it, found by itself.
+//!
+//! In: up to four neighbouring keys' scenes. Out: a valid scene. It walks through the scenes'
+//! JSON, so that a field added to the scene goes along without being named here. Numbers run in
+//! the scale of their parameter's table row, directions along great circles, exact points as
+//! [`Places`]; words, switches and lists of another length stay as the earlier key has them.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use serde_json::{Map, Number, Value};
+
+use super::{
+    curve::{Line, Span},
+    place::{Place, Places},
+    turn::{Directions, Turns},
+};
+use crate::scene::{
+    Camera, MAX_LIGHTS, PrecisePoint, Scene,
+    param::{self, Param, Scale},
+};
+
+/// How fine the eye's position is kept, in view units: below a hundredth of a pixel of the
+/// largest pictures.
+const EYE_GRAIN: f64 = 1e-8;
+
+/// Something of the keys before, at the beginning, at the end and after; the second and third
+/// are always there.
+type Four<T> = [Option<T>; 4];
+
+/// The scene at `span`'s place between the second and the third of `keys`.
+pub fn scenes(keys: Four<Arc<Scene>>, span: &Span) -> Scene {
+    let [_, Some(from), ..] = &keys else { return Scene::default() };
+    let cameras = keys.each_ref().map(|key| key.as_ref().map(|scene| &scene.camera));
+    // Every key of a scene's JSON is a string, which is all that could fail.
+    let values = keys.each_ref().map(|key| serde_json::to_value(key.as_deref()?).ok());
+    let walk = Walk { span, units: cameras.map(|camera| camera.map(Camera::view_unit)) };
+    let mut path = String::new();
+    let blended = walk.value(&mut path, values.each_ref().map(Option::as_ref));
+    let scene = blended.and_then(|value| serde_json::from_value::<Scene>(value).ok());
+    let mut scene = scene.unwrap_or_else(|| (**from).clone());
+    if let Some(blended) = camera(cameras, span) {
+        scene.camera = Camera { vertical_fov_deg: scene.camera.vertical_fov_deg, ..blended };
+    }
+    settle(&mut scene, from);
+    // Whatever rule a scene may get that holds at both keys and not between them.
+    if scene.validate().is_err() { (**from).clone() } else { scene }
+}
+
+/// The camera: its pivot and view unit as a place, its turn, and where in its own frame the eye
+/// lies as seen from the pivot, so that an orbit stays one.
+fn camera(keys: Four<&Camera>, span: &Span) -> Option<Camera> {
+    let places = keys.map(|key| key.map(place));
+    let turns = keys.map(|key| key.map(Camera::rotation));
+    let sides = keys.map(|key| {
+        key.map(|camera| {
+            let eye_from_pivot = &camera.position - &camera.pivot;
+            camera.rotation().inverse() * eye_from_pivot.normalize_or(DVec3::Z)
+        })
+    });
+    let place = span.point(&Places, places.each_ref().map(Option::as_ref))?;
+    let turn: DQuat = span.point(&Turns, turns.each_ref().map(Option::as_ref))?;
+    let side = span.point(&Directions, sides.each_ref().map(Option::as_ref))?;
+    let eye = place.point.moved_by(turn * side * place.unit, EYE_GRAIN * place.unit);
+    Some(Camera {
+        position: eye,
+        pivot: place.point,
+        orientation: turn.into(),
+        ..Camera::default()
+    })
+}
+
+fn place(camera: &Camera) -> Place {
+    Place { point: camera.pivot.clone(), unit: camera.view_unit() }
+}
+
+/// Restores the rules that hold between fields.
+fn settle(scene: &mut Scene, from: &Scene) {
+    scene.fractal.bailout = scene.fractal.bailout.min(scene.fractal.max_bailout());
+    let mut last = 0.0_f64;
+    for stop in &mut scene.surface.gradient {
+        last = last.max(stop.position);
+        stop.position = last;
+    }
+    // Two full scenes may have too many lights between them: what only appears waits.
+    let lights = &mut scene.lights;
+    while lights.len() > MAX_LIGHTS && lights.environment.len() > from.lights.environment.len() {
+        lights.environment.pop();
+    }
+    while lights.len() > MAX_LIGHTS && lights.point.len() > from.lights.point.len() {
+        lights.point.pop();
+    }
+}
+
+/// A walk through four scenes' JSON at once.
+struct Walk<'a> {
+    span: &'a Span,
+    /// The cameras' view units.
+    units: Four<f64>,
+}
+
+impl Walk<'_> {
+    /// The value at `path`; none where a key that must be there isn't.
+    fn value(&self, path: &mut String, values: Four<&Value>) -> Option<Value> {
+        let (from, to) = (values[1]?, values[2]?);
+        if from == to && values[0].is_none_or(|v| v == from) && values[3].is_none_or(|v| v == to) {
+            return Some(from.clone());
+        }
+        Some(match (from, to) {
+            (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+                self.object(path, a, values)
+            }
+            (Value::Array(a), Value::Array(b)) => {
+                self.array(path, a, b, values).unwrap_or_else(|| from.clone())
+            }
+            (Value::Number(_), Value::Number(_)) => {
+                self.number(path, values).unwrap_or_else(|| from.clone())
+            }
+            _ => from.clone(),
+        })
+    }
+
+    fn object(
+        &self,
+        path: &mut String,
+        fields: &Map<String, Value>,
+        values: Four<&Value>,
+    ) -> Value {
+        let blended = fields.iter().map(|(name, field)| {
+            let here = path.len();
+            if here > 0 {
+                path.push('.');
+            }
+            path.push_str(name);
+            let values = values.map(|value| value.and_then(|value| value.get(name)));
+            let value = self.value(path, values).unwrap_or_else(|| field.clone());
+            path.truncate(here);
+            (name.clone(), value)
+        });
+        Value::Object(blended.collect())
+    }
+
+    fn array(
+        &self,
+        path: &mut String,
+        a: &[Value],
+        b: &[Value],
+        values: Four<&Value>,
+    ) -> Option<Value> {
+        // The camera's own is made from places and turns.
+        if path == "camera.position" || path == "camera.orientation" {
+            return None;
+        }
+        if let Some(point) = self.exact_point(values) {
+            return Some(point);
+        }
+        if path.ends_with("direction")
+            && let Some(direction) = self.direction(values)
+        {
+            return Some(direction);
+        }
+        let here = path.len();
+        path.push_str("[]");
+        let items = (0..a.len().max(b.len())).map(|index| {
+            let item = values.map(|list| list.and_then(|list| list.get(index)).cloned());
+            let item = lit_on_both_sides(item)?;
+            self.value(path, item.each_ref().map(Option::as_ref))
+        });
+        let items = items.collect::<Option<Vec<_>>>();
+        path.truncate(here);
+        items.map(Value::Array)
+    }
+
+    fn number(&self, path: &str, values: Four<&Value>) -> Option<Value> {
+        let param = param::find(path);
+        let numbers =
+            values.map(|value| value.and_then(Value::as_f64).map(|v| onto_line(param, v)));
+        let at = self.span.point(&Line, numbers.each_ref().map(Option::as_ref))?;
+        let is_whole = |value: Option<&Value>| value.is_some_and(|v| v.is_u64() || v.is_i64());
+        // A curve keeps between its keys, so this only takes rounding back.
+        let within = |value: f64| param.map_or(value, |param| value.clamp(param.min, param.max));
+        let value = within(from_line(param, at));
+        Some(if is_whole(values[1]) && is_whole(values[2]) {
+            Value::from(value.round() as i64)
+        } else {
+            Value::Number(Number::from_f64(value)?)
+        })
+    }
+
+    fn exact_point(&self, values: Four<&Value>) -> Option<Value> {
+        let mut units = self.units.into_iter();
+        let places = values.map(|value| {
+            let unit = units.next()??;
+            let point = exact_point(value?)?;
+            Some(Place { point, unit })
+        });
+        let place = self.span.point(&Places, places.each_ref().map(Option::as_ref))?;
+        serde_json::to_value(place.point).ok()
+    }
+
+    fn direction(&self, values: Four<&Value>) -> Option<Value> {
+        let vectors = values.map(|value| value.and_then(unit_vector));
+        let vector = self.span.point(&Directions, vectors.each_ref().map(Option::as_ref))?;
+        Some(vector.to_array().to_vec().into())
+    }
+}
+
+/// Three decimal strings.
+fn exact_point(value: &Value) -> Option<PrecisePoint> {
+    if value.as_array()?.iter().all(Value::is_string) {
+        serde_json::from_value(value.clone()).ok()
+    } else {
+        None
+    }
+}
+
+fn unit_vector(value: &Value) -> Option<DVec3> {
+    let vector: [f64; 3] = serde_json::from_value(value.clone()).ok()?;
+    let vector = DVec3::from_array(vector);
+    vector.is_normalized().then(|| vector.normalize())
+}
+
+/// A light that only one of the two keys has shines from nothing there, or into it. None for
+/// anything else that only one of them has.
+fn lit_on_both_sides(light: Four<Value>) -> Option<Four<Value>> {
+    Some(match light {
+        [_, Some(there), None, _] => [None, Some(there.clone()), Some(unlit(there)?), None],
+        [_, None, Some(there), _] => [None, Some(unlit(there.clone())?), Some(there), None],
+        both => both,
+    })
+}
+
+/// The same light without any strength; none for what is no light.
+fn unlit(mut light: Value) -> Option<Value> {
+    light.get("intensity")?;
+    light["intensity"] = 0.0.into();
+    if light.get("solo").is_some() {
+        light["solo"] = false.into();
+    }
+    Some(light)
+}
+
+/// Where a value lies on the line on which it goes at an even pace: its logarithm where the
+/// table says so, shifted by one step where the range begins at zero.
+fn onto_line(param: Option<&Param>, value: f64) -> f64 {
+    match param {
+        Some(param) if param.scale == Scale::Logarithmic && param.min > 0.0 => value.ln(),
+        Some(param) if param.scale == Scale::Logarithmic && param.min == 0.0 => {
+            (value / param.step).ln_1p()
+        }
+        _ => value,
+    }
+}
+
+/// The inverse of [`onto_line`].
+fn from_line(param: Option<&Param>, at: f64) -> f64 {
+    match param {
+        Some(param) if param.scale == Scale::Logarithmic && param.min > 0.0 => at.exp(),
+        Some(param) if param.scale == Scale::Logarithmic && param.min == 0.0 => {
+            param.step * at.exp_m1()
+        }
+        _ => at,
+    }
+}

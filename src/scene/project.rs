@@ -1,0 +1,18 @@
+//! What a document holds: the scene in view, and the camera path beside it.
+
+use super::{Path, Scene};
+
+/// A scene and its camera path.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Project {
+    /// The scene in view.
+    pub scene: Scene,
+    /// The path; empty where none was made.
+    pub path: Path,
+}
+
+impl From<Scene> for Project {
+    fn from(scene: Scene) -> Self {
+        Self { scene, path: Path::default() }
+    }
+}

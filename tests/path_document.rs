@@ -1,0 +1,70 @@
+//! The path's part of the document format: what keys leave out, and what is said of bad ones.
+
+use mandelight::scene::{
+    Scene,
+    document::{self, from_json, to_json},
+};
+use serde_json::{Value, json};
+
+/// A document with these keys in its path.
+fn with_keys(keys: Value) -> String {
+    json!({ "mandelight": "scene", "version": 1, "scene": { "fractal": { "power": 5 } },
+        "path": { "keys": keys } })
+    .to_string()
+}
+
+#[test]
+fn a_key_says_only_what_differs_from_the_scene() {
+    let keys = json!([
+        { "time_secs": 0 },
+        { "time_secs": 2.5, "easing": "linear", "scene": { "tone": { "exposure": 1 } } },
+        { "time_secs": 4, "easing": "hold", "scene": { "fractal": {} } },
+    ]);
+    let project = document::project_from_json(&with_keys(keys)).unwrap();
+    assert_eq!(project.path.frames_per_second, 30);
+    let scenes: Vec<&Scene> = project.path.keys.iter().map(|key| &*key.scene).collect();
+    assert_eq!(*scenes[0], project.scene);
+    assert_eq!((scenes[1].fractal.power, scenes[1].tone.exposure), (5.0, 1.0));
+    assert_eq!(*scenes[2], Scene::default());
+    let text = document::project_to_json(&project);
+    assert_eq!(text.matches("\"power\"").count(), 2, "{text}");
+    assert!(!to_json(&project.scene).contains("path"), "a scene alone is as it was");
+}
+
+#[test]
+fn errors_in_a_path_name_the_key() {
+    for (keys, beginning) in [
+        (json!([{ "time_secs": -1 }]), "path.keys[0].time_secs: -1 is outside 0 to 3600 seconds"),
+        (
+            json!([{ "time_secs": 1 }, { "time_secs": 1 }]),
+            "path.keys[1].time_secs: 1 is not later than the key before",
+        ),
+        (json!([{}]), "path.keys[0]: missing field `time_secs`"),
+        (
+            json!([{ "time_secs": 0, "easing": "bounce" }]),
+            "path.keys[0].easing: unknown variant `bounce`",
+        ),
+        (
+            json!([{ "time_secs": 0, "scene": { "fractal": { "power": 40 } } }]),
+            "path.keys[0].scene.fractal.power: 40 is outside 2 to 16",
+        ),
+        (
+            json!([{ "time_secs": 0, "scene": { "quality": { "samples": 0.5 } } }]),
+            "path.keys[0].scene.quality.samples: invalid type: floating point `0.5`, expected u32; it takes 1 to 1024",
+        ),
+        (
+            json!([{ "time_secs": 0, "scene": { "fog": {} } }]),
+            "path.keys[0].scene.fog: unknown field `fog`",
+        ),
+        (
+            (0..300).map(|i| json!({ "time_secs": i })).collect(),
+            "path.keys: has 300 keys; a path has at most 256",
+        ),
+    ] {
+        let error = document::project_from_json(&with_keys(keys)).expect_err("refused").to_string();
+        assert!(error.starts_with(beginning), "{error}\nshould begin with\n{beginning}");
+    }
+    let rate = with_keys(json!([])).replace("\"keys\"", "\"frames_per_second\":0,\"keys\"");
+    let error = from_json(&rate).unwrap_err().to_string();
+    assert!(error.starts_with("path.frames_per_second: 0 is outside 1 to 240"), "{error}");
+}
