@@ -65,6 +65,20 @@ pub struct Tone {
     pub white_point: f64,
 }
 
+impl Tone {
+    /// The exposed luminance of a grey that the display shows as white, to within a step of
+    /// 1/255: where the curve reaches 1, or comes as near to it.
+    pub fn white(&self) -> f64 {
+        match self.curve {
+            ToneCurve::Linear => 1.0,
+            ToneCurve::Reinhard => self.white_point,
+            ToneCurve::Aces => 15.4,
+            ToneCurve::Agx => 0.18 * 6.5_f64.exp2(),
+            ToneCurve::KhronosNeutral => 7.5,
+        }
+    }
+}
+
 impl Default for Tone {
     fn default() -> Self {
         Self {

@@ -37,6 +37,7 @@ pub struct Interface {
     rects: Rects,
     view_px: [u32; 2],
     moving: bool,
+    histogram_shown: bool,
 }
 
 impl Interface {
@@ -54,6 +55,7 @@ impl Interface {
             rects: Rects::default(),
             view_px: [1, 1],
             moving: false,
+            histogram_shown: false,
         }
     }
 
@@ -84,6 +86,11 @@ impl Interface {
     /// Whether more changes are expected at once: a drag, a flight, a run of wheel notches.
     pub fn is_moving(&self) -> bool {
         self.moving
+    }
+
+    /// Whether the film's histogram is in sight: only then need it be made.
+    pub fn wants_histogram(&self) -> bool {
+        self.histogram_shown
     }
 
     /// Where the key widgets are.
@@ -139,6 +146,7 @@ impl Interface {
         actions: &mut Vec<Action>,
     ) {
         let open = self.settings.panel_open;
+        self.histogram_shown = false;
         if wide && !open {
             return;
         }
@@ -149,6 +157,7 @@ impl Interface {
             settings: &mut self.settings,
             selection: &mut self.selection,
             rects: &mut self.rects,
+            histogram_shown: &mut self.histogram_shown,
             commands,
             actions,
             inputs,

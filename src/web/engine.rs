@@ -115,6 +115,7 @@ impl Engine {
         let interface = &session.interface;
         let settling = self.picture.resize(interface.view_size_px(), scale, now_secs);
         self.picture.set_scene(interface.scene(), interface.is_moving());
+        self.picture.watch_histogram(interface.wants_histogram());
         if self.step(session, now_secs) {
             self.tick_later();
         }

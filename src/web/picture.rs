@@ -91,6 +91,13 @@ impl Picture {
         }
     }
 
+    /// Says whether the interface shows the film's histogram.
+    pub fn watch_histogram(&mut self, wanted: bool) {
+        if let Some(view) = &mut self.view {
+            view.watch_histogram(wanted);
+        }
+    }
+
     /// Draws as much as fits now. Returns whether there is more to do.
     pub fn pump(&mut self, now_secs: f64) -> bool {
         let Some(view) = &mut self.view else { return false };

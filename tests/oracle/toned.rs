@@ -216,6 +216,18 @@ fn tone_curves_rise_from_black_to_white_and_leave_greys_grey() {
     }
 }
 
+/// The interface says from which luminance on the display shows white.
+#[test]
+fn each_curve_has_its_white_point() {
+    for settings in tones() {
+        let at = |level: f64| tone::curve(&settings, DVec3::splat(level)).x;
+        let white = settings.white();
+        let step = 1.0 / 255.0;
+        assert!(srgb(at(white)) > 1.0 - step, "{:?}: {}", settings.curve, at(white));
+        assert!(srgb(at(0.6 * white)) < 1.0 - step, "{:?}: much darker is white", settings.curve);
+    }
+}
+
 fn assert_shown(film: &Film, size_px: [u32; 2], scene: &Scene, colors: &[[f32; 3]]) {
     let found = film.tone(scene, colors);
     let automatic = if scene.tone.auto_exposure { found.statistics.adapted_stops } else { 0.0 };

@@ -3,8 +3,9 @@
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
+    render::report::Histogram,
     scene::{Scene, param, presets},
-    ui::Action,
+    ui::{Action, Settings},
 };
 
 use crate::stage::*;
@@ -40,7 +41,8 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     // Turning each rail to its ends changes the scene and keeps it valid: no dead control.
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
-    press(&mut harness, "Auto exposure");
+    harness.get_by_label("Auto exposure").click();
+    harness.run();
     press(&mut harness, "Add point light");
     for param in param::ALL {
         let rails: Vec<_> = rails_of(&harness, param.path);
@@ -72,7 +74,8 @@ fn rails_of(harness: &egui_kittest::Harness<'_, Stage>, path: &str) -> Vec<Strin
 fn every_parameter_has_a_control() {
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
-    press(&mut harness, "Auto exposure");
+    harness.get_by_label("Auto exposure").click();
+    harness.run();
     press(&mut harness, "Add light");
     let mut missing: Vec<_> =
         param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
@@ -214,7 +217,8 @@ fn an_export_shows_its_progress_and_can_be_cancelled() {
 fn every_control_has_a_hover_text() {
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
-    press(&mut harness, "Auto exposure");
+    harness.get_by_label("Auto exposure").click();
+    harness.run();
     press(&mut harness, "Picture size: Typed");
     press(&mut harness, "Add point light");
     // The parts of a control share its text, so one look at each name is enough.
@@ -237,6 +241,29 @@ fn every_control_has_a_hover_text() {
         }
     }
     assert!(silent.is_empty(), "no hover text: {silent:#?}");
+}
+
+/// The histogram costs the renderer something, so it is asked for only where it can be seen.
+#[test]
+fn the_histogram_is_wanted_while_it_is_in_sight() {
+    let mut folded = stage(Scene::default(), Settings::default(), [1280.0, 720.0]);
+    folded.run();
+    assert!(!folded.state().interface.wants_histogram());
+    let mut harness = workshop();
+    assert!(harness.state().interface.wants_histogram());
+    harness.key_press(Key::P);
+    harness.run();
+    assert!(!harness.state().interface.wants_histogram(), "the panel is hidden");
+    harness.key_press(Key::P);
+    let mut bins = vec![0; 128];
+    (bins[40], bins[60]) = (75, 25);
+    harness.state_mut().report.histogram =
+        Some(Histogram { bins: bins.into(), adapted_stops: 0.0 });
+    harness.run();
+    let area = harness.get_by_label("Histogram").rect();
+    harness.hover_at(area.left_center() + egui::vec2(area.width() * 40.5 / 128.0, 0.0));
+    harness.run_steps(40);
+    harness.get_by_label_contains("75.0 % of the picture");
 }
 
 #[test]

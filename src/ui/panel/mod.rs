@@ -103,6 +103,8 @@ pub(super) struct Context<'a> {
     pub commands: &'a mut Vec<Command>,
     pub actions: &'a mut Vec<Action>,
     pub inputs: &'a Inputs<'a>,
+    /// Set where the histogram is in sight.
+    pub histogram_shown: &'a mut bool,
     /// Where the camera stood in the last frame.
     pub standing: Option<Standing>,
     /// Size of the view in the last frame, in pixels.

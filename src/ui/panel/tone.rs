@@ -7,12 +7,13 @@ use crate::{
     scene::{Tone, ToneChannels, ToneCurve, ToneMean, param},
     ui::{
         theme,
-        widgets::{choice, color, param_slider},
+        widgets::{Window, choice, color, histogram, param_slider},
     },
 };
 
 /// Exposure, the tone curve, the background's two colours.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    histogram_of(ui, cx);
     let tone = &mut cx.scene.tone;
     exposure(ui, tone);
     curve(ui, tone);
@@ -34,6 +35,22 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             );
         });
     });
+}
+
+/// The display's darkest step but one, linear: what is below shows as black.
+const BLACK: f64 = 1.0 / 255.0 / 12.92;
+
+/// The film's histogram, with the part that exposure and curve bring to the display.
+fn histogram_of(ui: &mut Ui, cx: &mut Context<'_>) {
+    let tone = &cx.scene.tone;
+    let known = cx.inputs.report.histogram.as_ref();
+    let automatic = known.filter(|_| tone.auto_exposure).map_or(0.0, |known| known.adapted_stops);
+    let exposure = tone.exposure + f64::from(automatic);
+    let stops = |exposed: f64| exposed.log2() - exposure;
+    let window = Window { black: stops(BLACK), grey: stops(0.18), white: stops(tone.white()) };
+    let drawn = histogram(ui, known, window);
+    *cx.histogram_shown |= ui.is_rect_visible(drawn.rect);
+    ui.add_space(4.0);
 }
 
 /// How bright the picture is before the curve.

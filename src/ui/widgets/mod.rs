@@ -3,6 +3,7 @@
 mod ball;
 mod color;
 mod gradient;
+mod histogram;
 mod param;
 mod scale;
 mod section;
@@ -10,5 +11,6 @@ mod section;
 pub use ball::ball;
 pub use color::color;
 pub use gradient::{gradient, move_stop};
+pub use histogram::{Window, histogram};
 pub use param::{number, param_slider, param_slider_count};
 pub use section::{caption, choice, section};
