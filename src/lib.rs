@@ -19,7 +19,9 @@
 //!    jittered samples, then nothing.
 //! 4. [`render::frame::record`] records each piece, pass by pass, in the order in which they run.
 //!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
-//! 5. What the film holds is shown: by the page's interface, or tile by tile as a PNG
+//! 5. Where the scene asks for it, the film is first looked at as a whole: its mean sets the
+//!    exposure, and what is bright in it blooms ([`render::glow`]).
+//! 6. What the film holds is shown: by the page's interface, or tile by tile as a PNG
 //!    ([`export::StillJob`]).
 //!
 //! # Layers

@@ -2,7 +2,7 @@
 //!
 //! In: counts by luminance and the window of exposure. Out: drawing alone.
 
-use egui::{Color32, Rect, Response, Sense, Stroke, Ui, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Color32, Rect, Response, Sense, Stroke, Ui, WidgetInfo, accesskit::Role, pos2, vec2};
 
 use crate::{
     render::report::{HISTOGRAM_BINS, HISTOGRAM_BINS_PER_STOP, HISTOGRAM_LOW_STOPS, Histogram},
@@ -28,7 +28,7 @@ pub struct Window {
 pub fn histogram(ui: &mut Ui, histogram: Option<&Histogram>, window: Window) -> Response {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, "Histogram"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Histogram"));
     if ui.is_rect_visible(rect) {
         paint(ui, rect, histogram, window);
     }
