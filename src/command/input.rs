@@ -7,12 +7,13 @@ use std::{
     fs::File,
     io::{self, Cursor, Read},
     path::Path,
+    sync::Arc,
 };
 
 use mandelight::{
     export,
     scene::{
-        Scene,
+        Project, Scene,
         document::{self, DocumentError},
     },
 };
@@ -26,6 +27,11 @@ const MAX_SOURCE_BYTES: u64 = 16 << 20;
 
 /// Reads the scene at `source`; `-` is standard input.
 pub fn read_scene(source: &Path) -> Result<Scene, Failure> {
+    Ok(read_project(source)?.scene)
+}
+
+/// Reads the scene at `source` with its camera path; `-` is standard input.
+pub fn read_project(source: &Path) -> Result<Project, Failure> {
     let name = if source == "-" { "standard input".into() } else { source.display().to_string() };
     let failure = |error: &dyn std::fmt::Display| Failure::usage(format!("{name}: {error}"));
 
@@ -44,7 +50,7 @@ pub fn read_scene(source: &Path) -> Result<Scene, Failure> {
     } else {
         String::from_utf8(bytes).map_err(|_| failure(&"neither a scene document nor a PNG"))?
     };
-    document::from_json(&text).map_err(|error| failure(&error))
+    document::project_from_json(&text).map_err(|error| failure(&error))
 }
 
 /// One change to a document: a field and its new value.
@@ -69,14 +75,36 @@ pub fn changed(scene: Scene, changes: &[Change]) -> Result<Scene, Failure> {
     if changes.is_empty() {
         return Ok(scene);
     }
-    let mut json: Value =
-        serde_json::from_str(&document::to_json_compact(&scene)).map_err(Failure::failed)?;
+    Ok(set(scene.into(), changes, "scene")?.scene)
+}
+
+/// `project` after all of `changes`: fields that begin with `path.` are the camera path's own,
+/// all others change in the scene and in every key.
+pub fn changed_project(project: Project, changes: &[Change]) -> Result<Project, Failure> {
+    let (of_path, of_scenes): (Vec<Change>, Vec<Change>) =
+        changes.iter().cloned().partition(|change| change.path.starts_with("path."));
+    let mut project = set(project, &of_path, "")?;
+    project.scene = changed(project.scene, &of_scenes)?;
+    for key in &mut project.path.keys {
+        key.scene = Arc::new(changed((*key.scene).clone(), &of_scenes)?);
+    }
+    Ok(project)
+}
+
+/// The document after `changes` to fields below `root`, checked.
+fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Failure> {
+    if changes.is_empty() {
+        return Ok(project);
+    }
+    let mut json: Value = serde_json::from_str(&document::project_to_json_compact(&project))
+        .map_err(Failure::failed)?;
     for Change { path, text } in changes {
-        let field = field_mut(&mut json["scene"], path)
+        let parent = if root.is_empty() { &mut json } else { &mut json[root] };
+        let field = field_mut(parent, path)
             .ok_or_else(|| Failure::usage(format!("--set: {path}: there is no such field")))?;
         *field = value_like(field, text);
     }
-    document::from_json(&json.to_string()).map_err(|error| match error {
+    document::project_from_json(&json.to_string()).map_err(|error| match error {
         // Lines and columns of a text that nobody has seen say nothing.
         DocumentError::Field { path, message, .. } => {
             Failure::usage(format!("--set: {path}: {message}"))

@@ -7,13 +7,17 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`render`] | `mandelight render`: a picture of a scene |
+//! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
 //! | [`info`] | `mandelight info`: the GPU |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | a file that is there whole or not at all |
+//! | [`folder`] | a folder of frames that belong together |
 //! | [`adapter`] | which GPU |
 
 mod adapter;
+mod folder;
+mod frames;
 mod info;
 mod input;
 mod output;
@@ -40,6 +44,8 @@ struct Arguments {
 enum Command {
     /// Renders a scene to a PNG that carries the scene
     Render(render::Arguments),
+    /// Renders the frames of a scene's camera path to a folder of PNGs
+    Frames(frames::Arguments),
     /// Prints a scene document, to edit or to pipe into `render -`
     Scene(scene::Arguments),
     /// Tells which GPU would be used, and which there are
@@ -79,6 +85,7 @@ pub fn run() -> ExitCode {
     log_errors();
     let outcome = match Arguments::parse().command {
         Command::Render(arguments) => render::run(arguments),
+        Command::Frames(arguments) => frames::run(arguments),
         Command::Scene(arguments) => scene::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };

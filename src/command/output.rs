@@ -7,6 +7,7 @@ use std::{
     io::{self, BufWriter, IsTerminal, Write},
     path::{Path, PathBuf},
     process,
+    time::{SystemTime, UNIX_EPOCH},
 };
 
 /// Where a picture goes.
@@ -73,7 +74,9 @@ pub struct PartFile {
 impl PartFile {
     fn create(final_path: &Path) -> io::Result<Self> {
         let name = final_path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-        let part_name = format!(".{}.{}.part", name.to_string_lossy(), process::id());
+        // Process numbers repeat, on one machine and between those that share a folder.
+        let moment = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_nanos());
+        let part_name = format!(".{}.{}-{moment:x}.part", name.to_string_lossy(), process::id());
         let part_path = final_path.with_file_name(part_name);
         // Never through a link that someone else has put there.
         let file = OpenOptions::new().write(true).create_new(true).open(&part_path)?;

@@ -113,7 +113,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
 }
 
 /// A flag that Ctrl-C sets. The second time ends the process where it stands.
-fn interruption() -> Result<Arc<AtomicBool>, Failure> {
+pub(super) fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let set = flag.clone();
     ctrlc::set_handler(move || {
@@ -126,7 +126,7 @@ fn interruption() -> Result<Arc<AtomicBool>, Failure> {
 }
 
 /// A bar on standard error; hidden where that is no terminal.
-fn progress_bar(quiet: bool) -> ProgressBar {
+pub(super) fn progress_bar(quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();
     }
@@ -136,7 +136,7 @@ fn progress_bar(quiet: bool) -> ProgressBar {
     ProgressBar::new(BAR_STEPS).with_style(style)
 }
 
-fn show(progress: &ProgressBar, done: f64, remaining_secs: Option<f64>) {
+pub(super) fn show(progress: &ProgressBar, done: f64, remaining_secs: Option<f64>) {
     progress.set_position((done * BAR_STEPS as f64) as u64);
     if let Some(secs) = remaining_secs {
         // More than a year is as good as a year.
@@ -146,7 +146,7 @@ fn show(progress: &ProgressBar, done: f64, remaining_secs: Option<f64>) {
 }
 
 /// Parses `1280x720`.
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text
         .split_once(['x', 'X'])
         .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
@@ -154,7 +154,7 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
     export::checked_size(sides).map_err(|error| error.to_string())
 }
 
-fn parse_samples(text: &str) -> Result<u32, String> {
+pub(super) fn parse_samples(text: &str) -> Result<u32, String> {
     let samples: u32 =
         text.parse().map_err(|_| format!("write {}", param::SAMPLES.range_text()))?;
     if param::SAMPLES.accepts(samples.into()) {

@@ -8,14 +8,20 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`still`] | the job: render a tile, read it back, hand its rows on |
+//! | [`sequence`] | the frames of a camera path, one still each |
+//! | [`archive`] | a zip of files, written while they come |
 //! | `tiles` | how a picture is cut |
 //! | [`png`] | rows to a PNG that carries its scene, and the scene out of one |
 
+pub mod archive;
 pub mod png;
+pub mod sequence;
 pub mod still;
 mod tiles;
 
+pub use archive::Archive;
 pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
+pub use sequence::{SequenceJob, frame_name};
 pub use still::{StillJob, StillOptions, StillStatus};
 
 use crate::scene::Invalid;
@@ -32,6 +38,9 @@ pub enum ExportError {
     /// The scene, or the samples asked for, are out of range.
     #[error(transparent)]
     Scene(#[from] Invalid),
+    /// The path has no keys, or none of the frames asked for.
+    #[error("the camera path has no such frames")]
+    NoFrames,
     /// The destination took no more bytes.
     #[error("the picture could not be written: {0}")]
     Write(#[from] std::io::Error),

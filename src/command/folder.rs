@@ -1,0 +1,136 @@
+//! A folder of frames that belong together.
+//!
+//! In: a folder and the fingerprint of a sequence. Out: which frames are there, and where the
+//! others go. A file whose name carries the fingerprint binds the folder to its sequence; a
+//! folder that is bound to another one is left alone. Nothing in it is ever written over, and
+//! nothing is locked: any number of processes, on any machines, may fill one folder.
+
+use std::{
+    fs, io,
+    io::Write as _,
+    path::{Path, PathBuf},
+};
+
+use mandelight::{export::frame_name, scene::document};
+use sha2::{Digest as _, Sha256};
+
+use super::{Failure, output::Output};
+
+/// What the name of the binding file begins and ends with.
+const MARK: (&str, &str) = ("sequence-", ".json");
+/// Digits of the fingerprint in a name: 64 bits.
+const DIGITS: usize = 16;
+
+/// What decides the frames' pixels.
+pub struct Sequence<'a> {
+    /// The path.
+    pub path: &'a mandelight::scene::Path,
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+    /// Samples a pixel in place of the scenes' own.
+    pub samples: Option<u32>,
+}
+
+impl Sequence<'_> {
+    /// A number of everything that the frames depend on, in hexadecimal digits. The document's
+    /// layout, and whatever no key takes from it, have no part in it.
+    fn fingerprint(&self) -> String {
+        let mut hash = Sha256::new();
+        let mut line = |text: String| hash.update(text + "\n");
+        line(env!("CARGO_PKG_VERSION").to_owned());
+        line(format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second));
+        for key in &self.path.keys {
+            let scene = document::to_json_compact(&key.scene);
+            line(format!("{:?} {:?} {scene}", key.time_secs, key.easing));
+        }
+        let digits: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        digits[..DIGITS].to_owned()
+    }
+
+    /// What the binding file says to people.
+    fn text(&self) -> String {
+        let facts = serde_json::json!({
+            "mandelight": "sequence",
+            "program": env!("CARGO_PKG_VERSION"),
+            "size_px": self.size_px,
+            "samples": self.samples,
+            "frames_per_second": self.path.frames_per_second,
+            "frames": self.path.frame_count(),
+            "keys": self.path.keys.len(),
+        });
+        format!("{facts:#}\n")
+    }
+}
+
+/// The folder of one sequence.
+pub struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Makes the folder where there is none, and binds it to `sequence` where it isn't yet.
+    ///
+    /// # Errors
+    /// A folder of another sequence, frames that belong to nobody knows which, or a folder that
+    /// cannot be read or written.
+    pub fn open(path: &Path, sequence: &Sequence<'_>) -> Result<Self, Failure> {
+        let shown = path.display();
+        let failed = |error: io::Error| Failure::failed(format!("{shown}: {error}"));
+        fs::create_dir_all(path).map_err(failed)?;
+        let mark = format!("{}{}{}", MARK.0, sequence.fingerprint(), MARK.1);
+        let names = names_in(path).map_err(failed)?;
+        if let Some(other) = names.iter().find(|name| is_mark(name) && **name != mark) {
+            return Err(other_sequence(path, other));
+        }
+        if !names.contains(&mark) {
+            if let Some(frame) = names.iter().find(|name| is_frame(name)) {
+                return Err(Failure::usage(format!(
+                    "{shown} has {frame}, but not the file that says which sequence it belongs to; choose an empty folder"
+                )));
+            }
+            let mut output = Output::create(&path.join(&mark)).map_err(failed)?;
+            output
+                .write_all(sequence.text().as_bytes())
+                .and_then(|()| output.commit())
+                .map_err(failed)?;
+            // Another sequence may have come at the same moment; then neither has the folder.
+            let names = names_in(path).map_err(failed)?;
+            if let Some(other) = names.iter().find(|name| is_mark(name) && **name != mark) {
+                return Err(other_sequence(path, other));
+            }
+        }
+        Ok(Self { path: path.to_owned() })
+    }
+
+    /// Where frame `frame` is, or goes.
+    pub fn file(&self, frame: u32) -> PathBuf {
+        self.path.join(frame_name(frame))
+    }
+
+    /// Whether frame `frame` is there; it then is whole.
+    pub fn has(&self, frame: u32) -> bool {
+        self.file(frame).exists()
+    }
+}
+
+fn other_sequence(path: &Path, mark: &str) -> Failure {
+    let shown = path.display();
+    Failure::usage(format!(
+        "{shown} holds frames of another scene, size or number of samples ({mark}); choose another folder, or empty this one"
+    ))
+}
+
+fn names_in(folder: &Path) -> io::Result<Vec<String>> {
+    let entries = fs::read_dir(folder)?;
+    entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect()
+}
+
+fn is_mark(name: &str) -> bool {
+    name.strip_prefix(MARK.0)
+        .and_then(|rest| rest.strip_suffix(MARK.1))
+        .is_some_and(|digits| digits.len() == DIGITS)
+}
+
+fn is_frame(name: &str) -> bool {
+    name.starts_with("frame_") && name.ends_with(".png")
+}

@@ -1,0 +1,190 @@
+//! `mandelight frames`: the frames of a camera path.
+//!
+//! Frames that are there are kept, so that the same call goes on where the last one ended, and
+//! calls with other ranges can run beside it.
+
+use std::{ops::ControlFlow, path::PathBuf, sync::atomic::Ordering, time::Instant};
+
+use mandelight::{
+    export::{ExportError, StillJob, StillOptions, StillStatus, sequence::remaining_secs},
+    render::Kernels,
+};
+
+use super::{
+    Failure,
+    adapter::{AdapterArguments, Health},
+    folder::{Folder, Sequence},
+    input::{self, Change},
+    output::Output,
+    render::{interruption, parse_samples, parse_size, progress_bar, show},
+    tell,
+};
+
+/// What `mandelight frames` takes.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// A scene document with a camera path, or - for standard input
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The folder for the frames; frames that are there already are kept
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+    /// Frames A to B, without B: 0..100, 100.., ..50, or a single one; all unless given
+    #[arg(long, value_name = "A..B", value_parser = parse_frames)]
+    frames: Option<Wanted>,
+    /// Width and height in pixels, each 1 to 16384
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
+    size: [u32; 2],
+    /// Samples a pixel, in place of the scenes' own
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    samples: Option<u32>,
+    /// Change a field in every key, such as quality.detail=0.5, or of the path, such as path.frames_per_second=60
+    #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
+    set: Vec<Change>,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    adapter: AdapterArguments,
+}
+
+/// A range of frames as it was asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Wanted {
+    first: u32,
+    /// The first frame that is not wanted; none for all there are.
+    end: Option<u32>,
+}
+
+/// Renders the frames that are not there yet.
+pub fn run(arguments: Arguments) -> Result<(), Failure> {
+    let project = input::read_project(&arguments.scene)?;
+    let path = input::changed_project(project, &arguments.set)?.path;
+    let wanted = arguments.frames.unwrap_or(Wanted { first: 0, end: None });
+    let count = path.frame_count();
+    if count == 0 {
+        return Err(Failure::usage(format!(
+            "{}: this scene has no camera path; the page's timeline makes one",
+            arguments.scene.display()
+        )));
+    }
+    if wanted.first >= count {
+        let last = count - 1;
+        let first = wanted.first;
+        return Err(Failure::usage(format!("--frames: {first}: the last frame is {last}")));
+    }
+    let frames = wanted.first..wanted.end.map_or(count, |end| end.min(count));
+    let Arguments { size, samples, quiet, .. } = arguments;
+    let folder =
+        Folder::open(&arguments.output, &Sequence { path: &path, size_px: size, samples })?;
+    let missing: Vec<u32> = frames.clone().filter(|&frame| !folder.has(frame)).collect();
+    let shown = arguments.output.display();
+    if missing.is_empty() {
+        if !quiet {
+            tell(&format!("{shown}: all {} frames are there", frames.len()));
+        }
+        return Ok(());
+    }
+
+    let interrupted = interruption()?;
+    let gpu = arguments.adapter.open()?;
+    let health = Health::of(&gpu);
+    let kernels = Kernels::new(&gpu);
+    let options = StillOptions { samples, ..StillOptions::new(size) };
+    let progress = progress_bar(quiet);
+    let (clock, all) = (Instant::now(), missing.len() as u32);
+    let mut made = 0;
+    for (turn, &frame) in missing.iter().enumerate() {
+        // Another process may have made it meanwhile.
+        if folder.has(frame) {
+            continue;
+        }
+        let file = folder.file(frame);
+        let failed = |error: &dyn std::fmt::Display| {
+            progress.finish_and_clear();
+            Failure::failed(format!("{}: {error}", file.display()))
+        };
+        // The path has as many frames as it says, each with a scene.
+        let scene = path.frame(frame).ok_or_else(|| failed(&"there is no such frame"))?;
+        let output = Output::create(&file).map_err(|error| failed(&error))?;
+        let job = StillJob::new(&kernels, &scene, options, output).map_err(|e| failed(&e))?;
+        let result = job.run(|status| {
+            if let StillStatus::Working { done, .. } = status {
+                let done = turn as f64 + done;
+                let left = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
+                show(&progress, done / f64::from(all), left);
+            }
+            if health.loss().is_some() || interrupted.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if let Some(reason) = health.loss() {
+            return Err(failed(&format!("the GPU was lost: {reason}; {GO_ON}")));
+        }
+        match result {
+            Ok(output) => output.commit().map_err(|error| failed(&error))?,
+            Err(ExportError::Cancelled) => {
+                progress.finish_and_clear();
+                let done = format!("interrupted; {made} of {all} frames were made; {GO_ON}");
+                return Err(Failure::failed(format!("{shown}: {done}")));
+            }
+            Err(error) => return Err(failed(&error)),
+        }
+        made += 1;
+    }
+    progress.finish_and_clear();
+    if !quiet {
+        let secs = clock.elapsed().as_secs_f64();
+        let kept = frames.len() - made;
+        let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
+        tell(&format!("{shown}: {made} frames{kept}, {secs:.1} s on {}", gpu.name()));
+    }
+    Ok(())
+}
+
+/// What to do about a sequence that was cut short.
+const GO_ON: &str = "the same command goes on from there";
+
+/// Parses `100..200`, `100..`, `..200` and `100`.
+fn parse_frames(text: &str) -> Result<Wanted, String> {
+    let help =
+        "write it as A..B, frames A to B without B, such as 0..100; or A.., ..B, or one frame";
+    let number = |text: &str| text.trim().parse::<u32>().map_err(|_| help.to_owned());
+    let wanted = match text.split_once("..") {
+        None => {
+            let frame = number(text)?;
+            Wanted { first: frame, end: Some(frame.saturating_add(1)) }
+        }
+        Some((first, end)) => Wanted {
+            first: if first.trim().is_empty() { 0 } else { number(first)? },
+            end: if end.trim().is_empty() { None } else { Some(number(end)?) },
+        },
+    };
+    match wanted.end {
+        Some(end) if end <= wanted.first => {
+            Err(format!("{text} holds no frame: the end, {end}, is not one of them"))
+        }
+        _ => Ok(wanted),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_read_and_checked() {
+        let range = |first, end| Ok(Wanted { first, end });
+        assert_eq!(parse_frames("3..7"), range(3, Some(7)));
+        assert_eq!(parse_frames("3.."), range(3, None));
+        assert_eq!(parse_frames("..7"), range(0, Some(7)));
+        assert_eq!(parse_frames(".."), range(0, None));
+        assert_eq!(parse_frames("7"), range(7, Some(8)));
+        for text in ["", "a..b", "3..3", "7..3", "-1..3", "1.5", "1..2..3", "3...5", "99999999999"]
+        {
+            assert!(parse_frames(text).is_err(), "{text:?} was accepted");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The frames of a camera path: their numbers and names, and all of them in one archive.
+//!
+//! In: a path, a range of frames, a size. Out: one PNG a frame, each the still of its own scene,
+//! made as if no other frame existed: any split of the range gives the same pictures.
+
+use std::{io::Write, ops::Range, sync::Arc};
+
+use super::{Archive, ExportError, StillJob, StillOptions, StillStatus};
+use crate::{render::Kernels, scene::Path};
+
+/// The file of frame `frame`: `frame_000042.png`.
+pub fn frame_name(frame: u32) -> String {
+    format!("frame_{frame:06}.png")
+}
+
+/// Seconds to go, from those that `done` of `all` frames took; `done` counts parts of frames.
+/// None before there is something to judge by.
+pub fn remaining_secs(elapsed_secs: f64, done: f64, all: u32) -> Option<f64> {
+    let left = (f64::from(all) - done).max(0.0);
+    (done > 0.05 && elapsed_secs > 1.0).then(|| elapsed_secs * left / done)
+}
+
+/// A sequence in progress, as a zip of PNGs. Dropping it cancels it.
+pub struct SequenceJob<W: Write> {
+    kernels: Arc<Kernels>,
+    path: Path,
+    options: StillOptions,
+    frames: Range<u32>,
+    /// The frame under way, or the next one.
+    frame: u32,
+    still: Option<StillJob<Vec<u8>>>,
+    archive: Archive<W>,
+    started_secs: Option<f64>,
+}
+
+impl<W: Write> SequenceJob<W> {
+    /// Starts a sequence of `frames`, cut to those that `path` has, that goes to `sink`.
+    ///
+    /// # Errors
+    /// [`ExportError::NoFrames`] where there is nothing to draw; sizes, samples and scenes out
+    /// of range as in [`StillJob::new`].
+    pub fn new(
+        kernels: &Arc<Kernels>,
+        path: Path,
+        frames: Range<u32>,
+        options: StillOptions,
+        sink: W,
+    ) -> Result<Self, ExportError> {
+        let frames = frames.start..frames.end.min(path.frame_count());
+        if frames.is_empty() {
+            return Err(ExportError::NoFrames);
+        }
+        path.validate()?;
+        super::checked_size(options.size_px)?;
+        Ok(Self {
+            kernels: kernels.clone(),
+            path,
+            options,
+            frame: frames.start,
+            frames,
+            still: None,
+            archive: Archive::new(sink),
+            started_secs: None,
+        })
+    }
+
+    /// Does what can be done without waiting, as [`StillJob::step`].
+    ///
+    /// # Errors
+    /// As [`StillJob::step`].
+    pub fn step(&mut self, now_secs: f64) -> Result<StillStatus, ExportError> {
+        let started_secs = *self.started_secs.get_or_insert(now_secs);
+        if self.frame >= self.frames.end {
+            return Ok(StillStatus::Done);
+        }
+        let mut still = match self.still.take() {
+            Some(still) => still,
+            None => self.begin()?,
+        };
+        let mut of_frame = 0.0;
+        match still.step(now_secs)? {
+            StillStatus::Working { done, .. } => {
+                of_frame = done;
+                self.still = Some(still);
+            }
+            StillStatus::Done => {
+                self.archive.add(&frame_name(self.frame), &still.finish()?)?;
+                self.frame += 1;
+            }
+        }
+        let all = self.frames.len() as u32;
+        let done = f64::from(self.frame - self.frames.start) + of_frame;
+        let remaining_secs = remaining_secs(now_secs - started_secs, done, all);
+        Ok(StillStatus::Working { done: done / f64::from(all), remaining_secs })
+    }
+
+    fn begin(&self) -> Result<StillJob<Vec<u8>>, ExportError> {
+        let scene = self.path.frame(self.frame).ok_or(ExportError::NoFrames)?;
+        StillJob::new(&self.kernels, &scene, self.options, Vec::new())
+    }
+
+    /// Ends the archive and gives the sink back.
+    ///
+    /// # Errors
+    /// [`ExportError::Encode`] before [`StillStatus::Done`], [`ExportError::Write`] from the
+    /// sink.
+    pub fn finish(self) -> Result<W, ExportError> {
+        if self.frame < self.frames.end {
+            return Err(ExportError::Encode(format!("frame {} is not done", self.frame)));
+        }
+        self.archive.finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_sort_as_frames_do() {
+        assert_eq!(frame_name(42), "frame_000042.png");
+        // The most frames that a path can have: an hour at 240 a second.
+        assert_eq!(frame_name(864_000).len(), frame_name(0).len());
+    }
+
+    #[test]
+    fn the_rest_is_foretold_from_what_was_done() {
+        assert_eq!(remaining_secs(10.0, 2.0, 6), Some(20.0));
+        assert_eq!(remaining_secs(0.5, 0.5, 6), None);
+        assert_eq!(remaining_secs(60.0, 0.0, 6), None);
+    }
+}
