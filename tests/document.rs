@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use mandelight::scene::{
-    EnvironmentLight, GradientStop, Lights, PointLight, Scene,
+    EnvironmentLight, GradientStop, Lights, PictureRig, PointLight, Rig, RigLight, Scene,
     document::{self, DocumentError, from_json, to_json, to_json_compact},
     link::{self, LinkError, from_fragment, to_fragment},
     param::{self, Param, Scale},
@@ -19,7 +19,10 @@ fn full_document() -> Value {
     let mut scene = Scene::default();
     // The power that allows every bailout of the table.
     scene.fractal.power = 2.0;
+    let light = RigLight { direction: [0.0, 0.0, 1.0], strength: [1.0; 3] };
+    let picture = PictureRig { lights: vec![light], ..Default::default() };
     scene.lights = Lights {
+        rig: Rig { picture, ..Default::default() },
         environment: vec![EnvironmentLight { shadow_reach: Some(1.0), ..Default::default() }],
         point: vec![PointLight::default()],
     };
@@ -121,6 +124,10 @@ fn errors_name_the_field_and_say_what_is_wrong() {
     let stop = |position| json!({ "position": position, "color": [0, 0, 0] });
     let gradient = |stops: Vec<Value>| json!({ "surface": { "gradient": stops } });
     let eye = json!(["0.1", "0", "2"]);
+    let rig_light = |direction: Value, strength: Value| {
+        let light = json!({ "direction": direction, "strength": strength });
+        json!({ "lights": { "rig": { "picture": { "lights": [light] } } } })
+    };
     for (scene, beginning) in [
         (
             json!({ "lights": { "environment": [{}, {}, { "intensity": 1000 }] } }),
@@ -167,6 +174,26 @@ fn errors_name_the_field_and_say_what_is_wrong() {
         (
             json!({ "lights": { "point": [{ "color": [0, 1.5, 0] }] } }),
             "lights.point[0].color[1]: 1.5 is outside 0 to 1",
+        ),
+        (
+            rig_light(json!([0, 0, 0.5]), json!([1, 1, 1])),
+            "lights.rig.picture.lights[0].direction: has length 0.5",
+        ),
+        (
+            rig_light(json!([0, 0, 1]), json!([1, -1, 1])),
+            "lights.rig.picture.lights[0].strength[1]: -1 is outside 0 to 1000000",
+        ),
+        (
+            json!({ "lights": { "rig": { "kind": "sky", "count": 62 } } }),
+            "lights: 65 lights are too many",
+        ),
+        (
+            json!({ "lights": { "rig": { "sky": { "sun_direction": [0, 0, 2] } } } }),
+            "lights.rig.sky.sun_direction: has length 2",
+        ),
+        (
+            json!({ "lights": { "rig": { "picture": { "name": "x".repeat(201) } } } }),
+            "lights.rig.picture.name: has 201 characters",
         ),
         (json!({ "background": { "top": [0, 0, -1] } }), "background.top[2]: -1 is outside 0 to 1"),
         // The three environment lights of the default, and these.

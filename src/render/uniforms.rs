@@ -3,15 +3,19 @@
 //! In: a scene, its region, a slice. Out: bytes. `tests/shaders.rs` compares each struct, field
 //! by field, with its twin in `shaders/types/`.
 
+mod lights;
+
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
+
+pub use lights::lights;
 
 use super::{Region, report::HISTOGRAM_BINS, schedule::Stale};
 use crate::{
     fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
-        self, BloomOrder, ColorSource, LightFrame, MAX_LIGHTS, Scene, ToneChannels, ToneCurve,
-        ToneMean, Variant, color,
+        self, BloomOrder, ColorSource, MAX_LIGHTS, Scene, ToneChannels, ToneCurve, ToneMean,
+        Variant, color,
     },
 };
 
@@ -396,53 +400,6 @@ fn surface(scene: &Scene) -> Surface {
         color_offset: surface.coloring.offset as f32,
         light_count: scene.lights.len() as u32,
     }
-}
-
-/// The scene's lights in the order of their visibility bits: environment, then point lights.
-/// Muted ones stay, in black, so that muting moves no other light's bit.
-pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
-    let any_solo = scene.lights.any_solo();
-    let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
-        let shines = !muted && (solo || !any_solo);
-        let strength = if shines { intensity as f32 } else { 0.0 };
-        [r * strength, g * strength, b * strength]
-    };
-    let casts = |wanted: bool, radiance: [f32; 3]| {
-        u32::from(wanted && scene.quality.shadows && radiance != [0.0; 3])
-    };
-    let view_unit = scene.camera.view_unit();
-    let environment = scene.lights.environment.iter().map(|light| {
-        let direction = DVec3::from_array(light.direction);
-        let direction = match light.frame {
-            LightFrame::Scene => direction,
-            LightFrame::View => scene.camera.rotation() * direction,
-        };
-        let radiance = color(light.color, light.intensity, light.muted, light.solo);
-        Light {
-            vector: direction.as_vec3().normalize_or(Vec3::Z).to_array(),
-            kind: 0,
-            color: radiance,
-            casts_shadows: casts(light.casts_shadows, radiance),
-            shadow_reach: light.shadow_reach.map_or(1e30, |reach| (reach * view_unit) as f32),
-            ..Light::zeroed()
-        }
-    });
-    let point = scene.lights.point.iter().map(|light| {
-        let radiance = color(light.color, light.intensity, light.muted, light.solo);
-        Light {
-            vector: light.position.to_dvec3().as_vec3().to_array(),
-            kind: 1,
-            color: radiance,
-            casts_shadows: casts(light.casts_shadows, radiance),
-            shadow_reach: 1e30,
-            ..Light::zeroed()
-        }
-    });
-    let mut table = [Light::zeroed(); MAX_LIGHTS];
-    for (slot, light) in table.iter_mut().zip(environment.chain(point)) {
-        *slot = light;
-    }
-    table
 }
 
 /// All that a picture's passes read of its scene.

@@ -2,6 +2,8 @@
 //!
 //! In and out: linear Rec. 709 channels, unless a name says sRGB.
 
+use glam::DVec3;
+
 use super::GradientStop;
 
 /// Entries of a gradient's table.
@@ -17,6 +19,11 @@ pub fn linear_from_srgb(encoded: f32) -> f32 {
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The luminance of a linear colour (Rec. 709).
+pub fn luminance(color: DVec3) -> f64 {
+    color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
 /// The gradient's linear colour at `u`, of which only the fraction counts. Between stops it

@@ -178,10 +178,11 @@ pub(super) fn scene_from_json(text: &str) -> Result<Scene, DocumentError> {
 
 /// The scene, valid, its directions of length 1.
 fn checked(mut scene: Scene) -> Result<Scene, DocumentError> {
-    for light in &mut scene.lights.environment {
-        let direction = DVec3::from_array(light.direction);
-        if is_nearly_unit(direction.length()) {
-            light.direction = direction.normalize().to_array();
+    let directions = scene.lights.environment.iter_mut().map(|light| &mut light.direction);
+    for direction in directions.chain([&mut scene.lights.rig.sky.sun_direction]) {
+        let vector = DVec3::from_array(*direction);
+        if is_nearly_unit(vector.length()) {
+            *direction = vector.normalize().to_array();
         }
     }
     let orientation = DQuat::from_array(scene.camera.orientation.0);

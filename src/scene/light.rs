@@ -1,11 +1,11 @@
-//! What lights the scene (thesis 4.5): light from a direction, and light from a point.
+//! What lights the scene (thesis 4.5): light from a direction, light from a point, and a rig.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{PrecisePoint, param};
+use super::{PrecisePoint, Rig, param};
 
-/// The most lights a scene holds, both kinds together: one visibility bit each.
+/// The most lights a scene holds, all kinds together: one visibility bit each.
 pub const MAX_LIGHTS: usize = 64;
 
 /// What a light's direction is fixed to.
@@ -95,12 +95,19 @@ pub struct Lights {
     pub environment: Vec<EnvironmentLight>,
     /// Light from points.
     pub point: Vec<PointLight>,
+    /// Lights from directions that are made together.
+    pub rig: Rig,
 }
 
 impl Lights {
-    /// How many there are, both kinds together.
+    /// How many there are, all kinds together.
     pub fn len(&self) -> usize {
-        self.environment.len() + self.point.len()
+        self.environment.len() + self.point.len() + self.rig.len()
+    }
+
+    /// How many lights the rig can have beside those of the lists.
+    pub fn room_for_rig(&self) -> usize {
+        MAX_LIGHTS.saturating_sub(self.environment.len() + self.point.len())
     }
 
     /// True where there is no light at all.
@@ -110,7 +117,9 @@ impl Lights {
 
     /// True while some light is solo.
     pub fn any_solo(&self) -> bool {
-        self.environment.iter().any(|l| l.solo) || self.point.iter().any(|l| l.solo)
+        self.environment.iter().any(|l| l.solo)
+            || self.point.iter().any(|l| l.solo)
+            || (self.rig.solo && !self.rig.is_empty())
     }
 }
 
@@ -145,6 +154,7 @@ impl Default for Lights {
                 },
             ],
             point: Vec::new(),
+            rig: Rig::default(),
         }
     }
 }

@@ -6,10 +6,11 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
-//! | `fractal`, `camera`, `light`, `surface`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `fractal`, `camera`, `light`, `rig`, `surface`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | [`precise`] | positions that stay exact at any zoom |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
+//! | [`panorama`] | a picture of the surroundings, decoded, and cut into lights |
 //! | [`history`] | undo and redo, grouped by gesture |
 //! | [`path`] | key frames of whole scenes, and the scene at any time between them |
 //! | `project` | a scene and its path, as a document holds them |
@@ -24,6 +25,7 @@ mod fractal;
 mod light;
 mod project;
 mod quality;
+mod rig;
 mod surface;
 mod tone;
 
@@ -31,21 +33,27 @@ pub mod color;
 pub mod document;
 pub mod history;
 pub mod link;
+pub mod panorama;
 pub mod param;
 pub mod path;
 pub mod precise;
 pub mod presets;
 mod validate;
 
-pub use background::Background;
+pub use background::{Background, BackgroundKind};
 pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use fractal::{Fractal, Variant};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
+pub use panorama::Panorama;
 pub use path::Path;
 pub use precise::{Precise, PrecisePoint};
 pub use project::Project;
 pub use quality::Quality;
+pub use rig::{
+    MAX_NAME_CHARS, MAX_RIG_RADIANCE, PictureRig, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight,
+    Sky,
+};
 pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;

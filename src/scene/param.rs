@@ -159,6 +159,20 @@ params! {
         "How far away a surface can be and still shade another. Shorter is brighter in crevices and faster.";
     POINT_INTENSITY = "lights.point[].intensity", "Intensity", None, 0.0, 10000.0, default 1.0, Logarithmic by 0.05,
         "How strong the light is at one scene unit; it falls with the square of the distance.";
+    RIG_COUNT = "lights.rig.count", "Rig lights", Count, 3.0, 64.0, default 16.0, Integer by 1.0,
+        "How many lights the sky or the picture is divided into. More follows it more closely; every one casts its own shadow and takes its time.";
+    RIG_INTENSITY = "lights.rig.intensity", "Rig intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
+        "Factor on all lights of the rig, and on its picture as background.";
+    RIG_SHADOW_REACH = "lights.rig.shadow_reach", "Rig reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+        "How far away a surface can be and still shade another from the rig. Shorter is brighter in crevices and faster.";
+    SUN_STRENGTH = "lights.rig.sky.sun_strength", "Sun strength", None, 0.0, 100.0, default 2.0, Logarithmic by 0.05,
+        "How strong the sun is: 1 lights a white surface that faces it to 1.";
+    SUN_SIZE = "lights.rig.sky.sun_size_deg", "Sun size", Degrees, 0.0, 45.0, default 6.0, Linear by 0.5,
+        "How wide the sun is in the sky. Wider makes softer shadows where several lights make the sun.";
+    SUN_LIGHTS = "lights.rig.sky.sun_lights", "Sun lights", Count, 1.0, 32.0, default 1.0, Integer by 1.0,
+        "How many of the rig's lights make the sun, spread over its disc.";
+    RIG_ROTATION = "lights.rig.picture.rotation_deg", "Rotation", Degrees, -180.0, 180.0, default 0.0, Linear by 1.0,
+        "Turns the picture of the surroundings and its lights about the vertical axis, counterclockwise as seen from above.";
     AMBIENT = "surface.ambient", "Ambient", None, 0.0, 1.0, default 0.04, Linear by 0.01,
         "Light that reaches every point alike, as a part of the surface's colour. Higher lifts the shadows.";
     DIFFUSE = "surface.diffuse", "Diffuse", None, 0.0, 1.0, default 0.9, Linear by 0.01,

@@ -98,6 +98,7 @@ fn coral_reef() -> Scene {
                 headlight([0.0, 0.3, 1.0], [0.9, 0.95, 1.0], 0.25),
             ],
             point: vec![],
+            ..Default::default()
         },
         surface: Surface {
             coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.4, offset: 0.1 },
@@ -112,7 +113,7 @@ fn coral_reef() -> Scene {
             shininess: 60.0,
             ..Default::default()
         },
-        background: Background { top: [0.004, 0.02, 0.035], bottom: [0.01, 0.07, 0.09] },
+        background: Background::gradient([0.004, 0.02, 0.035], [0.01, 0.07, 0.09]),
         ..Default::default()
     }
 }
@@ -128,6 +129,7 @@ fn four_petals() -> Scene {
                 light([-0.2, 0.9, 0.4], [0.5, 0.6, 1.0], 1.3),
             ],
             point: vec![],
+            ..Default::default()
         },
         surface: Surface {
             gradient: stops(&[
@@ -139,7 +141,7 @@ fn four_petals() -> Scene {
             ]),
             ..Default::default()
         },
-        background: Background { top: [0.012, 0.006, 0.022], bottom: [0.07, 0.035, 0.08] },
+        background: Background::gradient([0.012, 0.006, 0.022], [0.07, 0.035, 0.08]),
         ..Default::default()
     }
 }
@@ -155,6 +157,7 @@ fn quadratic() -> Scene {
                 light([-0.2, 0.9, 0.3], [0.6, 1.0, 0.8], 1.0),
             ],
             point: vec![],
+            ..Default::default()
         },
         surface: Surface {
             gradient: stops(&[
@@ -166,7 +169,7 @@ fn quadratic() -> Scene {
             ]),
             ..Default::default()
         },
-        background: Background { top: [0.004, 0.012, 0.012], bottom: [0.03, 0.06, 0.055] },
+        background: Background::gradient([0.004, 0.012, 0.012], [0.03, 0.06, 0.055]),
         ..Default::default()
     }
 }
@@ -182,6 +185,7 @@ fn sea_urchin() -> Scene {
                 light([0.1, 0.9, 0.5], [0.6, 0.4, 1.0], 1.6),
             ],
             point: vec![],
+            ..Default::default()
         },
         surface: Surface {
             coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.0, offset: 0.0 },
@@ -196,7 +200,7 @@ fn sea_urchin() -> Scene {
             shininess: 90.0,
             ..Default::default()
         },
-        background: Background { top: [0.006, 0.006, 0.02], bottom: [0.03, 0.03, 0.07] },
+        background: Background::gradient([0.006, 0.006, 0.02], [0.03, 0.03, 0.07]),
         ..Default::default()
     }
 }
@@ -212,6 +216,7 @@ fn in_between() -> Scene {
                 light([0.6, 0.7, 0.3], [1.0, 0.6, 0.35], 1.2),
             ],
             point: vec![],
+            ..Default::default()
         },
         surface: Surface {
             coloring: Coloring { source: ColorSource::AxisTrap, repeats: 1.2, offset: 0.05 },
@@ -239,6 +244,7 @@ fn julia() -> Scene {
                 light([0.0, 0.9, 0.5], [0.9, 0.9, 1.0], 1.3),
             ],
             point: vec![],
+            ..Default::default()
         },
         surface: Surface {
             gradient: stops(&[
@@ -252,7 +258,7 @@ fn julia() -> Scene {
             shininess: 70.0,
             ..Default::default()
         },
-        background: Background { top: [0.004, 0.01, 0.018], bottom: [0.03, 0.055, 0.07] },
+        background: Background::gradient([0.004, 0.01, 0.018], [0.03, 0.055, 0.07]),
         ..Default::default()
     }
 }
@@ -275,10 +281,11 @@ fn lantern() -> Scene {
                 lamp([0.2, -0.95, 0.2], [1.0, 0.62, 0.28], 0.06),
                 lamp([0.0, -1.0, 0.35], [0.3, 0.55, 1.0], 0.04),
             ],
+            ..Default::default()
         },
         surface: Surface { ambient: 0.02, ..Default::default() },
         tone: Tone { exposure: 0.3, ..Default::default() },
-        background: Background { top: [0.002, 0.002, 0.005], bottom: [0.01, 0.01, 0.016] },
+        background: Background::gradient([0.002, 0.002, 0.005], [0.01, 0.01, 0.016]),
         ..Default::default()
     }
 }

@@ -7,7 +7,8 @@
 use glam::{DVec3, DVec4};
 
 use super::{
-    Camera, Fractal, Lights, MAX_GRADIENT_STOPS, MAX_LIGHTS, MIN_VIEW_UNIT, Scene, Surface,
+    Camera, Fractal, Lights, MAX_GRADIENT_STOPS, MAX_LIGHTS, MAX_NAME_CHARS, MAX_RIG_RADIANCE,
+    MIN_VIEW_UNIT, RIG_DIRECTION_TOLERANCE, Rig, RigLight, Scene, Sky, Surface,
     param::{self, Param},
 };
 
@@ -125,7 +126,53 @@ fn check_lights(lights: &Lights) -> Result<(), Invalid> {
         check_color(|| format!("lights.point[{i}].color"), light.color)?;
         check_at(&param::POINT_INTENSITY, i, light.intensity)?;
     }
-    Ok(())
+    check_rig(&lights.rig)
+}
+
+fn check_rig(rig: &Rig) -> Result<(), Invalid> {
+    check(&param::RIG_COUNT, rig.count.into())?;
+    check(&param::RIG_INTENSITY, rig.intensity)?;
+    if let Some(reach) = rig.shadow_reach {
+        check(&param::RIG_SHADOW_REACH, reach)?;
+    }
+    let Sky { sun_strength, sun_size_deg, sun_lights, .. } = rig.sky;
+    let at = |field: &str| format!("lights.rig.sky.{field}");
+    check_color(|| at("zenith"), rig.sky.zenith)?;
+    check_color(|| at("horizon"), rig.sky.horizon)?;
+    check_color(|| at("ground"), rig.sky.ground)?;
+    let sun_length = DVec3::from_array(rig.sky.sun_direction).length();
+    check_unit_length(|| at("sun_direction"), sun_length)?;
+    check_color(|| at("sun_color"), rig.sky.sun_color)?;
+    check(&param::SUN_STRENGTH, sun_strength)?;
+    check(&param::SUN_SIZE, sun_size_deg)?;
+    check(&param::SUN_LIGHTS, sun_lights.into())?;
+    let picture = &rig.picture;
+    let characters = picture.name.chars().count();
+    if characters > MAX_NAME_CHARS {
+        let message = format!("has {characters} characters; a name has at most {MAX_NAME_CHARS}");
+        return Err(Invalid::new("lights.rig.picture.name", message));
+    }
+    check(&param::RIG_ROTATION, picture.rotation_deg)?;
+    if picture.lights.len() > MAX_LIGHTS {
+        let message =
+            format!("{} are too many; a rig has at most {MAX_LIGHTS}", picture.lights.len());
+        return Err(Invalid::new("lights.rig.picture.lights", message));
+    }
+    (0..).zip(&picture.lights).try_for_each(|(i, light)| check_rig_light(i, light))
+}
+
+fn check_rig_light(i: usize, light: &RigLight) -> Result<(), Invalid> {
+    let at = |field: &str| format!("lights.rig.picture.lights[{i}].{field}");
+    let length = DVec3::from_array(light.direction.map(f64::from)).length();
+    check_length_within(|| at("direction"), length, RIG_DIRECTION_TOLERANCE)?;
+    match light.strength.iter().position(|channel| !(0.0..=MAX_RIG_RADIANCE).contains(channel)) {
+        None => Ok(()),
+        Some(channel) => {
+            let value = shown(light.strength[channel].into());
+            let message = format!("{value} is outside 0 to {MAX_RIG_RADIANCE}");
+            Err(Invalid::new(format!("{}[{channel}]", at("strength")), message))
+        }
+    }
 }
 
 fn check_surface(surface: &Surface) -> Result<(), Invalid> {
@@ -170,7 +217,15 @@ fn check_color(path: impl Fn() -> String, color: [f32; 3]) -> Result<(), Invalid
 
 /// The length of a direction or an orientation.
 fn check_unit_length(path: impl Fn() -> String, length: f64) -> Result<(), Invalid> {
-    if (length - 1.0).abs() <= UNIT_TOLERANCE {
+    check_length_within(path, length, UNIT_TOLERANCE)
+}
+
+fn check_length_within(
+    path: impl Fn() -> String,
+    length: f64,
+    tolerance: f64,
+) -> Result<(), Invalid> {
+    if (length - 1.0).abs() <= tolerance {
         return Ok(());
     }
     Err(Invalid::new(path(), format!("has length {}; it must be 1", shown(length))))

@@ -1,5 +1,7 @@
 //! One frame of the interface: layout, dispatch, undo.
 
+use std::sync::Arc;
+
 use egui::{Align2, Color32, Frame as Box, Margin, Panel, Rect, Ui, vec2};
 
 use super::{
@@ -14,7 +16,7 @@ use super::{
     shortcuts::{self, Command},
     status, theme, view,
 };
-use crate::scene::{Camera, Project, Scene, presets};
+use crate::scene::{BackgroundKind, Camera, Panorama, Project, RigKind, Scene, presets};
 
 /// A movement that pauses for this long, while the hand still holds on, gets a full picture.
 const STILL_SECS: f64 = 0.25;
@@ -38,6 +40,8 @@ pub struct Interface {
     view_px: [u32; 2],
     moving: bool,
     histogram_shown: bool,
+    /// The picture of the surroundings that is at hand.
+    panorama: Option<Arc<Panorama>>,
 }
 
 impl Interface {
@@ -56,6 +60,7 @@ impl Interface {
             view_px: [1, 1],
             moving: false,
             histogram_shown: false,
+            panorama: None,
         }
     }
 
@@ -76,6 +81,30 @@ impl Interface {
         self.home = project.scene.camera.clone();
         self.editor.replace(project);
         self.pilot.cancel();
+    }
+
+    /// Takes a picture of the surroundings. A scene that does not name it yet is lit by it from
+    /// now on and shows it, which undo takes back; one that is lit by it already is lit by what
+    /// it holds now.
+    pub fn use_panorama(&mut self, panorama: Arc<Panorama>) {
+        let mut project = self.project().clone();
+        let scene = &mut project.scene;
+        let is_new = scene.lights.rig.picture.name != panorama.name();
+        if is_new {
+            scene.background.kind = BackgroundKind::Picture;
+        }
+        if is_new || scene.lights.rig.kind == RigKind::Picture {
+            let room = scene.lights.room_for_rig();
+            scene.lights.rig.light_by(&panorama, room);
+        }
+        self.editor.replace(project);
+        self.panorama = Some(panorama);
+    }
+
+    /// The picture of the surroundings that is at hand, where the scene names it.
+    pub fn panorama(&self) -> Option<&Arc<Panorama>> {
+        let name = &self.scene().lights.rig.picture.name;
+        self.panorama.as_ref().filter(|panorama| panorama.name() == name)
     }
 
     /// Width and height that the picture should have, in pixels.
@@ -161,6 +190,7 @@ impl Interface {
             commands,
             actions,
             inputs,
+            panorama: self.panorama.as_deref(),
             standing: self.standing,
             view_px: self.view_px,
             flying: self.pilot.is_flying(),

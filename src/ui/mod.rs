@@ -92,6 +92,8 @@ pub enum Action {
     SaveScene,
     /// Ask for a scene document, or a PNG that carries one, and load it.
     LoadScene,
+    /// Ask for a picture of the surroundings, for [`Interface::use_panorama`].
+    ChoosePicture,
     /// Copy the address that shares this view.
     CopyLink,
     /// Fill the screen, or leave it.

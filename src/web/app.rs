@@ -92,7 +92,7 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
                 session.complain(format!("The scene was not saved: {reason}"));
             }
         }
-        Action::LoadScene => session.picker.open(),
+        Action::LoadScene | Action::ChoosePicture => session.picker.open(),
         Action::CopyLink => session.copy_link(),
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::DismissNotice => session.notice = None,

@@ -12,10 +12,18 @@ use super::{
     mailbox::{Mailbox, Message},
     page::{self, describe, document, window},
 };
+use crate::scene::panorama::decode::MAX_FILE_BYTES;
 
-/// As much of a file as is ever read. A scene document is far smaller, and a picture carries its
-/// scene ahead of its pixels.
+/// As much as is read of a file that may hold a scene. A scene document is far smaller, and a
+/// picture carries its scene ahead of its pixels.
 const MAX_READ_BYTES: f64 = (4 << 20) as f64;
+
+/// Largest picture of the surroundings: one byte more than is decoded, so that what is too
+/// large is known as such.
+const MAX_PANORAMA_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
+
+/// How the names of pictures of the surroundings end.
+const PANORAMA_ENDINGS: [&str; 3] = [".hdr", ".pic", ".exr"];
 
 /// A download is handed over in pieces of about this size.
 const PIECE_BYTES: usize = 1 << 20;
@@ -128,7 +136,7 @@ fn make_input() -> Result<HtmlInputElement, JsValue> {
     let document = document().ok_or_else(|| JsValue::from_str("there is no document"))?;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
     input.set_type("file");
-    input.set_accept(".json,.png,application/json,image/png");
+    input.set_accept(".json,.png,.hdr,.pic,.exr,application/json,image/png");
     input.set_hidden(true);
     // Some browsers open the dialogue only for an element that is in the page.
     if let Some(body) = document.body() {
@@ -148,7 +156,10 @@ pub fn read(file: &web_sys::File, mailbox: &Mailbox) {
 }
 
 async fn read_start(file: &web_sys::File) -> Result<Vec<u8>, JsValue> {
-    let start = file.slice_with_f64_and_f64(0.0, file.size().min(MAX_READ_BYTES))?;
+    let name = file.name().to_lowercase();
+    let is_panorama = PANORAMA_ENDINGS.iter().any(|ending| name.ends_with(ending));
+    let most = if is_panorama { MAX_PANORAMA_BYTES } else { MAX_READ_BYTES };
+    let start = file.slice_with_f64_and_f64(0.0, file.size().min(most))?;
     let buffer = JsFuture::from(start.array_buffer()).await?;
     Ok(js_sys::Uint8Array::new(&buffer).to_vec())
 }

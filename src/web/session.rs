@@ -2,7 +2,7 @@
 //!
 //! In: the address and the storage at start-up; messages later on. Out: a scene that is never lost.
 
-use std::{cell::RefCell, io::Cursor, rc::Rc};
+use std::{cell::RefCell, io::Cursor, rc::Rc, sync::Arc};
 
 use super::{
     address::Address,
@@ -16,7 +16,7 @@ use crate::{
     export,
     gpu::Gpu,
     render::{Report, frame::Dispatches},
-    scene::{Project, Scene, document, link},
+    scene::{BackgroundKind, Project, Scene, document, link, panorama},
     ui::{Interface, Notice, Settings},
 };
 
@@ -84,6 +84,7 @@ impl Session {
             paused_at: None,
         };
         session.be_cautious(loss::caution_at_start(session.fragment().as_deref()));
+        session.miss_panorama();
         if let Some(complaint) = complaint {
             session.complain(complaint);
         }
@@ -190,21 +191,46 @@ impl Session {
         for message in self.mailbox.take() {
             match message {
                 Message::File { name, content } => {
-                    match content.and_then(|bytes| project_in(&bytes)) {
-                        Ok(project) => {
-                            self.interface.replace_project(project);
-                            self.say(format!("Opened {name}."));
-                        }
-                        Err(reason) => self.complain(format!("{name}: {reason}")),
-                    }
+                    let opened = content.and_then(|bytes| self.open_file(&name, &bytes));
+                    opened.unwrap_or_else(|reason| self.complain(format!("{name}: {reason}")));
                 }
                 Message::Fragment(fragment) => match link::project_from_fragment(&fragment) {
-                    Ok(project) => self.interface.replace_project(project),
+                    Ok(project) => {
+                        self.interface.replace_project(project);
+                        self.miss_panorama();
+                    }
                     Err(error) => self.complain(error.to_string()),
                 },
                 Message::Notice(text) => self.say(text),
                 Message::Complaint(text) => self.complain(text),
             }
+        }
+    }
+
+    /// Opens a file: a scene, a picture that carries one, or a picture of the surroundings.
+    fn open_file(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
+        if panorama::is_panorama(bytes) {
+            let panorama = panorama::decode(name, bytes).map_err(|error| error.to_string())?;
+            self.interface.use_panorama(Arc::new(panorama));
+            let lights = self.interface.scene().lights.rig.len();
+            self.say(format!(
+                "{name} lights the scene with {lights} lights, beside those of the list."
+            ));
+            return Ok(());
+        }
+        self.interface.replace_project(project_in(bytes)?);
+        self.say(format!("Opened {name}."));
+        self.miss_panorama();
+        Ok(())
+    }
+
+    /// Says which picture of the surroundings the scene shows, where it is not at hand.
+    fn miss_panorama(&mut self) {
+        let scene = self.interface.scene();
+        let name = scene.lights.rig.picture.name.clone();
+        let is_shown = scene.background.kind == BackgroundKind::Picture;
+        if is_shown && !name.is_empty() && self.interface.panorama().is_none() {
+            self.say(format!("The background is {name}, which is not kept with the scene: drop or choose it to see it. Its lights are there."));
         }
     }
 
@@ -265,7 +291,7 @@ fn project_in(bytes: &[u8]) -> Result<Project, String> {
             .ok_or("this picture carries no scene: only pictures saved by Mandelight do")?
     } else {
         String::from_utf8(bytes.to_vec())
-            .map_err(|_| "neither a scene document nor a PNG picture".to_owned())?
+            .map_err(|_| "neither a scene document nor a picture that can be read".to_owned())?
     };
     document::project_from_json(&text).map_err(|error| error.to_string())
 }

@@ -2,9 +2,10 @@
 
 use glam::{DQuat, DVec3};
 use mandelight::scene::{
-    Background, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight, Fractal,
-    GradientStop, LightFrame, Lights, PointLight, Precise, PrecisePoint, Quality, Scene, Surface,
-    Tone, ToneChannels, ToneCurve, ToneMean, Variant,
+    Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight,
+    Fractal, GradientStop, LightFrame, Lights, PictureRig, PointLight, Precise, PrecisePoint,
+    Quality, Rig, RigKind, RigLight, Scene, Sky, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
+    Variant,
     param::{self, Param},
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
@@ -103,9 +104,64 @@ fn point_light() -> impl Strategy<Value = PointLight> {
     )
 }
 
+fn sky() -> impl Strategy<Value = Sky> {
+    let colors = (color(), color(), color(), color());
+    let sun = (direction(), value(&param::SUN_STRENGTH), value(&param::SUN_SIZE));
+    (colors, sun, count(&param::SUN_LIGHTS)).prop_map(
+        |(
+            (zenith, horizon, ground, sun_color),
+            (sun_direction, sun_strength, size),
+            sun_lights,
+        )| {
+            Sky {
+                zenith,
+                horizon,
+                ground,
+                sun_direction,
+                sun_color,
+                sun_strength,
+                sun_size_deg: size,
+                sun_lights,
+            }
+        },
+    )
+}
+
+fn picture_rig() -> impl Strategy<Value = PictureRig> {
+    let direction = direction().prop_map(|v| v.map(|v| v as f32));
+    let light = (direction, uniform3(0.0..1e6_f32))
+        .prop_map(|(direction, strength)| RigLight { direction, strength });
+    (".{0,40}", value(&param::RIG_ROTATION), vec(light, 0..6))
+        .prop_map(|(name, rotation_deg, lights)| PictureRig { name, rotation_deg, lights })
+}
+
+fn rig() -> impl Strategy<Value = Rig> {
+    let kind = select(vec![RigKind::None, RigKind::Sky, RigKind::Picture]);
+    let frame = select(vec![LightFrame::Scene, LightFrame::View]);
+    let reach = option::of(value(&param::RIG_SHADOW_REACH));
+    let number = (3..=50_u32, value(&param::RIG_INTENSITY));
+    (kind, number, reach, frame, any::<[bool; 3]>(), sky(), picture_rig()).prop_map(
+        |(kind, (count, intensity), shadow_reach, frame, flags, sky, picture)| {
+            let [casts_shadows, muted, solo] = flags;
+            Rig {
+                kind,
+                count,
+                intensity,
+                casts_shadows,
+                shadow_reach,
+                frame,
+                muted,
+                solo,
+                sky,
+                picture,
+            }
+        },
+    )
+}
+
 fn lights() -> impl Strategy<Value = Lights> {
-    (vec(environment_light(), 0..4), vec(point_light(), 0..4))
-        .prop_map(|(environment, point)| Lights { environment, point })
+    (vec(environment_light(), 0..4), vec(point_light(), 0..4), rig())
+        .prop_map(|(environment, point, rig)| Lights { environment, point, rig })
 }
 
 fn surface() -> impl Strategy<Value = Surface> {
@@ -193,7 +249,9 @@ fn quality() -> impl Strategy<Value = Quality> {
 
 /// Any valid scene of a few lights.
 pub fn scene() -> impl Strategy<Value = Scene> {
-    let background = (color(), color()).prop_map(|(top, bottom)| Background { top, bottom });
+    let kind = select(vec![BackgroundKind::Gradient, BackgroundKind::Picture]);
+    let background =
+        (kind, color(), color()).prop_map(|(kind, top, bottom)| Background { kind, top, bottom });
     let parts = (fractal(), camera(), lights(), surface(), background, tone(), bloom(), quality());
     parts.prop_map(|(fractal, camera, lights, surface, background, tone, bloom, quality)| Scene {
         fractal,

@@ -44,6 +44,7 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     harness.get_by_label("Auto exposure").click();
     harness.run();
     press(&mut harness, "Add point light");
+    press(&mut harness, "Rig: Sky");
     for param in param::ALL {
         let rails: Vec<_> = rails_of(&harness, param.path);
         for id in rails {
@@ -81,6 +82,10 @@ fn every_parameter_has_a_control() {
         param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
     press(&mut harness, "Add point light");
     missing.retain(|param| rails_of(&harness, param.path).is_empty());
+    for rig in ["Rig: Sky", "Rig: Picture"] {
+        press(&mut harness, rig);
+        missing.retain(|param| rails_of(&harness, param.path).is_empty());
+    }
     assert!(missing.is_empty(), "no control for {missing:#?}");
 }
 

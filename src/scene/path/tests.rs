@@ -189,6 +189,7 @@ fn everything_else() -> (Scene, Scene) {
         lights: Lights {
             environment: vec![EnvironmentLight::default()],
             point: vec![PointLight::default()],
+            ..Default::default()
         },
         ..Scene::default()
     };
@@ -196,8 +197,9 @@ fn everything_else() -> (Scene, Scene) {
     let mut value = serde_json::to_value(&a).unwrap();
     change_numbers(&mut value, &mut String::new());
     let mut b: Scene = serde_json::from_value(value).unwrap();
-    let light = &mut b.lights.environment[0];
-    light.direction = DVec3::from_array(light.direction).normalize().to_array();
+    for direction in [&mut b.lights.environment[0].direction, &mut b.lights.rig.sky.sun_direction] {
+        *direction = DVec3::from_array(*direction).normalize().to_array();
+    }
     b.lights.point[0].position = DVec3::new(0.3, 0.4, 0.5).into();
     b.camera = looking(&deep_point(), 0.01, 2.0).camera;
     b.camera.vertical_fov_deg = 77.0;
@@ -315,8 +317,16 @@ fn lights_of_one_key_alone_shine_from_nothing() {
 #[test]
 fn two_crowds_of_lights_stay_within_the_limit() {
     let (mut a, mut b) = (Scene::default(), Scene::default());
-    a.lights = Lights { environment: vec![EnvironmentLight::default(); 60], point: vec![] };
-    b.lights = Lights { environment: vec![], point: vec![PointLight::default(); 60] };
+    a.lights = Lights {
+        environment: vec![EnvironmentLight::default(); 60],
+        point: vec![],
+        ..Default::default()
+    };
+    b.lights = Lights {
+        environment: vec![],
+        point: vec![PointLight::default(); 60],
+        ..Default::default()
+    };
     let path = path(vec![key(0.0, Easing::Linear, &a), key(1.0, Easing::Linear, &b)]);
     let middle = path.at(0.5).unwrap();
     assert_eq!(middle.validate(), Ok(()));

@@ -84,20 +84,30 @@ pub(super) fn direction_ball(
 
 /// The unit vector toward the light in the camera's frame, whatever it is fixed to.
 fn toward_light_in_view(light: &EnvironmentLight, camera: &Camera) -> DVec3 {
-    let direction = DVec3::from_array(light.direction).normalize_or(DVec3::Z);
-    match light.frame {
+    in_view(light.direction, light.frame, camera)
+}
+
+/// Turns the light to a direction in the camera's frame.
+pub(super) fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_view: DVec3) {
+    light.direction = from_view(in_view, light.frame, camera);
+}
+
+/// A direction that is fixed to `frame`, in the camera's frame.
+pub(super) fn in_view(direction: [f64; 3], frame: LightFrame, camera: &Camera) -> DVec3 {
+    let direction = DVec3::from_array(direction).normalize_or(DVec3::Z);
+    match frame {
         LightFrame::View => direction,
         LightFrame::Scene => camera.rotation().inverse() * direction,
     }
 }
 
-/// Turns the light to a direction in the camera's frame.
-pub(super) fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_view: DVec3) {
-    let direction = match light.frame {
+/// A direction in the camera's frame, fixed to `frame`.
+pub(super) fn from_view(in_view: DVec3, frame: LightFrame, camera: &Camera) -> [f64; 3] {
+    let direction = match frame {
         LightFrame::View => in_view,
         LightFrame::Scene => camera.rotation() * in_view,
     };
-    light.direction = direction.normalize_or(DVec3::Z).to_array();
+    direction.normalize_or(DVec3::Z).to_array()
 }
 
 #[cfg(test)]

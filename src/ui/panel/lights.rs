@@ -3,7 +3,7 @@
 use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
-use super::{Context, light};
+use super::{Context, light, rig};
 use crate::{
     scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, param},
     ui::{
@@ -90,13 +90,15 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
                 light::point(ui, light);
             }
         }
-        None => {
+        None if cx.scene.lights.is_empty() => {
             ui.label(
                 RichText::new("There is no light: only the ambient part shows.")
                     .color(theme::TEXT_DIM),
             );
         }
+        None => {}
     }
+    rig::show(ui, cx);
 }
 
 fn first(lights: &Lights) -> Option<LightRef> {
@@ -312,6 +314,7 @@ mod tests {
         let mut lights = Lights {
             environment: vec![EnvironmentLight::default()],
             point: vec![PointLight::default(); 2],
+            ..Default::default()
         };
         assert_eq!(removed(&mut lights, LightRef::Point(1)), Some(LightRef::Point(0)));
         assert_eq!(removed(&mut lights, LightRef::Point(0)), Some(LightRef::Environment(0)));

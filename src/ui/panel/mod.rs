@@ -8,6 +8,7 @@ mod help;
 mod light;
 mod lights;
 mod quality;
+mod rig;
 mod scenes;
 mod surface;
 mod tone;
@@ -27,7 +28,7 @@ use super::{
     theme,
     widgets::section,
 };
-use crate::scene::Scene;
+use crate::scene::{Panorama, Scene};
 pub(super) use help::help_window;
 pub(super) use lights::LightRef;
 
@@ -105,6 +106,8 @@ pub(super) struct Context<'a> {
     pub inputs: &'a Inputs<'a>,
     /// Set where the histogram is in sight.
     pub histogram_shown: &'a mut bool,
+    /// The picture of the surroundings that is at hand.
+    pub panorama: Option<&'a Panorama>,
     /// Where the camera stood in the last frame.
     pub standing: Option<Standing>,
     /// Size of the view in the last frame, in pixels.

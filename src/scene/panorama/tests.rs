@@ -1,0 +1,299 @@
+//! Light that a picture holds, against sums and integrals taken another way; files made by hand.
+
+use std::io::{Cursor, Write as _};
+
+use exr::prelude::WritableImage as _;
+use proptest::prelude::*;
+
+use super::*;
+
+/// Numbers without a pattern, 0 to 1.
+fn noise(seed: u64) -> f64 {
+    let mut bits = seed.wrapping_add(0x9e37_79b9_7f4a_7c15).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// A picture of no pattern, a few pixels of it a thousand times as bright as the rest.
+fn speckled(size_px: [u32; 2]) -> Panorama {
+    let mut i = 0;
+    Panorama::from_fn("speckled", size_px, |_| {
+        i += 3;
+        let bright = if noise(i) > 0.99 { 1000.0 } else { 1.0 };
+        DVec3::new(noise(i), noise(i + 1), noise(i + 2)) * bright
+    })
+}
+
+/// The energy of a picture from its pixels alone: the solid angle of a pixel as an integral of
+/// the sine, by Simpson's rule.
+fn energy_of(panorama: &Panorama) -> DVec3 {
+    let [width, height] = panorama.size_px();
+    let (step, parts) = (PI / f64::from(height), 64);
+    let sine = |y: f64| (y * step).sin();
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .map(|(x, y)| {
+            let part = 1.0 / f64::from(parts);
+            let sines: f64 = (0..parts)
+                .map(|i| f64::from(y) + f64::from(i) * part)
+                .map(|top| sine(top) + 4.0 * sine(top + part / 2.0) + sine(top + part))
+                .sum();
+            let solid_angle = sines * (step * part / 6.0) * TAU / f64::from(width);
+            panorama.pixels()[(y * width + x) as usize].as_dvec3() * solid_angle
+        })
+        .sum()
+}
+
+/// Largest relative difference of a channel.
+fn apart(a: DVec3, b: DVec3) -> f64 {
+    ((a - b) / b).abs().max_element()
+}
+
+#[test]
+fn places_and_directions_are_each_others_inverse() {
+    for (place, direction) in [
+        ([0.5, 0.5], DVec3::Y),
+        ([0.75, 0.5], DVec3::X),
+        ([0.25, 0.5], DVec3::NEG_X),
+        ([0.5, 0.0], DVec3::Z),
+        ([0.5, 1.0], DVec3::NEG_Z),
+    ] {
+        assert!((direction_at(place) - direction).length() < 1e-12, "{place:?}");
+    }
+    for i in 0..100 {
+        let place = [noise(i), noise(i + 1000) * 0.98 + 0.01];
+        let back = place_of(direction_at(place));
+        assert!((0..2).all(|k| (place[k] - back[k]).abs() < 1e-12), "{place:?} {back:?}");
+    }
+}
+
+#[test]
+fn a_cut_carries_the_pictures_light_whatever_the_count() {
+    for size_px in [[64, 32], [7, 5], [1, 1], [200, 1], [1, 30]] {
+        let panorama = speckled(size_px);
+        let whole = energy_of(&panorama);
+        assert!(apart(panorama.energy(), whole) < 1e-6, "{size_px:?}");
+        for count in (1..=64).chain([200, 5000]) {
+            let lights = panorama.cut(count);
+            let sum: DVec3 = lights.iter().map(|light| light.energy).sum();
+            assert!(apart(sum, panorama.energy()) < 1e-5, "{size_px:?} in {count}");
+            let pixels = (size_px[0] * size_px[1]) as usize;
+            assert!(lights.len() == count.min(pixels), "{} of {count}", lights.len());
+            assert!(lights.iter().all(|light| (light.direction.length() - 1.0).abs() < 1e-9));
+        }
+    }
+}
+
+#[test]
+fn even_white_lights_every_surface_alike() {
+    let white = Panorama::from_fn("white", [256, 128], |_| DVec3::ONE);
+    let irradiance = |count: usize, normal: DVec3| {
+        let lights = white.cut(count);
+        lights
+            .iter()
+            .map(|light| light.energy.x * normal.dot(light.direction).max(0.0))
+            .sum::<f64>()
+    };
+    let worst = |count: usize| {
+        (0..200)
+            .map(|i| direction_at([noise(i), (1.0 - 2.0 * noise(i + 500)).acos() / PI]))
+            .map(|normal| (irradiance(count, normal) / PI - 1.0).abs())
+            .fold(0.0, f64::max)
+    };
+    // π from all sides. A light that rises at once stands for a patch that rises bit by bit:
+    // with few lights the steps are large.
+    assert!(worst(64) < 0.03, "{}", worst(64));
+    assert!(worst(16) < 0.2, "{}", worst(16));
+}
+
+#[test]
+fn a_small_sun_gets_a_light_of_its_own_within_a_pixel() {
+    let size_px = [512, 256];
+    for (x, y) in [(100, 60), (0, 128), (511, 20), (300, 250)] {
+        let sun = direction_at([(f64::from(x) + 0.5) / 512.0, (f64::from(y) + 0.5) / 256.0]);
+        let panorama = Panorama::from_fn("sun", size_px, |direction| {
+            let is_sun = direction.dot(sun) > 1.0 - 1e-9;
+            DVec3::splat(if is_sun { 50_000.0 } else { 0.2 })
+        });
+        let sun_energy = 50_000.0 * panorama.pixel_solid_angle(y);
+        for count in [8, 16, 64] {
+            let lights = panorama.cut(count);
+            let near: Vec<_> = lights
+                .iter()
+                .filter(|light| (light.direction - sun).length() < PI / 256.0)
+                .collect();
+            assert_eq!(near.len(), 1, "{count} lights, sun at {x}, {y}");
+            assert!(near[0].energy.x > 0.99 * sun_energy && near[0].energy.x < 1.3 * sun_energy);
+        }
+    }
+}
+
+/// Without the sine, a cut would give the poles the light of as many pixels at the equator.
+#[test]
+fn the_poles_weigh_no_more_than_they_should() {
+    let white = Panorama::from_fn("white", [256, 128], |_| DVec3::ONE);
+    let near_pole = |lights: &[CutLight]| {
+        lights.iter().filter(|l| l.direction.z > 0.866).map(|l| l.energy.x).sum::<f64>()
+    };
+    // Within 30 degrees of the pole lie 6.7 % of the sphere, but 16.7 % of the rows.
+    let part = near_pole(&white.cut(64)) / (4.0 * PI);
+    assert!((part - 0.067).abs() < 0.035, "{part}");
+    // A bright cap at the pole, against the integral: its light is not its pixels'.
+    let cap = Panorama::from_fn("cap", [64, 32], |direction| {
+        DVec3::splat(if direction.z > 0.9 { 10.0 } else { 0.0 })
+    });
+    let rows = (0..32).filter(|y| (PI * (f64::from(*y) + 0.5) / 32.0).cos() > 0.9).count() as f64;
+    let expected = 10.0 * TAU * (1.0 - (PI * rows / 32.0).cos());
+    let sum: DVec3 = cap.cut(16).iter().map(|light| light.energy).sum();
+    assert!(apart(sum, DVec3::splat(expected)) < 1e-5, "{sum} {expected}");
+}
+
+#[test]
+fn darkness_gives_no_lights() {
+    let black = Panorama::from_fn("black", [16, 8], |_| DVec3::ZERO);
+    assert!(black.cut(16).is_empty());
+    let one = Panorama::from_fn("one", [16, 8], |direction| {
+        if direction.dot(direction_at([8.5 / 16.0, 2.5 / 8.0])) > 0.999 {
+            DVec3::X
+        } else {
+            DVec3::ZERO
+        }
+    });
+    assert_eq!(one.cut(16).len(), 1);
+    assert!(speckled([8, 4]).cut(0).is_empty());
+}
+
+#[test]
+fn a_larger_picture_is_brought_down_without_losing_light() {
+    for source_px in [[4096, 2048], [3000, 1500], [2049, 1025], [2048, 1024], [5000, 3]] {
+        let mut gather = Gather::new(source_px);
+        let mut expected = DVec3::ZERO;
+        for y in 0..source_px[1] {
+            let polar = |y: f64| (y / f64::from(source_px[1]) * PI).cos();
+            let solid_angle =
+                (polar(y.into()) - polar(f64::from(y) + 1.0)) * TAU / f64::from(source_px[0]);
+            for x in 0..source_px[0] {
+                let seed = u64::from(y) * 8192 + u64::from(x);
+                let pixel = DVec3::new(noise(seed), noise(seed + 1), 1.0).as_vec3();
+                gather.add([x, y], pixel);
+                expected += pixel.as_dvec3() * solid_angle;
+            }
+        }
+        let panorama = gather.finish("large");
+        assert!((0..2).all(|i| panorama.size_px()[i] == source_px[i].min(MAX_SIZE_PX[i])));
+        assert!(apart(panorama.energy(), expected) < 1e-5, "{source_px:?}");
+        // An even channel stays even: no pixel gets another's share.
+        assert!(panorama.pixels().iter().all(|pixel| (pixel.z - 1.0).abs() < 1e-5));
+    }
+}
+
+/// A Radiance file written by hand, its rows not packed, from (mantissas, exponent).
+fn flat_radiance(size_px: [u32; 2], header: &str, pixel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
+    let [width, height] = size_px;
+    let mut bytes = Vec::new();
+    write!(bytes, "#?{header}\n\n-Y {height} +X {width}\n").unwrap();
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .for_each(|(x, y)| bytes.extend(pixel(x, y)));
+    bytes
+}
+
+fn exr_file(size: [usize; 2], pixel: impl Fn(usize, usize) -> (f32, f32, f32) + Sync) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let channels =
+        exr::prelude::SpecificChannels::rgb(|at: exr::prelude::Vec2<usize>| pixel(at.x(), at.y()));
+    exr::prelude::Image::from_channels((size[0], size[1]), channels)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut bytes)
+        .unwrap();
+    bytes.into_inner()
+}
+
+#[test]
+fn a_radiance_file_gives_the_values_that_its_bytes_mean() {
+    // mantissa / 256 · 2^(exponent − 128)
+    let bytes = flat_radiance([20, 10], "RADIANCE\nFORMAT=32-bit_rle_rgbe", |x, y| {
+        [128, x as u8 * 10, 64, 129 + (y % 3) as u8]
+    });
+    let panorama = decode("a.hdr", &bytes).unwrap();
+    assert_eq!((panorama.name(), panorama.size_px()), ("a.hdr", [20, 10]));
+    for (i, pixel) in panorama.pixels().iter().enumerate() {
+        let (x, y) = (i % 20, i / 20);
+        let scale = f32::from(2u8.pow((y % 3) as u32));
+        let expected = Vec3::new(1.0, x as f32 * 10.0 / 128.0, 0.5) * scale;
+        assert!((*pixel - expected).length() < 1e-4 * scale, "{x}, {y}: {pixel} {expected}");
+    }
+    // Scaled by 4 as they were stored, and by another signature.
+    let scaled = flat_radiance([2, 1], "RGBE\nEXPOSURE=4", |_, _| [128, 128, 128, 129]);
+    assert_eq!(decode("b.hdr", &scaled).unwrap().pixels(), [Vec3::splat(0.25); 2]);
+}
+
+#[test]
+fn an_openexr_file_gives_its_values() {
+    let value = |x: usize, y: usize| (x as f32 * 0.5, y as f32 + 0.25, 1000.0);
+    let panorama = decode("a.exr", &exr_file([12, 6], value)).unwrap();
+    assert_eq!(panorama.size_px(), [12, 6]);
+    for (i, pixel) in panorama.pixels().iter().enumerate() {
+        let (r, g, b) = value(i % 12, i / 12);
+        assert!((*pixel - Vec3::new(r, g, b)).length() < 1e-3, "{i}: {pixel}");
+    }
+}
+
+#[test]
+fn values_that_are_no_light_count_as_the_nearest_that_is() {
+    let odd = [f32::NAN, -3.0, f32::INFINITY, 2.0];
+    let bytes = exr_file([4, 1], |x, _| (odd[x], odd[x], 1.0));
+    let panorama = decode("odd.exr", &bytes).unwrap();
+    let kept: Vec<f32> = panorama.pixels().iter().map(|pixel| pixel.x).collect();
+    assert!(
+        kept.iter()
+            .zip([0.0, 0.0, MAX_RADIANCE, 2.0])
+            .all(|(a, b)| (a - b).abs() < 1e-2 * b.max(0.1)),
+        "{kept:?}"
+    );
+    assert!(panorama.energy().is_finite());
+}
+
+#[test]
+fn files_that_cannot_be_used_say_why() {
+    let huge = b"#?RADIANCE\n\n-Y 100000 +X 100000\n";
+    assert_eq!(decode("h", huge), Err(DecodeError::Size([100_000, 100_000])));
+    assert!(matches!(decode("h", b"#?RADIANCE\n\n-Y 0 +X 7\n"), Err(DecodeError::Size(_))));
+    assert_eq!(decode("h", b"GIF89a"), Err(DecodeError::Format));
+    assert_eq!(decode("h", b""), Err(DecodeError::Format));
+    for header in ["RADIANCE\nEXPOSURE=0", "RADIANCE\nEXPOSURE=-1", "RADIANCE\nEXPOSURE=inf"] {
+        let bytes = flat_radiance([2, 1], header, |_, _| [1; 4]);
+        assert!(matches!(decode("h", &bytes), Err(DecodeError::Unreadable(_))), "{header}");
+    }
+    let whole = flat_radiance([20, 10], "RADIANCE", |x, y| [x as u8, y as u8, 9, 128]);
+    let error = decode("h", &whole[..whole.len() - 1]).unwrap_err();
+    assert!(error.to_string().starts_with("the picture cannot be read"), "{error}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn damaged_files_are_refused_or_read_but_never_end_the_program(
+        is_exr in any::<bool>(),
+        length in 0.0..=1.0_f64,
+        changes in proptest::collection::vec((0.0..1.0_f64, any::<u8>()), 0..6),
+    ) {
+        let mut bytes = if is_exr {
+            exr_file([9, 5], |x, y| (x as f32, y as f32, 0.5))
+        } else {
+            flat_radiance([9, 5], "RADIANCE", |x, y| [x as u8, y as u8, 9, 128])
+        };
+        for (at, value) in changes {
+            let at = (at * bytes.len() as f64) as usize;
+            bytes[at] = value;
+        }
+        bytes.truncate((length.sqrt() * bytes.len() as f64).ceil() as usize);
+        if let Ok(panorama) = decode("damaged", &bytes) {
+            prop_assert!(panorama.energy().is_finite());
+            let [width, height] = panorama.size_px();
+            prop_assert_eq!(panorama.pixels().len(), (width * height) as usize);
+        }
+    }
+}
