@@ -24,7 +24,7 @@ pub const FIRST_LEVEL: u32 = 2;
 
 /// Most elements of a mip level that half the width of a blur's kernel spans. A coarser level is
 /// faster, a finer one follows what moves with smaller steps.
-const MOST_HALF_WIDTH: f32 = 6.0;
+pub const MOST_HALF_WIDTH: f32 = 6.0;
 
 const ELEMENT_BYTES: u64 = 16;
 

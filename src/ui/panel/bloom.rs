@@ -17,7 +17,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider_count(ui, &param::BLOOM_PASSES, &mut bloom.passes);
     choice(
         ui,
-        "Bloom",
+        "Added",
         &mut bloom.order,
         &[
             (BloomOrder::Before, "Before curve", "Added to the light, as a lens does"),

@@ -60,6 +60,10 @@ pub fn caption(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
 }
 
+/// Most buttons of a choice in one row; more than four go into rows of three.
+const MOST_IN_A_ROW: usize = 4;
+const IN_A_FULL_ROW: usize = 3;
+
 /// A caption, and buttons side by side of which one is chosen: `(value, name, hover text)` each.
 /// To those who cannot see it a button is called `caption: name`. The union of their responses
 /// says whether the choice changed.
@@ -70,8 +74,23 @@ pub fn choice<T: PartialEq + Copy>(
     options: &[(T, &str, &str)],
 ) -> Response {
     caption(ui, title);
+    let columns = if options.len() > MOST_IN_A_ROW { IN_A_FULL_ROW } else { options.len().max(1) };
+    let rows = options.chunks(columns).map(|row| choice_row(ui, title, value, row, columns));
+    rows.flatten()
+        .reduce(|all, row| all.union(row))
+        .unwrap_or_else(|| ui.allocate_response(egui::Vec2::ZERO, Sense::hover()))
+}
+
+/// One row of a choice, its buttons as wide as if there were `columns` of them.
+fn choice_row<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    title: &str,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+    columns: usize,
+) -> Option<Response> {
     let gap = 4.0;
-    let columns = options.len().max(1) as f32;
+    let columns = columns as f32;
     let width = (ui.available_width() - gap * (columns - 1.0)) / columns;
     let height = ui.spacing().interact_size.y;
     ui.horizontal(|ui| {
@@ -101,5 +120,4 @@ pub fn choice<T: PartialEq + Copy>(
         all
     })
     .inner
-    .unwrap_or_else(|| ui.allocate_response(egui::Vec2::ZERO, Sense::hover()))
 }
