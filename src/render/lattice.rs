@@ -142,7 +142,9 @@ fn scatter(count: u32) -> u32 {
 
 /// Where sample `index` of a pixel lies inside it, 0 to 1. Sample 0 is the middle; the others
 /// follow Roberts' R2 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences",
-/// 2018), which fills the square evenly at every count.
+/// 2018), which fills the square evenly at every count. All pixels share it: shifts of their own
+/// (Cranley and Patterson 1976, by a hash, by gradient noise, by R2 over the pixels) left the same
+/// error at every count from 4 to 1024, within an eighth, and rougher edges at few samples.
 pub fn jitter(index: u32) -> [f32; 2] {
     // The plastic number's inverse and its square.
     const A: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
@@ -199,12 +201,14 @@ mod tests {
     #[test]
     fn samples_spread_evenly() {
         assert_eq!(jitter(0), [0.5, 0.5]);
-        // Each of 16 cells of the square gets its share of 160 samples, within a third.
+        // At every count from the first to the last, each of 16 cells of the square has had its
+        // share within six samples.
         let mut counts = [0_u32; 16];
-        for index in 0..160 {
+        for index in 0..1024 {
             let [x, y] = jitter(index);
             counts[(x * 4.0) as usize + 4 * (y * 4.0) as usize] += 1;
+            let share = f64::from(index + 1) / 16.0;
+            assert!(counts.iter().all(|&n| (f64::from(n) - share).abs() <= 6.0), "{counts:?}");
         }
-        assert!(counts.iter().all(|&n| (7..=13).contains(&n)), "{counts:?}");
     }
 }

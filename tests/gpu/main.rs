@@ -5,4 +5,5 @@ mod glow;
 mod golden;
 mod harness;
 mod picture;
+mod samples;
 mod staleness;
