@@ -19,7 +19,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         for (var y = 0u; y < span.y; y++) {
             for (var x = 0u; x < span.x; x++) {
                 let pixel = (cell << vec2u(FIRST_MIP_LEVEL)) + vec2u(x, y);
-                atomicAdd(&own_bins[bin(film_mean(pixel_index(pixel)))], 1u);
+                atomicAdd(&own_bins[bin(film_part(pixel_index(pixel)))], 1u);
             }
         }
     }

@@ -14,7 +14,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     for (var y = 0u; y < span.y; y++) {
         for (var x = 0u; x < span.x; x++) {
             let pixel = (cell << vec2u(FIRST_MIP_LEVEL)) + vec2u(x, y);
-            let color = film_mean(pixel_index(pixel));
+            let color = film_part(pixel_index(pixel));
             sum += vec4f(color, log2(max(luminance(color), 0.0) + LOG_OFFSET));
         }
     }

@@ -5,6 +5,13 @@
 // Blue, number of samples.
 @group(2) @binding(1) var<storage, read_write> film_bw: array<vec2f>;
 
+// What a pixel adds to something that many pixels are part of: one that is no number must not
+// make all of it none.
+fn film_part(index: u32) -> vec3f {
+    let color = film_mean(index);
+    return select(vec3f(0.0), color, (color >= vec3f(0.0)) & (color < vec3f(1e30)));
+}
+
 fn film_mean(index: u32) -> vec3f {
     let bw = film_bw[index];
     return vec3f(film_rg[index], bw.x) / max(bw.y, 1.0);

@@ -2,7 +2,7 @@
 
 use std::{
     collections::HashMap,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 
 use super::pass;
@@ -134,8 +134,9 @@ pub struct Kernels {
     pub shade: wgpu::ComputePipeline,
     /// Pixels between those of a sparse lattice.
     pub fill: wgpu::ComputePipeline,
-    /// Mean, histogram, bloom.
-    pub glow: GlowKernels,
+    /// Mean, histogram, bloom: made when a scene first asks for one of them.
+    glow: OnceLock<GlowKernels>,
+    glow_layout: wgpu::PipelineLayout,
     /// Film to display.
     pub tone: wgpu::ComputePipeline,
 }
@@ -164,7 +165,6 @@ impl Kernels {
             pipeline(device, layout, &module.create(device), module.label, None)
         };
         let plain = |module| made(&layout, module);
-        let whole = |module| made(&glow_layout, module);
         let march_module = pass::march::MODULE.create(device);
         let shadow_module = pass::shadow::MODULE.create(device);
         let general = Marchers {
@@ -177,19 +177,31 @@ impl Kernels {
             special: Mutex::default(),
             shade: plain(&pass::shade::MODULE),
             fill: plain(&pass::fill::MODULE),
-            glow: GlowKernels {
-                mean: whole(&pass::mean::MODULE),
-                reduce: whole(&pass::reduce::MODULE),
-                expose: whole(&pass::expose::MODULE),
-                histogram: whole(&pass::histogram::MODULE),
-                bloom: whole(&pass::bloom::MODULE),
-                blur: whole(&pass::blur::MODULE),
-            },
-            tone: whole(&pass::tone::MODULE),
+            glow: OnceLock::new(),
+            tone: made(&glow_layout, &pass::tone::MODULE),
             march_module,
             shadow_module,
             layout,
+            glow_layout,
             layouts,
+        })
+    }
+
+    /// The passes that see the film as a whole.
+    pub fn glow(&self) -> &GlowKernels {
+        self.glow.get_or_init(|| {
+            let device = &self.gpu.device;
+            let made = |module: &Module| {
+                pipeline(device, &self.glow_layout, &module.create(device), module.label, None)
+            };
+            GlowKernels {
+                mean: made(&pass::mean::MODULE),
+                reduce: made(&pass::reduce::MODULE),
+                expose: made(&pass::expose::MODULE),
+                histogram: made(&pass::histogram::MODULE),
+                bloom: made(&pass::bloom::MODULE),
+                blur: made(&pass::blur::MODULE),
+            }
         })
     }
 

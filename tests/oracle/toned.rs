@@ -127,6 +127,25 @@ fn black_and_blinding_films_are_exposed_within_bounds() {
     }
 }
 
+/// One pixel that is no number spoils neither exposure nor the light around it.
+#[test]
+fn a_pixel_that_is_no_number_stays_alone() {
+    let size_px = [40, 24];
+    let film = Film::new(size_px);
+    let tone = Tone { auto_exposure: true, ..Tone::default() };
+    let scene = toned_by(tone, Bloom { strength: 0.5, threshold: 0.0, ..Bloom::default() });
+    let mut colors = varied(size_px);
+    colors[500] = [0.0; 3];
+    let expected = film.tone(&scene, &colors);
+    for bad in [f32::NAN, f32::INFINITY, -1.0] {
+        colors[500] = [bad; 3];
+        let found = film.tone(&scene, &colors);
+        assert_eq!(found.statistics, expected.statistics, "{bad}");
+        assert_eq!(found.display[..500], expected.display[..500], "{bad}");
+        assert_eq!(found.display[501..], expected.display[501..], "{bad}");
+    }
+}
+
 #[test]
 fn the_histogram_counts_every_pixel_in_its_bin() {
     for size_px in SIZES {

@@ -34,7 +34,7 @@ pub fn record(recorder: &mut Recorder<'_>) {
     let size_px = picture.size_px;
     let passes = picture.bloom.passes;
     let kernel = Kernel::new(picture.bloom.radius, passes, size_px);
-    let pipeline = recorder.kernels.glow.bloom.clone();
+    let pipeline = recorder.kernels.glow().bloom.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), glow::workgroups(size_px, FIRST_LEVEL));
     reduce::record(recorder, kernel.level);
     for _ in 0..passes {

@@ -36,7 +36,7 @@ pub fn record(recorder: &mut Recorder<'_>) {
         first_bin,
         bytemuck::bytes_of(&zeros),
     );
-    let pipeline = recorder.kernels.glow.histogram.clone();
+    let pipeline = recorder.kernels.glow().histogram.clone();
     let workgroups = glow::workgroups(recorder.inputs.picture.size_px, FIRST_LEVEL);
     recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
     recorder.dispatches.histogram += 1;

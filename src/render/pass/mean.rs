@@ -30,7 +30,7 @@ pub const MODULE: Module = Module {
 /// Makes all mip levels of the film, down to one element.
 pub fn record(recorder: &mut Recorder<'_>) {
     let size_px = recorder.inputs.picture.size_px;
-    let pipeline = recorder.kernels.glow.mean.clone();
+    let pipeline = recorder.kernels.glow().mean.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), glow::workgroups(size_px, FIRST_LEVEL));
     reduce::record(recorder, glow::last_level(size_px));
     recorder.dispatches.mean += 1;
