@@ -389,3 +389,34 @@ fn options_in(text: &str) -> std::collections::BTreeSet<String> {
         .map(str::to_owned)
         .collect()
 }
+
+#[test]
+fn a_picture_of_the_surroundings_lights_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("garden.hdr");
+    let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
+    bytes.extend((0..128).flat_map(|i| [200 - i, 100, i, 128]));
+    fs::write(&picture, &bytes).unwrap();
+    let out = folder.path().join("out.png");
+    let call = |more: &[&str]| {
+        let mut arguments = vec!["render", "-", "-q", "--size", "16x12", "--samples", "1"];
+        arguments.extend(["--output", out.to_str().unwrap()]);
+        arguments.extend(more);
+        run_with_input(&arguments, default_document().to_string().as_bytes())
+    };
+    let environment = ["--environment", picture.to_str().unwrap()];
+    let output = call(&[&environment[..], &["--environment-lights", "5"]].concat());
+    assert_eq!((code(&output), said(&output)), (0, String::new()));
+    let scene = &decoded(&fs::read(&out).unwrap()).scene["scene"];
+    let rig = &scene["lights"]["rig"];
+    assert_eq!((&rig["kind"], &rig["picture"]["name"]), (&json!("picture"), &json!("garden.hdr")));
+    assert_eq!(rig["picture"]["lights"].as_array().unwrap().len(), 5);
+    assert_eq!(scene["background"]["kind"], "picture");
+
+    assert_eq!(code(&call(&["--environment-lights", "5"])), 2, "lights of no picture");
+    assert_eq!(code(&call(&[&environment[..], &["--environment-lights", "65"]].concat())), 2);
+    fs::write(&picture, &bytes[..100]).unwrap();
+    let output = call(&environment);
+    assert_eq!(code(&output), 2);
+    assert!(said(&output).contains("garden.hdr: the picture cannot be read"), "{}", said(&output));
+}

@@ -25,7 +25,7 @@ fn options(size_px: [u32; 2], samples: u32, tile_px: [u32; 2]) -> StillOptions {
 }
 
 fn still(scene: &Scene, options: StillOptions) -> Vec<u8> {
-    let job = StillJob::new(&KERNELS, scene, options, Vec::new()).unwrap();
+    let job = StillJob::new(&KERNELS, scene, options.clone(), Vec::new()).unwrap();
     let file = job.run(|_| ControlFlow::Continue(())).unwrap();
     let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
     assert_eq!([reader.info().width, reader.info().height], options.size_px);
@@ -176,7 +176,7 @@ impl Write for Full {
 fn a_full_disk_ends_the_job() {
     let options = options([64, 48], 1, [64, 48]);
     assert!(matches!(
-        StillJob::new(&KERNELS, &Scene::default(), options, Full(100)),
+        StillJob::new(&KERNELS, &Scene::default(), options.clone(), Full(100)),
         Err(ExportError::Write(_))
     ));
     let job = StillJob::new(&KERNELS, &Scene::default(), options, Full(6000)).unwrap();

@@ -50,6 +50,15 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
     return sum;
 }
 
+// What a ray sees that meets nothing, `height` below the picture's upper edge.
+fn background(direction: vec3f, height: f32) -> vec3f {
+    let behind = picture.background;
+    if (behind.picture_gain == 0.0) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
+    let in_picture = vec3f(
+        dot(direction, behind.picture_x), dot(direction, behind.picture_y), dot(direction, behind.picture_z));
+    return behind.picture_gain * surroundings_at(in_picture);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let pixel = lattice_pixel(workgroup.x, local_index);
@@ -64,7 +73,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         radiance = reflected(point, n, -direction, surface_color(color_data[index]), visibility[index]);
     } else {
         let height = (f32(picture.origin_px.y + pixel.y) + slice.jitter.y) / f32(picture.picture_px.y);
-        radiance = mix(picture.background.top.rgb, picture.background.bottom.rgb, height);
+        radiance = background(ray_direction(pixel), height);
     }
     let at = pixel_index(pixel);
     if (slice.accumulate != 0u) {

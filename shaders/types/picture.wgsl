@@ -56,6 +56,14 @@ struct Background {
     // Linear Rec. 709; w unused.
     top: vec4f,
     bottom: vec4f,
+    // The axes of the surroundings' picture in world space: right, ahead, up.
+    picture_x: vec3f,
+    // Factor on the picture; 0 where the gradient is shown in its place.
+    picture_gain: f32,
+    picture_y: vec3f,
+    unused_a: u32,
+    picture_z: vec3f,
+    unused_b: u32,
 }
 
 struct Tone {

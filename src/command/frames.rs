@@ -13,6 +13,7 @@ use mandelight::{
 use super::{
     Failure,
     adapter::{AdapterArguments, Health},
+    environment::{EnvironmentArguments, tell_of_missing},
     folder::{Folder, Sequence},
     input::{self, Change},
     output::Output,
@@ -41,6 +42,8 @@ pub struct Arguments {
     /// Change a field in every key, such as quality.detail=0.5, or of the path, such as path.frames_per_second=60
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
+    #[command(flatten)]
+    environment: EnvironmentArguments,
     /// Say nothing but errors
     #[arg(short, long)]
     quiet: bool,
@@ -58,7 +61,13 @@ struct Wanted {
 
 /// Renders the frames that are not there yet.
 pub fn run(arguments: Arguments) -> Result<(), Failure> {
-    let project = input::read_project(&arguments.scene)?;
+    let mut project = input::read_project(&arguments.scene)?;
+    let environment = arguments.environment.read()?;
+    match &environment {
+        Some(environment) => environment.surround_all(&mut project),
+        None if !arguments.quiet => tell_of_missing(&project.scene),
+        None => {}
+    }
     let path = input::changed_project(project, &arguments.set)?.path;
     let wanted = arguments.frames.unwrap_or(Wanted { first: 0, end: None });
     let count = path.frame_count();
@@ -90,7 +99,8 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let gpu = arguments.adapter.open()?;
     let health = Health::of(&gpu);
     let kernels = Kernels::new(&gpu);
-    let options = StillOptions { samples, ..StillOptions::new(size) };
+    let panorama = environment.map(|environment| environment.panorama);
+    let options = StillOptions { samples, panorama, ..StillOptions::new(size) };
     let progress = progress_bar(quiet);
     let (clock, all) = (Instant::now(), missing.len() as u32);
     let mut made = 0;
@@ -107,7 +117,8 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         // The path has as many frames as it says, each with a scene.
         let scene = path.frame(frame).ok_or_else(|| failed(&"there is no such frame"))?;
         let output = Output::create(&file).map_err(|error| failed(&error))?;
-        let job = StillJob::new(&kernels, &scene, options, output).map_err(|e| failed(&e))?;
+        let job =
+            StillJob::new(&kernels, &scene, options.clone(), output).map_err(|e| failed(&e))?;
         let result = job.run(|status| {
             if let StillStatus::Working { done, .. } = status {
                 let done = turn as f64 + done;

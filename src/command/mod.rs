@@ -13,9 +13,11 @@
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | a file that is there whole or not at all |
 //! | [`folder`] | a folder of frames that belong together |
+//! | [`environment`] | a picture of the surroundings |
 //! | [`adapter`] | which GPU |
 
 mod adapter;
+mod environment;
 mod folder;
 mod frames;
 mod info;

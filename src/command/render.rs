@@ -21,6 +21,7 @@ use mandelight::{
 use super::{
     Failure,
     adapter::{AdapterArguments, Health},
+    environment::{EnvironmentArguments, tell_of_missing},
     input::{self, Change},
     output::Output,
     tell,
@@ -47,6 +48,8 @@ pub struct Arguments {
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
+    #[command(flatten)]
+    environment: EnvironmentArguments,
     /// Say nothing but errors
     #[arg(short, long)]
     quiet: bool,
@@ -56,7 +59,15 @@ pub struct Arguments {
 
 /// Renders the scene, and leaves the file or an error.
 pub fn run(arguments: Arguments) -> Result<(), Failure> {
-    let scene = input::changed(input::read_scene(&arguments.scene)?, &arguments.set)?;
+    let mut scene = input::read_scene(&arguments.scene)?;
+    let environment = arguments.environment.read()?;
+    if let Some(environment) = &environment {
+        environment.surround(&mut scene);
+    }
+    let scene = input::changed(scene, &arguments.set)?;
+    if environment.is_none() && !arguments.quiet {
+        tell_of_missing(&scene);
+    }
     let name = if arguments.output.as_path() == "-" {
         "standard output".into()
     } else {
@@ -69,7 +80,11 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
 
     let gpu = arguments.adapter.open()?;
     let health = Health::of(&gpu);
-    let options = StillOptions { samples: arguments.samples, ..StillOptions::new(arguments.size) };
+    let options = StillOptions {
+        samples: arguments.samples,
+        panorama: environment.map(|environment| environment.panorama),
+        ..StillOptions::new(arguments.size)
+    };
     let job = StillJob::new(&Kernels::new(&gpu), &scene, options, output)
         .map_err(|error| unwritable(&error))?;
 

@@ -96,7 +96,7 @@ impl<W: Write> SequenceJob<W> {
 
     fn begin(&self) -> Result<StillJob<Vec<u8>>, ExportError> {
         let scene = self.path.frame(self.frame).ok_or(ExportError::NoFrames)?;
-        StillJob::new(&self.kernels, &scene, self.options, Vec::new())
+        StillJob::new(&self.kernels, &scene, self.options.clone(), Vec::new())
     }
 
     /// Ends the archive and gives the sink back.

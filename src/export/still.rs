@@ -12,7 +12,7 @@ use super::{ExportError, checked_size, png::PngStream, tiles::Tiling};
 use crate::{
     gpu::readback::Readback,
     render::{Kernels, Pace, Region, View},
-    scene::{Scene, document},
+    scene::{Panorama, Scene, document},
 };
 
 /// Largest tile unless told otherwise, in pixels: wide, so that bands stay thin.
@@ -26,7 +26,7 @@ const BYTES_PER_STEP: usize = 1 << 19;
 const FORETELL_FROM: (f64, f64) = (0.02, 1.0);
 
 /// What still to make.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct StillOptions {
     /// Width and height in pixels, each 1 to [`super::MAX_PICTURE_PX`].
     pub size_px: [u32; 2],
@@ -35,12 +35,14 @@ pub struct StillOptions {
     /// Largest width and height of a tile. Smaller needs less memory, larger wastes less time
     /// between tiles; the picture is the same.
     pub tile_px: [u32; 2],
+    /// The picture of the surroundings that is at hand.
+    pub panorama: Option<Arc<Panorama>>,
 }
 
 impl StillOptions {
     /// A picture of `size_px` with the scene's own samples.
     pub fn new(size_px: [u32; 2]) -> Self {
-        Self { size_px, samples: None, tile_px: TILE_PX }
+        Self { size_px, samples: None, tile_px: TILE_PX, panorama: None }
     }
 }
 
@@ -130,6 +132,7 @@ impl<W: Write> StillJob<W> {
 
         let tiling = Tiling::new(size_px, options.tile_px);
         let mut view = View::new(kernels, tiling.tile(0), Pace::Still);
+        view.set_panorama(options.panorama.as_ref());
         view.set_scene(&scene, false);
         Ok(Self {
             kernels: kernels.clone(),

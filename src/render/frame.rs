@@ -127,6 +127,11 @@ impl<'a> Recorder<'a> {
         self.tasks
     }
 
+    /// Binds the picture of the surroundings.
+    pub fn bind_backdrop(&mut self) {
+        self.compute.set_bind_group(3, &self.targets.backdrop.group, &[]);
+    }
+
     /// The uniform of a trace; also binds the G-buffer that its samples live in.
     pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
         let mut slice = grid.slice(trace.first_workgroup);

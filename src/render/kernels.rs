@@ -19,6 +19,8 @@ pub struct Layouts {
     pub glow: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves and the display texture.
     pub film: wgpu::BindGroupLayout,
+    /// Group 3 of shading: the picture of the surroundings and its sampler.
+    pub backdrop: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -40,6 +42,7 @@ impl Layouts {
             gbuffer: group("gbuffer", &[STORAGE; 4]),
             glow: group("glow", &[STORAGE; 3]),
             film: group("film", &[STORAGE, STORAGE, display]),
+            backdrop: group("surroundings", &super::backdrop::BINDINGS),
         }
     }
 }
@@ -156,6 +159,16 @@ impl Kernels {
             ],
             immediate_size: 0,
         });
+        let shade_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("shading"),
+            bind_group_layouts: &[
+                Some(&layouts.picture),
+                Some(&layouts.gbuffer),
+                Some(&layouts.film),
+                Some(&layouts.backdrop),
+            ],
+            immediate_size: 0,
+        });
         let glow_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("passes over the film as a whole"),
             bind_group_layouts: &[Some(&layouts.picture), Some(&layouts.glow), Some(&layouts.film)],
@@ -175,7 +188,7 @@ impl Kernels {
             gpu: gpu.clone(),
             general,
             special: Mutex::default(),
-            shade: plain(&pass::shade::MODULE),
+            shade: made(&shade_layout, &pass::shade::MODULE),
             fill: plain(&pass::fill::MODULE),
             glow: OnceLock::new(),
             tone: made(&glow_layout, &pass::tone::MODULE),

@@ -7,12 +7,14 @@
 //! | [`lattice`] | sparse lattices of pixels, and where samples lie in a pixel |
 //! | [`frame`] | the passes of one submit |
 //! | [`pass`] | one pass a file, with its shader's stem |
+//! | [`backdrop`] | the picture of the surroundings |
 //! | [`kernels`] | pipelines and bind group layouts |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`report`] | what a view says of itself |
 
+pub mod backdrop;
 pub mod frame;
 pub mod gbuffer;
 pub mod glow;

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::{
+    backdrop::Backdrop,
     glow::{Glow, Need},
     kernels::Kernels,
     lattice::{Grid, WORKGROUP_THREADS},
@@ -61,6 +62,8 @@ pub struct Targets {
     pub film_group: wgpu::BindGroup,
     /// What is known of the film as a whole: next to nothing until something needs it.
     pub glow: Arc<Glow>,
+    /// The picture of the surroundings: a stand-in until one is shown.
+    pub backdrop: Arc<Backdrop>,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
@@ -121,6 +124,7 @@ impl Targets {
             film_bw,
             film_group,
             glow: Arc::new(Glow::new(kernels, size_px, Need::default())),
+            backdrop: Arc::new(Backdrop::new(kernels, None)),
             texture,
         }
     }

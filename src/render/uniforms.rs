@@ -3,6 +3,7 @@
 //! In: a scene, its region, a slice. Out: bytes. `tests/shaders.rs` compares each struct, field
 //! by field, with its twin in `shaders/types/`.
 
+mod background;
 mod lights;
 
 use bytemuck::{Pod, Zeroable};
@@ -14,8 +15,8 @@ use super::{Region, report::HISTOGRAM_BINS, schedule::Stale};
 use crate::{
     fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
-        self, BloomOrder, ColorSource, MAX_LIGHTS, Scene, ToneChannels, ToneCurve, ToneMean,
-        Variant, color,
+        self, BloomOrder, ColorSource, MAX_LIGHTS, Panorama, Scene, ToneChannels, ToneCurve,
+        ToneMean, Variant, color,
     },
 };
 
@@ -130,12 +131,24 @@ host_shared! {
         /// Lights in use.
         light_count: u32,
     }
-    /// Vertical gradient, linear Rec. 709.
+    /// Vertical gradient, linear Rec. 709, and how the picture of the surroundings lies.
     Background {
         /// At the upper edge.
         top: [f32; 4],
         /// At the lower edge.
         bottom: [f32; 4],
+        /// The picture's axis to the right, in world space.
+        picture_x: [f32; 3],
+        /// Factor on the picture of the surroundings; 0 for the gradient.
+        picture_gain: f32,
+        /// The picture's axis ahead.
+        picture_y: [f32; 3],
+        /// Fills the row.
+        unused_a: u32,
+        /// The picture's axis upward.
+        picture_z: [f32; 3],
+        /// Fills the row.
+        unused_b: u32,
     }
     /// Tone settings.
     Tone {
@@ -290,7 +303,6 @@ impl Picture {
         let camera = &scene.camera;
         let rotation = camera.rotation();
         let aspect = width / height;
-        let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
         Self {
             camera: Camera {
                 origin: camera.position.to_dvec3().as_vec3().to_array(),
@@ -304,10 +316,7 @@ impl Picture {
             },
             fractal: fractal(scene),
             surface: surface(scene),
-            background: Background {
-                top: opaque(scene.background.top),
-                bottom: opaque(scene.background.bottom),
-            },
+            background: background::background(scene),
             tone: tone(&scene.tone),
             bloom: bloom(&scene.bloom),
             picture_px: region.picture_px,
@@ -411,6 +420,8 @@ pub struct Inputs {
     pub lights: [Light; MAX_LIGHTS],
     /// The surface's gradient: linear Rec. 709, closed on itself.
     pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
+    /// The [`Panorama::id`] of the picture of the surroundings, where it is shown.
+    pub panorama: Option<u64>,
 }
 
 impl Inputs {
@@ -420,7 +431,17 @@ impl Inputs {
             picture: Picture::new(scene, region),
             lights: lights(scene),
             gradient: color::gradient_lut(&scene.surface.gradient),
+            panorama: None,
         }
+    }
+
+    /// The same with the picture of the surroundings that is at hand, where `scene` shows it.
+    pub fn with_panorama(mut self, scene: &Scene, at_hand: Option<&Panorama>) -> Self {
+        let shown = background::shown(scene, at_hand);
+        self.panorama = shown.map(Panorama::id);
+        let gain = scene.lights.rig.intensity as f32;
+        self.picture.background.picture_gain = if shown.is_some() { gain } else { 0.0 };
+        self
     }
 
     /// What must be computed again after `old`; none where no pass would see a difference.
@@ -433,6 +454,7 @@ impl Inputs {
             && new_picture.size_px == old_picture.size_px;
         let same_light = new_picture.surface == old_picture.surface
             && new_picture.background == old_picture.background
+            && self.panorama == old.panorama
             && self.lights == old.lights
             && self.gradient == old.gradient;
         if !same_geometry {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{
+    backdrop::Backdrop,
     frame::{self, Dispatches, Recorder},
     glow::{self, Glow, Need, Tasks},
     kernels::Kernels,
@@ -17,7 +18,7 @@ use crate::{
         readback::{Readback, ReadbackError},
         timing::Stopwatch,
     },
-    scene::{Quality, Scene},
+    scene::{Panorama, Quality, Scene},
 };
 
 /// A power that has been kept for so long, seconds, gets pipelines of its own.
@@ -49,6 +50,10 @@ pub struct View {
     schedule: Schedule,
     stopwatch: Stopwatch<Work>,
     scene: Option<Scene>,
+    /// The picture of the surroundings that is at hand.
+    panorama: Option<Arc<Panorama>>,
+    /// It came since the scene was looked at.
+    is_panorama_new: bool,
     inputs: Option<Inputs>,
     pending: Option<Scene>,
     moving: bool,
@@ -84,6 +89,8 @@ impl View {
             schedule: Schedule::new(pace, region.size_px),
             stopwatch: Stopwatch::default(),
             scene: None,
+            panorama: None,
+            is_panorama_new: false,
             inputs: None,
             pending: None,
             moving: false,
@@ -115,13 +122,15 @@ impl View {
             return;
         }
         if region.size_px != self.region.size_px {
-            self.targets = Targets::new(&self.kernels, region.size_px);
+            let backdrop = self.targets.backdrop.clone();
+            self.targets = Targets { backdrop, ..Targets::new(&self.kernels, region.size_px) };
         }
         self.known = Known::default();
         self.region = region;
         self.schedule.resize(region.size_px);
         if let Some(scene) = &self.scene {
-            self.upload(Inputs::new(scene, region));
+            let inputs = Inputs::new(scene, region);
+            self.upload(inputs.with_panorama(scene, self.panorama.as_deref()));
         }
     }
 
@@ -130,7 +139,20 @@ impl View {
     pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
         self.moving = moving;
         self.schedule.set_moving(moving);
-        self.pending = (self.scene.as_ref() != Some(scene)).then(|| scene.clone());
+        let is_new = self.scene.as_ref() != Some(scene) || self.is_panorama_new;
+        self.pending = is_new.then(|| scene.clone());
+    }
+
+    /// Gives the view the picture of the surroundings that is at hand: a scene that names it and
+    /// has it as background shows it.
+    pub fn set_panorama(&mut self, panorama: Option<&Arc<Panorama>>) {
+        if self.panorama.as_ref().map(|old| old.id()) == panorama.map(|new| new.id()) {
+            return;
+        }
+        self.panorama = panorama.cloned();
+        // The scene is looked at again, in its turn.
+        self.is_panorama_new = true;
+        self.pending = self.pending.take().or_else(|| self.scene.clone());
     }
 
     /// Submits as much work as fits now, without waiting. Call it once per displayed frame, or,
@@ -179,6 +201,8 @@ impl View {
     /// Uploads a new scene and tells the schedule what it made stale.
     fn apply(&mut self, scene: Scene) {
         let inputs = Inputs::new(&scene, self.region);
+        let inputs = inputs.with_panorama(&scene, self.panorama.as_deref());
+        self.is_panorama_new = false;
         let stale = match &self.inputs {
             None => Some(Stale::Geometry),
             Some(old) => inputs.stale_since(old),
@@ -197,6 +221,10 @@ impl View {
     fn upload(&mut self, inputs: Inputs) {
         self.targets.upload(&self.kernels.gpu.queue, &inputs);
         self.fit_glow(Need::of(&inputs.picture));
+        if self.targets.backdrop.id != inputs.panorama {
+            let shown = self.panorama.as_deref().filter(|_| inputs.panorama.is_some());
+            self.targets.backdrop = Arc::new(Backdrop::new(&self.kernels, shown));
+        }
         self.inputs = Some(inputs);
     }
 

@@ -14,7 +14,7 @@ mod sky;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{LightFrame, Panorama, param};
+use super::{BackgroundKind, LightFrame, Panorama, Scene, param};
 pub use sky::Sky;
 
 /// What a rig's lights are made from.
@@ -168,6 +168,21 @@ impl Rig {
             .map(|light| RigLight::rounded(light.direction, light.energy / std::f64::consts::PI))
             .filter(|light| light.strength != [0.0; 3])
             .collect();
+    }
+}
+
+impl Scene {
+    /// Lights the scene by `panorama` and, where it does not name that picture yet, shows it
+    /// behind the fractal. A scene that names it without being lit by it stays as it is.
+    pub fn surround_by(&mut self, panorama: &Panorama) {
+        let is_new = self.lights.rig.picture.name != panorama.name();
+        if is_new {
+            self.background.kind = BackgroundKind::Picture;
+        }
+        if is_new || self.lights.rig.kind == RigKind::Picture {
+            let room = self.lights.room_for_rig();
+            self.lights.rig.light_by(panorama, room);
+        }
     }
 }
 

@@ -16,7 +16,7 @@ use super::{
     shortcuts::{self, Command},
     status, theme, view,
 };
-use crate::scene::{BackgroundKind, Camera, Panorama, Project, RigKind, Scene, presets};
+use crate::scene::{Camera, Panorama, Project, Scene, presets};
 
 /// A movement that pauses for this long, while the hand still holds on, gets a full picture.
 const STILL_SECS: f64 = 0.25;
@@ -88,15 +88,7 @@ impl Interface {
     /// it holds now.
     pub fn use_panorama(&mut self, panorama: Arc<Panorama>) {
         let mut project = self.project().clone();
-        let scene = &mut project.scene;
-        let is_new = scene.lights.rig.picture.name != panorama.name();
-        if is_new {
-            scene.background.kind = BackgroundKind::Picture;
-        }
-        if is_new || scene.lights.rig.kind == RigKind::Picture {
-            let room = scene.lights.room_for_rig();
-            scene.lights.rig.light_by(&panorama, room);
-        }
+        project.scene.surround_by(&panorama);
         self.editor.replace(project);
         self.panorama = Some(panorama);
     }

@@ -91,7 +91,8 @@ impl Engine {
 
     /// Starts a still of the scene in view.
     pub fn start_still(&mut self, size_px: [u32; 2], session: &mut Session) {
-        let options = StillOptions::new(size_px);
+        let panorama = session.interface.panorama().cloned();
+        let options = StillOptions { panorama, ..StillOptions::new(size_px) };
         match Still::start(&self.kernels, session.interface.scene(), options) {
             Ok(still) => {
                 self.still = Some(still);
@@ -114,6 +115,7 @@ impl Engine {
         let scale = session.caution().scale();
         let interface = &session.interface;
         let settling = self.picture.resize(interface.view_size_px(), scale, now_secs);
+        self.picture.set_panorama(interface.panorama());
         self.picture.set_scene(interface.scene(), interface.is_moving());
         self.picture.watch_histogram(interface.wants_histogram());
         if self.step(session, now_secs) {

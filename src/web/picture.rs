@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     render::{Kernels, Pace, Region, Report, View, frame::Dispatches},
-    scene::Scene,
+    scene::{Panorama, Scene},
     ui,
 };
 
@@ -95,6 +95,13 @@ impl Picture {
     pub fn watch_histogram(&mut self, wanted: bool) {
         if let Some(view) = &mut self.view {
             view.watch_histogram(wanted);
+        }
+    }
+
+    /// Gives the view the picture of the surroundings that is at hand.
+    pub fn set_panorama(&mut self, panorama: Option<&Arc<Panorama>>) {
+        if let Some(view) = &mut self.view {
+            view.set_panorama(panorama);
         }
     }
 

@@ -7,3 +7,4 @@ mod harness;
 mod picture;
 mod samples;
 mod staleness;
+mod surroundings;

@@ -18,6 +18,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
+        shader_file!("lib/surroundings.wgsl"),
         shader_file!("pass/shade.wgsl"),
     ],
 };
@@ -26,6 +27,7 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.kernels.shade.clone();
     let slice = recorder.slice(trace, grid);
+    recorder.bind_backdrop();
     recorder.dispatch(&pipeline, slice, trace.workgroups);
     recorder.dispatches.shade += 1;
 }
