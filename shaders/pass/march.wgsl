@@ -1,4 +1,4 @@
-// Camera rays to surface points: depth, normal and colour data of each sample.
+// Camera rays to surface points: depth and colour data of each sample.
 
 // No step is shorter than this part of the hit distance: what is thinner may be passed.
 const LEAST_STEP = 0.25;
@@ -18,19 +18,6 @@ fn march(direction: vec3f) -> f32 {
     return t;
 }
 
-// Central differences on the six axis neighbours (thesis 3.2, fig. 3.3c), a footprint away.
-fn surface_normal(point: vec3f, spacing: f32, fallback: vec3f) -> vec3f {
-    var gradient = vec3f(0.0);
-    for (var k = 0u; k < 6u; k++) {
-        var side = vec3f(0.0);
-        side[k >> 1u] = select(1.0, -1.0, (k & 1u) != 0u);
-        gradient += side * distance_estimate(point + spacing * side);
-    }
-    let length_squared = dot(gradient, gradient);
-    if (length_squared <= 0.0) { return fallback; }
-    return gradient * inverseSqrt(length_squared);
-}
-
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let pixel = lattice_pixel(workgroup.x, local_index);
@@ -41,7 +28,6 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     depth[index] = t;
     if (t == 0.0) { return; }
     let point = picture.camera.origin + t * direction;
-    normal[index] = octahedral_pack(surface_normal(point, hit_distance(t), -direction));
     let colors = orbit_colors(point);
     color_data[index] = vec2u(
         pack2x16unorm(vec2f(colors.smooth_iterations / f32(picture.fractal.iterations + 1u), colors.traps.x * 0.5)),

@@ -28,7 +28,8 @@ fn surface_color(data: vec2u) -> vec3f {
     return gradient_color(value * picture.surface.color_repeats + picture.surface.color_offset);
 }
 
-// Blinn-Phong (Blinn 1977) summed over the lights that reach the point.
+// Blinn-Phong (Blinn 1977) summed over the lights that reach the point. Without normals (thesis
+// fig. 3.3 a) every point faces them, and there is nothing that a highlight could lie on.
 fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
     var sum = color * picture.surface.ambient;
     for (var k = 0u; k < picture.surface.light_count; k++) {
@@ -41,6 +42,10 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
             let distance_squared = max(dot(offset, offset), 1e-24);
             toward_light = offset * inverseSqrt(distance_squared);
             radiance /= distance_squared;
+        }
+        if (picture.normals == NORMALS_NONE) {
+            sum += radiance * color * picture.surface.diffuse;
+            continue;
         }
         let cosine = max(dot(n, toward_light), 0.0);
         let half_way = normalize(toward_light + toward_eye);

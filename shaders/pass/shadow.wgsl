@@ -45,7 +45,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         for (var k = slice.first_light; k < end; k++) {
             let light = lights[k];
             let toward = select(light.vector, light.vector - point, light.kind == LIGHT_POINT);
-            if (dot(n, toward) <= 0.0) { continue; }
+            if (picture.normals != NORMALS_NONE && dot(n, toward) <= 0.0) { continue; }
             if (light.casts_shadows == 0u || light_reaches(point, surface_distance, light)) {
                 bits[k >> 5u] |= 1u << (k & 31u);
             }

@@ -99,6 +99,13 @@ struct Bloom {
     unused_c: u32,
 }
 
+const NORMALS_NONE = 0u;
+const NORMALS_THREE = 1u;
+const NORMALS_SIX = 2u;
+const NORMALS_EIGHTEEN = 3u;
+const NORMALS_TWENTY_SIX = 4u;
+const NORMALS_ANALYTIC = 5u;
+
 struct Picture {
     camera: Camera,
     fractal: Fractal,
@@ -110,7 +117,9 @@ struct Picture {
     picture_px: vec2u,
     origin_px: vec2u,
     size_px: vec2u,
-    unused: vec2u,
+    // How normals are found.
+    normals: u32,
+    unused: u32,
 }
 
 @group(0) @binding(0) var<storage, read> picture: Picture;

@@ -5,7 +5,7 @@ use super::{
     kernels::{Kernels, Marchers},
     lattice::Grid,
     pass,
-    schedule::{Points, Trace, Work},
+    schedule::{Points, Stage, Trace, Work},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
     uniforms::{Inputs, Slice},
 };
@@ -15,8 +15,11 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
     match work {
         Work::Trace(trace) => {
             let grid = trace.points.grid(recorder.inputs.picture.size_px);
-            if trace.march {
+            if trace.from <= Stage::March {
                 pass::march::record(recorder, &trace, &grid);
+            }
+            if trace.from <= Stage::Normal {
+                pass::normal::record(recorder, &trace, &grid);
             }
             pass::shadow::record(recorder, &trace, &grid);
             pass::shade::record(recorder, &trace, &grid);
@@ -48,6 +51,8 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
 pub struct Dispatches {
     /// Camera rays.
     pub march: u64,
+    /// Normals.
+    pub normal: u64,
     /// Shadow rays.
     pub shadow: u64,
     /// Shading.
@@ -67,8 +72,8 @@ pub struct Dispatches {
 impl Dispatches {
     /// All of them.
     pub fn total(&self) -> u64 {
-        let Self { march, shadow, shade, fill, mean, histogram, bloom, tone } = *self;
-        march + shadow + shade + fill + mean + histogram + bloom + tone
+        let Self { march, normal, shadow, shade, fill, mean, histogram, bloom, tone } = *self;
+        march + normal + shadow + shade + fill + mean + histogram + bloom + tone
     }
 }
 

@@ -95,11 +95,13 @@ fn pipeline(
     })
 }
 
-/// The two passes that evaluate the formula, for one power.
+/// The passes that evaluate the formula, for one power.
 #[derive(Clone)]
 pub struct Marchers {
     /// Camera rays to the G-buffer.
     pub march: wgpu::ComputePipeline,
+    /// Depths to normals.
+    pub normal: wgpu::ComputePipeline,
     /// Shadow rays to visibility bits.
     pub shadow: wgpu::ComputePipeline,
 }
@@ -128,9 +130,10 @@ pub struct Kernels {
     pub layouts: Layouts,
     /// Any power, whole or real: always ready.
     general: Marchers,
-    /// One pair for each whole power that has been asked for.
+    /// One set for each whole power that has been asked for.
     special: Mutex<HashMap<u32, Marchers>>,
     march_module: wgpu::ShaderModule,
+    normal_module: wgpu::ShaderModule,
     shadow_module: wgpu::ShaderModule,
     layout: wgpu::PipelineLayout,
     /// Light and colour onto the film.
@@ -179,9 +182,11 @@ impl Kernels {
         };
         let plain = |module| made(&layout, module);
         let march_module = pass::march::MODULE.create(device);
+        let normal_module = pass::normal::MODULE.create(device);
         let shadow_module = pass::shadow::MODULE.create(device);
         let general = Marchers {
             march: pipeline(device, &layout, &march_module, "march", Some(0)),
+            normal: pipeline(device, &layout, &normal_module, "normal", Some(0)),
             shadow: pipeline(device, &layout, &shadow_module, "shadow", Some(0)),
         };
         Arc::new(Self {
@@ -193,6 +198,7 @@ impl Kernels {
             glow: OnceLock::new(),
             tone: made(&glow_layout, &pass::tone::MODULE),
             march_module,
+            normal_module,
             shadow_module,
             layout,
             glow_layout,
@@ -239,6 +245,7 @@ impl Kernels {
         };
         let marchers = Marchers {
             march: make(&self.march_module, "march"),
+            normal: make(&self.normal_module, "normal"),
             shadow: make(&self.shadow_module, "shadow"),
         };
         self.lock().insert(integer_power, marchers);

@@ -61,6 +61,8 @@ pub enum Stale {
     Tone,
     /// Lights, surface, colours: the centre samples' G-buffer stays.
     Light,
+    /// How normals are found: the centre samples' depths stay.
+    Normals,
     /// Camera, fractal, size: nothing stays.
     Geometry,
 }
@@ -87,13 +89,24 @@ impl Points {
     }
 }
 
+/// The pass that a trace starts with; those after it follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Camera rays.
+    March,
+    /// Normals, of depths that are there.
+    Normal,
+    /// Shadow rays and light, of depths and normals that are there.
+    Shadow,
+}
+
 /// A run of workgroups over some sample points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trace {
     /// The sample points.
     pub points: Points,
-    /// Whether camera rays are marched; otherwise the G-buffer is shaded again.
-    pub march: bool,
+    /// Where it starts: what comes before is in the G-buffer.
+    pub from: Stage,
     /// First workgroup of the points' grid.
     pub first_workgroup: u32,
     /// How many workgroups.
@@ -103,7 +116,7 @@ pub struct Trace {
 /// One piece of work: one submit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Work {
-    /// Compute sample points, from march to film.
+    /// Compute sample points, up to the film.
     Trace(Trace),
     /// Make the display picture from the film.
     Show {
@@ -138,8 +151,9 @@ pub struct Schedule {
     size_px: [u32; 2],
     budget_ms: f64,
     samples_wanted: u32,
-    /// Finest level whose every centre sample has been marched, and shaded.
+    /// Finest level whose every centre sample has been marched, has its normal, and is shaded.
     marched: Option<u32>,
+    faced: Option<u32>,
     shaded: Option<u32>,
     samples_done: u32,
     /// The points under way and the next workgroup to submit.
@@ -172,6 +186,7 @@ impl Schedule {
             budget_ms: 16.0,
             samples_wanted: 1,
             marched: None,
+            faced: None,
             shaded: None,
             samples_done: 0,
             under_way: None,
@@ -258,6 +273,9 @@ impl Schedule {
         if stale == Stale::Geometry {
             self.marched = None;
         }
+        if stale >= Stale::Normals {
+            self.faced = None;
+        }
         self.shaded = None;
         self.samples_done = 0;
         self.under_way = None;
@@ -271,7 +289,7 @@ impl Schedule {
         match work {
             Work::Trace(trace) => {
                 let pixels = trace.workgroups * WORKGROUP_THREADS;
-                self.cost.traced(trace.march, pixels, busy_ms);
+                self.cost.traced(trace.from, pixels, busy_ms);
             }
             Work::Show { .. } => self.cost.shown(busy_ms),
         }
@@ -376,16 +394,25 @@ impl Schedule {
     /// The finest lattice that the budget allows, and none finer than the G-buffer where only
     /// light is stale.
     fn opening_level(&self) -> u32 {
-        let allowed = self.cost.level_within(self.budget_ms, self.marched.is_none(), self.size_px);
+        let from = self.first_stage(self.marched.unwrap_or(0));
+        let allowed = self.cost.level_within(self.budget_ms, from, self.size_px);
         self.marched.map_or(allowed, |marched| allowed.max(marched))
     }
 
+    /// Where centre samples that a level adds have to start.
+    fn first_stage(&self, level: u32) -> Stage {
+        let holds = |finest: Option<u32>| finest.is_some_and(|finest| level >= finest);
+        match (holds(self.marched), holds(self.faced)) {
+            (false, _) => Stage::March,
+            (true, false) => Stage::Normal,
+            (true, true) => Stage::Shadow,
+        }
+    }
+
     fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
-        let march = match points {
-            Points::Level(level) | Points::Added(level) => {
-                self.marched.is_none_or(|marched| level < marched)
-            }
-            Points::Sample(_) => true,
+        let from = match points {
+            Points::Level(level) | Points::Added(level) => self.first_stage(level),
+            Points::Sample(_) => Stage::March,
         };
         let total = points.grid(self.size_px).workgroups();
         // An opening goes out whole where the budget has room for it: it and its display are
@@ -396,7 +423,7 @@ impl Schedule {
             Points::Sample(_) => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
         };
-        let largest = self.cost.slice_workgroups(aim_ms, march).min(most);
+        let largest = self.cost.slice_workgroups(aim_ms, from).min(most);
         // Slices of two sizes tell the cost of a slice from that of its pixels.
         self.slices = self.slices.wrapping_add(1);
         let smaller = !opening && self.slices.is_multiple_of(2);
@@ -410,7 +437,7 @@ impl Schedule {
         } else {
             self.complete(points);
         }
-        Trace { points, march, first_workgroup, workgroups }
+        Trace { points, from, first_workgroup, workgroups }
     }
 
     fn complete(&mut self, points: Points) {
@@ -420,6 +447,7 @@ impl Schedule {
             Points::Level(level) | Points::Added(level) => {
                 self.shaded = Some(level);
                 self.marched = Some(self.marched.map_or(level, |marched| marched.min(level)));
+                self.faced = Some(self.faced.map_or(level, |faced| faced.min(level)));
                 self.samples_done = u32::from(level == 0);
             }
             Points::Sample(index) => self.samples_done = index + 1,

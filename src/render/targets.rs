@@ -21,8 +21,8 @@ pub const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// Distance between two slices in their uniform buffer, the default alignment of dynamic offsets.
 pub const SLICE_STRIDE_BYTES: u32 = 256;
 
-/// Most dispatches of one submit: march, a shadow dispatch a light, shade.
-pub const MOST_SLICES: u32 = MAX_LIGHTS as u32 + 2;
+/// Most dispatches of one submit: march, normal, a shadow dispatch a light, shade.
+pub const MOST_SLICES: u32 = MAX_LIGHTS as u32 + 3;
 
 /// One element a sample point in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {

@@ -15,8 +15,8 @@ use super::{Region, report::HISTOGRAM_BINS, schedule::Stale};
 use crate::{
     fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
-        self, BloomOrder, ColorSource, MAX_LIGHTS, Panorama, Scene, ToneChannels, ToneCurve,
-        ToneMean, Variant, color,
+        self, BloomOrder, ColorSource, MAX_LIGHTS, Normals, Panorama, Scene, ToneChannels,
+        ToneCurve, ToneMean, Variant, color,
     },
 };
 
@@ -208,8 +208,10 @@ host_shared! {
         origin_px: [u32; 2],
         /// The region, pixels.
         size_px: [u32; 2],
+        /// How normals are found: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
+        normals: u32,
         /// Keeps the size a multiple of 16 bytes.
-        unused: [u32; 2],
+        unused: u32,
     }
     /// The part of a picture that one dispatch computes.
     Slice {
@@ -322,7 +324,15 @@ impl Picture {
             picture_px: region.picture_px,
             origin_px: region.origin_px,
             size_px: region.size_px,
-            unused: [0; 2],
+            normals: match scene.quality.normals {
+                Normals::None => 0,
+                Normals::Three => 1,
+                Normals::Six => 2,
+                Normals::Eighteen => 3,
+                Normals::TwentySix => 4,
+                Normals::Analytic => 5,
+            },
+            unused: 0,
         }
     }
 }
@@ -459,6 +469,8 @@ impl Inputs {
             && self.gradient == old.gradient;
         if !same_geometry {
             Some(Stale::Geometry)
+        } else if new_picture.normals != old_picture.normals {
+            Some(Stale::Normals)
         } else if !same_light {
             Some(Stale::Light)
         } else {

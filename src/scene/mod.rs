@@ -49,7 +49,7 @@ pub use panorama::Panorama;
 pub use path::Path;
 pub use precise::{Precise, PrecisePoint};
 pub use project::Project;
-pub use quality::Quality;
+pub use quality::{Normals, Quality};
 pub use rig::{
     MAX_NAME_CHARS, MAX_RIG_RADIANCE, PictureRig, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight,
     Sky,

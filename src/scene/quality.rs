@@ -4,6 +4,26 @@ use serde::{Deserialize, Serialize};
 
 use super::param;
 
+/// How the surface's normals are found (thesis 3.2, figure 3.3). The grid's spacing is the hit
+/// distance, about the pixel's radius on the surface; `docs/normals.md` has each one's error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Normals {
+    /// None: every point that light reaches counts as facing it (figure 3.3 a).
+    None,
+    /// Differences to the next grid point along each axis (b).
+    Three,
+    /// Differences across the point along each axis (c), the thesis's choice.
+    #[default]
+    Six,
+    /// The gradient that fits the 18 grid points nearest best (d): faces and edges of a cube.
+    Eighteen,
+    /// The same of all 26 around it (e): corners too.
+    TwentySix,
+    /// The distance estimate's own gradient, exactly.
+    Analytic,
+}
+
 /// Work per picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -16,6 +36,8 @@ pub struct Quality {
     pub shadows: bool,
     /// Hit distance in cone radii of a pixel, in [`param::DETAIL`].
     pub detail: f64,
+    /// How normals are found.
+    pub normals: Normals,
 }
 
 impl Default for Quality {
@@ -25,6 +47,7 @@ impl Default for Quality {
             samples: param::SAMPLES.default as u32,
             shadows: true,
             detail: param::DETAIL.default,
+            normals: Normals::default(),
         }
     }
 }

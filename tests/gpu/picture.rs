@@ -8,7 +8,7 @@ use mandelight::{
     render::{
         Pace, Region,
         frame::{Dispatches, Recorder, record},
-        schedule::{Points, Trace, Work},
+        schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -48,7 +48,7 @@ fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let mut dispatches = Dispatches::default();
     let points = Points::Level(level);
     let workgroups = points.grid(size).workgroups();
-    let trace = Trace { points, march: true, first_workgroup: 0, workgroups };
+    let trace = Trace { points, from: Stage::March, first_workgroup: 0, workgroups };
     for work in [Work::Trace(trace), Work::Show { level, fill: true, adapt: 1.0 }] {
         let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);

@@ -1,8 +1,8 @@
-//! The three levels of staleness, held by counting dispatches: an edit restarts only its own.
+//! The levels of staleness, held by counting dispatches: an edit restarts only its own.
 
 use mandelight::{
     render::{Activity, Pace, View, frame::Dispatches},
-    scene::{BloomOrder, Scene, ToneCurve, ToneMean},
+    scene::{BloomOrder, Normals, Scene, ToneCurve, ToneMean},
 };
 
 use crate::harness::{difference, finished, kernels, pixels, sampled, settle};
@@ -30,6 +30,7 @@ fn cost_from(
     let after = view.dispatches();
     Dispatches {
         march: after.march - before.march,
+        normal: after.normal - before.normal,
         shadow: after.shadow - before.shadow,
         shade: after.shade - before.shade,
         fill: after.fill - before.fill,
@@ -58,9 +59,16 @@ fn a_light_edit_marches_no_camera_ray() {
     ];
     for edit in edits {
         let cost = cost_of(1, edit);
-        assert_eq!(cost.march, 0);
+        assert_eq!((cost.march, cost.normal), (0, 0));
         assert!(cost.shade > 0);
     }
+}
+
+#[test]
+fn an_edit_of_the_normals_marches_no_camera_ray() {
+    let cost = cost_of(1, |scene| scene.quality.normals = Normals::TwentySix);
+    assert_eq!(cost.march, 0);
+    assert!(cost.normal > 0 && cost.shadow > 0 && cost.shade > 0);
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use mandelight::scene::{
     Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight,
-    Fractal, GradientStop, LightFrame, Lights, PictureRig, PointLight, Precise, PrecisePoint,
-    Quality, Rig, RigKind, RigLight, Scene, Sky, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
-    Variant,
+    Fractal, GradientStop, LightFrame, Lights, Normals, PictureRig, PointLight, Precise,
+    PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky, Surface, Tone, ToneChannels,
+    ToneCurve, ToneMean, Variant,
     param::{self, Param},
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
@@ -238,13 +238,24 @@ fn bloom() -> impl Strategy<Value = Bloom> {
 }
 
 fn quality() -> impl Strategy<Value = Quality> {
-    (value(&param::MOTION_BUDGET), count(&param::SAMPLES), any::<bool>(), value(&param::DETAIL))
-        .prop_map(|(motion_budget_ms, samples, shadows, detail)| Quality {
+    let normals = select(vec![
+        Normals::None,
+        Normals::Three,
+        Normals::Six,
+        Normals::Eighteen,
+        Normals::TwentySix,
+        Normals::Analytic,
+    ]);
+    let numbers = (value(&param::MOTION_BUDGET), count(&param::SAMPLES), value(&param::DETAIL));
+    (numbers, any::<bool>(), normals).prop_map(
+        |((motion_budget_ms, samples, detail), shadows, normals)| Quality {
             motion_budget_ms,
             samples,
             shadows,
             detail,
-        })
+            normals,
+        },
+    )
 }
 
 /// Any valid scene of a few lights.

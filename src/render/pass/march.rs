@@ -1,4 +1,4 @@
-//! Camera rays to surface points: writes depth, normal and colour data of each sample.
+//! Camera rays to surface points: writes depth and colour data of each sample.
 
 use crate::{
     gpu::shader::Module,
@@ -18,7 +18,6 @@ pub const MODULE: Module = Module {
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/sphere.wgsl"),
-        shader_file!("lib/octahedral.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("pass/march.wgsl"),
     ],

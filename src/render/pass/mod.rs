@@ -10,6 +10,7 @@ pub mod fill;
 pub mod histogram;
 pub mod march;
 pub mod mean;
+pub mod normal;
 pub mod probe;
 pub mod reduce;
 pub mod shade;
@@ -19,6 +20,7 @@ pub mod tone;
 /// Every shader module of the program.
 pub const MODULES: &[&Module] = &[
     &march::MODULE,
+    &normal::MODULE,
     &shadow::MODULE,
     &shade::MODULE,
     &fill::MODULE,

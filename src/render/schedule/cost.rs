@@ -5,6 +5,7 @@
 //! can make it many milliseconds, and pieces that shrank for its sake would only add to it. A
 //! straight line through recent measurements tells the two apart.
 
+use super::Stage;
 use crate::render::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
 
 /// Pixels of the very first slice: small enough for a device 200 times slower than a desktop's.
@@ -89,24 +90,23 @@ impl Rate {
 /// Running estimates of what traces and shows cost.
 #[derive(Clone, Debug)]
 pub struct Cost {
-    march: Rate,
-    light: Rate,
+    /// Of traces that start with each [`Stage`].
+    rates: [Rate; 3],
     show_ms: f64,
 }
 
 impl Default for Cost {
     /// No experience yet.
     fn default() -> Self {
-        Self { march: Rate::UNKNOWN, light: Rate::UNKNOWN, show_ms: 0.0 }
+        Self { rates: [Rate::UNKNOWN; 3], show_ms: 0.0 }
     }
 }
 
 impl Cost {
-    /// A slice of so many pixels took so long; `march` where camera rays were part of it.
-    pub fn traced(&mut self, march: bool, pixels: u32, busy_ms: f64) {
+    /// A slice of so many pixels that started with `from` took so long.
+    pub fn traced(&mut self, from: Stage, pixels: u32, busy_ms: f64) {
         if pixels > 0 {
-            let rate = if march { &mut self.march } else { &mut self.light };
-            rate.learn(f64::from(pixels), busy_ms.max(1e-3));
+            self.rates[from as usize].learn(f64::from(pixels), busy_ms.max(1e-3));
         }
     }
 
@@ -120,27 +120,30 @@ impl Cost {
         self.show_ms
     }
 
-    fn rate(&self, march: bool) -> Rate {
-        // Shading again never costs more than marching and shading.
-        let known = if march { self.march } else { self.light };
-        if known.is_measured() || march {
-            return known;
+    fn rate(&self, from: Stage) -> Rate {
+        let own = self.rates[from as usize];
+        // A later start never costs more than an earlier one.
+        let dearer = self.rates[..from as usize].iter().rev().find(|rate| rate.is_measured());
+        match dearer {
+            Some(dearer) if !own.is_measured() => {
+                Rate { fixed_ms: dearer.fixed_ms, pixel_ms: dearer.pixel_ms, ..own }
+            }
+            _ => own,
         }
-        Rate { fixed_ms: self.march.fixed_ms, pixel_ms: self.march.pixel_ms, ..self.light }
     }
 
     /// Workgroups of a slice whose pixels are to take `aim_ms`, or as long as the fixed part does
     /// where that is longer: never more than twice the largest slice that has been seen to end
     /// well.
-    pub fn slice_workgroups(&self, aim_ms: f64, march: bool) -> u32 {
-        let rate = self.rate(march);
+    pub fn slice_workgroups(&self, aim_ms: f64, from: Stage) -> u32 {
+        let rate = self.rate(from);
         let pixels = (aim_ms.max(rate.fixed_ms) / rate.pixel_ms).min(2.0 * rate.largest_px);
         (pixels / f64::from(WORKGROUP_THREADS)).clamp(1.0, 1e9) as u32
     }
 
     /// The finest lattice level of a region that fits `budget_ms` together with its display.
-    pub fn level_within(&self, budget_ms: f64, march: bool, size_px: [u32; 2]) -> u32 {
-        let rate = self.rate(march);
+    pub fn level_within(&self, budget_ms: f64, from: Stage, size_px: [u32; 2]) -> u32 {
+        let rate = self.rate(from);
         // At least a quarter of the budget goes into the lattice's pixels, however slow the
         // display and the way to it.
         let left_ms = (budget_ms - self.show_ms - rate.fixed_ms).max(0.25 * budget_ms);

@@ -40,7 +40,7 @@ impl Device {
         let pixels = match work {
             Work::Trace(trace) => {
                 let whole = f64::from(trace.workgroups * WORKGROUP_THREADS);
-                if trace.march { whole } else { 0.6 * whole }
+                if trace.from == Stage::March { whole } else { 0.6 * whole }
             }
             Work::Show { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
         };
@@ -188,24 +188,54 @@ fn the_complete_lattice_is_shown_before_more_samples_come() {
     });
 }
 
-#[test]
-fn light_edits_march_no_centre_sample() {
+/// The stages that the traces of an edit at rest start with.
+fn stages_of(stale: Stale) -> Vec<Stage> {
     let mut device = Device::new(1.0, 0.0);
     let mut schedule = Schedule::new(Pace::Interactive, SIZE);
     schedule.aim(16.0, 1);
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
-    schedule.change(Stale::Light, false, now);
-    let mut marched = false;
+    schedule.change(stale, false, now);
+    let mut stages = Vec::new();
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
-            marched |= matches!(work, Work::Trace(Trace { march: true, .. }));
+            if let Work::Trace(trace) = work {
+                stages.push(trace.from);
+            }
             device.submit(work, now);
         }
         now += FRAME_SECS;
         device.collect(&mut schedule, now);
     }
-    assert!(!marched);
+    stages
+}
+
+#[test]
+fn an_edit_restarts_from_its_own_stage() {
+    for (stale, stage) in [
+        (Stale::Light, Stage::Shadow),
+        (Stale::Normals, Stage::Normal),
+        (Stale::Geometry, Stage::March),
+    ] {
+        let stages = stages_of(stale);
+        assert!(!stages.is_empty() && stages.iter().all(|&from| from == stage), "{stages:?}");
+    }
+}
+
+/// A light edit in the middle of finding new normals leaves none of the old ones.
+#[test]
+fn what_a_restart_interrupts_is_not_forgotten() {
+    let mut device = Device::new(20.0, 0.0);
+    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 1);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    schedule.change(Stale::Normals, false, now);
+    assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { from: Stage::Normal, .. }))));
+    let half_way = schedule.clone();
+    schedule.change(Stale::Light, false, now);
+    assert_eq!(schedule.first_stage(0), half_way.first_stage(0));
+    assert_eq!(schedule.first_stage(0), Stage::Normal);
 }
 
 #[test]

@@ -1,0 +1,52 @@
+// Normals of the surface points, in one of the ways of thesis 3.2, fig. 3.3, or exactly.
+
+// The grid points that are sampled, the nearest ones of a 3x3x3 grid about the point.
+fn is_sampled(offset: vec3f) -> bool {
+    // 0 the point itself, 1 on the axes, 2 on the faces' diagonals, 3 at the corners.
+    let axes = dot(abs(offset), vec3f(1.0));
+    switch (picture.normals) {
+        case NORMALS_THREE: { return axes <= 1.0 && all(offset >= vec3f(0.0)); }
+        case NORMALS_SIX: { return axes == 1.0; }
+        case NORMALS_EIGHTEEN: { return axes == 1.0 || axes == 2.0; }
+        default: { return axes > 0.0; }
+    }
+}
+
+// The gradient, of any length, of the linear function that fits the samples best (least squares):
+// by symmetry the sum of each value times its offset. With three, differences to the point itself.
+fn sampled_gradient(point: vec3f, spacing: f32) -> vec3f {
+    var gradient = vec3f(0.0);
+    for (var k = 0u; k < 27u; k++) {
+        let offset = vec3f(vec3u(k % 3u, k / 3u % 3u, k / 9u)) - 1.0;
+        if (!is_sampled(offset)) { continue; }
+        let weight = select(offset, vec3f(-1.0), all(offset == vec3f(0.0)));
+        gradient += weight * distance_estimate(point + spacing * offset);
+    }
+    return gradient;
+}
+
+// Toward the eye where there is no gradient, as inside, and where none is asked for.
+fn surface_normal(point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
+    var gradient = vec3f(0.0);
+    if (picture.normals == NORMALS_ANALYTIC) {
+        gradient = distance_gradient(point);
+    } else if (picture.normals != NORMALS_NONE) {
+        gradient = sampled_gradient(point, spacing);
+    }
+    // Its square may be past what an f32 holds.
+    let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
+    if (largest <= 0.0) { return toward_eye; }
+    return normalize(gradient / largest);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    let index = sample_index(pixel, workgroup.x, local_index);
+    let t = depth[index];
+    if (t == 0.0) { return; }
+    let direction = ray_direction(pixel);
+    let point = picture.camera.origin + t * direction;
+    normal[index] = octahedral_pack(surface_normal(point, hit_distance(t), -direction));
+}

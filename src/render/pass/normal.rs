@@ -1,0 +1,32 @@
+//! Surface points to normals: reads each sample's depth, writes its normal.
+
+use crate::{
+    gpu::shader::Module,
+    render::{frame::Recorder, lattice::Grid, schedule::Trace},
+    shader_file,
+};
+
+/// The pass's shader; `POWER` specialises it.
+pub const MODULE: Module = Module {
+    label: "normal",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/gbuffer.wgsl"),
+        shader_file!("lib/numeric.wgsl"),
+        shader_file!("lib/complex.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/camera.wgsl"),
+        shader_file!("lib/octahedral.wgsl"),
+        shader_file!("formula/mandelbulb.wgsl"),
+        shader_file!("pass/normal.wgsl"),
+    ],
+};
+
+/// Finds the normals of `trace`.
+pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
+    let pipeline = recorder.marchers.normal.clone();
+    let slice = recorder.slice(trace, grid);
+    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatches.normal += 1;
+}
