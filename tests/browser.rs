@@ -11,13 +11,17 @@ mod visit;
 use std::{
     fs::{self, File},
     io::BufReader,
-    path::{Path, PathBuf},
+    path::{Path as FilePath, PathBuf},
     process::Command,
 };
 
 use mandelight::{
     export,
-    scene::{Camera, Scene, document, link, presets},
+    scene::{
+        Camera, Path, Project, Scene, document, link,
+        path::{Easing, Key},
+        presets,
+    },
 };
 use picture::Picture;
 use serde_json::Value;
@@ -93,6 +97,44 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     assert_eq!(visit.scene("linked"), linked());
 }
 
+/// A path of two keys and three frames.
+fn short_path() -> Project {
+    let scene = presets::all()[0].scene;
+    let key = |time_secs, power| {
+        let mut scene = scene();
+        scene.fractal.power = power;
+        scene.quality.samples = 1;
+        Key { time_secs, easing: Easing::Linear, scene: scene.into() }
+    };
+    let keys = vec![key(0.0, 8.0), key(1.0, 7.0)];
+    let scene = (*keys[0].scene).clone();
+    Project { scene, path: Path { frames_per_second: 2, keys } }
+}
+
+#[test]
+fn a_path_is_scrubbed_played_and_saved_as_a_zip_of_its_frames() {
+    let project = short_path();
+    let document = document::project_to_json(&project);
+    let visit = Visit::run_with("sequence", [("MANDELIGHT_PATH", document)]);
+    let scrubbed = visit.scene("scrubbed");
+    assert!((7.0..8.0).contains(&scrubbed.fractal.power), "{}", scrubbed.fractal.power);
+
+    let names: Vec<_> = (0..3).map(export::frame_name).collect();
+    for (pointer, prefix) in [("/frames", "frames"), ("/streamed", "streamed")] {
+        assert_eq!(visit.seen.pointer(pointer), Some(&serde_json::json!(names)));
+        for (i, name) in names.iter().enumerate() {
+            let file = visit.folder.join(format!("{prefix}-{name}"));
+            assert!(Picture::read_png(&file).contrast() > 5.0, "{name} is empty");
+            let text = export::scene_text(BufReader::new(File::open(&file).unwrap())).unwrap();
+            let carried = document::from_json(&text.unwrap()).unwrap();
+            assert_eq!(carried, project.path.frame(i as u32).unwrap(), "{prefix}, {name}");
+        }
+    }
+    for name in ["/name", "/suggested"] {
+        assert!(visit.text(name).ends_with(".zip"), "{}", visit.text(name));
+    }
+}
+
 #[test]
 fn a_phone_shows_the_picture_and_fingers_move_it() {
     let visit = Visit::run("phone");
@@ -151,7 +193,7 @@ fn the_page_and_the_native_program_draw_the_same_pictures() {
 }
 
 /// What `mandelight render` makes of a scene document.
-fn rendered_natively(scene: &Path, [width, height]: [u32; 2], folder: &Path) -> Picture {
+fn rendered_natively(scene: &FilePath, [width, height]: [u32; 2], folder: &FilePath) -> Picture {
     let name = scene.file_stem().unwrap().to_str().unwrap();
     let png = folder.join(format!("{name}-native.png"));
     let output = Command::new(env!("CARGO_BIN_EXE_mandelight"))

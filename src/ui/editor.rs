@@ -44,6 +44,24 @@ impl Editor {
         &mut self.project.scene
     }
 
+    /// Scene and path, for the timeline; as [`Self::scene_mut`].
+    pub(super) fn project_mut(&mut self) -> &mut Project {
+        &mut self.project
+    }
+
+    /// Puts a moment of the path in view. Where the view before `can_be_made_again` from the
+    /// path, nothing is lost and there is nothing to undo; otherwise it is a step of the history,
+    /// or a part of the gesture under way.
+    pub(super) fn show(&mut self, scene: Scene, can_be_made_again: bool) {
+        if scene == self.project.scene {
+            return;
+        }
+        if !can_be_made_again {
+            self.history.record(&self.project, Some(self.gesture));
+        }
+        self.project.scene = scene;
+    }
+
     /// Puts another project in its place, as one step that can be undone.
     pub fn replace(&mut self, project: Project) {
         if project != self.project {

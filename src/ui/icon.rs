@@ -23,6 +23,16 @@ pub enum Icon {
     Cross,
     /// Four corners.
     Fullscreen,
+    /// A triangle: time runs.
+    Play,
+    /// Two bars.
+    Pause,
+    /// Back to a bar.
+    Previous,
+    /// On to a bar.
+    Next,
+    /// Diamonds on a line: the timeline.
+    Timeline,
 }
 
 /// A square button with an icon, named for those who cannot see it.
@@ -53,6 +63,10 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
     let at = |x: f32, y: f32| center + vec2(x, y) * (size / 16.0);
     let line = |points: &[(f32, f32)]| {
         painter.line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke);
+    };
+    let fill = |points: &[(f32, f32)]| {
+        let corners = points.iter().map(|&(x, y)| at(x, y)).collect();
+        painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
     };
     match icon {
         Icon::ChevronDown => line(&[(-4.0, -2.0), (0.0, 2.0), (4.0, -2.0)]),
@@ -86,6 +100,23 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
             for (y, x) in [(-4.5, 2.0), (0.0, -3.0), (4.5, 3.5)] {
                 line(&[(-7.0, y), (7.0, y)]);
                 painter.circle_filled(at(x, y), 2.4 * size / 16.0, color);
+            }
+        }
+        Icon::Play => fill(&[(-4.0, -6.0), (6.0, 0.0), (-4.0, 6.0)]),
+        Icon::Pause => {
+            for x in [-5.0, 1.5] {
+                fill(&[(x, -5.5), (x + 3.5, -5.5), (x + 3.5, 5.5), (x, 5.5)]);
+            }
+        }
+        Icon::Previous | Icon::Next => {
+            let s = if icon == Icon::Next { 1.0 } else { -1.0 };
+            fill(&[(-4.0 * s, -5.0), (3.0 * s, 0.0), (-4.0 * s, 5.0)]);
+            line(&[(4.5 * s, -5.0), (4.5 * s, 5.0)]);
+        }
+        Icon::Timeline => {
+            line(&[(-8.0, 0.0), (8.0, 0.0)]);
+            for x in [-4.5, 4.5] {
+                fill(&[(x, -4.0), (x + 4.0, 0.0), (x, 4.0), (x - 4.0, 0.0)]);
             }
         }
         Icon::Fullscreen => {

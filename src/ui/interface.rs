@@ -14,7 +14,9 @@ use super::{
     pilot::{Frame, Pilot},
     rects::Rects,
     shortcuts::{self, Command},
-    status, theme, view,
+    status, theme,
+    timeline::Timeline,
+    view,
 };
 use crate::scene::{Camera, Panorama, Project, Scene, presets};
 
@@ -32,6 +34,7 @@ pub struct Interface {
     settings: Settings,
     selection: Selection,
     pilot: Pilot,
+    timeline: Timeline,
     /// The camera that Home returns to.
     home: Camera,
     help_open: bool,
@@ -54,6 +57,7 @@ impl Interface {
             settings,
             selection: Selection::default(),
             pilot: Pilot::default(),
+            timeline: Timeline::default(),
             help_open: false,
             standing: None,
             rects: Rects::default(),
@@ -81,6 +85,7 @@ impl Interface {
         self.home = project.scene.camera.clone();
         self.editor.replace(project);
         self.pilot.cancel();
+        self.timeline.stop();
     }
 
     /// Takes a picture of the surroundings. A scene that does not name it yet is lit by it from
@@ -139,6 +144,7 @@ impl Interface {
             self.editor.next_gesture();
         }
         let before = self.project().clone();
+        self.timeline.begin(&before, self.settings.timeline_open);
         self.rects.clear();
         let mut commands = shortcuts::commands(ui.ctx(), self.pilot.is_flying());
         let mut actions = Vec::new();
@@ -151,9 +157,22 @@ impl Interface {
         notice(ui, inputs.notice, self.rects.get("view"), &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open);
 
+        let in_sight = |command| self.settings.timeline_open || command == Command::AddKey;
+        for command in commands.iter().copied().filter(|&command| in_sight(command)) {
+            self.timeline.command(command, self.editor.project_mut(), now_secs);
+        }
         self.note_changes(ui, &before, now_secs, held);
+        if !commands.is_empty() {
+            // What they change is drawn by now.
+            ui.ctx().request_repaint();
+        }
         for command in commands {
-            self.dispatch(command, &mut actions);
+            self.dispatch(command, wide, &mut actions);
+        }
+        self.timeline.follow(&mut self.editor, &before, now_secs);
+        self.moving |= self.timeline.is_moving();
+        if self.timeline.is_playing() {
+            ui.ctx().request_repaint();
         }
         actions
     }
@@ -167,14 +186,13 @@ impl Interface {
         actions: &mut Vec<Action>,
     ) {
         let open = self.settings.panel_open;
+        let timeline_open = self.settings.timeline_open && (wide || !open);
         self.histogram_shown = false;
-        if wide && !open {
-            return;
-        }
         let height = ui.available_height();
         let (can_undo, can_redo) = Context::history_of(&self.editor);
+        let project = self.editor.project_mut();
         let mut cx = Context {
-            scene: self.editor.scene_mut(),
+            scene: &mut project.scene,
             settings: &mut self.settings,
             selection: &mut self.selection,
             rects: &mut self.rects,
@@ -190,21 +208,29 @@ impl Interface {
             can_redo,
         };
         let frame = Box::new().fill(theme::PANEL);
-        let shown = if wide {
-            Panel::right("panel")
-                .resizable(false)
-                .exact_size(theme::PANEL_WIDTH)
-                .frame(frame)
-                .show(ui, |ui| panel::side(ui, &mut cx))
-        } else {
+        let shown = if !wide {
             let size =
                 if open { (height * SHEET_PART).floor().max(SHEET_HEADING) } else { SHEET_HEADING };
-            Panel::bottom("sheet")
-                .exact_size(size)
-                .frame(frame)
-                .show(ui, |ui| panel::sheet(ui, &mut cx, open))
+            let sheet = Panel::bottom("sheet").exact_size(size).frame(frame);
+            Some(sheet.show(ui, |ui| panel::sheet(ui, &mut cx, open)))
+        } else if open {
+            let side = Panel::right("panel").resizable(false).exact_size(theme::PANEL_WIDTH);
+            Some(side.frame(frame).show(ui, |ui| panel::side(ui, &mut cx)))
+        } else {
+            None
         };
-        self.rects.note("panel", &shown.response);
+        if let Some(shown) = shown {
+            cx.rects.note("panel", &shown.response);
+        }
+        if timeline_open {
+            let margin = Margin { left: 12, right: 8, top: 6, bottom: 8 };
+            let strip =
+                Panel::bottom("timeline").resizable(false).frame(frame.inner_margin(margin));
+            let shown = strip.show(ui, |ui| {
+                panel::strip(ui, &mut cx, &mut project.path, &mut self.timeline);
+            });
+            cx.rects.note("timeline", &shown.response);
+        }
     }
 
     fn status(&mut self, ui: &mut Ui, inputs: &Inputs<'_>) {
@@ -243,7 +269,22 @@ impl Interface {
         }
         self.standing = Some(self.pilot.standing(scene, frame));
         if wide && !self.settings.panel_open {
-            self.panel_button(ui, rect, commands);
+            let at = rect.right_top() + vec2(-44.0, 10.0);
+            let hover = ("Show panel", "Show the panel (P)");
+            let button = floating_button(ui, at, Icon::Controls, hover);
+            self.rects.note("panel toggle", &button);
+            if button.clicked() {
+                commands.push(Command::TogglePanel);
+            }
+        }
+        if !self.settings.timeline_open {
+            let at = rect.left_bottom() + vec2(10.0, -44.0);
+            let hover = ("Show timeline", "Key frames: a path for the camera and all else (T)");
+            let button = floating_button(ui, at, Icon::Timeline, hover);
+            self.rects.note("timeline toggle", &button);
+            if button.clicked() {
+                commands.push(Command::ToggleTimeline);
+            }
         }
         if inputs.picture.is_none() {
             ui.painter().text(
@@ -255,19 +296,6 @@ impl Interface {
             );
         }
         ui.allocate_rect(area, egui::Sense::hover());
-    }
-
-    /// What is left of a hidden side panel.
-    fn panel_button(&mut self, ui: &mut Ui, view: Rect, commands: &mut Vec<Command>) {
-        let at = Rect::from_min_size(view.right_top() + vec2(-44.0, 10.0), vec2(34.0, 34.0));
-        ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
-        let button = ui.put(at, |ui: &mut Ui| {
-            icon_button(ui, Icon::Controls, "Show panel", "Show the panel (P)")
-        });
-        self.rects.note("panel toggle", &button);
-        if button.clicked() {
-            commands.push(Command::TogglePanel);
-        }
     }
 
     /// Records the frame's changes, and whether more of them are on their way.
@@ -285,14 +313,16 @@ impl Interface {
         }
     }
 
-    fn dispatch(&mut self, command: Command, actions: &mut Vec<Action>) {
+    fn dispatch(&mut self, command: Command, wide: bool, actions: &mut Vec<Action>) {
         match command {
             Command::Undo => {
                 self.pilot.cancel();
+                self.timeline.stop();
                 self.editor.undo();
             }
             Command::Redo => {
                 self.pilot.cancel();
+                self.timeline.stop();
                 self.editor.redo();
             }
             Command::SavePicture => {
@@ -309,13 +339,34 @@ impl Interface {
             Command::Leave if self.help_open => self.help_open = false,
             Command::Leave => self.pilot.set_flying(false),
             Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
+            Command::ToggleTimeline => self.toggle_timeline(wide),
+            Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
             Command::ToggleHelp => self.help_open = !self.help_open,
-            // The pilot has seen to these.
-            Command::Home
+            // The pilot and the timeline have seen to these.
+            Command::PlayPause
+            | Command::AddKey
+            | Command::UpdateKey
+            | Command::DeleteKey
+            | Command::PreviousKey
+            | Command::NextKey
+            | Command::Home
             | Command::FrameAll
             | Command::Orbit(..)
             | Command::Pan(..)
             | Command::Dolly(_) => {}
+        }
+    }
+
+    /// Shows or hides the timeline. A narrow window has room for it or for the open sheet.
+    fn toggle_timeline(&mut self, wide: bool) {
+        let open = &mut self.settings.timeline_open;
+        let hidden_by_sheet = !wide && self.settings.panel_open;
+        *open = !*open || hidden_by_sheet;
+        if *open && !wide {
+            self.settings.panel_open = false;
+        }
+        if !*open {
+            self.timeline.stop();
         }
     }
 
@@ -330,6 +381,18 @@ impl Interface {
             self.selection = Selection::default();
         }
     }
+}
+
+/// An icon over the picture: what is left of something hidden.
+fn floating_button(
+    ui: &mut Ui,
+    at: egui::Pos2,
+    icon: Icon,
+    (name, hover): (&str, &str),
+) -> egui::Response {
+    let at = Rect::from_min_size(at, vec2(34.0, 34.0));
+    ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
+    ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
 }
 
 /// Whether this frame's keys nudge a value: a run of such presses is one step of the history.

@@ -12,7 +12,8 @@
 //! | `view`, `pilot`, `handles` | the picture, what moves its camera, its point lights |
 //! | [`navigation`] | the camera's movements themselves, free of egui |
 //! | [`shortcuts`] | the one table of keys, dispatched and listed in help |
-//! | [`editor`] | the scene under edit and its history |
+//! | [`editor`] | the scene and the path under edit, and their history |
+//! | `timeline` | the playhead: which moment of the path is in view |
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, the look, drawn icons, widgets' places |
 
 mod handles;
@@ -21,6 +22,7 @@ mod interface;
 mod panel;
 mod pilot;
 mod status;
+mod timeline;
 mod view;
 mod widgets;
 
@@ -85,6 +87,13 @@ pub enum Action {
     SavePicture {
         /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
         size_px: [u32; 2],
+    },
+    /// Render frames of the camera path at this size and hand them out as a zip of PNGs.
+    SaveSequence {
+        /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
+        size_px: [u32; 2],
+        /// The first frame, and the first one after it that is not wanted.
+        frames: [u32; 2],
     },
     /// Stop the export in progress.
     CancelExport,

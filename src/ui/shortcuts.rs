@@ -39,6 +39,20 @@ pub enum Command {
     ToggleHelp,
     /// The whole screen for the picture, or no longer.
     ToggleFullscreen,
+    /// Timeline shown or hidden.
+    ToggleTimeline,
+    /// The path plays or stops.
+    PlayPause,
+    /// The view becomes a key of the path.
+    AddKey,
+    /// The view takes the place of the key at the playhead.
+    UpdateKey,
+    /// The selected key goes.
+    DeleteKey,
+    /// To the key before the playhead.
+    PreviousKey,
+    /// To the key after the playhead.
+    NextKey,
     /// Turn about the pivot: right and up, in steps.
     Orbit(i8, i8),
     /// Move the view: right and up, in steps.
@@ -113,6 +127,13 @@ pub const SHORTCUTS: &[Shortcut] = &[
     line(COMMAND_SHIFT, Key::S, Command::SaveScene, "Ctrl Shift S", "Save the scene (JSON)"),
     line(COMMAND, Key::O, Command::LoadScene, "Ctrl O", "Open a scene or a picture's scene"),
     line(NONE, Key::L, Command::CopyLink, "L", "Copy a link to this view"),
+    line(NONE, Key::T, Command::ToggleTimeline, "T", "Show or hide the timeline"),
+    line(NONE, Key::K, Command::AddKey, "K", "Add the view to the path as a key"),
+    line(NONE, Key::U, Command::UpdateKey, "U", "Update the key at the playhead"),
+    line(NONE, Key::Delete, Command::DeleteKey, "Del", "Delete the selected key"),
+    line(NONE, Key::Comma, Command::PreviousKey, ",  .", "To the key before, to the next key"),
+    also(NONE, Key::Period, Command::NextKey),
+    line(NONE, Key::Space, Command::PlayPause, "Space", "Play the path, or stop"),
     line(NONE, Key::P, Command::TogglePanel, "P", "Show or hide the panel"),
     line(SHIFT, Key::F, Command::ToggleFullscreen, "Shift F", "Fill the screen"),
     line(NONE, Key::Questionmark, Command::ToggleHelp, "?", "This help"),
@@ -202,7 +223,8 @@ fn repeats(command: Command) -> bool {
 
 /// Keys that sliders, buttons and the light ball answer while they have the focus.
 fn is_widget_key(key: Key) -> bool {
-    matches!(key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown | Key::Escape)
+    use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Delete, Escape, Space};
+    matches!(key, ArrowLeft | ArrowRight | ArrowUp | ArrowDown | Escape | Space | Delete)
 }
 
 fn is_flight_key(key: Key) -> bool {

@@ -81,9 +81,12 @@ impl eframe::App for App {
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
         Action::SavePicture { size_px } => engine.start_still(size_px, session),
+        Action::SaveSequence { size_px, frames: [first, end] } => {
+            engine.start_sequence(size_px, first..end, session);
+        }
         Action::CancelExport => {
-            engine.cancel_still();
-            session.say("The picture was cancelled.");
+            engine.cancel_export();
+            session.say("Saving was cancelled.");
         }
         Action::SaveScene => {
             let text = document::project_to_json(session.interface.project());

@@ -7,6 +7,7 @@
 
 use std::{
     cell::RefCell,
+    ops::Range,
     rc::{Rc, Weak},
     sync::Arc,
 };
@@ -17,6 +18,7 @@ use super::{
     loss::Caution,
     page,
     picture::Picture,
+    sequence::{Sequence, Sink},
     session::{Session, Status},
     still::{Progress, Still},
 };
@@ -38,12 +40,36 @@ thread_local! {
     static ENGINE: RefCell<Weak<RefCell<Engine>>> = const { RefCell::new(Weak::new()) };
 }
 
+/// What is on its way to a file.
+enum Export {
+    Still(Box<Still>),
+    Sequence(Box<Sequence>),
+}
+
+impl Export {
+    /// Does what can be done without waiting; gone once it is done or has failed.
+    fn step(self, now_secs: f64) -> (Option<Self>, Progress) {
+        match self {
+            Self::Still(still) => {
+                let (still, progress) = still.step(now_secs);
+                (still.map(|still| Self::Still(Box::new(still))), progress)
+            }
+            Self::Sequence(sequence) => {
+                let (sequence, progress) = sequence.step(now_secs);
+                (sequence.map(|sequence| Self::Sequence(Box::new(sequence))), progress)
+            }
+        }
+    }
+}
+
 /// The work on one device.
 pub struct Engine {
     gpu: Gpu,
     kernels: Arc<Kernels>,
     picture: Picture,
-    still: Option<Still>,
+    export: Option<Export>,
+    /// A sequence that waits for the visitor to choose its file.
+    waiting: Option<(StillOptions, Range<u32>)>,
     progress: Option<ExportProgress>,
     context: egui::Context,
     /// Whether a tick is on its way.
@@ -67,7 +93,8 @@ impl Engine {
             gpu,
             picture: Picture::new(kernels.clone(), state),
             kernels,
-            still: None,
+            export: None,
+            waiting: None,
             progress: None,
             context,
             is_ticking: false,
@@ -84,7 +111,7 @@ impl Engine {
         self.picture.shown()
     }
 
-    /// How far the still in progress is.
+    /// How far the export in progress is.
     pub fn progress(&self) -> Option<ExportProgress> {
         self.progress
     }
@@ -95,16 +122,38 @@ impl Engine {
         let options = StillOptions { panorama, ..StillOptions::new(size_px) };
         match Still::start(&self.kernels, session.interface.scene(), options) {
             Ok(still) => {
-                self.still = Some(still);
-                self.progress = Some(ExportProgress { done: 0.0, remaining_secs: None });
+                self.begin(Export::Still(Box::new(still)));
             }
             Err(error) => session.complain(format!("The picture was not saved: {error}")),
         }
     }
 
-    /// Drops the still in progress.
-    pub fn cancel_still(&mut self) {
-        self.still = None;
+    /// Asks where the frames of the path are to go; [`Self::follow`] starts when that is known.
+    pub fn start_sequence(&mut self, size_px: [u32; 2], frames: Range<u32>, session: &mut Session) {
+        let [width, height] = size_px;
+        self.waiting = Some((StillOptions::new(size_px), frames));
+        Sink::choose(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
+    }
+
+    /// Starts the sequence whose file was chosen.
+    fn take_sink(&mut self, session: &mut Session) {
+        let Some(sink) = session.sink.take() else { return };
+        let (Some(sink), Some((options, frames))) = (sink, self.waiting.take()) else { return };
+        let path = session.interface.project().path.clone();
+        match Sequence::start(&self.kernels, path, frames, options, sink, &session.mailbox) {
+            Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
+            Err(error) => session.complain(format!("The sequence was not saved: {error}")),
+        }
+    }
+
+    fn begin(&mut self, export: Export) {
+        self.export = Some(export);
+        self.progress = Some(ExportProgress { done: 0.0, remaining_secs: None });
+    }
+
+    /// Drops the export in progress.
+    pub fn cancel_export(&mut self) {
+        self.export = None;
         self.progress = None;
     }
 
@@ -112,6 +161,7 @@ impl Engine {
     /// Returns after how many seconds to call again where that is known.
     pub fn follow(&mut self, session: &mut Session) -> Option<f64> {
         let now_secs = page::now_secs();
+        self.take_sink(session);
         let scale = session.caution().scale();
         let interface = &session.interface;
         let settling = self.picture.resize(interface.view_size_px(), scale, now_secs);
@@ -126,10 +176,10 @@ impl Engine {
 
     /// Does what can be done without waiting. Returns whether there is more to do.
     fn step(&mut self, session: &mut Session, now_secs: f64) -> bool {
-        // A still has the GPU to itself, and a scene that lost it waits for a hand.
-        let busy = if self.still.is_some() {
-            self.step_still(session, now_secs);
-            // What the still kept waiting comes next.
+        // An export has the GPU to itself, and a scene that lost it waits for a hand.
+        let busy = if self.export.is_some() {
+            self.step_export(session, now_secs);
+            // What the export kept waiting comes next.
             true
         } else if session.caution() == Caution::Paused {
             false
@@ -146,10 +196,10 @@ impl Engine {
         busy
     }
 
-    fn step_still(&mut self, session: &mut Session, now_secs: f64) {
-        let Some(still) = self.still.take() else { return };
-        let (still, progress) = still.step(now_secs);
-        self.still = still;
+    fn step_export(&mut self, session: &mut Session, now_secs: f64) {
+        let Some(export) = self.export.take() else { return };
+        let (export, progress) = export.step(now_secs);
+        self.export = export;
         self.progress = match progress {
             Progress::Working(done, remaining_secs) => {
                 Some(ExportProgress { done: done as f32, remaining_secs })
@@ -158,8 +208,9 @@ impl Engine {
                 session.say(format!("Saved {name}."));
                 None
             }
+            Progress::Closing => None,
             Progress::Failed(reason) => {
-                session.complain(format!("The picture was not saved: {reason}"));
+                session.complain(format!("Nothing was saved: {reason}"));
                 None
             }
         };
@@ -180,7 +231,7 @@ impl Engine {
             texture: self.picture.texture().cloned(),
             dispatches: self.picture.dispatches(),
             frames: session.status.frames,
-            is_exporting: self.still.is_some(),
+            is_exporting: self.export.is_some(),
         };
     }
 

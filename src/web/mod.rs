@@ -10,7 +10,8 @@
 //! | `app` | one frame of the interface |
 //! | `engine` | the GPU's work between frames |
 //! | `picture` | the view in the window and its texture in egui |
-//! | `still` | a picture on its way to a download |
+//! | `still`, `sequence` | a picture, or the frames of a path, on their way to a download |
+//! | `disk` | a file that is written while it is made, where the browser can |
 //! | `files`, `address`, `storage` | what the browser takes and gives |
 //! | `keeper` | writes the scene to storage and address at rest |
 //! | `loss` | how often, and how carefully, to start again |
@@ -20,6 +21,7 @@
 
 mod address;
 mod app;
+mod disk;
 mod engine;
 mod faults;
 mod files;
@@ -29,6 +31,7 @@ mod loss;
 mod mailbox;
 mod page;
 mod picture;
+mod sequence;
 mod session;
 pub mod start;
 mod still;

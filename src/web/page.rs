@@ -63,19 +63,35 @@ pub fn toggle_fullscreen() {
 }
 
 /// Calls a method that a browser may lack, and notes its refusal, at once or by a promise.
-fn call(target: &JsValue, method: &'static str) {
-    let outcome = js_sys::Reflect::get(target, &JsValue::from_str(method))
-        .and_then(|function| function.dyn_into::<js_sys::Function>())
-        .and_then(|function| function.call0(target));
+pub fn call(target: &JsValue, method: &'static str) {
+    let outcome = call_with(target, method, &js_sys::Array::new());
     spawn_local(async move {
-        let settled = match outcome {
-            Ok(value) => JsFuture::from(js_sys::Promise::resolve(&value)).await,
-            Err(error) => Err(error),
-        };
-        if let Err(error) = settled {
+        if let Err(error) = settled(outcome).await {
             log::warn!("{method}: {}", describe(&error));
         }
     });
+}
+
+/// Calls a method that a browser may lack.
+///
+/// # Errors
+/// What it throws; so it does where it isn't there.
+pub fn call_with(
+    target: &JsValue,
+    method: &str,
+    arguments: &js_sys::Array,
+) -> Result<JsValue, JsValue> {
+    js_sys::Reflect::get(target, &JsValue::from_str(method))?
+        .dyn_into::<js_sys::Function>()?
+        .apply(target, arguments)
+}
+
+/// What comes of a call's outcome, be it a promise or not.
+///
+/// # Errors
+/// What was thrown, at once or by the promise.
+pub async fn settled(outcome: Result<JsValue, JsValue>) -> Result<JsValue, JsValue> {
+    JsFuture::from(js_sys::Promise::resolve(&outcome?)).await
 }
 
 /// Calls `action` once after `delay_ms` milliseconds.

@@ -10,7 +10,9 @@ use super::{
     keeper::Keeper,
     loss::{self, Caution},
     mailbox::{Mailbox, Message},
-    page, storage,
+    page,
+    sequence::Sink,
+    storage,
 };
 use crate::{
     export,
@@ -41,6 +43,8 @@ pub struct Session {
     notice_until_secs: Option<f64>,
     /// What the app last said of itself.
     pub status: Status,
+    /// The answer to where a sequence is to go, until the engine takes it.
+    pub sink: Option<Option<Sink>>,
     caution: Caution,
     /// The scene that was in view when drawing was paused.
     paused_at: Option<Scene>,
@@ -57,7 +61,7 @@ pub struct Status {
     pub dispatches: Dispatches,
     /// Frames of the interface so far.
     pub frames: u64,
-    /// Whether a still is being made.
+    /// Whether a picture or a sequence is being made.
     pub is_exporting: bool,
 }
 
@@ -80,6 +84,7 @@ impl Session {
             notice: None,
             notice_until_secs: None,
             status: Status::default(),
+            sink: None,
             caution: Caution::None,
             paused_at: None,
         };
@@ -201,6 +206,7 @@ impl Session {
                     }
                     Err(error) => self.complain(error.to_string()),
                 },
+                Message::Sink(sink) => self.sink = Some(sink),
                 Message::Notice(text) => self.say(text),
                 Message::Complaint(text) => self.complain(text),
             }

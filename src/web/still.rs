@@ -1,4 +1,4 @@
-//! A still on its way from the GPU to a download.
+//! A still on its way from the GPU to a download, and how exports of any kind tell of themselves.
 //!
 //! In: the scene and a size. Out: progress for the interface, and at the end a PNG among the
 //! visitor's downloads. It is stepped between frames; dropping it cancels it.
@@ -18,12 +18,14 @@ pub struct Still {
     file_name: String,
 }
 
-/// How a still is getting on.
+/// How an export is getting on.
 pub enum Progress {
     /// Part of the work done, 0 to 1, and the seconds to go where they can be told.
     Working(f64, Option<f64>),
     /// The download has begun; the file's name.
     Saved(String),
+    /// All is written; the browser is closing the file, and says so itself.
+    Closing,
     /// It will not be finished.
     Failed(String),
 }

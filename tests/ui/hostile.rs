@@ -116,6 +116,11 @@ fn event(dice: &mut Dice, size: [f32; 2], down: &mut bool) -> Event {
                 Key::Plus,
                 Key::Space,
                 Key::PageDown,
+                Key::T,
+                Key::K,
+                Key::U,
+                Key::Comma,
+                Key::Period,
             ];
             let key = keys[dice.below(keys.len() as u64) as usize];
             Event::Key {
@@ -140,6 +145,8 @@ fn a_restless_visitor_cannot_break_it() {
             harness.event(event(&mut dice, size, &mut down));
             harness.step();
             assert_eq!(scene(&harness).validate(), Ok(()), "seed {seed}, event {i}");
+            let path = &harness.state().interface.project().path;
+            assert_eq!(path.validate(), Ok(()), "seed {seed}, event {i}");
         }
         undo_all(&mut harness);
         assert_eq!(scene(&harness).validate(), Ok(()));

@@ -5,3 +5,4 @@ mod fit;
 mod gestures;
 mod hostile;
 mod stage;
+mod timeline;

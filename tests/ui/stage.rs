@@ -4,7 +4,7 @@ use egui::{Event, Modifiers, PointerButton, Pos2, Vec2, accesskit::Role};
 use egui_kittest::{Harness, Node, kittest::Queryable as _};
 use mandelight::{
     render::report::{Activity, Report},
-    scene::Scene,
+    scene::{Project, Scene},
     ui::{Action, ExportProgress, Inputs, Interface, Notice, Sections, Settings, theme},
 };
 
@@ -22,8 +22,12 @@ pub fn unfolded() -> Settings {
     Settings { more_open: true, sections: Sections::all(), ..Settings::default() }
 }
 
-/// An interface to `scene` in a window of `size` points.
-pub fn stage(scene: Scene, settings: Settings, size: [f32; 2]) -> Harness<'static, Stage> {
+/// An interface to a scene, or one with its path, in a window of `size` points.
+pub fn stage(
+    project: impl Into<Project>,
+    settings: Settings,
+    size: [f32; 2],
+) -> Harness<'static, Stage> {
     let report = Report {
         activity: Activity::Refining,
         size_px: [size[0] as u32, size[1] as u32],
@@ -36,7 +40,7 @@ pub fn stage(scene: Scene, settings: Settings, size: [f32; 2]) -> Harness<'stati
         histogram: None,
     };
     let stage = Stage {
-        interface: Interface::new(scene, settings),
+        interface: Interface::new(project, settings),
         actions: Vec::new(),
         report,
         export: None,

@@ -84,6 +84,9 @@ fn settle(scene: &mut Scene, from: &Scene) {
     }
     // Two full scenes may have too many lights between them: what only appears waits.
     let lights = &mut scene.lights;
+    if lights.len() > MAX_LIGHTS {
+        lights.rig.count = lights.rig.count.min(from.lights.rig.count);
+    }
     while lights.len() > MAX_LIGHTS && lights.environment.len() > from.lights.environment.len() {
         lights.environment.pop();
     }

@@ -79,7 +79,7 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     }
 }
 
-fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress) {
+pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress) {
     let left = match progress.remaining_secs {
         Some(secs) => format!("Saving, {} left", duration_text(secs)),
         None => "Saving…".to_owned(),

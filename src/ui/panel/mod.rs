@@ -11,6 +11,7 @@ mod quality;
 mod rig;
 mod scenes;
 mod surface;
+mod timeline;
 mod tone;
 
 pub mod export;
@@ -31,6 +32,7 @@ use super::{
 use crate::scene::{Panorama, Scene};
 pub(super) use help::help_window;
 pub(super) use lights::LightRef;
+pub(super) use timeline::strip;
 
 /// What the interface remembers from one visit to the next. It belongs to no scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,6 +40,8 @@ pub(super) use lights::LightRef;
 pub struct Settings {
     /// Whether the panel is shown.
     pub panel_open: bool,
+    /// Whether the timeline is shown.
+    pub timeline_open: bool,
     /// Whether the panel shows more than the first things.
     pub more_open: bool,
     /// What is unfolded.
@@ -50,6 +54,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             panel_open: true,
+            timeline_open: false,
             more_open: false,
             sections: Sections::default(),
             export: export::ExportSize::default(),

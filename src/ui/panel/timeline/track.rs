@@ -1,0 +1,199 @@
+//! The track: a ruler to scrub along, and the keys as diamonds to drag.
+
+use egui::{
+    Align2, Color32, FontId, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui,
+    WidgetInfo, accesskit::Role, pos2, vec2,
+};
+
+use crate::{
+    scene::{Path, path::Easing},
+    ui::{theme, timeline::Timeline},
+};
+
+/// Height of the ruler and of the keys' lane below it, in points.
+const RULER_HEIGHT: f32 = 18.0;
+const LANE_HEIGHT: f32 = 28.0;
+/// Room at both ends, so that the outer keys can be seized, in points.
+const MARGIN: f32 = 14.0;
+/// Half the width of a diamond, in points.
+const DIAMOND: f32 = 6.5;
+/// Least distance between the ruler's numbers, in points.
+const TICK_GAP: f32 = 64.0;
+/// Steps of the ruler, seconds.
+const TICKS: [f64; 13] =
+    [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0];
+/// The least time that the track spans, seconds.
+const LEAST_SPAN_SECS: f64 = 5.0;
+
+/// Where times lie.
+#[derive(Clone, Copy)]
+struct Scale {
+    left: f32,
+    width: f32,
+    secs: f64,
+}
+
+impl Scale {
+    fn x(self, secs: f64) -> f32 {
+        self.left + self.width * (secs / self.secs) as f32
+    }
+
+    fn secs_at(self, x: f32) -> f64 {
+        f64::from((x - self.left) / self.width.max(1.0)) * self.secs
+    }
+}
+
+/// Draws the track; scrubbing moves the playhead, dragging a diamond its key. The response is
+/// the track's own.
+pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool) -> Response {
+    let size = vec2(ui.available_width(), RULER_HEIGHT + LANE_HEIGHT);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let id = ui.scope_id().with("timeline track");
+    let response = ui.interact(rect, id, Sense::click_and_drag());
+    let scale = scale_of(ui, &response, rect, path);
+
+    if (response.dragged() || response.clicked())
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        timeline.seek(path, scale.secs_at(pointer.x));
+        timeline.held = response.dragged();
+    }
+    step_by_keys(ui, &response, path, timeline);
+    describe(ui, &response, path, timeline);
+
+    let painter = ui.painter().with_clip_rect(rect);
+    painter.rect_filled(rect, theme::RADIUS, theme::WELL);
+    ruler(&painter, rect, scale);
+    let lane_y = rect.top() + RULER_HEIGHT + LANE_HEIGHT / 2.0;
+    lines(&painter, lane_y, scale, path);
+    for index in 0..path.keys.len() {
+        diamond(ui, &response, pos2(0.0, lane_y), scale, path, timeline, index);
+    }
+    playhead(&painter, rect, scale.x(timeline.secs()), on_path, !path.is_empty());
+    response.on_hover_text("Drag to move through the path; drag a key to another time")
+}
+
+/// The scale: the path and some room after it. It stays while something is dragged.
+fn scale_of(ui: &Ui, response: &Response, rect: Rect, path: &Path) -> Scale {
+    let id = response.id.with("span");
+    let wanted = (path.duration_secs() * 1.12).max(LEAST_SPAN_SECS);
+    let held = ui.input(|i| i.pointer.any_down());
+    let secs = ui.data(|data| data.get_temp(id)).filter(|_| held).unwrap_or(wanted);
+    ui.data_mut(|data| data.insert_temp(id, secs));
+    Scale { left: rect.left() + MARGIN, width: (rect.width() - 2.0 * MARGIN).max(1.0), secs }
+}
+
+/// Arrow keys go from frame to frame while the track has the focus.
+fn step_by_keys(ui: &Ui, response: &Response, path: &Path, timeline: &mut Timeline) {
+    if !response.has_focus() {
+        return;
+    }
+    let arrows = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    let steps = ui.input(|i| {
+        let presses = |key| i.num_presses(key) as f64;
+        presses(Key::ArrowRight) - presses(Key::ArrowLeft)
+            + 10.0 * (presses(Key::PageUp) - presses(Key::PageDown))
+    });
+    if steps != 0.0 {
+        let frame = f64::from(path.nearest_frame(timeline.secs())) + steps;
+        timeline.seek(path, frame * path.frame_secs(1));
+    }
+}
+
+fn describe(ui: &Ui, response: &Response, path: &Path, timeline: &Timeline) {
+    response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), timeline.secs(), "Timeline"));
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_min_numeric_value(0.0);
+        node.set_max_numeric_value(path.duration_secs());
+    });
+}
+
+fn ruler(painter: &Painter, rect: Rect, scale: Scale) {
+    let least = scale.secs_at(scale.left + TICK_GAP);
+    let step = TICKS.into_iter().find(|&step| step >= least).unwrap_or(TICKS[12]);
+    let small = Stroke::new(1.0, theme::LINE);
+    // As many as fit, whatever the numbers: the track is finite.
+    for i in 0..=(scale.secs / step).ceil() as u32 * 5 {
+        let secs = f64::from(i) * step / 5.0;
+        let x = scale.x(secs);
+        if x > rect.right() {
+            break;
+        }
+        let is_numbered = i % 5 == 0;
+        let top = rect.top() + if is_numbered { 11.0 } else { 14.0 };
+        painter.vline(x, top..=rect.top() + RULER_HEIGHT, small);
+        if is_numbered {
+            let text = if step < 1.0 { format!("{secs:.1}") } else { clock(secs) };
+            let font = FontId::proportional(9.5);
+            let at = pos2(x, rect.top() + 1.0);
+            painter.text(at, Align2::CENTER_TOP, text, font, theme::TEXT_DIM);
+        }
+    }
+}
+
+/// `45` or `2:05`.
+fn clock(secs: f64) -> String {
+    let whole = secs.round() as u64;
+    if whole < 60 { format!("{whole} s") } else { format!("{}:{:02}", whole / 60, whole % 60) }
+}
+
+/// What joins the keys: a line as thick as the way is smooth, and none where it is cut.
+fn lines(painter: &Painter, y: f32, scale: Scale, path: &Path) {
+    for pair in path.keys.windows(2) {
+        let xs = scale.x(pair[0].time_secs)..=scale.x(pair[1].time_secs);
+        let (width, color) = match pair[0].easing {
+            Easing::Smooth => (3.0, theme::ACCENT.gamma_multiply(0.55)),
+            Easing::Linear => (1.0, theme::ACCENT.gamma_multiply(0.8)),
+            Easing::Hold => continue,
+        };
+        painter.hline(xs, y, Stroke::new(width, color));
+    }
+}
+
+fn diamond(
+    ui: &Ui,
+    track: &Response,
+    lane: Pos2,
+    scale: Scale,
+    path: &mut Path,
+    timeline: &mut Timeline,
+    index: usize,
+) {
+    let key = &path.keys[index];
+    let center = pos2(scale.x(key.time_secs), lane.y);
+    let touch = ui.input(|i| i.has_touch_screen());
+    let area = Rect::from_center_size(center, vec2(if touch { 34.0 } else { 20.0 }, LANE_HEIGHT));
+    let response = ui.interact(area, track.id.with(("key", index)), Sense::click_and_drag());
+    let name = format!("Key {} at {:.2} s", index + 1, key.time_secs);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name));
+    if response.clicked() || response.drag_started() || response.gained_focus() {
+        timeline.select(path, index);
+    }
+    if response.dragged()
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        timeline.held = true;
+        timeline.retime(path, index, scale.secs_at(pointer.x));
+    }
+    let selected = timeline.selected(path) == Some(index);
+    let fill = if selected { theme::ACCENT } else { theme::TEXT };
+    let outline =
+        if response.hovered() || response.has_focus() { Color32::WHITE } else { theme::WELL };
+    let center = pos2(scale.x(path.keys[index].time_secs), lane.y);
+    let corners = [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
+    let corners = corners.map(|(x, y)| center + vec2(x, y) * DIAMOND).to_vec();
+    let painter = ui.painter().with_clip_rect(track.rect);
+    painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, outline)));
+    response.on_hover_text(format!("{name}. Drag to another time."));
+}
+
+/// A line with a grip; hollow where the view is not what the path has there.
+fn playhead(painter: &Painter, rect: Rect, x: f32, on_path: bool, is_there: bool) {
+    let color = if is_there { Color32::WHITE } else { theme::TEXT_DIM };
+    painter.vline(x, rect.y_range(), Stroke::new(1.0, color.gamma_multiply(0.8)));
+    let corners = [(-5.0, 0.0), (5.0, 0.0), (5.0, 6.0), (0.0, 11.0), (-5.0, 6.0)];
+    let corners = corners.map(|(dx, dy)| pos2(x + dx, rect.top() + dy)).to_vec();
+    let fill = if on_path { color } else { theme::WELL };
+    painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, color)));
+}

@@ -1,0 +1,75 @@
+// A visit that makes a camera path: scrub it, play it, and save its frames, once as a download and
+// once through the browser's own save dialogue, which is played here.
+
+import { readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { Mandelight } from "./mandelight.mjs";
+import { unzipped } from "./unzip.mjs";
+import { visit } from "./visit.mjs";
+
+await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
+  const page = new Mandelight(v);
+  const scenes = (v.seen.scenes = {});
+  const document = process.env.MANDELIGHT_PATH;
+
+  // Without the dialogue the zip is a download.
+  await v.tab.addInitScript(() => {
+    if (new URLSearchParams(location.search).has("dialogue")) return;
+    window.showSaveFilePicker = undefined;
+  });
+  await page.open();
+  await page.show(document);
+  await page.click("panel toggle");
+  await v.tab.mouse.click(...(await page.middle("timeline toggle")));
+  const track = await page.rested("the track", () => page.rect("timeline track"));
+  await v.screenshot("timeline-720x420");
+
+  scenes.scrubbed = await page.changed("scrubbing", () =>
+    page.drag([track.x + 20, track.y + 6], [track.width / 8, 0]),
+  );
+  await page.settled();
+  const played = async () => (await page.scene()) !== scenes.scrubbed;
+  await v.tab.mouse.click(...(await page.middle("play")));
+  await v.until("the path to play", played, 60);
+  await v.tab.mouse.click(...(await page.middle("play")));
+  await page.rested("the scene after playing", () => page.scene());
+
+  v.seen.name = await page.keepDownload("frames.zip", "save sequence");
+  v.seen.frames = await keepFrames(v, "frames.zip", "frames");
+
+  // With it the zip is written while it is made.
+  await v.tab.addInitScript(() => {
+    window.written = [];
+    window.closed = false;
+    if (!new URLSearchParams(location.search).has("dialogue")) return;
+    window.showSaveFilePicker = async (options) => {
+      window.suggested = options.suggestedName;
+      return {
+        createWritable: async () => ({
+          write: async (bytes) => void window.written.push(Array.from(bytes)),
+          close: async () => void (window.closed = true),
+          abort: async () => {},
+        }),
+        remove: async () => {},
+      };
+    };
+  });
+  v.address = v.address.replace(/\/?$/, "/");
+  await v.tab.goto("about:blank");
+  await v.tab.goto(`${v.address}?test&dialogue`);
+  await page.firstPicture();
+  await page.settled();
+  await v.tab.mouse.click(...(await page.middle("save sequence")));
+  await v.until("the file to be closed", () => v.tab.evaluate(() => window.closed), 240);
+  v.seen.suggested = await v.tab.evaluate(() => window.suggested);
+  const pieces = await v.tab.evaluate(() => window.written);
+  await writeFile(join(v.out, "streamed.zip"), Buffer.concat(pieces.map((piece) => Buffer.from(piece))));
+  v.seen.streamed = await keepFrames(v, "streamed.zip", "streamed");
+});
+
+/** Takes a zip apart, keeps its files with `prefix`, and returns their names. */
+async function keepFrames(v, zip, prefix) {
+  const files = unzipped(await readFile(join(v.out, zip)));
+  for (const [name, bytes] of files) await writeFile(join(v.out, `${prefix}-${name}`), bytes);
+  return files.map(([name]) => name);
+}

@@ -1,0 +1,267 @@
+//! The timeline: keys are made, moved, changed and deleted there, and the view follows the playhead.
+
+use egui::{Key, Rect, pos2, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use mandelight::{
+    scene::{
+        Camera, Path, Project, Scene,
+        path::{Easing, Key as PathKey, MAX_KEYS},
+    },
+    ui::{Action, ExportProgress, Settings},
+};
+
+use crate::stage::*;
+
+fn open() -> Settings {
+    Settings { timeline_open: true, ..Settings::default() }
+}
+
+/// Keys at 0, 3 and 6 seconds, whose powers are 8, 5 and 3.
+fn project() -> Project {
+    let key = |time_secs: f64, power: f64, x: f64| {
+        let mut scene = Scene::default();
+        scene.fractal.power = power;
+        scene.camera =
+            Camera::looking_at(glam::DVec3::new(x, -2.5, 1.0), glam::DVec3::ZERO, glam::DVec3::Z);
+        PathKey { time_secs, easing: Easing::Smooth, scene: scene.into() }
+    };
+    let mut project = Project::from(Scene::default());
+    project.path.keys = vec![key(0.0, 8.0, 1.0), key(3.0, 5.0, 0.0), key(6.0, 3.0, -1.0)];
+    project
+}
+
+fn path<'h>(harness: &'h egui_kittest::Harness<'_, Stage>) -> &'h Path {
+    &harness.state().interface.project().path
+}
+
+fn times(harness: &egui_kittest::Harness<'_, Stage>) -> Vec<f64> {
+    path(harness).keys.iter().map(|key| key.time_secs).collect()
+}
+
+fn track(harness: &egui_kittest::Harness<'_, Stage>) -> Rect {
+    harness.state().interface.rects().get("timeline track").expect("the track is there")
+}
+
+/// Where a time lies on the ruler, from where two keys' diamonds are.
+fn ruler_at(harness: &egui_kittest::Harness<'_, Stage>, secs: f64) -> egui::Pos2 {
+    let x = |name: &str| harness.get_by_label(name).rect().center().x;
+    let (first, second) = (x("Key 1 at 0.00 s"), x("Key 2 at 3.00 s"));
+    pos2(first + (second - first) * (secs / 3.0) as f32, track(harness).top() + 6.0)
+}
+
+#[test]
+fn views_become_keys_and_the_playhead_brings_them_back() {
+    let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 720.0]);
+    press(&mut harness, "Show timeline");
+    assert!(harness.state().interface.settings().timeline_open);
+    let first = scene(&harness).clone();
+    press(&mut harness, "Add key");
+    slider(&harness, "Power").set_value_accesskit(5.0);
+    harness.run();
+    let second = scene(&harness).clone();
+    harness.key_press(Key::K);
+    harness.run();
+    assert_eq!(times(&harness), [0.0, 3.0]);
+    let scenes: Vec<&Scene> = path(&harness).keys.iter().map(|key| &*key.scene).collect();
+    assert_eq!(scenes, [&first, &second]);
+
+    harness.key_press(Key::Comma);
+    harness.run();
+    assert_eq!(*scene(&harness), first);
+    harness.key_press(Key::Period);
+    harness.run();
+    assert_eq!(*scene(&harness), second);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Z);
+    harness.run();
+    assert_eq!((times(&harness), scene(&harness)), (vec![0.0], &second), "the view stays");
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::Y);
+    harness.run();
+    // Two keys and the slider; going from key to key loses nothing, so it is no step.
+    assert_eq!(undo_all(&mut harness), 3);
+    assert_eq!(*scene(&harness), first);
+    assert!(path(&harness).is_empty());
+}
+
+#[test]
+fn scrubbing_shows_every_moment_and_keeps_a_view_of_one_s_own() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    let own = scene(&harness).clone();
+    let (from, to) = (ruler_at(&harness, 0.5), ruler_at(&harness, 1.5));
+    drag(&mut harness, from, to, 10);
+    let moment = path(&harness).at(1.5).unwrap();
+    assert_eq!(*scene(&harness), moment, "the view is what the path has at 1.5 s");
+    assert!((5.0..8.0).contains(&moment.fractal.power));
+    assert_eq!(path(&harness).keys, project().path.keys, "scrubbing changes no key");
+    // Further scrubbing adds no step; undo brings the view back that the first one replaced.
+    drag(&mut harness, from, to, 3);
+    assert_eq!(undo_all(&mut harness), 1);
+    assert_eq!(*scene(&harness), own);
+}
+
+#[test]
+fn the_preview_counts_as_movement() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    harness.key_press(Key::Space);
+    harness.run_steps(3);
+    assert!(harness.state().interface.is_moving(), "playing is a movement");
+    let early = scene(&harness).clone();
+    harness.run_steps(60);
+    assert_ne!(*scene(&harness), early, "a second of playing shows another moment");
+    harness.key_press(Key::Space);
+    harness.run();
+    assert!(!harness.state().interface.is_moving());
+    let rest = scene(&harness).clone();
+    harness.run_steps(10);
+    assert_eq!(*scene(&harness), rest);
+
+    // Over the end it begins anew, and a hand on the picture stops it.
+    harness.key_press(Key::Space);
+    harness.run_steps(60 * 8);
+    assert!(harness.state().interface.is_moving());
+    let center = harness.state().interface.rects().get("view").unwrap().center();
+    drag(&mut harness, center, center + vec2(60.0, 0.0), 5);
+    harness.run_steps(30);
+    assert!(!harness.state().interface.is_moving());
+}
+
+#[test]
+fn a_key_is_dragged_between_its_neighbours_as_one_step() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    let at = |harness: &egui_kittest::Harness<'_, Stage>, name: &str| {
+        harness.get_by_label(name).rect().center()
+    };
+    let from = at(&harness, "Key 2 at 3.00 s");
+    let to = pos2(ruler_at(&harness, 4.0).x, from.y);
+    drag(&mut harness, from, to, 10);
+    let [_, moved, _] = times(&harness)[..] else { panic!("a key is gone") };
+    assert!((moved - 4.0).abs() < 0.05, "moved to {moved}");
+    assert_eq!((moved * 30.0).fract(), 0.0, "keys lie on frames");
+    assert_eq!(*scene(&harness), *path(&harness).keys[1].scene, "the view goes along");
+    // Past the last key it stops a frame before it.
+    let from = harness.get_by_label(&format!("Key 2 at {moved:.2} s")).rect().center();
+    drag(&mut harness, from, from + vec2(900.0, 0.0), 10);
+    let secs = times(&harness)[1];
+    assert!((5.9..6.0).contains(&secs), "stopped at {secs}");
+    assert_eq!(path(&harness).validate(), Ok(()));
+    // The first drag's step brings the view back that selecting the key replaced.
+    assert_eq!(undo_all(&mut harness), 2);
+    assert_eq!(*scene(&harness), project().scene);
+    assert_eq!(path(&harness).keys, project().path.keys);
+}
+
+#[test]
+fn keys_are_selected_eased_updated_and_deleted() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    harness.get_by_label("Key 2 at 3.00 s").click();
+    harness.run();
+    assert_eq!(scene(&harness).fractal.power, 5.0);
+    press(&mut harness, "Easing: Hold");
+    assert_eq!(path(&harness).keys[1].easing, Easing::Hold);
+
+    slider(&harness, "Power").set_value_accesskit(9.0);
+    harness.run();
+    assert_eq!(path(&harness).keys[1].scene.fractal.power, 5.0, "a key stays as it is");
+    press(&mut harness, "Update key");
+    assert_eq!(path(&harness).keys[1].scene.fractal.power, 9.0);
+
+    press(&mut harness, "Delete key");
+    assert_eq!(times(&harness), [0.0, 6.0]);
+    assert!(undo_all(&mut harness) >= 4);
+    assert_eq!(path(&harness).keys, project().path.keys);
+}
+
+#[test]
+fn times_and_rates_are_typed_and_kept_in_range() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    harness.get_by_label("Key 2 at 3.00 s").click();
+    harness.run();
+    for (text, secs) in
+        [("4.5", 4.5), ("99", 6.0 - 1.0 / 30.0), ("-3", 1.0 / 30.0), ("2 apples", 1.0 / 30.0)]
+    {
+        press(&mut harness, "Time value");
+        harness.get_by_label("Time value").type_text(text);
+        harness.key_press(Key::Enter);
+        harness.run();
+        assert!((times(&harness)[1] - secs).abs() < 1e-9, "{text} gave {:?}", times(&harness));
+    }
+    press(&mut harness, "Frame rate value");
+    harness.get_by_label("Frame rate value").type_text("1000");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(path(&harness).frames_per_second, 240);
+    assert_eq!(path(&harness).validate(), Ok(()));
+}
+
+#[test]
+fn a_full_path_takes_no_more_keys_and_one_key_does_not_play() {
+    let mut full = project();
+    full.path.keys = (0..MAX_KEYS)
+        .map(|i| PathKey { time_secs: i as f64, ..project().path.keys[0].clone() })
+        .collect();
+    let mut harness = stage(full.clone(), open(), [1280.0, 720.0]);
+    harness.key_press(Key::K);
+    harness.run();
+    assert_eq!(path(&harness).keys.len(), MAX_KEYS);
+
+    full.path.keys.truncate(1);
+    let mut harness = stage(full, open(), [1280.0, 720.0]);
+    harness.key_press(Key::Space);
+    harness.run_steps(20);
+    assert!(!harness.state().interface.is_moving());
+}
+
+#[test]
+fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    let size_px = harness.state().interface.view_size_px();
+    press(&mut harness, "Save sequence");
+    press(&mut harness, "First frame value");
+    harness.get_by_label("First frame value").type_text("20");
+    harness.key_press(Key::Enter);
+    harness.run();
+    press(&mut harness, "Last frame value");
+    harness.get_by_label("Last frame value").type_text("5000");
+    harness.key_press(Key::Enter);
+    harness.run();
+    press(&mut harness, "Save sequence");
+    let [all, some] = [[0, 181], [20, 181]].map(|frames| Action::SaveSequence { size_px, frames });
+    assert_eq!(harness.state().actions, [all, some]);
+
+    harness.state_mut().actions.clear();
+    harness.state_mut().export = Some(ExportProgress { done: 0.3, remaining_secs: Some(75.0) });
+    harness.run();
+    assert!(harness.query_by_label("Save sequence").is_none());
+    harness.get_all_by_label("Cancel").last().unwrap().click();
+    harness.run();
+    assert_eq!(harness.state().actions, [Action::CancelExport]);
+}
+
+#[test]
+fn it_fits_every_window_and_every_control_says_what_it_does() {
+    for size in [[360.0, 640.0], [390.0, 844.0], [844.0, 390.0], [700.0, 500.0], [1280.0, 720.0]] {
+        let mut harness = stage(project(), Settings::default(), size);
+        press(&mut harness, "Show timeline");
+        harness.get_by_label("Key 2 at 3.00 s").click();
+        harness.run();
+        harness.run();
+        let rects = harness.state().interface.rects();
+        let [view, strip] = ["view", "timeline"].map(|name| rects.get(name).expect(name));
+        let both = view.intersect(strip);
+        assert!(both.width() < 0.6 || both.height() < 0.6, "{view:?} and {strip:?} in {size:?}");
+        let part = view.area() / (size[0] * size[1]);
+        assert!(part > 0.25, "the view has {part} of {size:?}");
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into()).expand(0.5);
+        for node in harness.root().children_recursive() {
+            let inside = node.accesskit_node().bounding_box().is_some()
+                && strip.contains(node.rect().center());
+            if inside && egui::accessibility::is_input(node.accesskit_node().role()) {
+                let label = node.accesskit_node().label();
+                assert!(window.contains_rect(node.rect()), "{label:?} in {size:?}");
+                assert!(label.is_some(), "a control without a name in {size:?}");
+            }
+        }
+        press(&mut harness, "Hide timeline");
+        let rects = harness.state().interface.rects();
+        assert!(rects.get("timeline").is_none(), "it stays in {size:?}");
+    }
+}
