@@ -43,12 +43,17 @@ pub fn read_project(source: &Path) -> Result<Project, Failure> {
     };
     read.map_err(|error| failure(&error))?;
 
-    let text = if export::is_png(&bytes) {
+    let text = if export::is_exr(&bytes) {
+        export::exr_scene_text(Cursor::new(bytes))
+            .map_err(|error| failure(&error))?
+            .ok_or_else(|| failure(&"this picture carries no Mandelight scene"))?
+    } else if export::is_png(&bytes) {
         export::scene_text(Cursor::new(bytes))
             .map_err(|error| failure(&error))?
             .ok_or_else(|| failure(&"this picture carries no Mandelight scene"))?
     } else {
-        String::from_utf8(bytes).map_err(|_| failure(&"neither a scene document nor a PNG"))?
+        String::from_utf8(bytes)
+            .map_err(|_| failure(&"neither a scene document nor a PNG or EXR"))?
     };
     document::project_from_json(&text).map_err(|error| failure(&error))
 }

@@ -13,7 +13,7 @@ use std::{
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use mandelight::{
-    export::{self, ExportError, StillJob, StillOptions, StillStatus},
+    export::{self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus},
     render::Kernels,
     scene::param,
 };
@@ -36,7 +36,8 @@ pub struct Arguments {
     /// A scene document, a picture that carries one, or - for standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The PNG to write, or - for standard output
+    /// The file to write, a PNG, or an OpenEXR file where its name ends in .exr; or - for a PNG
+    /// on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Width and height in pixels, each 1 to 16384
@@ -83,6 +84,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let options = StillOptions {
         samples: arguments.samples,
         panorama: environment.map(|environment| environment.panorama),
+        format: PictureFormat::of(&arguments.output),
         ..StillOptions::new(arguments.size)
     };
     let job = StillJob::new(&Kernels::new(&gpu), &scene, options, output)

@@ -11,15 +11,21 @@
 //! | [`sequence`] | the frames of a camera path, one still each |
 //! | [`archive`] | a zip of files, written while they come |
 //! | `tiles` | how a picture is cut |
+//! | `format` | the kinds of file, and what each wants of a tile |
+//! | [`mod@exr`] | linear pixels with depth, normal and position to an OpenEXR file |
 //! | [`png`] | rows to a PNG that carries its scene, and the scene out of one |
 
 pub mod archive;
+pub mod exr;
+mod format;
 pub mod png;
 pub mod sequence;
 pub mod still;
 mod tiles;
 
 pub use archive::Archive;
+pub use exr::{exr_scene_text, is_exr};
+pub use format::PictureFormat;
 pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
 pub use sequence::{SequenceJob, frame_name};
 pub use still::{StillJob, StillOptions, StillStatus};

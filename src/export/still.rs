@@ -8,15 +8,21 @@ use std::{io::Write, ops::ControlFlow, sync::Arc};
 
 use web_time::Instant;
 
-use super::{ExportError, checked_size, png::PngStream, tiles::Tiling};
+use super::{
+    ExportError, PictureFormat, checked_size,
+    format::{Arriving, Encoder},
+    tiles::Tiling,
+};
 use crate::{
-    gpu::readback::Readback,
     render::{Kernels, Pace, Region, View},
-    scene::{Panorama, Scene, document},
+    scene::{Camera, Panorama, Scene},
 };
 
 /// Largest tile unless told otherwise, in pixels: wide, so that bands stay thin.
 const TILE_PX: [u32; 2] = [2048, 256];
+
+/// A band of rows takes at most so much, where its pixels are large.
+const MOST_BAND_BYTES: usize = 32 << 20;
 
 /// How many bytes of rows one step packs at most: a few hundredths of a second's work, for a
 /// page has to stay fluid meanwhile.
@@ -37,12 +43,20 @@ pub struct StillOptions {
     pub tile_px: [u32; 2],
     /// The picture of the surroundings that is at hand.
     pub panorama: Option<Arc<Panorama>>,
+    /// The kind of file.
+    pub format: PictureFormat,
 }
 
 impl StillOptions {
     /// A picture of `size_px` with the scene's own samples.
     pub fn new(size_px: [u32; 2]) -> Self {
-        Self { size_px, samples: None, tile_px: TILE_PX, panorama: None }
+        Self {
+            size_px,
+            samples: None,
+            tile_px: TILE_PX,
+            panorama: None,
+            format: PictureFormat::default(),
+        }
     }
 }
 
@@ -68,22 +82,24 @@ pub struct StillJob<W: Write> {
     /// The tile being drawn; the count of tiles once all are.
     drawing: u32,
     /// The tile on its way back.
-    arriving: Option<(Region, bool, Readback)>,
+    arriving: Option<(Region, bool, Arriving)>,
     /// The band that tiles are put into.
     filling: Band,
     /// The band that is being packed.
     packing: Band,
-    png: PngStream<W>,
+    format: PictureFormat,
+    camera: Camera,
+    encoder: Encoder<W>,
     rows_left: u32,
     started_secs: Option<f64>,
     furthest: f64,
     faults_before: u64,
 }
 
-/// Whole rows of RGB bytes.
+/// Whole rows of pixels.
 #[derive(Default)]
 struct Band {
-    rgb: Vec<u8>,
+    bytes: Vec<u8>,
     /// All its tiles are in.
     is_full: bool,
     /// Bytes that have been packed.
@@ -92,25 +108,23 @@ struct Band {
 
 impl Band {
     fn is_packed(&self) -> bool {
-        self.packed == self.rgb.len()
+        self.packed == self.bytes.len()
     }
 
-    /// Puts a tile's RGBA pixels in their place, without their alpha.
-    fn place(&mut self, tile: Region, rgba: &[u8]) {
-        let [width, height] = tile.size_px.map(|px| px as usize);
-        let stride = tile.picture_px[0] as usize * 3;
-        self.rgb.resize(stride * height, 0);
-        let left = tile.origin_px[0] as usize * 3;
-        for (row, pixels) in self.rgb.chunks_exact_mut(stride).zip(rgba.chunks_exact(width * 4)) {
-            for (to, from) in row[left..].chunks_exact_mut(3).zip(pixels.chunks_exact(4)) {
-                to.copy_from_slice(&from[..3]);
-            }
+    /// Puts a tile's pixels in their place, each of so many bytes.
+    fn place(&mut self, tile: Region, pixels: &[u8], pixel_bytes: usize) {
+        let [width, height] = tile.size_px.map(|px| px as usize * pixel_bytes);
+        let stride = tile.picture_px[0] as usize * pixel_bytes;
+        self.bytes.resize(stride * height / pixel_bytes, 0);
+        let left = tile.origin_px[0] as usize * pixel_bytes;
+        for (row, pixels) in self.bytes.chunks_exact_mut(stride).zip(pixels.chunks_exact(width)) {
+            row[left..left + width].copy_from_slice(pixels);
         }
     }
 }
 
 impl<W: Write> StillJob<W> {
-    /// Starts a still of `scene` that goes to `sink` as a PNG. The header, with the scene
+    /// Starts a still of `scene` that goes to `sink` as a file of its format. The header, with the scene
     /// document, is written at once.
     ///
     /// # Errors
@@ -130,7 +144,10 @@ impl<W: Write> StillJob<W> {
         }
         scene.validate()?;
 
-        let tiling = Tiling::new(size_px, options.tile_px);
+        let row_bytes = size_px[0] as usize * options.format.pixel_bytes();
+        let [tile_width, tile_height] = options.tile_px;
+        let most_rows = (MOST_BAND_BYTES / row_bytes).max(1) as u32;
+        let tiling = Tiling::new(size_px, [tile_width, tile_height.min(most_rows)]);
         let mut view = View::new(kernels, tiling.tile(0), Pace::Still);
         view.set_panorama(options.panorama.as_ref());
         view.set_scene(&scene, false);
@@ -142,7 +159,9 @@ impl<W: Write> StillJob<W> {
             arriving: None,
             filling: Band::default(),
             packing: Band::default(),
-            png: PngStream::new(sink, size_px, &document::to_json_compact(&scene))?,
+            format: options.format,
+            encoder: Encoder::new(options.format, sink, size_px, &scene)?,
+            camera: scene.camera,
             rows_left: size_px[1],
             started_secs: None,
             furthest: 0.0,
@@ -182,7 +201,7 @@ impl<W: Write> StillJob<W> {
     /// [`ExportError::Encode`] before [`StillStatus::Done`], [`ExportError::Write`] from the
     /// sink.
     pub fn finish(self) -> Result<W, ExportError> {
-        self.png.finish()
+        self.encoder.finish()
     }
 
     /// Draws more of the current tile, or sends it on its way and turns to the next.
@@ -194,12 +213,11 @@ impl<W: Write> StillJob<W> {
             return;
         }
         let tile = self.view.region();
-        let Some(texture) = self.view.texture() else { return };
-        let readback = Readback::texture(&self.kernels.gpu, texture, tile.size_px);
-        self.arriving = Some((tile, self.tiling.ends_band(self.drawing), readback));
+        let Some(arriving) = self.format.read(&self.kernels.gpu, &self.view) else { return };
+        self.arriving = Some((tile, self.tiling.ends_band(self.drawing), arriving));
         self.drawing += 1;
         if self.drawing < self.tiling.count() {
-            // The copy is submitted, so the texture may be drawn over.
+            // The copy is submitted, so the view may be drawn over.
             self.view.set_region(self.tiling.tile(self.drawing));
         }
     }
@@ -207,22 +225,22 @@ impl<W: Write> StillJob<W> {
     /// Puts an arrived tile into its band, and a full band where it is packed.
     fn collect(&mut self) -> Result<(), ExportError> {
         if !self.filling.is_full
-            && let Some((tile, ends_band, readback)) = &mut self.arriving
+            && let Some((tile, ends_band, arriving)) = &mut self.arriving
         {
-            let arrived = readback
-                .take(&self.kernels.gpu)
+            let arrived = arriving
+                .take(&self.kernels.gpu, &self.camera, *tile)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
-            if let Some(rgba) = arrived {
-                self.filling.place(*tile, &rgba);
+            if let Some(pixels) = arrived {
+                self.filling.place(*tile, &pixels, self.format.pixel_bytes());
                 self.filling.is_full = *ends_band;
                 self.arriving = None;
             }
         }
         if self.filling.is_full && self.packing.is_packed() {
             // The packed band's memory is filled again.
-            let Band { mut rgb, .. } = std::mem::take(&mut self.packing);
-            rgb.clear();
-            self.packing = std::mem::replace(&mut self.filling, Band { rgb, ..Band::default() });
+            let Band { mut bytes, .. } = std::mem::take(&mut self.packing);
+            bytes.clear();
+            self.packing = std::mem::replace(&mut self.filling, Band { bytes, ..Band::default() });
         }
         Ok(())
     }
@@ -232,11 +250,11 @@ impl<W: Write> StillJob<W> {
         if self.packing.is_packed() {
             return Ok(());
         }
-        let row_bytes = self.tiling.tile(0).picture_px[0] as usize * 3;
+        let row_bytes = self.tiling.tile(0).picture_px[0] as usize * self.format.pixel_bytes();
         let rows = (BYTES_PER_STEP / row_bytes).max(1);
-        let waiting = &self.packing.rgb[self.packing.packed..];
+        let waiting = &self.packing.bytes[self.packing.packed..];
         let now = &waiting[..waiting.len().min(rows * row_bytes)];
-        self.png.write_rgb(now)?;
+        self.encoder.write_rows(now)?;
         self.packing.packed += now.len();
         // A band has at most the picture's rows, so this fits.
         self.rows_left -= (now.len() / row_bytes) as u32;

@@ -12,6 +12,7 @@
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
+//! | [`samples`] | a finished view's pixels on their way back |
 //! | [`report`] | what a view says of itself |
 
 pub mod backdrop;
@@ -23,6 +24,7 @@ pub mod lattice;
 pub mod pass;
 mod region;
 pub mod report;
+pub mod samples;
 pub mod schedule;
 pub mod targets;
 pub mod uniforms;

@@ -9,6 +9,7 @@ use super::{
     kernels::Kernels,
     region::Region,
     report::{Activity, Histogram, Report},
+    samples::{self, SamplesReadback},
     schedule::{Pace, Schedule, Stale, Work},
     targets::Targets,
     uniforms::Inputs,
@@ -399,11 +400,15 @@ impl View {
         let gpu = &self.kernels.gpu;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
         let (rg, bw) = (read(&self.targets.film_rg)?, read(&self.targets.film_bw)?);
-        let pairs = |bytes: &[u8]| -> Vec<[f32; 2]> {
-            bytes.as_chunks::<8>().0.iter().map(|pair| bytemuck::cast(*pair)).collect()
-        };
-        let sums = pairs(&rg).into_iter().zip(pairs(&bw));
-        Ok(sums.map(|([r, g], [b, samples])| [r, g, b].map(|sum| sum / samples.max(1.0))).collect())
+        Ok(samples::means(&rg, &bw).collect())
+    }
+
+    /// Starts to read back every pixel's radiance, depth and normal. The view may be drawn over
+    /// at once.
+    pub fn read_samples(&self) -> SamplesReadback {
+        let Targets { film_rg, film_bw, center, .. } = &self.targets;
+        let film = [film_rg, film_bw];
+        SamplesReadback::new(&self.kernels.gpu, film, [&center.depth, &center.normal])
     }
 
     /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.

@@ -328,6 +328,7 @@ impl Interface {
             Command::SavePicture => {
                 actions.push(Action::SavePicture {
                     size_px: self.settings.export.resolve(self.view_px),
+                    exr: self.settings.export.exr,
                 });
             }
             Command::SaveScene => actions.push(Action::SaveScene),

@@ -83,10 +83,12 @@ pub struct Notice {
 /// What the interface asks the shell to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Render the view at this size and hand it out as a PNG.
+    /// Render the view at this size and hand it out as a PNG or an OpenEXR file.
     SavePicture {
         /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
         size_px: [u32; 2],
+        /// Whether as OpenEXR.
+        exr: bool,
     },
     /// Render frames of the camera path at this size and hand them out as a zip of PNGs.
     SaveSequence {

@@ -13,6 +13,7 @@ use super::{
     session::Session,
 };
 use crate::{
+    export::PictureFormat,
     gpu::Gpu,
     scene::document,
     ui::{Action, Inputs, theme},
@@ -80,7 +81,10 @@ impl eframe::App for App {
 /// Does what the interface asked for.
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
-        Action::SavePicture { size_px } => engine.start_still(size_px, session),
+        Action::SavePicture { size_px, exr } => {
+            let format = if exr { PictureFormat::Exr } else { PictureFormat::Png };
+            engine.start_still(size_px, format, session);
+        }
         Action::SaveSequence { size_px, frames: [first, end] } => {
             engine.start_sequence(size_px, first..end, session);
         }

@@ -23,7 +23,7 @@ use super::{
     still::{Progress, Still},
 };
 use crate::{
-    export::StillOptions,
+    export::{PictureFormat, StillOptions},
     gpu::Gpu,
     render::{Activity, Kernels},
     ui::{self, ExportProgress},
@@ -117,9 +117,9 @@ impl Engine {
     }
 
     /// Starts a still of the scene in view.
-    pub fn start_still(&mut self, size_px: [u32; 2], session: &mut Session) {
+    pub fn start_still(&mut self, size_px: [u32; 2], format: PictureFormat, session: &mut Session) {
         let panorama = session.interface.panorama().cloned();
-        let options = StillOptions { panorama, ..StillOptions::new(size_px) };
+        let options = StillOptions { panorama, format, ..StillOptions::new(size_px) };
         match Still::start(&self.kernels, session.interface.scene(), options) {
             Ok(still) => {
                 self.begin(Export::Still(Box::new(still)));
@@ -131,7 +131,8 @@ impl Engine {
     /// Asks where the frames of the path are to go; [`Self::follow`] starts when that is known.
     pub fn start_sequence(&mut self, size_px: [u32; 2], frames: Range<u32>, session: &mut Session) {
         let [width, height] = size_px;
-        self.waiting = Some((StillOptions::new(size_px), frames));
+        let panorama = session.interface.panorama().cloned();
+        self.waiting = Some((StillOptions { panorama, ..StillOptions::new(size_px) }, frames));
         Sink::choose(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
     }
 

@@ -215,7 +215,8 @@ impl Session {
 
     /// Opens a file: a scene, a picture that carries one, or a picture of the surroundings.
     fn open_file(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
-        if panorama::is_panorama(bytes) {
+        // A picture of this program's own opens its scene, whatever else its pixels could light.
+        if panorama::is_panorama(bytes) && exr_scene(bytes).is_none() {
             let panorama = panorama::decode(name, bytes).map_err(|error| error.to_string())?;
             self.interface.use_panorama(Arc::new(panorama));
             let lights = self.interface.scene().lights.rig.len();
@@ -291,7 +292,9 @@ fn stored_settings() -> Settings {
 
 /// The scene in a file: a document, or a picture that carries one.
 fn project_in(bytes: &[u8]) -> Result<Project, String> {
-    let text = if export::is_png(bytes) {
+    let text = if let Some(text) = exr_scene(bytes) {
+        text
+    } else if export::is_png(bytes) {
         export::scene_text(Cursor::new(bytes))
             .map_err(|error| error.to_string())?
             .ok_or("this picture carries no scene: only pictures saved by Mandelight do")?
@@ -300,4 +303,9 @@ fn project_in(bytes: &[u8]) -> Result<Project, String> {
             .map_err(|_| "neither a scene document nor a picture that can be read".to_owned())?
     };
     document::project_from_json(&text).map_err(|error| error.to_string())
+}
+
+/// The scene document that an OpenEXR file carries.
+fn exr_scene(bytes: &[u8]) -> Option<String> {
+    export::is_exr(bytes).then(|| export::exr_scene_text(Cursor::new(bytes)).ok()?)?
 }

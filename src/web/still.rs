@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::files::Download;
 use crate::{
-    export::{ExportError, StillJob, StillOptions, StillStatus},
+    export::{ExportError, PictureFormat, StillJob, StillOptions, StillStatus},
     render::Kernels,
     scene::Scene,
 };
@@ -16,6 +16,7 @@ use crate::{
 pub struct Still {
     job: StillJob<Download>,
     file_name: String,
+    format: PictureFormat,
 }
 
 /// How an export is getting on.
@@ -40,10 +41,11 @@ impl Still {
         scene: &Scene,
         options: StillOptions,
     ) -> Result<Self, ExportError> {
-        let [width, height] = options.size_px;
+        let ([width, height], format) = (options.size_px, options.format);
         Ok(Self {
             job: StillJob::new(kernels, scene, options, Download::default())?,
-            file_name: format!("mandelight-{width}x{height}.png"),
+            file_name: format!("mandelight-{width}x{height}.{}", format.extension()),
+            format,
         })
     }
 
@@ -54,11 +56,11 @@ impl Still {
                 (Some(self), Progress::Working(done, remaining_secs))
             }
             Ok(StillStatus::Done) => {
-                let Self { job, file_name } = self;
+                let Self { job, file_name, format } = self;
                 let saved = job
                     .finish()
                     .map_err(|error| error.to_string())
-                    .and_then(|download| download.finish(&file_name, "image/png"));
+                    .and_then(|download| download.finish(&file_name, format.media_type()));
                 (None, saved.map_or_else(Progress::Failed, |()| Progress::Saved(file_name)))
             }
             Err(error) => (None, Progress::Failed(error.to_string())),

@@ -62,6 +62,12 @@ const NODE: Thing = Thing {
     packages: &["nodejs", "npm"],
     is_there: has_node,
 };
+const OPENEXR: Thing = Thing {
+    name: "OpenEXR's tools",
+    packages: &["openexr"],
+    // Older ones have no way to run well without a file.
+    is_there: || Command::new("exrheader").output().is_ok(),
+};
 
 /// The standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
@@ -87,7 +93,7 @@ pub fn test_tools() -> Result<Tools> {
     if is_set(BROWSER_VARIABLE) && find_browser().is_none() {
         bail!("{BROWSER_VARIABLE} names a browser that does not run");
     }
-    machine_has(&[VULKAN, BROWSER, NODE])?;
+    machine_has(&[VULKAN, BROWSER, NODE, OPENEXR])?;
     node_packages()?;
     Ok(Tools { chromium: find_browser().context("the browser went away")? })
 }

@@ -39,11 +39,13 @@ pub struct ExportSize {
     pub times: u32,
     /// The typed width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
     pub typed_px: [u32; 2],
+    /// Whether pictures are saved as OpenEXR rather than PNG.
+    pub exr: bool,
 }
 
 impl Default for ExportSize {
     fn default() -> Self {
-        Self { times: 1, typed_px: [3840, 2160] }
+        Self { times: 1, typed_px: [3840, 2160], exr: false }
     }
 }
 
@@ -68,11 +70,12 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
         return saving(ui, cx, progress);
     }
     let [width, height] = cx.settings.export.resolve(cx.view_px);
+    let kind = if cx.settings.export.exr { "an OpenEXR file" } else { "a PNG" };
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y.max(36.0));
     let text = RichText::new("Save picture").size(15.0).color(theme::ON_ACCENT);
     let response = ui
         .add_sized(size, Button::new(text).fill(theme::ACCENT))
-        .on_hover_text(format!("Renders the view as a PNG of {width} × {height} pixels that carries its scene (Ctrl S). Other sizes: More, Export."));
+        .on_hover_text(format!("Renders the view as {kind} of {width} × {height} pixels that carries its scene (Ctrl S). Other sizes: More, Export."));
     cx.rects.note("save picture", &response);
     if response.clicked() {
         cx.commands.push(Command::SavePicture);
@@ -116,6 +119,20 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if export.times == 0 {
         typed(ui, export);
     }
+    let response = choice(
+        ui,
+        "File",
+        &mut export.exr,
+        &[
+            (false, "PNG", "What is seen, in 8 bits a channel"),
+            (
+                true,
+                "EXR",
+                "Linear light before exposure and tone, with depth, normal and position, in 32 bits a channel",
+            ),
+        ],
+    );
+    cx.rects.note("picture format", &response);
     let [width, height] = export.resolve(cx.view_px);
     ui.label(RichText::new(format!("{width} × {height} pixels")).small().color(theme::TEXT_DIM))
         .on_hover_text("The width and height of the picture that Save picture writes");
@@ -173,9 +190,9 @@ mod tests {
 
     #[test]
     fn remembered_nonsense_does_no_harm() {
-        let export = ExportSize { times: 0, typed_px: [0, u32::MAX] };
+        let export = ExportSize { times: 0, typed_px: [0, u32::MAX], ..Default::default() };
         assert_eq!(export.resolve([800, 600]), [1, MAX_EXPORT_SIDE_PX]);
-        let export = ExportSize { times: u32::MAX, typed_px: [1, 1] };
+        let export = ExportSize { times: u32::MAX, typed_px: [1, 1], ..Default::default() };
         assert_eq!(export.resolve([1600, 400]), [16384, 4096]);
     }
 }

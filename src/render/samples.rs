@@ -1,0 +1,81 @@
+//! What a view knows of its pixels beyond the display picture, on its way back from the GPU.
+//!
+//! In: a view's film and G-buffer. Out: every pixel's radiance, depth and normal, once they have
+//! arrived; nothing here waits.
+
+use glam::Vec3;
+
+use super::gbuffer::Samples;
+use crate::gpu::{
+    Gpu,
+    readback::{Readback, ReadbackError},
+};
+
+/// One pixel of a finished picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelSample {
+    /// Mean radiance of its samples, linear Rec. 709.
+    pub radiance: [f32; 3],
+    /// Depth of its centre sample along the unit ray, scene units; 0 where that met nothing.
+    pub depth: f32,
+    /// The centre sample's unit normal in world space; meaningless where the depth is 0.
+    pub normal: Vec3,
+}
+
+/// Buffers on their way.
+pub struct SamplesReadback {
+    film: [Arrival; 2],
+    surface: [Arrival; 2],
+}
+
+/// A buffer on its way, or there.
+enum Arrival {
+    Awaited(Readback),
+    There(Vec<u8>),
+}
+
+impl Arrival {
+    /// The bytes, where they are there.
+    fn look(&mut self, gpu: &Gpu) -> Result<Option<&[u8]>, ReadbackError> {
+        if let Self::Awaited(readback) = self
+            && let Some(bytes) = readback.take(gpu)?
+        {
+            *self = Self::There(bytes);
+        }
+        Ok(match self {
+            Self::Awaited(_) => None,
+            Self::There(bytes) => Some(bytes),
+        })
+    }
+}
+
+impl SamplesReadback {
+    /// Starts to copy the film's two halves, and depth and normal of the centre samples.
+    pub fn new(gpu: &Gpu, film: [&wgpu::Buffer; 2], surface: [&wgpu::Buffer; 2]) -> Self {
+        let read = |buffer| Arrival::Awaited(Readback::buffer(gpu, buffer));
+        Self { film: film.map(read), surface: surface.map(read) }
+    }
+
+    /// Every pixel, rows from the upper edge, once all has arrived; none before.
+    pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<PixelSample>>, ReadbackError> {
+        let Self { film: [rg, bw], surface: [depth, normal] } = self;
+        let all = [rg.look(gpu)?, bw.look(gpu)?, depth.look(gpu)?, normal.look(gpu)?];
+        let [Some(rg), Some(bw), Some(depth), Some(normal)] = all else { return Ok(None) };
+        let surface = Samples::decode(depth, normal, &[]);
+        let points = surface.depth.into_iter().zip(surface.normal);
+        let pixels = means(rg, bw).zip(points);
+        Ok(Some(
+            pixels
+                .map(|(radiance, (depth, normal))| PixelSample { radiance, depth, normal })
+                .collect(),
+        ))
+    }
+}
+
+/// Each pixel's mean radiance, from the bytes of the film's two halves.
+pub fn means<'a>(rg: &'a [u8], bw: &'a [u8]) -> impl Iterator<Item = [f32; 3]> + 'a {
+    let pairs = |bytes: &'a [u8]| bytes.as_chunks::<8>().0.iter().map(|p| bytemuck::cast(*p));
+    pairs(rg).zip(pairs(bw)).map(|([r, g], [b, samples]): ([f32; 2], [f32; 2])| {
+        [r, g, b].map(|sum| sum / samples.max(1.0))
+    })
+}
