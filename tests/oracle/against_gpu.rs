@@ -15,18 +15,18 @@ use mandelight::{
 
 use super::{Random, estimate, in_parallel, light, normals, quantile, rays, views};
 
-fn gpu() -> Gpu {
+pub fn gpu() -> Gpu {
     pollster::block_on(Gpu::open(None)).expect("a Vulkan driver, if only Mesa's lavapipe")
 }
 
 /// A finished picture of one sample a pixel.
-struct Picture {
-    samples: Samples,
+pub struct Picture {
+    pub samples: Samples,
     /// Display values of each pixel, 0 to 255.
-    display: Vec<DVec3>,
+    pub display: Vec<DVec3>,
 }
 
-fn draw(kernels: &Arc<Kernels>, scene: &Scene) -> Picture {
+pub fn draw(kernels: &Arc<Kernels>, scene: &Scene) -> Picture {
     let mut scene = scene.clone();
     scene.quality.samples = 1;
     let gpu = &kernels.gpu;
@@ -52,13 +52,13 @@ fn draw(kernels: &Arc<Kernels>, scene: &Scene) -> Picture {
     }
 }
 
-fn pixels() -> Vec<[u32; 2]> {
+pub fn pixels() -> Vec<[u32; 2]> {
     let [width, height] = views::SIZE;
     (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).collect()
 }
 
 /// The point at `depth` along a pixel's ray.
-fn point_at(scene: &Scene, pixel: [u32; 2], depth: f32) -> DVec3 {
+pub fn point_at(scene: &Scene, pixel: [u32; 2], depth: f32) -> DVec3 {
     let direction = rays::direction(&scene.camera, views::SIZE, pixel);
     scene.camera.position.to_dvec3() + direction * f64::from(depth)
 }

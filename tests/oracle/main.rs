@@ -6,6 +6,7 @@
 //! | `estimate` | oracle: orbits, distance estimate, smooth iteration count, orbit traps |
 //! | `rays` | oracle: camera rays, march, six-sample normals, shadow rays |
 //! | `normals` | oracle: the estimate's gradient, by differences |
+//! | `normals_table` | every way to find normals against that gradient, and the table of `docs/normals.md` |
 //! | `light` | oracle: Blinn-Phong, the gradient, tone curve, sRGB |
 //! | `tone` | oracle: the tone curves |
 //! | `bloom` | oracle: light that spreads |
@@ -22,6 +23,7 @@ mod estimate;
 mod film;
 mod light;
 mod normals;
+mod normals_table;
 mod rays;
 mod tone;
 mod toned;
