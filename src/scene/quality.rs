@@ -14,13 +14,13 @@ pub enum Normals {
     /// Differences to the next grid point along each axis (b).
     Three,
     /// Differences across the point along each axis (c), the thesis's choice.
-    #[default]
     Six,
     /// The gradient that fits the 18 grid points nearest best (d): faces and edges of a cube.
     Eighteen,
     /// The same of all 26 around it (e): corners too.
     TwentySix,
     /// The distance estimate's own gradient, exactly.
+    #[default]
     Analytic,
 }
 

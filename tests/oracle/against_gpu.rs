@@ -10,7 +10,7 @@ use mandelight::{
     fractal::Estimator,
     gpu::{Gpu, readback::Readback},
     render::{Kernels, Pace, Region, View, gbuffer::Samples, pass::probe},
-    scene::{Fractal, Scene, Variant},
+    scene::{Fractal, Normals, Scene, Variant},
 };
 
 use super::{Random, estimate, in_parallel, light, normals, quantile, rays, views};
@@ -204,7 +204,9 @@ fn compare(scene: &Scene, samples: &Samples) -> Comparison {
 fn hits_depths_and_normals_of_whole_views() {
     let kernels = Kernels::new(&gpu());
     for view in views::all() {
-        let picture = draw(&kernels, &view.scene);
+        let mut scene = view.scene.clone();
+        scene.quality.normals = Normals::Six;
+        let picture = draw(&kernels, &scene);
         let Comparison { hit, differ, depth_footprints, normal_deg } =
             compare(&view.scene, &picture.samples);
         let name = view.name;

@@ -90,7 +90,7 @@ fn costs(kernels: &Kernels, scene: &Scene) -> Vec<f64> {
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {
         let mut scene = scene.clone();
-        scene.quality.normals = way.unwrap_or_default();
+        scene.quality.normals = way.unwrap_or(Normals::None);
         let inputs = Inputs::new(&scene, Region::whole(PICTURE_PX));
         targets.upload(&kernels.gpu.queue, &inputs);
         let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
