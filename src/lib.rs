@@ -4,16 +4,16 @@
 //! # How a frame is made
 //!
 //! ```text
-//! Scene ──▶ Schedule ──▶ slice ──▶ march ──▶ shadow ──▶ shade ──▶ film ──▶ fill ──▶ tone ──▶ display
-//! pure      what is      one       rays to   one bit    lights,   sums of  between  curve,   texture,
-//! data      stale and    submit    surface   a light    colours   samples  lattice  sRGB     PNG
-//!           what fits              points                                  pixels
+//! Scene ──▶ Schedule ──▶ slice ──▶ march ──▶ normal ──▶ shadow ──▶ shade ──▶ film ──▶ fill ──▶ tone ──▶ display
+//! pure      what is      one       rays to   gradient   one bit    lights,   sums of  between  curve,   texture,
+//! data      stale and    submit    surface   of the     a light    colours   samples  lattice  sRGB     PNG
+//!           what fits              points    distance                                 pixels
 //! ```
 //!
 //! 1. The interface or the command line edits a [`scene::Scene`].
 //! 2. [`render::View`] compares what the kernels would read of it with what they read last
-//!    ([`render::uniforms::Inputs`]). The difference is one of three levels of staleness:
-//!    geometry, light, tone.
+//!    ([`render::uniforms::Inputs`]). The difference is one of four levels of staleness:
+//!    geometry, normals, light, tone.
 //! 3. [`render::schedule::Schedule`] says what to compute next, a piece at a time: a lattice of
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.
