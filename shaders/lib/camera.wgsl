@@ -1,12 +1,26 @@
-// Rays of the pinhole camera.
+// Rays of the pinhole camera, or of the two eyes that share a region's pixels.
 
-// Unit direction, in world space, of the ray through a pixel's sample position.
-fn ray_direction(pixel: vec2u) -> vec3f {
-    let position = (vec2f(picture.origin_px + pixel) + slice.jitter) / vec2f(picture.picture_px);
+struct Ray {
+    origin: vec3f,
+    // Unit vector.
+    direction: vec3f,
+}
+
+// Where a position of an eye's own picture, (0, 0) its upper left corner and (1, 1) its lower
+// right one, is seen from and along what. Both eyes' frusta meet at the screen (thesis 4.5): the
+// eye moves aside by `side` half separations and its picture moves back by as much.
+fn eye_ray(position: vec2f, side: f32) -> Ray {
     let on_screen = vec2f(2.0 * position.x - 1.0, 1.0 - 2.0 * position.y) * picture.camera.half_height;
-    return normalize(picture.camera.forward
-        + picture.camera.right * (on_screen.x * picture.camera.aspect)
-        + picture.camera.up * on_screen.y);
+    let across = on_screen.x * picture.camera.aspect - side * picture.eyes.half_shift;
+    return Ray(
+        picture.camera.origin + picture.camera.right * (side * picture.eyes.half_separation),
+        normalize(picture.camera.forward + picture.camera.right * across + picture.camera.up * on_screen.y),
+    );
+}
+
+// The ray through a pixel's sample position.
+fn camera_ray(pixel: vec2u) -> Ray {
+    return eye_ray(eye_position(pixel, slice.jitter), eye_side(pixel));
 }
 
 // How close to the surface a ray must come, at this depth, to have hit it.

@@ -4,13 +4,13 @@
 const LEAST_STEP = 0.25;
 
 // Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone. 0 on a miss.
-fn march(direction: vec3f) -> f32 {
-    let interval = bounding_interval(picture.camera.origin, direction);
+fn march(ray: Ray) -> f32 {
+    let interval = bounding_interval(ray.origin, ray.direction);
     var t = interval.x;
     for (var i = 0u; i < picture.fractal.march_steps; i++) {
         if (t > interval.y) { return 0.0; }
         let hit = hit_distance(t);
-        let ahead = reach(picture.camera.origin + t * direction);
+        let ahead = reach(ray.origin + t * ray.direction);
         if (ahead.distance < hit) { return max(t, 1e-30); }
         t += max(ahead.step, LEAST_STEP * hit);
     }
@@ -23,11 +23,11 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
-    let direction = ray_direction(pixel);
-    let t = march(direction);
-    depth[index] = t;
+    let ray = camera_ray(pixel);
+    let t = march(ray);
+    surface[index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
-    let point = picture.camera.origin + t * direction;
+    let point = ray.origin + t * ray.direction;
     let colors = orbit_colors(point);
     color_data[index] = vec2u(
         pack2x16unorm(vec2f(colors.smooth_iterations / f32(picture.fractal.iterations + 1u), colors.traps.x * 0.5)),

@@ -44,9 +44,9 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
-    let t = depth[index];
+    let t = bitcast<f32>(surface[index].x);
     if (t == 0.0) { return; }
-    let direction = ray_direction(pixel);
-    let point = picture.camera.origin + t * direction;
-    normal[index] = octahedral_pack(surface_normal(point, hit_distance(t), -direction));
+    let ray = camera_ray(pixel);
+    let point = ray.origin + t * ray.direction;
+    surface[index].y = octahedral_pack(surface_normal(point, hit_distance(t), -ray.direction));
 }

@@ -69,16 +69,17 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
-    let t = depth[index];
+    let seen = surface[index];
+    let t = bitcast<f32>(seen.x);
     var radiance: vec3f;
     if (t > 0.0) {
-        let direction = ray_direction(pixel);
-        let point = picture.camera.origin + t * direction;
-        let n = octahedral_unpack(normal[index]);
-        radiance = reflected(point, n, -direction, surface_color(color_data[index]), visibility[index]);
+        let ray = camera_ray(pixel);
+        let point = ray.origin + t * ray.direction;
+        let n = octahedral_unpack(seen.y);
+        radiance = reflected(point, n, -ray.direction, surface_color(color_data[index]), visibility[index]);
     } else {
-        let height = (f32(picture.origin_px.y + pixel.y) + slice.jitter.y) / f32(picture.picture_px.y);
-        radiance = background(ray_direction(pixel), height);
+        let height = eye_position(pixel, slice.jitter).y;
+        radiance = background(camera_ray(pixel).direction, height);
     }
     let at = pixel_index(pixel);
     if (slice.accumulate != 0u) {

@@ -35,12 +35,14 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let index = sample_index(pixel, workgroup.x, local_index);
     var bits = vec2u(0u);
     if (slice.first_light > 0u) { bits = visibility[index]; }
-    let t = depth[index];
+    let seen = surface[index];
+    let t = bitcast<f32>(seen.x);
     if (t > 0.0) {
-        let n = octahedral_unpack(normal[index]);
+        let n = octahedral_unpack(seen.y);
         let surface_distance = hit_distance(t);
         // Lifted off the surface, so that the point's own neighbourhood does not shade it.
-        let point = picture.camera.origin + t * ray_direction(pixel) + n * (2.0 * surface_distance);
+        let ray = camera_ray(pixel);
+        let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
         let end = slice.first_light + slice.light_count;
         for (var k = slice.first_light; k < end; k++) {
             let light = lights[k];

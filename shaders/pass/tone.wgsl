@@ -43,7 +43,7 @@ fn mip_element(size: vec2u, cell: vec2u) -> vec3f {
 // The light that has spread to a pixel. What spreads was blurred for the picture as a whole: the
 // pixel is looked up by its place in it, whatever region of it this is.
 fn bloom_at(pixel: vec2u) -> vec3f {
-    let place = (vec2f(picture.origin_px + pixel) + 0.5) / vec2f(picture.picture_px);
+    let place = eye_corner(pixel) + eye_position(pixel, vec2f(0.5)) * picture.eyes.share;
     let level = statistics.bloom_level;
     let size = mip_size(statistics.size_px, level);
     let at = place * vec2f(statistics.size_px) / f32(1u << level) - 0.5;
@@ -56,17 +56,26 @@ fn bloom_at(pixel: vec2u) -> vec3f {
     return mix(above, below, part.y);
 }
 
-@compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    let pixel = lattice_pixel(workgroup.x, local_index);
-    if (!inside_region(pixel)) { return; }
+fn shown(pixel: vec2u) -> vec3f {
     var color = reconstructed(pixel) * exposure_factor();
     var bloom = vec3f(0.0);
     if (picture.bloom.strength > 0.0) { bloom = picture.bloom.strength * bloom_at(pixel); }
     if (picture.bloom.after == 0u) { color += bloom; }
     color = tone_mapped(color);
     if (picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
-    let encoded = srgb_from_linear(color);
-    let dithered = encoded + dither(picture.origin_px + pixel) / 255.0;
+    return srgb_from_linear(color);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    var encoded = shown(pixel);
+    if (picture.eyes.anaglyph != 0u) {
+        if (is_second_eye(pixel)) { return; }
+        // The left glass is red and lets the left eye's red through, the right one all but red.
+        encoded = vec3f(encoded.r, shown(pixel + picture.eyes.second_at).gb);
+    }
+    let dithered = encoded + dither(picture.origin_px + eye_pixel(pixel)) / 255.0;
     textureStore(display, pixel, vec4f(dithered, 1.0));
 }

@@ -106,14 +106,37 @@ const NORMALS_EIGHTEEN = 3u;
 const NORMALS_TWENTY_SIX = 4u;
 const NORMALS_ANALYTIC = 5u;
 
+// Which eyes the region shows, for a picture in stereo.
+struct Eyes {
+    // The first pixel of the second eye's part.
+    second_at: vec2u,
+    // 1 or 2.
+    count: u32,
+    // -1: the first is a left eye; 1: a right one; 0: there is only the camera.
+    first_side: f32,
+    // From the camera to either eye, in scene units.
+    half_separation: f32,
+    // The same at depth one, by which an eye's picture is moved back.
+    half_shift: f32,
+    // The part of the whole film that an eye's picture has, across and down.
+    share: vec2f,
+    // Where the first eye's part of it lies: 0 at its beginning, 1 at its end.
+    first_place: f32,
+    // 1: both eyes in one display picture, red and cyan.
+    anaglyph: u32,
+    unused: vec2u,
+}
+
 struct Picture {
     camera: Camera,
+    eyes: Eyes,
     fractal: Fractal,
     surface: Surface,
     background: Background,
     tone: Tone,
     bloom: Bloom,
-    // The whole picture, the region's corner in it and the region, in pixels.
+    // One eye's whole picture and the region's corner in it, then the region with all its eyes,
+    // in pixels.
     picture_px: vec2u,
     origin_px: vec2u,
     size_px: vec2u,

@@ -3,7 +3,7 @@
 //! Tiles come in reading order, so that each row of them (a band) can be written and
 //! forgotten before the next is finished.
 
-use crate::render::Region;
+use crate::render::{Eyes, Region};
 
 /// A picture cut into tiles of nearly equal size.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,7 @@ impl Tiling {
         let origin_px = std::array::from_fn(|i| cell[i] * self.tile_px[i]);
         let size_px =
             std::array::from_fn(|i| self.tile_px[i].min(self.picture_px[i] - origin_px[i]));
-        Region { picture_px: self.picture_px, origin_px, size_px }
+        Region { picture_px: self.picture_px, origin_px, size_px, eyes: Eyes::Camera }
     }
 
     /// Whether tile `index` is the last of its band.

@@ -15,13 +15,12 @@ pub struct Samples {
 
 impl Samples {
     /// Decodes the bytes of the buffers that `shaders/types/gbuffer.wgsl` declares.
-    pub fn decode(depth: &[u8], normal: &[u8], visibility: &[u8]) -> Self {
-        let words = |bytes: &[u8]| -> Vec<u32> {
-            bytes.as_chunks::<4>().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
-        };
+    pub fn decode(surface: &[u8], visibility: &[u8]) -> Self {
+        let word = |bytes: [u8; 4]| u32::from_le_bytes(bytes);
+        let surface = surface.as_chunks::<4>().0.as_chunks::<2>().0;
         Self {
-            depth: words(depth).into_iter().map(f32::from_bits).collect(),
-            normal: words(normal).into_iter().map(octahedral_unpack).collect(),
+            depth: surface.iter().map(|[depth, _]| f32::from_bits(word(*depth))).collect(),
+            normal: surface.iter().map(|[_, normal]| octahedral_unpack(word(*normal))).collect(),
             visibility: visibility
                 .as_chunks::<8>()
                 .0

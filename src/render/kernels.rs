@@ -12,7 +12,7 @@ use crate::gpu::{Gpu, shader::Module};
 pub struct Layouts {
     /// Group 0: picture, slice (dynamic offset), lights, gradient; uniform but for the picture.
     pub picture: wgpu::BindGroupLayout,
-    /// Group 1: depth, normal, colour data, visibility; all storage.
+    /// Group 1: surface, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
     /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
     /// all storage.
@@ -39,7 +39,7 @@ impl Layouts {
         };
         Self {
             picture: group("picture", &[PICTURE, uniform(true), uniform(false), uniform(false)]),
-            gbuffer: group("gbuffer", &[STORAGE; 4]),
+            gbuffer: group("gbuffer", &[STORAGE; 3]),
             glow: group("glow", &[STORAGE; 3]),
             film: group("film", &[STORAGE, STORAGE, display]),
             backdrop: group("surroundings", &super::backdrop::BINDINGS),

@@ -31,7 +31,7 @@ pub mod uniforms;
 pub mod view;
 
 pub use kernels::Kernels;
-pub use region::{MAX_REGION_PIXELS, MAX_REGION_PX, Region};
+pub use region::{Eyes, MAX_REGION_PIXELS, MAX_REGION_PX, Region};
 pub use report::{Activity, Report};
 pub use schedule::Pace;
 pub use view::View;

@@ -1,4 +1,6 @@
-//! Which rectangle of a picture a view draws.
+//! Which rectangle of a picture a view draws, and for which eyes.
+
+use crate::scene::StereoLayout;
 
 /// Largest width or height of one region, pixels: WebGPU's default texture limit.
 pub const MAX_REGION_PX: u32 = 8192;
@@ -6,21 +8,105 @@ pub const MAX_REGION_PX: u32 = 8192;
 /// Most pixels of one region: eight bytes each are the 128 MiB that a storage binding holds.
 pub const MAX_REGION_PIXELS: u64 = 128 * 1024 * 1024 / 8;
 
-/// A rectangle of a picture.
+/// Whose pictures a region shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Eyes {
+    /// The camera's own: no stereo.
+    #[default]
+    Camera,
+    /// The left eye's, of a picture whose overview shows both beside each other.
+    Left,
+    /// The right eye's, likewise.
+    Right,
+    /// Both, the left eye's at the left.
+    Beside,
+    /// Both, the left eye's above.
+    Below,
+    /// Both, the left one's red and the right one's green and blue in one picture.
+    Anaglyph,
+}
+
+impl Eyes {
+    /// How many there are: 1 or 2.
+    pub fn count(self) -> u32 {
+        match self {
+            Self::Camera | Self::Left | Self::Right => 1,
+            Self::Beside | Self::Below | Self::Anaglyph => 2,
+        }
+    }
+
+    /// Columns and rows of eyes on the film.
+    fn on_film(self) -> [u32; 2] {
+        match self {
+            Self::Camera | Self::Left | Self::Right => [1, 1],
+            Self::Beside | Self::Anaglyph => [2, 1],
+            Self::Below => [1, 2],
+        }
+    }
+
+    /// Columns and rows of eyes on the film of the whole picture.
+    pub(super) fn on_sheet(self) -> [u32; 2] {
+        match self {
+            Self::Left | Self::Right => [2, 1],
+            _ => self.on_film(),
+        }
+    }
+
+    /// Those that a scene's layout shows at once.
+    pub fn of(layout: StereoLayout) -> Self {
+        match layout {
+            StereoLayout::Off => Self::Camera,
+            StereoLayout::SideBySide => Self::Beside,
+            StereoLayout::TopBottom => Self::Below,
+            StereoLayout::Anaglyph => Self::Anaglyph,
+        }
+    }
+}
+
+/// A rectangle of a picture, or the same rectangle of both eyes' pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
-    /// The whole picture, width and height in pixels.
+    /// The whole picture of one eye, width and height in pixels.
     pub picture_px: [u32; 2],
     /// The rectangle's upper left corner in it.
     pub origin_px: [u32; 2],
     /// The rectangle's width and height; see [`Region::fits`].
     pub size_px: [u32; 2],
+    /// Whose pictures.
+    pub eyes: Eyes,
 }
 
 impl Region {
-    /// The region that is the whole picture.
+    /// The region that is the whole picture of the camera.
     pub fn whole(size_px: [u32; 2]) -> Self {
-        Self { picture_px: size_px, origin_px: [0, 0], size_px }
+        Self { picture_px: size_px, origin_px: [0, 0], size_px, eyes: Eyes::Camera }
+    }
+
+    /// What a window of this region's pixels shows of a scene with this layout: both eyes share
+    /// the pixels. An anaglyph has half as many columns, to be stretched, for each holds both.
+    pub fn shared_by(self, layout: StereoLayout) -> Self {
+        let eyes = Eyes::of(layout);
+        let [columns, rows] = eyes.on_film();
+        let [width, height] = self.size_px;
+        let one = Self::whole([(width / columns).max(1), (height / rows).max(1)]);
+        Self { eyes, ..one }
+    }
+
+    /// Width and height of the film: all its eyes'.
+    pub fn film_px(&self) -> [u32; 2] {
+        let [columns, rows] = self.eyes.on_film();
+        [self.size_px[0] * columns, self.size_px[1] * rows]
+    }
+
+    /// Width and height of the display picture.
+    pub fn display_px(&self) -> [u32; 2] {
+        if self.eyes == Eyes::Anaglyph { self.size_px } else { self.film_px() }
+    }
+
+    /// Where the second eye's part of the film begins; (0, 0) where there is none.
+    pub fn second_eye_at(&self) -> [u32; 2] {
+        let [columns, rows] = self.eyes.on_film();
+        [self.size_px[0] * (columns - 1), self.size_px[1] * (rows - 1)]
     }
 
     /// The whole picture at the nearest size that a view can draw, of nearly the same shape.
@@ -35,12 +121,12 @@ impl Region {
     /// Whether a view can draw it: no side 0 or above [`MAX_REGION_PX`], at most
     /// [`MAX_REGION_PIXELS`] pixels, and inside its picture.
     pub fn fits(&self) -> bool {
-        let [width, height] = self.size_px.map(u64::from);
+        let [width, height] = self.film_px().map(u64::from);
         let inside = |axis: usize| {
             u64::from(self.origin_px[axis]) + u64::from(self.size_px[axis])
                 <= u64::from(self.picture_px[axis])
         };
-        self.size_px.iter().all(|side| (1..=MAX_REGION_PX).contains(side))
+        self.film_px().iter().all(|side| (1..=MAX_REGION_PX).contains(side))
             && width * height <= MAX_REGION_PIXELS
             && inside(0)
             && inside(1)

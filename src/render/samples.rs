@@ -25,7 +25,7 @@ pub struct PixelSample {
 /// Buffers on their way.
 pub struct SamplesReadback {
     film: [Arrival; 2],
-    surface: [Arrival; 2],
+    surface: Arrival,
 }
 
 /// A buffer on its way, or there.
@@ -51,17 +51,17 @@ impl Arrival {
 
 impl SamplesReadback {
     /// Starts to copy the film's two halves, and depth and normal of the centre samples.
-    pub fn new(gpu: &Gpu, film: [&wgpu::Buffer; 2], surface: [&wgpu::Buffer; 2]) -> Self {
+    pub fn new(gpu: &Gpu, film: [&wgpu::Buffer; 2], surface: &wgpu::Buffer) -> Self {
         let read = |buffer| Arrival::Awaited(Readback::buffer(gpu, buffer));
-        Self { film: film.map(read), surface: surface.map(read) }
+        Self { film: film.map(read), surface: read(surface) }
     }
 
     /// Every pixel, rows from the upper edge, once all has arrived; none before.
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<PixelSample>>, ReadbackError> {
-        let Self { film: [rg, bw], surface: [depth, normal] } = self;
-        let all = [rg.look(gpu)?, bw.look(gpu)?, depth.look(gpu)?, normal.look(gpu)?];
-        let [Some(rg), Some(bw), Some(depth), Some(normal)] = all else { return Ok(None) };
-        let surface = Samples::decode(depth, normal, &[]);
+        let Self { film: [rg, bw], surface } = self;
+        let all = [rg.look(gpu)?, bw.look(gpu)?, surface.look(gpu)?];
+        let [Some(rg), Some(bw), Some(surface)] = all else { return Ok(None) };
+        let surface = Samples::decode(surface, &[]);
         let points = surface.depth.into_iter().zip(surface.normal);
         let pixels = means(rg, bw).zip(points);
         Ok(Some(

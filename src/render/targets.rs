@@ -10,6 +10,7 @@ use super::{
     glow::{Glow, Need},
     kernels::Kernels,
     lattice::{Grid, WORKGROUP_THREADS},
+    region::Region,
     schedule::SAMPLE_WORKGROUPS,
     uniforms::{self, GRADIENT_ENTRIES, Light, Picture, Slice},
 };
@@ -26,15 +27,13 @@ pub const MOST_SLICES: u32 = MAX_LIGHTS as u32 + 3;
 
 /// One element a sample point in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
-    /// f32: depth along the ray in scene units, 0 on a miss.
-    pub depth: wgpu::Buffer,
-    /// u32: octahedral normal.
-    pub normal: wgpu::Buffer,
+    /// f32 depth along the ray in scene units, 0 on a miss; u32 octahedral normal.
+    pub surface: wgpu::Buffer,
     /// 2 × u32: smooth iterations and traps.
     pub color_data: wgpu::Buffer,
     /// 2 × u32: a bit a light.
     pub visibility: wgpu::Buffer,
-    /// All four.
+    /// All three.
     pub group: wgpu::BindGroup,
 }
 
@@ -69,8 +68,9 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// Allocates what a region of `size_px` needs.
-    pub fn new(kernels: &Kernels, size_px: [u32; 2]) -> Self {
+    /// Allocates what a region needs.
+    pub fn new(kernels: &Kernels, region: Region) -> Self {
+        let size_px = region.film_px();
         let device = &kernels.gpu.device;
         let layouts = &kernels.layouts;
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
@@ -100,7 +100,7 @@ impl Targets {
         );
         let film_rg = storage(device, "film red green", 8 * pixels);
         let film_bw = storage(device, "film blue weight", 8 * pixels);
-        let texture = display_texture(device, size_px);
+        let texture = display_texture(device, region.display_px());
         let texture_view = texture.create_view(&Default::default());
         let film_group = group(
             device,
@@ -140,17 +140,16 @@ impl Targets {
 impl GBuffer {
     fn new(kernels: &Kernels, samples: u64) -> Self {
         let device = &kernels.gpu.device;
-        let depth = storage(device, "depth", 4 * samples);
-        let normal = storage(device, "normal", 4 * samples);
+        let surface = storage(device, "surface", 8 * samples);
         let color_data = storage(device, "colour data", 8 * samples);
         let visibility = storage(device, "visibility", 8 * samples);
         let group = group(
             device,
             &kernels.layouts.gbuffer,
             "gbuffer",
-            [&depth, &normal, &color_data, &visibility].map(wgpu::Buffer::as_entire_binding),
+            [&surface, &color_data, &visibility].map(wgpu::Buffer::as_entire_binding),
         );
-        Self { depth, normal, color_data, visibility, group }
+        Self { surface, color_data, visibility, group }
     }
 }
 

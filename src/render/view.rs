@@ -86,8 +86,8 @@ impl View {
             kernels: kernels.clone(),
             region,
             pace,
-            targets: Targets::new(kernels, region.size_px),
-            schedule: Schedule::new(pace, region.size_px),
+            targets: Targets::new(kernels, region),
+            schedule: Schedule::new(pace, region.film_px()),
             stopwatch: Stopwatch::default(),
             scene: None,
             panorama: None,
@@ -122,13 +122,15 @@ impl View {
         if region == self.region {
             return;
         }
-        if region.size_px != self.region.size_px {
+        let same_size = region.film_px() == self.region.film_px()
+            && region.display_px() == self.region.display_px();
+        if !same_size {
             let backdrop = self.targets.backdrop.clone();
-            self.targets = Targets { backdrop, ..Targets::new(&self.kernels, region.size_px) };
+            self.targets = Targets { backdrop, ..Targets::new(&self.kernels, region) };
         }
         self.known = Known::default();
         self.region = region;
-        self.schedule.resize(region.size_px);
+        self.schedule.resize(region.film_px());
         if let Some(scene) = &self.scene {
             let inputs = Inputs::new(scene, region);
             self.upload(inputs.with_panorama(scene, self.panorama.as_deref()));
@@ -366,7 +368,7 @@ impl View {
         };
         Report {
             activity,
-            size_px: self.region.size_px,
+            size_px: self.region.display_px(),
             samples_done: status.samples_done,
             samples_wanted: self.scene.as_ref().map_or(1, |scene| scene.quality.samples),
             pixels_per_sample: 1 << status.shown_level,
@@ -408,7 +410,7 @@ impl View {
     pub fn read_samples(&self) -> SamplesReadback {
         let Targets { film_rg, film_bw, center, .. } = &self.targets;
         let film = [film_rg, film_bw];
-        SamplesReadback::new(&self.kernels.gpu, film, [&center.depth, &center.normal])
+        SamplesReadback::new(&self.kernels.gpu, film, &center.surface)
     }
 
     /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.
@@ -416,11 +418,7 @@ impl View {
         let gpu = &self.kernels.gpu;
         let center = &self.targets.center;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
-        Ok(super::gbuffer::Samples::decode(
-            &read(&center.depth)?,
-            &read(&center.normal)?,
-            &read(&center.visibility)?,
-        ))
+        Ok(super::gbuffer::Samples::decode(&read(&center.surface)?, &read(&center.visibility)?))
     }
 }
 

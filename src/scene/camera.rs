@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{PrecisePoint, param};
+use super::{PrecisePoint, Stereo, param};
 
 /// Least distance from eye to pivot, in scene units: below the deepest zoom that can be drawn.
 pub const MIN_VIEW_UNIT: f64 = 1e-30;
@@ -37,8 +37,10 @@ pub struct Camera {
     /// Rotation `world_from_camera`.
     pub orientation: Quaternion,
     /// Angle between the picture's lower and upper edges, in [`param::VERTICAL_FOV`], degrees;
-    /// see [`Self::half_height`] for pictures taller than wide.
+    /// see [`Self::half_height`] for pictures taller than wide. In stereo the screen decides.
     pub vertical_fov_deg: f64,
+    /// Both eyes of a picture in stereo.
+    pub stereo: Stereo,
 }
 
 impl Camera {
@@ -52,6 +54,7 @@ impl Camera {
             pivot: PrecisePoint::from(pivot),
             orientation: orientation.normalize().into(),
             vertical_fov_deg: param::VERTICAL_FOV.default,
+            stereo: Stereo::default(),
         }
     }
 
@@ -72,8 +75,12 @@ impl Camera {
 
     /// Half the height, at distance one, of a picture whose width over height is `aspect`:
     /// `tan(fov/2)`. A picture taller than wide spans the angle across its width instead, so
-    /// that a view framed on a desktop's screen fits a phone's.
+    /// that a view framed on a desktop's screen fits a phone's. In stereo it is the screen's,
+    /// whatever the shape.
     pub fn half_height(&self, aspect: f64) -> f64 {
+        if self.stereo.is_on() {
+            return self.stereo.half_height();
+        }
         (self.vertical_fov_deg.to_radians() * 0.5).tan() / aspect.min(1.0)
     }
 }

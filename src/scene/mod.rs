@@ -38,6 +38,7 @@ pub mod param;
 pub mod path;
 pub mod precise;
 pub mod presets;
+mod stereo;
 mod validate;
 
 pub use background::{Background, BackgroundKind};
@@ -54,6 +55,7 @@ pub use rig::{
     MAX_NAME_CHARS, MAX_RIG_RADIANCE, PictureRig, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight,
     Sky,
 };
+pub use stereo::{Stereo, StereoLayout};
 pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;

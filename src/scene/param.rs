@@ -16,6 +16,8 @@ pub enum Unit {
     SceneUnits,
     /// Multiples of the distance from the camera to its pivot.
     ViewUnits,
+    /// Hundredths of a metre, in front of the screen.
+    Centimetres,
     /// Photographic stops: one more doubles the light.
     Stops,
     /// Seconds.
@@ -34,6 +36,7 @@ impl Unit {
             Self::Degrees => "°",
             Self::SceneUnits => " u",
             Self::ViewUnits => " view",
+            Self::Centimetres => " cm",
             Self::Stops => " EV",
             Self::Seconds => " s",
             Self::Milliseconds => " ms",
@@ -49,6 +52,7 @@ impl Unit {
             Self::Degrees => "degrees",
             Self::SceneUnits => "scene units",
             Self::ViewUnits => "view units (camera to pivot)",
+            Self::Centimetres => "centimetres",
             Self::Stops => "stops",
             Self::Seconds => "seconds",
             Self::Milliseconds => "milliseconds",
@@ -153,6 +157,12 @@ params! {
         "One coordinate of the constant c that the Julia form adds at every step.";
     VERTICAL_FOV = "camera.vertical_fov_deg", "Field of view", Degrees, 5.0, 120.0, default 40.0, Linear by 1.0,
         "The angle between the picture's lower and upper edges; across its width where it is taller than wide. Wider shows more and bends more.";
+    SCREEN_HEIGHT = "camera.stereo.screen_height_cm", "Screen height", Centimetres, 2.0, 1000.0, default 30.0, Logarithmic by 1.0,
+        "How high the picture is where it is looked at in stereo. With the distance to it this is the field of view.";
+    EYE_DISTANCE = "camera.stereo.eye_distance_cm", "Eye to screen", Centimetres, 5.0, 2000.0, default 60.0, Logarithmic by 1.0,
+        "How far the eyes are from the picture. Nearer is a wider field of view and more depth.";
+    EYE_SEPARATION = "camera.stereo.eye_separation_cm", "Eye separation", Centimetres, 0.0, 20.0, default 6.4, Linear by 0.1,
+        "How far apart the eyes are: about 6.4 for most people. Less is flatter, 0 has no depth.";
     ENVIRONMENT_INTENSITY = "lights.environment[].intensity", "Intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
         "How strong the light is: 1 lights a white surface that faces it to 1.";
     SHADOW_REACH = "lights.environment[].shadow_reach", "Shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,

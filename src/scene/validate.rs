@@ -102,7 +102,10 @@ fn check_camera(camera: &Camera) -> Result<(), Invalid> {
     }
     let length = DVec4::from_array(camera.orientation.0).length();
     check_unit_length(|| "camera.orientation".into(), length)?;
-    check(&param::VERTICAL_FOV, camera.vertical_fov_deg)
+    check(&param::VERTICAL_FOV, camera.vertical_fov_deg)?;
+    check(&param::SCREEN_HEIGHT, camera.stereo.screen_height_cm)?;
+    check(&param::EYE_DISTANCE, camera.stereo.eye_distance_cm)?;
+    check(&param::EYE_SEPARATION, camera.stereo.eye_separation_cm)
 }
 
 fn check_lights(lights: &Lights) -> Result<(), Invalid> {

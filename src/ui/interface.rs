@@ -261,6 +261,9 @@ impl Interface {
         let scene = self.editor.scene_mut();
         let response = view::show(ui, frame, inputs.picture);
         self.rects.note("view", &response);
+        // A drag stays with the eye's picture that it began in.
+        let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
+        let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
         self.pilot.steer(ui, &response, frame, scene, &self.home, commands);
         if !self.pilot.is_flying()
             && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)

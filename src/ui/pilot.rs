@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     fractal::Estimator,
-    scene::{Camera, Fractal, Scene},
+    scene::{Camera, Fractal, Scene, StereoLayout},
 };
 
 /// Natural logarithm of the approach per point of wheel travel; a notch is about 100 points.
@@ -55,6 +55,29 @@ impl Frame {
     pub fn ndc(&self, at: egui::Pos2) -> DVec2 {
         let part = (at - self.rect.min) / self.rect.size().max(egui::Vec2::splat(1.0));
         DVec2::new(f64::from(part.x) * 2.0 - 1.0, 1.0 - f64::from(part.y) * 2.0)
+    }
+
+    /// The eye's picture under `at`, or the first one, where two share this frame.
+    pub fn of_eye(self, layout: StereoLayout, at: Option<egui::Pos2>) -> Self {
+        let Rect { min, max } = self.rect;
+        let center = self.rect.center();
+        let at = at.unwrap_or(min);
+        let (rect, height_px) = match layout {
+            StereoLayout::Off | StereoLayout::Anaglyph => return self,
+            StereoLayout::SideBySide if at.x < center.x => {
+                (Rect::from_min_max(min, egui::pos2(center.x, max.y)), self.height_px)
+            }
+            StereoLayout::SideBySide => {
+                (Rect::from_min_max(egui::pos2(center.x, min.y), max), self.height_px)
+            }
+            StereoLayout::TopBottom if at.y < center.y => {
+                (Rect::from_min_max(min, egui::pos2(max.x, center.y)), self.height_px / 2)
+            }
+            StereoLayout::TopBottom => {
+                (Rect::from_min_max(egui::pos2(min.x, center.y), max), self.height_px / 2)
+            }
+        };
+        Self { rect, height_px }
     }
 
     /// Width over height.

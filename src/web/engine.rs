@@ -165,7 +165,12 @@ impl Engine {
         self.take_sink(session);
         let scale = session.caution().scale();
         let interface = &session.interface;
-        let settling = self.picture.resize(interface.view_size_px(), scale, now_secs);
+        let settling = self.picture.resize(
+            interface.view_size_px(),
+            interface.scene().camera.stereo.layout,
+            scale,
+            now_secs,
+        );
         self.picture.set_panorama(interface.panorama());
         self.picture.set_scene(interface.scene(), interface.is_moving());
         self.picture.watch_histogram(interface.wants_histogram());

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use eframe::egui_wgpu::RenderState;
 
 use crate::{
-    render::{Kernels, Pace, Region, Report, View, frame::Dispatches},
-    scene::{Panorama, Scene},
+    render::{Eyes, Kernels, Pace, Region, Report, View, frame::Dispatches},
+    scene::{Panorama, Scene, StereoLayout},
     ui,
 };
 
@@ -58,17 +58,29 @@ impl Picture {
         self.view.as_ref().map(View::dispatches).unwrap_or_default()
     }
 
-    /// Asks for a picture of `size_px` pixels, `scale` times as large a side. Returns after how
+    /// Asks for a picture of `size_px` pixels, `scale` times as large a side, that both eyes of a
+    /// layout share. Returns after how
     /// many seconds to ask again while the size is still settling.
-    pub fn resize(&mut self, size_px: [u32; 2], scale: f64, now_secs: f64) -> Option<f64> {
+    pub fn resize(
+        &mut self,
+        size_px: [u32; 2],
+        layout: StereoLayout,
+        scale: f64,
+        now_secs: f64,
+    ) -> Option<f64> {
         let scaled_px = size_px.map(|side| (f64::from(side) * scale).round() as u32);
-        let region = Region::whole_within_limits(scaled_px);
+        let region = Region::whole_within_limits(scaled_px).shared_by(layout);
         let Some(view) = &mut self.view else {
             self.view = Some(View::new(&self.kernels, region, Pace::Interactive));
             return None;
         };
         if view.region() == region {
             self.wanted = None;
+            return None;
+        }
+        if view.region().eyes != region.eyes {
+            // Asked for by a click: at once.
+            view.set_region(region);
             return None;
         }
         let since_secs = match self.wanted {
@@ -132,7 +144,10 @@ impl Picture {
             }
             None => renderer.register_native_texture(device, &texture_view, filter),
         };
-        let picture = ui::Picture { texture: id, size_px: [texture.width(), texture.height()] };
+        // An anaglyph's pixels are twice as wide as they are high.
+        let stretch = if view.region().eyes == Eyes::Anaglyph { 2 } else { 1 };
+        let size_px = [texture.width() * stretch, texture.height()];
+        let picture = ui::Picture { texture: id, size_px };
         self.shown = Some(Shown { picture, generation });
     }
 }

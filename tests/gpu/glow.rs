@@ -2,7 +2,7 @@
 
 use mandelight::{
     gpu::readback::Readback,
-    render::{Pace, Region, View, frame::Dispatches, uniforms::Statistics},
+    render::{Eyes, Pace, Region, View, frame::Dispatches, uniforms::Statistics},
     scene::{Bloom, BloomOrder, Scene},
 };
 
@@ -123,7 +123,8 @@ fn a_tile_is_exposed_and_blooms_as_the_whole_picture_does() {
         let picture_px = [96, 64];
         let whole = finished(&scene, picture_px, Pace::Still);
         let expected = pixels(&whole);
-        let region = Region { picture_px, origin_px: [31, 17], size_px: [50, 40] };
+        let region =
+            Region { picture_px, origin_px: [31, 17], size_px: [50, 40], eyes: Eyes::Camera };
         let mut tile = View::new(kernels(), region, Pace::Still);
         tile.lend_glow(Some(whole.glow()));
         tile.set_scene(&scene, false);

@@ -41,7 +41,7 @@ fn a_sparse_picture_is_filled_in_better_than_by_nearest_pixels() {
 /// The picture as it is shown from one lattice level alone.
 fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let kernels = kernels();
-    let targets = Targets::new(kernels, size);
+    let targets = Targets::new(kernels, Region::whole(size));
     let inputs = Inputs::new(scene, Region::whole(size));
     targets.upload(&kernels.gpu.queue, &inputs);
     let marchers = kernels.marchers(inputs.picture.fractal.integer_power);

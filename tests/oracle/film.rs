@@ -44,7 +44,7 @@ pub struct Film {
 impl Film {
     /// A film of `size_px`.
     pub fn new(size_px: [u32; 2]) -> Self {
-        let mut targets = Targets::new(kernels(), size_px);
+        let mut targets = Targets::new(kernels(), Region::whole(size_px));
         let need = Need { mean: true, bloom: true };
         targets.glow = Arc::new(Glow::new(kernels(), size_px, need));
         Self { size_px, targets }

@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 use mandelight::scene::{
     Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight,
     Fractal, GradientStop, LightFrame, Lights, Normals, PictureRig, PointLight, Precise,
-    PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky, Surface, Tone, ToneChannels,
-    ToneCurve, ToneMean, Variant,
+    PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky, Stereo, StereoLayout, Surface, Tone,
+    ToneChannels, ToneCurve, ToneMean, Variant,
     param::{self, Param},
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
@@ -61,14 +61,29 @@ fn fractal() -> impl Strategy<Value = Fractal> {
 
 fn camera() -> impl Strategy<Value = Camera> {
     let turn = (direction(), 0.0..std::f64::consts::TAU);
-    (point(), point(), turn, value(&param::VERTICAL_FOV))
+    (point(), point(), turn, value(&param::VERTICAL_FOV), stereo())
         .prop_filter("the pivot is not the eye", |(eye, pivot, ..)| (eye - pivot).length() > 1e-20)
-        .prop_map(|(position, pivot, (axis, angle), vertical_fov_deg)| Camera {
+        .prop_map(|(position, pivot, (axis, angle), vertical_fov_deg, stereo)| Camera {
             position,
             pivot,
             orientation: DQuat::from_axis_angle(DVec3::from_array(axis), angle).normalize().into(),
             vertical_fov_deg,
+            stereo,
         })
+}
+
+fn stereo() -> impl Strategy<Value = Stereo> {
+    use StereoLayout::{Anaglyph, Off, SideBySide, TopBottom};
+    let lengths =
+        (value(&param::SCREEN_HEIGHT), value(&param::EYE_DISTANCE), value(&param::EYE_SEPARATION));
+    let layout = select(vec![Off, SideBySide, TopBottom, Anaglyph]);
+    (layout, lengths, any::<bool>()).prop_map(|(layout, lengths, swap_eyes)| Stereo {
+        layout,
+        screen_height_cm: lengths.0,
+        eye_distance_cm: lengths.1,
+        eye_separation_cm: lengths.2,
+        swap_eyes,
+    })
 }
 
 fn environment_light() -> impl Strategy<Value = EnvironmentLight> {

@@ -46,6 +46,9 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     press(&mut harness, "Add point light");
     press(&mut harness, "Rig: Sky");
     for param in param::ALL {
+        if *param == &param::SCREEN_HEIGHT {
+            press(&mut harness, "Stereo: Stacked");
+        }
         let rails: Vec<_> = rails_of(&harness, param.path);
         for id in rails {
             let before = scene(&harness).clone();
@@ -82,8 +85,8 @@ fn every_parameter_has_a_control() {
         param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
     press(&mut harness, "Add point light");
     missing.retain(|param| rails_of(&harness, param.path).is_empty());
-    for rig in ["Rig: Sky", "Rig: Picture"] {
-        press(&mut harness, rig);
+    for other in ["Rig: Sky", "Rig: Picture", "Stereo: Stacked"] {
+        press(&mut harness, other);
         missing.retain(|param| rails_of(&harness, param.path).is_empty());
     }
     assert!(missing.is_empty(), "no control for {missing:#?}");

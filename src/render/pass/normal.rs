@@ -16,6 +16,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/eye.wgsl"),
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),

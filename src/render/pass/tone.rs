@@ -15,6 +15,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/glow.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/eye.wgsl"),
         shader_file!("lib/luminance.wgsl"),
         shader_file!("lib/mip.wgsl"),
         shader_file!("lib/curve.wgsl"),

@@ -39,8 +39,9 @@ pub fn scenes(keys: Four<Arc<Scene>>, span: &Span) -> Scene {
     let blended = walk.value(&mut path, values.each_ref().map(Option::as_ref));
     let scene = blended.and_then(|value| serde_json::from_value::<Scene>(value).ok());
     let mut scene = scene.unwrap_or_else(|| (**from).clone());
-    if let Some(blended) = camera(cameras, span) {
-        scene.camera = Camera { vertical_fov_deg: scene.camera.vertical_fov_deg, ..blended };
+    if let Some(Camera { position, pivot, orientation, .. }) = camera(cameras, span) {
+        // Field of view and screen are numbers like any others.
+        scene.camera = Camera { position, pivot, orientation, ..scene.camera };
     }
     settle(&mut scene, from);
     // Whatever rule a scene may get that holds at both keys and not between them.

@@ -201,7 +201,8 @@ fn everything_else() -> (Scene, Scene) {
         *direction = DVec3::from_array(*direction).normalize().to_array();
     }
     b.lights.point[0].position = DVec3::new(0.3, 0.4, 0.5).into();
-    b.camera = looking(&deep_point(), 0.01, 2.0).camera;
+    let stereo = b.camera.stereo.clone();
+    b.camera = Camera { stereo, ..looking(&deep_point(), 0.01, 2.0).camera };
     b.camera.vertical_fov_deg = 77.0;
     b.fractal.bailout = 3.0;
     (a, b)

@@ -69,6 +69,7 @@ impl Flight {
             pivot: PrecisePoint::from(pivot),
             orientation: from.rotation().slerp(to.rotation(), eased).into(),
             vertical_fov_deg: mix(from.vertical_fov_deg, to.vertical_fov_deg),
+            stereo: to.stereo.clone(),
         }
     }
 }
@@ -106,9 +107,11 @@ impl Navigator {
     /// Sets off to `to`; at once there where the surface bars the way.
     pub fn fly_to(&mut self, camera: &mut Camera, world: World<'_>, to: &Camera) {
         self.cancel();
-        self.flight = Flight::plan(world, camera, to);
+        // A journey changes where one is, not the screen that one sits before.
+        let to = Camera { stereo: camera.stereo.clone(), ..to.clone() };
+        self.flight = Flight::plan(world, camera, &to);
         if self.flight.is_none() {
-            *camera = to.clone();
+            *camera = to;
         }
     }
 

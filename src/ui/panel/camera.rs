@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::Context;
+use super::{Context, stereo};
 use crate::{
     scene::param,
     ui::{
@@ -13,9 +13,13 @@ use crate::{
     },
 };
 
-/// Field of view, ways home, fly mode, and where the eye is.
+/// Field of view, stereo, ways home, fly mode, and where the eye is.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    param_slider(ui, &param::VERTICAL_FOV, &mut cx.scene.camera.vertical_fov_deg);
+    // In stereo the screen's height and distance decide.
+    if !cx.scene.camera.stereo.is_on() {
+        param_slider(ui, &param::VERTICAL_FOV, &mut cx.scene.camera.vertical_fov_deg);
+    }
+    stereo::show(ui, cx);
     ui.columns(3, |columns| {
         let mut button = |index: usize, name: &str, hover: &str, command: Command| {
             let ui: &mut Ui = &mut columns[index];

@@ -10,6 +10,7 @@ mod lights;
 mod quality;
 mod rig;
 mod scenes;
+mod stereo;
 mod surface;
 mod timeline;
 mod tone;

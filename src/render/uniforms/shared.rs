@@ -1,0 +1,291 @@
+//! The structs that are shared with WGSL, their fields in the order of their twins in
+//! `shaders/types/`, which `tests/shaders.rs` compares with them.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::render::report::HISTOGRAM_BINS;
+
+/// One field of a host-shared struct: name, byte offset, size in bytes.
+pub type FieldLayout = (&'static str, usize, usize);
+
+macro_rules! host_shared {
+    ($($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $kind:ty,)* })*) => {
+        $(
+            $(#[$doc])*
+            #[repr(C)]
+            #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+            pub struct $name { $($(#[$field_doc])* pub $field: $kind,)* }
+
+            impl $name {
+                /// Every field in order, for comparison with the WGSL struct.
+                pub const LAYOUT: &[FieldLayout] = &[
+                    $((stringify!($field), std::mem::offset_of!($name, $field), size_of::<$kind>()),)*
+                ];
+            }
+        )*
+
+        /// Name, size in bytes and fields of every host-shared struct.
+        pub const HOST_SHARED: &[(&str, usize, &[FieldLayout])] =
+            &[$((stringify!($name), size_of::<$name>(), $name::LAYOUT),)*];
+    };
+}
+
+host_shared! {
+    /// The pinhole camera, axes in world space.
+    Camera {
+        /// The eye, scene units.
+        origin: [f32; 3],
+        /// Half the picture's height at depth one.
+        half_height: f32,
+        /// Unit vector to the right.
+        right: [f32; 3],
+        /// Width over height of the whole picture.
+        aspect: f32,
+        /// Unit vector upward.
+        up: [f32; 3],
+        /// Hit distance at depth one.
+        hit_cone: f32,
+        /// Unit vector into the picture.
+        forward: [f32; 3],
+        /// Keeps the size a multiple of 16 bytes.
+        unused: u32,
+    }
+    /// Which eyes the region shows, for a picture in stereo.
+    Eyes {
+        /// The first pixel of the second eye's part.
+        second_at: [u32; 2],
+        /// 1 or 2.
+        count: u32,
+        /// -1: the first is a left eye; 1: a right one; 0: there is only the camera.
+        first_side: f32,
+        /// From the camera to either eye, scene units.
+        half_separation: f32,
+        /// The same at depth one.
+        half_shift: f32,
+        /// The part of the whole film that an eye's picture has.
+        share: [f32; 2],
+        /// Where the first eye's part of it lies.
+        first_place: f32,
+        /// 1: both eyes in one display picture.
+        anaglyph: u32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused: [u32; 2],
+    }
+    /// The set.
+    Fractal {
+        /// The Julia form's constant.
+        julia_constant: [f32; 3],
+        /// Exponent n.
+        power: f32,
+        /// The exponent where it is whole, else 0.
+        integer_power: u32,
+        /// Most orbit steps.
+        iterations: u32,
+        /// Escape radius, scene units.
+        bailout: f32,
+        /// Radius about the origin of a sphere that holds the set, scene units.
+        bounding_radius: f32,
+        /// 1 for the Julia form.
+        julia: u32,
+        /// Sign of the sine term.
+        z_sign: f32,
+        /// Longest step, scene units.
+        max_step: f32,
+        /// Where the derivative is cut off.
+        derivative_max: f32,
+        /// Most steps of a camera ray.
+        march_steps: u32,
+        /// Most steps of a shadow ray.
+        shadow_steps: u32,
+        /// Least hit distance, scene units.
+        finest_hit: f32,
+        /// Binary logarithm of the bailout.
+        log2_bailout: f32,
+    }
+    /// Blinn-Phong terms and colouring.
+    Surface {
+        /// Part of the colour seen without light.
+        ambient: f32,
+        /// Diffuse reflectance.
+        diffuse: f32,
+        /// Specular reflectance.
+        specular: f32,
+        /// Blinn-Phong exponent.
+        shininess: f32,
+        /// 0 iterations, 1 origin trap, 2 axis trap, 3 plane trap.
+        color_source: u32,
+        /// Gradient lengths per unit.
+        color_repeats: f32,
+        /// Where the gradient starts.
+        color_offset: f32,
+        /// Lights in use.
+        light_count: u32,
+    }
+    /// Vertical gradient, linear Rec. 709, and how the picture of the surroundings lies.
+    Background {
+        /// At the upper edge.
+        top: [f32; 4],
+        /// At the lower edge.
+        bottom: [f32; 4],
+        /// The picture's axis to the right, in world space.
+        picture_x: [f32; 3],
+        /// Factor on the picture of the surroundings; 0 for the gradient.
+        picture_gain: f32,
+        /// The picture's axis ahead.
+        picture_y: [f32; 3],
+        /// Fills the row.
+        unused_a: u32,
+        /// The picture's axis upward.
+        picture_z: [f32; 3],
+        /// Fills the row.
+        unused_b: u32,
+    }
+    /// Tone settings.
+    Tone {
+        /// Factor on radiance.
+        exposure: f32,
+        /// 1 / white point².
+        inverse_white_squared: f32,
+        /// 0 linear, 1 Reinhard, 2 ACES, 3 AgX, 4 Khronos neutral.
+        curve: u32,
+        /// 1: Reinhard's curve on each channel; 0: on luminance.
+        per_channel: u32,
+        /// 1: the film's mean is brought to the key.
+        auto_exposure: u32,
+        /// 1: by the mean of the logarithm.
+        logarithmic: u32,
+        /// What the mean is brought to.
+        key: f32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused: u32,
+    }
+    /// Bloom settings.
+    Bloom {
+        /// Part of the spread light that is added; 0 is off.
+        strength: f32,
+        /// Half width of a single uniform kernel, as a part of the picture's height.
+        radius: f32,
+        /// Luminance above which light spreads.
+        threshold: f32,
+        /// 1: after the tone curve.
+        after: u32,
+        /// How often the kernel is applied.
+        passes: u32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused_a: u32,
+        /// The same.
+        unused_b: u32,
+        /// The same.
+        unused_c: u32,
+    }
+    /// Everything above, and the region.
+    Picture {
+        /// The camera.
+        camera: Camera,
+        /// Its eyes.
+        eyes: Eyes,
+        /// The set.
+        fractal: Fractal,
+        /// The surface.
+        surface: Surface,
+        /// The background.
+        background: Background,
+        /// Tone settings.
+        tone: Tone,
+        /// Bloom settings.
+        bloom: Bloom,
+        /// One eye's whole picture, pixels.
+        picture_px: [u32; 2],
+        /// The region's upper left corner in it, pixels.
+        origin_px: [u32; 2],
+        /// The region with all its eyes, pixels.
+        size_px: [u32; 2],
+        /// How normals are found: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
+        normals: u32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused: u32,
+    }
+    /// The part of a picture that one dispatch computes.
+    Slice {
+        /// Grid to lattice.
+        step: [u32; 2],
+        /// Lattice offset.
+        offset: [u32; 2],
+        /// Added to x in every other row.
+        stagger: u32,
+        /// Which rows are staggered.
+        row_phase: u32,
+        /// Lattice to pixels.
+        shift: u32,
+        /// First workgroup of the dispatch.
+        first_workgroup: u32,
+        /// Columns and rows of workgroups in the grid.
+        workgroups: [u32; 2],
+        /// Strides in which columns and rows are visited.
+        scatter: [u32; 2],
+        /// Sample position in its pixel.
+        jitter: [f32; 2],
+        /// 1: G-buffer in dispatch order.
+        compact: u32,
+        /// 1: add to the film.
+        accumulate: u32,
+        /// First light of a shadow dispatch.
+        first_light: u32,
+        /// Lights of a shadow dispatch.
+        light_count: u32,
+        /// Spacing of the lattice on the film, pixels; 0 where it is complete.
+        spacing: u32,
+        /// Mip level that a glow's pass reads, or starts from.
+        mip_level: u32,
+        /// Direction of a blur: 0 along x, 1 along y.
+        axis: u32,
+        /// Half width of a blur's kernel, in elements of the mip level.
+        half_width: f32,
+        /// How far exposure moves toward its goal, 0 to 1.
+        adapt: f32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused: u32,
+    }
+    /// What is known of a film as a whole.
+    Statistics {
+        /// The film's width and height, pixels.
+        size_px: [u32; 2],
+        /// Mip level that holds the bloom.
+        bloom_level: u32,
+        /// Its first element.
+        bloom_start: u32,
+        /// Mean colour.
+        mean: [f32; 3],
+        /// Mean of log2(luminance + 1e-4).
+        mean_log2: f32,
+        /// Auto exposure, stops.
+        adapted_stops: f32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused_a: u32,
+        /// The same.
+        unused_b: u32,
+        /// The same.
+        unused_c: u32,
+        /// Pixels by luminance; see [`HISTOGRAM_BINS`].
+        bins: [u32; HISTOGRAM_BINS],
+    }
+    /// One light.
+    Light {
+        /// Direction toward it, or its position; world space.
+        vector: [f32; 3],
+        /// 0 environment, 1 point.
+        kind: u32,
+        /// Linear radiance.
+        color: [f32; 3],
+        /// 1 where surfaces block it.
+        casts_shadows: u32,
+        /// How far a blocker may be, scene units.
+        shadow_reach: f32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused_a: u32,
+        /// The same.
+        unused_b: u32,
+        /// The same.
+        unused_c: u32,
+    }
+}
