@@ -85,7 +85,7 @@ fn costs(kernels: &Kernels, scene: &Scene) -> Vec<f64> {
     let workgroups = grid.workgroups();
     let trace = Trace { points, from: Stage::March, first_workgroup: 0, workgroups };
     kernels.specialise(8);
-    let targets = Targets::new(kernels, PICTURE_PX);
+    let targets = Targets::new(kernels, Region::whole(PICTURE_PX));
     let marchers = kernels.marchers(8);
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {
