@@ -11,7 +11,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mandelight::{export::frame_name, scene::document};
+use mandelight::{
+    export::frame_name,
+    scene::{Panorama, document},
+};
 use sha2::{Digest as _, Sha256};
 
 use super::{Failure, output::Output};
@@ -29,6 +32,8 @@ pub struct Sequence<'a> {
     pub size_px: [u32; 2],
     /// Samples a pixel in place of the scenes' own.
     pub samples: Option<u32>,
+    /// The picture behind, where one is at hand.
+    pub panorama: Option<&'a Panorama>,
 }
 
 impl Sequence<'_> {
@@ -36,12 +41,18 @@ impl Sequence<'_> {
     /// layout, and whatever no key takes from it, have no part in it.
     fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
-        let mut line = |text: String| hash.update(text + "\n");
-        line(env!("CARGO_PKG_VERSION").to_owned());
-        line(format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second));
+        let line = |hash: &mut Sha256, text: String| hash.update(text + "\n");
+        line(&mut hash, env!("CARGO_PKG_VERSION").to_owned());
+        line(
+            &mut hash,
+            format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second),
+        );
         for key in &self.path.keys {
             let scene = document::to_json_compact(&key.scene);
-            line(format!("{:?} {:?} {scene}", key.time_secs, key.easing));
+            line(&mut hash, format!("{:?} {:?} {scene}", key.time_secs, key.easing));
+        }
+        for pixel in self.panorama.iter().flat_map(|panorama| panorama.pixels()) {
+            pixel.to_array().iter().for_each(|channel| hash.update(channel.to_le_bytes()));
         }
         let digits: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
         digits[..DIGITS].to_owned()

@@ -3,11 +3,21 @@
 //! Frames that are there are kept, so that the same call goes on where the last one ended, and
 //! calls with other ranges can run beside it.
 
-use std::{ops::ControlFlow, path::PathBuf, sync::atomic::Ordering, time::Instant};
+use std::{
+    ops::{ControlFlow, Range},
+    path::{Path as FilePath, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Instant,
+};
 
+use indicatif::ProgressBar;
 use mandelight::{
     export::{ExportError, StillJob, StillOptions, StillStatus, sequence::remaining_secs},
     render::Kernels,
+    scene::Path,
 };
 
 use super::{
@@ -69,94 +79,125 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         None => {}
     }
     let path = input::changed_project(project, &arguments.set)?.path;
-    let wanted = arguments.frames.unwrap_or(Wanted { first: 0, end: None });
-    let count = path.frame_count();
-    if count == 0 {
-        return Err(Failure::usage(format!(
-            "{}: this scene has no camera path; the page's timeline makes one",
-            arguments.scene.display()
-        )));
-    }
-    if wanted.first >= count {
-        let last = count - 1;
-        let first = wanted.first;
-        return Err(Failure::usage(format!("--frames: {first}: the last frame is {last}")));
-    }
-    let frames = wanted.first..wanted.end.map_or(count, |end| end.min(count));
+    let frames = wanted_of(arguments.frames, &path, &arguments.scene)?;
+    let panorama = environment.map(|environment| environment.panorama);
     let Arguments { size, samples, quiet, .. } = arguments;
-    let folder =
-        Folder::open(&arguments.output, &Sequence { path: &path, size_px: size, samples })?;
+    let sequence = Sequence { path: &path, size_px: size, samples, panorama: panorama.as_deref() };
+    let folder = Folder::open(&arguments.output, &sequence)?;
     let missing: Vec<u32> = frames.clone().filter(|&frame| !folder.has(frame)).collect();
-    let shown = arguments.output.display();
-    if missing.is_empty() {
+    let say = |text: String| {
         if !quiet {
-            tell(&format!("{shown}: all {} frames are there", frames.len()));
+            tell(&format!("{}: {text}", arguments.output.display()));
         }
+    };
+    if missing.is_empty() {
+        say(format!("all {} frames are there", frames.len()));
         return Ok(());
     }
 
     let interrupted = interruption()?;
     let gpu = arguments.adapter.open()?;
-    let health = Health::of(&gpu);
-    let kernels = Kernels::new(&gpu);
-    let panorama = environment.map(|environment| environment.panorama);
-    let options = StillOptions { samples, panorama, ..StillOptions::new(size) };
-    let progress = progress_bar(quiet);
-    let (clock, all) = (Instant::now(), missing.len() as u32);
-    let mut made = 0;
-    for (turn, &frame) in missing.iter().enumerate() {
-        // Another process may have made it meanwhile.
-        if folder.has(frame) {
-            continue;
-        }
-        let file = folder.file(frame);
-        let failed = |error: &dyn std::fmt::Display| {
-            progress.finish_and_clear();
-            Failure::failed(format!("{}: {error}", file.display()))
-        };
-        // The path has as many frames as it says, each with a scene.
-        let scene = path.frame(frame).ok_or_else(|| failed(&"there is no such frame"))?;
-        let output = Output::create(&file).map_err(|error| failed(&error))?;
-        let job =
-            StillJob::new(&kernels, &scene, options.clone(), output).map_err(|e| failed(&e))?;
-        let result = job.run(|status| {
-            if let StillStatus::Working { done, .. } = status {
+    let work = Work {
+        path: &path,
+        folder: &folder,
+        options: StillOptions { samples, panorama, ..StillOptions::new(size) },
+        kernels: Kernels::new(&gpu),
+        health: Health::of(&gpu),
+        interrupted,
+        progress: progress_bar(quiet),
+    };
+    let clock = Instant::now();
+    let made = work.make(&missing);
+    work.progress.finish_and_clear();
+    let made = made?;
+    let kept = frames.len() - made;
+    let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
+    let secs = clock.elapsed().as_secs_f64();
+    say(format!("{made} frames{kept}, {secs:.1} s on {}", gpu.name()));
+    Ok(())
+}
+
+/// The frames that were asked for, of those that there are.
+fn wanted_of(wanted: Option<Wanted>, path: &Path, scene: &FilePath) -> Result<Range<u32>, Failure> {
+    let Some(last) = path.frame_count().checked_sub(1) else {
+        return Err(Failure::usage(format!(
+            "{}: this scene has no camera path; the page's timeline makes one",
+            scene.display()
+        )));
+    };
+    let Wanted { first, end } = wanted.unwrap_or(Wanted { first: 0, end: None });
+    if first > last {
+        return Err(Failure::usage(format!("--frames: {first}: the last frame is {last}")));
+    }
+    Ok(first..end.map_or(last + 1, |end| end.min(last + 1)))
+}
+
+/// What every frame needs.
+struct Work<'a> {
+    path: &'a Path,
+    folder: &'a Folder,
+    options: StillOptions,
+    kernels: Arc<Kernels>,
+    health: Health,
+    interrupted: Arc<AtomicBool>,
+    progress: ProgressBar,
+}
+
+impl Work<'_> {
+    /// Makes those of `missing` that nobody else has made meanwhile, and says how many.
+    fn make(&self, missing: &[u32]) -> Result<usize, Failure> {
+        let (clock, all) = (Instant::now(), missing.len() as u32);
+        let mut made = 0;
+        for (turn, &frame) in missing.iter().enumerate() {
+            if self.folder.has(frame) {
+                continue;
+            }
+            let file = self.folder.file(frame);
+            let whole = self.frame(frame, &file, |done| {
                 let done = turn as f64 + done;
                 let left = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
-                show(&progress, done / f64::from(all), left);
+                show(&self.progress, done / f64::from(all), left);
+            });
+            match whole {
+                Ok(()) => made += 1,
+                Err(ExportError::Cancelled) => {
+                    let reason = match self.health.loss() {
+                        Some(reason) => format!("the GPU was lost: {reason}"),
+                        None => "interrupted".to_owned(),
+                    };
+                    return Err(Failure::failed(format!(
+                        "{reason}; {made} of {all} frames were made; the same command goes on from there"
+                    )));
+                }
+                Err(error) => return Err(Failure::failed(format!("{}: {error}", file.display()))),
             }
-            if health.loss().is_some() || interrupted.load(Ordering::Relaxed) {
+        }
+        Ok(made)
+    }
+
+    /// Makes one frame, there whole or not at all.
+    fn frame(&self, frame: u32, file: &FilePath, tell: impl Fn(f64)) -> Result<(), ExportError> {
+        let scene = self.path.frame(frame).ok_or(ExportError::NoFrames)?;
+        let output = Output::create(file)?;
+        let job = StillJob::new(&self.kernels, &scene, self.options.clone(), output)?;
+        let result = job.run(|status| {
+            if let StillStatus::Working { done, .. } = status {
+                tell(done);
+            }
+            if self.health.loss().is_some() || self.interrupted.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
         });
-        if let Some(reason) = health.loss() {
-            return Err(failed(&format!("the GPU was lost: {reason}; {GO_ON}")));
-        }
-        match result {
-            Ok(output) => output.commit().map_err(|error| failed(&error))?,
-            Err(ExportError::Cancelled) => {
-                progress.finish_and_clear();
-                let done = format!("interrupted; {made} of {all} frames were made; {GO_ON}");
-                return Err(Failure::failed(format!("{shown}: {done}")));
-            }
-            Err(error) => return Err(failed(&error)),
-        }
-        made += 1;
+        // A device that goes shows itself in several ways; its own words explain them all.
+        let output = result.map_err(|error| match self.health.loss() {
+            Some(_) => ExportError::Cancelled,
+            None => error,
+        })?;
+        Ok(output.commit()?)
     }
-    progress.finish_and_clear();
-    if !quiet {
-        let secs = clock.elapsed().as_secs_f64();
-        let kept = frames.len() - made;
-        let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
-        tell(&format!("{shown}: {made} frames{kept}, {secs:.1} s on {}", gpu.name()));
-    }
-    Ok(())
 }
-
-/// What to do about a sequence that was cut short.
-const GO_ON: &str = "the same command goes on from there";
 
 /// Parses `100..200`, `100..`, `..200` and `100`.
 fn parse_frames(text: &str) -> Result<Wanted, String> {
