@@ -3,6 +3,8 @@
 use mandelight::scene::{
     Scene,
     document::{self, from_json, to_json},
+    param::Param,
+    path::{FRAME_RATE, KEY_TIME},
 };
 use serde_json::{Value, json};
 
@@ -67,4 +69,25 @@ fn errors_in_a_path_name_the_key() {
     let rate = with_keys(json!([])).replace("\"keys\"", "\"frames_per_second\":0,\"keys\"");
     let error = from_json(&rate).unwrap_err().to_string();
     assert!(error.starts_with("path.frames_per_second: 0 is outside 1 to 240"), "{error}");
+}
+
+#[test]
+fn the_example_is_what_the_documentation_says() {
+    let text = include_str!("../docs/examples/flight.json");
+    let project = document::project_from_json(text).unwrap();
+    assert_eq!((project.path.keys.len(), project.path.frame_count()), (3, 241));
+    let docs = include_str!("../docs/paths.md");
+    assert!(docs.contains("`frame_000240.png`") && docs.contains("#SBATCH --array=0-12"));
+    assert!(13 * 20 >= project.path.frame_count(), "the ranges cover every frame");
+}
+
+#[test]
+fn the_documentation_has_the_path_s_parameters() {
+    let docs = include_str!("../docs/paths.md");
+    for param in [&FRAME_RATE, &KEY_TIME] {
+        let Param { path, unit, default, help, .. } = param;
+        let range = param.range_text();
+        let row = format!("| `{path}` | {} | {range} | {default} | {help} |", unit.name());
+        assert!(docs.contains(&row), "docs/paths.md lacks\n{row}");
+    }
 }

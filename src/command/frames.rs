@@ -113,7 +113,8 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let kept = frames.len() - made;
     let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
     let secs = clock.elapsed().as_secs_f64();
-    say(format!("{made} frames{kept}, {secs:.1} s on {}", gpu.name()));
+    let made = if made == 1 { "1 frame".to_owned() } else { format!("{made} frames") };
+    say(format!("{made}{kept}, {secs:.1} s on {}", gpu.name()));
     Ok(())
 }
 

@@ -19,8 +19,9 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   });
   await page.open();
   await page.show(document);
-  await page.click("panel toggle");
-  await v.tab.mouse.click(...(await page.middle("timeline toggle")));
+  const press = async (name) => v.tab.mouse.click(...(await page.middle(name)));
+  await press("panel toggle");
+  await press("timeline toggle");
   const track = await page.rested("the track", () => page.rect("timeline track"));
   await v.screenshot("timeline-720x420");
 
@@ -29,9 +30,9 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   );
   await page.settled();
   const played = async () => (await page.scene()) !== scenes.scrubbed;
-  await v.tab.mouse.click(...(await page.middle("play")));
+  await press("play");
   await v.until("the path to play", played, 60);
-  await v.tab.mouse.click(...(await page.middle("play")));
+  await press("play");
   await page.rested("the scene after playing", () => page.scene());
 
   v.seen.name = await page.keepDownload("frames.zip", "save sequence");
@@ -40,14 +41,14 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   // With it the zip is written while it is made.
   await v.tab.addInitScript(() => {
     window.written = [];
-    window.closed = false;
+    window.fileIsClosed = false;
     if (!new URLSearchParams(location.search).has("dialogue")) return;
     window.showSaveFilePicker = async (options) => {
       window.suggested = options.suggestedName;
       return {
         createWritable: async () => ({
           write: async (bytes) => void window.written.push(Array.from(bytes)),
-          close: async () => void (window.closed = true),
+          close: async () => void (window.fileIsClosed = true),
           abort: async () => {},
         }),
         remove: async () => {},
@@ -59,8 +60,8 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await v.tab.goto(`${v.address}?test&dialogue`);
   await page.firstPicture();
   await page.settled();
-  await v.tab.mouse.click(...(await page.middle("save sequence")));
-  await v.until("the file to be closed", () => v.tab.evaluate(() => window.closed), 240);
+  await press("save sequence");
+  await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed), 240);
   v.seen.suggested = await v.tab.evaluate(() => window.suggested);
   const pieces = await v.tab.evaluate(() => window.written);
   await writeFile(join(v.out, "streamed.zip"), Buffer.concat(pieces.map((piece) => Buffer.from(piece))));

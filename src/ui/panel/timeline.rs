@@ -22,7 +22,7 @@ use crate::{
 mod track;
 
 /// Strips at least this wide, in points, have all buttons above the track.
-const ONE_ROW_FROM: f32 = 640.0;
+const ONE_ROW_FROM: f32 = 740.0;
 
 /// A frame's number; the most are an hour at the highest rate.
 const FRAME: Param = Param {
@@ -62,13 +62,24 @@ pub(in crate::ui) fn strip(
     });
     let response = track::show(ui, strip.path, strip.timeline, on_path);
     strip.cx.rects.note("timeline track", &response);
-    if !wide {
+    if wide {
+        ui.horizontal(|ui| {
+            strip.key_under_edit(ui);
+            strip.rate(ui);
+            strip.frames(ui);
+            strip.save(ui);
+        });
+    } else {
         ui.horizontal_wrapped(|ui| strip.keys(ui));
+        if strip.timeline.selected(strip.path).is_some() {
+            ui.horizontal(|ui| strip.key_under_edit(ui));
+        }
+        ui.horizontal(|ui| {
+            strip.rate(ui);
+            strip.frames(ui);
+        });
+        ui.horizontal(|ui| strip.save(ui));
     }
-    ui.horizontal_wrapped(|ui| {
-        strip.key_under_edit(ui);
-        strip.sequence(ui);
-    });
 }
 
 struct Strip<'a, 'b> {
@@ -148,13 +159,13 @@ impl Strip<'_, '_> {
         }
     }
 
-    /// The selected key's time and easing, and the frame rate.
+    /// The selected key's time and easing.
     fn key_under_edit(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 4.0;
         if let Some(index) = self.timeline.selected(self.path) {
             label(ui, &format!("Key {}", index + 1), "The key under edit: the one selected last");
             let mut secs = self.path.keys[index].time_secs;
-            let time = number(ui, &KEY_TIME, &mut secs)
+            let time = short_number(ui, 58.0, &KEY_TIME, &mut secs)
                 .on_hover_text("When this key is reached, in seconds; between its neighbours");
             if time.changed() {
                 self.timeline.retime(self.path, index, secs);
@@ -181,37 +192,50 @@ impl Strip<'_, '_> {
             }
             ui.add_space(8.0);
         }
+    }
+
+    fn rate(&mut self, ui: &mut Ui) {
         label(ui, "Frame rate", FRAME_RATE.help);
         let mut rate = f64::from(self.path.frames_per_second);
-        if number(ui, &FRAME_RATE, &mut rate).on_hover_text(FRAME_RATE.help).changed() {
+        if short_number(ui, 40.0, &FRAME_RATE, &mut rate).on_hover_text(FRAME_RATE.help).changed() {
             // The field keeps to whole numbers of the range.
             self.path.frames_per_second = rate as u32;
         }
         ui.add_space(8.0);
     }
 
-    /// Which frames to save, and the button; while saving, how far it is.
-    fn sequence(&mut self, ui: &mut Ui) {
-        if let Some(progress) = self.cx.inputs.export {
-            ui.allocate_ui(vec2(ui.available_width().clamp(180.0, 320.0), 40.0), |ui| {
-                ui.vertical(|ui| export::saving(ui, self.cx, progress));
-            });
-            return;
-        }
+    /// Which frames to save.
+    fn frames(&mut self, ui: &mut Ui) {
         let Some(last) = self.path.frame_count().checked_sub(1) else { return };
         let [mut first, mut end] = self.timeline.frames.unwrap_or([0, last]).map(|f| f.min(last));
         label(ui, "Frames", "The frames that Save sequence renders, from the first to the last");
         let edges = [("First frame", &mut first), ("Last frame", &mut end)];
         for (name, frame) in edges {
+            if name == "Last frame" {
+                label(ui, "to", "The last frame that is rendered");
+            }
             let param = Param { label: name, max: f64::from(last), ..FRAME };
             let mut value = f64::from(*frame);
-            let response = ui.push_id(name, |ui| number(ui, &param, &mut value)).inner;
+            let response = short_number(ui, 54.0, &param, &mut value);
             if response.on_hover_text(format!("{name} to render, 0 to {last}")).changed() {
                 *frame = value as u32;
             }
         }
         end = end.max(first);
         self.timeline.frames = ([first, end] != [0, last]).then_some([first, end]);
+        ui.add_space(8.0);
+    }
+
+    /// The button that saves them; while something is saved, how far it is.
+    fn save(&mut self, ui: &mut Ui) {
+        if let Some(progress) = self.cx.inputs.export {
+            ui.allocate_ui(vec2(ui.available_width().clamp(120.0, 320.0), 40.0), |ui| {
+                ui.vertical(|ui| export::saving(ui, self.cx, progress));
+            });
+            return;
+        }
+        let Some(last) = self.path.frame_count().checked_sub(1) else { return };
+        let [first, end] = self.timeline.frames.unwrap_or([0, last]).map(|f| f.min(last));
         let size_px = self.cx.settings.export.resolve(self.cx.view_px);
         let [width, height] = size_px;
         let count = end - first + 1;
@@ -226,6 +250,12 @@ impl Strip<'_, '_> {
             self.cx.actions.push(Action::SaveSequence { size_px, frames: [first, end + 1] });
         }
     }
+}
+
+/// A number in a row of several, `width` points wide.
+fn short_number(ui: &mut Ui, width: f32, param: &Param, value: &mut f64) -> Response {
+    let size = vec2(width, ui.spacing().interact_size.y);
+    ui.push_id(param.label, |ui| ui.allocate_ui(size, |ui| number(ui, param, value)).inner).inner
 }
 
 fn label(ui: &mut Ui, text: &str, hover: &str) -> Response {
