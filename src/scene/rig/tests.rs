@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
-use crate::scene::{Scene, color::luminance};
+use crate::scene::{Scene, color::luminance, link};
 
 /// ∫ radiance · weight over the sphere, by the midpoint rule.
 fn integral(sky: &Sky, weight: impl Fn(DVec3) -> f64) -> DVec3 {
@@ -123,6 +123,10 @@ fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
         let sum: DVec3 = lights.iter().map(|(_, strength)| *strength * PI).sum();
         assert!(((sum - panorama.energy()) / panorama.energy()).abs().max_element() < 1e-5);
     }
+    // The longest still fits into a link.
+    let link = link::to_fragment(&scene).unwrap();
+    assert_eq!(link::from_fragment(&link), Ok(scene.clone()));
+    assert!(link.len() < 4096, "{} characters", link.len());
     // No more than there is room for.
     scene.lights.rig.count = 64;
     let room = scene.lights.room_for_rig();
