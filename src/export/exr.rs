@@ -29,7 +29,7 @@ use glam::DVec3;
 
 use super::{ExportError, MAX_TEXT_BYTES, png::SCENE_KEYWORD};
 use crate::{
-    render::{Region, samples::PixelSample},
+    render::{Eyes, Region, samples::PixelSample},
     scene::{Camera, Scene, document},
 };
 
@@ -107,10 +107,11 @@ impl<W: Write> ExrStream<W> {
     }
 }
 
-/// The bytes of a tile's pixels, each [`PIXEL_BYTES`] long with its channels in order.
+/// The bytes of the pixels of a tile of one eye's picture, each [`PIXEL_BYTES`] long with its channels in order.
 pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample]) -> Vec<u8> {
-    let eye_from_anchor = &camera.position - &camera.pivot;
-    let rays = Rays::new(camera, tile.picture_px);
+    let rays = Rays::new(camera, tile);
+    let eye_from_anchor = (&camera.position - &camera.pivot) + rays.eye_from_camera;
+    let forward = camera.forward();
     let mut bytes = Vec::with_capacity(pixels.len() * PIXEL_BYTES);
     for (i, pixel) in (0..).zip(pixels) {
         let at = [i % tile.size_px[0], i / tile.size_px[0]];
@@ -119,7 +120,7 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
         let met = pixel.depth > 0.0;
         let depth = f64::from(pixel.depth);
         let point = if met { eye_from_anchor + ray * depth } else { DVec3::ZERO };
-        let z = if met { depth * ray.dot(rays.ahead) } else { f64::INFINITY };
+        let z = if met { depth * ray.dot(forward) } else { f64::INFINITY };
         let [nx, ny, nz] = if met { pixel.normal.to_array() } else { [0.0; 3] };
         let [px, py, pz] = point.as_vec3().to_array();
         bytes.extend(
@@ -131,6 +132,8 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
 
 /// The rays through the pixels' centres: the f64 twin of `shaders/lib/camera.wgsl`.
 struct Rays {
+    /// From the camera to the eye, scene units.
+    eye_from_camera: DVec3,
     ahead: DVec3,
     right: DVec3,
     up: DVec3,
@@ -138,12 +141,21 @@ struct Rays {
 }
 
 impl Rays {
-    fn new(camera: &Camera, picture_px: [u32; 2]) -> Self {
-        let picture_px = picture_px.map(f64::from);
+    fn new(camera: &Camera, tile: Region) -> Self {
+        let picture_px = tile.picture_px.map(f64::from);
         let aspect = picture_px[0] / picture_px[1];
         let half_height = camera.half_height(aspect);
+        let left = if camera.stereo.swap_eyes { 1.0 } else { -1.0 };
+        let side = match tile.eyes {
+            Eyes::Camera => 0.0,
+            Eyes::Right => -left,
+            Eyes::Left | Eyes::Beside | Eyes::Below | Eyes::Anaglyph => left,
+        };
+        let aside = camera.rotation() * DVec3::X * (side * camera.stereo.half_separation());
         Self {
-            ahead: camera.forward(),
+            eye_from_camera: aside * camera.view_unit(),
+            // Both eyes' pictures meet at the screen.
+            ahead: camera.forward() - aside,
             right: camera.rotation() * DVec3::X * (half_height * aspect),
             up: camera.rotation() * DVec3::Y * half_height,
             picture_px,
@@ -239,5 +251,44 @@ pub fn exr_scene_text(reader: impl BufRead) -> Result<Option<String>, String> {
             Err(format!("its text is larger than {MAX_TEXT_BYTES} bytes"))
         }
         scene => Ok(scene),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::render::uniforms::Picture;
+
+    /// The rays of the shaders' own numbers, by the shaders' own formula.
+    #[test]
+    fn rays_are_those_of_the_shaders_for_either_eye() {
+        let mut scene = Scene::default();
+        for (eyes, swap_eyes) in [
+            (Eyes::Camera, false),
+            (Eyes::Left, false),
+            (Eyes::Right, false),
+            (Eyes::Left, true),
+            (Eyes::Right, true),
+        ] {
+            scene.camera.stereo.swap_eyes = swap_eyes;
+            let tile = Region { eyes, ..Region::whole([30, 20]) };
+            let rays = Rays::new(&scene.camera, tile);
+            let Picture { camera, eyes: shader_eyes, .. } = Picture::new(&scene, tile);
+            let side = shader_eyes.first_side;
+            let axis = |axis: [f32; 3]| Vec3::from_array(axis);
+            let aside = axis(camera.right) * (side * shader_eyes.half_separation);
+            assert!((aside.as_dvec3() - rays.eye_from_camera).length() < 1e-6, "{eyes:?}");
+            for pixel in [[0, 0], [29, 3], [7, 19]] {
+                let [x, y] = std::array::from_fn(|i| (pixel[i] as f32 + 0.5) / [30.0, 20.0][i]);
+                let right = (2.0 * x - 1.0) * camera.half_height * camera.aspect
+                    - side * shader_eyes.half_shift;
+                let up = (1.0 - 2.0 * y) * camera.half_height;
+                let ray = axis(camera.forward) + axis(camera.right) * right + axis(camera.up) * up;
+                let off = ray.normalize().as_dvec3() - rays.through(pixel);
+                assert!(off.length() < 1e-6, "{eyes:?} {pixel:?}: {off}");
+            }
+        }
     }
 }

@@ -257,7 +257,7 @@ fn an_openexr_file_gives_its_values() {
         for (i, pixel) in panorama.pixels().iter().enumerate() {
             let (r, g, b) = value(i % 12, i / 12);
             // PXR24 keeps 24 bits of each number, DWAA what the eye would notice.
-            let tolerance = if packing == Compression::DWAA(None) { 10.0 } else { 0.02 };
+            let tolerance = if packing == Compression::DWAA(None) { 30.0 } else { 0.02 };
             let off = (*pixel - Vec3::new(r, g, b)).length();
             assert!(off < tolerance, "{packing}, {i}: {pixel}");
         }
