@@ -232,6 +232,7 @@ fn every_control_has_a_hover_text() {
     harness.get_by_label("Auto exposure").click();
     harness.run();
     press(&mut harness, "Picture size: Typed");
+    press(&mut harness, "Rig: Sky");
     press(&mut harness, "Add point light");
     // The parts of a control share its text, so one look at each name is enough.
     let controls: std::collections::BTreeMap<_, _> = harness

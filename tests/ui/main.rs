@@ -5,4 +5,5 @@ mod fit;
 mod gestures;
 mod hostile;
 mod stage;
+mod surroundings;
 mod timeline;

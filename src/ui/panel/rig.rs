@@ -33,6 +33,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         RigKind::Sky => sky(ui, cx),
         RigKind::Picture => picture(ui, cx),
     }
+    // A scene can show its picture and be lit by something else.
+    if !cx.scene.lights.rig.picture.name.is_empty() {
+        behind(ui, &mut cx.scene.background);
+    }
     if cx.scene.lights.rig.kind != RigKind::None && !cx.scene.lights.rig.is_empty() {
         common(ui, &mut cx.scene.lights.rig, &cx.scene.camera);
     }
@@ -121,7 +125,6 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
         rig.light_by(panorama, room);
     }
     param_slider(ui, &param::RIG_ROTATION, &mut rig.picture.rotation_deg);
-    behind(ui, &mut cx.scene.background);
 }
 
 fn choose(ui: &mut Ui) -> Response {
@@ -131,7 +134,7 @@ fn choose(ui: &mut Ui) -> Response {
 }
 
 /// Whether the picture is seen behind the fractal.
-pub(super) fn behind(ui: &mut Ui, background: &mut Background) {
+fn behind(ui: &mut Ui, background: &mut Background) {
     let mut shown = background.kind == BackgroundKind::Picture;
     let response = ui
         .checkbox(&mut shown, "Show it behind the fractal")
