@@ -198,6 +198,28 @@ fn a_killed_run_leaves_only_whole_frames_and_can_go_on() {
     assert!(is_whole(&place.frame("out", 1)));
 }
 
+#[test]
+fn an_interruption_leaves_nothing_half_made_and_says_how_to_go_on() {
+    let place = Workplace::new();
+    let child = place.command(&["-o", "out", "--samples", "1000"]).spawn().unwrap();
+    let folder = place.folder.path().join("out");
+    let patience = Instant::now();
+    let is_under_way =
+        || folder.exists() && place.names("out").iter().any(|n| n.ends_with(".part"));
+    while !is_under_way() {
+        assert!(patience.elapsed() < Duration::from_secs(120), "no frame was begun");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 1);
+    let text = said(&output);
+    assert!(text.contains("interrupted") && text.contains("the same command goes on"), "{text}");
+    let names = place.names("out");
+    assert!(!names.iter().any(|name| name.ends_with(".part")), "{names:?}");
+}
+
 fn is_whole(file: &[u8]) -> bool {
     let Ok(mut reader) = png::Decoder::new(Cursor::new(file)).read_info() else { return false };
     let mut rgb = vec![0; reader.output_buffer_size().unwrap()];

@@ -83,6 +83,8 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let panorama = environment.map(|environment| environment.panorama);
     let Arguments { size, samples, quiet, .. } = arguments;
     let sequence = Sequence { path: &path, size_px: size, samples, panorama: panorama.as_deref() };
+    // Before there is a file that an interruption could leave behind.
+    let interrupted = interruption()?;
     let folder = Folder::open(&arguments.output, &sequence)?;
     let missing: Vec<u32> = frames.clone().filter(|&frame| !folder.has(frame)).collect();
     let say = |text: String| {
@@ -95,7 +97,6 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         return Ok(());
     }
 
-    let interrupted = interruption()?;
     let gpu = arguments.adapter.open()?;
     let work = Work {
         path: &path,

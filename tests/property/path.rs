@@ -7,17 +7,26 @@ use mandelight::scene::{
     Path, Project, document, link,
     path::{Easing, Key},
 };
-use proptest::{collection::vec, prelude::*, sample::select};
+use proptest::{collection::vec, option, prelude::*, sample::select};
 
 use crate::scenes::scene;
 
 fn path() -> impl Strategy<Value = Path> {
     let easing = select(vec![Easing::Smooth, Easing::Linear, Easing::Hold]);
-    let keys = vec((0.01..100.0_f64, easing, scene()), 0..5);
+    let keys = vec((0.01..100.0_f64, easing, scene(), option::of(-29.0..1.0_f64)), 0..5);
     (keys, 1..=240_u32).prop_map(|(keys, frames_per_second)| {
         let mut time_secs = 0.0;
-        let keys = keys.into_iter().map(|(wait_secs, easing, scene)| {
+        let keys = keys.into_iter().map(|(wait_secs, easing, mut scene, depth)| {
             time_secs += wait_secs;
+            if let Some(depth) = depth {
+                // As close to the pivot as a dive may come.
+                let camera = &mut scene.camera;
+                let aside = camera.forward() * -10f64.powf(depth);
+                let eye = camera.pivot.moved_by(aside, 0.0);
+                if (&eye - &camera.pivot).length() > 1e-30 {
+                    camera.position = eye;
+                }
+            }
             Key { time_secs, easing, scene: Arc::new(scene) }
         });
         Path { frames_per_second, keys: keys.collect() }
