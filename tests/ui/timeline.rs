@@ -92,6 +92,10 @@ fn scrubbing_shows_every_moment_and_keeps_a_view_of_one_s_own() {
     assert_eq!(*scene(&harness), moment, "the view is what the path has at 1.5 s");
     assert!((5.0..8.0).contains(&moment.fractal.power));
     assert_eq!(path(&harness).keys, project().path.keys, "scrubbing changes no key");
+    // Close to a key the playhead snaps to it.
+    let near = ruler_at(&harness, 3.0) + vec2(3.0, 0.0);
+    drag(&mut harness, to, near, 4);
+    assert_eq!(*scene(&harness), *path(&harness).keys[1].scene);
     // Further scrubbing adds no step; undo brings the view back that the first one replaced.
     drag(&mut harness, from, to, 3);
     assert_eq!(undo_all(&mut harness), 1);

@@ -17,6 +17,8 @@ const LANE_HEIGHT: f32 = 28.0;
 const MARGIN: f32 = 14.0;
 /// Half the width of a diamond, in points.
 const DIAMOND: f32 = 6.5;
+/// A playhead so close to a key, in points, is put on it.
+const SNAP: f32 = 4.0;
 /// Least distance between the ruler's numbers, in points.
 const TICK_GAP: f32 = 64.0;
 /// Steps of the ruler, seconds.
@@ -55,7 +57,9 @@ pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool
     if (response.dragged() || response.clicked())
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        timeline.seek(path, scale.secs_at(pointer.x));
+        let is_near = |secs: f64| (scale.x(secs) - pointer.x).abs() < SNAP;
+        let key = path.keys.iter().map(|key| key.time_secs).find(|&secs| is_near(secs));
+        timeline.seek(path, key.unwrap_or(scale.secs_at(pointer.x)));
         timeline.held = response.dragged();
     }
     step_by_keys(ui, &response, path, timeline);
@@ -70,7 +74,8 @@ pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool
         diamond(ui, &response, pos2(0.0, lane_y), scale, path, timeline, index);
     }
     playhead(&painter, rect, scale.x(timeline.secs()), on_path, !path.is_empty());
-    response.on_hover_text("Drag to move through the path; drag a key to another time")
+    // Beside the pointer: at the track's corner it would cover the buttons above.
+    response.on_hover_text_at_pointer("Drag to move through the path; drag a key to another time")
 }
 
 /// The scale: the path and some room after it. It stays while something is dragged.
