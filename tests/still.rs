@@ -12,7 +12,7 @@ use mandelight::{
     export::{ExportError, StillJob, StillOptions, StillStatus},
     gpu::{Gpu, readback::Readback},
     render::{Kernels, Pace, Region, View},
-    scene::{Scene, presets},
+    scene::{Bloom, BloomOrder, Scene, presets},
 };
 
 static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
@@ -72,6 +72,45 @@ fn tiles_join_without_a_seam() {
             assert_eq!(largest_difference(&whole, &tiled), 0, "{} in {tile_px:?}", preset.name);
         }
     }
+}
+
+/// Exposure and bloom are those of the whole picture, not of a tile: the same for any tiles, and
+/// those of the live view.
+#[test]
+fn tiles_share_the_exposure_and_the_bloom_of_the_whole() {
+    let size_px = [101, 67];
+    let mut scene = Scene::default();
+    scene.tone.auto_exposure = true;
+    for order in [BloomOrder::Before, BloomOrder::After] {
+        scene.bloom = Bloom { strength: 0.8, threshold: 0.2, order, ..Bloom::default() };
+        let tiled = still(&scene, options(size_px, 8, [32, 24]));
+        for tile_px in [[101, 67], [101, 1], [51, 40]] {
+            let other = still(&scene, options(size_px, 8, tile_px));
+            assert_eq!(largest_difference(&tiled, &other), 0, "{order:?} in {tile_px:?}");
+        }
+        let whole = whole_view(&scene, size_px, 8);
+        assert_eq!(largest_difference(&tiled, &whole), 0, "{order:?}: not as in the live view");
+        // That the tiles are small pictures of their own would be seen.
+        scene.bloom.strength = 0.0;
+        scene.tone.auto_exposure = false;
+        let plain = still(&scene, options(size_px, 8, [32, 24]));
+        assert!(largest_difference(&tiled, &plain) > 40);
+        scene.tone.auto_exposure = true;
+    }
+}
+
+/// Where the overview has fewer samples than the picture, it still sees nearly the same.
+#[test]
+fn a_large_picture_is_nearly_that_of_the_live_view() {
+    let size_px = [600, 420];
+    let mut scene = Scene::default();
+    scene.fractal.iterations = 5;
+    scene.tone.auto_exposure = true;
+    scene.bloom = Bloom { strength: 0.4, threshold: 0.5, ..Bloom::default() };
+    let tiled = still(&scene, options(size_px, 6, [300, 420]));
+    let whole = whole_view(&scene, size_px, 6);
+    let difference = largest_difference(&tiled, &whole);
+    assert!((1..=3).contains(&difference), "{difference} from the live view");
 }
 
 #[test]

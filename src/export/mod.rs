@@ -10,7 +10,9 @@
 //! | [`still`] | the job: render a tile, read it back, hand its rows on |
 //! | [`sequence`] | the frames of a camera path, one still each |
 //! | [`archive`] | a zip of files, written while they come |
-//! | `tiles` | how a picture is cut |
+//! | `sheet` | which pictures one file shows, and where |
+//! | `overview` | what a picture in tiles has to know of itself as a whole |
+//! | `tiles` | how a sheet is cut |
 //! | `format` | the kinds of file, and what each wants of a tile |
 //! | [`mod@exr`] | linear pixels with depth, normal and position to an OpenEXR file |
 //! | [`png`] | rows to a PNG that carries its scene, and the scene out of one |
@@ -18,8 +20,10 @@
 pub mod archive;
 pub mod exr;
 mod format;
+mod overview;
 pub mod png;
 pub mod sequence;
+mod sheet;
 pub mod still;
 mod tiles;
 
@@ -28,6 +32,7 @@ pub use exr::{exr_scene_text, is_exr};
 pub use format::PictureFormat;
 pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
 pub use sequence::{SequenceJob, frame_name};
+pub use sheet::Eye;
 pub use still::{StillJob, StillOptions, StillStatus};
 
 use crate::scene::Invalid;
@@ -41,6 +46,19 @@ pub enum ExportError {
     /// A side is zero or above [`MAX_PICTURE_PX`].
     #[error("a picture of {}x{} pixels: both sides must be from 1 to {MAX_PICTURE_PX}", .0[0], .0[1])]
     Size([u32; 2]),
+    /// Both eyes' pictures in one file have a side above [`MAX_PICTURE_PX`].
+    #[error("both eyes' pictures of {}x{} pixels make a file of {}x{}: no side may be above {MAX_PICTURE_PX}; a smaller size, or a pair of files, fits", .picture_px[0], .picture_px[1], .sheet_px[0], .sheet_px[1])]
+    Sheet {
+        /// Width and height of one eye's picture.
+        picture_px: [u32; 2],
+        /// Those of both together.
+        sheet_px: [u32; 2],
+    },
+    /// Linear light of both eyes cannot share an OpenEXR file's channels.
+    #[error(
+        "a red-cyan anaglyph mixes what both eyes see, and is no OpenEXR file: choose PNG, side by side, top-bottom or a pair"
+    )]
+    RedCyanExr,
     /// The scene, or the samples asked for, are out of range.
     #[error(transparent)]
     Scene(#[from] Invalid),

@@ -9,13 +9,15 @@ use std::{io::Write, ops::ControlFlow, sync::Arc};
 use web_time::Instant;
 
 use super::{
-    ExportError, PictureFormat, checked_size,
+    ExportError, Eye, PictureFormat,
     format::{Arriving, Encoder},
-    tiles::Tiling,
+    overview::Overview,
+    sheet::Sheet,
+    tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Kernels, Pace, Region, View},
-    scene::{Camera, Panorama, Scene},
+    render::{Kernels, Pace, View},
+    scene::{Camera, Panorama, Scene, StereoLayout},
 };
 
 /// Largest tile unless told otherwise, in pixels: wide, so that bands stay thin.
@@ -34,8 +36,12 @@ const FORETELL_FROM: (f64, f64) = (0.02, 1.0);
 /// What still to make.
 #[derive(Clone, Debug)]
 pub struct StillOptions {
-    /// Width and height in pixels, each 1 to [`super::MAX_PICTURE_PX`].
+    /// Width and height of the picture, or of either eye's, in pixels: each 1 to
+    /// [`super::MAX_PICTURE_PX`], which both eyes' together in one file keep to as well.
     pub size_px: [u32; 2],
+    /// The eye whose picture is wanted alone, for one of a pair of files; none for what the
+    /// scene's layout shows.
+    pub eye: Option<Eye>,
     /// Samples a pixel, in [`crate::scene::param::SAMPLES`]; none for the scene's own.
     pub samples: Option<u32>,
     /// Largest width and height of a tile. Smaller needs less memory, larger wastes less time
@@ -52,11 +58,35 @@ impl StillOptions {
     pub fn new(size_px: [u32; 2]) -> Self {
         Self {
             size_px,
+            eye: None,
             samples: None,
             tile_px: TILE_PX,
             panorama: None,
             format: PictureFormat::default(),
         }
+    }
+
+    /// What a still with these options shows when it is asked to show `scene`: this is the scene
+    /// that its file carries. A lone eye's picture is one in stereo, whatever the layout.
+    pub fn shown(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(samples) = self.samples {
+            scene.quality.samples = samples;
+        }
+        let stereo = &mut scene.camera.stereo;
+        if self.eye.is_some() && !stereo.is_on() {
+            stereo.layout = StereoLayout::SideBySide;
+        }
+        scene
+    }
+
+    /// Width and height of the file's picture, all of it, in pixels.
+    ///
+    /// # Errors
+    /// [`ExportError::Size`], [`ExportError::Sheet`] and [`ExportError::RedCyanExr`]: what no
+    /// still can be.
+    pub fn sheet_px(&self, scene: &Scene) -> Result<[u32; 2], ExportError> {
+        Ok(Sheet::new(scene, self)?.size_px())
     }
 }
 
@@ -77,18 +107,21 @@ pub enum StillStatus {
 /// A still in progress. Dropping it cancels it; what it wrote so far is no complete file.
 pub struct StillJob<W: Write> {
     kernels: Arc<Kernels>,
+    overview: Option<Overview>,
     view: View,
     tiling: Tiling,
     /// The tile being drawn; the count of tiles once all are.
     drawing: u32,
     /// The tile on its way back.
-    arriving: Option<(Region, bool, Arriving)>,
+    arriving: Option<(Tile, Arriving)>,
     /// The band that tiles are put into.
     filling: Band,
     /// The band that is being packed.
     packing: Band,
     format: PictureFormat,
     camera: Camera,
+    /// Samples of all pixels.
+    samples: f64,
     encoder: Encoder<W>,
     rows_left: u32,
     started_secs: Option<f64>,
@@ -111,12 +144,13 @@ impl Band {
         self.packed == self.bytes.len()
     }
 
-    /// Puts a tile's pixels in their place, each of so many bytes.
-    fn place(&mut self, tile: Region, pixels: &[u8], pixel_bytes: usize) {
-        let [width, height] = tile.size_px.map(|px| px as usize * pixel_bytes);
-        let stride = tile.picture_px[0] as usize * pixel_bytes;
-        self.bytes.resize(stride * height / pixel_bytes, 0);
-        let left = tile.origin_px[0] as usize * pixel_bytes;
+    /// Puts a tile's pixels in their place in rows of `sheet_px`, each of so many bytes.
+    fn place(&mut self, tile: Tile, sheet_px: u32, pixels: &[u8], pixel_bytes: usize) {
+        let [width, height] = tile.region.size_px.map(|px| px as usize);
+        let stride = sheet_px as usize * pixel_bytes;
+        let width = width * pixel_bytes;
+        self.bytes.resize(stride * height, 0);
+        let left = tile.left_px as usize * pixel_bytes;
         for (row, pixels) in self.bytes.chunks_exact_mut(stride).zip(pixels.chunks_exact(width)) {
             row[left..left + width].copy_from_slice(pixels);
         }
@@ -128,31 +162,31 @@ impl<W: Write> StillJob<W> {
     /// document, is written at once.
     ///
     /// # Errors
-    /// [`ExportError::Size`] and [`ExportError::Scene`] where a size, the samples or the scene are
-    /// out of range, [`ExportError::Write`] where `sink` refuses.
+    /// [`ExportError::Scene`] where the samples or the scene are out of range, those of
+    /// [`StillOptions::sheet_px`], [`ExportError::Write`] where `sink` refuses.
     pub fn new(
         kernels: &Arc<Kernels>,
         scene: &Scene,
         options: StillOptions,
         sink: W,
     ) -> Result<Self, ExportError> {
-        let size_px = checked_size(options.size_px)?;
-        let mut scene = scene.clone();
-        if let Some(samples) = options.samples {
-            // The document in the file says what the file shows.
-            scene.quality.samples = samples;
-        }
+        let scene = options.shown(scene);
+        let sheet = Sheet::new(&scene, &options)?;
         scene.validate()?;
 
-        let row_bytes = size_px[0] as usize * options.format.pixel_bytes();
+        let sheet_px = sheet.size_px();
+        let row_bytes = sheet_px[0] as usize * options.format.pixel_bytes();
         let [tile_width, tile_height] = options.tile_px;
         let most_rows = (MOST_BAND_BYTES / row_bytes).max(1) as u32;
-        let tiling = Tiling::new(size_px, [tile_width, tile_height.min(most_rows)]);
-        let mut view = View::new(kernels, tiling.tile(0), Pace::Still);
-        view.set_panorama(options.panorama.as_ref());
+        let tiling = Tiling::new(sheet, [tile_width, tile_height.min(most_rows)]);
+        let panorama = options.panorama.as_ref();
+        let mut view = View::new(kernels, tiling.tile(0).region, Pace::Still);
+        view.set_panorama(panorama);
         view.set_scene(&scene, false);
+        let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             kernels: kernels.clone(),
+            overview: Overview::new(kernels, &scene, panorama, &sheet, options.format),
             view,
             tiling,
             drawing: 0,
@@ -160,9 +194,10 @@ impl<W: Write> StillJob<W> {
             filling: Band::default(),
             packing: Band::default(),
             format: options.format,
-            encoder: Encoder::new(options.format, sink, size_px, &scene)?,
+            encoder: Encoder::new(options.format, sink, sheet_px, &scene)?,
+            samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera,
-            rows_left: size_px[1],
+            rows_left: sheet_px[1],
             started_secs: None,
             furthest: 0.0,
             faults_before: kernels.gpu.faults(),
@@ -204,35 +239,49 @@ impl<W: Write> StillJob<W> {
         self.encoder.finish()
     }
 
-    /// Draws more of the current tile, or sends it on its way and turns to the next.
+    /// Draws more of the overview or of the current tile, or sends that on its way and turns to
+    /// the next.
     fn draw(&mut self, now_secs: f64) {
-        if self.drawing == self.tiling.count()
+        if !self.know_the_whole(now_secs)
+            || self.drawing == self.tiling.count()
             || self.view.pump(now_secs)
             || self.arriving.is_some()
         {
             return;
         }
-        let tile = self.view.region();
         let Some(arriving) = self.format.read(&self.kernels.gpu, &self.view) else { return };
-        self.arriving = Some((tile, self.tiling.ends_band(self.drawing), arriving));
+        self.arriving = Some((self.tiling.tile(self.drawing), arriving));
         self.drawing += 1;
         if self.drawing < self.tiling.count() {
             // The copy is submitted, so the view may be drawn over.
-            self.view.set_region(self.tiling.tile(self.drawing));
+            self.view.set_region(self.tiling.tile(self.drawing).region);
         }
+    }
+
+    /// Sees to it that the tiles are shown as parts of the whole. False while it is not known.
+    fn know_the_whole(&mut self, now_secs: f64) -> bool {
+        let Some(overview) = &mut self.overview else { return true };
+        if !overview.is_finished() {
+            if !overview.pump(now_secs) {
+                return false;
+            }
+            self.view.lend_glow(Some(overview.glow()));
+        }
+        true
     }
 
     /// Puts an arrived tile into its band, and a full band where it is packed.
     fn collect(&mut self) -> Result<(), ExportError> {
         if !self.filling.is_full
-            && let Some((tile, ends_band, arriving)) = &mut self.arriving
+            && let Some((tile, arriving)) = &mut self.arriving
         {
             let arrived = arriving
-                .take(&self.kernels.gpu, &self.camera, *tile)
+                .take(&self.kernels.gpu, &self.camera, tile.region)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
             if let Some(pixels) = arrived {
-                self.filling.place(*tile, &pixels, self.format.pixel_bytes());
-                self.filling.is_full = *ends_band;
+                let [sheet_width, _] = self.tiling.sheet_px();
+                self.filling.place(*tile, sheet_width, &pixels, self.format.pixel_bytes());
+                self.filling.is_full = tile.ends_band;
                 self.arriving = None;
             }
         }
@@ -250,7 +299,7 @@ impl<W: Write> StillJob<W> {
         if self.packing.is_packed() {
             return Ok(());
         }
-        let row_bytes = self.tiling.tile(0).picture_px[0] as usize * self.format.pixel_bytes();
+        let row_bytes = self.tiling.sheet_px()[0] as usize * self.format.pixel_bytes();
         let rows = (BYTES_PER_STEP / row_bytes).max(1);
         let waiting = &self.packing.bytes[self.packing.packed..];
         let now = &waiting[..waiting.len().min(rows * row_bytes)];
@@ -261,13 +310,16 @@ impl<W: Write> StillJob<W> {
         Ok(())
     }
 
-    /// Part of the samples that have been drawn, 0 to 1.
+    /// Part of the samples that have been drawn, the overview's among them, 0 to 1.
     fn part_done(&self) -> f64 {
         let report = self.view.report();
         let of_tile = f64::from(report.samples_done) / f64::from(report.samples_wanted.max(1));
         let tiles = f64::from(self.drawing)
             + if self.drawing < self.tiling.count() { of_tile } else { 0.0 };
-        (tiles / f64::from(self.tiling.count())).min(1.0)
+        let of_tiles = (tiles / f64::from(self.tiling.count())).min(1.0);
+        let Some(overview) = &self.overview else { return of_tiles };
+        let done = self.samples * of_tiles + overview.samples() * overview.part_done();
+        done / (self.samples + overview.samples())
     }
 }
 

@@ -1,55 +1,83 @@
-//! How a picture is cut into tiles: pure arithmetic, no GPU.
+//! How a sheet of pictures is cut into tiles: pure arithmetic, no GPU.
 //!
 //! Tiles come in reading order, so that each row of them (a band) can be written and
 //! forgotten before the next is finished.
 
-use crate::render::{Eyes, Region};
+use super::sheet::Sheet;
+use crate::render::Region;
 
-/// A picture cut into tiles of nearly equal size.
+/// A sheet cut into tiles of nearly equal size, each a part of one picture.
 #[derive(Clone, Copy, Debug)]
-pub struct Tiling {
-    picture_px: [u32; 2],
+pub(super) struct Tiling {
+    sheet: Sheet,
     tile_px: [u32; 2],
+    /// Columns and rows of tiles in each picture.
     columns: u32,
     rows: u32,
 }
 
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tile {
+    /// What it shows.
+    pub region: Region,
+    /// How far from the sheet's left edge it lies, pixels.
+    pub left_px: u32,
+    /// Whether it is the last of its band.
+    pub ends_band: bool,
+}
+
 impl Tiling {
-    /// Cuts `picture_px` into the fewest tiles that are at most `max_tile_px` large, then makes
+    /// Cuts every picture into the fewest tiles that are at most `max_tile_px` large, then makes
     /// them as equal as whole pixels allow: buffers are made anew only where sizes differ.
     /// All sides are at least 1.
-    pub fn new(picture_px: [u32; 2], max_tile_px: [u32; 2]) -> Self {
+    pub fn new(sheet: Sheet, max_tile_px: [u32; 2]) -> Self {
+        let picture_px = sheet.picture_px;
         let counts: [u32; 2] =
             std::array::from_fn(|i| picture_px[i].div_ceil(max_tile_px[i].max(1)));
         let tile_px = std::array::from_fn(|i| picture_px[i].div_ceil(counts[i].max(1)));
         // Equal tiles can be so much larger than needed that one fewer of them is enough.
         let [columns, rows] = std::array::from_fn(|i| picture_px[i].div_ceil(tile_px[i]));
-        Self { picture_px, tile_px, columns, rows }
+        Self { sheet, tile_px, columns, rows }
+    }
+
+    /// Width and height of all, pixels.
+    pub fn sheet_px(&self) -> [u32; 2] {
+        self.sheet.size_px()
     }
 
     /// How many tiles there are.
     pub fn count(&self) -> u32 {
-        self.columns * self.rows
+        self.columns * self.rows * self.sheet.pictures.len() as u32
     }
 
     /// Tile `index` in reading order, below [`Self::count`].
-    pub fn tile(&self, index: u32) -> Region {
-        let cell = [index % self.columns, index / self.columns];
+    pub fn tile(&self, index: u32) -> Tile {
+        let in_band = self.columns * self.sheet.columns;
+        let (band, place) = (index / in_band, index % in_band);
+        let column_of_pictures = place / self.columns;
+        let picture = band / self.rows * self.sheet.columns + column_of_pictures;
+        let cell = [place % self.columns, band % self.rows];
+        let picture_px = self.sheet.picture_px;
         let origin_px = std::array::from_fn(|i| cell[i] * self.tile_px[i]);
-        let size_px =
-            std::array::from_fn(|i| self.tile_px[i].min(self.picture_px[i] - origin_px[i]));
-        Region { picture_px: self.picture_px, origin_px, size_px, eyes: Eyes::Camera }
-    }
-
-    /// Whether tile `index` is the last of its band.
-    pub fn ends_band(&self, index: u32) -> bool {
-        index % self.columns == self.columns - 1
+        let size_px = std::array::from_fn(|i| self.tile_px[i].min(picture_px[i] - origin_px[i]));
+        let eyes = self.sheet.pictures[picture as usize];
+        Tile {
+            region: Region { picture_px, origin_px, size_px, eyes },
+            left_px: column_of_pictures * picture_px[0] + origin_px[0],
+            ends_band: place == in_band - 1,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::Eyes;
+
+    fn cut(picture_px: [u32; 2], max_tile_px: [u32; 2]) -> Tiling {
+        Tiling::new(Sheet::single(picture_px), max_tile_px)
+    }
 
     #[test]
     fn every_pixel_is_in_exactly_one_tile() {
@@ -60,9 +88,9 @@ mod tests {
             ([7, 9], [3, 1]),
             ([10, 10], [4, 9]),
         ] {
-            let tiling = Tiling::new(picture_px, max_tile_px);
+            let tiling = cut(picture_px, max_tile_px);
             let mut times_covered = vec![0; (picture_px[0] * picture_px[1]) as usize];
-            for region in (0..tiling.count()).map(|index| tiling.tile(index)) {
+            for region in (0..tiling.count()).map(|index| tiling.tile(index).region) {
                 assert!(region.size_px[0] <= max_tile_px[0] && region.size_px[1] <= max_tile_px[1]);
                 for y in 0..region.size_px[1] {
                     for x in 0..region.size_px[0] {
@@ -83,9 +111,9 @@ mod tests {
         for (picture_px, tile_px) in
             [([1280, 720], [1280, 240]), ([3840, 2160], [1920, 240]), ([16384, 16384], [2048, 256])]
         {
-            let tiling = Tiling::new(picture_px, [2048, 256]);
+            let tiling = cut(picture_px, [2048, 256]);
             assert!(
-                (0..tiling.count()).all(|index| tiling.tile(index).size_px == tile_px),
+                (0..tiling.count()).all(|index| tiling.tile(index).region.size_px == tile_px),
                 "{picture_px:?}"
             );
         }
@@ -93,10 +121,37 @@ mod tests {
 
     #[test]
     fn bands_end_at_the_right_edge() {
-        let tiling = Tiling::new([101, 67], [32, 24]);
+        let tiling = cut([101, 67], [32, 24]);
         for index in 0..tiling.count() {
-            let tile = tiling.tile(index);
-            assert_eq!(tiling.ends_band(index), tile.origin_px[0] + tile.size_px[0] == 101);
+            let Tile { region, ends_band, left_px } = tiling.tile(index);
+            assert_eq!(ends_band, region.origin_px[0] + region.size_px[0] == 101);
+            assert_eq!(left_px, region.origin_px[0]);
+        }
+    }
+
+    /// Bands of a sheet, one after another, fill it from above without a gap.
+    #[test]
+    fn both_eyes_fill_their_sheet_in_the_order_of_its_rows() {
+        for columns in [1, 2] {
+            let pictures = &[Eyes::Left, Eyes::Right];
+            let sheet = Sheet { picture_px: [101, 67], pictures, columns };
+            let tiling = Tiling::new(sheet, [32, 24]);
+            let [width, height] = tiling.sheet_px();
+            let (mut across, mut above) = (0, 0);
+            for tile in (0..tiling.count()).map(|index| tiling.tile(index)) {
+                let Region { picture_px, origin_px, size_px, eyes } = tile.region;
+                assert_eq!(tile.left_px, across);
+                across += size_px[0];
+                let (right, below) = (tile.left_px / 101 == 1, above / 67 == 1);
+                assert_eq!(eyes, if right || below { Eyes::Right } else { Eyes::Left });
+                assert_eq!(([tile.left_px % 101, above % 67], picture_px), (origin_px, [101, 67]));
+                assert_eq!(tile.ends_band, across == width);
+                if tile.ends_band {
+                    above += size_px[1];
+                    across = 0;
+                }
+            }
+            assert_eq!(above, height);
         }
     }
 }
