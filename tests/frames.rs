@@ -162,6 +162,21 @@ fn another_sequence_is_refused_and_nothing_written_over() {
 }
 
 #[test]
+fn frames_come_as_openexr_too_in_a_folder_of_their_own() {
+    let place = Workplace::new();
+    assert_eq!(code(&place.run(&["-o", "exr", "--frames", "3..5", "--exr"])), 0);
+    let names = place.names("exr");
+    assert_eq!(names[..2], ["frame_000003.exr", "frame_000004.exr"]);
+    for name in &names[..2] {
+        let file = fs::read(place.folder.path().join("exr").join(name)).unwrap();
+        assert_eq!(file[..4], [0x76, 0x2f, 0x31, 0x01], "{name} does not begin as OpenEXR does");
+    }
+    let again = place.run(&["-o", "exr", "--frames", "3..5", "--exr"]);
+    assert!(said(&again).contains("all 2 frames are there"), "{}", said(&again));
+    assert_eq!(code(&place.run(&["-o", "exr"])), 2, "PNGs do not go between them");
+}
+
+#[test]
 fn two_processes_fill_one_folder() {
     let place = Workplace::new();
     let children: Vec<_> = ["0..5", "4..9"]

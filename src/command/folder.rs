@@ -12,7 +12,7 @@ use std::{
 };
 
 use mandelight::{
-    export::frame_name,
+    export::{PictureFormat, frame_name},
     scene::{Panorama, document},
 };
 use sha2::{Digest as _, Sha256};
@@ -34,6 +34,8 @@ pub struct Sequence<'a> {
     pub samples: Option<u32>,
     /// The picture behind, where one is at hand.
     pub panorama: Option<&'a Panorama>,
+    /// The kind of the files.
+    pub format: PictureFormat,
 }
 
 impl Sequence<'_> {
@@ -42,7 +44,7 @@ impl Sequence<'_> {
     fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
         let line = |hash: &mut Sha256, text: String| hash.update(text + "\n");
-        line(&mut hash, env!("CARGO_PKG_VERSION").to_owned());
+        line(&mut hash, format!("{} {:?}", env!("CARGO_PKG_VERSION"), self.format));
         line(
             &mut hash,
             format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second),
@@ -76,6 +78,7 @@ impl Sequence<'_> {
 /// The folder of one sequence.
 pub struct Folder {
     path: PathBuf,
+    ending: &'static str,
 }
 
 impl Folder {
@@ -110,12 +113,16 @@ impl Folder {
                 return Err(other_sequence(path, other));
             }
         }
-        Ok(Self { path: path.to_owned() })
+        let ending = match sequence.format {
+            PictureFormat::Png => "png",
+            PictureFormat::Exr => "exr",
+        };
+        Ok(Self { path: path.to_owned(), ending })
     }
 
     /// Where frame `frame` is, or goes.
     pub fn file(&self, frame: u32) -> PathBuf {
-        self.path.join(frame_name(frame))
+        self.path.join(frame_name(frame)).with_extension(self.ending)
     }
 
     /// Whether frame `frame` is there; it then is whole.
@@ -127,7 +134,7 @@ impl Folder {
 fn other_sequence(path: &Path, mark: &str) -> Failure {
     let shown = path.display();
     Failure::usage(format!(
-        "{shown} holds frames of another scene, size or number of samples ({mark}); choose another folder, or empty this one"
+        "{shown} holds frames of another scene, size, number of samples or kind ({mark}); choose another folder, or empty this one"
     ))
 }
 
@@ -143,5 +150,5 @@ fn is_mark(name: &str) -> bool {
 }
 
 fn is_frame(name: &str) -> bool {
-    name.starts_with("frame_") && name.ends_with(".png")
+    name.starts_with("frame_") && (name.ends_with(".png") || name.ends_with(".exr"))
 }

@@ -15,7 +15,9 @@ use std::{
 
 use indicatif::ProgressBar;
 use mandelight::{
-    export::{ExportError, StillJob, StillOptions, StillStatus, sequence::remaining_secs},
+    export::{
+        ExportError, PictureFormat, StillJob, StillOptions, StillStatus, sequence::remaining_secs,
+    },
     render::Kernels,
     scene::Path,
 };
@@ -49,6 +51,9 @@ pub struct Arguments {
     /// Samples a pixel, in place of the scenes' own
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
+    /// Write OpenEXR files, with linear radiance, depth, normal and position, in place of PNGs
+    #[arg(long)]
+    exr: bool,
     /// Change a field in every key, such as quality.detail=0.5, or of the path, such as path.frames_per_second=60
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -82,7 +87,9 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let frames = wanted_of(arguments.frames, &path, &arguments.scene)?;
     let panorama = environment.map(|environment| environment.panorama);
     let Arguments { size, samples, quiet, .. } = arguments;
-    let sequence = Sequence { path: &path, size_px: size, samples, panorama: panorama.as_deref() };
+    let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
+    let sequence =
+        Sequence { path: &path, size_px: size, samples, panorama: panorama.as_deref(), format };
     // Before there is a file that an interruption could leave behind.
     let interrupted = interruption()?;
     let folder = Folder::open(&arguments.output, &sequence)?;
@@ -101,7 +108,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let work = Work {
         path: &path,
         folder: &folder,
-        options: StillOptions { samples, panorama, ..StillOptions::new(size) },
+        options: StillOptions { samples, panorama, format, ..StillOptions::new(size) },
         kernels: Kernels::new(&gpu),
         health: Health::of(&gpu),
         interrupted,
