@@ -15,10 +15,20 @@ fn eye_side(pixel: vec2u) -> f32 {
     return select(picture.eyes.first_side, -picture.eyes.first_side, is_second_eye(pixel));
 }
 
+// How many columns and rows of eyes the whole film has.
+fn sheet_eyes() -> vec2u {
+    return vec2u(round(1.0 / picture.eyes.share));
+}
+
+// In which of them a pixel's eye is.
+fn eye_on_sheet(pixel: vec2u) -> vec2u {
+    let place = select(picture.eyes.first_place, 1.0, is_second_eye(pixel));
+    return u32(place) * (sheet_eyes() - 1u);
+}
+
 // Where on the whole film a pixel's eye begins; (0, 0) to (1, 1) are all of the film.
 fn eye_corner(pixel: vec2u) -> vec2f {
-    let place = select(picture.eyes.first_place, 1.0, is_second_eye(pixel));
-    return place * (1.0 - picture.eyes.share);
+    return vec2f(eye_on_sheet(pixel)) * picture.eyes.share;
 }
 
 // A position in an eye's whole picture, 0 to 1, for a place in one of the region's pixels.

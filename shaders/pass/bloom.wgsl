@@ -9,16 +9,18 @@ fn above_threshold(color: vec3f) -> vec3f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    let size = mip_size(picture.size_px, FIRST_MIP_LEVEL);
+    let levels = film_levels();
+    let size = mip_size(levels, FIRST_MIP_LEVEL);
     let index = mip_index(workgroup.x, local_index);
     if (index >= size.x * size.y) { return; }
     let cell = vec2u(index % size.x, index / size.x);
-    let span = mip_span(picture.size_px, FIRST_MIP_LEVEL, cell);
+    let span = mip_span(levels, FIRST_MIP_LEVEL, cell);
+    let corner = mip_pixel(levels, FIRST_MIP_LEVEL, cell);
     let exposure = exposure_factor();
     var sum = vec3f(0.0);
     for (var y = 0u; y < span.y; y++) {
         for (var x = 0u; x < span.x; x++) {
-            let pixel = (cell << vec2u(FIRST_MIP_LEVEL)) + vec2u(x, y);
+            let pixel = corner + vec2u(x, y);
             var color = film_part(pixel_index(pixel)) * exposure;
             if (picture.bloom.after != 0u) { color = tone_mapped(color); }
             sum += above_threshold(color);

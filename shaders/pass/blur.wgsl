@@ -1,13 +1,14 @@
 // One direction of a uniform kernel over a mip level (thesis 4.5): along x from the level to
 // `half_blurred`, along y back. The kernel is as wide as it is, not as wide as whole elements are:
 // those at its ends count for the part that it covers. It is normalised by the pixels inside the
-// region, so that nothing darkens toward the borders.
+// eye's part of the film, so that nothing darkens toward the borders or reaches the other eye.
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let level = slice.mip_level;
-    let size = mip_size(picture.size_px, level);
-    let start = mip_start(picture.size_px, level);
+    let levels = film_levels();
+    let size = mip_size(levels, level);
+    let start = mip_start(levels, level);
     let index = mip_index(workgroup.x, local_index);
     if (index >= size.x * size.y) { return; }
     let along = slice.axis;
@@ -15,13 +16,16 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let stride = select(1u, size.x, along == 1u);
     let middle = i32(cell[along]);
     let reach = i32(ceil(slice.half_width - 0.5));
+    let own_size = mip_eye_size(levels, level);
+    let own = i32(cell[along] % own_size[along]);
+    let ahead = i32(own_size[along]) - 1 - own;
     var sum = vec3f(0.0);
     var total = 0.0;
-    for (var i = max(-reach, -middle); i <= min(reach, i32(size[along]) - 1 - middle); i++) {
+    for (var i = max(-reach, -own); i <= min(reach, ahead); i++) {
         var other = cell;
         other[along] = u32(middle + i);
         let covered = clamp(slice.half_width + 0.5 - f32(abs(i)), 0.0, 1.0);
-        let weight = covered * f32(mip_span(picture.size_px, level, other)[along]);
+        let weight = covered * f32(mip_span(levels, level, other)[along]);
         let at = u32(i32(index) + i * i32(stride));
         if (along == 0u) {
             sum += weight * mips[start + at].rgb;

@@ -8,7 +8,10 @@ const MOST_STOPS = 20.0;
 fn main(@builtin(local_invocation_index) local_index: u32) {
     if (local_index != 0u) { return; }
     if (slice.mip_level != 0u) {
-        let all = mips[mip_start(picture.size_px, slice.mip_level)];
+        // One element for each eye.
+        let levels = film_levels();
+        let first = mip_start(levels, slice.mip_level);
+        let all = 0.5 * (mips[first] + mips[first + levels.eyes.x * levels.eyes.y - 1u]);
         statistics.mean = all.rgb;
         statistics.mean_log2 = all.w;
     }

@@ -17,11 +17,16 @@ fn in_region(position: vec2i) -> bool {
     return all(position >= vec2i(0)) && all(position < vec2i(picture.size_px));
 }
 
-// The known colours on both sides of a new pixel. At the region's border the one that is
+// Whether there is a pixel of the same eye.
+fn is_neighbor(at: vec2i, position: vec2i) -> bool {
+    return in_region(position) && is_second_eye(vec2u(position)) == is_second_eye(vec2u(at));
+}
+
+// The known colours on both sides of a new pixel. At the border of the eye's part the one that is
 // missing is replaced by the other, and where both are, by `sure`.
 fn pair(at: vec2i, offset: vec2i, sure: vec3f) -> array<vec3f, 2> {
-    let ahead = in_region(at + offset);
-    let behind = in_region(at - offset);
+    let ahead = is_neighbor(at, at + offset);
+    let behind = is_neighbor(at, at - offset);
     var colors = array<vec3f, 2>(sure, sure);
     if (ahead) { colors[0] = film_at(at + offset); }
     if (behind) { colors[1] = film_at(at - offset); }
@@ -38,13 +43,21 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let s = i32(slice.spacing);
     // Staggered levels have neighbours beside and above, the others on the diagonals. One of
     // those toward the origin is always there: a staggered pixel of the first column lies in
-    // an odd row.
+    // an odd row. It may be of the other eye, which has to do only where there is no other.
     let staggered = slice.stagger != 0u;
+    let one = select(vec2i(s, s), vec2i(s, 0), staggered);
+    let other = select(vec2i(-s, s), vec2i(0, s), staggered);
     var sure = at - vec2i(s, s);
     if (staggered) { sure = select(at - vec2i(0, s), at - vec2i(s, 0), at.x >= s); }
+    if (!is_neighbor(at, sure)) {
+        let around = array<vec2i, 4>(one, other, -one, -other);
+        for (var i = 0u; i < 4u; i++) {
+            if (is_neighbor(at, at + around[i])) { sure = at + around[i]; }
+        }
+    }
     let fallback = film_at(sure);
-    let first = pair(at, select(vec2i(s, s), vec2i(s, 0), staggered), fallback);
-    let second = pair(at, select(vec2i(-s, s), vec2i(0, s), staggered), fallback);
+    let first = pair(at, one, fallback);
+    let second = pair(at, other, fallback);
     // Squared: the better pair wins clearly, without a visible switch.
     let along_first = 1.0 / (contrast(first[0], first[1]) + 0.01);
     let along_second = 1.0 / (contrast(second[0], second[1]) + 0.01);

@@ -11,14 +11,16 @@ fn bin(color: vec3f) -> u32 {
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     // Workgroup memory starts as zeros.
-    let size = mip_size(picture.size_px, FIRST_MIP_LEVEL);
+    let levels = film_levels();
+    let size = mip_size(levels, FIRST_MIP_LEVEL);
     let index = mip_index(workgroup.x, local_index);
     if (index < size.x * size.y) {
         let cell = vec2u(index % size.x, index / size.x);
-        let span = mip_span(picture.size_px, FIRST_MIP_LEVEL, cell);
+        let span = mip_span(levels, FIRST_MIP_LEVEL, cell);
+        let corner = mip_pixel(levels, FIRST_MIP_LEVEL, cell);
         for (var y = 0u; y < span.y; y++) {
             for (var x = 0u; x < span.x; x++) {
-                let pixel = (cell << vec2u(FIRST_MIP_LEVEL)) + vec2u(x, y);
+                let pixel = corner + vec2u(x, y);
                 atomicAdd(&own_bins[bin(film_part(pixel_index(pixel)))], 1u);
             }
         }

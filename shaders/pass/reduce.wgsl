@@ -4,18 +4,23 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let level = slice.mip_level;
-    let finer_size = mip_size(picture.size_px, level);
-    let size = mip_size(picture.size_px, level + 1u);
+    let levels = film_levels();
+    let finer_size = mip_size(levels, level);
+    let size = mip_size(levels, level + 1u);
     let index = mip_index(workgroup.x, local_index);
     if (index >= size.x * size.y) { return; }
     let cell = vec2u(index % size.x, index / size.x);
-    let start = mip_start(picture.size_px, level);
+    let start = mip_start(levels, level);
+    let own_size = mip_eye_size(levels, level + 1u);
+    let own_finer_size = mip_eye_size(levels, level);
+    let eye = cell / own_size;
     var sum = vec4f(0.0);
     var pixels = 0.0;
     for (var i = 0u; i < 4u; i++) {
-        let finer = 2u * cell + vec2u(i & 1u, i >> 1u);
-        if (any(finer >= finer_size)) { continue; }
-        let span = mip_span(picture.size_px, level, finer);
+        let own = 2u * (cell % own_size) + vec2u(i & 1u, i >> 1u);
+        if (any(own >= own_finer_size)) { continue; }
+        let finer = eye * own_finer_size + own;
+        let span = mip_span(levels, level, finer);
         let weight = f32(span.x) * f32(span.y);
         sum += weight * mips[start + finer.y * finer_size.x + finer.x];
         pixels += weight;

@@ -16,10 +16,11 @@ fn dither(pixel: vec2u) -> f32 {
     return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }
 
-// A film pixel, or the nearest one inside the region.
-fn film_near(position: vec2i) -> vec3f {
-    let inside = clamp(position, vec2i(0), vec2i(picture.size_px) - 1);
-    return film_mean(pixel_index(vec2u(inside)));
+// The film beside a pixel, or the pixel's own where that is outside of the region or of another eye.
+fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
+    let inside = vec2u(clamp(vec2i(pixel) + offset, vec2i(0), vec2i(picture.size_px) - 1));
+    let same_eye = is_second_eye(inside) == is_second_eye(pixel);
+    return film_mean(pixel_index(select(pixel, inside, same_eye)));
 }
 
 // What the film says of a pixel. On a sparse lattice a lone sample can be brighter or darker
@@ -28,31 +29,33 @@ fn film_near(position: vec2i) -> vec3f {
 fn reconstructed(pixel: vec2u) -> vec3f {
     let own = film_mean(pixel_index(pixel));
     if (slice.spacing == 0u) { return own; }
-    let at = vec2i(pixel);
-    let left = film_near(at - vec2i(1, 0));
-    let right = film_near(at + vec2i(1, 0));
-    let above = film_near(at - vec2i(0, 1));
-    let below = film_near(at + vec2i(0, 1));
+    let left = film_beside(pixel, vec2i(-1, 0));
+    let right = film_beside(pixel, vec2i(1, 0));
+    let above = film_beside(pixel, vec2i(0, -1));
+    let below = film_beside(pixel, vec2i(0, 1));
     return clamp(own, min(min(left, right), min(above, below)), max(max(left, right), max(above, below)));
 }
 
-fn mip_element(size: vec2u, cell: vec2u) -> vec3f {
-    return mips[statistics.bloom_start + cell.y * size.x + cell.x].rgb;
+fn mip_element(width: u32, cell: vec2u) -> vec3f {
+    return mips[statistics.bloom_start + cell.y * width + cell.x].rgb;
 }
 
 // The light that has spread to a pixel. What spreads was blurred for the picture as a whole: the
-// pixel is looked up by its place in it, whatever region of it this is.
+// pixel is looked up by its place in its own eye's part, whatever region this is.
 fn bloom_at(pixel: vec2u) -> vec3f {
-    let place = eye_corner(pixel) + eye_position(pixel, vec2f(0.5)) * picture.eyes.share;
+    let levels = Levels(statistics.eye_px, sheet_eyes());
     let level = statistics.bloom_level;
-    let size = mip_size(statistics.size_px, level);
-    let at = place * vec2f(statistics.size_px) / f32(1u << level) - 0.5;
+    let size = mip_eye_size(levels, level);
+    let width = size.x * levels.eyes.x;
+    let corner = eye_on_sheet(pixel) * size;
+    let place = eye_position(pixel, vec2f(0.5));
+    let at = place * vec2f(levels.eye_px) / f32(1u << level) - 0.5;
     let inside = clamp(at, vec2f(0.0), vec2f(size - 1u));
-    let low = vec2u(inside);
-    let high = min(low + 1u, size - 1u);
+    let low = corner + vec2u(inside);
+    let high = min(low + 1u, corner + size - 1u);
     let part = fract(inside);
-    let above = mix(mip_element(size, low), mip_element(size, vec2u(high.x, low.y)), part.x);
-    let below = mix(mip_element(size, vec2u(low.x, high.y)), mip_element(size, high), part.x);
+    let above = mix(mip_element(width, low), mip_element(width, vec2u(high.x, low.y)), part.x);
+    let below = mix(mip_element(width, vec2u(low.x, high.y)), mip_element(width, high), part.x);
     return mix(above, below, part.y);
 }
 

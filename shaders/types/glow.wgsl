@@ -5,8 +5,8 @@ const HISTOGRAM_LOW_STOPS = -14.0;
 const HISTOGRAM_BINS_PER_STOP = 5.0;
 
 struct Statistics {
-    // What the mip levels are made of, in pixels.
-    size_px: vec2u,
+    // One eye's part of what the mip levels are made of, in pixels.
+    eye_px: vec2u,
     // The mip level that holds the bloom, and its first element.
     bloom_level: u32,
     bloom_start: u32,

@@ -14,6 +14,7 @@
 use super::{
     kernels::Kernels,
     lattice::WORKGROUP_THREADS,
+    region::Region,
     report::{HISTOGRAM_BINS, Histogram},
     targets,
     uniforms::{Picture, Statistics},
@@ -51,7 +52,7 @@ impl Need {
 
 /// Statistics and mip levels of a film of one size.
 pub struct Glow {
-    size_px: [u32; 2],
+    levels: Levels,
     need: Need,
     /// [`Statistics`].
     pub statistics: wgpu::Buffer,
@@ -63,26 +64,26 @@ pub struct Glow {
 }
 
 impl Glow {
-    /// Allocates what `need` takes for a film of `size_px`.
-    pub fn new(kernels: &Kernels, size_px: [u32; 2], need: Need) -> Self {
+    /// Allocates what `need` takes for the film of `region`.
+    pub fn new(kernels: &Kernels, region: Region, need: Need) -> Self {
+        let levels = Levels::of_region(region);
         let bytes = size_of::<Statistics>() as u64;
         let statistics = targets::storage(&kernels.gpu.device, "statistics", bytes);
         // New buffers hold zeros; the size is all that no pass writes.
-        kernels.gpu.queue.write_buffer(&statistics, 0, bytemuck::bytes_of(&size_px));
-        Self::around(kernels, size_px, need, statistics)
+        kernels.gpu.queue.write_buffer(&statistics, 0, bytemuck::bytes_of(&levels.eye_px));
+        Self::around(kernels, levels, need, statistics)
     }
 
     /// One for the same film with room for `need`. The statistics stay: exposure goes on from
     /// where it is.
     pub fn with_need(&self, kernels: &Kernels, need: Need) -> Self {
-        Self::around(kernels, self.size_px, need, self.statistics.clone())
+        Self::around(kernels, self.levels, need, self.statistics.clone())
     }
 
-    fn around(kernels: &Kernels, size_px: [u32; 2], need: Need, statistics: wgpu::Buffer) -> Self {
+    fn around(kernels: &Kernels, levels: Levels, need: Need, statistics: wgpu::Buffer) -> Self {
         let device = &kernels.gpu.device;
-        let finest = u64::from(elements(size_px, FIRST_LEVEL));
-        let all: u64 =
-            (FIRST_LEVEL..=last_level(size_px)).map(|n| u64::from(elements(size_px, n))).sum();
+        let finest = u64::from(levels.elements(FIRST_LEVEL));
+        let all: u64 = (FIRST_LEVEL..=levels.last()).map(|n| u64::from(levels.elements(n))).sum();
         let room = |wanted: bool, count: u64| ELEMENT_BYTES * if wanted { count } else { 1 };
         let mips = targets::storage(device, "mip levels", room(!need.is_none(), all));
         let half_blurred = targets::storage(device, "half blurred", room(need.bloom, finest));
@@ -92,12 +93,7 @@ impl Glow {
             "glow",
             [&statistics, &mips, &half_blurred].map(wgpu::Buffer::as_entire_binding),
         );
-        Self { size_px, need, statistics, mips, half_blurred, group }
-    }
-
-    /// The film's width and height, in pixels.
-    pub fn size_px(&self) -> [u32; 2] {
-        self.size_px
+        Self { levels, need, statistics, mips, half_blurred, group }
     }
 
     /// What there is room for.
@@ -124,21 +120,45 @@ pub struct Tasks {
     pub bloom: bool,
 }
 
-/// The level of one element.
-pub fn last_level(size_px: [u32; 2]) -> u32 {
-    let longest = size_px[0].max(size_px[1]).max(1);
-    longest.next_power_of_two().trailing_zeros().max(FIRST_LEVEL)
+/// How the mip levels of a film lie: each eye's part of it has its own elements, so that none
+/// holds light of both. Twin of `shaders/lib/mip.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Levels {
+    /// Width and height of one eye's part, pixels.
+    eye_px: [u32; 2],
+    /// Columns and rows of eyes.
+    eyes: [u32; 2],
 }
 
-/// Elements of a level: as many as cover the film.
-pub fn elements(size_px: [u32; 2], level: u32) -> u32 {
-    size_px.map(|side| side.div_ceil(1 << level)).iter().product()
-}
+impl Levels {
+    /// Those of a region's film.
+    pub fn of_region(region: Region) -> Self {
+        Self { eye_px: region.size_px, eyes: region.second_eye_at().map(|at| 1 + at.min(1)) }
+    }
 
-/// Workgroups of a dispatch over a level's elements; fewer than 65,536 for any region that
-/// [fits](super::Region::fits).
-pub fn workgroups(size_px: [u32; 2], level: u32) -> u32 {
-    elements(size_px, level).div_ceil(WORKGROUP_THREADS)
+    /// Those of the film that a picture's passes write.
+    pub fn of(picture: &Picture) -> Self {
+        let eyes = picture.eyes.second_at.map(|at| 1 + at.min(1));
+        Self { eye_px: std::array::from_fn(|i| picture.size_px[i] / eyes[i]), eyes }
+    }
+
+    /// The level of one element an eye.
+    pub fn last(self) -> u32 {
+        let longest = self.eye_px[0].max(self.eye_px[1]).max(1);
+        longest.next_power_of_two().trailing_zeros().max(FIRST_LEVEL)
+    }
+
+    /// Elements of a level: as many as cover the film.
+    pub fn elements(self, level: u32) -> u32 {
+        let eyes: u32 = self.eyes.iter().product();
+        eyes * self.eye_px.map(|side| side.div_ceil(1 << level)).iter().product::<u32>()
+    }
+
+    /// Workgroups of a dispatch over a level's elements; fewer than 65,536 for any region that
+    /// [fits](super::Region::fits).
+    pub fn workgroups(self, level: u32) -> u32 {
+        self.elements(level).div_ceil(WORKGROUP_THREADS)
+    }
 }
 
 /// One uniform kernel: the mip level it works on, and half its width in that level's elements.
@@ -151,12 +171,12 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The kernel for a radius in parts of the height of a film of `size_px`. Applied `passes`
+    /// The kernel for a radius in parts of the height of an eye's picture. Applied `passes`
     /// times, it spreads light with the variance of a single one with that half width.
-    pub fn new(radius: f32, passes: u32, size_px: [u32; 2]) -> Self {
-        let half_width_px = radius * size_px[1] as f32 / (passes.max(1) as f32).sqrt();
+    pub fn new(radius: f32, passes: u32, levels: Levels) -> Self {
+        let half_width_px = radius * levels.eye_px[1] as f32 / (passes.max(1) as f32).sqrt();
         let at = |level: u32| half_width_px / (1_u32 << level) as f32;
-        let last = last_level(size_px);
+        let last = levels.last();
         let level = (FIRST_LEVEL..last).find(|&n| at(n) <= MOST_HALF_WIDTH).unwrap_or(last);
         Self { level, half_width: at(level) }
     }
@@ -173,18 +193,23 @@ pub(super) fn histogram(bytes: &[u8]) -> Option<Histogram> {
 mod tests {
     use super::*;
 
+    fn levels(size_px: [u32; 2]) -> Levels {
+        Levels::of_region(Region::whole(size_px))
+    }
+
     #[test]
     fn levels_end_in_one_element() {
         for size_px in [[1, 1], [4, 4], [5, 1], [7, 3], [101, 67], [1920, 1080], [8192, 2048]] {
-            assert_eq!(elements(size_px, last_level(size_px)), 1, "{size_px:?}");
+            let levels = levels(size_px);
+            assert_eq!(levels.elements(levels.last()), 1, "{size_px:?}");
         }
-        assert_eq!(last_level([1920, 1080]), 11);
+        assert_eq!(levels([1920, 1080]).last(), 11);
     }
 
     #[test]
     fn every_region_takes_one_dispatch_a_level() {
         for size_px in [[8192, 2048], [2048, 8192], [4096, 4096]] {
-            assert!(workgroups(size_px, FIRST_LEVEL) < 65_536);
+            assert!(levels(size_px).workgroups(FIRST_LEVEL) < 65_536);
         }
     }
 
@@ -193,7 +218,7 @@ mod tests {
         for size_px in [[96, 64], [1920, 1080], [4096, 4096]] {
             for radius in [0.005, 0.04, 0.25] {
                 for passes in 1..=4 {
-                    let kernel = Kernel::new(radius, passes, size_px);
+                    let kernel = Kernel::new(radius, passes, levels(size_px));
                     assert!(kernel.half_width <= MOST_HALF_WIDTH);
                     // Coarser only where a finer one would be too long.
                     assert!(

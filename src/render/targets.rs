@@ -123,7 +123,7 @@ impl Targets {
             film_rg,
             film_bw,
             film_group,
-            glow: Arc::new(Glow::new(kernels, size_px, Need::default())),
+            glow: Arc::new(Glow::new(kernels, region, Need::default())),
             backdrop: Arc::new(Backdrop::new(kernels, None)),
             texture,
         }

@@ -37,24 +37,34 @@ pub struct Toned {
 
 /// A film of one sample a pixel, of which everything is found out.
 pub struct Film {
-    size_px: [u32; 2],
+    region: Region,
     targets: Targets,
 }
 
 impl Film {
     /// A film of `size_px`.
     pub fn new(size_px: [u32; 2]) -> Self {
-        let mut targets = Targets::new(kernels(), Region::whole(size_px));
+        Self::of(Region::whole(size_px))
+    }
+
+    /// The film of a region.
+    pub fn of(region: Region) -> Self {
+        let mut targets = Targets::new(kernels(), region);
         let need = Need { mean: true, bloom: true };
-        targets.glow = Arc::new(Glow::new(kernels(), size_px, need));
-        Self { size_px, targets }
+        targets.glow = Arc::new(Glow::new(kernels(), region, need));
+        Self { region, targets }
     }
 
     /// Shows `colors` with the scene's tone and bloom.
     pub fn tone(&self, scene: &Scene, colors: &[[f32; 3]]) -> Toned {
+        self.show(scene, colors, 0)
+    }
+
+    /// The same, with only the pixels of the lattice `level` known of `colors`.
+    pub fn show(&self, scene: &Scene, colors: &[[f32; 3]], level: u32) -> Toned {
         let kernels = kernels();
         let gpu = &kernels.gpu;
-        let inputs = Inputs::new(scene, Region::whole(self.size_px));
+        let inputs = Inputs::new(scene, self.region);
         self.targets.upload(&gpu.queue, &inputs);
         let rg: Vec<_> = colors.iter().map(|[r, g, _]| [*r, *g]).collect();
         let bw: Vec<_> = colors.iter().map(|[_, _, b]| [*b, 1.0]).collect();
@@ -70,12 +80,12 @@ impl Film {
             adapt: Some(1.0),
             bloom: scene.bloom.strength > 0.0,
         };
-        record(&mut recorder, Work::Show { level: 0, fill: false, adapt: 1.0 });
+        record(&mut recorder, Work::Show { level, fill: level > 0, adapt: 1.0 });
         gpu.queue.submit([recorder.finish()]);
 
         let glow = &self.targets.glow;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("the buffer's bytes");
-        let display = Readback::texture(gpu, &self.targets.texture, self.size_px);
+        let display = Readback::texture(gpu, &self.targets.texture, self.region.display_px());
         let bytes = display.wait(gpu).expect("the picture's bytes");
         assert_eq!(gpu.faults(), 0);
         let element = |bytes: &[u8; 16]| {

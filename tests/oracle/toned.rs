@@ -1,7 +1,10 @@
 //! What the kernels make of a film, against the oracle: mean, histogram, tone curves, bloom.
 
 use glam::DVec3;
-use mandelight::scene::{Bloom, BloomOrder, Scene, Tone, ToneChannels, ToneCurve, ToneMean};
+use mandelight::{
+    render::{Eyes, Region},
+    scene::{Bloom, BloomOrder, Scene, Tone, ToneChannels, ToneCurve, ToneMean},
+};
 
 use super::{Random, bloom, film::Film, light::srgb, tone};
 
@@ -328,6 +331,77 @@ fn a_uniform_film_blooms_uniformly() {
             for color in toned.display {
                 assert!((color - expected).abs().max_element() < 1.05, "{size_px:?}: {color}");
             }
+        }
+    }
+}
+
+/// The columns `left..left + width` of rows of `stride` pixels, and so on for rows.
+fn part<T: Copy>(all: &[T], stride: usize, at: [usize; 2], size: [usize; 2]) -> Vec<T> {
+    let rows = all.chunks(stride).skip(at[1]).take(size[1]);
+    rows.flat_map(|row| &row[at[0]..at[0] + size[0]]).copied().collect()
+}
+
+/// Two eyes that share a film bloom as if each were alone: what is bright at one's edge leaves the
+/// other's picture dark. Their mean is that of both.
+#[test]
+fn the_light_of_one_eye_does_not_reach_the_other() {
+    for (eyes, size_px) in
+        [(Eyes::Beside, [37, 22]), (Eyes::Below, [37, 22]), (Eyes::Beside, [101, 67])]
+    {
+        let region = Region { eyes, ..Region::whole(size_px) };
+        let (film_px, second) = (region.film_px(), region.second_eye_at().map(|at| at as usize));
+        let mut colors = varied(film_px);
+        let [width, height] = size_px.map(|side| side as usize);
+        // The right eye's picture is dark, and the left one's bright where they meet.
+        let stride = film_px[0] as usize;
+        for (i, color) in colors.iter_mut().enumerate() {
+            let (x, y) = (i % stride, i / stride);
+            if x >= second[0] && y >= second[1] {
+                *color = [0.0; 3];
+            } else if x + 1 == width || y + 1 == height {
+                *color = [900.0, 400.0, 200.0];
+            }
+        }
+        for order in [BloomOrder::Before, BloomOrder::After] {
+            for radius in [0.03, 0.25] {
+                let bloom = Bloom { strength: 1.0, radius, threshold: 0.0, passes: 3, order };
+                let scene = toned_by(Tone::default(), bloom);
+                let both = Film::of(region).tone(&scene, &colors);
+                for at in [[0, 0], second] {
+                    let own = part(&colors, stride, at, [width, height]);
+                    let alone = Film::new(size_px).tone(&scene, &own).display;
+                    let found = part(&both.display, stride, at, [width, height]);
+                    assert_eq!(found, alone, "{eyes:?} at {at:?}");
+                    assert_eq!(at == second, alone.iter().all(|color| *color == DVec3::ZERO));
+                }
+            }
+        }
+        let statistics = Film::of(region).tone(&Scene::default(), &colors).statistics;
+        let sum: f64 = colors.iter().map(|color| f64::from(color[0])).sum();
+        let expected = sum / colors.len() as f64;
+        assert!((f64::from(statistics.mean[0]) / expected - 1.0).abs() < 1e-5);
+        assert_eq!(statistics.bins.iter().sum::<u32>() as usize, colors.len());
+    }
+}
+
+/// What is filled in between the pixels of a sparse lattice is of one eye, too.
+#[test]
+fn a_sparse_lattice_does_not_mix_the_eyes() {
+    for (eyes, size_px) in
+        [(Eyes::Beside, [37, 22]), (Eyes::Below, [37, 21]), (Eyes::Beside, [64, 31])]
+    {
+        let region = Region { eyes, ..Region::whole(size_px) };
+        let (stride, second) = (region.film_px()[0] as usize, region.second_eye_at());
+        let is_second =
+            |i: usize| i % stride >= second[0] as usize && i / stride >= second[1] as usize;
+        let colors: Vec<_> = (0..count(region.film_px()))
+            .map(|i| if is_second(i) { [0.0; 3] } else { [0.25; 3] })
+            .collect();
+        let scene = Scene::default();
+        let complete = Film::of(region).tone(&scene, &colors).display;
+        for level in 1..=8 {
+            let filled = Film::of(region).show(&scene, &colors, level).display;
+            assert_eq!(filled, complete, "{eyes:?}, {size_px:?}, level {level}");
         }
     }
 }

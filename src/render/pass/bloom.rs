@@ -5,7 +5,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{self, FIRST_LEVEL, Kernel},
+        glow::{FIRST_LEVEL, Kernel, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -31,11 +31,11 @@ pub const MODULE: Module = Module {
 /// Leaves the blurred light in the mip level that the statistics then name.
 pub fn record(recorder: &mut Recorder<'_>) {
     let picture = &recorder.inputs.picture;
-    let size_px = picture.size_px;
+    let levels = Levels::of(picture);
     let passes = picture.bloom.passes;
-    let kernel = Kernel::new(picture.bloom.radius, passes, size_px);
+    let kernel = Kernel::new(picture.bloom.radius, passes, levels);
     let pipeline = recorder.kernels.glow().bloom.clone();
-    recorder.dispatch(&pipeline, Slice::zeroed(), glow::workgroups(size_px, FIRST_LEVEL));
+    recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, kernel.level);
     for _ in 0..passes {
         blur::record(recorder, kernel);

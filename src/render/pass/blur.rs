@@ -4,7 +4,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{self, Kernel},
+        glow::{Kernel, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -26,7 +26,7 @@ pub const MODULE: Module = Module {
 /// Applies `kernel` once.
 pub fn record(recorder: &mut Recorder<'_>, kernel: Kernel) {
     let pipeline = recorder.kernels.glow().blur.clone();
-    let workgroups = glow::workgroups(recorder.inputs.picture.size_px, kernel.level);
+    let workgroups = Levels::of(&recorder.inputs.picture).workgroups(kernel.level);
     for axis in 0..2 {
         let Kernel { level, half_width } = kernel;
         let slice = Slice { mip_level: level, axis, half_width, ..Slice::zeroed() };

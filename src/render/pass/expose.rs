@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, glow, uniforms::Slice},
+    render::{frame::Recorder, glow::Levels, uniforms::Slice},
     shader_file,
 };
 use bytemuck::Zeroable;
@@ -24,7 +24,7 @@ pub const MODULE: Module = Module {
 /// hold a mean that the statistics do not.
 pub fn record(recorder: &mut Recorder<'_>, mean_is_new: bool, adapt: f32) {
     let pipeline = recorder.kernels.glow().expose.clone();
-    let last = glow::last_level(recorder.inputs.picture.size_px);
+    let last = Levels::of(&recorder.inputs.picture).last();
     let mip_level = if mean_is_new { last } else { 0 };
     recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::zeroed() }, 1);
 }

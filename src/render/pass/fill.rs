@@ -14,6 +14,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/slice.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/eye.wgsl"),
         shader_file!("lib/luminance.wgsl"),
         shader_file!("pass/fill.wgsl"),
     ],

@@ -4,7 +4,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{self, FIRST_LEVEL},
+        glow::{FIRST_LEVEL, Levels},
         uniforms::{Slice, Statistics},
     },
     shader_file,
@@ -37,7 +37,7 @@ pub fn record(recorder: &mut Recorder<'_>) {
         bytemuck::bytes_of(&zeros),
     );
     let pipeline = recorder.kernels.glow().histogram.clone();
-    let workgroups = glow::workgroups(recorder.inputs.picture.size_px, FIRST_LEVEL);
+    let workgroups = Levels::of(&recorder.inputs.picture).workgroups(FIRST_LEVEL);
     recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
     recorder.dispatches.histogram += 1;
 }

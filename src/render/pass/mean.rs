@@ -5,7 +5,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{self, FIRST_LEVEL},
+        glow::{FIRST_LEVEL, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -29,9 +29,9 @@ pub const MODULE: Module = Module {
 
 /// Makes all mip levels of the film, down to one element.
 pub fn record(recorder: &mut Recorder<'_>) {
-    let size_px = recorder.inputs.picture.size_px;
+    let levels = Levels::of(&recorder.inputs.picture);
     let pipeline = recorder.kernels.glow().mean.clone();
-    recorder.dispatch(&pipeline, Slice::zeroed(), glow::workgroups(size_px, FIRST_LEVEL));
-    reduce::record(recorder, glow::last_level(size_px));
+    recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
+    reduce::record(recorder, levels.last());
     recorder.dispatches.mean += 1;
 }

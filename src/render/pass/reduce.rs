@@ -4,7 +4,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{self, FIRST_LEVEL},
+        glow::{FIRST_LEVEL, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -27,7 +27,7 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, last: u32) {
     let pipeline = recorder.kernels.glow().reduce.clone();
     for level in FIRST_LEVEL..last {
-        let workgroups = glow::workgroups(recorder.inputs.picture.size_px, level + 1);
+        let workgroups = Levels::of(&recorder.inputs.picture).workgroups(level + 1);
         let slice = Slice { mip_level: level, ..Slice::zeroed() };
         recorder.dispatch(&pipeline, slice, workgroups);
     }

@@ -248,8 +248,8 @@ host_shared! {
     }
     /// What is known of a film as a whole.
     Statistics {
-        /// The film's width and height, pixels.
-        size_px: [u32; 2],
+        /// Width and height of one eye's part of the film, pixels.
+        eye_px: [u32; 2],
         /// Mip level that holds the bloom.
         bloom_level: u32,
         /// Its first element.
