@@ -1,92 +1,13 @@
-// Light and colour of each sample, onto the film. No ray is marched here: visibility is a bit.
-
-const SOURCE_ITERATIONS = 0u;
-const SOURCE_ORIGIN_TRAP = 1u;
-const SOURCE_AXIS_TRAP = 2u;
-
-const GRADIENT_ENTRIES = 256u;
-// The surface's colour gradient, linear Rec. 709, closed on itself.
-@group(0) @binding(3) var<uniform> gradient: array<vec4f, GRADIENT_ENTRIES>;
-
-fn gradient_color(u: f32) -> vec3f {
-    let x = fract(u) * f32(GRADIENT_ENTRIES);
-    let low = u32(x) % GRADIENT_ENTRIES;
-    return mix(gradient[low].rgb, gradient[(low + 1u) % GRADIENT_ENTRIES].rgb, fract(x));
-}
-
-fn surface_color(data: vec2u) -> vec3f {
-    let first = unpack2x16unorm(data.x);
-    let second = unpack2x16unorm(data.y) * 2.0;
-    var value = second.y;
-    if (picture.surface.color_source == SOURCE_ITERATIONS) {
-        value = first.x * f32(picture.fractal.iterations + 1u);
-    } else if (picture.surface.color_source == SOURCE_ORIGIN_TRAP) {
-        value = first.y * 2.0;
-    } else if (picture.surface.color_source == SOURCE_AXIS_TRAP) {
-        value = second.x;
-    }
-    return gradient_color(value * picture.surface.color_repeats + picture.surface.color_offset);
-}
-
-// Blinn-Phong (Blinn 1977) summed over the lights that reach the point. Without normals (thesis
-// fig. 3.3 a) every point faces them, and there is nothing that a highlight could lie on.
-fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
-    var sum = color * picture.surface.ambient;
-    for (var k = 0u; k < picture.surface.light_count; k++) {
-        if (((bits[k >> 5u] >> (k & 31u)) & 1u) == 0u) { continue; }
-        let light = lights[k];
-        var toward_light = light.vector;
-        var radiance = light.color;
-        if (light.kind == LIGHT_POINT) {
-            let offset = light.vector - point;
-            let distance_squared = max(dot(offset, offset), 1e-24);
-            toward_light = offset * inverseSqrt(distance_squared);
-            radiance /= distance_squared;
-        }
-        if (picture.normals == NORMALS_NONE) {
-            sum += radiance * color * picture.surface.diffuse;
-            continue;
-        }
-        let cosine = max(dot(n, toward_light), 0.0);
-        let half_way = normalize(toward_light + toward_eye);
-        let highlight = pow(max(dot(n, half_way), 0.0), picture.surface.shininess);
-        sum += radiance * (color * (picture.surface.diffuse * cosine) + picture.surface.specular * highlight);
-    }
-    return sum;
-}
-
-// What a ray sees that meets nothing, `height` below the picture's upper edge.
-fn background(direction: vec3f, height: f32) -> vec3f {
-    let behind = picture.background;
-    if (behind.picture_gain == 0.0) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
-    let in_picture = vec3f(
-        dot(direction, behind.picture_x), dot(direction, behind.picture_y), dot(direction, behind.picture_z));
-    return behind.picture_gain * surroundings_at(in_picture);
-}
+// Light and colour of each sample, onto the film, or to where indirect light is made of it.
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, workgroup.x, local_index);
-    let seen = surface[index];
-    let t = bitcast<f32>(seen.x);
-    var radiance: vec3f;
-    if (t > 0.0) {
-        let ray = camera_ray(pixel);
-        let point = ray.origin + t * ray.direction;
-        let n = octahedral_unpack(seen.y);
-        radiance = reflected(point, n, -ray.direction, surface_color(color_data[index]), visibility[index]);
+    let radiance = direct_radiance(pixel, sample_index(pixel, workgroup.x, local_index));
+    if (picture.indirect.kind == INDIRECT_OFF) {
+        put_on_film(pixel, radiance);
     } else {
-        let height = eye_position(pixel, slice.jitter).y;
-        radiance = background(camera_ray(pixel).direction, height);
-    }
-    let at = pixel_index(pixel);
-    if (slice.accumulate != 0u) {
-        film_rg[at] += radiance.rg;
-        film_bw[at] += vec2f(radiance.b, 1.0);
-    } else {
-        film_rg[at] = radiance.rg;
-        film_bw[at] = vec2f(radiance.b, 1.0);
+        direct[pixel_index(pixel)] = shared_exponent_pack(radiance);
     }
 }

@@ -106,6 +106,23 @@ const NORMALS_EIGHTEEN = 3u;
 const NORMALS_TWENTY_SIX = 4u;
 const NORMALS_ANALYTIC = 5u;
 
+const INDIRECT_OFF = 0u;
+const INDIRECT_UNIFORM = 1u;
+const INDIRECT_HORIZON = 2u;
+
+struct Indirect {
+    // One of the above.
+    kind: u32,
+    // How far around a sample it looks, as a part of the picture's height.
+    radius: f32,
+    strength: f32,
+    ambient: f32,
+    directions: u32,
+    samples: u32,
+    // One eye's picture that the neighbours are from, in pixels.
+    around_px: vec2u,
+}
+
 // Which eyes the region shows, for a picture in stereo.
 struct Eyes {
     // The first pixel of the second eye's part.
@@ -132,6 +149,7 @@ struct Picture {
     eyes: Eyes,
     fractal: Fractal,
     surface: Surface,
+    indirect: Indirect,
     background: Background,
     tone: Tone,
     bloom: Bloom,

@@ -32,7 +32,8 @@ struct Slice {
     half_width: f32,
     // How far exposure moves toward its goal, 0 to 1.
     adapt: f32,
-    unused: u32,
+    // The lattice level that indirect light's neighbours are taken from.
+    neighbour_level: u32,
 }
 
 @group(0) @binding(1) var<uniform> slice: Slice;

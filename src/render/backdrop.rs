@@ -18,7 +18,11 @@ const EXPONENT_BIAS: i32 = 15;
 pub struct Backdrop {
     /// The picture's [`Panorama::id`]; none where there is none.
     pub id: Option<u64>,
-    /// Texture and sampler.
+    /// The texture.
+    pub view: wgpu::TextureView,
+    /// Bilinear, once around.
+    pub sampler: wgpu::Sampler,
+    /// Both.
     pub group: wgpu::BindGroup,
     /// What it takes of the GPU's memory.
     pub bytes: u64,
@@ -48,9 +52,12 @@ impl Backdrop {
         let view = texture.create_view(&Default::default());
         let resources =
             [wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)];
+        let group = targets::group(device, &kernels.layouts.backdrop, "surroundings", resources);
         Self {
             id: panorama.map(Panorama::id),
-            group: targets::group(device, &kernels.layouts.backdrop, "surroundings", resources),
+            view,
+            sampler,
+            group,
             bytes: 4 * texels.len() as u64,
         }
     }

@@ -1,6 +1,7 @@
 //! The life of a frame: its passes, in the order in which they run.
 
 use super::{
+    around::{self, Neighbours},
     glow::{Glow, Tasks},
     kernels::{Kernels, Marchers},
     lattice::Grid,
@@ -21,8 +22,17 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
             if trace.from <= Stage::Normal {
                 pass::normal::record(recorder, &trace, &grid);
             }
-            pass::shadow::record(recorder, &trace, &grid);
-            pass::shade::record(recorder, &trace, &grid);
+            if trace.from <= Stage::Shadow {
+                pass::shadow::record(recorder, &trace, &grid);
+            }
+            // Indirect light of centre samples waits until all of a level have their direct light.
+            let gathers = recorder.inputs.gathers() && matches!(trace.points, Points::Sample(_));
+            if trace.from <= Stage::Shadow && !gathers {
+                pass::shade::record(recorder, &trace, &grid);
+            }
+            if trace.from == Stage::Gather || gathers {
+                pass::gather::record(recorder, &trace, &grid);
+            }
         }
         Work::Show { level, fill, .. } => {
             if fill {
@@ -57,6 +67,8 @@ pub struct Dispatches {
     pub shadow: u64,
     /// Shading.
     pub shade: u64,
+    /// Shading with indirect light.
+    pub gather: u64,
     /// Filling in.
     pub fill: u64,
     /// Means of the film, of all their mip levels together.
@@ -72,8 +84,9 @@ pub struct Dispatches {
 impl Dispatches {
     /// All of them.
     pub fn total(&self) -> u64 {
-        let Self { march, normal, shadow, shade, fill, mean, histogram, bloom, tone } = *self;
-        march + normal + shadow + shade + fill + mean + histogram + bloom + tone
+        let Self { march, normal, shadow, shade, gather, fill, mean, histogram, bloom, tone } =
+            *self;
+        march + normal + shadow + shade + gather + fill + mean + histogram + bloom + tone
     }
 }
 
@@ -89,6 +102,8 @@ pub struct Recorder<'a> {
     pub inputs: &'a Inputs,
     /// What is known of the film as a whole: the targets' own unless a view puts another here.
     pub glow: &'a Glow,
+    /// Where indirect light comes from: the targets' own unless a view puts another here.
+    pub neighbours: Neighbours,
     /// What of it a display brings up to date.
     pub tasks: Tasks,
     /// Counted by each pass.
@@ -117,6 +132,7 @@ impl<'a> Recorder<'a> {
             targets,
             inputs,
             glow: &targets.glow,
+            neighbours: targets.neighbours(inputs.picture.indirect.around_px),
             tasks: Tasks::default(),
             dispatches,
             compute,
@@ -135,6 +151,18 @@ impl<'a> Recorder<'a> {
     /// Binds the picture of the surroundings.
     pub fn bind_backdrop(&mut self) {
         self.compute.set_bind_group(3, &self.targets.backdrop.group, &[]);
+    }
+
+    /// Binds what indirect light is gathered from and for.
+    pub fn bind_neighbours(&mut self, trace: &Trace) {
+        let samples = match trace.points {
+            Points::Sample(_) => &self.targets.jittered,
+            _ => &self.targets.center,
+        };
+        let groups = around::groups(self.kernels, self.targets, samples, &self.neighbours);
+        for (index, group) in (1..).zip(&groups) {
+            self.compute.set_bind_group(index, group, &[]);
+        }
     }
 
     /// The uniform of a trace; also binds the G-buffer that its samples live in.

@@ -14,13 +14,17 @@ pub struct Layouts {
     pub picture: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
+    /// Group 1 of gathering: the same, read only.
+    pub samples: wgpu::BindGroupLayout,
     /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
     /// all storage.
     pub glow: wgpu::BindGroupLayout,
-    /// Group 2: the film's two halves and the display texture.
+    /// Group 2: the film's two halves, the display texture, direct light.
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the picture of the surroundings and its sampler.
     pub backdrop: wgpu::BindGroupLayout,
+    /// Group 3 of gathering: the same, and the neighbours' surface.
+    pub around: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -37,19 +41,22 @@ impl Layouts {
             format: super::targets::DISPLAY_FORMAT,
             view_dimension: wgpu::TextureViewDimension::D2,
         };
+        let [backdrop_texture, backdrop_sampler] = super::backdrop::BINDINGS;
         Self {
-            picture: group("picture", &[PICTURE, uniform(true), uniform(false), uniform(false)]),
+            picture: group("picture", &[READ_ONLY, uniform(true), uniform(false), uniform(false)]),
             gbuffer: group("gbuffer", &[STORAGE; 3]),
+            samples: group("samples", &[READ_ONLY; 3]),
             glow: group("glow", &[STORAGE; 3]),
-            film: group("film", &[STORAGE, STORAGE, display]),
-            backdrop: group("surroundings", &super::backdrop::BINDINGS),
+            film: group("film", &[STORAGE, STORAGE, display, STORAGE]),
+            backdrop: group("surroundings", &[backdrop_texture, backdrop_sampler]),
+            around: group("neighbours", &[backdrop_texture, backdrop_sampler, READ_ONLY]),
         }
     }
 }
 
-/// Not uniform: Mesa's lavapipe puts the values of a uniform buffer that decide branches into
+/// The picture too, rather than uniform: Mesa's lavapipe puts the values of a uniform buffer that decide branches into
 /// the shader, anew for each dispatch, and keeps every shader so made. Seen with Mesa 22.3.6.
-const PICTURE: wgpu::BindingType = wgpu::BindingType::Buffer {
+const READ_ONLY: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: true },
     has_dynamic_offset: false,
     min_binding_size: None,
@@ -138,6 +145,8 @@ pub struct Kernels {
     layout: wgpu::PipelineLayout,
     /// Light and colour onto the film.
     pub shade: wgpu::ComputePipeline,
+    /// Direct and indirect light onto the film: made when a scene first asks for it.
+    gather: OnceLock<wgpu::ComputePipeline>,
     /// Pixels between those of a sparse lattice.
     pub fill: wgpu::ComputePipeline,
     /// Mean, histogram, bloom: made when a scene first asks for one of them.
@@ -194,6 +203,7 @@ impl Kernels {
             general,
             special: Mutex::default(),
             shade: made(&shade_layout, &pass::shade::MODULE),
+            gather: OnceLock::new(),
             fill: plain(&pass::fill::MODULE),
             glow: OnceLock::new(),
             tone: made(&glow_layout, &pass::tone::MODULE),
@@ -221,6 +231,21 @@ impl Kernels {
                 bloom: made(&pass::bloom::MODULE),
                 blur: made(&pass::blur::MODULE),
             }
+        })
+    }
+
+    /// Direct and indirect light onto the film.
+    pub fn gather(&self) -> &wgpu::ComputePipeline {
+        self.gather.get_or_init(|| {
+            let device = &self.gpu.device;
+            let Layouts { picture, samples, film, around, .. } = &self.layouts;
+            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("gathering"),
+                bind_group_layouts: &[Some(picture), Some(samples), Some(film), Some(around)],
+                immediate_size: 0,
+            });
+            let module = &pass::gather::MODULE;
+            pipeline(device, &layout, &module.create(device), module.label, None)
         })
     }
 

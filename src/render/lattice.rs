@@ -104,7 +104,7 @@ impl Grid {
             axis: 0,
             half_width: 0.0,
             adapt: 0.0,
-            unused: 0,
+            neighbour_level: 0,
         }
     }
 

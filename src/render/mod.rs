@@ -6,6 +6,7 @@
 //! | [`schedule`] | what to compute next: a pure state machine |
 //! | [`lattice`] | sparse lattices of pixels, and where samples lie in a pixel |
 //! | [`frame`] | the passes of one submit |
+//! | [`around`] | where indirect light comes from |
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`backdrop`] | the picture of the surroundings |
 //! | [`kernels`] | pipelines and bind group layouts |
@@ -15,6 +16,7 @@
 //! | [`samples`] | a finished view's pixels on their way back |
 //! | [`report`] | what a view says of itself |
 
+pub mod around;
 pub mod backdrop;
 pub mod frame;
 pub mod gbuffer;

@@ -5,11 +5,13 @@
 //! sparse as the motion budget demands, is shown, and is then completed level by level; jittered
 //! samples follow until there are enough, and then there is no more work.
 
-use super::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
+use super::lattice::{COARSEST, WORKGROUP_THREADS};
 
 mod cost;
+mod work;
 
 use cost::Cost;
+pub use work::{Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
 pub const MOST_IN_FLIGHT: usize = 2;
@@ -59,74 +61,14 @@ pub enum Pace {
 pub enum Stale {
     /// Exposure, tone curve: the film stays.
     Tone,
+    /// How indirect light is gathered: the centre samples' direct light stays.
+    Around,
     /// Lights, surface, colours: the centre samples' G-buffer stays.
     Light,
     /// How normals are found: the centre samples' depths stay.
     Normals,
     /// Camera, fractal, size: nothing stays.
     Geometry,
-}
-
-/// Which sample points a trace computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Points {
-    /// Centre samples of every pixel of a lattice level.
-    Level(u32),
-    /// Centre samples of the pixels that a level adds to the next coarser one.
-    Added(u32),
-    /// The jittered sample of this index, of every pixel.
-    Sample(u32),
-}
-
-impl Points {
-    /// The grid of pixels that they lie in.
-    pub fn grid(self, size_px: [u32; 2]) -> Grid {
-        match self {
-            Self::Level(level) => Grid::level(level, size_px),
-            Self::Added(level) => Grid::added(level, size_px),
-            Self::Sample(_) => Grid::level(0, size_px),
-        }
-    }
-}
-
-/// The pass that a trace starts with; those after it follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    /// Camera rays.
-    March,
-    /// Normals, of depths that are there.
-    Normal,
-    /// Shadow rays and light, of depths and normals that are there.
-    Shadow,
-}
-
-/// A run of workgroups over some sample points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Trace {
-    /// The sample points.
-    pub points: Points,
-    /// Where it starts: what comes before is in the G-buffer.
-    pub from: Stage,
-    /// First workgroup of the points' grid.
-    pub first_workgroup: u32,
-    /// How many workgroups.
-    pub workgroups: u32,
-}
-
-/// One piece of work: one submit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Work {
-    /// Compute sample points, up to the film.
-    Trace(Trace),
-    /// Make the display picture from the film.
-    Show {
-        /// The finest complete lattice level; 0 where the film is complete.
-        level: u32,
-        /// Whether the pixels between that lattice's have to be filled in first.
-        fill: bool,
-        /// How far auto exposure moves toward its goal, above 0 to 1: there at once.
-        adapt: f32,
-    },
 }
 
 /// What the schedule says of itself.
@@ -155,6 +97,9 @@ pub struct Schedule {
     marched: Option<u32>,
     faced: Option<u32>,
     shaded: Option<u32>,
+    /// Whether there is indirect light, and the finest level that has it.
+    gathers: bool,
+    gathered: Option<u32>,
     samples_done: u32,
     /// The points under way and the next workgroup to submit.
     under_way: Option<(Points, u32)>,
@@ -188,6 +133,8 @@ impl Schedule {
             marched: None,
             faced: None,
             shaded: None,
+            gathers: false,
+            gathered: None,
             samples_done: 0,
             under_way: None,
             show_due: false,
@@ -228,9 +175,19 @@ impl Schedule {
         }
     }
 
+    /// Says whether there is indirect light. Follow it with the change that it is.
+    pub fn set_gathering(&mut self, gathers: bool) {
+        self.gathers = gathers;
+    }
+
+    /// The finest level that is on the film.
+    fn filmed(&self) -> Option<u32> {
+        if self.gathers { self.gathered } else { self.shaded }
+    }
+
     /// Has the film shown once more as it is.
     pub fn show_again(&mut self) {
-        self.show_due |= self.shaded.is_some();
+        self.show_due |= self.filmed().is_some();
     }
 
     /// Gives the schedule another region; everything becomes stale.
@@ -246,7 +203,12 @@ impl Schedule {
     /// until that one has been shown, so that a slow device shows every movement at some rate
     /// rather than none.
     pub fn accepts_changes(&self) -> bool {
-        self.pace == Pace::Still || !self.opening || (self.under_way.is_none() && !self.show_due)
+        self.pace == Pace::Still || !self.opening || self.is_between()
+    }
+
+    /// Nothing of an opening is under way, nor about to be.
+    fn is_between(&self) -> bool {
+        self.under_way.is_none() && !self.show_due && self.filmed() == self.shaded
     }
 
     /// Something changed at `now_secs`. `moving` says that more changes are expected at once.
@@ -263,7 +225,7 @@ impl Schedule {
 
     fn restart(&mut self, stale: Stale) {
         if stale == Stale::Tone {
-            self.show_due |= self.shaded.is_some();
+            self.show_due |= self.filmed().is_some();
             // A picture that was never shown is shown by its own opening.
             if !self.opening {
                 self.shown_at = f64::NEG_INFINITY;
@@ -276,7 +238,10 @@ impl Schedule {
         if stale >= Stale::Normals {
             self.faced = None;
         }
-        self.shaded = None;
+        if stale >= Stale::Light {
+            self.shaded = None;
+        }
+        self.gathered = None;
         self.samples_done = 0;
         self.under_way = None;
         self.show_due = false;
@@ -344,7 +309,7 @@ impl Schedule {
     fn adapt_now(&self, now_secs: f64) -> bool {
         let interval_secs = ADAPT_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
         self.settles_at.is_some()
-            && self.shaded.is_some()
+            && self.filmed().is_some()
             && !self.opening
             && now_secs - self.shown_at >= interval_secs
     }
@@ -372,7 +337,7 @@ impl Schedule {
         self.show_due = false;
         self.opening = false;
         self.shown_at = now_secs;
-        let level = self.shaded.unwrap_or(0);
+        let level = self.filmed().unwrap_or(0);
         self.shown_level = level;
         // A level under way has put true pixels where the fill would go: only fill when whole.
         Work::Show { level, fill: level > 0 && self.under_way.is_none(), adapt }
@@ -383,6 +348,9 @@ impl Schedule {
         match self.shaded {
             None if self.pace == Pace::Still => Some(Points::Level(0)),
             None => Some(Points::Level(self.opening_level())),
+            Some(level) if self.filmed() != Some(level) => {
+                Some(Points::Around(self.gather_level(level)))
+            }
             Some(0) if self.samples_done < self.samples_wanted => {
                 Some(Points::Sample(self.samples_done))
             }
@@ -395,8 +363,18 @@ impl Schedule {
     /// light is stale.
     fn opening_level(&self) -> u32 {
         let from = self.first_stage(self.marched.unwrap_or(0));
-        let allowed = self.cost.level_within(self.budget_ms, from, self.size_px);
+        let allowed = self.cost.level_within(self.budget_ms, from, self.gathers, self.size_px);
         self.marched.map_or(allowed, |marched| allowed.max(marched))
+    }
+
+    /// The level whose indirect light comes next, where `shaded` has its direct light: where that
+    /// is too fine for the budget, an edit opens on a coarser one.
+    fn gather_level(&self, shaded: u32) -> u32 {
+        if !self.opening || self.pace == Pace::Still {
+            return shaded;
+        }
+        let from = Stage::Gather;
+        self.cost.level_within(self.budget_ms, from, false, self.size_px).max(shaded)
     }
 
     /// Where centre samples that a level adds have to start.
@@ -412,6 +390,7 @@ impl Schedule {
     fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let from = match points {
             Points::Level(level) | Points::Added(level) => self.first_stage(level),
+            Points::Around(_) => Stage::Gather,
             Points::Sample(_) => Stage::March,
         };
         let total = points.grid(self.size_px).workgroups();
@@ -433,7 +412,7 @@ impl Schedule {
         if next < total {
             self.under_way = Some((points, next));
             // A complete lattice is below: what has come so far may be shown.
-            self.show_due |= self.shaded.is_some() && self.pace == Pace::Interactive;
+            self.show_due |= self.filmed().is_some() && self.pace == Pace::Interactive;
         } else {
             self.complete(points);
         }
@@ -442,16 +421,25 @@ impl Schedule {
 
     fn complete(&mut self, points: Points) {
         self.under_way = None;
-        self.show_due = true;
         match points {
             Points::Level(level) | Points::Added(level) => {
                 self.shaded = Some(level);
+                // What waits for indirect light is not on the film yet.
+                self.show_due = !self.gathers;
                 self.marched = Some(self.marched.map_or(level, |marched| marched.min(level)));
                 self.faced = Some(self.faced.map_or(level, |faced| faced.min(level)));
-                self.samples_done = u32::from(level == 0);
             }
-            Points::Sample(index) => self.samples_done = index + 1,
+            Points::Around(level) => {
+                self.gathered = Some(level);
+                self.show_due = true;
+            }
+            Points::Sample(index) => {
+                self.samples_done = index + 1;
+                self.show_due = true;
+                return;
+            }
         }
+        self.samples_done = u32::from(self.filmed() == Some(0));
     }
 
     /// What the schedule says of itself at `now_secs`.

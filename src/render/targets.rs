@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::{
+    around::Neighbours,
     backdrop::Backdrop,
     glow::{Glow, Need},
     kernels::Kernels,
@@ -21,6 +22,9 @@ pub const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Distance between two slices in their uniform buffer, the default alignment of dynamic offsets.
 pub const SLICE_STRIDE_BYTES: u32 = 256;
+
+/// Direct light of one pixel.
+const DIRECT_BYTES: u64 = 4;
 
 /// Most dispatches of one submit: march, normal, a shadow dispatch a light, shade.
 pub const MOST_SLICES: u32 = MAX_LIGHTS as u32 + 3;
@@ -57,7 +61,10 @@ pub struct Targets {
     pub film_rg: wgpu::Buffer,
     /// 2 × f32 a pixel: sum of blue, number of samples.
     pub film_bw: wgpu::Buffer,
-    /// The film and the display texture.
+    /// u32 a pixel: direct light of the centre samples, shared exponent; next to nothing until
+    /// indirect light is made of it.
+    pub direct: wgpu::Buffer,
+    /// The film, the display texture and direct light.
     pub film_group: wgpu::BindGroup,
     /// What is known of the film as a whole: next to nothing until something needs it.
     pub glow: Arc<Glow>,
@@ -101,17 +108,8 @@ impl Targets {
         let film_rg = storage(device, "film red green", 8 * pixels);
         let film_bw = storage(device, "film blue weight", 8 * pixels);
         let texture = display_texture(device, region.display_px());
-        let texture_view = texture.create_view(&Default::default());
-        let film_group = group(
-            device,
-            &layouts.film,
-            "film",
-            [
-                film_rg.as_entire_binding(),
-                film_bw.as_entire_binding(),
-                wgpu::BindingResource::TextureView(&texture_view),
-            ],
-        );
+        let direct = storage(device, "direct light", DIRECT_BYTES);
+        let film_group = film_group(kernels, [&film_rg, &film_bw, &direct], &texture);
         Self {
             picture,
             slices,
@@ -122,11 +120,32 @@ impl Targets {
             jittered: GBuffer::new(kernels, u64::from(slice_samples)),
             film_rg,
             film_bw,
+            direct,
             film_group,
             glow: Arc::new(Glow::new(kernels, region, Need::default())),
             backdrop: Arc::new(Backdrop::new(kernels, None)),
             texture,
         }
+    }
+
+    /// Makes room for direct light where indirect light is made of it, and frees it elsewhere.
+    pub fn fit_direct(&mut self, kernels: &Kernels, needed: bool) {
+        let pixels = self.film_rg.size() / 8;
+        let bytes = DIRECT_BYTES * if needed { pixels } else { 1 };
+        if self.direct.size() != bytes {
+            self.direct = storage(&kernels.gpu.device, "direct light", bytes);
+            self.film_group = self.film_with(kernels, &self.direct);
+        }
+    }
+
+    /// This region's own centre samples; `eye_px` is one eye's picture.
+    pub fn neighbours(&self, eye_px: [u32; 2]) -> Neighbours {
+        Neighbours { eye_px, surface: self.center.surface.clone(), direct: self.direct.clone() }
+    }
+
+    /// The film's group with direct light of another view.
+    pub fn film_with(&self, kernels: &Kernels, direct: &wgpu::Buffer) -> wgpu::BindGroup {
+        film_group(kernels, [&self.film_rg, &self.film_bw, direct], &self.texture)
     }
 
     /// Uploads a picture's uniforms.
@@ -151,6 +170,21 @@ impl GBuffer {
         );
         Self { surface, color_data, visibility, group }
     }
+}
+
+fn film_group(
+    kernels: &Kernels,
+    [film_rg, film_bw, direct]: [&wgpu::Buffer; 3],
+    texture: &wgpu::Texture,
+) -> wgpu::BindGroup {
+    let view = texture.create_view(&Default::default());
+    let resources = [
+        film_rg.as_entire_binding(),
+        film_bw.as_entire_binding(),
+        wgpu::BindingResource::TextureView(&view),
+        direct.as_entire_binding(),
+    ];
+    group(&kernels.gpu.device, &kernels.layouts.film, "film", resources)
 }
 
 fn buffer(

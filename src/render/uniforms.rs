@@ -17,8 +17,8 @@ use super::{Region, region::Eyes as RegionEyes, schedule::Stale};
 use crate::{
     fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
-        self, BloomOrder, ColorSource, MAX_LIGHTS, Normals, Panorama, Scene, ToneChannels,
-        ToneCurve, ToneMean, Variant, color,
+        self, BloomOrder, ColorSource, IndirectKind, MAX_LIGHTS, Normals, Panorama, Scene,
+        ToneChannels, ToneCurve, ToneMean, Variant, color,
     },
 };
 
@@ -59,6 +59,7 @@ impl Picture {
             eyes: eyes(camera, region),
             fractal: fractal(scene),
             surface: surface(scene),
+            indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
             tone: tone(&scene.tone),
             bloom: bloom(&scene.bloom),
@@ -105,6 +106,22 @@ fn bloom(bloom: &scene::Bloom) -> Bloom {
         after: u32::from(bloom.order == BloomOrder::After),
         passes: bloom.passes,
         ..Bloom::zeroed()
+    }
+}
+
+fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
+    Indirect {
+        kind: match indirect.kind {
+            IndirectKind::Off => 0,
+            IndirectKind::Uniform => 1,
+            IndirectKind::Horizon => 2,
+        },
+        radius: indirect.radius as f32,
+        strength: indirect.strength as f32,
+        ambient: indirect.ambient as f32,
+        directions: indirect.directions,
+        samples: indirect.samples,
+        around_px: region.size_px,
     }
 }
 
@@ -220,6 +237,17 @@ impl Inputs {
         self
     }
 
+    /// The same with neighbours of another view, of whose pictures one eye's has so many pixels.
+    pub fn with_neighbours(mut self, eye_px: Option<[u32; 2]>) -> Self {
+        self.picture.indirect.around_px = eye_px.unwrap_or(self.picture.indirect.around_px);
+        self
+    }
+
+    /// Whether there is indirect light.
+    pub fn gathers(&self) -> bool {
+        self.picture.indirect.kind != 0
+    }
+
     /// What must be computed again after `old`; none where no pass would see a difference.
     pub fn stale_since(&self, old: &Self) -> Option<Stale> {
         let (new_picture, old_picture) = (&self.picture, &old.picture);
@@ -233,13 +261,16 @@ impl Inputs {
             && new_picture.background == old_picture.background
             && self.panorama == old.panorama
             && self.lights == old.lights
-            && self.gradient == old.gradient;
+            && self.gradient == old.gradient
+            && self.gathers() == old.gathers();
         if !same_geometry {
             Some(Stale::Geometry)
         } else if new_picture.normals != old_picture.normals {
             Some(Stale::Normals)
         } else if !same_light {
             Some(Stale::Light)
+        } else if self.gathers() && new_picture.indirect != old_picture.indirect {
+            Some(Stale::Around)
         } else {
             let same_tone =
                 new_picture.tone == old_picture.tone && new_picture.bloom == old_picture.bloom;

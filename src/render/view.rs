@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{
+    around::Neighbours,
     backdrop::Backdrop,
     frame::{self, Dispatches, Recorder},
     glow::{self, Glow, Need, Tasks},
@@ -19,7 +20,7 @@ use crate::{
         readback::{Readback, ReadbackError},
         timing::Stopwatch,
     },
-    scene::{Panorama, Quality, Scene},
+    scene::{IndirectKind, Panorama, Quality, Scene},
 };
 
 /// A power that has been kept for so long, seconds, gets pipelines of its own.
@@ -62,6 +63,8 @@ pub struct View {
     watch: Watch,
     /// What another view knows of the whole picture, of which this one draws a part.
     lent_glow: Option<Arc<Glow>>,
+    /// The same of where its indirect light comes from.
+    lent_neighbours: Option<Neighbours>,
     /// It was said that pipelines will be compiled: the next pump does so, for the word to be
     /// seen first.
     compile_announced: bool,
@@ -98,6 +101,7 @@ impl View {
             known: Known::default(),
             watch: Watch::default(),
             lent_glow: None,
+            lent_neighbours: None,
             compile_announced: false,
             dispatches: Dispatches::default(),
             shown: None,
@@ -132,8 +136,7 @@ impl View {
         self.region = region;
         self.schedule.resize(region.film_px());
         if let Some(scene) = &self.scene {
-            let inputs = Inputs::new(scene, region);
-            self.upload(inputs.with_panorama(scene, self.panorama.as_deref()));
+            self.upload(self.inputs_of(scene));
         }
     }
 
@@ -203,8 +206,7 @@ impl View {
 
     /// Uploads a new scene and tells the schedule what it made stale.
     fn apply(&mut self, scene: Scene) {
-        let inputs = Inputs::new(&scene, self.region);
-        let inputs = inputs.with_panorama(&scene, self.panorama.as_deref());
+        let inputs = self.inputs_of(&scene);
         self.is_panorama_new = false;
         let stale = match &self.inputs {
             None => Some(Stale::Geometry),
@@ -213,6 +215,7 @@ impl View {
         self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
         self.schedule.aim(motion_budget_ms, samples);
+        self.schedule.set_gathering(scene.indirect.kind != IndirectKind::Off);
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.now_secs);
@@ -221,9 +224,17 @@ impl View {
         self.scene = Some(scene);
     }
 
+    /// The scene as this view's passes read it.
+    fn inputs_of(&self, scene: &Scene) -> Inputs {
+        Inputs::new(scene, self.region)
+            .with_panorama(scene, self.panorama.as_deref())
+            .with_neighbours(self.lent_neighbours.as_ref().map(|lent| lent.eye_px))
+    }
+
     fn upload(&mut self, inputs: Inputs) {
         self.targets.upload(&self.kernels.gpu.queue, &inputs);
         self.fit_glow(Need::of(&inputs.picture));
+        self.targets.fit_direct(&self.kernels, inputs.gathers());
         if self.targets.backdrop.id != inputs.panorama {
             let shown = self.panorama.as_deref().filter(|_| inputs.panorama.is_some());
             self.targets.backdrop = Arc::new(Backdrop::new(&self.kernels, shown));
@@ -299,6 +310,9 @@ impl View {
         if let Some(lent) = &self.lent_glow {
             recorder.glow = lent;
         }
+        if let Some(lent) = &self.lent_neighbours {
+            recorder.neighbours = lent.clone();
+        }
         frame::record(&mut recorder, work);
         let commands = recorder.finish();
         self.stopwatch.submit(&self.kernels.gpu, commands, work);
@@ -352,6 +366,18 @@ impl View {
             self.fit_glow(Need::of(&inputs.picture));
             self.schedule.show_again();
         }
+    }
+
+    /// The centre samples, where they are all of the picture: for a view that draws a part of it.
+    pub fn neighbours(&self) -> Neighbours {
+        self.targets.neighbours(self.region.size_px)
+    }
+
+    /// Has the view gather indirect light from the samples of another view that draws all of the
+    /// picture, rather than from its region's own; none takes that back. The lender's picture is
+    /// finished and shows the same scene, in any size. To be called before the view has a scene.
+    pub fn lend_neighbours(&mut self, neighbours: Option<Neighbours>) {
+        self.lent_neighbours = neighbours;
     }
 
     /// What the view is doing.

@@ -6,7 +6,7 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
-//! | `fractal`, `camera`, `light`, `rig`, `surface`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `fractal`, `camera`, `light`, `rig`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | [`precise`] | positions that stay exact at any zoom |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
@@ -32,6 +32,7 @@ mod tone;
 pub mod color;
 pub mod document;
 pub mod history;
+mod indirect;
 pub mod link;
 pub mod panorama;
 pub mod param;
@@ -45,6 +46,7 @@ pub use background::{Background, BackgroundKind};
 pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use fractal::{Fractal, Variant};
+pub use indirect::{Indirect, IndirectKind};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
 pub use panorama::Panorama;
 pub use path::Path;
@@ -74,6 +76,8 @@ pub struct Scene {
     pub lights: Lights,
     /// How its surface answers light, and its colours.
     pub surface: Surface,
+    /// Light that reaches the surface by way of others.
+    pub indirect: Indirect,
     /// What is seen where a ray meets nothing.
     pub background: Background,
     /// How scene radiance becomes display values.

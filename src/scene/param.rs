@@ -203,6 +203,16 @@ params! {
         "What auto exposure brings the picture's mean to. Higher is brighter; 0.18 is middle grey.";
     WHITE_POINT = "tone.white_point", "White point", None, 0.5, 100.0, default 4.0, Logarithmic by 0.1,
         "The luminance that becomes pure white under Reinhard's curve. Higher keeps more of the highlights.";
+    INDIRECT_RADIUS = "indirect.radius", "Radius", None, 0.002, 0.25, default 0.06, Logarithmic by 0.05,
+        "How far around each point indirect light is looked for, as a part of the picture's height.";
+    INDIRECT_STRENGTH = "indirect.strength", "Strength", None, 0.0, 4.0, default 1.0, Linear by 0.05,
+        "How much indirect light is added.";
+    INDIRECT_AMBIENT = "indirect.ambient", "Ambient factor", None, 0.0, 2.0, default 0.25, Linear by 0.01,
+        "Light from nowhere in particular that what stands around a point keeps away from it.";
+    INDIRECT_DIRECTIONS = "indirect.directions", "Directions", Count, 2.0, 32.0, default 8.0, Integer by 1.0,
+        "How many directions on the screen are looked along. More is smoother and slower.";
+    INDIRECT_SAMPLES = "indirect.samples", "Samples", Count, 1.0, 16.0, default 5.0, Integer by 1.0,
+        "How many samples are taken from a point outward. More is smoother and slower.";
     BLOOM_STRENGTH = "bloom.strength", "Strength", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "How much of the spread light is added. 0 is off and costs nothing.";
     BLOOM_RADIUS = "bloom.radius", "Radius", None, 0.005, 0.25, default 0.04, Logarithmic by 0.05,

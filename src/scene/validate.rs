@@ -47,6 +47,11 @@ impl Scene {
         check(&param::EXPOSURE, self.tone.exposure)?;
         check(&param::KEY, self.tone.key)?;
         check(&param::WHITE_POINT, self.tone.white_point)?;
+        check(&param::INDIRECT_RADIUS, self.indirect.radius)?;
+        check(&param::INDIRECT_STRENGTH, self.indirect.strength)?;
+        check(&param::INDIRECT_AMBIENT, self.indirect.ambient)?;
+        check(&param::INDIRECT_DIRECTIONS, self.indirect.directions.into())?;
+        check(&param::INDIRECT_SAMPLES, self.indirect.samples.into())?;
         check(&param::BLOOM_STRENGTH, self.bloom.strength)?;
         check(&param::BLOOM_RADIUS, self.bloom.radius)?;
         check(&param::BLOOM_THRESHOLD, self.bloom.threshold)?;

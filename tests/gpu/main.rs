@@ -4,6 +4,7 @@
 mod glow;
 mod golden;
 mod harness;
+mod indirect;
 mod picture;
 mod samples;
 mod staleness;

@@ -39,17 +39,22 @@ fn a_sparse_picture_is_filled_in_better_than_by_nearest_pixels() {
 }
 
 /// The picture as it is shown from one lattice level alone.
-fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
+pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let kernels = kernels();
-    let targets = Targets::new(kernels, Region::whole(size));
+    let mut targets = Targets::new(kernels, Region::whole(size));
     let inputs = Inputs::new(scene, Region::whole(size));
+    targets.fit_direct(kernels, inputs.gathers());
     targets.upload(&kernels.gpu.queue, &inputs);
     let marchers = kernels.marchers(inputs.picture.fractal.integer_power);
     let mut dispatches = Dispatches::default();
-    let points = Points::Level(level);
-    let workgroups = points.grid(size).workgroups();
-    let trace = Trace { points, from: Stage::March, first_workgroup: 0, workgroups };
-    for work in [Work::Trace(trace), Work::Show { level, fill: true, adapt: 1.0 }] {
+    let trace = |points: Points, from| {
+        let workgroups = points.grid(size).workgroups();
+        Work::Trace(Trace { points, from, first_workgroup: 0, workgroups })
+    };
+    let gather = inputs.gathers().then(|| trace(Points::Around(level), Stage::Gather));
+    let show = Work::Show { level, fill: level > 0, adapt: 1.0 };
+    let works = [Some(trace(Points::Level(level), Stage::March)), gather, Some(show)];
+    for work in works.into_iter().flatten() {
         let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);
         kernels.gpu.queue.submit([recorder.finish()]);

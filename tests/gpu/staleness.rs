@@ -33,6 +33,7 @@ fn cost_from(
         normal: after.normal - before.normal,
         shadow: after.shadow - before.shadow,
         shade: after.shade - before.shade,
+        gather: after.gather - before.gather,
         fill: after.fill - before.fill,
         mean: after.mean - before.mean,
         histogram: after.histogram - before.histogram,

@@ -21,6 +21,7 @@ mod against_gpu;
 mod bloom;
 mod estimate;
 mod film;
+mod gather;
 mod light;
 mod normals;
 mod normals_table;

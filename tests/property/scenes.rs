@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use mandelight::scene::{
     Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight,
-    Fractal, GradientStop, LightFrame, Lights, Normals, PictureRig, PointLight, Precise,
-    PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky, Stereo, StereoLayout, Surface, Tone,
-    ToneChannels, ToneCurve, ToneMean, Variant,
+    Fractal, GradientStop, Indirect, IndirectKind, LightFrame, Lights, Normals, PictureRig,
+    PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky, Stereo,
+    StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean, Variant,
     param::{self, Param},
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
@@ -234,6 +234,24 @@ fn tone() -> impl Strategy<Value = Tone> {
     )
 }
 
+fn indirect() -> impl Strategy<Value = Indirect> {
+    let kind = select(vec![IndirectKind::Off, IndirectKind::Uniform, IndirectKind::Horizon]);
+    let amounts = (
+        value(&param::INDIRECT_RADIUS),
+        value(&param::INDIRECT_STRENGTH),
+        value(&param::INDIRECT_AMBIENT),
+    );
+    let counts = (count(&param::INDIRECT_DIRECTIONS), count(&param::INDIRECT_SAMPLES));
+    (kind, amounts, counts).prop_map(|(kind, amounts, counts)| Indirect {
+        kind,
+        radius: amounts.0,
+        strength: amounts.1,
+        ambient: amounts.2,
+        directions: counts.0,
+        samples: counts.1,
+    })
+}
+
 fn bloom() -> impl Strategy<Value = Bloom> {
     let order = select(vec![BloomOrder::Before, BloomOrder::After]);
     let numbers = (
@@ -278,15 +296,10 @@ pub fn scene() -> impl Strategy<Value = Scene> {
     let kind = select(vec![BackgroundKind::Gradient, BackgroundKind::Picture]);
     let background =
         (kind, color(), color()).prop_map(|(kind, top, bottom)| Background { kind, top, bottom });
-    let parts = (fractal(), camera(), lights(), surface(), background, tone(), bloom(), quality());
-    parts.prop_map(|(fractal, camera, lights, surface, background, tone, bloom, quality)| Scene {
-        fractal,
-        camera,
-        lights,
-        surface,
-        background,
-        tone,
-        bloom,
-        quality,
+    let what = (fractal(), camera(), lights(), surface(), indirect(), background);
+    let how = (tone(), bloom(), quality());
+    (what, how).prop_map(|(what, (tone, bloom, quality))| {
+        let (fractal, camera, lights, surface, indirect, background) = what;
+        Scene { fractal, camera, lights, surface, indirect, background, tone, bloom, quality }
     })
 }

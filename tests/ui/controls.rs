@@ -49,6 +49,9 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
         if *param == &param::SCREEN_HEIGHT {
             press(&mut harness, "Stereo: Stacked");
         }
+        if *param == &param::INDIRECT_RADIUS {
+            press(&mut harness, "Indirect light: Horizon");
+        }
         let rails: Vec<_> = rails_of(&harness, param.path);
         for id in rails {
             let before = scene(&harness).clone();
@@ -85,7 +88,7 @@ fn every_parameter_has_a_control() {
         param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
     press(&mut harness, "Add point light");
     missing.retain(|param| rails_of(&harness, param.path).is_empty());
-    for other in ["Rig: Sky", "Rig: Picture", "Stereo: Stacked"] {
+    for other in ["Rig: Sky", "Rig: Picture", "Stereo: Stacked", "Indirect light: Horizon"] {
         press(&mut harness, other);
         missing.retain(|param| rails_of(&harness, param.path).is_empty());
     }

@@ -7,6 +7,7 @@ pub mod bloom;
 pub mod blur;
 pub mod expose;
 pub mod fill;
+pub mod gather;
 pub mod histogram;
 pub mod march;
 pub mod mean;
@@ -23,6 +24,7 @@ pub const MODULES: &[&Module] = &[
     &normal::MODULE,
     &shadow::MODULE,
     &shade::MODULE,
+    &gather::MODULE,
     &fill::MODULE,
     &mean::MODULE,
     &reduce::MODULE,

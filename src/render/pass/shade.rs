@@ -1,4 +1,5 @@
-//! Light and colour of each sample, onto the film. Marches nothing.
+//! Light and colour of each sample, onto the film, or to where indirect light is made of it.
+//! Marches nothing.
 
 use crate::{
     gpu::shader::Module,
@@ -15,11 +16,14 @@ pub const MODULE: Module = Module {
         shader_file!("types/light.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
         shader_file!("types/film.wgsl"),
+        shader_file!("types/direct.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/eye.wgsl"),
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
+        shader_file!("lib/shared_exponent.wgsl"),
         shader_file!("lib/surroundings.wgsl"),
+        shader_file!("lib/shading.wgsl"),
         shader_file!("pass/shade.wgsl"),
     ],
 };

@@ -91,14 +91,14 @@ impl Rate {
 #[derive(Clone, Debug)]
 pub struct Cost {
     /// Of traces that start with each [`Stage`].
-    rates: [Rate; 3],
+    rates: [Rate; 4],
     show_ms: f64,
 }
 
 impl Default for Cost {
     /// No experience yet.
     fn default() -> Self {
-        Self { rates: [Rate::UNKNOWN; 3], show_ms: 0.0 }
+        Self { rates: [Rate::UNKNOWN; 4], show_ms: 0.0 }
     }
 }
 
@@ -142,8 +142,20 @@ impl Cost {
     }
 
     /// The finest lattice level of a region that fits `budget_ms` together with its display.
-    pub fn level_within(&self, budget_ms: f64, from: Stage, size_px: [u32; 2]) -> u32 {
-        let rate = self.rate(from);
+    /// `gathers`: its indirect light too.
+    pub fn level_within(
+        &self,
+        budget_ms: f64,
+        from: Stage,
+        gathers: bool,
+        size_px: [u32; 2],
+    ) -> u32 {
+        let mut rate = self.rate(from);
+        if gathers {
+            let gather = self.rate(Stage::Gather);
+            rate.fixed_ms += gather.fixed_ms;
+            rate.pixel_ms += gather.pixel_ms;
+        }
         // At least a quarter of the budget goes into the lattice's pixels, however slow the
         // display and the way to it.
         let left_ms = (budget_ms - self.show_ms - rate.fixed_ms).max(0.25 * budget_ms);

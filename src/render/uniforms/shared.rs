@@ -50,6 +50,23 @@ host_shared! {
         /// Keeps the size a multiple of 16 bytes.
         unused: u32,
     }
+    /// Indirect light.
+    Indirect {
+        /// 0 off, 1 uniform, 2 horizon-based.
+        kind: u32,
+        /// How far it looks, in heights of the picture.
+        radius: f32,
+        /// Part of it that is added.
+        strength: f32,
+        /// The ambient factor.
+        ambient: f32,
+        /// Directions on the screen.
+        directions: u32,
+        /// Samples a direction.
+        samples: u32,
+        /// One eye's picture that the neighbours are from, pixels.
+        around_px: [u32; 2],
+    }
     /// Which eyes the region shows, for a picture in stereo.
     Eyes {
         /// The first pixel of the second eye's part.
@@ -188,6 +205,8 @@ host_shared! {
         fractal: Fractal,
         /// The surface.
         surface: Surface,
+        /// Indirect light.
+        indirect: Indirect,
         /// The background.
         background: Background,
         /// Tone settings.
@@ -243,8 +262,8 @@ host_shared! {
         half_width: f32,
         /// How far exposure moves toward its goal, 0 to 1.
         adapt: f32,
-        /// Keeps the size a multiple of 16 bytes.
-        unused: u32,
+        /// The lattice level that indirect light's neighbours are taken from.
+        neighbour_level: u32,
     }
     /// What is known of a film as a whole.
     Statistics {

@@ -5,6 +5,7 @@ mod bloom;
 mod camera;
 mod fractal;
 mod help;
+mod indirect;
 mod light;
 mod lights;
 mod quality;
@@ -72,6 +73,7 @@ pub struct Sections {
     pub camera: bool,
     pub lights: bool,
     pub surface: bool,
+    pub indirect: bool,
     pub tone: bool,
     pub bloom: bool,
     pub quality: bool,
@@ -86,6 +88,7 @@ impl Sections {
             camera: true,
             lights: true,
             surface: true,
+            indirect: true,
             tone: true,
             bloom: true,
             quality: true,
@@ -271,6 +274,13 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
             |ui| {
                 surface::show(ui, cx);
             },
+        );
+        section(
+            ui,
+            "Indirect light",
+            "Light that reaches the surface by way of others",
+            &mut sections.indirect,
+            |ui| indirect::show(ui, cx),
         );
         section(
             ui,

@@ -1,0 +1,125 @@
+// Indirect light from what is around a sample on the screen, added to its direct light (thesis
+// 4.5, "Global Illumination"). Neighbours are centre samples, all of them or those of a lattice
+// level; what lies outside the picture or shows the background has no part in it.
+
+struct Neighbour {
+    // 0 where there is none, less than 1 where it lies far before or behind.
+    weight: f32,
+    // From the sample to it, scene units.
+    offset: vec3f,
+    normal: vec3f,
+    // Its direct light.
+    radiance: vec3f,
+}
+
+const NOBODY = Neighbour(0.0, vec3f(0.0), vec3f(0.0), vec3f(0.0));
+
+// The pixel of the slice's lattice level that is nearest to a pixel of an eye's picture.
+fn on_lattice(at: vec2i) -> vec2i {
+    let shift = vec2u(slice.neighbour_level / 2u);
+    let half_way = (vec2i(1) << shift) / 2;
+    var cell = (at + half_way) >> shift;
+    // Odd levels are chessboards.
+    if ((slice.neighbour_level & 1u) != 0u && ((cell.x + cell.y) & 1) != 0) { cell.x ^= 1; }
+    return cell << shift;
+}
+
+// What is seen `aside` of a pixel's sample, in parts of the picture's height. `reach` is how far
+// the operator looks, at the sample's own depth in scene units: what is farther away than that
+// belongs to something else, and counts less and less.
+fn neighbour(pixel: vec2u, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
+    let eye_px = picture.indirect.around_px;
+    let middle = eye_position(pixel, slice.jitter) * vec2f(eye_px);
+    let at = on_lattice(vec2i(floor(middle + aside * f32(eye_px.y))));
+    if (any(at < vec2i(0)) || any(at >= vec2i(eye_px))) { return NOBODY; }
+    let film_px = vec2u(round(vec2f(eye_px) / picture.eyes.share));
+    let corner = vec2u(round(eye_corner(pixel) * vec2f(film_px)));
+    let index = (corner.y + u32(at.y)) * film_px.x + corner.x + u32(at.x);
+    let seen = neighbour_surface[index];
+    let t = bitcast<f32>(seen.x);
+    if (t <= 0.0) { return NOBODY; }
+    let ray = eye_ray((vec2f(at) + 0.5) / vec2f(eye_px), eye_side(pixel));
+    let offset = ray.origin + t * ray.direction - point;
+    let weight = saturate(2.0 - length(offset) / reach);
+    return Neighbour(weight, offset, octahedral_unpack(seen.y), shared_exponent_unpack(direct[index]));
+}
+
+// Interleaved gradient noise (Jimenez 2014), 0 to 1, other for each sample of a pixel.
+fn noise(pixel: vec2u, salt: f32) -> f32 {
+    let p = vec2f(picture.origin_px + eye_pixel(pixel)) + salt;
+    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715))) + slice.jitter.x + slice.jitter.y);
+}
+
+// Eq. 4.1 over a square of half width `radius`: the mean of the neighbours' light, each by the
+// cosine of its normal to the sample's, negative ones clamped. Where the square has more pixels
+// than samples they lie on a grid, one at a noisy place of each of its cells.
+fn uniform_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
+    let count = i32(picture.indirect.samples);
+    let stride = picture.indirect.radius / (f32(count) + 0.5);
+    let place = vec2f(noise(pixel, 0.0), noise(pixel, 37.0)) - 0.5;
+    var sum = vec3f(0.0);
+    var total = 0.0;
+    for (var y = -count; y <= count; y++) {
+        for (var x = -count; x <= count; x++) {
+            let other = neighbour(pixel, point, (vec2f(vec2i(x, y)) + place) * stride, reach);
+            sum += other.weight * max(dot(n, other.normal), 0.0) * other.radiance;
+            total += other.weight;
+        }
+    }
+    return sum / max(total, 1e-6);
+}
+
+// Algorithm 2: along each direction on the screen every neighbour that rises above the horizon so
+// far adds its light and the ambient factor, the less the higher it stands. Printed, the horizon
+// is never lowered between directions, and a sum of nothing is divided by nothing: here each
+// direction begins with its own, and a sample without neighbours gets the ambient light alone.
+fn horizon_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
+    let ambient = vec3f(picture.indirect.ambient);
+    let turn = noise(pixel, 0.0);
+    let along = noise(pixel, 37.0);
+    var sum = vec3f(0.0);
+    var total = 0.0;
+    for (var d = 0u; d < picture.indirect.directions; d++) {
+        let angle = 6.2831853 * (f32(d) + turn) / f32(picture.indirect.directions);
+        let direction = vec2f(cos(angle), sin(angle));
+        var horizon = 0.0;
+        for (var k = 0u; k < picture.indirect.samples; k++) {
+            let part = (f32(k) + along) / f32(picture.indirect.samples);
+            let other = neighbour(pixel, point, direction * (part * picture.indirect.radius), reach);
+            let distance = length(other.offset);
+            // Pixels so near that they may be the sample's own tell nothing.
+            if (other.weight <= 0.0 || distance < 0.02 * part * reach) { continue; }
+            let height = saturate(dot(n, other.offset / distance));
+            if (height < horizon) { continue; }
+            horizon = height;
+            sum += other.weight * (1.0 - height) * (ambient + other.radiance);
+            total += other.weight;
+        }
+    }
+    if (total <= 0.0) { return ambient; }
+    return sum / total;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    let pixel = lattice_pixel(workgroup.x, local_index);
+    if (!inside_region(pixel)) { return; }
+    let index = sample_index(pixel, workgroup.x, local_index);
+    var radiance = direct_radiance(pixel, index);
+    let seen = surface[index];
+    let t = bitcast<f32>(seen.x);
+    if (t > 0.0) {
+        let ray = camera_ray(pixel);
+        let point = ray.origin + t * ray.direction;
+        let n = octahedral_unpack(seen.y);
+        let reach = picture.indirect.radius * 2.0 * picture.camera.half_height * t;
+        var arriving: vec3f;
+        if (picture.indirect.kind == INDIRECT_UNIFORM) {
+            arriving = uniform_light(pixel, point, n, reach);
+        } else {
+            arriving = horizon_light(pixel, point, n, reach);
+        }
+        radiance += picture.indirect.strength * surface_color(color_data[index]) * arriving;
+    }
+    put_on_film(pixel, radiance);
+}

@@ -1,0 +1,46 @@
+//! Indirect light from what is around each sample on the screen, with its direct light, onto the
+//! film. Marches nothing.
+
+use crate::{
+    gpu::shader::Module,
+    render::{
+        frame::Recorder,
+        lattice::Grid,
+        schedule::{Points, Trace},
+    },
+    shader_file,
+};
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "gather",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/light.wgsl"),
+        shader_file!("types/sample.wgsl"),
+        shader_file!("types/film.wgsl"),
+        shader_file!("types/direct.wgsl"),
+        shader_file!("types/neighbours.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/eye.wgsl"),
+        shader_file!("lib/camera.wgsl"),
+        shader_file!("lib/octahedral.wgsl"),
+        shader_file!("lib/shared_exponent.wgsl"),
+        shader_file!("lib/surroundings.wgsl"),
+        shader_file!("lib/shading.wgsl"),
+        shader_file!("pass/gather.wgsl"),
+    ],
+};
+
+/// Gathers light for the samples of `trace`.
+pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
+    let pipeline = recorder.kernels.gather().clone();
+    let mut slice = recorder.slice(trace, grid);
+    if let Points::Around(level) = trace.points {
+        slice.neighbour_level = level;
+    }
+    recorder.bind_neighbours(trace);
+    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatches.gather += 1;
+}

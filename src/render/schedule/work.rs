@@ -1,0 +1,70 @@
+//! What a schedule hands out: one piece of work, one submit.
+
+use crate::render::lattice::Grid;
+
+/// Which sample points a trace computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Points {
+    /// Centre samples of every pixel of a lattice level.
+    Level(u32),
+    /// Centre samples of the pixels that a level adds to the next coarser one.
+    Added(u32),
+    /// Centre samples of every pixel of a lattice level, which all have their direct light, for
+    /// the indirect light among them.
+    Around(u32),
+    /// The jittered sample of this index, of every pixel.
+    Sample(u32),
+}
+
+impl Points {
+    /// The grid of pixels that they lie in.
+    pub fn grid(self, size_px: [u32; 2]) -> Grid {
+        match self {
+            Self::Level(level) | Self::Around(level) => Grid::level(level, size_px),
+            Self::Added(level) => Grid::added(level, size_px),
+            Self::Sample(_) => Grid::level(0, size_px),
+        }
+    }
+}
+
+/// The pass that a trace starts with; those after it follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Camera rays.
+    March,
+    /// Normals, of depths that are there.
+    Normal,
+    /// Shadow rays and light, of depths and normals that are there.
+    Shadow,
+    /// Indirect light, of direct light that is there.
+    Gather,
+}
+
+/// A run of workgroups over some sample points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Trace {
+    /// The sample points.
+    pub points: Points,
+    /// Where it starts: what comes before is in the G-buffer.
+    pub from: Stage,
+    /// First workgroup of the points' grid.
+    pub first_workgroup: u32,
+    /// How many workgroups.
+    pub workgroups: u32,
+}
+
+/// One piece of work: one submit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Work {
+    /// Compute sample points, up to the film.
+    Trace(Trace),
+    /// Make the display picture from the film.
+    Show {
+        /// The finest complete lattice level; 0 where the film is complete.
+        level: u32,
+        /// Whether the pixels between that lattice's have to be filled in first.
+        fill: bool,
+        /// How far auto exposure moves toward its goal, above 0 to 1: there at once.
+        adapt: f32,
+    },
+}

@@ -1,0 +1,143 @@
+//! Indirect light in views: what an edit of it costs, tiles, sparse lattices.
+
+use mandelight::{
+    render::{Eyes, Pace, Region, View, frame::Dispatches},
+    scene::{Indirect, IndirectKind, Scene},
+};
+
+use crate::harness::{difference, finished, kernels, pixels, sampled, settle, still};
+use crate::picture::sparse;
+
+const SIZE: [u32; 2] = [96, 64];
+const KINDS: [IndirectKind; 2] = [IndirectKind::Uniform, IndirectKind::Horizon];
+
+fn lit(kind: IndirectKind, samples: u32) -> Scene {
+    let indirect = Indirect { kind, radius: 0.1, ..Indirect::default() };
+    Scene { indirect, ..sampled(Scene::default(), samples) }
+}
+
+fn cost_of(before: &Scene, after: &Scene) -> [u64; 5] {
+    let mut view = finished(before, SIZE, Pace::Interactive);
+    let old = view.dispatches();
+    view.set_scene(after, false);
+    settle(&mut view);
+    let new = view.dispatches();
+    let of = |d: Dispatches| [d.march, d.normal, d.shadow, d.shade, d.gather];
+    let (new, old) = (of(new), of(old));
+    std::array::from_fn(|i| new[i] - old[i])
+}
+
+#[test]
+fn an_edit_of_indirect_light_touches_only_itself() {
+    let before = lit(IndirectKind::Horizon, 1);
+    let edits: [fn(&mut Indirect); 4] = [
+        |i| i.radius = 0.05,
+        |i| i.strength = 0.5,
+        |i| i.ambient = 0.5,
+        |i| i.kind = IndirectKind::Uniform,
+    ];
+    for edit in edits {
+        let mut after = before.clone();
+        edit(&mut after.indirect);
+        let [march, normal, shadow, shade, gather] = cost_of(&before, &after);
+        assert_eq!([march, normal, shadow, shade], [0; 4]);
+        assert!(gather > 0);
+    }
+}
+
+#[test]
+fn what_is_off_costs_nothing() {
+    let off = lit(IndirectKind::Off, 2);
+    let mut other = off.clone();
+    other.indirect.radius = 0.01;
+    other.indirect.ambient = 1.0;
+    assert_eq!(cost_of(&off, &other), [0; 5]);
+    assert_eq!(finished(&off, SIZE, Pace::Interactive).dispatches().gather, 0);
+    let [march, .., gather] = cost_of(&lit(IndirectKind::Off, 1), &lit(IndirectKind::Uniform, 1));
+    assert!(march == 0 && gather > 0);
+}
+
+/// However the lattice was completed, the picture is the one that a still makes at once.
+#[test]
+fn refinement_with_indirect_light_ends_in_the_still() {
+    kernels().specialise(8);
+    for kind in KINDS {
+        let scene = lit(kind, 3);
+        for size in [SIZE, [37, 21]] {
+            let refined = pixels(&finished(&scene, size, Pace::Interactive));
+            let direct = still(&scene, size);
+            assert!(refined == direct, "{kind:?} {size:?}: {:?}", difference(&refined, &direct));
+        }
+    }
+}
+
+/// A tile with the whole picture's neighbours shows what is there in the whole picture.
+#[test]
+fn tiles_have_no_seams() {
+    for kind in KINDS {
+        let scene = lit(kind, 2);
+        let whole = finished(&scene, SIZE, Pace::Still);
+        let picture = pixels(&whole);
+        let [x, y, width, height] = [29, 20, 40, 30];
+        let region = Region {
+            picture_px: SIZE,
+            origin_px: [x, y],
+            size_px: [width, height],
+            eyes: Eyes::Camera,
+        };
+        let mut tile = View::new(kernels(), region, Pace::Still);
+        tile.lend_neighbours(Some(whole.neighbours()));
+        tile.set_scene(&scene, false);
+        settle(&mut tile);
+        let row = |row: u32| {
+            let at = 4 * ((y + row) * SIZE[0] + x) as usize;
+            &picture[at..at + 4 * width as usize]
+        };
+        let cut: Vec<u8> = (0..height).flat_map(row).copied().collect();
+        assert_eq!(difference(&pixels(&tile), &cut), (0.0, 0), "{kind:?}");
+    }
+}
+
+/// Large pictures gather from a smaller one of all of the scene.
+#[test]
+fn neighbours_of_a_smaller_picture_do_nearly_as_well() {
+    let size = [300, 200];
+    let film = |view: &View| view.film().expect("the film's bytes");
+    let apart = |a: &View, b: &View| -> f64 {
+        film(a).iter().zip(film(b)).map(|(a, b)| f64::from((a[1] - b[1]).abs())).sum()
+    };
+    let direct = finished(&lit(IndirectKind::Off, 1), size, Pace::Still);
+    for kind in KINDS {
+        let scene = lit(kind, 1);
+        let own = finished(&scene, size, Pace::Still);
+        let overview = finished(&scene, [225, 150], Pace::Still);
+        let mut view = View::new(kernels(), Region::whole(size), Pace::Still);
+        view.lend_neighbours(Some(overview.neighbours()));
+        view.set_scene(&scene, false);
+        settle(&mut view);
+        let part = apart(&view, &own) / apart(&direct, &own);
+        assert!(part < 0.3, "{kind:?}: off by {part} of what indirect light adds");
+    }
+}
+
+/// What indirect light adds to a sparse lattice is what it adds to the whole picture.
+#[test]
+fn indirect_light_does_not_shimmer_while_the_lattice_fills() {
+    let size = [240, 160];
+    let mean = |kind, level| {
+        let bytes = sparse(&lit(kind, 1), size, level);
+        let sum: f64 = bytes.as_chunks::<4>().0.iter().map(|p| f64::from(p[1])).sum();
+        sum / f64::from(size[0] * size[1])
+    };
+    for kind in KINDS {
+        let added = |level| mean(kind, level) - mean(IndirectKind::Off, level);
+        let whole = added(0);
+        assert!(whole > 0.5, "{kind:?}: {whole}");
+        for level in 1..=6 {
+            let off = (added(level) / whole - 1.0).abs();
+            // One pixel of 64 is far coarser than what there is to see.
+            let allowed = if level <= 4 { 0.2 } else { 0.5 };
+            assert!(off < allowed, "{kind:?}: off by {off} on level {level}");
+        }
+    }
+}
