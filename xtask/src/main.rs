@@ -6,6 +6,7 @@
 mod check;
 mod need;
 mod page;
+mod pictures;
 mod serve;
 mod shell;
 mod test;
@@ -20,6 +21,7 @@ Usage: cargo xtask <command>
   dist              write dist/, a folder that any static host can serve
   check             formatting and lints, native and wasm32, warnings denied
   bless             make the golden pictures again from what the renderer draws now
+  pictures [NAME…]  draw the pictures of the README and the docs again
   help              this text
 ";
 
@@ -31,6 +33,7 @@ enum Wish {
     Dist,
     Check,
     Bless,
+    Pictures { names: Vec<String> },
     Help,
 }
 
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Wish::Dist => page::dist().map(drop),
         Wish::Check => check::check(),
         Wish::Bless => test::bless(),
+        Wish::Pictures { names } => pictures::pictures(&names),
         Wish::Help => {
             print!("{HELP}");
             Ok(())
@@ -77,6 +81,9 @@ fn wish_of(words: &[String]) -> Result<Wish, String> {
         ["dist"] => Ok(Wish::Dist),
         ["check"] => Ok(Wish::Check),
         ["bless"] => Ok(Wish::Bless),
+        ["pictures", names @ ..] => {
+            Ok(Wish::Pictures { names: names.iter().map(|&name| name.to_owned()).collect() })
+        }
         other => Err(format!("there is no `cargo xtask {}`", other.join(" "))),
     }
 }
@@ -94,6 +101,7 @@ mod tests {
         assert_eq!(parsed("serve"), Ok(Wish::Serve { port: 8080 }));
         assert_eq!(parsed("serve --port 9000"), Ok(Wish::Serve { port: 9000 }));
         assert_eq!(parsed("test"), Ok(Wish::Test));
+        assert_eq!(parsed("pictures bloom"), Ok(Wish::Pictures { names: vec!["bloom".into()] }));
         assert_eq!(parsed(""), Ok(Wish::Help));
     }
 

@@ -1,0 +1,248 @@
+//! `cargo xtask pictures`: draws every picture that the README and the docs show.
+//!
+//! In: the table in `table.rs`. Out: `docs/pictures/*.png`, drawn by the native renderer through its
+//! command line, as anyone would. A picture of one panel is the renderer's own file and carries its
+//! scene; one of several is put together here.
+
+mod compose;
+mod dusk;
+mod table;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use anyhow::{Context as _, Result, bail};
+use compose::Image;
+use table::{Layer, Panel, Picture};
+
+use crate::{need, shell};
+
+/// Where the pictures are, from the repository's top folder.
+const FOLDER: &str = "docs/pictures";
+
+/// Pixels between the panels of a picture. They are left transparent.
+const GAP_PX: u32 = 4;
+
+/// Draws the pictures of these names, all where none is given.
+pub fn pictures(names: &[String]) -> Result<()> {
+    let wanted = wanted(names)?;
+    need::vulkan_driver()?;
+    let studio = Studio::open()?;
+    for picture in &wanted {
+        eprintln!("{FOLDER}/{}.png: {}", picture.name, picture.caption);
+        studio.draw(picture).with_context(|| format!("the picture {:?}", picture.name))?;
+    }
+    Ok(())
+}
+
+fn wanted(names: &[String]) -> Result<Vec<Picture>> {
+    let mut pictures = table::pictures();
+    if let Some(stranger) = names.iter().find(|name| pictures.iter().all(|p| p.name != **name)) {
+        bail!("no picture is named {stranger:?}; the table is xtask/src/pictures/table.rs");
+    }
+    if !names.is_empty() {
+        pictures.retain(|picture| names.iter().any(|name| name == picture.name));
+    }
+    Ok(pictures)
+}
+
+/// What drawing takes: the renderer, and a folder for parts.
+struct Studio {
+    renderer: PathBuf,
+    docs: PathBuf,
+    parts: PathBuf,
+    /// A picture of surroundings, made here so that the repository need not carry one.
+    surroundings: PathBuf,
+}
+
+impl Studio {
+    fn open() -> Result<Self> {
+        shell::run(shell::cargo()?.args(["build", "--release", "--bin", "mandelight"]))?;
+        let target = shell::target()?;
+        let parts = target.join("pictures");
+        fs::create_dir_all(&parts)?;
+        let surroundings = parts.join("dusk.hdr");
+        fs::write(&surroundings, dusk::radiance_file())?;
+        let renderer =
+            target.join("release").join(format!("mandelight{}", std::env::consts::EXE_SUFFIX));
+        Ok(Self { renderer, docs: shell::root()?.join("docs"), parts, surroundings })
+    }
+
+    fn draw(&self, picture: &Picture) -> Result<()> {
+        let file = shell::root()?.join(FOLDER).join(format!("{}.png", picture.name));
+        let size_px = picture.panel_px(GAP_PX);
+        if let [panel] = picture.panels.as_slice()
+            && panel.is_still()
+        {
+            return self.render(panel, size_px, &file);
+        }
+        let panels = picture.panels.iter().map(|panel| self.panel(panel, size_px));
+        let panels: Vec<Image> = panels.collect::<Result<_>>()?;
+        compose::montage(&panels, picture.across, GAP_PX).write(&file)
+    }
+
+    /// A panel as pixels.
+    fn panel(&self, panel: &Panel, size_px: [u32; 2]) -> Result<Image> {
+        if let Some(frame) = panel.frame {
+            // Frames that are there are kept, even those of another scene's.
+            let folder = self.parts.join("frames");
+            if folder.exists() {
+                fs::remove_dir_all(&folder)?;
+            }
+            let mut renderer = self.start("frames", panel, size_px, &folder)?;
+            self.finish(renderer.args(["--frames", &frame.to_string()]), panel)?;
+            return Image::read_png(&folder.join(format!("frame_{frame:06}.png")));
+        }
+        if panel.layer == Layer::Color {
+            let file = self.parts.join("panel.png");
+            self.render(panel, size_px, &file)?;
+            return Image::read_png(&file);
+        }
+        let file = self.parts.join("panel.exr");
+        self.render(panel, size_px, &file)?;
+        Image::read_exr(&file, panel.layer)
+    }
+
+    fn render(&self, panel: &Panel, size_px: [u32; 2], file: &Path) -> Result<()> {
+        self.finish(&mut self.start("render", panel, size_px, file)?, panel)
+    }
+
+    /// The renderer with everything but the scene's name.
+    fn start(
+        &self,
+        verb: &str,
+        panel: &Panel,
+        [width, height]: [u32; 2],
+        output: &Path,
+    ) -> Result<Command> {
+        let mut renderer = Command::new(&self.renderer);
+        let samples = panel.samples.to_string();
+        renderer.args([verb, "--quiet", "--samples", &samples]).arg("--output").arg(output);
+        renderer.args(["--size", &format!("{width}x{height}")]);
+        if panel.surrounded {
+            renderer.arg("--environment").arg(&self.surroundings);
+        }
+        for change in &panel.changes {
+            renderer.args(["--set", change]);
+        }
+        Ok(renderer)
+    }
+
+    /// Names the scene, and runs the renderer. Where a change is for a field that the preset has
+    /// not, the renderer says so.
+    fn finish(&self, renderer: &mut Command, panel: &Panel) -> Result<()> {
+        let scene = if panel.scene.ends_with(".json") {
+            self.docs.join(panel.scene)
+        } else {
+            let mut printer = Command::new(&self.renderer);
+            let text = shell::output(printer.args(["scene", "--preset", panel.scene]))
+                .with_context(|| format!("no opening scene is named {:?}", panel.scene))?;
+            let file = self.parts.join("scene.json");
+            fs::write(&file, text)?;
+            file
+        };
+        shell::run(renderer.arg(scene))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    fn root() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+    }
+
+    fn files_in(folder: &Path, extension: &str) -> Vec<PathBuf> {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        entries.filter(|path| path.extension().is_some_and(|found| found == extension)).collect()
+    }
+
+    /// The README and every page of docs/, each with its path from the top folder.
+    fn pages() -> Vec<String> {
+        let mut files = files_in(&root().join("docs"), "md");
+        files.push(root().join("README.md"));
+        files.iter().map(|file| fs::read_to_string(file).unwrap()).collect()
+    }
+
+    #[test]
+    fn the_folder_has_the_pictures_of_the_table_and_no_others() {
+        let there: BTreeSet<String> = fs::read_dir(root().join(FOLDER))
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        let named: Vec<String> =
+            table::pictures().iter().map(|picture| format!("{}.png", picture.name)).collect();
+        assert_eq!(there, named.iter().cloned().collect(), "draw with `cargo xtask pictures`");
+        assert_eq!(there.len(), named.len(), "a name is in the table twice");
+    }
+
+    #[test]
+    fn every_picture_is_shown_with_its_caption() {
+        let pages = pages();
+        for Picture { name, caption, .. } in table::pictures() {
+            let html = format!("pictures/{name}.png\" width=\"320\" alt=\"{caption}\"");
+            let ways = [
+                html,
+                format!("![{caption}](docs/pictures/{name}.png)"),
+                format!("![{caption}](pictures/{name}.png)"),
+            ];
+            assert!(
+                pages.iter().any(|page| ways.iter().any(|way| page.contains(way))),
+                "neither the README nor a page of docs/ shows {name} as\n{}",
+                ways.join("\n")
+            );
+        }
+    }
+
+    #[test]
+    fn every_picture_that_is_shown_is_in_the_table() {
+        let pictures = table::pictures();
+        for page in pages() {
+            for piece in page.split("pictures/").skip(1) {
+                let Some((name, _)) = piece.split_once(".png") else { continue };
+                if name.chars().all(|c| c.is_ascii_lowercase() || c == '-') {
+                    assert!(pictures.iter().any(|p| p.name == name), "{name} is not in the table");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_pictures_have_the_sizes_of_the_table() {
+        for picture in table::pictures() {
+            let file = root().join(FOLDER).join(format!("{}.png", picture.name));
+            let decoder =
+                png::Decoder::new(std::io::BufReader::new(fs::File::open(&file).unwrap()));
+            let size = decoder.read_info().unwrap().info().size();
+            let [width, height] = picture.panel_px(GAP_PX);
+            let (columns, rows) = (picture.across, picture.panels.len() as u32 / picture.across);
+            let whole = |panel, count| panel * count + GAP_PX * (count - 1);
+            // A sheet of both eyes is twice as wide.
+            let sheet = picture.panels[0].changes.contains(&"camera.stereo.layout=side_by_side");
+            let width = if sheet { 2 * width } else { width };
+            assert_eq!(size, (whole(width, columns), whole(height, rows)), "{}", picture.name);
+        }
+    }
+
+    #[test]
+    fn scenes_in_files_are_there() {
+        for panel in table::pictures().iter().flat_map(|picture| &picture.panels) {
+            if panel.scene.ends_with(".json") {
+                assert!(root().join("docs").join(panel.scene).is_file(), "{}", panel.scene);
+            }
+        }
+    }
+
+    #[test]
+    fn a_picture_that_is_not_there_is_named() {
+        let error = wanted(&["mandelbulb".into(), "teapot".into()]).err().unwrap();
+        assert!(error.to_string().contains("teapot"), "{error}");
+        assert_eq!(wanted(&["mandelbulb".into()]).unwrap().len(), 1);
+    }
+}

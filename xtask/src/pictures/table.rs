@@ -1,0 +1,300 @@
+//! The pictures, one line each.
+//!
+//! In: nothing. Out: what to draw. `cargo xtask pictures` draws it, and a test wants each shown in
+//! the README or the docs with its caption.
+
+/// A picture of the README or the docs.
+pub struct Picture {
+    /// The file's name in docs/pictures/, without `.png`.
+    pub name: &'static str,
+    /// What it shows, as its alternative text says it.
+    pub caption: &'static str,
+    /// About how large it is; panels are whole pixels.
+    pub size_px: [u32; 2],
+    /// Panels in a row.
+    pub across: u32,
+    /// What it is made of, row by row; full rows.
+    pub panels: Vec<Panel>,
+}
+
+impl Picture {
+    /// The size of each panel, `gap_px` between them.
+    pub fn panel_px(&self, gap_px: u32) -> [u32; 2] {
+        let down = self.panels.len() as u32 / self.across;
+        let side = |whole: u32, count: u32| (whole - gap_px * (count - 1)) / count;
+        [side(self.size_px[0], self.across), side(self.size_px[1], down)]
+    }
+
+    fn sized(self, size_px: [u32; 2]) -> Self {
+        Self { size_px, ..self }
+    }
+}
+
+/// One render.
+#[derive(Clone)]
+pub struct Panel {
+    /// The name of an opening scene, or a document's file in docs/.
+    pub scene: &'static str,
+    /// Changes to it, as `--set` takes them.
+    pub changes: Vec<&'static str>,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// The frame of the scene's path to show; none for the scene itself.
+    pub frame: Option<u32>,
+    /// Whether the picture of a dusk lights it.
+    pub surrounded: bool,
+    /// What of the render is shown.
+    pub layer: Layer,
+}
+
+/// What a render knows of each pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    /// Its colour.
+    Color,
+    /// How far away the surface is.
+    Depth,
+    /// Where the surface faces.
+    Normal,
+}
+
+impl Panel {
+    /// Whether the renderer's own PNG is what is wanted.
+    pub fn is_still(&self) -> bool {
+        self.frame.is_none() && self.layer == Layer::Color
+    }
+
+    fn with(mut self, changes: &[&'static str]) -> Self {
+        self.changes.extend(changes);
+        self
+    }
+
+    fn samples(self, samples: u32) -> Self {
+        Self { samples, ..self }
+    }
+
+    fn frame(self, frame: u32) -> Self {
+        Self { frame: Some(frame), ..self }
+    }
+
+    fn surrounded(self) -> Self {
+        Self { surrounded: true, ..self }
+    }
+
+    fn layer(self, layer: Layer) -> Self {
+        Self { layer, ..self }
+    }
+}
+
+/// All of them.
+pub fn pictures() -> Vec<Picture> {
+    vec![
+        single("mandelbulb", "The power-8 Mandelbulb, as the page opens on it", of("Mandelbulb"))
+            .sized([960, 540]),
+        picture(
+            "powers",
+            4,
+            "Powers 2, 3, 4.5 and 6; 8, 11 and 16, and the power 8 of the other sign",
+            [
+                gold("fractal.power=2"),
+                gold("fractal.power=3"),
+                gold("fractal.power=4.5"),
+                gold("fractal.power=6"),
+                gold("fractal.power=8"),
+                gold("fractal.power=11"),
+                gold("fractal.power=16"),
+                gold("fractal.variant=negative_sine").with(&["fractal.power=8"]),
+            ],
+        ),
+        single("julia", "A Julia form of the power-8 bulb", of("Julia")),
+        picture(
+            "dive",
+            3,
+            "Toward the surface, at 3.2, 1 and 0.45",
+            [
+                reef().with(&[r#"camera.position=["1.324", "-2.156", "1.06"]"#]),
+                reef(),
+                reef().with(&[r#"camera.position=["0.444", "-0.836", "0.51"]"#]),
+            ],
+        ),
+        single("lights", "A power-4 bulb between three coloured lights", of("Four petals")),
+        single("lantern", "Two point lights in a crevice", of("Lantern")),
+        single("sky", "A bulb under a sky of 32 lights with a low sun", of("Mandelbulb").with(SKY)),
+        single(
+            "surroundings",
+            "A bulb lit by the picture of a dusk that stands behind it",
+            of("Mandelbulb").with(DUSK).surrounded(),
+        ),
+        picture(
+            "normals",
+            3,
+            "No normals, three samples, the exact gradient",
+            [
+                reef().with(&["quality.normals=none"]),
+                reef().with(&["quality.normals=three"]),
+                reef(),
+            ],
+        ),
+        picture(
+            "coloring",
+            4,
+            "Colours by the iteration count, and by traps at the origin, the axes and the planes",
+            [
+                reef().with(&["surface.coloring.source=iterations"]),
+                reef(),
+                reef().with(&["surface.coloring.source=axis_trap"]),
+                reef().with(&["surface.coloring.source=plane_trap"]),
+            ],
+        ),
+        picture(
+            "tone",
+            5,
+            "Cut off at 1, Reinhard's curve, ACES, AgX and Khronos Neutral",
+            [
+                lamp("tone.curve=linear"),
+                lamp("tone.curve=reinhard"),
+                lamp("tone.curve=aces"),
+                lamp("tone.curve=agx"),
+                lamp("tone.curve=khronos_neutral"),
+            ],
+        ),
+        picture(
+            "exposure",
+            2,
+            "Far too little light, and what auto exposure makes of it",
+            [lamp("tone.exposure=-3"), lamp("tone.auto_exposure=true").with(&["tone.exposure=0"])],
+        ),
+        picture(
+            "bloom",
+            2,
+            "Without bloom, and with it",
+            [rim(), rim().with(&["bloom.strength=0.8"])],
+        ),
+        picture(
+            "samples",
+            2,
+            "One sample a pixel, and 64",
+            [
+                reef().with(&["camera.vertical_fov_deg=5"]).samples(1),
+                reef().with(&["camera.vertical_fov_deg=5"]).samples(64),
+            ],
+        ),
+        single("anaglyph", "A bulb for red-cyan glasses", marble("camera.stereo.layout=anaglyph")),
+        // Side by side, each eye has the size that is asked for.
+        single(
+            "stereo",
+            "The views of the two eyes, side by side",
+            marble("camera.stereo.layout=side_by_side"),
+        )
+        .sized([160, 200]),
+        picture(
+            "path",
+            3,
+            "Six frames of a flight toward the bulb, and away from another power",
+            [flight(0), flight(48), flight(96), flight(144), flight(192), flight(240)],
+        ),
+        picture(
+            "layers",
+            3,
+            "Colour, depth and normals of one OpenEXR file",
+            [reef(), reef().layer(Layer::Depth), reef().layer(Layer::Normal)],
+        ),
+        picture(
+            "scenes",
+            4,
+            "The eight opening scenes",
+            [
+                of("Mandelbulb"),
+                of("Coral reef"),
+                of("Four petals"),
+                of("Quadratic"),
+                of("Sea urchin"),
+                of("In between"),
+                of("Julia"),
+                of("Lantern"),
+            ],
+        ),
+    ]
+}
+
+/// Lights of a sky alone.
+const SKY: &[&str] =
+    &["lights.environment=[]", "lights.rig.kind=sky", "lights.rig.count=32", "tone.exposure=0.3"];
+
+/// Before the dusk, its sun to the left.
+const DUSK: &[&str] = &[
+    "lights.environment=[]",
+    "lights.rig.count=48",
+    "lights.rig.picture.rotation_deg=36",
+    "tone.exposure=1",
+    r#"camera.position=["2", "-2.4", "-0.15"]"#,
+    r#"camera.pivot=["0", "0", "0.05"]"#,
+    "camera.orientation=[0.68578, 0.24829, 0.2329, 0.64328]",
+    "camera.vertical_fov_deg=46",
+];
+
+fn reef() -> Panel {
+    of("Coral reef")
+}
+
+fn gold(change: &'static str) -> Panel {
+    of("In between").with(&["camera.vertical_fov_deg=48", change])
+}
+
+fn lamp(change: &'static str) -> Panel {
+    of("Lantern").with(&["tone.exposure=1.6", change])
+}
+
+/// A bulb before strong lights, most of it dark.
+fn rim() -> Panel {
+    of("Four petals").with(&[
+        r#"lights.environment=[
+            {"direction": [-0.36, 0.8, 0.48], "color": [1, 0.75, 0.4], "intensity": 30},
+            {"direction": [0.8, 0.6, 0], "color": [0.35, 0.6, 1], "intensity": 25}
+        ]"#,
+        "surface.ambient=0.01",
+        "bloom.radius=0.06",
+        "bloom.order=before",
+    ])
+}
+
+/// A pale bulb: strong colours would reach one eye only through red-cyan glasses.
+fn marble(change: &'static str) -> Panel {
+    of("Mandelbulb").with(&[
+        r#"surface.gradient=[
+            {"position": 0, "color": [0.62, 0.6, 0.58]},
+            {"position": 0.5, "color": [0.95, 0.93, 0.9]}
+        ]"#,
+        r#"camera.position=["2.16", "-3.51", "1.5525"]"#,
+        "camera.stereo.eye_separation_cm=4",
+        change,
+    ])
+}
+
+fn flight(frame: u32) -> Panel {
+    of("examples/flight.json").frame(frame)
+}
+
+fn of(scene: &'static str) -> Panel {
+    Panel {
+        scene,
+        changes: Vec::new(),
+        samples: 16,
+        frame: None,
+        surrounded: false,
+        layer: Layer::Color,
+    }
+}
+
+fn picture<const N: usize>(
+    name: &'static str,
+    across: u32,
+    caption: &'static str,
+    panels: [Panel; N],
+) -> Picture {
+    Picture { name, caption, size_px: [320, 200], across, panels: panels.into() }
+}
+
+fn single(name: &'static str, caption: &'static str, panel: Panel) -> Picture {
+    picture(name, 1, caption, [panel])
+}
