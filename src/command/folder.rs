@@ -12,12 +12,12 @@ use std::{
 };
 
 use mandelight::{
-    export::{PictureFormat, frame_name},
+    export::{Eye, PictureFormat, frame_name},
     scene::{Panorama, document},
 };
 use sha2::{Digest as _, Sha256};
 
-use super::{Failure, output::Output};
+use super::{Failure, output::Output, stereo::file_of};
 
 /// What the name of the binding file begins and ends with.
 const MARK: (&str, &str) = ("sequence-", ".json");
@@ -36,7 +36,12 @@ pub struct Sequence<'a> {
     pub panorama: Option<&'a Panorama>,
     /// The kind of the files.
     pub format: PictureFormat,
+    /// Whose pictures each frame has.
+    pub eyes: &'static [Option<Eye>],
 }
+
+/// A frame's number, and the eye whose picture of it a file holds, where it is one of a pair.
+pub type FrameFile = (u32, Option<Eye>);
 
 impl Sequence<'_> {
     /// A number of everything that the frames depend on, in hexadecimal digits. The document's
@@ -44,7 +49,8 @@ impl Sequence<'_> {
     fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
         let line = |hash: &mut Sha256, text: String| hash.update(text + "\n");
-        line(&mut hash, format!("{} {:?}", env!("CARGO_PKG_VERSION"), self.format));
+        let (version, format, eyes) = (env!("CARGO_PKG_VERSION"), self.format, self.eyes);
+        line(&mut hash, format!("{version} {format:?} {eyes:?}"));
         line(
             &mut hash,
             format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second),
@@ -66,6 +72,7 @@ impl Sequence<'_> {
             "mandelight": "sequence",
             "program": env!("CARGO_PKG_VERSION"),
             "size_px": self.size_px,
+            "pair": self.eyes.len() > 1,
             "samples": self.samples,
             "frames_per_second": self.path.frames_per_second,
             "frames": self.path.frame_count(),
@@ -120,21 +127,22 @@ impl Folder {
         Ok(Self { path: path.to_owned(), ending })
     }
 
-    /// Where frame `frame` is, or goes.
-    pub fn file(&self, frame: u32) -> PathBuf {
-        self.path.join(frame_name(frame)).with_extension(self.ending)
+    /// Where a frame is, or goes.
+    pub fn file(&self, (frame, eye): FrameFile) -> PathBuf {
+        let name = Path::new(&frame_name(frame)).with_extension(self.ending);
+        self.path.join(file_of(&name, eye))
     }
 
-    /// Whether frame `frame` is there; it then is whole.
-    pub fn has(&self, frame: u32) -> bool {
-        self.file(frame).exists()
+    /// Whether a frame is there; it then is whole.
+    pub fn has(&self, file: FrameFile) -> bool {
+        self.file(file).exists()
     }
 }
 
 fn other_sequence(path: &Path, mark: &str) -> Failure {
     let shown = path.display();
     Failure::usage(format!(
-        "{shown} holds frames of another scene, size, number of samples or kind ({mark}); choose another folder, or empty this one"
+        "{shown} holds frames of another scene, size, number of samples, kind or layout ({mark}); choose another folder, or empty this one"
     ))
 }
 

@@ -16,7 +16,8 @@ use std::{
 use indicatif::ProgressBar;
 use mandelight::{
     export::{
-        ExportError, PictureFormat, StillJob, StillOptions, StillStatus, sequence::remaining_secs,
+        ExportError, Eye, PictureFormat, StillJob, StillOptions, StillStatus,
+        sequence::remaining_secs,
     },
     render::Kernels,
     scene::Path,
@@ -26,10 +27,11 @@ use super::{
     Failure,
     adapter::{AdapterArguments, Health},
     environment::{EnvironmentArguments, tell_of_missing},
-    folder::{Folder, Sequence},
+    folder::{Folder, FrameFile, Sequence},
     input::{self, Change},
     output::Output,
     render::{interruption, parse_samples, parse_size, progress_bar, show},
+    stereo::StereoArguments,
     tell,
 };
 
@@ -45,7 +47,7 @@ pub struct Arguments {
     /// Frames A to B, without B: 0..100, 100.., ..50, or a single one; all unless given
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     frames: Option<Wanted>,
-    /// Width and height in pixels, each 1 to 16384
+    /// Width and height in pixels, each 1 to 16384; in stereo, of either eye's picture
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: [u32; 2],
     /// Samples a pixel, in place of the scenes' own
@@ -57,6 +59,8 @@ pub struct Arguments {
     /// Change a field in every key, such as quality.detail=0.5, or of the path, such as path.frames_per_second=60
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
+    #[command(flatten)]
+    stereo: StereoArguments,
     #[command(flatten)]
     environment: EnvironmentArguments,
     /// Say nothing but errors
@@ -83,24 +87,40 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         None if !arguments.quiet => tell_of_missing(&project.scene),
         None => {}
     }
-    let path = input::changed_project(project, &arguments.set)?.path;
+    let mut project = input::changed_project(project, &arguments.set)?;
+    arguments.stereo.lay_out_all(&mut project);
+    let path = project.path;
     let frames = wanted_of(arguments.frames, &path, &arguments.scene)?;
     let panorama = environment.map(|environment| environment.panorama);
     let Arguments { size, samples, quiet, .. } = arguments;
     let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
-    let sequence =
-        Sequence { path: &path, size_px: size, samples, panorama: panorama.as_deref(), format };
+    let eyes = arguments.stereo.eyes();
+    let sequence = Sequence {
+        path: &path,
+        size_px: size,
+        samples,
+        panorama: panorama.as_deref(),
+        format,
+        eyes,
+    };
+    let options = StillOptions { samples, format, ..StillOptions::new(size) };
+    for (key, &eye) in path.keys.iter().flat_map(|key| eyes.iter().map(move |eye| (key, eye))) {
+        let of_eye = StillOptions { eye, ..options.clone() };
+        of_eye.sheet_px(&key.scene).map_err(Failure::usage)?;
+    }
     // Before there is a file that an interruption could leave behind.
     let interrupted = interruption()?;
     let folder = Folder::open(&arguments.output, &sequence)?;
-    let missing: Vec<u32> = frames.clone().filter(|&frame| !folder.has(frame)).collect();
+    let files = frames.clone().flat_map(|frame| eyes.iter().map(move |&eye| (frame, eye)));
+    let wanted = frames.len() * eyes.len();
+    let missing: Vec<_> = files.filter(|&file| !folder.has(file)).collect();
     let say = |text: String| {
         if !quiet {
             tell(&format!("{}: {text}", arguments.output.display()));
         }
     };
     if missing.is_empty() {
-        say(format!("all {} frames are there", frames.len()));
+        say(format!("all {} are there", counted(wanted, eyes)));
         return Ok(());
     }
 
@@ -108,7 +128,8 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let work = Work {
         path: &path,
         folder: &folder,
-        options: StillOptions { samples, panorama, format, ..StillOptions::new(size) },
+        options: StillOptions { panorama, ..options },
+        eyes,
         kernels: Kernels::new(&gpu),
         health: Health::of(&gpu),
         interrupted,
@@ -118,12 +139,18 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let made = work.make(&missing);
     work.progress.finish_and_clear();
     let made = made?;
-    let kept = frames.len() - made;
+    let kept = wanted - made;
     let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
     let secs = clock.elapsed().as_secs_f64();
-    let made = if made == 1 { "1 frame".to_owned() } else { format!("{made} frames") };
+    let made = counted(made, eyes);
     say(format!("{made}{kept}, {secs:.1} s on {}", gpu.name()));
     Ok(())
+}
+
+/// So many files, in words.
+fn counted(files: usize, eyes: &[Option<Eye>]) -> String {
+    let kind = if eyes.len() > 1 { "picture" } else { "frame" };
+    if files == 1 { format!("1 {kind}") } else { format!("{files} {kind}s") }
 }
 
 /// The frames that were asked for, of those that there are.
@@ -146,6 +173,7 @@ struct Work<'a> {
     path: &'a Path,
     folder: &'a Folder,
     options: StillOptions,
+    eyes: &'static [Option<Eye>],
     kernels: Arc<Kernels>,
     health: Health,
     interrupted: Arc<AtomicBool>,
@@ -154,15 +182,15 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Makes those of `missing` that nobody else has made meanwhile, and says how many.
-    fn make(&self, missing: &[u32]) -> Result<usize, Failure> {
+    fn make(&self, missing: &[FrameFile]) -> Result<usize, Failure> {
         let (clock, all) = (Instant::now(), missing.len() as u32);
         let mut made = 0;
-        for (turn, &frame) in missing.iter().enumerate() {
-            if self.folder.has(frame) {
+        for (turn, &wanted) in missing.iter().enumerate() {
+            if self.folder.has(wanted) {
                 continue;
             }
-            let file = self.folder.file(frame);
-            let whole = self.frame(frame, &file, |done| {
+            let file = self.folder.file(wanted);
+            let whole = self.frame(wanted, &file, |done| {
                 let done = turn as f64 + done;
                 let left = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
                 show(&self.progress, done / f64::from(all), left);
@@ -175,7 +203,8 @@ impl Work<'_> {
                         None => "interrupted".to_owned(),
                     };
                     return Err(Failure::failed(format!(
-                        "{reason}; {made} of {all} frames were made; the same command goes on from there"
+                        "{reason}; {made} of {} were made; the same command goes on from there",
+                        counted(missing.len(), self.eyes)
                     )));
                 }
                 Err(error) => return Err(Failure::failed(format!("{}: {error}", file.display()))),
@@ -184,11 +213,17 @@ impl Work<'_> {
         Ok(made)
     }
 
-    /// Makes one frame, there whole or not at all.
-    fn frame(&self, frame: u32, file: &FilePath, tell: impl Fn(f64)) -> Result<(), ExportError> {
+    /// Makes one frame, or one eye's, there whole or not at all.
+    fn frame(
+        &self,
+        (frame, eye): FrameFile,
+        file: &FilePath,
+        tell: impl Fn(f64),
+    ) -> Result<(), ExportError> {
         let scene = self.path.frame(frame).ok_or(ExportError::NoFrames)?;
         let output = Output::create(file)?;
-        let job = StillJob::new(&self.kernels, &scene, self.options.clone(), output)?;
+        let options = StillOptions { eye, ..self.options.clone() };
+        let job = StillJob::new(&self.kernels, &scene, options, output)?;
         let result = job.run(|status| {
             if let StillStatus::Working { done, .. } = status {
                 tell(done);

@@ -14,6 +14,7 @@
 //! | [`output`] | a file that is there whole or not at all |
 //! | [`folder`] | a folder of frames that belong together |
 //! | [`environment`] | a picture of the surroundings |
+//! | [`stereo`] | how both eyes' pictures are put together |
 //! | [`adapter`] | which GPU |
 
 mod adapter;
@@ -25,6 +26,7 @@ mod input;
 mod output;
 mod render;
 mod scene;
+mod stereo;
 
 use std::{
     fmt,

@@ -1,6 +1,7 @@
 //! `mandelight render`: a picture of a scene.
 
 use std::{
+    fmt,
     ops::ControlFlow,
     path::PathBuf,
     process,
@@ -13,7 +14,10 @@ use std::{
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use mandelight::{
-    export::{self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus},
+    export::{
+        self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus,
+        sequence::remaining_secs,
+    },
     render::Kernels,
     scene::param,
 };
@@ -24,6 +28,7 @@ use super::{
     environment::{EnvironmentArguments, tell_of_missing},
     input::{self, Change},
     output::Output,
+    stereo::{StereoArguments, file_of},
     tell,
 };
 
@@ -40,7 +45,7 @@ pub struct Arguments {
     /// on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Width and height in pixels, each 1 to 16384
+    /// Width and height in pixels, each 1 to 16384; in stereo, of either eye's picture
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: [u32; 2],
     /// Samples a pixel, in place of the scene's own
@@ -49,6 +54,8 @@ pub struct Arguments {
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
+    #[command(flatten)]
+    stereo: StereoArguments,
     #[command(flatten)]
     environment: EnvironmentArguments,
     /// Say nothing but errors
@@ -65,68 +72,114 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     if let Some(environment) = &environment {
         environment.surround(&mut scene);
     }
-    let scene = input::changed(scene, &arguments.set)?;
+    let mut scene = input::changed(scene, &arguments.set)?;
+    arguments.stereo.lay_out(&mut scene);
     if environment.is_none() && !arguments.quiet {
         tell_of_missing(&scene);
     }
-    let name = if arguments.output.as_path() == "-" {
-        "standard output".into()
-    } else {
-        arguments.output.display().to_string()
-    };
-    let unwritable = |error: &dyn std::fmt::Display| Failure::failed(format!("{name}: {error}"));
-    // Before there is a file that an interruption could leave behind.
-    let interrupted = interruption()?;
-    let output = Output::create(&arguments.output).map_err(|error| unwritable(&error))?;
-
-    let gpu = arguments.adapter.open()?;
-    let health = Health::of(&gpu);
+    let eyes = arguments.stereo.eyes();
+    if arguments.output.as_path() == "-" && eyes.len() > 1 {
+        return Err(Failure::usage("--stereo pair: two files do not go to standard output"));
+    }
     let options = StillOptions {
         samples: arguments.samples,
         panorama: environment.map(|environment| environment.panorama),
         format: PictureFormat::of(&arguments.output),
         ..StillOptions::new(arguments.size)
     };
-    let job = StillJob::new(&Kernels::new(&gpu), &scene, options, output)
-        .map_err(|error| unwritable(&error))?;
+    let files: Vec<File> = eyes
+        .iter()
+        .map(|&eye| {
+            let path = file_of(&arguments.output, eye);
+            File { path, options: StillOptions { eye, ..options.clone() } }
+        })
+        .collect();
+    let sizes = files.iter().map(|file| file.options.sheet_px(&scene));
+    let sizes: Vec<_> = sizes.collect::<Result<_, _>>().map_err(Failure::usage)?;
+    // Before there is a file that an interruption could leave behind.
+    let interrupted = interruption()?;
+    let outputs = files.iter().map(File::create).collect::<Result<Vec<_>, _>>()?;
 
+    let gpu = arguments.adapter.open()?;
+    let kernels = Kernels::new(&gpu);
+    let health = Health::of(&gpu);
     let progress = progress_bar(arguments.quiet);
-    let mut loss = None;
-    let result = job.run(|status| {
-        if let StillStatus::Working { done, remaining_secs } = status {
-            show(&progress, done, remaining_secs);
+    let count = files.len() as u32;
+    let mut whole = Vec::new();
+    for ((turn, file), output) in (0..).zip(&files).zip(outputs) {
+        let job = StillJob::new(&kernels, &scene, file.options.clone(), output)
+            .map_err(|error| file.failed(error))?;
+        let result = job.run(|status| {
+            if let StillStatus::Working { done, remaining_secs: of_one } = status {
+                let all_done = f64::from(turn) + done;
+                let of_all = remaining_secs(progress.elapsed().as_secs_f64(), all_done, count);
+                let left = if count == 1 { of_one } else { of_all };
+                show(&progress, all_done / f64::from(count), left);
+            }
+            if health.loss().is_some() || interrupted.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        // A device that goes shows itself in several ways; its own words explain them all.
+        let name = names(&files);
+        if let Some(reason) = health.loss() {
+            progress.finish_and_clear();
+            let text = format!("the GPU was lost: {reason}; {name} was not written");
+            return Err(Failure::failed(text));
         }
-        loss = health.loss();
-        if loss.is_some() || interrupted.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
+        whole.push(result.map_err(|error| match error {
+            ExportError::Cancelled => {
+                Failure::failed(format!("interrupted; {name} was not written"))
+            }
+            error => file.failed(error),
+        })?);
+    }
     let took = progress.elapsed();
     progress.finish_and_clear();
-
-    // A device that goes shows itself in several ways; its own words explain them all.
-    if let Some(reason) = loss.or_else(|| health.loss()) {
-        return Err(Failure::failed(format!("the GPU was lost: {reason}; {name} was not written")));
-    }
-    match result {
-        Ok(output) => output.commit().map_err(|error| unwritable(&error))?,
-        Err(ExportError::Cancelled) => {
-            return Err(Failure::failed(format!("interrupted; {name} was not written")));
-        }
-        Err(error) => return Err(unwritable(&error)),
+    // Both of a pair, or neither.
+    for (file, output) in files.iter().zip(whole) {
+        output.commit().map_err(|error| file.failed(error))?;
     }
     if !arguments.quiet {
-        let [width, height] = arguments.size;
+        let [width, height] = sizes[0];
         let samples = arguments.samples.unwrap_or(scene.quality.samples);
-        let secs = took.as_secs_f64();
+        let (name, secs) = (names(&files), took.as_secs_f64());
         tell(&format!(
             "{name}: {width}x{height}, {samples} samples, {secs:.1} s on {}",
             gpu.name()
         ));
     }
     Ok(())
+}
+
+/// A file to be written.
+struct File {
+    path: PathBuf,
+    options: StillOptions,
+}
+
+impl File {
+    fn name(&self) -> String {
+        if self.path.as_path() == "-" {
+            "standard output".into()
+        } else {
+            self.path.display().to_string()
+        }
+    }
+
+    fn failed(&self, error: impl fmt::Display) -> Failure {
+        Failure::failed(format!("{}: {error}", self.name()))
+    }
+
+    fn create(&self) -> Result<Output, Failure> {
+        Output::create(&self.path).map_err(|error| self.failed(error))
+    }
+}
+
+fn names(files: &[File]) -> String {
+    files.iter().map(File::name).collect::<Vec<_>>().join(" and ")
 }
 
 /// A flag that Ctrl-C sets. The second time ends the process where it stands.

@@ -5,12 +5,18 @@
 
 use std::{io::Write, ops::Range, sync::Arc};
 
-use super::{Archive, ExportError, StillJob, StillOptions, StillStatus};
+use super::{Archive, ExportError, Eye, StillJob, StillOptions, StillStatus};
 use crate::{render::Kernels, scene::Path};
 
 /// The file of frame `frame`: `frame_000042.png`.
 pub fn frame_name(frame: u32) -> String {
-    format!("frame_{frame:06}.png")
+    file_name(frame, None)
+}
+
+/// The file of a frame, or of one eye's: `frame_000042_left.png`.
+fn file_name(frame: u32, eye: Option<Eye>) -> String {
+    let suffix = eye.map_or("", Eye::suffix);
+    format!("frame_{frame:06}{suffix}.png")
 }
 
 /// Seconds to go, from those that `done` of `all` frames took; `done` counts parts of frames.
@@ -25,16 +31,21 @@ pub struct SequenceJob<W: Write> {
     kernels: Arc<Kernels>,
     path: Path,
     options: StillOptions,
+    /// Whose pictures each frame has, a file each.
+    eyes: &'static [Option<Eye>],
     frames: Range<u32>,
     /// The frame under way, or the next one.
     frame: u32,
+    /// How many files of it are done.
+    files: u32,
     still: Option<StillJob<Vec<u8>>>,
     archive: Archive<W>,
     started_secs: Option<f64>,
 }
 
 impl<W: Write> SequenceJob<W> {
-    /// Starts a sequence of `frames`, cut to those that `path` has, that goes to `sink`.
+    /// Starts a sequence of `frames`, cut to those that `path` has, that goes to `sink`: a file a
+    /// frame, or, as a `pair`, one for each eye.
     ///
     /// # Errors
     /// [`ExportError::NoFrames`] where there is nothing to draw; sizes, samples and scenes out
@@ -44,6 +55,7 @@ impl<W: Write> SequenceJob<W> {
         path: Path,
         frames: Range<u32>,
         options: StillOptions,
+        pair: bool,
         sink: W,
     ) -> Result<Self, ExportError> {
         let frames = frames.start..frames.end.min(path.frame_count());
@@ -51,12 +63,17 @@ impl<W: Write> SequenceJob<W> {
             return Err(ExportError::NoFrames);
         }
         path.validate()?;
-        super::checked_size(options.size_px)?;
+        let eyes: &[_] = if pair { &[Some(Eye::Left), Some(Eye::Right)] } else { &[None] };
+        for key in &path.keys {
+            StillOptions { eye: eyes[0], ..options.clone() }.sheet_px(&key.scene)?;
+        }
         Ok(Self {
             kernels: kernels.clone(),
             path,
             options,
+            eyes,
             frame: frames.start,
+            files: 0,
             frames,
             still: None,
             archive: Archive::new(sink),
@@ -77,18 +94,24 @@ impl<W: Write> SequenceJob<W> {
             Some(still) => still,
             None => self.begin()?,
         };
-        let mut of_frame = 0.0;
+        let mut of_file = 0.0;
         match still.step(now_secs)? {
             StillStatus::Working { done, .. } => {
-                of_frame = done;
+                of_file = done;
                 self.still = Some(still);
             }
             StillStatus::Done => {
-                self.archive.add(&frame_name(self.frame), &still.finish()?)?;
-                self.frame += 1;
+                let eye = self.eyes[self.files as usize];
+                self.archive.add(&file_name(self.frame, eye), &still.finish()?)?;
+                self.files += 1;
+                if self.files as usize == self.eyes.len() {
+                    self.frame += 1;
+                    self.files = 0;
+                }
             }
         }
         let all = self.frames.len() as u32;
+        let of_frame = (f64::from(self.files) + of_file) / self.eyes.len() as f64;
         let done = f64::from(self.frame - self.frames.start) + of_frame;
         let remaining_secs = remaining_secs(now_secs - started_secs, done, all);
         Ok(StillStatus::Working { done: done / f64::from(all), remaining_secs })
@@ -96,7 +119,8 @@ impl<W: Write> SequenceJob<W> {
 
     fn begin(&self) -> Result<StillJob<Vec<u8>>, ExportError> {
         let scene = self.path.frame(self.frame).ok_or(ExportError::NoFrames)?;
-        StillJob::new(&self.kernels, &scene, self.options.clone(), Vec::new())
+        let options = StillOptions { eye: self.eyes[self.files as usize], ..self.options.clone() };
+        StillJob::new(&self.kernels, &scene, options, Vec::new())
     }
 
     /// Ends the archive and gives the sink back.
@@ -119,6 +143,7 @@ mod tests {
     #[test]
     fn names_sort_as_frames_do() {
         assert_eq!(frame_name(42), "frame_000042.png");
+        assert_eq!(file_name(7, Some(Eye::Right)), "frame_000007_right.png");
         // The most frames that a path can have: an hour at 240 a second.
         assert_eq!(frame_name(864_000).len(), frame_name(0).len());
     }

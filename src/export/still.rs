@@ -67,15 +67,14 @@ impl StillOptions {
     }
 
     /// What a still with these options shows when it is asked to show `scene`: this is the scene
-    /// that its file carries. A lone eye's picture is one in stereo, whatever the layout.
+    /// that its file carries. Either file of a pair carries that of both beside each other.
     pub fn shown(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         if let Some(samples) = self.samples {
             scene.quality.samples = samples;
         }
-        let stereo = &mut scene.camera.stereo;
-        if self.eye.is_some() && !stereo.is_on() {
-            stereo.layout = StereoLayout::SideBySide;
+        if self.eye.is_some() {
+            scene.camera.stereo.layout = StereoLayout::SideBySide;
         }
         scene
     }

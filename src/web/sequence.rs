@@ -107,7 +107,7 @@ impl Sequence {
             Goal::Disk(file) => Writer::Disk(file.clone()),
             Goal::Download => Writer::Download(Download::default()),
         };
-        let job = SequenceJob::new(kernels, path, frames, options, writer)?;
+        let job = SequenceJob::new(kernels, path, frames, options, false, writer)?;
         Ok(Self { job, sink, mailbox: mailbox.clone(), last: (0.0, None) })
     }
 

@@ -1,0 +1,383 @@
+//! Pictures for two eyes: the geometry of a viewer in front of a screen, and how the files put
+//! both eyes' pictures together.
+
+use std::{
+    fs,
+    io::Cursor,
+    ops::ControlFlow,
+    path::Path,
+    process::{Command, Output, Stdio},
+    sync::{Arc, LazyLock},
+};
+
+use glam::DVec3;
+use mandelight::{
+    export::{ExportError, Eye, PictureFormat, StillJob, StillOptions, scene_text},
+    gpu::{Gpu, readback::Readback},
+    render::{Eyes, Kernels, Pace, Region, View},
+    scene::{Bloom, Camera, Scene, Stereo, StereoLayout, document},
+};
+
+static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU, if only a software one");
+    Kernels::new(&gpu)
+});
+
+/// Odd sides, so that there is a pixel in the middle.
+const SIZE: [u32; 2] = [151, 101];
+
+/// A smooth surface, near the screen.
+fn scene(layout: StereoLayout) -> Scene {
+    let mut scene = Scene::default();
+    scene.fractal.iterations = 3;
+    scene.quality.samples = 1;
+    scene.camera = Camera::looking_at(DVec3::new(1.4, -2.2, 0.9), DVec3::ZERO, DVec3::Z);
+    scene.camera.stereo = Stereo { layout, ..Stereo::default() };
+    scene
+}
+
+fn view(scene: &Scene, size_px: [u32; 2], eyes: Eyes) -> View {
+    let region = Region { eyes, ..Region::whole(size_px) };
+    let mut view = View::new(&KERNELS, region, Pace::Still);
+    view.set_scene(scene, false);
+    let mut now_secs = 0.0;
+    while view.pump(now_secs) {
+        KERNELS.gpu.wait();
+        now_secs += 0.01;
+    }
+    view
+}
+
+fn rgb(view: &View) -> Vec<[u8; 3]> {
+    let texture = view.texture().expect("a picture");
+    let readback = Readback::texture(&KERNELS.gpu, texture, [texture.width(), texture.height()]);
+    let rgba = readback.wait(&KERNELS.gpu).expect("the picture's bytes");
+    rgba.as_chunks::<4>().0.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
+}
+
+/// The points that an eye sees, centimetres from the middle between the eyes: right, up, ahead.
+/// From a viewer in front of a screen, and depths alone.
+fn points(scene: &Scene, eyes: Eyes) -> Vec<Option<DVec3>> {
+    let stereo = &scene.camera.stereo;
+    let cm = stereo.eye_distance_cm / scene.camera.view_unit();
+    let aside = 0.5 * stereo.eye_separation_cm;
+    let eye = DVec3::X * if eyes == Eyes::Left { -aside } else { aside };
+    let samples = view(scene, SIZE, eyes).gbuffer().expect("the G-buffer");
+    let depths = samples.depth.iter().enumerate();
+    depths
+        .map(|(i, &depth)| {
+            let on_screen = screen_cm(stereo, i % SIZE[0] as usize, i / SIZE[0] as usize);
+            (depth > 0.0).then(|| eye + (on_screen - eye).normalize() * f64::from(depth) * cm)
+        })
+        .collect()
+}
+
+/// A pixel's width on the screen, centimetres.
+fn pixel_cm(stereo: &Stereo) -> f64 {
+    stereo.screen_height_cm / f64::from(SIZE[1])
+}
+
+/// The middle of a pixel on the screen.
+fn screen_cm(stereo: &Stereo, x: usize, y: usize) -> DVec3 {
+    let from_middle = |at: usize, side: u32| at as f64 + 0.5 - 0.5 * f64::from(side);
+    let [right, down] = [from_middle(x, SIZE[0]), from_middle(y, SIZE[1])];
+    DVec3::new(right * pixel_cm(stereo), -down * pixel_cm(stereo), stereo.eye_distance_cm)
+}
+
+/// How many of the points that the left eye sees the right one sees too, so far to the right of
+/// the left one's pixel as `disparity_cm` of their distance says.
+fn agreeing(
+    stereo: &Stereo,
+    [left, right]: &[Vec<Option<DVec3>>; 2],
+    disparity_cm: impl Fn(f64) -> f64,
+) -> f64 {
+    let width = SIZE[0] as usize;
+    let (mut agree, mut all) = (0, 0);
+    for (i, point) in left.iter().enumerate() {
+        let (x, y) = (i % width, i / width);
+        let Some(point) = point else { continue };
+        let at = x as f64 + disparity_cm(point.z) / pixel_cm(stereo);
+        // The two pixels whose middles are about the place.
+        let [before, after] = [at.floor(), at.floor() + 1.0];
+        if before < 0.0 || after >= width as f64 {
+            continue;
+        }
+        let seen = [before, after].map(|x| right[y * width + x as usize]);
+        all += 1;
+        if let [Some(a), Some(b)] = seen {
+            let footprint = pixel_cm(stereo) * point.z / stereo.eye_distance_cm;
+            let (low, high) = (a.z.min(b.z) - footprint, a.z.max(b.z) + footprint);
+            agree += usize::from((low..=high).contains(&point.z) && high - low < 8.0 * footprint);
+        }
+    }
+    assert!(all > 3000, "{all} points");
+    agree as f64 / all as f64
+}
+
+#[test]
+fn disparities_are_those_of_a_viewer_in_front_of_a_screen() {
+    for (eye_distance_cm, eye_separation_cm) in [(60.0, 6.4), (90.0, 12.0)] {
+        let mut scene = scene(StereoLayout::SideBySide);
+        let stereo = &mut scene.camera.stereo;
+        (stereo.eye_distance_cm, stereo.eye_separation_cm) = (eye_distance_cm, eye_separation_cm);
+        let stereo = stereo.clone();
+        let points = [Eyes::Left, Eyes::Right].map(|eyes| points(&scene, eyes));
+        let of = |sign: f64| {
+            let (e, d) = (stereo.eye_separation_cm, stereo.eye_distance_cm);
+            agreeing(&stereo, &points, |z| sign * e * (1.0 - d / z))
+        };
+        let (right, none, wrong) = (of(1.0), of(0.0), of(-1.0));
+        assert!(right > 0.9, "{right} agree");
+        assert!(none < 0.5 && wrong < 0.3, "{none} agree without, {wrong} with the opposite");
+    }
+}
+
+#[test]
+fn what_lies_at_the_pivot_is_seen_on_the_screen() {
+    let mut scene = scene(StereoLayout::SideBySide);
+    // Without a separation both eyes see the middle of the surface.
+    let mut one_eyed = scene.clone();
+    one_eyed.camera.stereo.eye_separation_cm = 0.0;
+    let middle = (SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize;
+    let depth = view(&one_eyed, SIZE, Eyes::Left).gbuffer().unwrap().depth[middle];
+    let eye = scene.camera.position.to_dvec3();
+    let stereo = scene.camera.stereo.clone();
+    let pivot = eye + scene.camera.forward() * f64::from(depth);
+    scene.camera = Camera::looking_at(eye, pivot, DVec3::Z);
+    scene.camera.stereo = stereo.clone();
+    for eyes in [Eyes::Left, Eyes::Right] {
+        let point = points(&scene, eyes)[middle].expect("the surface");
+        let off = point - DVec3::Z * stereo.eye_distance_cm;
+        assert!(off.length() < 2.0 * pixel_cm(&stereo), "{eyes:?}: {off}");
+    }
+}
+
+#[test]
+fn without_a_separation_both_eyes_see_what_the_camera_does() {
+    let mut flat = scene(StereoLayout::SideBySide);
+    flat.camera.stereo.eye_separation_cm = 0.0;
+    let [left, right] = [Eyes::Left, Eyes::Right].map(|eyes| rgb(&view(&flat, SIZE, eyes)));
+    assert_eq!(left, right);
+    let mut mono = flat.clone();
+    mono.camera.stereo.layout = StereoLayout::Off;
+    mono.camera.vertical_fov_deg = 2.0 * flat.camera.stereo.half_height().atan().to_degrees();
+    let mono = rgb(&view(&mono, SIZE, Eyes::Camera));
+    let different = mono.iter().zip(&left).filter(|(a, b)| a != b).count();
+    // The field of view comes a last bit different out of its tangent.
+    assert!(different * 100 < mono.len(), "{different} pixels differ");
+}
+
+#[test]
+fn swapped_eyes_see_each_others_pictures() {
+    let straight = scene(StereoLayout::SideBySide);
+    let mut swapped = straight.clone();
+    swapped.camera.stereo.swap_eyes = true;
+    let pictures = [&straight, &swapped]
+        .map(|scene| [Eyes::Left, Eyes::Right].map(|eyes| rgb(&view(scene, SIZE, eyes))));
+    let [[left, right], [swapped_left, swapped_right]] = &pictures;
+    assert!(left != right);
+    assert!(left == swapped_right && right == swapped_left);
+}
+
+/// A scene whose pictures depend on the film as a whole.
+fn glowing(layout: StereoLayout) -> Scene {
+    let mut scene = scene(layout);
+    scene.quality.samples = 2;
+    scene.tone.auto_exposure = true;
+    scene.bloom = Bloom { strength: 0.6, threshold: 0.3, ..Bloom::default() };
+    scene
+}
+
+fn still(scene: &Scene, options: StillOptions) -> ([u32; 2], Vec<[u8; 3]>) {
+    let job = StillJob::new(&KERNELS, scene, options, Vec::new()).unwrap();
+    decoded(&job.run(|_| ControlFlow::Continue(())).unwrap())
+}
+
+fn decoded(file: &[u8]) -> ([u32; 2], Vec<[u8; 3]>) {
+    let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+    let size_px = [reader.info().width, reader.info().height];
+    let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut rgb).unwrap();
+    (size_px, rgb.as_chunks().0.to_vec())
+}
+
+const STILL_SIZE: [u32; 2] = [61, 43];
+
+/// A file for each eye.
+fn pair(scene: &Scene) -> [Vec<[u8; 3]>; 2] {
+    Eye::BOTH.map(|eye| {
+        let options = StillOptions { eye: Some(eye), ..StillOptions::new(STILL_SIZE) };
+        let (size_px, picture) = still(scene, options);
+        assert_eq!(size_px, STILL_SIZE);
+        picture
+    })
+}
+
+/// Both beside each other, or below.
+fn sheet([left, right]: &[Vec<[u8; 3]>; 2], layout: StereoLayout) -> Vec<[u8; 3]> {
+    if layout == StereoLayout::TopBottom {
+        return [left.clone(), right.clone()].concat();
+    }
+    let rows = |picture: &[[u8; 3]]| -> Vec<Vec<[u8; 3]>> {
+        picture.chunks(STILL_SIZE[0] as usize).map(<[_]>::to_vec).collect()
+    };
+    rows(left).into_iter().zip(rows(right)).flat_map(|(a, b)| [a, b].concat()).collect()
+}
+
+#[test]
+fn sheets_hold_the_pictures_of_a_pair() {
+    let [width, height] = STILL_SIZE;
+    for (layout, size_px) in [
+        (StereoLayout::SideBySide, [2 * width, height]),
+        (StereoLayout::TopBottom, [width, 2 * height]),
+    ] {
+        let scene = glowing(layout);
+        let eyes = pair(&scene);
+        assert!(eyes[0] != eyes[1]);
+        let expected = sheet(&eyes, layout);
+        for tile_px in [[2048, 256], [25, 17], [61, 10]] {
+            let options = StillOptions { tile_px, ..StillOptions::new(STILL_SIZE) };
+            let found = still(&scene, options);
+            assert!(found == (size_px, expected.clone()), "{layout:?} in {tile_px:?}");
+        }
+        // The view that shows both at once, and finds out about the film by itself.
+        let live = rgb(&view(&scene, STILL_SIZE, Eyes::of(layout)));
+        let steps = live.as_flattened().iter().zip(expected.as_flattened());
+        let largest = steps.map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(largest <= Some(1), "{layout:?}: {largest:?} from the live view");
+    }
+}
+
+#[test]
+fn an_anaglyph_is_red_for_the_left_eye_and_cyan_for_the_right_one() {
+    let scene = glowing(StereoLayout::Anaglyph);
+    let [left, right] = pair(&scene);
+    let expected: Vec<_> = left.iter().zip(right).map(|(l, r)| [l[0], r[1], r[2]]).collect();
+    for tile_px in [[2048, 256], [25, 17]] {
+        let options = StillOptions { tile_px, ..StillOptions::new(STILL_SIZE) };
+        assert!(still(&scene, options) == (STILL_SIZE, expected.clone()), "{tile_px:?}");
+    }
+    assert!(rgb(&view(&scene, STILL_SIZE, Eyes::Anaglyph)) == expected);
+}
+
+#[test]
+fn what_no_file_can_hold_is_refused() {
+    let refused = |layout, options| {
+        StillJob::new(&KERNELS, &scene(layout), options, Vec::new()).err().expect("an error")
+    };
+    let wide = StillOptions::new([8193, 10]);
+    let error = refused(StereoLayout::SideBySide, wide);
+    assert!(matches!(error, ExportError::Sheet { sheet_px: [16_386, 10], .. }), "{error}");
+    let linear = StillOptions { format: PictureFormat::Exr, ..StillOptions::new([8, 8]) };
+    let error = refused(StereoLayout::Anaglyph, linear);
+    assert!(matches!(error, ExportError::RedCyanExr), "{error}");
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mandelight"));
+    command.args(arguments).current_dir(folder);
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    // Mesa's device selection complains on standard error where this is not set.
+    command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    command.output().unwrap()
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_command_line_writes_every_layout() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let scene = glowing(StereoLayout::TopBottom);
+    fs::write(at.join("s.json"), document::to_json(&scene)).unwrap();
+    let render = |name: &str, more: &[&str]| {
+        let all = ["render", "s.json", "--size", "61x43", "-o", name];
+        run(at, &[&all[..], more].concat())
+    };
+    for (name, more, size_px, layout) in [
+        ("scene.png", &[][..], [61, 86], StereoLayout::TopBottom),
+        ("off.png", &["--stereo", "off"], [61, 43], StereoLayout::Off),
+        ("beside.png", &["--stereo", "side-by-side"], [122, 43], StereoLayout::SideBySide),
+        ("anaglyph.png", &["--stereo", "anaglyph"], [61, 43], StereoLayout::Anaglyph),
+    ] {
+        let output = render(name, more);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.contains(&format!("{}x{}", size_px[0], size_px[1])), "{said}");
+        let file = fs::read(at.join(name)).unwrap();
+        assert_eq!(decoded(&file).0, size_px);
+        let text = scene_text(Cursor::new(file)).unwrap().unwrap();
+        let shown = document::project_from_json(&text).unwrap().scene;
+        assert_eq!(shown.camera.stereo.layout, layout);
+    }
+    let output = render("pair.png", &["--stereo", "pair", "-q"]);
+    assert_eq!(output.status.code(), Some(0));
+    let read = |name: &str| decoded(&fs::read(at.join(name)).unwrap());
+    let eyes = ["pair_left.png", "pair_right.png"].map(|name| read(name).1);
+    assert!(read("beside.png").1 == sheet(&eyes, StereoLayout::SideBySide));
+    assert!(read("scene.png").1 == sheet(&eyes, StereoLayout::TopBottom));
+    let before = names_in(at);
+    assert!(!before.contains(&"pair.png".to_owned()));
+
+    for (name, more, said) in [
+        ("a.exr", &["--stereo", "anaglyph"][..], "anaglyph"),
+        ("wide.png", &["--stereo", "side-by-side", "--size", "9000x20"], "18000x20"),
+        ("-", &["--stereo", "pair"], "standard output"),
+        ("b.png", &["--stereo", "both"], "side-by-side"),
+    ] {
+        let mut all = vec!["render", "s.json", "-o", name];
+        all.extend(more);
+        let output = run(at, &all);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        assert!(text.contains(said), "{text}");
+    }
+    assert_eq!(names_in(at), before);
+}
+
+#[test]
+fn frames_come_in_pairs() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let key = |time_secs: f64, x: f64| {
+        let mut scene = scene(StereoLayout::Off);
+        scene.camera.position = DVec3::new(x, -2.2, 0.9).into();
+        mandelight::scene::path::Key {
+            time_secs,
+            easing: mandelight::scene::path::Easing::Smooth,
+            scene: Arc::new(scene),
+        }
+    };
+    let mut project = mandelight::scene::Project::from(scene(StereoLayout::Off));
+    project.path.frames_per_second = 2;
+    project.path.keys = vec![key(0.0, 1.4), key(1.0, 1.2)];
+    fs::write(at.join("p.json"), document::project_to_json(&project)).unwrap();
+    let frames = |more: &[&str]| {
+        let all = ["frames", "p.json", "-o", "out", "--size", "24x16", "--frames", "0..2"];
+        run(at, &[&all[..], more].concat())
+    };
+    let pair = ["--stereo", "pair"];
+    let output = frames(&pair);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let names: Vec<_> =
+        names_in(&at.join("out")).into_iter().filter(|name| name.starts_with("frame")).collect();
+    let expected = ["frame_000000", "frame_000001"]
+        .iter()
+        .flat_map(|frame| ["left", "right"].map(|eye| format!("{frame}_{eye}.png")));
+    assert_eq!(names, expected.collect::<Vec<_>>());
+    // One that is missing is made again, the same; the others are kept.
+    let file = at.join("out/frame_000001_left.png");
+    let bytes = fs::read(&file).unwrap();
+    fs::remove_file(&file).unwrap();
+    let said = String::from_utf8(frames(&pair).stderr).unwrap();
+    assert!(said.contains("1 picture, 3 kept"), "{said}");
+    assert_eq!(fs::read(&file).unwrap(), bytes);
+    // The folder belongs to the pair.
+    assert_eq!(frames(&[]).status.code(), Some(2));
+}
