@@ -241,6 +241,24 @@ fn a_reader_that_leaves_is_no_failure() {
     assert_eq!(said(&output), "");
 }
 
+/// The memory of a view with everything on ends the text, and is what the thesis allows.
+#[test]
+fn info_counts_the_memory_of_a_view() {
+    let output = run(&["info", "--size", "1920x1080"]);
+    assert_eq!(code(&output), 0);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let last = text.lines().last().unwrap();
+    let total: u64 = last.strip_prefix("total_bytes ").unwrap().parse().unwrap();
+    assert!((1920 * 1080 * 40..122_159_104).contains(&total), "{last}");
+    let facts = run(&["info", "--json", "--size", "1920x1080"]);
+    let facts: serde_json::Value = serde_json::from_slice(&facts.stdout).unwrap();
+    let parts = facts["memory_bytes"].as_object().unwrap().values();
+    assert_eq!(parts.map(|bytes| bytes.as_u64().unwrap()).sum::<u64>(), total);
+    assert_eq!(facts["total_bytes"].as_u64(), Some(total));
+    assert_eq!(code(&run(&["info", "--size", "16384x16384"])), 2);
+    assert_eq!(code(&run(&["info", "--size", "0x10"])), 2);
+}
+
 #[test]
 fn info_tells_of_the_gpu() {
     let facts = run(&["info", "--json"]);

@@ -12,7 +12,7 @@ use mandelight::{
     export::{ExportError, StillJob, StillOptions, StillStatus},
     gpu::{Gpu, readback::Readback},
     render::{Kernels, Pace, Region, View},
-    scene::{Bloom, BloomOrder, Scene, presets},
+    scene::{Bloom, BloomOrder, Indirect, IndirectKind, Scene, presets},
 };
 
 static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
@@ -96,6 +96,23 @@ fn tiles_share_the_exposure_and_the_bloom_of_the_whole() {
         let plain = still(&scene, options(size_px, 8, [32, 24]));
         assert!(largest_difference(&tiled, &plain) > 40);
         scene.tone.auto_exposure = true;
+    }
+}
+
+/// Indirect light reaches over the borders of tiles.
+#[test]
+fn tiles_gather_indirect_light_from_the_whole() {
+    let size_px = [101, 67];
+    for kind in [IndirectKind::Uniform, IndirectKind::Horizon] {
+        let indirect = Indirect { kind, radius: 0.2, ..Indirect::default() };
+        let scene = Scene { indirect, ..Scene::default() };
+        let whole = whole_view(&scene, size_px, 2);
+        for tile_px in [[32, 24], [101, 67], [101, 1]] {
+            let tiled = still(&scene, options(size_px, 2, tile_px));
+            assert_eq!(largest_difference(&whole, &tiled), 0, "{kind:?} in {tile_px:?}");
+        }
+        let plain = still(&Scene::default(), options(size_px, 2, [32, 24]));
+        assert!(largest_difference(&whole, &plain) > 20);
     }
 }
 

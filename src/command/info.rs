@@ -1,8 +1,14 @@
-//! `mandelight info`: which GPU would be used, and which there are.
+//! `mandelight info`: which GPU would be used, which there are, and what a view takes of its memory.
 
 use std::fmt::Write;
 
-use mandelight::gpu::device;
+use mandelight::{
+    gpu::{Gpu, device},
+    render::{
+        Kernels, MAX_REGION_PIXELS, MAX_REGION_PX, Pace, Region, View,
+        memory::{self, Memory},
+    },
+};
 use serde_json::{Value, json};
 
 use super::{Failure, adapter::AdapterArguments, print};
@@ -13,6 +19,10 @@ pub struct Arguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
+    /// Tell what a view of so many pixels holds of the GPU's memory with everything on: stereo,
+    /// 64 lights, indirect light, auto exposure, bloom, a picture of the surroundings
+    #[arg(long, value_name = "WxH", value_parser = super::render::parse_size)]
+    size: Option<[u32; 2]>,
     #[command(flatten)]
     adapter: AdapterArguments,
 }
@@ -24,9 +34,10 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let limits = limits_of(&gpu.device.limits());
     let formats = formats_of(&gpu.adapter);
     let adapters = pollster::block_on(device::adapter_names());
+    let memory = arguments.size.map(|size_px| memory_of(&gpu, size_px)).transpose()?;
 
     if arguments.json {
-        let facts = json!({
+        let mut facts = json!({
             "version": env!("CARGO_PKG_VERSION"),
             "adapter": gpu.name(),
             "type": format!("{:?}", info.device_type),
@@ -37,6 +48,14 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
             "formats": formats,
             "adapters": adapters,
         });
+        if let Some(memory) = memory {
+            let purposes = memory.purposes().into_iter();
+            facts["memory_bytes"] = purposes
+                .map(|(purpose, bytes)| (purpose.replace(' ', "_"), bytes.into()))
+                .collect::<serde_json::Map<_, Value>>()
+                .into();
+            facts["total_bytes"] = memory.total().into();
+        }
         return print(&format!("{facts:#}\n"));
     }
 
@@ -56,7 +75,32 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     for (i, name) in adapters.iter().enumerate() {
         line(if i == 0 { "adapters" } else { "" }, name);
     }
+    if let Some(memory) = memory {
+        for (i, (purpose, bytes)) in memory.purposes().into_iter().enumerate() {
+            let value = format!("{bytes:>12} {purpose}");
+            line(if i == 0 { "memory" } else { "" }, &value);
+        }
+        let _ = writeln!(text, "total_bytes {}", memory.total());
+    }
     print(&text)
+}
+
+/// What a view of `size_px` with everything on holds, by making it.
+fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
+    let (scene, panorama) = memory::everything_on();
+    let region = Region::whole(size_px).shared_by(scene.camera.stereo.layout);
+    if !region.fits() {
+        let [width, height] = size_px;
+        return Err(Failure::usage(format!(
+            "{width}x{height} is more than one view draws: no side above {MAX_REGION_PX} and no more than {MAX_REGION_PIXELS} pixels"
+        )));
+    }
+    let mut view = View::new(&Kernels::new(gpu), region, Pace::Interactive);
+    view.set_panorama(Some(&panorama));
+    view.set_scene(&scene, false);
+    view.pump(0.0);
+    gpu.wait();
+    Ok(view.report().memory)
 }
 
 /// The limits that the device was asked for and the renderer works within, by WebGPU's names.

@@ -1,19 +1,15 @@
 //! What a picture in tiles has to know of itself as a whole.
 //!
 //! In: the scene, and what the file shows. Out: a small picture of all of it, drawn first, by
-//! whose exposure and bloom every tile is then shown. A picture that depends on nothing of the
-//! kind has no overview, and pays nothing.
+//! whose exposure and bloom every tile is then shown, and from which it gathers indirect light. A
+//! picture that depends on nothing of the kind has no overview, and pays nothing.
 
 use std::sync::Arc;
 
 use super::{PictureFormat, sheet::Sheet};
 use crate::{
-    render::{
-        Eyes, Kernels, MAX_REGION_PX, Pace, Region, View,
-        glow::{Glow, Need},
-        uniforms::Picture,
-    },
-    scene::{Panorama, Scene},
+    render::{Eyes, Kernels, MAX_REGION_PX, Pace, Region, View, glow::Need, uniforms::Picture},
+    scene::{IndirectKind, Panorama, Scene},
 };
 
 /// Most pixels of an overview, both eyes' together: those of 1920×1080, so that pictures up to
@@ -32,6 +28,8 @@ const LEAST_SAMPLES_IN_ALL: f64 = 1e6;
 pub(super) struct Overview {
     view: View,
     samples: u32,
+    glows: bool,
+    gathers: bool,
     is_finished: bool,
 }
 
@@ -45,18 +43,23 @@ impl Overview {
         format: PictureFormat,
     ) -> Option<Self> {
         let region = region(sheet.picture_px, sheet.overview_eyes());
+        let gathers = scene.indirect.kind != IndirectKind::Off;
         // An EXR holds what is before exposure and bloom.
-        if format == PictureFormat::Exr || Need::of(&Picture::new(scene, region)).is_none() {
+        let glows =
+            format != PictureFormat::Exr && !Need::of(&Picture::new(scene, region)).is_none();
+        if !glows && !gathers {
             return None;
         }
         let mut scene = scene.clone();
         let enough = (LEAST_SAMPLES_IN_ALL / pixels(region)) as u32;
-        let samples = scene.quality.samples.min(enough.max(MOST_SAMPLES));
+        // Indirect light is gathered from centre samples alone.
+        let enough = if glows { enough.max(MOST_SAMPLES) } else { 1 };
+        let samples = scene.quality.samples.min(enough);
         scene.quality.samples = samples;
         let mut view = View::new(kernels, region, Pace::Still);
         view.set_panorama(panorama);
         view.set_scene(&scene, false);
-        Some(Self { view, samples, is_finished: false })
+        Some(Self { view, samples, glows, gathers, is_finished: false })
     }
 
     /// Draws on, without waiting. True once all is known.
@@ -70,9 +73,14 @@ impl Overview {
         self.is_finished
     }
 
-    /// What tiles are shown by, once all is known. It is needed while they are drawn.
-    pub fn glow(&self) -> Arc<Glow> {
-        self.view.glow()
+    /// Gives the view of a tile what it is shown by, once all is known.
+    pub fn lend_to(&self, tile: &mut View) {
+        if self.glows {
+            tile.lend_glow(Some(self.view.glow()));
+        }
+        if self.gathers {
+            tile.lend_neighbours(Some(self.view.neighbours()));
+        }
     }
 
     /// Samples of all its pixels.

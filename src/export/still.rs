@@ -264,7 +264,7 @@ impl<W: Write> StillJob<W> {
             if !overview.pump(now_secs) {
                 return false;
             }
-            self.view.lend_glow(Some(overview.glow()));
+            overview.lend_to(&mut self.view);
         }
         true
     }

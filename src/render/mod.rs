@@ -14,6 +14,7 @@
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | a finished view's pixels on their way back |
+//! | [`memory`] | what a view holds of the GPU's memory |
 //! | [`report`] | what a view says of itself |
 
 pub mod around;
@@ -23,6 +24,7 @@ pub mod gbuffer;
 pub mod glow;
 pub mod kernels;
 pub mod lattice;
+pub mod memory;
 pub mod pass;
 mod region;
 pub mod report;

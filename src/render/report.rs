@@ -1,5 +1,7 @@
 //! What a view says of itself, as plain data that the interface can show.
 
+pub use super::memory::{Memory, mebibytes};
+
 use std::sync::Arc;
 
 /// What the renderer is doing.
@@ -54,6 +56,8 @@ pub struct Report {
     pub frame_ms: f64,
     /// The film's histogram, while the interface [asks](super::View::watch_histogram) for it.
     pub histogram: Option<Histogram>,
+    /// What the view holds of the GPU's memory.
+    pub memory: Memory,
     /// Pictures finished since the view was made (each display update counts).
     pub pictures: u64,
 }

@@ -17,7 +17,7 @@ pub use work::{Points, Stage, Trace, Work};
 pub const MOST_IN_FLIGHT: usize = 2;
 
 /// Most workgroups of jittered samples in one piece: their G-buffer has this size.
-pub const SAMPLE_WORKGROUPS: u32 = 8192;
+pub const SAMPLE_WORKGROUPS: u32 = 4096;
 
 /// Most workgroups in any piece: WebGPU's default limit for one dispatch.
 const MOST_WORKGROUPS: u32 = 65_535;

@@ -1,7 +1,7 @@
 //! The buffers of one region: uniforms, G-buffers, film, display.
 //!
-//! Bytes a pixel: G-buffer 24, film 16, display 4; the G-buffer of jittered samples is a slice
-//! large, whatever the region.
+//! Bytes a pixel: G-buffer 24, film 16, display 4, direct light 4 where indirect light is made of
+//! it; the G-buffer of jittered samples is a slice large, whatever the region.
 
 use std::sync::Arc;
 
@@ -11,6 +11,7 @@ use super::{
     glow::{Glow, Need},
     kernels::Kernels,
     lattice::{Grid, WORKGROUP_THREADS},
+    memory::Memory,
     region::Region,
     schedule::SAMPLE_WORKGROUPS,
     uniforms::{self, GRADIENT_ENTRIES, Light, Picture, Slice},
@@ -138,6 +139,24 @@ impl Targets {
         }
     }
 
+    /// What all of it takes.
+    pub fn memory(&self) -> Memory {
+        let [mip_levels, blur] = self.glow.bytes();
+        let uniforms = [&self.picture, &self.slices, &self.lights, &self.gradient];
+        Memory {
+            sample_points: self.center.bytes(),
+            jittered_samples: self.jittered.bytes(),
+            direct_light: self.direct.size(),
+            film: self.film_rg.size() + self.film_bw.size(),
+            mip_levels,
+            blur,
+            surroundings: self.backdrop.bytes,
+            display: texture_bytes(&self.texture),
+            uniforms: uniforms.into_iter().map(wgpu::Buffer::size).sum::<u64>()
+                + self.glow.statistics.size(),
+        }
+    }
+
     /// This region's own centre samples; `eye_px` is one eye's picture.
     pub fn neighbours(&self, eye_px: [u32; 2]) -> Neighbours {
         Neighbours { eye_px, surface: self.center.surface.clone(), direct: self.direct.clone() }
@@ -156,7 +175,16 @@ impl Targets {
     }
 }
 
+/// What a display texture takes.
+pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
+    4 * u64::from(texture.width()) * u64::from(texture.height())
+}
+
 impl GBuffer {
+    fn bytes(&self) -> u64 {
+        self.surface.size() + self.color_data.size() + self.visibility.size()
+    }
+
     fn new(kernels: &Kernels, samples: u64) -> Self {
         let device = &kernels.gpu.device;
         let surface = storage(device, "surface", 8 * samples);

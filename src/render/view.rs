@@ -8,11 +8,12 @@ use super::{
     frame::{self, Dispatches, Recorder},
     glow::{self, Glow, Need, Tasks},
     kernels::Kernels,
+    memory::Memory,
     region::Region,
     report::{Activity, Histogram, Report},
     samples::{self, SamplesReadback},
     schedule::{Pace, Schedule, Stale, Work},
-    targets::Targets,
+    targets::{Targets, texture_bytes},
     uniforms::Inputs,
 };
 use crate::{
@@ -401,8 +402,18 @@ impl View {
             elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),
             frame_ms: self.frame_ms,
             histogram: self.watch.histogram.clone(),
+            memory: self.memory(),
             pictures: self.pictures,
         }
+    }
+
+    /// What the view holds of the GPU's memory.
+    fn memory(&self) -> Memory {
+        let mut memory = self.targets.memory();
+        if let Some(shown) = self.shown.as_ref().filter(|shown| **shown != self.targets.texture) {
+            memory.display += texture_bytes(shown);
+        }
+        memory
     }
 
     /// How many dispatches of each pass there have been.

@@ -5,6 +5,7 @@ mod glow;
 mod golden;
 mod harness;
 mod indirect;
+mod memory;
 mod picture;
 mod samples;
 mod staleness;

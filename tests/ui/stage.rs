@@ -37,6 +37,7 @@ pub fn stage(
         elapsed_secs: 1.5,
         frame_ms: 7.0,
         pictures: 9,
+        memory: Default::default(),
         histogram: None,
     };
     let stage = Stage {

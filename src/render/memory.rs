@@ -1,0 +1,95 @@
+//! How much of the GPU's memory a view holds, by purpose: the table of thesis 4.4, "Memory
+//! Consumption", for what there is here.
+//!
+//! In: the sizes of buffers and textures. Out: bytes, and a scene that needs the most of them. The window's own pictures and the
+//! interface's textures belong to whoever shows the view, and are not counted.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::scene::{
+    BackgroundKind, EnvironmentLight, IndirectKind, MAX_LIGHTS, Panorama, RigKind, Scene,
+    StereoLayout, panorama,
+};
+
+/// Bytes that a view holds, by purpose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Memory {
+    /// Every pixel's centre sample: depth, normal, colour data, visibility.
+    pub sample_points: u64,
+    /// The jittered samples of one piece of work.
+    pub jittered_samples: u64,
+    /// Direct light of the centre samples, where indirect light is made of it.
+    pub direct_light: u64,
+    /// Sums of radiance, 32-bit.
+    pub film: u64,
+    /// The film's mip levels, for mean and bloom.
+    pub mip_levels: u64,
+    /// What a blur needs beside them.
+    pub blur: u64,
+    /// The picture of the surroundings.
+    pub surroundings: u64,
+    /// The display picture; that of another size too while it is still shown.
+    pub display: u64,
+    /// Scene, lights, gradient, slices, statistics.
+    pub uniforms: u64,
+}
+
+impl Memory {
+    /// Each purpose, in the order of a frame.
+    pub fn purposes(&self) -> [(&'static str, u64); 9] {
+        let Self {
+            sample_points,
+            jittered_samples,
+            direct_light,
+            film,
+            mip_levels,
+            blur,
+            surroundings,
+            display,
+            uniforms,
+        } = *self;
+        [
+            ("sample points", sample_points),
+            ("jittered samples", jittered_samples),
+            ("direct light", direct_light),
+            ("film", film),
+            ("mip levels", mip_levels),
+            ("blur", blur),
+            ("surroundings", surroundings),
+            ("display", display),
+            ("uniforms", uniforms),
+        ]
+    }
+
+    /// All of it.
+    pub fn total(&self) -> u64 {
+        self.purposes().iter().map(|(_, bytes)| bytes).sum()
+    }
+}
+
+/// Bytes as people read them: `113.5 MiB`.
+pub fn mebibytes(bytes: u64) -> String {
+    format!("{:.1} MiB", bytes as f64 / f64::from(1_u32 << 20))
+}
+
+/// A scene that uses everything that takes memory, and the largest picture of surroundings.
+pub fn everything_on() -> (Scene, Arc<Panorama>) {
+    let mut scene = Scene::default();
+    scene.camera.stereo.layout = StereoLayout::SideBySide;
+    let light = EnvironmentLight {
+        direction: DVec3::new(0.6, -0.64, 0.48).to_array(),
+        intensity: 0.05,
+        ..EnvironmentLight::default()
+    };
+    scene.lights.environment = vec![light; MAX_LIGHTS];
+    scene.lights.rig.kind = RigKind::None;
+    scene.indirect.kind = IndirectKind::Horizon;
+    scene.background.kind = BackgroundKind::Picture;
+    scene.tone.auto_exposure = true;
+    scene.bloom.strength = 0.3;
+    let panorama = Panorama::from_fn("surroundings", panorama::MAX_SIZE_PX, |_| DVec3::splat(0.2));
+    scene.lights.rig.picture.name = panorama.name().to_owned();
+    (scene, Arc::new(panorama))
+}
