@@ -39,6 +39,8 @@ fn everything_on_stays_below_the_thesis() {
     assert_eq!(scene.validate(), Ok(()));
     let (told, held) = allocated(&scene, true, [1920, 1080]);
     assert!(told < MOST_BYTES, "{}", memory::mebibytes(told));
+    let readme = include_str!("../../README.md").replace(',', "");
+    assert!(readme.contains(&format!("| all | | {told} |")), "README.md does not say {told}");
     // Buffers are rounded up, and drivers need a little of their own.
     let off = held as f64 / told as f64;
     assert!((0.99..1.06).contains(&off), "{told} told, {held} held");
