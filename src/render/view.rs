@@ -127,7 +127,10 @@ impl View {
         if region == self.region {
             return;
         }
-        let same_size = region.film_px() == self.region.film_px()
+        // Two eyes can share a film of the size that one had: what is known of it as a whole lies
+        // otherwise.
+        let same_size = region.size_px == self.region.size_px
+            && region.film_px() == self.region.film_px()
             && region.display_px() == self.region.display_px();
         if !same_size {
             let backdrop = self.targets.backdrop.clone();

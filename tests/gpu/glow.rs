@@ -3,7 +3,7 @@
 use mandelight::{
     gpu::readback::Readback,
     render::{Eyes, Pace, Region, View, frame::Dispatches, uniforms::Statistics},
-    scene::{Bloom, BloomOrder, Scene},
+    scene::{Bloom, BloomOrder, Scene, StereoLayout},
 };
 
 use crate::harness::{finished, kernels, pixels, sampled, settle};
@@ -39,6 +39,27 @@ fn the_mean_is_that_of_the_film_shown() {
         for pace in [Pace::Still, Pace::Interactive] {
             assert_mean(&finished(&exposed_scene(), size_px, pace));
         }
+    }
+}
+
+/// Two eyes that share the pixels of one leave the film its size, but not its parts.
+#[test]
+fn a_change_of_layout_leaves_nothing_of_the_one_before() {
+    let mut scene = exposed_scene();
+    scene.bloom = Bloom { strength: 0.5, threshold: 0.0, ..Bloom::default() };
+    let window = Region::whole([50, 30]);
+    let mut view = View::new(kernels(), window, Pace::Interactive);
+    for layout in [StereoLayout::Off, StereoLayout::SideBySide, StereoLayout::TopBottom] {
+        scene.camera.stereo.layout = layout;
+        let region = window.shared_by(layout);
+        assert_eq!(region.film_px(), window.film_px());
+        let mut fresh = View::new(kernels(), region, Pace::Interactive);
+        view.set_region(region);
+        for view in [&mut view, &mut fresh] {
+            view.set_scene(&scene, false);
+            settle(view);
+        }
+        assert!(pixels(&view) == pixels(&fresh), "{layout:?}");
     }
 }
 
