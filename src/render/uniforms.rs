@@ -130,7 +130,12 @@ fn eyes(camera: &crate::scene::Camera, region: Region) -> Eyes {
     let stereo = &camera.stereo;
     // Where the eyes change places, the left one's picture comes from the right.
     let left = if stereo.swap_eyes { 1.0 } else { -1.0 };
-    let half_shift = stereo.half_separation();
+    // Without stereo the separation is not seen, and an edit of it, or of the pivot, restarts
+    // nothing here.
+    let half_shift = match region.eyes {
+        RegionEyes::Camera => 0.0,
+        _ => stereo.half_separation(),
+    };
     Eyes {
         second_at: region.second_eye_at(),
         count: region.eyes.count(),

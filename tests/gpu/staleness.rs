@@ -66,6 +66,15 @@ fn a_light_edit_marches_no_camera_ray() {
 }
 
 #[test]
+fn the_eyes_separation_costs_nothing_where_there_is_one_picture() {
+    let cost = cost_of(2, |scene| scene.camera.stereo.eye_separation_cm = 3.0);
+    assert_eq!(cost, Dispatches::default());
+    // What is measured from the pivot is light alone.
+    let cost = cost_of(1, |scene| scene.camera.pivot = glam::DVec3::new(0.1, 0.0, 0.2).into());
+    assert_eq!(cost.march, 0);
+}
+
+#[test]
 fn an_edit_of_the_normals_marches_no_camera_ray() {
     let cost = cost_of(1, |scene| scene.quality.normals = Normals::TwentySix);
     assert_eq!(cost.march, 0);
@@ -161,6 +170,8 @@ fn the_same_scene_costs_nothing() {
 
 #[test]
 fn a_resting_view_submits_nothing() {
+    // A view that comes to rest sooner compiles them later.
+    kernels().specialise(8);
     let mut view = finished(&sampled(Scene::default(), 2), SIZE, Pace::Interactive);
     let before = view.dispatches();
     for frame in 0..50 {
