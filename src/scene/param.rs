@@ -207,7 +207,7 @@ params! {
         "How far around each point indirect light is looked for, as a part of the picture's height.";
     INDIRECT_STRENGTH = "indirect.strength", "Strength", None, 0.0, 4.0, default 1.0, Linear by 0.05,
         "How much indirect light is added.";
-    INDIRECT_AMBIENT = "indirect.ambient", "Ambient factor", None, 0.0, 2.0, default 0.25, Linear by 0.01,
+    INDIRECT_AMBIENT = "indirect.ambient", "Ambient factor", None, 0.0, 2.0, default 0.1, Linear by 0.01,
         "Light from nowhere in particular that what stands around a point keeps away from it.";
     INDIRECT_DIRECTIONS = "indirect.directions", "Directions", Count, 2.0, 32.0, default 8.0, Integer by 1.0,
         "How many directions on the screen are looked along. More is smoother and slower.";
