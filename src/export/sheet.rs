@@ -57,17 +57,17 @@ impl Sheet {
         let picture_px = checked_size(options.size_px)?;
         let layout = scene.camera.stereo.layout;
         let both: &[Eyes] = &[Eyes::Left, Eyes::Right];
-        let (pictures, columns): (&[Eyes], u32) = match (options.eye, layout) {
-            (Some(Eye::Left), _) => (&[Eyes::Left], 1),
-            (Some(Eye::Right), _) => (&[Eyes::Right], 1),
-            (None, StereoLayout::Off) => (&[Eyes::Camera], 1),
-            (None, StereoLayout::SideBySide) => (both, 2),
-            (None, StereoLayout::TopBottom) => (both, 1),
+        let pictures: &[Eyes] = match (options.eye, layout) {
+            (Some(Eye::Left), _) => &[Eyes::Left],
+            (Some(Eye::Right), _) => &[Eyes::Right],
+            (None, StereoLayout::Off) => &[Eyes::Camera],
+            (None, StereoLayout::SideBySide | StereoLayout::TopBottom) => both,
             (None, StereoLayout::Anaglyph) if options.format == PictureFormat::Exr => {
                 return Err(ExportError::RedCyanExr);
             }
-            (None, StereoLayout::Anaglyph) => (&[Eyes::Anaglyph], 1),
+            (None, StereoLayout::Anaglyph) => &[Eyes::Anaglyph],
         };
+        let columns = if options.eye.is_some() { 1 } else { layout.grid()[0] };
         let sheet = Self { picture_px, pictures, columns };
         let sheet_px = sheet.size_px();
         if sheet_px.iter().any(|&side| side > MAX_PICTURE_PX) {

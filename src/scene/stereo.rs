@@ -23,6 +23,17 @@ pub enum StereoLayout {
     Anaglyph,
 }
 
+impl StereoLayout {
+    /// Columns and rows of pictures that stand beside each other.
+    pub fn grid(self) -> [u32; 2] {
+        match self {
+            Self::Off | Self::Anaglyph => [1, 1],
+            Self::SideBySide => [2, 1],
+            Self::TopBottom => [1, 2],
+        }
+    }
+}
+
 /// Two eyes in front of a screen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

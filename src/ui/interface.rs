@@ -329,9 +329,12 @@ impl Interface {
                 self.editor.redo();
             }
             Command::SavePicture => {
+                let (export, layout) =
+                    (self.settings.export, self.editor.scene().camera.stereo.layout);
                 actions.push(Action::SavePicture {
-                    size_px: self.settings.export.resolve(self.view_px),
-                    exr: self.settings.export.exr,
+                    size_px: export.resolve(self.view_px, layout),
+                    exr: export.exr,
+                    pair: export.is_pair(layout),
                 });
             }
             Command::SaveScene => actions.push(Action::SaveScene),

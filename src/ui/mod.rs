@@ -85,10 +85,13 @@ pub struct Notice {
 pub enum Action {
     /// Render the view at this size and hand it out as a PNG or an OpenEXR file.
     SavePicture {
-        /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
+        /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`]; in stereo, of either
+        /// eye's picture.
         size_px: [u32; 2],
         /// Whether as OpenEXR.
         exr: bool,
+        /// Whether as a file for each eye.
+        pair: bool,
     },
     /// Render frames of the camera path at this size and hand them out as a zip of PNGs.
     SaveSequence {
@@ -96,6 +99,8 @@ pub enum Action {
         size_px: [u32; 2],
         /// The first frame, and the first one after it that is not wanted.
         frames: [u32; 2],
+        /// Whether with a file for each eye.
+        pair: bool,
     },
     /// Stop the export in progress.
     CancelExport,

@@ -311,3 +311,39 @@ fn world<'a>(field: &'a Estimator, scene: &Scene, frame: Frame) -> World<'a> {
     };
     World { field, viewport }
 }
+
+#[cfg(test)]
+mod tests {
+    use egui::pos2;
+
+    use super::*;
+
+    #[test]
+    fn the_pointer_is_over_the_picture_of_one_eye() {
+        let rect = Rect::from_min_max(pos2(100.0, 50.0), pos2(500.0, 250.0));
+        let frame = Frame { rect, height_px: 400 };
+        let ndc = |layout, x: f32, y: f32| {
+            let at = pos2(x, y);
+            frame.of_eye(layout, Some(at)).ndc(at).to_array()
+        };
+        // The middles of the halves are the middles of the pictures.
+        assert_eq!(ndc(StereoLayout::Off, 300.0, 150.0), [0.0, 0.0]);
+        assert_eq!(ndc(StereoLayout::Anaglyph, 300.0, 150.0), [0.0, 0.0]);
+        for x in [200.0, 400.0] {
+            assert_eq!(ndc(StereoLayout::SideBySide, x, 150.0), [0.0, 0.0]);
+        }
+        for y in [100.0, 200.0] {
+            assert_eq!(ndc(StereoLayout::TopBottom, 300.0, y), [0.0, 0.0]);
+        }
+        assert_eq!(ndc(StereoLayout::SideBySide, 300.0, 50.0), [-1.0, 1.0]);
+        assert_eq!(ndc(StereoLayout::TopBottom, 500.0, 150.0), [1.0, 1.0]);
+        // Each has the shape that it is drawn in, and its own pixels.
+        let shape = |layout, at| {
+            let of_eye = frame.of_eye(layout, at);
+            (of_eye.aspect(), of_eye.height_px)
+        };
+        assert_eq!(shape(StereoLayout::Off, None), (2.0, 400));
+        assert_eq!(shape(StereoLayout::SideBySide, None), (1.0, 400));
+        assert_eq!(shape(StereoLayout::TopBottom, Some(rect.max)), (4.0, 200));
+    }
+}

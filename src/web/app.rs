@@ -81,12 +81,12 @@ impl eframe::App for App {
 /// Does what the interface asked for.
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
-        Action::SavePicture { size_px, exr } => {
+        Action::SavePicture { size_px, exr, pair } => {
             let format = if exr { PictureFormat::Exr } else { PictureFormat::Png };
-            engine.start_still(size_px, format, session);
+            engine.start_still(size_px, format, pair, session);
         }
-        Action::SaveSequence { size_px, frames: [first, end] } => {
-            engine.start_sequence(size_px, first..end, session);
+        Action::SaveSequence { size_px, frames: [first, end], pair } => {
+            engine.start_sequence(size_px, first..end, pair, session);
         }
         Action::CancelExport => {
             engine.cancel_export();

@@ -68,8 +68,8 @@ pub struct Engine {
     kernels: Arc<Kernels>,
     picture: Picture,
     export: Option<Export>,
-    /// A sequence that waits for the visitor to choose its file.
-    waiting: Option<(StillOptions, Range<u32>)>,
+    /// A sequence, in pairs or not, that waits for the visitor to choose its file.
+    waiting: Option<(StillOptions, Range<u32>, bool)>,
     progress: Option<ExportProgress>,
     context: egui::Context,
     /// Whether a tick is on its way.
@@ -116,11 +116,17 @@ impl Engine {
         self.progress
     }
 
-    /// Starts a still of the scene in view.
-    pub fn start_still(&mut self, size_px: [u32; 2], format: PictureFormat, session: &mut Session) {
+    /// Starts a still of the scene in view, or a `pair` of them.
+    pub fn start_still(
+        &mut self,
+        size_px: [u32; 2],
+        format: PictureFormat,
+        pair: bool,
+        session: &mut Session,
+    ) {
         let panorama = session.interface.panorama().cloned();
         let options = StillOptions { panorama, format, ..StillOptions::new(size_px) };
-        match Still::start(&self.kernels, session.interface.scene(), options) {
+        match Still::start(&self.kernels, session.interface.scene(), options, pair) {
             Ok(still) => {
                 self.begin(Export::Still(Box::new(still)));
             }
@@ -129,19 +135,29 @@ impl Engine {
     }
 
     /// Asks where the frames of the path are to go; [`Self::follow`] starts when that is known.
-    pub fn start_sequence(&mut self, size_px: [u32; 2], frames: Range<u32>, session: &mut Session) {
+    pub fn start_sequence(
+        &mut self,
+        size_px: [u32; 2],
+        frames: Range<u32>,
+        pair: bool,
+        session: &mut Session,
+    ) {
         let [width, height] = size_px;
         let panorama = session.interface.panorama().cloned();
-        self.waiting = Some((StillOptions { panorama, ..StillOptions::new(size_px) }, frames));
+        self.waiting =
+            Some((StillOptions { panorama, ..StillOptions::new(size_px) }, frames, pair));
         Sink::choose(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
     }
 
     /// Starts the sequence whose file was chosen.
     fn take_sink(&mut self, session: &mut Session) {
         let Some(sink) = session.sink.take() else { return };
-        let (Some(sink), Some((options, frames))) = (sink, self.waiting.take()) else { return };
+        let (Some(sink), Some((options, frames, pair))) = (sink, self.waiting.take()) else {
+            return;
+        };
         let path = session.interface.project().path.clone();
-        match Sequence::start(&self.kernels, path, frames, options, sink, &session.mailbox) {
+        match Sequence::start(&self.kernels, path, frames, (options, pair), sink, &session.mailbox)
+        {
             Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
             Err(error) => session.complain(format!("The sequence was not saved: {error}")),
         }

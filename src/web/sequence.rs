@@ -91,7 +91,7 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// Starts the sequence of `frames`.
+    /// Starts the sequence of `frames`; the options say how each is made, and whether in pairs.
     ///
     /// # Errors
     /// A size, a range or a path out of range.
@@ -99,7 +99,7 @@ impl Sequence {
         kernels: &Arc<Kernels>,
         path: Path,
         frames: Range<u32>,
-        options: StillOptions,
+        (options, pair): (StillOptions, bool),
         sink: Sink,
         mailbox: &Mailbox,
     ) -> Result<Self, ExportError> {
@@ -107,7 +107,7 @@ impl Sequence {
             Goal::Disk(file) => Writer::Disk(file.clone()),
             Goal::Download => Writer::Download(Download::default()),
         };
-        let job = SequenceJob::new(kernels, path, frames, options, false, writer)?;
+        let job = SequenceJob::new(kernels, path, frames, options, pair, writer)?;
         Ok(Self { job, sink, mailbox: mailbox.clone(), last: (0.0, None) })
     }
 

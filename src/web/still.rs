@@ -7,16 +7,22 @@ use std::sync::Arc;
 
 use super::files::Download;
 use crate::{
-    export::{ExportError, PictureFormat, StillJob, StillOptions, StillStatus},
+    export::{ExportError, Eye, StillJob, StillOptions, StillStatus, sequence::remaining_secs},
     render::Kernels,
     scene::Scene,
 };
 
-/// A still in progress.
+/// A still in progress, or a pair of them.
 pub struct Still {
+    kernels: Arc<Kernels>,
+    scene: Scene,
+    options: StillOptions,
     job: StillJob<Download>,
-    file_name: String,
-    format: PictureFormat,
+    /// Whose pictures are wanted, a file each.
+    eyes: &'static [Option<Eye>],
+    /// The files that are with the visitor.
+    saved: Vec<String>,
+    started_secs: Option<f64>,
 }
 
 /// How an export is getting on.
@@ -32,7 +38,7 @@ pub enum Progress {
 }
 
 impl Still {
-    /// Starts a still of `scene`.
+    /// Starts a still of `scene`, or, as a `pair`, one for each eye.
     ///
     /// # Errors
     /// A size or a scene out of range.
@@ -40,28 +46,63 @@ impl Still {
         kernels: &Arc<Kernels>,
         scene: &Scene,
         options: StillOptions,
+        pair: bool,
     ) -> Result<Self, ExportError> {
-        let ([width, height], format) = (options.size_px, options.format);
+        let eyes: &[_] = if pair { &[Some(Eye::Left), Some(Eye::Right)] } else { &[None] };
+        let options = StillOptions { eye: eyes[0], ..options };
         Ok(Self {
-            job: StillJob::new(kernels, scene, options, Download::default())?,
-            file_name: format!("mandelight-{width}x{height}.{}", format.extension()),
-            format,
+            kernels: kernels.clone(),
+            job: StillJob::new(kernels, scene, options.clone(), Download::default())?,
+            scene: scene.clone(),
+            options,
+            eyes,
+            saved: Vec::new(),
+            started_secs: None,
         })
     }
 
-    /// Does what can be done without waiting, and hands the file over once it is whole.
+    /// Does what can be done without waiting, and hands each file over once it is whole.
     pub fn step(mut self, now_secs: f64) -> (Option<Self>, Progress) {
+        let started_secs = *self.started_secs.get_or_insert(now_secs);
         match self.job.step(now_secs) {
-            Ok(StillStatus::Working { done, remaining_secs }) => {
-                (Some(self), Progress::Working(done, remaining_secs))
+            Ok(StillStatus::Working { done, remaining_secs: of_one }) => {
+                let all = self.eyes.len() as u32;
+                let done = self.saved.len() as f64 + done;
+                let of_all = remaining_secs(now_secs - started_secs, done, all);
+                let left = if all == 1 { of_one } else { of_all };
+                (Some(self), Progress::Working(done / f64::from(all), left))
             }
-            Ok(StillStatus::Done) => {
-                let Self { job, file_name, format } = self;
-                let saved = job
-                    .finish()
-                    .map_err(|error| error.to_string())
-                    .and_then(|download| download.finish(&file_name, format.media_type()));
-                (None, saved.map_or_else(Progress::Failed, |()| Progress::Saved(file_name)))
+            Ok(StillStatus::Done) => self.hand_over(),
+            Err(error) => (None, Progress::Failed(error.to_string())),
+        }
+    }
+
+    /// Hands the file over, and turns to the next one where there is one.
+    fn hand_over(mut self) -> (Option<Self>, Progress) {
+        let format = self.options.format;
+        let suffix = self.options.eye.map_or("", Eye::suffix);
+        let file = self.options.sheet_px(&self.scene).and_then(|[width, height]| {
+            let name = format!("mandelight-{width}x{height}{suffix}.{}", format.extension());
+            Ok((name, self.job.finish()?))
+        });
+        let saved = file.map_err(|error| error.to_string()).and_then(|(name, download)| {
+            download.finish(&name, format.media_type())?;
+            Ok(name)
+        });
+        match saved {
+            Ok(name) => self.saved.push(name),
+            Err(reason) => return (None, Progress::Failed(reason)),
+        }
+        let Some(&eye) = self.eyes.get(self.saved.len()) else {
+            return (None, Progress::Saved(self.saved.join(" and ")));
+        };
+        self.options.eye = eye;
+        let next =
+            StillJob::new(&self.kernels, &self.scene, self.options.clone(), Download::default());
+        match next {
+            Ok(job) => {
+                let done = self.saved.len() as f64 / self.eyes.len() as f64;
+                (Some(Self { job, ..self }), Progress::Working(done, None))
             }
             Err(error) => (None, Progress::Failed(error.to_string())),
         }

@@ -207,13 +207,19 @@ fn saving_asks_for_the_chosen_size() {
     press(&mut harness, "Picture size: 2×");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
     harness.run();
-    let expected = [[width, height], [2 * width, 2 * height]]
-        .map(|size_px| Action::SavePicture { size_px, exr: false });
+    let expected = [[width, height], [2 * width, 2 * height]].map(|size_px| Action::SavePicture {
+        size_px,
+        exr: false,
+        pair: false,
+    });
     assert_eq!(harness.state().actions, expected);
     press(&mut harness, "File: EXR");
     press(&mut harness, "Save picture");
     let last = harness.state().actions.last().copied();
-    assert_eq!(last, Some(Action::SavePicture { size_px: [2 * width, 2 * height], exr: true }));
+    assert_eq!(
+        last,
+        Some(Action::SavePicture { size_px: [2 * width, 2 * height], exr: true, pair: false })
+    );
 }
 
 #[test]

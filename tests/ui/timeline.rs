@@ -228,7 +228,8 @@ fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
     harness.key_press(Key::Enter);
     harness.run();
     press(&mut harness, "Save sequence");
-    let [all, some] = [[0, 181], [20, 181]].map(|frames| Action::SaveSequence { size_px, frames });
+    let [all, some] =
+        [[0, 181], [20, 181]].map(|frames| Action::SaveSequence { size_px, frames, pair: false });
     assert_eq!(harness.state().actions, [all, some]);
 
     harness.state_mut().actions.clear();

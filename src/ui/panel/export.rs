@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::Context;
 use crate::{
-    scene::param::{Param, Scale, Unit},
+    scene::{
+        StereoLayout,
+        param::{Param, Scale, Unit},
+    },
     ui::{
         Action, ExportProgress,
         shortcuts::Command,
@@ -41,26 +44,50 @@ pub struct ExportSize {
     pub typed_px: [u32; 2],
     /// Whether pictures are saved as OpenEXR rather than PNG.
     pub exr: bool,
+    /// Whether a picture in stereo is saved as a file for each eye.
+    pub pair: bool,
 }
 
 impl Default for ExportSize {
     fn default() -> Self {
-        Self { times: 1, typed_px: [3840, 2160], exr: false }
+        Self { times: 1, typed_px: [3840, 2160], exr: false, pair: false }
     }
 }
 
 impl ExportSize {
-    /// Width and height of the saved picture in pixels; a view too large for its factor keeps
-    /// its shape.
-    pub fn resolve(&self, view_px: [u32; 2]) -> [u32; 2] {
-        let limit = f64::from(MAX_EXPORT_SIDE_PX);
-        let side = |length: f64| length.round().clamp(1.0, limit) as u32;
+    /// Width and height in pixels of the saved picture, or of either eye's, of which a view that
+    /// shows both holds half; a view too large for its factor keeps its shape.
+    pub fn resolve(&self, view_px: [u32; 2], layout: StereoLayout) -> [u32; 2] {
+        let in_file = self.in_file(layout);
+        let limit = in_file.map(|pictures| f64::from(MAX_EXPORT_SIDE_PX / pictures));
+        let side = |axis: usize, length: f64| length.round().clamp(1.0, limit[axis]) as u32;
         if self.times == 0 {
-            return self.typed_px.map(|length| side(f64::from(length)));
+            return std::array::from_fn(|axis| side(axis, f64::from(self.typed_px[axis])));
         }
-        let longest = f64::from(view_px[0].max(view_px[1]).max(1));
-        let times = f64::from(self.times.min(16)).min(limit / longest);
-        view_px.map(|length| side(f64::from(length) * times))
+        let grid = layout.grid();
+        let shown_px: [f64; 2] =
+            std::array::from_fn(|axis| f64::from((view_px[axis] / grid[axis]).max(1)));
+        let most = (limit[0] / shown_px[0]).min(limit[1] / shown_px[1]);
+        let times = f64::from(self.times.min(16)).min(most);
+        std::array::from_fn(|axis| side(axis, shown_px[axis] * times))
+    }
+
+    /// Whether there is a file for each eye.
+    pub fn is_pair(&self, layout: StereoLayout) -> bool {
+        self.pair && layout != StereoLayout::Off
+    }
+
+    /// Columns and rows of pictures in one file.
+    fn in_file(&self, layout: StereoLayout) -> [u32; 2] {
+        if self.pair { [1, 1] } else { layout.grid() }
+    }
+
+    /// The size of what is saved, in words.
+    pub fn text(&self, view_px: [u32; 2], layout: StereoLayout) -> String {
+        let (picture_px, in_file) = (self.resolve(view_px, layout), self.in_file(layout));
+        let [width, height] = [0, 1].map(|axis| picture_px[axis] * in_file[axis]);
+        let pair = if self.is_pair(layout) { ", one for each eye" } else { "" };
+        format!("{width} × {height} pixels{pair}")
     }
 }
 
@@ -69,13 +96,13 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     if let Some(progress) = cx.inputs.export {
         return saving(ui, cx, progress);
     }
-    let [width, height] = cx.settings.export.resolve(cx.view_px);
+    let extent = cx.settings.export.text(cx.view_px, cx.scene.camera.stereo.layout);
     let kind = if cx.settings.export.exr { "an OpenEXR file" } else { "a PNG" };
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y.max(36.0));
     let text = RichText::new("Save picture").size(15.0).color(theme::ON_ACCENT);
     let response = ui
         .add_sized(size, Button::new(text).fill(theme::ACCENT))
-        .on_hover_text(format!("Renders the view as {kind} of {width} × {height} pixels that carries its scene (Ctrl S). Other sizes: More, Export."));
+        .on_hover_text(format!("Renders the view as {kind} of {extent} that carries its scene (Ctrl S). Other sizes: More, Export."));
     cx.rects.note("save picture", &response);
     if response.clicked() {
         cx.commands.push(Command::SavePicture);
@@ -133,8 +160,20 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ],
     );
     cx.rects.note("picture format", &response);
-    let [width, height] = export.resolve(cx.view_px);
-    ui.label(RichText::new(format!("{width} × {height} pixels")).small().color(theme::TEXT_DIM))
+    let layout = cx.scene.camera.stereo.layout;
+    if layout != StereoLayout::Off {
+        let response = choice(
+            ui,
+            "Both eyes",
+            &mut export.pair,
+            &[
+                (false, "One file", "Put together as the view shows them"),
+                (true, "Two files", "A file for each eye: left and right"),
+            ],
+        );
+        cx.rects.note("picture pair", &response);
+    }
+    ui.label(RichText::new(export.text(cx.view_px, layout)).small().color(theme::TEXT_DIM))
         .on_hover_text("The width and height of the picture that Save picture writes");
     caption(ui, "Scene");
     ui.columns(3, |columns| {
@@ -178,21 +217,43 @@ mod tests {
     #[test]
     fn sizes_are_multiples_of_the_view() {
         let view = [1280, 720];
-        let size = |times| ExportSize { times, ..Default::default() }.resolve(view);
+        let size =
+            |times| ExportSize { times, ..Default::default() }.resolve(view, StereoLayout::Off);
         assert_eq!((size(1), size(2), size(4)), ([1280, 720], [2560, 1440], [5120, 2880]));
     }
 
     #[test]
     fn too_large_a_view_keeps_its_shape() {
         let export = ExportSize { times: 4, ..Default::default() };
-        assert_eq!(export.resolve([8192, 4096]), [16384, 8192]);
+        assert_eq!(export.resolve([8192, 4096], StereoLayout::Off), [16384, 8192]);
     }
 
     #[test]
     fn remembered_nonsense_does_no_harm() {
         let export = ExportSize { times: 0, typed_px: [0, u32::MAX], ..Default::default() };
-        assert_eq!(export.resolve([800, 600]), [1, MAX_EXPORT_SIDE_PX]);
+        assert_eq!(export.resolve([800, 600], StereoLayout::Off), [1, MAX_EXPORT_SIDE_PX]);
         let export = ExportSize { times: u32::MAX, typed_px: [1, 1], ..Default::default() };
-        assert_eq!(export.resolve([1600, 400]), [16384, 4096]);
+        assert_eq!(export.resolve([1600, 400], StereoLayout::Off), [16384, 4096]);
+    }
+
+    #[test]
+    fn both_eyes_share_the_view_and_the_file() {
+        use StereoLayout::{Anaglyph, SideBySide, TopBottom};
+        let export = ExportSize::default();
+        let sized = |export: &ExportSize, layout| export.resolve([1280, 720], layout);
+        assert_eq!(sized(&export, SideBySide), [640, 720]);
+        assert_eq!(sized(&export, TopBottom), [1280, 360]);
+        assert_eq!(sized(&export, Anaglyph), [1280, 720]);
+        assert_eq!(export.text([1280, 720], SideBySide), "1280 × 720 pixels");
+        let pair = ExportSize { pair: true, ..export };
+        assert_eq!(sized(&pair, SideBySide), [640, 720]);
+        assert_eq!(pair.text([1280, 720], SideBySide), "640 × 720 pixels, one for each eye");
+        assert_eq!(pair.text([1280, 720], StereoLayout::Off), "1280 × 720 pixels");
+        // No side of a file goes above the limit.
+        let typed = ExportSize { times: 0, typed_px: [16_384, 9000], ..export };
+        assert_eq!(sized(&typed, SideBySide), [8192, 9000]);
+        assert_eq!(sized(&typed, TopBottom), [16_384, 8192]);
+        let large = ExportSize { times: 4, ..export };
+        assert_eq!(large.resolve([8192, 4096], SideBySide), [8192, 8192]);
     }
 }

@@ -236,18 +236,23 @@ impl Strip<'_, '_> {
         }
         let Some(last) = self.path.frame_count().checked_sub(1) else { return };
         let [first, end] = self.timeline.frames.unwrap_or([0, last]).map(|f| f.min(last));
-        let size_px = self.cx.settings.export.resolve(self.cx.view_px);
-        let [width, height] = size_px;
+        let (export, view_px) = (self.cx.settings.export, self.cx.view_px);
+        let layout = self.cx.scene.camera.stereo.layout;
+        let extent = export.text(view_px, layout);
         let count = end - first + 1;
         let text = RichText::new("Save sequence").color(theme::ON_ACCENT);
         let height_pt = ui.spacing().interact_size.y;
         let button = Button::new(text).fill(theme::ACCENT).min_size(vec2(0.0, height_pt));
         let response = ui.add(button).on_hover_text(format!(
-            "Renders {count} frames of {width} × {height} pixels as PNGs in one zip. Other sizes: More, Export."
+            "Renders {count} frames of {extent} as PNGs in one zip. Other sizes: More, Export."
         ));
         self.cx.rects.note("save sequence", &response);
         if response.clicked() {
-            self.cx.actions.push(Action::SaveSequence { size_px, frames: [first, end + 1] });
+            self.cx.actions.push(Action::SaveSequence {
+                size_px: export.resolve(view_px, layout),
+                frames: [first, end + 1],
+                pair: export.is_pair(layout),
+            });
         }
     }
 }
