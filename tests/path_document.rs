@@ -1,10 +1,12 @@
 //! The path's part of the document format: what keys leave out, and what is said of bad ones.
 
+use std::sync::Arc;
+
 use mandelight::scene::{
-    Scene,
+    EnvironmentLight, MAX_LIGHTS, Path, Project, Scene,
     document::{self, from_json, to_json},
     param::Param,
-    path::{FRAME_RATE, KEY_TIME},
+    path::{Easing, FRAME_RATE, KEY_TIME, Key, MAX_KEYS},
 };
 use serde_json::{Value, json};
 
@@ -31,6 +33,25 @@ fn a_key_says_only_what_differs_from_the_scene() {
     let text = document::project_to_json(&project);
     assert_eq!(text.matches("\"power\"").count(), 2, "{text}");
     assert!(!to_json(&project.scene).contains("path"), "a scene alone is as it was");
+}
+
+/// The most keys, each with the most lights in many digits, none of them the scene's.
+#[test]
+fn what_is_written_of_the_fullest_path_is_read() {
+    let light = EnvironmentLight {
+        direction: glam::DVec3::new(-0.3, -0.4, -0.5).normalize().to_array(),
+        color: [0.123_456_78; 3],
+        intensity: 12.345_678_901_234_567,
+        ..Default::default()
+    };
+    let mut scene = Scene::default();
+    scene.lights.environment = vec![light; MAX_LIGHTS];
+    let scene = Arc::new(scene);
+    let key = |i| Key { time_secs: i as f64 + 0.1, easing: Easing::Linear, scene: scene.clone() };
+    let path = Path { frames_per_second: 60, keys: (0..MAX_KEYS).map(key).collect() };
+    let project = Project { scene: Scene::default(), path };
+    let text = document::project_to_json(&project);
+    assert_eq!(document::project_from_json(&text), Ok(project), "{} bytes", text.len());
 }
 
 #[test]

@@ -21,9 +21,9 @@ use serde_json::Value;
 
 use super::Failure;
 
-/// How much of a source is looked at, in bytes: a picture's text stands at its start, and
-/// no document is as long.
-const MAX_SOURCE_BYTES: u64 = 16 << 20;
+/// How much of a source is looked at, in bytes: one more than of a document, so that what is too
+/// large is known as such. A picture's text stands at its start.
+const MAX_SOURCE_BYTES: u64 = document::MAX_BYTES as u64 + 1;
 
 /// Reads the scene at `source`; `-` is standard input.
 pub fn read_scene(source: &Path) -> Result<Scene, Failure> {

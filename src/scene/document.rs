@@ -21,8 +21,9 @@ pub(super) use keys::{path_value, value_of};
 
 /// The version written, and the only one read.
 pub const VERSION: u32 = 1;
-/// The largest document read, in bytes.
-pub const MAX_BYTES: usize = 1 << 20;
+/// The largest document read, in bytes: more than a full path takes whose keys each have as many
+/// lights as there can be.
+pub const MAX_BYTES: usize = 16 << 20;
 /// How far from 1 the length of a direction may be in a document: written by hand with three
 /// digits it is still meant to be a direction.
 const UNIT_TOLERANCE_READ: f64 = 1e-3;
@@ -31,7 +32,7 @@ const UNIT_TOLERANCE_READ: f64 = 1e-3;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DocumentError {
     /// Longer than [`MAX_BYTES`].
-    #[error("the document has {bytes} bytes; a scene has at most {MAX_BYTES}")]
+    #[error("the document has {bytes} bytes; at most {MAX_BYTES} are read")]
     TooLarge {
         /// Its length.
         bytes: usize,

@@ -12,11 +12,11 @@ use super::{
     mailbox::{Mailbox, Message},
     page::{self, describe, document, window},
 };
-use crate::scene::panorama::decode::MAX_FILE_BYTES;
+use crate::scene::{document::MAX_BYTES, panorama::decode::MAX_FILE_BYTES};
 
-/// As much as is read of a file that may hold a scene. A scene document is far smaller, and a
-/// picture carries its scene ahead of its pixels.
-const MAX_READ_BYTES: f64 = (4 << 20) as f64;
+/// As much as is read of a file that may hold a scene: one byte more than of a document, so that
+/// what is too large is known as such. A picture carries its scene ahead of its pixels.
+const MAX_READ_BYTES: f64 = (MAX_BYTES + 1) as f64;
 
 /// Largest picture of the surroundings: one byte more than is decoded, so that what is too
 /// large is known as such.
