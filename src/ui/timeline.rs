@@ -223,9 +223,11 @@ impl Timeline {
         }
     }
 
-    /// Puts the playhead at the key whose scene is in view, if one is.
+    /// Puts the playhead at the key whose scene is in view, if one is, and onto the path in any
+    /// case.
     fn meet(&mut self, project: &Project) {
         let keys = &project.path.keys;
+        self.secs = self.secs.min(project.path.duration_secs());
         if let Some(index) = keys.iter().position(|key| *key.scene == project.scene) {
             self.secs = keys[index].time_secs;
             self.selected = Some(index);

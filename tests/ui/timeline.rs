@@ -214,6 +214,18 @@ fn a_full_path_takes_no_more_keys_and_one_key_does_not_play() {
     assert!(!harness.state().interface.is_moving());
 }
 
+/// What replaces a path is looked at and added to from a moment that it has.
+#[test]
+fn another_document_brings_the_playhead_back_onto_its_path() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    harness.get_by_label("Key 3 at 6.00 s").click();
+    harness.run();
+    harness.state_mut().interface.replace_project(Scene::default());
+    harness.run();
+    press(&mut harness, "Add key");
+    assert_eq!(times(&harness), [0.0]);
+}
+
 #[test]
 fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
     let mut harness = stage(project(), open(), [1280.0, 720.0]);
