@@ -20,7 +20,7 @@ use mandelight::{
         sequence::remaining_secs,
     },
     render::Kernels,
-    scene::Path,
+    scene::{BackgroundKind, Path, Scene},
 };
 
 use super::{
@@ -82,14 +82,20 @@ struct Wanted {
 pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let mut project = input::read_project(&arguments.scene)?;
     let environment = arguments.environment.read()?;
-    match &environment {
-        Some(environment) => environment.surround_all(&mut project),
-        None if !arguments.quiet => tell_of_missing(&project.scene),
-        None => {}
+    if let Some(environment) = &environment {
+        environment.surround_all(&mut project);
     }
     let mut project = input::changed_project(project, &arguments.set)?;
     arguments.stereo.lay_out_all(&mut project);
     let path = project.path;
+    if environment.is_none() && !arguments.quiet {
+        // The frames show the keys' pictures, whatever the scene beside them has.
+        let mut scenes = path.keys.iter().map(|key| &key.scene);
+        let shows_one = |scene: &&Arc<Scene>| scene.background.kind == BackgroundKind::Picture;
+        if let Some(scene) = scenes.find(shows_one) {
+            tell_of_missing(scene);
+        }
+    }
     let frames = wanted_of(arguments.frames, &path, &arguments.scene)?;
     let panorama = environment.map(|environment| environment.panorama);
     let Arguments { size, samples, quiet, .. } = arguments;
