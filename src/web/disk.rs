@@ -137,11 +137,19 @@ impl io::Write for DiskFile {
 
 impl Drop for Inner {
     fn drop(&mut self) {
-        if !self.is_closed.get() {
-            page::call(&self.stream, "abort");
-            // The dialogue has made an empty file of that name.
-            page::call(&self.handle, "remove");
+        if self.is_closed.get() {
+            return;
         }
+        let aborted = call_with(&self.stream, "abort", &Array::new());
+        let handle = self.handle.clone();
+        spawn_local(async move {
+            // The file is the stream's until that has let go of it, well or not.
+            if let Err(error) = settled(aborted).await {
+                log::warn!("abort: {}", describe(&error));
+            }
+            // The dialogue has made an empty file of that name.
+            page::call(&handle, "remove");
+        });
     }
 }
 
