@@ -1,4 +1,5 @@
-//! Keeps the scene in view and its path: in the browser's storage and in the address, once it has come to rest.
+//! Keeps the scene in view and its path: in the browser's storage and in the address, once it has
+//! come to rest.
 //!
 //! In: scene and path of each frame. Out: writes, about half a second after the last change.
 
@@ -23,8 +24,8 @@ impl Keeper {
         Self { address, seen: None, changed_at_secs: None }
     }
 
-    /// Looks at this frame's scene and path and writes them if it is due. Returns after how many seconds
-    /// to look again, if anything is still to be written.
+    /// Looks at this frame's scene and path and writes them if it is due. Returns after how many
+    /// seconds to look again, if anything is still to be written.
     pub fn watch(&mut self, project: &Project, moving: bool, now_secs: f64) -> Option<f64> {
         if self.seen.as_ref() != Some(project) {
             let is_first = self.seen.replace(project.clone()).is_none();

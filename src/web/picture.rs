@@ -59,8 +59,7 @@ impl Picture {
     }
 
     /// Asks for a picture of `size_px` pixels, `scale` times as large a side, that both eyes of a
-    /// layout share. Returns after how
-    /// many seconds to ask again while the size is still settling.
+    /// layout share. Returns after how many seconds to ask again while the size is still settling.
     pub fn resize(
         &mut self,
         size_px: [u32; 2],

@@ -1,7 +1,7 @@
 //! A still on its way from the GPU to a download, and how exports of any kind tell of themselves.
 //!
-//! In: the scene and a size. Out: progress for the interface, and at the end a PNG among the
-//! visitor's downloads. It is stepped between frames; dropping it cancels it.
+//! In: the scene and a size. Out: progress for the interface, and at the end a file, or one for
+//! each eye, among the visitor's downloads. It is stepped between frames; dropping it cancels it.
 
 use std::sync::Arc;
 
