@@ -5,6 +5,7 @@ use std::sync::Arc;
 use mandelight::scene::{
     EnvironmentLight, MAX_LIGHTS, Path, Project, Scene,
     document::{self, from_json, to_json},
+    link,
     param::Param,
     path::{Easing, FRAME_RATE, KEY_TIME, Key, MAX_KEYS},
 };
@@ -52,6 +53,24 @@ fn what_is_written_of_the_fullest_path_is_read() {
     let project = Project { scene: Scene::default(), path };
     let text = document::project_to_json(&project);
     assert_eq!(document::project_from_json(&text), Ok(project), "{} bytes", text.len());
+}
+
+/// Keys that are alike deflate to next to nothing: a link that is short enough is read all the same.
+#[test]
+fn every_link_that_is_made_is_read() {
+    let mut scene = Scene::default();
+    scene.lights.environment = vec![EnvironmentLight::default(); MAX_LIGHTS];
+    scene.lights.environment[7].intensity = 0.5;
+    let scene = Arc::new(scene);
+    let key = |i| Key { time_secs: i as f64, easing: Easing::Smooth, scene: scene.clone() };
+    for count in [1, 40, MAX_KEYS] {
+        let path = Path { frames_per_second: 24, keys: (0..count).map(key).collect() };
+        let project = Project { scene: Scene::default(), path };
+        match link::project_to_fragment(&project) {
+            Ok(fragment) => assert_eq!(link::project_from_fragment(&fragment), Ok(project)),
+            Err(error) => assert!(count == MAX_KEYS, "{count} keys: {error}"),
+        }
+    }
 }
 
 #[test]

@@ -19,8 +19,9 @@ use super::{
 
 /// The longest fragment made or read, in bytes.
 pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
-/// The most that a fragment may inflate to, in bytes.
-pub const MAX_INFLATED_BYTES: usize = 64 << 10;
+/// The most that a fragment may inflate to, in bytes: keys of a path that are much alike deflate
+/// well.
+pub const MAX_INFLATED_BYTES: usize = 1 << 20;
 
 /// What a fragment of this version begins with.
 const PREFIX: &str = "s1=";
@@ -54,7 +55,9 @@ pub enum LinkError {
     #[error("the link is damaged or incomplete; copy it again in full")]
     Damaged,
     /// Inflates to more than [`MAX_INFLATED_BYTES`].
-    #[error("the link unpacks to more than {MAX_INFLATED_BYTES} bytes, which no scene does")]
+    #[error(
+        "the link unpacks to more than {MAX_INFLATED_BYTES} bytes, more than links may hold; save the scene as a file instead"
+    )]
     TooLarge,
     /// A scene that cannot be used.
     #[error("the link's scene: {0}")]
@@ -74,7 +77,7 @@ pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
 ///
 /// # Errors
 ///
-/// [`LinkError::TooLong`], as paths of many keys are.
+/// [`LinkError::TooLong`] or [`LinkError::TooLarge`], as paths of many keys are.
 pub fn project_to_fragment(project: &Project) -> Result<String, LinkError> {
     let mut payload = differences(value_of(&project.scene));
     if project.path != Path::default() {
@@ -84,7 +87,11 @@ pub fn project_to_fragment(project: &Project) -> Result<String, LinkError> {
 }
 
 fn fragment_of(payload: &Value) -> Result<String, LinkError> {
-    let deflated = compress_to_vec(payload.to_string().as_bytes(), DEFLATE_LEVEL);
+    let text = payload.to_string();
+    if text.len() > MAX_INFLATED_BYTES {
+        return Err(LinkError::TooLarge);
+    }
+    let deflated = compress_to_vec(text.as_bytes(), DEFLATE_LEVEL);
     let fragment = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(deflated));
     if fragment.len() > MAX_FRAGMENT_BYTES {
         return Err(LinkError::TooLong { bytes: fragment.len() });
