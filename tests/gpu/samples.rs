@@ -70,7 +70,7 @@ fn slope(points: &[(f64, f64)]) -> f64 {
 }
 
 /// Independent samples of a pixel with variance σ² leave a mean with variance σ²/N: a log-log slope
-/// of −½. These do better, −0.71 when this was written, and err by a quarter as much at 1024.
+/// of −½. These do better, about −0.7, and err by a quarter as much at 1024.
 #[test]
 fn samples_converge_to_the_pixels_mean() {
     let reference = reference();
