@@ -136,6 +136,16 @@ pub fn pictures() -> Vec<Picture> {
             ],
         ),
         picture(
+            "indirect",
+            3,
+            "Without indirect light, by the uniform operator, and by horizons",
+            [
+                cave("indirect.kind=off"),
+                cave("indirect.kind=uniform"),
+                cave("indirect.kind=horizon"),
+            ],
+        ),
+        picture(
             "coloring",
             4,
             "Colours by the iteration count, and by traps at the origin, the axes and the planes",
@@ -199,6 +209,26 @@ pub fn pictures() -> Vec<Picture> {
             "Colour, depth and normals of one OpenEXR file",
             [reef(), reef().layer(Layer::Depth), reef().layer(Layer::Normal)],
         ),
+        single(
+            "detail",
+            "A detail of the surface of the power-8 bulb",
+            reef().with(&[r#"camera.position=["0.444", "-0.836", "0.51"]"#]),
+        ),
+        single(
+            "everything",
+            "Everything at once: 64 lights of a picture, indirect light, auto exposure, bloom and stereo",
+            marble("camera.stereo.layout=anaglyph").surrounded().with(DUSK).with(&[
+                "lights.rig.count=64",
+                "lights.rig.picture.rotation_deg=65",
+                "indirect.kind=horizon",
+                "indirect.strength=0.5",
+                "tone.auto_exposure=true",
+                "tone.exposure=-0.7",
+                "bloom.strength=0.4",
+                "bloom.threshold=1.5",
+                "bloom.order=before",
+            ]),
+        ),
         picture(
             "scenes",
             4,
@@ -235,6 +265,11 @@ const DUSK: &[&str] = &[
 
 fn reef() -> Panel {
     of("Coral reef")
+}
+
+/// Overhangs that light hardly reaches.
+fn cave(change: &'static str) -> Panel {
+    reef().with(&["camera.vertical_fov_deg=30", "indirect.radius=0.12", change])
 }
 
 fn gold(change: &'static str) -> Panel {
