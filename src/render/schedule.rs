@@ -282,7 +282,7 @@ impl Schedule {
         loop {
             let (points, first_workgroup) = match self.under_way {
                 Some(state) => state,
-                None => (self.next_points()?, 0),
+                None => (self.next_points(now_secs)?, 0),
             };
             if points.grid(self.size_px).workgroups() > 0 {
                 return Some(Work::Trace(self.slice(points, first_workgroup)));
@@ -301,8 +301,13 @@ impl Schedule {
             return finished;
         }
         let complete = self.samples_done == 1 && self.under_way.is_none();
-        let interval_secs = SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
-        self.opening || complete || finished || now_secs - self.shown_at >= interval_secs
+        let waited_secs = now_secs - self.shown_at;
+        self.opening || complete || finished || waited_secs >= self.show_interval_secs()
+    }
+
+    /// Least time between two displays of what refines.
+    fn show_interval_secs(&self) -> f64 {
+        SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE)
     }
 
     /// Whether exposure is on its way and another step of it is due.
@@ -344,11 +349,11 @@ impl Schedule {
     }
 
     /// What comes after everything computed so far.
-    fn next_points(&self) -> Option<Points> {
+    fn next_points(&self, now_secs: f64) -> Option<Points> {
         match self.shaded {
             None if self.pace == Pace::Still => Some(Points::Level(0)),
             None => Some(Points::Level(self.opening_level())),
-            Some(level) if self.filmed() != Some(level) => {
+            Some(level) if self.filmed() != Some(level) && self.gather_now(level, now_secs) => {
                 Some(Points::Around(self.gather_level(level)))
             }
             Some(0) if self.samples_done < self.samples_wanted => {
@@ -365,6 +370,12 @@ impl Schedule {
         let from = self.first_stage(self.marched.unwrap_or(0));
         let allowed = self.cost.level_within(self.budget_ms, from, self.gathers, self.size_px);
         self.marched.map_or(allowed, |marched| allowed.max(marched))
+    }
+
+    /// Whether a level gets its indirect light, rather than wait for a finer one: where it is the
+    /// first to be seen, or the last, or where something new should be seen by now.
+    fn gather_now(&self, level: u32, now_secs: f64) -> bool {
+        self.opening || level == 0 || now_secs - self.shown_at >= self.show_interval_secs()
     }
 
     /// The level whose indirect light comes next, where `shaded` has its direct light: where that
@@ -411,8 +422,11 @@ impl Schedule {
         let next = first_workgroup + workgroups;
         if next < total {
             self.under_way = Some((points, next));
-            // A complete lattice is below: what has come so far may be shown.
-            self.show_due |= self.filmed().is_some() && self.pace == Pace::Interactive;
+            // A complete lattice is below: what has come so far may be shown, unless it waits for
+            // its indirect light.
+            let is_filmed =
+                !self.gathers || matches!(points, Points::Around(_) | Points::Sample(_));
+            self.show_due |= is_filmed && self.filmed().is_some() && self.pace == Pace::Interactive;
         } else {
             self.complete(points);
         }
