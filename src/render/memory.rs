@@ -1,8 +1,9 @@
 //! How much of the GPU's memory a view holds, by purpose: the table of thesis 4.4, "Memory
 //! Consumption", for what there is here.
 //!
-//! In: the sizes of buffers and textures. Out: bytes, and a scene that needs the most of them. The window's own pictures and the
-//! interface's textures belong to whoever shows the view, and are not counted.
+//! In: the sizes of buffers and textures. Out: bytes, and a scene that needs the most of them. The
+//! window's own pictures and the interface's textures belong to whoever shows the view, and are
+//! not counted.
 
 use std::sync::Arc;
 

@@ -232,7 +232,7 @@ impl Engine {
             }
             Progress::Closing => None,
             Progress::Failed(reason) => {
-                session.complain(format!("Nothing was saved: {reason}"));
+                session.complain(format!("Saving failed: {reason}"));
                 None
             }
         };

@@ -12,7 +12,13 @@ pub fn background(scene: &Scene) -> Background {
         LightFrame::Scene => DQuat::IDENTITY,
         LightFrame::View => scene.camera.rotation(),
     };
-    let world_from_picture = frame * DQuat::from_rotation_z(rig.picture.rotation_deg.to_radians());
+    let world_from_picture = match scene.background.kind {
+        BackgroundKind::Picture => {
+            frame * DQuat::from_rotation_z(rig.picture.rotation_deg.to_radians())
+        }
+        // How a picture that is not shown would lie is no reason to shade again.
+        BackgroundKind::Gradient => DQuat::IDENTITY,
+    };
     let axis = |axis: DVec3| (world_from_picture * axis).as_vec3().to_array();
     let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
     Background {
