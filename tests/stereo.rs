@@ -248,6 +248,41 @@ fn sheets_hold_the_pictures_of_a_pair() {
     }
 }
 
+/// In a window an anaglyph has half the columns, each twice as wide: it shows what the whole
+/// window would.
+#[test]
+fn a_shared_anaglyph_is_not_stretched() {
+    let mut scene = glowing(StereoLayout::Anaglyph);
+    scene.bloom.strength = 0.0;
+    scene.quality.samples = 16;
+    let window = [2 * STILL_SIZE[0], 2 * STILL_SIZE[1]];
+    let region = Region::whole(window).shared_by(StereoLayout::Anaglyph);
+    let mut shared = View::new(&KERNELS, region, Pace::Still);
+    assert_eq!(shared.region().display_px(), [window[0] / 2, window[1]]);
+    shared.set_scene(&scene, false);
+    while shared.pump(0.0) {
+        KERNELS.gpu.wait();
+    }
+    let halved = |pixels: &[[u8; 3]], [width, height]: [u32; 2], [by, down]: [u32; 2]| {
+        let mean = move |x: u32, y: u32, channel: usize| {
+            let cells =
+                (0..down).flat_map(move |j| (0..by).map(move |i| (x * by + i, y * down + j)));
+            let sum: u32 =
+                cells.map(|(x, y)| u32::from(pixels[(y * width + x) as usize][channel])).sum();
+            f64::from(sum) / f64::from(by * down)
+        };
+        let size = [width / by, height / down];
+        let rows = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
+        rows.flat_map(|(x, y)| [0, 1, 2].map(|channel| mean(x, y, channel))).collect::<Vec<f64>>()
+    };
+    let whole = halved(&rgb(&view(&scene, window, Eyes::Anaglyph)), window, [2, 2]);
+    let shared = halved(&rgb(&shared), [window[0] / 2, window[1]], [1, 2]);
+    let off: f64 = whole.iter().zip(&shared).map(|(a, b)| (a - b).abs()).sum();
+    let off = off / whole.len() as f64;
+    // Half as many columns are sampled, so not quite the same.
+    assert!(off < 4.0, "mean difference {off}");
+}
+
 #[test]
 fn an_anaglyph_is_red_for_the_left_eye_and_cyan_for_the_right_one() {
     let scene = glowing(StereoLayout::Anaglyph);

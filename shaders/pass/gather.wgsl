@@ -30,7 +30,9 @@ fn on_lattice(at: vec2i) -> vec2i {
 fn neighbour(pixel: vec2u, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
     let eye_px = picture.indirect.around_px;
     let middle = eye_position(pixel, slice.jitter) * vec2f(eye_px);
-    let at = on_lattice(vec2i(floor(middle + aside * f32(eye_px.y))));
+    // Heights to pixels, which need not be square.
+    let px = vec2f(f32(eye_px.x) / picture.camera.aspect, f32(eye_px.y));
+    let at = on_lattice(vec2i(floor(middle + aside * px)));
     if (any(at < vec2i(0)) || any(at >= vec2i(eye_px))) { return NOBODY; }
     let film_px = vec2u(round(vec2f(eye_px) / picture.eyes.share));
     let corner = vec2u(round(eye_corner(pixel) * vec2f(film_px)));

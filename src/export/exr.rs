@@ -143,13 +143,13 @@ struct Rays {
 impl Rays {
     fn new(camera: &Camera, tile: Region) -> Self {
         let picture_px = tile.picture_px.map(f64::from);
-        let aspect = picture_px[0] / picture_px[1];
+        let aspect = tile.aspect();
         let half_height = camera.half_height(aspect);
         let left = if camera.stereo.swap_eyes { 1.0 } else { -1.0 };
         let side = match tile.eyes {
             Eyes::Camera => 0.0,
             Eyes::Right => -left,
-            Eyes::Left | Eyes::Beside | Eyes::Below | Eyes::Anaglyph => left,
+            Eyes::Left | Eyes::Beside | Eyes::Below | Eyes::Anaglyph | Eyes::WideAnaglyph => left,
         };
         let aside = camera.rotation() * DVec3::X * (side * camera.stereo.half_separation());
         Self {

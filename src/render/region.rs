@@ -24,6 +24,8 @@ pub enum Eyes {
     Below,
     /// Both, the left one's red and the right one's green and blue in one picture.
     Anaglyph,
+    /// The same in pixels twice as wide as they are high: both eyes share a window's pixels.
+    WideAnaglyph,
 }
 
 impl Eyes {
@@ -31,7 +33,7 @@ impl Eyes {
     pub fn count(self) -> u32 {
         match self {
             Self::Camera | Self::Left | Self::Right => 1,
-            Self::Beside | Self::Below | Self::Anaglyph => 2,
+            Self::Beside | Self::Below | Self::Anaglyph | Self::WideAnaglyph => 2,
         }
     }
 
@@ -39,7 +41,7 @@ impl Eyes {
     fn on_film(self) -> [u32; 2] {
         match self {
             Self::Camera | Self::Left | Self::Right => [1, 1],
-            Self::Beside | Self::Anaglyph => [2, 1],
+            Self::Beside | Self::Anaglyph | Self::WideAnaglyph => [2, 1],
             Self::Below => [1, 2],
         }
     }
@@ -52,7 +54,17 @@ impl Eyes {
         }
     }
 
-    /// Those that a scene's layout shows at once.
+    /// Whether both eyes are in one display picture.
+    pub fn is_anaglyph(self) -> bool {
+        matches!(self, Self::Anaglyph | Self::WideAnaglyph)
+    }
+
+    /// How many times as wide as high a pixel is: 1 or 2.
+    pub fn pixel_aspect(self) -> u32 {
+        if self == Self::WideAnaglyph { 2 } else { 1 }
+    }
+
+    /// Those that a scene's layout shows at once, in square pixels.
     pub fn of(layout: StereoLayout) -> Self {
         match layout {
             StereoLayout::Off => Self::Camera,
@@ -85,11 +97,20 @@ impl Region {
     /// What a window of this region's pixels shows of a scene with this layout: both eyes share
     /// the pixels. An anaglyph has half as many columns, to be stretched, for each holds both.
     pub fn shared_by(self, layout: StereoLayout) -> Self {
-        let eyes = Eyes::of(layout);
+        let eyes = match Eyes::of(layout) {
+            Eyes::Anaglyph => Eyes::WideAnaglyph,
+            eyes => eyes,
+        };
         let [columns, rows] = eyes.on_film();
         let [width, height] = self.size_px;
         let one = Self::whole([(width / columns).max(1), (height / rows).max(1)]);
         Self { eyes, ..one }
+    }
+
+    /// Width over height of one eye's whole picture.
+    pub fn aspect(&self) -> f64 {
+        let [width, height] = self.picture_px.map(f64::from);
+        width * f64::from(self.eyes.pixel_aspect()) / height
     }
 
     /// Width and height of the film: all its eyes'.
@@ -100,7 +121,7 @@ impl Region {
 
     /// Width and height of the display picture.
     pub fn display_px(&self) -> [u32; 2] {
-        if self.eyes == Eyes::Anaglyph { self.size_px } else { self.film_px() }
+        if self.eyes.is_anaglyph() { self.size_px } else { self.film_px() }
     }
 
     /// Where the second eye's part of the film begins; (0, 0) where there is none.

@@ -41,10 +41,10 @@ const FINEST_HIT: f32 = 4e-7;
 impl Picture {
     /// The scene as it is seen in `region`.
     pub fn new(scene: &Scene, region: Region) -> Self {
-        let [width, height] = region.picture_px.map(f64::from);
+        let height = f64::from(region.picture_px[1]);
         let camera = &scene.camera;
         let rotation = camera.rotation();
-        let aspect = width / height;
+        let aspect = region.aspect();
         Self {
             camera: Camera {
                 origin: camera.position.to_dvec3().as_vec3().to_array(),
@@ -142,15 +142,17 @@ fn eyes(camera: &crate::scene::Camera, region: Region) -> Eyes {
         first_side: match region.eyes {
             RegionEyes::Camera => 0.0,
             RegionEyes::Right => -left,
-            RegionEyes::Left | RegionEyes::Beside | RegionEyes::Below | RegionEyes::Anaglyph => {
-                left
-            }
+            RegionEyes::Left
+            | RegionEyes::Beside
+            | RegionEyes::Below
+            | RegionEyes::Anaglyph
+            | RegionEyes::WideAnaglyph => left,
         },
         half_separation: (half_shift * camera.view_unit()) as f32,
         half_shift: half_shift as f32,
         share: region.eyes.on_sheet().map(|eyes| 1.0 / eyes as f32),
         first_place: if region.eyes == RegionEyes::Right { 1.0 } else { 0.0 },
-        anaglyph: u32::from(region.eyes == RegionEyes::Anaglyph),
+        anaglyph: u32::from(region.eyes.is_anaglyph()),
         unused: [0; 2],
     }
 }

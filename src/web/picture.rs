@@ -8,7 +8,7 @@ use std::sync::Arc;
 use eframe::egui_wgpu::RenderState;
 
 use crate::{
-    render::{Eyes, Kernels, Pace, Region, Report, View, frame::Dispatches},
+    render::{Kernels, Pace, Region, Report, View, frame::Dispatches},
     scene::{Panorama, Scene, StereoLayout},
     ui,
 };
@@ -143,8 +143,7 @@ impl Picture {
             }
             None => renderer.register_native_texture(device, &texture_view, filter),
         };
-        // An anaglyph's pixels are twice as wide as they are high.
-        let stretch = if view.region().eyes == Eyes::Anaglyph { 2 } else { 1 };
+        let stretch = view.region().eyes.pixel_aspect();
         let size_px = [texture.width() * stretch, texture.height()];
         let picture = ui::Picture { texture: id, size_px };
         self.shown = Some(Shown { picture, generation });
