@@ -8,6 +8,7 @@ use std::{
     process::{Child, Command, Output, Stdio},
 };
 
+use mandelight::scene::document;
 use serde_json::{Value, json};
 
 /// The program, with nothing on its standard streams and no desktop about it.
@@ -112,7 +113,7 @@ fn a_bad_scene_is_refused_by_file_and_field() {
         ("half a document", b"{\"mandelight\":".to_vec(), "line 1"),
         ("nothing", Vec::new(), "line 1"),
         ("depth", format!("{{\"a\":{}", "[".repeat(200_000)).into(), "line 1"),
-        ("length", vec![b' '; 2 << 20], "at most"),
+        ("length", vec![b' '; document::MAX_BYTES + 1], "at most"),
         ("bytes", vec![0xff; 100], "neither a scene document nor a PNG"),
         ("half a picture", b"\x89PNG\r\n\x1a\n\0\0".to_vec(), "not a readable PNG"),
     ];
