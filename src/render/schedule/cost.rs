@@ -21,6 +21,10 @@ const MEMORY: f64 = 0.85;
 const SURPRISE: f64 = 2.0;
 const MEMORY_AFTER_SURPRISE: f64 = 0.3;
 
+/// Fewest workgroups of a slice: two can be halved, and slices of two sizes keep telling what is
+/// fixed. Were they all of one workgroup, their own smallness could never be found to be the trouble.
+const FEWEST_WORKGROUPS: f64 = 2.0;
+
 /// Most of the mean time that may count as fixed: the rest keeps slices from growing at once.
 const MOST_FIXED: f64 = 0.95;
 
@@ -134,11 +138,11 @@ impl Cost {
 
     /// Workgroups of a slice whose pixels are to take `aim_ms`, or as long as the fixed part does
     /// where that is longer: never more than twice the largest slice that has been seen to end
-    /// well.
+    /// well, and two at least.
     pub fn slice_workgroups(&self, aim_ms: f64, from: Stage) -> u32 {
         let rate = self.rate(from);
         let pixels = (aim_ms.max(rate.fixed_ms) / rate.pixel_ms).min(2.0 * rate.largest_px);
-        (pixels / f64::from(WORKGROUP_THREADS)).clamp(1.0, 1e9) as u32
+        (pixels / f64::from(WORKGROUP_THREADS)).clamp(FEWEST_WORKGROUPS, 1e9) as u32
     }
 
     /// The finest lattice level of a region that fits `budget_ms` together with its display.
