@@ -33,8 +33,9 @@ fn surface_color(data: vec2u) -> vec3f {
 fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
     var sum = color * picture.surface.ambient;
     for (var k = 0u; k < picture.surface.light_count; k++) {
-        if (((bits[k >> 5u] >> (k & 31u)) & 1u) == 0u) { continue; }
         let light = lights[k];
+        // Nobody marched toward a light without light: its bit means nothing.
+        if (all(light.color == vec3f(0.0)) || !has_light(bits, light)) { continue; }
         var toward_light = light.vector;
         var radiance = light.color;
         if (light.kind == LIGHT_POINT) {

@@ -1,4 +1,5 @@
-// One visibility bit for each light of the slice's range: does it reach the sample's point?
+// One visibility bit for each of the slice's lights: does it reach the sample's point? The bits of
+// the others stay.
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 
@@ -33,8 +34,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
-    var bits = vec2u(0u);
-    if (slice.first_light > 0u) { bits = visibility[index]; }
+    var bits = visibility[index] & ~slice.lights;
     let seen = surface[index];
     let t = bitcast<f32>(seen.x);
     if (t > 0.0) {
@@ -43,13 +43,13 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         // Lifted off the surface, so that the point's own neighbourhood does not shade it.
         let ray = camera_ray(pixel);
         let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
-        let end = slice.first_light + slice.light_count;
-        for (var k = slice.first_light; k < end; k++) {
+        for (var k = 0u; k < picture.surface.light_count; k++) {
             let light = lights[k];
+            if (!has_light(slice.lights, light)) { continue; }
             let toward = select(light.vector, light.vector - point, light.kind == LIGHT_POINT);
             if (picture.normals != NORMALS_NONE && dot(n, toward) <= 0.0) { continue; }
             if (light.casts_shadows == 0u || light_reaches(point, surface_distance, light)) {
-                bits[k >> 5u] |= 1u << (k & 31u);
+                bits[light.bit >> 5u] |= 1u << (light.bit & 31u);
             }
         }
     }

@@ -11,12 +11,18 @@ struct Light {
     casts_shadows: u32,
     // How far a blocker may be, in scene units.
     shadow_reach: f32,
+    // Which visibility bit is its own.
+    bit: u32,
     unused_a: u32,
     unused_b: u32,
-    unused_c: u32,
 }
 
 const MAX_LIGHTS = 64u;
 const LIGHT_POINT = 1u;
 
 @group(0) @binding(2) var<uniform> lights: array<Light, MAX_LIGHTS>;
+
+// Whether a light's bit is among these.
+fn has_light(bits: vec2u, light: Light) -> bool {
+    return ((bits[light.bit >> 5u] >> (light.bit & 31u)) & 1u) != 0u;
+}

@@ -19,9 +19,8 @@ struct Slice {
     compact: u32,
     // 1: add to the film; 0: replace what it holds.
     accumulate: u32,
-    // The lights that a shadow dispatch marches toward.
-    first_light: u32,
-    light_count: u32,
+    // The lights that a shadow dispatch marches toward, by their visibility bits.
+    lights: vec2u,
     // The spacing of the lattice on the film, in pixels; 0 where it is complete.
     spacing: u32,
     // The mip level that a glow's pass reads, or starts from.

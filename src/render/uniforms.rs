@@ -10,7 +10,7 @@ mod shared;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use lights::lights;
+pub use lights::{lights, shining};
 pub use shared::*;
 
 use super::{Region, region::Eyes as RegionEyes, schedule::Stale};
@@ -216,7 +216,7 @@ fn surface(scene: &Scene) -> Surface {
 pub struct Inputs {
     /// Camera, set, surface, tone, region.
     pub picture: Picture,
-    /// The lights, in the order of their visibility bits.
+    /// The lights, in the scene's order.
     pub lights: [Light; MAX_LIGHTS],
     /// The surface's gradient: linear Rec. 709, closed on itself.
     pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
@@ -248,6 +248,11 @@ impl Inputs {
     pub fn with_neighbours(mut self, eye_px: Option<[u32; 2]>) -> Self {
         self.picture.indirect.around_px = eye_px.unwrap_or(self.picture.indirect.around_px);
         self
+    }
+
+    /// The visibility bits of the lights that shine.
+    pub fn shining(&self) -> u64 {
+        shining(&self.lights)
     }
 
     /// Whether there is indirect light.

@@ -26,23 +26,46 @@ pub const MODULE: Module = Module {
     ],
 };
 
-/// Marches toward every light, as many to a dispatch as its loops allow. Without any light one
-/// dispatch still clears the bits.
+/// Marches toward every light that shines, as many to a dispatch as its loops allow.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.marchers.shadow.clone();
-    let picture = &recorder.inputs.picture;
-    let lights = picture.surface.light_count;
-    let at_once = uniforms::lights_per_dispatch(picture.fractal.iterations);
-    let mut first = 0;
-    loop {
+    let at_once = uniforms::lights_per_dispatch(recorder.inputs.picture.fractal.iterations);
+    for lights in portions(recorder.inputs.shining(), at_once) {
         let mut slice = recorder.slice(trace, grid);
-        slice.first_light = first;
-        slice.light_count = at_once.min(lights - first);
+        slice.lights = [lights as u32, (lights >> 32) as u32];
         recorder.dispatch(&pipeline, slice, trace.workgroups);
         recorder.dispatches.shadow += 1;
-        first += at_once;
-        if first >= lights {
-            break;
+    }
+}
+
+/// The bits of `lights`, at most `at_once` in each portion.
+fn portions(mut lights: u64, at_once: u32) -> impl Iterator<Item = u64> {
+    std::iter::from_fn(move || {
+        let all = lights;
+        for _ in 0..at_once {
+            // Clears the lowest bit.
+            lights &= lights.wrapping_sub(1);
+        }
+        (all != 0).then_some(all & !lights)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn portions_have_every_light_once() {
+        for lights in [0, 1, 0b1011_0110, u64::MAX, 1 << 63, 0xf0f0_0000_1234_0001] {
+            for at_once in [1, 2, 3, 64, 1000] {
+                let all: Vec<u64> = portions(lights, at_once).collect();
+                assert!(all.iter().all(|portion| (1..=at_once).contains(&portion.count_ones())));
+                assert_eq!(
+                    all.iter().fold(0, |sum, portion| sum + u128::from(*portion)),
+                    u128::from(lights)
+                );
+                assert_eq!(all.len() as u32, lights.count_ones().div_ceil(at_once));
+            }
         }
     }
 }

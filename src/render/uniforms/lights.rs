@@ -1,4 +1,4 @@
-//! A scene's lights as the shaders see them.
+//! A scene's lights as the shaders see them, and which of them shine.
 
 use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
@@ -6,8 +6,8 @@ use glam::{DVec3, Vec3};
 use super::Light;
 use crate::scene::{LightFrame, MAX_LIGHTS, Scene};
 
-/// The scene's lights in the order of their visibility bits: environment, then point lights,
-/// then the rig's. Muted ones stay, in black, so that muting moves no other light's bit.
+/// The scene's lights: environment, then point lights, then the rig's, each with the visibility bit
+/// of its place. Muted ones stay, in black.
 pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
     let any_solo = scene.lights.any_solo();
     let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
@@ -15,9 +15,7 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
         let strength = if shines { intensity as f32 } else { 0.0 };
         [r * strength, g * strength, b * strength]
     };
-    let casts = |wanted: bool, radiance: [f32; 3]| {
-        u32::from(wanted && scene.quality.shadows && radiance != [0.0; 3])
-    };
+    let casts = |wanted: bool| u32::from(wanted && scene.quality.shadows);
     let view_unit = scene.camera.view_unit();
     let in_world = |frame: LightFrame, direction: DVec3| {
         let direction = match frame {
@@ -33,7 +31,7 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
             vector: in_world(light.frame, direction),
             kind: 0,
             color: radiance,
-            casts_shadows: casts(light.casts_shadows, radiance),
+            casts_shadows: casts(light.casts_shadows),
             shadow_reach: light.shadow_reach.map_or(1e30, |reach| (reach * view_unit) as f32),
             ..Light::zeroed()
         }
@@ -44,7 +42,7 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
             vector: light.position.to_dvec3().as_vec3().to_array(),
             kind: 1,
             color: radiance,
-            casts_shadows: casts(light.casts_shadows, radiance),
+            casts_shadows: casts(light.casts_shadows),
             shadow_reach: 1e30,
             ..Light::zeroed()
         }
@@ -56,14 +54,21 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
             vector: in_world(rig.frame, direction),
             kind: 0,
             color: radiance,
-            casts_shadows: casts(rig.casts_shadows, radiance),
+            casts_shadows: casts(rig.casts_shadows),
             shadow_reach: rig.shadow_reach.map_or(1e30, |reach| (reach * view_unit) as f32),
             ..Light::zeroed()
         }
     });
     let mut table = [Light::zeroed(); MAX_LIGHTS];
-    for (slot, light) in table.iter_mut().zip(environment.chain(point).chain(rig_lights)) {
-        *slot = light;
+    let all = environment.chain(point).chain(rig_lights);
+    for (bit, (slot, light)) in (0..).zip(table.iter_mut().zip(all)) {
+        *slot = Light { bit, ..light };
     }
     table
+}
+
+/// The visibility bits of the lights that shine: only they need any.
+pub fn shining(lights: &[Light]) -> u64 {
+    let shine = lights.iter().filter(|light| light.color != [0.0; 3]);
+    shine.fold(0, |bits, light| bits | 1 << light.bit)
 }

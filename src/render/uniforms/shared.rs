@@ -248,10 +248,8 @@ host_shared! {
         compact: u32,
         /// 1: add to the film.
         accumulate: u32,
-        /// First light of a shadow dispatch.
-        first_light: u32,
-        /// Lights of a shadow dispatch.
-        light_count: u32,
+        /// The lights of a shadow dispatch, by their visibility bits: 0 to 31, 32 to 63.
+        lights: [u32; 2],
         /// Spacing of the lattice on the film, pixels; 0 where it is complete.
         spacing: u32,
         /// Mip level that a glow's pass reads, or starts from.
@@ -300,11 +298,11 @@ host_shared! {
         casts_shadows: u32,
         /// How far a blocker may be, scene units.
         shadow_reach: f32,
+        /// Which visibility bit is its own, 0 to 63.
+        bit: u32,
         /// Keeps the size a multiple of 16 bytes.
         unused_a: u32,
         /// The same.
         unused_b: u32,
-        /// The same.
-        unused_c: u32,
     }
 }
