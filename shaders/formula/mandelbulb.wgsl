@@ -3,6 +3,8 @@
 // instead of trigonometry:
 //     rho = |x + iy|, u = (x + iy) / rho, w = rho + iz
 //     z^n = (Re w^n Re u^n, Re w^n Im u^n, Im w^n)
+// The fractal is passed by value and read from the picture once, outside all loops: some drivers
+// read a buffer anew for every use, and marches that do take twice as long on lavapipe.
 
 // The power this pipeline is specialised for, 2 to 16; 0 reads it from the picture.
 override POWER: u32 = 0u;
@@ -49,22 +51,22 @@ fn turned_real(z: vec3f, r: f32, n: f32) -> Turned {
     return Turned(u, rho, longitude, accurate_exp2(n * log2_r) * latitude, stretch);
 }
 
-fn turned(z: vec3f, r: f32) -> Turned {
+fn turned(fractal: Fractal, z: vec3f, r: f32) -> Turned {
     if (POWER != 0u) { return turned_whole(z, r, POWER); }
-    if (picture.fractal.integer_power != 0u) {
-        return turned_whole(z, r, picture.fractal.integer_power);
+    if (fractal.integer_power != 0u) {
+        return turned_whole(z, r, fractal.integer_power);
     }
-    return turned_real(z, r, picture.fractal.power);
+    return turned_real(z, r, fractal.power);
 }
 
-fn triplex_power(t: Turned) -> vec3f {
-    return vec3f(t.wn.x * t.un, t.wn.y * picture.fractal.z_sign);
+fn triplex_power(fractal: Fractal, t: Turned) -> vec3f {
+    return vec3f(t.wn.x * t.un, t.wn.y * fractal.z_sign);
 }
 
 // The stretch along the parallels, n Re w^n / rho: 1e-15 is near enough to the axis for the
 // limit, and the quotient stays finite.
-fn sideways_stretch(t: Turned) -> f32 {
-    return picture.fractal.power * t.wn.x / max(t.rho, 1e-15);
+fn sideways_stretch(fractal: Fractal, t: Turned) -> f32 {
+    return fractal.power * t.wn.x / max(t.rho, 1e-15);
 }
 
 struct OrbitStep {
@@ -76,10 +78,10 @@ struct OrbitStep {
     widest_stretch: f32,
 }
 
-fn orbit_step(z: vec3f, r: f32) -> OrbitStep {
-    let t = turned(z, r);
-    let widest = clamp(abs(sideways_stretch(t)), t.stretch, SIDEWAYS_MAX * t.stretch);
-    return OrbitStep(triplex_power(t), t.stretch, widest);
+fn orbit_step(fractal: Fractal, z: vec3f, r: f32) -> OrbitStep {
+    let t = turned(fractal, z, r);
+    let widest = clamp(abs(sideways_stretch(fractal, t)), t.stretch, SIDEWAYS_MAX * t.stretch);
+    return OrbitStep(triplex_power(fractal, t), t.stretch, widest);
 }
 
 struct Reach {
@@ -91,42 +93,42 @@ struct Reach {
     step: f32,
 }
 
-fn reach(point: vec3f) -> Reach {
-    let julia = picture.fractal.julia != 0u;
-    let constant = select(point, picture.fractal.julia_constant, julia);
+fn reach(fractal: Fractal, point: vec3f) -> Reach {
+    let julia = fractal.julia != 0u;
+    let constant = select(point, fractal.julia_constant, julia);
     let derivative_constant = select(1.0, 0.0, julia);
-    let bailout = picture.fractal.bailout;
+    let bailout = fractal.bailout;
     var z = point;
     var r = length(z);
     var dr = 1.0;
     var dg = 1.0;
-    for (var i = 0u; i < picture.fractal.iterations; i++) {
+    for (var i = 0u; i < fractal.iterations; i++) {
         if (r > bailout) { break; }
-        let next = orbit_step(z, r);
-        dr = min(next.stretch * dr + derivative_constant, picture.fractal.derivative_max);
-        dg = min(next.widest_stretch * dg + derivative_constant, picture.fractal.derivative_max);
+        let next = orbit_step(fractal, z, r);
+        dr = min(next.stretch * dr + derivative_constant, fractal.derivative_max);
+        dg = min(next.widest_stretch * dg + derivative_constant, fractal.derivative_max);
         z = next.power + constant;
         r = length(z);
     }
     if (r <= 1.0) { return Reach(0.0, 0.0); }
     let height = 0.5 * log(r) * r;
     let distance = height / max(dr, 1e-37);
-    return Reach(distance, min(min(2.0 * height / max(dg, 1e-37), distance), picture.fractal.max_step));
+    return Reach(distance, min(min(2.0 * height / max(dg, 1e-37), distance), fractal.max_step));
 }
 
-fn distance_estimate(point: vec3f) -> f32 {
-    return reach(point).distance;
+fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
+    return reach(fractal, point).distance;
 }
 
 // The Jacobian of z^n over `stretch`: a turn of the meridian's plane by n - 1 latitudes, of the
 // parallels by n - 1 longitudes, and a further stretch along these.
-fn turned_jacobian(t: Turned, height: f32, inverse_r: f32) -> mat3x3f {
+fn turned_jacobian(fractal: Fractal, t: Turned, height: f32, inverse_r: f32) -> mat3x3f {
     // w^(n - 1) over its length.
     let unit = inverse_r / max(length(t.wn), 1e-20);
     let m = unit * complex_product(t.wn, vec2f(t.rho, -height));
-    let sideways = clamp(sideways_stretch(t) / max(t.stretch, 1e-30), -1e6, 1e6);
+    let sideways = clamp(sideways_stretch(fractal, t) / max(t.stretch, 1e-30), -1e6, 1e6);
     let parallel = sideways * vec2f(-t.un.y, t.un.x);
-    let sign = picture.fractal.z_sign;
+    let sign = fractal.z_sign;
     return mat3x3f(
         vec3f(m.x * t.u.x * t.un - t.u.y * parallel, sign * m.y * t.u.x),
         vec3f(m.x * t.u.y * t.un + t.u.x * parallel, sign * m.y * t.u.y),
@@ -139,30 +141,30 @@ fn turned_jacobian(t: Turned, height: f32, inverse_r: f32) -> mat3x3f {
 //     grad DE = ((ln r + 1) dr grad r - r ln r grad dr) / (2 dr^2),  grad r = J^T z / r
 // J grows as dr does and grad dr as its square, past what an f32 holds: both are kept in units
 // of dr, which leaves the direction alone.
-fn distance_gradient(point: vec3f) -> vec3f {
-    let julia = picture.fractal.julia != 0u;
-    let constant = select(point, picture.fractal.julia_constant, julia);
-    let n = picture.fractal.power;
+fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
+    let julia = fractal.julia != 0u;
+    let constant = select(point, fractal.julia_constant, julia);
+    let n = fractal.power;
     var z = point;
     var r = length(z);
     // J / dr, grad dr / dr^2, and the constant's own derivative over dr.
     var jacobian = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     var slope = vec3f(0.0);
     var added = select(1.0, 0.0, julia);
-    for (var i = 0u; i < picture.fractal.iterations; i++) {
-        if (r > picture.fractal.bailout) { break; }
-        let t = turned(z, r);
+    for (var i = 0u; i < fractal.iterations; i++) {
+        if (r > fractal.bailout) { break; }
+        let t = turned(fractal, z, r);
         // This dr over the next: infinite where a Julia orbit meets the origin.
         let shrink = 1.0 / max(t.stretch + added, 1e-9);
         let kept = t.stretch * shrink;
         let inverse_r = 1.0 / max(r, 1e-9);
         slope = (kept * shrink) * ((n - 1.0) * inverse_r * inverse_r * (z * jacobian) + slope);
-        jacobian = kept * (turned_jacobian(t, z.z, inverse_r) * jacobian);
+        jacobian = kept * (turned_jacobian(fractal, t, z.z, inverse_r) * jacobian);
         added *= shrink;
         jacobian[0].x += added;
         jacobian[1].y += added;
         jacobian[2].z += added;
-        z = triplex_power(t) + constant;
+        z = triplex_power(fractal, t) + constant;
         r = length(z);
     }
     if (r <= 1.0) { return vec3f(0.0); }
@@ -177,21 +179,21 @@ struct OrbitColors {
     traps: vec3f,
 }
 
-fn orbit_colors(point: vec3f) -> OrbitColors {
-    let constant = select(point, picture.fractal.julia_constant, picture.fractal.julia != 0u);
+fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
+    let constant = select(point, fractal.julia_constant, fractal.julia != 0u);
     var z = point;
     var r = length(z);
     var traps = vec3f(2.0);
     var count = 0u;
-    for (; count < picture.fractal.iterations; count++) {
-        if (r > picture.fractal.bailout) { break; }
-        z = orbit_step(z, r).power + constant;
+    for (; count < fractal.iterations; count++) {
+        if (r > fractal.bailout) { break; }
+        z = orbit_step(fractal, z, r).power + constant;
         r = length(z);
         traps = min(traps, vec3f(r, length(z.xy), abs(z.z)));
     }
     var smooth_iterations = f32(count);
-    if (r > picture.fractal.bailout) {
-        smooth_iterations -= log2(max(log2(r) / picture.fractal.log2_bailout, 1.0)) / log2(picture.fractal.power);
+    if (r > fractal.bailout) {
+        smooth_iterations -= log2(max(log2(r) / fractal.log2_bailout, 1.0)) / log2(fractal.power);
     }
     return OrbitColors(smooth_iterations, traps);
 }

@@ -24,6 +24,6 @@ fn camera_ray(pixel: vec2u) -> Ray {
 }
 
 // How close to the surface a ray must come, at this depth, to have hit it.
-fn hit_distance(depth: f32) -> f32 {
-    return max(picture.camera.hit_cone * depth, picture.fractal.finest_hit);
+fn hit_distance(camera: Camera, fractal: Fractal, depth: f32) -> f32 {
+    return max(camera.hit_cone * depth, fractal.finest_hit);
 }

@@ -14,24 +14,24 @@ fn is_sampled(offset: vec3f) -> bool {
 
 // The gradient, of any length, of the linear function that fits the samples best (least squares):
 // by symmetry the sum of each value times its offset. With three, differences to the point itself.
-fn sampled_gradient(point: vec3f, spacing: f32) -> vec3f {
+fn sampled_gradient(fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
     var gradient = vec3f(0.0);
     for (var k = 0u; k < 27u; k++) {
         let offset = vec3f(vec3u(k % 3u, k / 3u % 3u, k / 9u)) - 1.0;
         if (!is_sampled(offset)) { continue; }
         let weight = select(offset, vec3f(-1.0), all(offset == vec3f(0.0)));
-        gradient += weight * distance_estimate(point + spacing * offset);
+        gradient += weight * distance_estimate(fractal, point + spacing * offset);
     }
     return gradient;
 }
 
 // Toward the eye where there is no gradient, as inside, and where none is asked for.
-fn surface_normal(point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
+fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
     var gradient = vec3f(0.0);
     if (picture.normals == NORMALS_ANALYTIC) {
-        gradient = distance_gradient(point);
+        gradient = distance_gradient(fractal, point);
     } else if (picture.normals != NORMALS_NONE) {
-        gradient = sampled_gradient(point, spacing);
+        gradient = sampled_gradient(fractal, point, spacing);
     }
     // Its square may be past what an f32 holds.
     let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
@@ -48,5 +48,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     if (t == 0.0) { return; }
     let ray = camera_ray(pixel);
     let point = ray.origin + t * ray.direction;
-    surface[index].y = octahedral_pack(surface_normal(point, hit_distance(t), -ray.direction));
+    let fractal = picture.fractal;
+    let spacing = hit_distance(picture.camera, fractal, t);
+    surface[index].y = octahedral_pack(surface_normal(fractal, point, spacing, -ray.direction));
 }

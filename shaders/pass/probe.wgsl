@@ -17,10 +17,11 @@ struct Answer {
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
-    let colors = orbit_colors(point);
+    let fractal = picture.fractal;
+    let colors = orbit_colors(fractal, point);
     answers[id.x] = Answer(
-        distance_gradient(point),
-        distance_estimate(point),
+        distance_gradient(fractal, point),
+        distance_estimate(fractal, point),
         vec4f(colors.smooth_iterations, colors.traps.xy, 0.0),
     );
 }

@@ -10,7 +10,7 @@ const SHADOW_CONE = 0.004;
 // No step is shorter than this part of the distance that blocks.
 const LEAST_STEP = 0.25;
 
-fn light_reaches(point: vec3f, surface_distance: f32, light: Light) -> bool {
+fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, light: Light) -> bool {
     var direction = light.vector;
     var farthest = light.shadow_reach;
     if (light.kind == LIGHT_POINT) {
@@ -19,9 +19,9 @@ fn light_reaches(point: vec3f, surface_distance: f32, light: Light) -> bool {
         direction = to_light / max(farthest, 1e-30);
     }
     var s = min(farthest, bounding_interval(point, direction).y);
-    for (var i = 0u; i < picture.fractal.shadow_steps; i++) {
+    for (var i = 0u; i < fractal.shadow_steps; i++) {
         if (s <= surface_distance) { return true; }
-        let ahead = reach(point + s * direction);
+        let ahead = reach(fractal, point + s * direction);
         let blocks = max(SHADOW_CONE * s, 0.5 * surface_distance);
         if (ahead.distance < blocks) { return false; }
         s -= max(ahead.step, LEAST_STEP * blocks);
@@ -39,7 +39,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let t = bitcast<f32>(seen.x);
     if (t > 0.0) {
         let n = octahedral_unpack(seen.y);
-        let surface_distance = hit_distance(t);
+        let fractal = picture.fractal;
+        let surface_distance = hit_distance(picture.camera, fractal, t);
         // Lifted off the surface, so that the point's own neighbourhood does not shade it.
         let ray = camera_ray(pixel);
         let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
@@ -48,7 +49,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
             if (!has_light(slice.lights, light)) { continue; }
             let toward = select(light.vector, light.vector - point, light.kind == LIGHT_POINT);
             if (picture.normals != NORMALS_NONE && dot(n, toward) <= 0.0) { continue; }
-            if (light.casts_shadows == 0u || light_reaches(point, surface_distance, light)) {
+            if (light.casts_shadows == 0u || light_reaches(fractal, point, surface_distance, light)) {
                 bits[light.bit >> 5u] |= 1u << (light.bit & 31u);
             }
         }
