@@ -131,12 +131,12 @@ fn passed(fractal: &Fractal, count: usize) -> (usize, usize) {
 }
 
 #[test]
-fn safe_steps_pass_the_surface_on_under_one_ray_in_a_thousand() {
+fn safe_steps_miss_the_surface_under_once_in_a_thousand_rays_and_are_seldom_late() {
     for fractal in
         [bulb(3.0), bulb(4.0), bulb(6.0), bulb(8.0), bulb(16.0), julia(8.0, [0.35, -0.4, 0.55])]
     {
-        let (missed, late) = passed(&fractal, 2000);
-        assert!(missed < 2 && late < 4, "{fractal:?}: {missed} missed, {late} late of 2000");
+        let (missed, late) = passed(&fractal, 4000);
+        assert!(missed < 4 && late < 10, "{fractal:?}: {missed} missed, {late} late of 4000");
     }
 }
 

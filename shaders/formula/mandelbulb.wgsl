@@ -89,8 +89,13 @@ struct Reach {
     // sphere or at the origin, where ln r < 0 says "inside".
     distance: f32,
     // How far a ray may go from here: dr is a scalar that knows nothing of the stretch along
-    // parallels, so a step follows dg, which does, doubled, and never passes `distance`.
+    // parallels, so a step follows dg, which does, several times, and never passes `distance`.
     step: f32,
+}
+
+// How many times the estimate by dg a ray may step: `fractal::estimator::step_factor`.
+fn step_factor(fractal: Fractal) -> f32 {
+    return clamp(0.75 * fractal.power, 2.0, 6.0);
 }
 
 fn reach(fractal: Fractal, point: vec3f) -> Reach {
@@ -113,7 +118,8 @@ fn reach(fractal: Fractal, point: vec3f) -> Reach {
     if (r <= 1.0) { return Reach(0.0, 0.0); }
     let height = 0.5 * log(r) * r;
     let distance = height / max(dr, 1e-37);
-    return Reach(distance, min(min(2.0 * height / max(dg, 1e-37), distance), fractal.max_step));
+    let step = step_factor(fractal) * height / max(dg, 1e-37);
+    return Reach(distance, min(min(step, distance), fractal.max_step));
 }
 
 fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
