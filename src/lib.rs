@@ -12,8 +12,9 @@
 //!
 //! 1. The interface or the command line edits a [`scene::Scene`].
 //! 2. [`render::View`] compares what the kernels would read of it with what they read last
-//!    ([`render::uniforms::Inputs`]). The difference is one of four levels of staleness:
-//!    geometry, normals, light, tone.
+//!    ([`render::uniforms::Inputs`]). The difference is one of five levels of staleness:
+//!    geometry, normals, light, indirect light, tone. Of what lights the picture, only what moved
+//!    has its rays marched again: a light by itself, a colour or a material not at all.
 //! 3. [`render::schedule::Schedule`] says what to compute next, a piece at a time: a lattice of
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.

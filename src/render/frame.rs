@@ -27,7 +27,7 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
             }
             // Indirect light of centre samples waits until all of a level have their direct light.
             let gathers = recorder.inputs.gathers() && matches!(trace.points, Points::Sample(_));
-            if trace.from <= Stage::Shadow && !gathers {
+            if trace.from <= Stage::Shade && !gathers {
                 pass::shade::record(recorder, &trace, &grid);
             }
             if trace.from == Stage::Gather || gathers {
@@ -65,6 +65,8 @@ pub struct Dispatches {
     pub normal: u64,
     /// Shadow rays.
     pub shadow: u64,
+    /// Not dispatches: how many shadow rays those had, were every sample point lit from every side.
+    pub shadow_rays: u64,
     /// Shading.
     pub shade: u64,
     /// Shading with indirect light.
@@ -84,8 +86,19 @@ pub struct Dispatches {
 impl Dispatches {
     /// All of them.
     pub fn total(&self) -> u64 {
-        let Self { march, normal, shadow, shade, gather, fill, mean, histogram, bloom, tone } =
-            *self;
+        let Self {
+            march,
+            normal,
+            shadow,
+            shadow_rays: _,
+            shade,
+            gather,
+            fill,
+            mean,
+            histogram,
+            bloom,
+            tone,
+        } = *self;
         march + normal + shadow + shade + gather + fill + mean + histogram + bloom + tone
     }
 }

@@ -5,13 +5,17 @@
 //! sparse as the motion budget demands, is shown, and is then completed level by level; jittered
 //! samples follow until there are enough, and then there is no more work.
 
-use super::lattice::{COARSEST, WORKGROUP_THREADS};
+use super::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
 
+mod adaptation;
 mod cost;
+mod known;
 mod work;
 
+use adaptation::Adaptation;
 use cost::Cost;
-pub use work::{Points, Stage, Trace, Work};
+use known::Known;
+pub use work::{Job, Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
 pub const MOST_IN_FLIGHT: usize = 2;
@@ -37,13 +41,6 @@ const SHOW_SHARE: f64 = 0.2;
 /// A movement counts as over when nothing has changed for this long, seconds.
 const QUIET_SECS: f64 = 0.12;
 
-/// Time in which auto exposure goes 1 − 1/e of the way to its goal, seconds.
-const ADAPT_SECS: f64 = 0.15;
-
-/// After this long without a new goal it is there, seconds: what is left of a change by two
-/// stops no longer shows.
-const SETTLE_SECS: f64 = 0.9;
-
 /// Least time between two displays that only adapt, seconds.
 const ADAPT_INTERVAL_SECS: f64 = 0.03;
 
@@ -63,7 +60,8 @@ pub enum Stale {
     Tone,
     /// How indirect light is gathered: the centre samples' direct light stays.
     Around,
-    /// Lights, surface, colours: the centre samples' G-buffer stays.
+    /// Lights, surface, colours: the centre samples' G-buffer stays, but for the bits of lights
+    /// that moved. Those are told apart by [`Schedule::set_lights`].
     Light,
     /// How normals are found: the centre samples' depths stay.
     Normals,
@@ -93,9 +91,11 @@ pub struct Schedule {
     size_px: [u32; 2],
     budget_ms: f64,
     samples_wanted: u32,
-    /// Finest level whose every centre sample has been marched, has its normal, and is shaded.
-    marched: Option<u32>,
-    faced: Option<u32>,
+    /// What the centre samples' G-buffer holds.
+    known: Known,
+    /// The visibility bits of the lights that shine.
+    shining: u64,
+    /// Finest level whose every centre sample is shaded.
     shaded: Option<u32>,
     /// Whether there is indirect light, and the finest level that has it.
     gathers: bool,
@@ -112,9 +112,7 @@ pub struct Schedule {
     changed_at: f64,
     shown_at: f64,
     /// Exposure follows the film.
-    adapts: bool,
-    /// When it will have settled; none once it has.
-    settles_at: Option<f64>,
+    adaptation: Adaptation,
     in_flight: usize,
     slice_ms: f64,
     /// Slices so far.
@@ -130,8 +128,8 @@ impl Schedule {
             size_px,
             budget_ms: 16.0,
             samples_wanted: 1,
-            marched: None,
-            faced: None,
+            known: Known::default(),
+            shining: 0,
             shaded: None,
             gathers: false,
             gathered: None,
@@ -143,8 +141,7 @@ impl Schedule {
             moving: false,
             changed_at: 0.0,
             shown_at: f64::NEG_INFINITY,
-            adapts: false,
-            settles_at: None,
+            adaptation: Adaptation::default(),
             in_flight: 0,
             slice_ms: match pace {
                 Pace::Interactive => SLICE_MS,
@@ -169,15 +166,20 @@ impl Schedule {
     /// Says whether exposure follows the film. Someone who watches sees it move there over some
     /// tenths of a second; what was never shown, and a still, has it at once.
     pub fn set_adapting(&mut self, adapts: bool) {
-        self.adapts = adapts && self.pace == Pace::Interactive;
-        if !self.adapts {
-            self.settles_at = None;
-        }
+        self.adaptation.set_slow(adapts && self.pace == Pace::Interactive);
     }
 
     /// Says whether there is indirect light. Follow it with the change that it is.
     pub fn set_gathering(&mut self, gathers: bool) {
         self.gathers = gathers;
+    }
+
+    /// Says which lights shine, and which of all are not where their rays were marched to, both by
+    /// their visibility bits. Follow it with the change that it is: none where no light of either
+    /// kind shines or did.
+    pub fn set_lights(&mut self, shining: u64, moved: u64) {
+        self.shining = shining;
+        self.known.forget_lights(moved);
     }
 
     /// The finest level that is on the film.
@@ -195,7 +197,7 @@ impl Schedule {
         self.size_px = size_px;
         // Nothing of it has been shown: exposure does not come from elsewhere.
         self.shown_at = f64::NEG_INFINITY;
-        self.settles_at = None;
+        self.adaptation.stop();
         self.restart(Stale::Geometry);
     }
 
@@ -232,12 +234,7 @@ impl Schedule {
             }
             return;
         }
-        if stale == Stale::Geometry {
-            self.marched = None;
-        }
-        if stale >= Stale::Normals {
-            self.faced = None;
-        }
+        self.known.forget(stale);
         if stale >= Stale::Light {
             self.shaded = None;
         }
@@ -254,7 +251,7 @@ impl Schedule {
         match work {
             Work::Trace(trace) => {
                 let pixels = trace.workgroups * WORKGROUP_THREADS;
-                self.cost.traced(trace.from, pixels, busy_ms);
+                self.cost.traced(trace.job(), pixels, busy_ms);
             }
             Work::Show { .. } => self.cost.shown(busy_ms),
         }
@@ -313,32 +310,17 @@ impl Schedule {
     /// Whether exposure is on its way and another step of it is due.
     fn adapt_now(&self, now_secs: f64) -> bool {
         let interval_secs = ADAPT_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
-        self.settles_at.is_some()
+        self.adaptation.is_under_way()
             && self.filmed().is_some()
             && !self.opening
             && now_secs - self.shown_at >= interval_secs
     }
 
-    /// How far exposure goes toward its goal in a display at `now_secs`. The first picture of a
-    /// change and those that complete the lattice set a new goal; further samples hardly move it.
-    fn adaptation(&mut self, now_secs: f64) -> f32 {
-        let since_secs = now_secs - self.shown_at;
-        if !self.adapts || since_secs == f64::INFINITY {
-            self.settles_at = None;
-            return 1.0;
-        }
-        if self.show_due && self.samples_done <= 1 {
-            self.settles_at = Some(now_secs + SETTLE_SECS);
-        }
-        if self.settles_at.is_none_or(|settles_at| now_secs >= settles_at) {
-            self.settles_at = None;
-            return 1.0;
-        }
-        (1.0 - (-since_secs / ADAPT_SECS).exp()) as f32
-    }
-
     fn show(&mut self, now_secs: f64) -> Work {
-        let adapt = self.adaptation(now_secs);
+        // The first picture of a change and those that complete the lattice set exposure a new
+        // goal; further samples hardly move it.
+        let is_new_goal = self.show_due && self.samples_done <= 1;
+        let adapt = self.adaptation.step(now_secs, now_secs - self.shown_at, is_new_goal);
         self.show_due = false;
         self.opening = false;
         self.shown_at = now_secs;
@@ -367,9 +349,18 @@ impl Schedule {
     /// The finest lattice that the budget allows, and none finer than the G-buffer where only
     /// light is stale.
     fn opening_level(&self) -> u32 {
-        let from = self.first_stage(self.marched.unwrap_or(0));
-        let allowed = self.cost.level_within(self.budget_ms, from, self.gathers, self.size_px);
-        self.marched.map_or(allowed, |marched| allowed.max(marched))
+        let finest = self.known.marched().unwrap_or(0);
+        self.finest_within_budget(finest, |level| self.job(Points::Level(level)), self.gathers)
+    }
+
+    /// The finest level, none finer than `finest`, that the budget has room for. `gathers`: with
+    /// its indirect light.
+    fn finest_within_budget(&self, finest: u32, job: impl Fn(u32) -> Job, gathers: bool) -> u32 {
+        let fits = |level: &u32| {
+            let pixels = Grid::level(*level, self.size_px).threads();
+            self.cost.fits(self.budget_ms, pixels, job(*level), gathers)
+        };
+        (finest..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 
     /// Whether a level gets its indirect light, rather than wait for a finer one: where it is the
@@ -384,26 +375,22 @@ impl Schedule {
         if !self.opening || self.pace == Pace::Still {
             return shaded;
         }
-        let from = Stage::Gather;
-        self.cost.level_within(self.budget_ms, from, false, self.size_px).max(shaded)
+        self.finest_within_budget(shaded, |level| self.job(Points::Around(level)), false)
     }
 
-    /// Where centre samples that a level adds have to start.
-    fn first_stage(&self, level: u32) -> Stage {
-        let holds = |finest: Option<u32>| finest.is_some_and(|finest| level >= finest);
-        match (holds(self.marched), holds(self.faced)) {
-            (false, _) => Stage::March,
-            (true, false) => Stage::Normal,
-            (true, true) => Stage::Shadow,
-        }
+    /// What samples need: the stage they have to start with, and the lights they have to be
+    /// marched toward.
+    fn job(&self, points: Points) -> Job {
+        let (from, lights) = match points {
+            Points::Level(level) | Points::Added(level) => self.known.start(level, self.shining),
+            Points::Around(_) => (Stage::Gather, 0),
+            Points::Sample(_) => (Stage::March, self.shining),
+        };
+        Job { from, lights }
     }
 
     fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
-        let from = match points {
-            Points::Level(level) | Points::Added(level) => self.first_stage(level),
-            Points::Around(_) => Stage::Gather,
-            Points::Sample(_) => Stage::March,
-        };
+        let job = self.job(points);
         let total = points.grid(self.size_px).workgroups();
         // An opening goes out whole where the budget has room for it: it and its display are
         // then the two pieces in flight, and every displayed frame can have one.
@@ -413,7 +400,7 @@ impl Schedule {
             Points::Sample(_) => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
         };
-        let largest = self.cost.slice_workgroups(aim_ms, from).min(most);
+        let largest = self.cost.slice_workgroups(aim_ms, job).min(most);
         // Slices of two sizes tell the cost of a slice from that of its pixels.
         self.slices = self.slices.wrapping_add(1);
         let smaller = !opening && self.slices.is_multiple_of(2);
@@ -430,7 +417,8 @@ impl Schedule {
         } else {
             self.complete(points);
         }
-        Trace { points, from, first_workgroup, workgroups }
+        let Job { from, lights } = job;
+        Trace { points, from, lights, first_workgroup, workgroups }
     }
 
     fn complete(&mut self, points: Points) {
@@ -440,8 +428,7 @@ impl Schedule {
                 self.shaded = Some(level);
                 // What waits for indirect light is not on the film yet.
                 self.show_due = !self.gathers;
-                self.marched = Some(self.marched.map_or(level, |marched| marched.min(level)));
-                self.faced = Some(self.faced.map_or(level, |faced| faced.min(level)));
+                self.known.complete(level, self.shining);
             }
             Points::Around(level) => {
                 self.gathered = Some(level);
@@ -466,7 +453,7 @@ impl Schedule {
             idle: self.in_flight == 0
                 && !self.show_due
                 && self.under_way.is_none()
-                && self.settles_at.is_none()
+                && !self.adaptation.is_under_way()
                 && self.samples_done >= self.samples_wanted,
         }
     }

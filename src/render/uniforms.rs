@@ -10,7 +10,7 @@ mod shared;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use lights::{lights, shining};
+pub use lights::lights;
 pub use shared::*;
 
 use super::{Region, region::Eyes as RegionEyes, schedule::Stale};
@@ -250,9 +250,37 @@ impl Inputs {
         self
     }
 
-    /// The visibility bits of the lights that shine.
+    /// The same with the visibility bits that `old` has for the same lights.
+    pub fn with_bits_of(mut self, old: Option<&Self>) -> Self {
+        if let Some(old) = old {
+            let count = self.lights_in_use().len();
+            lights::keep_bits(&mut self.lights[..count], old.lights_in_use());
+        }
+        self
+    }
+
+    /// The visibility bits of the lights that shine: only those need any.
     pub fn shining(&self) -> u64 {
-        shining(&self.lights)
+        lights::shining(self.lights_in_use())
+    }
+
+    /// The visibility bits of the lights, shining or not, whose rays are others than `old` had for
+    /// these bits.
+    pub fn moved_since(&self, old: &Self) -> u64 {
+        lights::moved(self.lights_in_use(), old.lights_in_use())
+    }
+
+    fn lights_in_use(&self) -> &[Light] {
+        let count = self.picture.surface.light_count as usize;
+        &self.lights[..count.min(MAX_LIGHTS)]
+    }
+
+    /// Whether points are lit as with `old`, of which `self` has the [bits](Self::with_bits_of).
+    fn is_lit_as(&self, old: &Self) -> bool {
+        fn shining(inputs: &Inputs) -> impl Iterator<Item = &Light> {
+            inputs.lights_in_use().iter().filter(|light| light.color != [0.0; 3])
+        }
+        shining(self).eq(shining(old))
     }
 
     /// Whether there is indirect light.
@@ -260,7 +288,8 @@ impl Inputs {
         self.picture.indirect.kind != 0
     }
 
-    /// What must be computed again after `old`; none where no pass would see a difference.
+    /// What must be computed again after `old`, of which this has the [bits](Self::with_bits_of);
+    /// none where no pass would see a difference.
     pub fn stale_since(&self, old: &Self) -> Option<Stale> {
         let (new_picture, old_picture) = (&self.picture, &old.picture);
         let same_geometry = new_picture.camera == old_picture.camera
@@ -269,10 +298,11 @@ impl Inputs {
             && new_picture.picture_px == old_picture.picture_px
             && new_picture.origin_px == old_picture.origin_px
             && new_picture.size_px == old_picture.size_px;
-        let same_light = new_picture.surface == old_picture.surface
+        let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.picture.surface };
+        let same_light = surface(self) == surface(old)
             && new_picture.background == old_picture.background
             && self.panorama == old.panorama
-            && self.lights == old.lights
+            && self.is_lit_as(old)
             && self.gradient == old.gradient
             && self.gathers() == old.gathers();
         if !same_geometry {

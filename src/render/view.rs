@@ -233,9 +233,12 @@ impl View {
         Inputs::new(scene, self.region)
             .with_panorama(scene, self.panorama.as_deref())
             .with_neighbours(self.lent_neighbours.as_ref().map(|lent| lent.eye_px))
+            .with_bits_of(self.inputs.as_ref())
     }
 
     fn upload(&mut self, inputs: Inputs) {
+        let moved = self.inputs.as_ref().map_or(u64::MAX, |old| inputs.moved_since(old));
+        self.schedule.set_lights(inputs.shining(), moved);
         self.targets.upload(&self.kernels.gpu.queue, &inputs);
         self.fit_glow(Need::of(&inputs.picture));
         self.targets.fit_direct(&self.kernels, inputs.gathers());

@@ -49,7 +49,8 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let mut dispatches = Dispatches::default();
     let trace = |points: Points, from| {
         let workgroups = points.grid(size).workgroups();
-        Work::Trace(Trace { points, from, first_workgroup: 0, workgroups })
+        let lights = inputs.shining();
+        Work::Trace(Trace { points, from, lights, first_workgroup: 0, workgroups })
     };
     let gather = inputs.gathers().then(|| trace(Points::Around(level), Stage::Gather));
     let show = Work::Show { level, fill: level > 0, adapt: 1.0 };

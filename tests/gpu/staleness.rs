@@ -2,7 +2,10 @@
 
 use mandelight::{
     render::{Activity, Pace, View, frame::Dispatches},
-    scene::{BloomOrder, Normals, Scene, ToneCurve, ToneMean},
+    scene::{
+        BloomOrder, EnvironmentLight, IndirectKind, LightFrame, Normals, PointLight, Scene,
+        ToneCurve, ToneMean,
+    },
 };
 
 use crate::harness::{difference, finished, kernels, pixels, sampled, settle};
@@ -32,6 +35,7 @@ fn cost_from(
         march: after.march - before.march,
         normal: after.normal - before.normal,
         shadow: after.shadow - before.shadow,
+        shadow_rays: after.shadow_rays - before.shadow_rays,
         shade: after.shade - before.shade,
         gather: after.gather - before.gather,
         fill: after.fill - before.fill,
@@ -50,19 +54,109 @@ fn a_tone_edit_touches_only_the_film() {
 }
 
 #[test]
-fn a_light_edit_marches_no_camera_ray() {
-    let edits: [fn(&mut Scene); 5] = [
+fn what_moves_no_light_marches_nothing() {
+    let edits: [fn(&mut Scene); 10] = [
         |scene| scene.lights.environment[0].intensity = 1.0,
-        |scene| scene.lights.environment[0].direction = [0.0, -1.0, 0.0],
+        |scene| scene.lights.environment[0].color = [0.1, 0.2, 0.3],
+        |scene| scene.lights.environment[1].intensity = 0.0,
+        |scene| scene.lights.environment[1].muted = true,
+        |scene| scene.lights.environment[2].solo = true,
+        |scene| scene.lights.environment.reverse(),
+        |scene| {
+            scene.lights.environment.remove(0);
+        },
         |scene| scene.surface.diffuse = 0.5,
-        |scene| scene.quality.shadows = false,
+        |scene| scene.surface.coloring.repeats = 3.0,
         |scene| scene.background.top = [0.5; 3],
+    ];
+    for indirect in [IndirectKind::Off, IndirectKind::Uniform] {
+        for edit in edits {
+            let scene = sampled(Scene::default(), 1);
+            let cost = cost_from(scene, |scene| scene.indirect.kind = indirect, edit);
+            let Dispatches { shade, gather, fill, tone, .. } = cost;
+            assert_eq!(cost, Dispatches { shade, gather, fill, tone, ..Dispatches::default() });
+            assert!(shade > 0);
+        }
+    }
+}
+
+/// What the shadow rays of one light over the picture count as. Edits at rest open on every pixel
+/// or a lattice, whose own levels add up to as much but for what reaches beyond the region.
+fn is_one_light(rays: u64) -> bool {
+    let pixels = u64::from(SIZE[0] * SIZE[1]);
+    (pixels..pixels * 3 / 2).contains(&rays)
+}
+
+#[test]
+fn a_light_that_moves_is_marched_alone() {
+    let edits: [fn(&mut Scene); 7] = [
+        |scene| scene.lights.environment[0].direction = [0.0, -1.0, 0.0],
+        |scene| scene.lights.environment[1].shadow_reach = Some(0.3),
+        |scene| scene.lights.environment[1].casts_shadows = false,
+        |scene| scene.lights.environment[2].frame = LightFrame::Scene,
+        |scene| scene.lights.environment.insert(0, EnvironmentLight::default()),
+        |scene| scene.lights.point.push(PointLight::default()),
+        |scene| {
+            scene.lights.environment.remove(1);
+            scene.lights.point.push(PointLight::default());
+        },
     ];
     for edit in edits {
         let cost = cost_of(1, edit);
         assert_eq!((cost.march, cost.normal), (0, 0));
-        assert!(cost.shade > 0);
+        assert!(is_one_light(cost.shadow_rays), "{cost:?}");
     }
+    let cost = cost_of(1, |scene| scene.quality.shadows = false);
+    assert_eq!((cost.march, cost.normal), (0, 0));
+    assert!(cost.shadow > 0, "{cost:?}");
+}
+
+/// No ray is marched toward a light without light, whatever else is; it gets its rays once it
+/// shines, and keeps them.
+#[test]
+fn lights_without_light_wait_for_their_rays() {
+    let dark: [fn(&mut Scene); 3] = [
+        |scene| scene.lights.environment[1].muted = true,
+        |scene| scene.lights.environment[1].intensity = 0.0,
+        |scene| scene.lights.environment[1].color = [0.0; 3],
+    ];
+    let first = sampled(Scene::default(), 1);
+    let three = finished(&first, SIZE, Pace::Interactive).dispatches().shadow_rays;
+    for darken in dark {
+        let mut scene = first.clone();
+        darken(&mut scene);
+        let mut view = finished(&scene, SIZE, Pace::Interactive);
+        let two = view.dispatches().shadow_rays;
+        assert!(is_one_light(two / 2) && is_one_light(three / 3), "{two} {three}");
+        let mut next = |scene: &Scene| {
+            let before = view.dispatches();
+            view.set_scene(scene, false);
+            settle(&mut view);
+            assert_eq!(view.dispatches().march, before.march);
+            view.dispatches().shadow_rays - before.shadow_rays
+        };
+        // Moved in the dark.
+        scene.lights.environment[1].direction = [0.0, 0.0, 1.0];
+        assert_eq!(next(&scene), 0);
+        let mut bright = scene.clone();
+        bright.lights.environment[1] =
+            EnvironmentLight { direction: [0.0, 0.0, 1.0], ..first.lights.environment[1].clone() };
+        assert!(is_one_light(next(&bright)));
+        assert_eq!([next(&scene), next(&bright)], [0; 2]);
+    }
+}
+
+#[test]
+fn a_light_that_moves_in_the_dark_costs_nothing() {
+    let cost = cost_from(
+        sampled(Scene::default(), 2),
+        |scene| scene.lights.environment[0].muted = true,
+        |scene| {
+            scene.lights.environment[0].direction = [0.0, 0.0, 1.0];
+            scene.lights.environment[0].casts_shadows = false;
+        },
+    );
+    assert_eq!(cost, Dispatches::default());
 }
 
 #[test]

@@ -82,7 +82,13 @@ fn gathered(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let workgroups = points.grid(SIZE).workgroups();
     record(
         &mut recorder,
-        Work::Trace(Trace { points, from: Stage::Gather, first_workgroup: 0, workgroups }),
+        Work::Trace(Trace {
+            points,
+            from: Stage::Gather,
+            lights: 0,
+            first_workgroup: 0,
+            workgroups,
+        }),
     );
     gpu.queue.submit([recorder.finish()]);
     assert_eq!((dispatches.gather, dispatches.total()), (1, 1));

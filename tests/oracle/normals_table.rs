@@ -83,7 +83,7 @@ fn costs(kernels: &Kernels, scene: &Scene) -> Vec<f64> {
     let points = Points::Level(0);
     let grid = points.grid(PICTURE_PX);
     let workgroups = grid.workgroups();
-    let trace = Trace { points, from: Stage::March, first_workgroup: 0, workgroups };
+    let trace = Trace { points, from: Stage::March, lights: 0, first_workgroup: 0, workgroups };
     kernels.specialise(8);
     let targets = Targets::new(kernels, Region::whole(PICTURE_PX));
     let marchers = kernels.marchers(8);

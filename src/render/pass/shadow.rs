@@ -2,7 +2,12 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace, uniforms},
+    render::{
+        frame::Recorder,
+        lattice::{Grid, WORKGROUP_THREADS},
+        schedule::Trace,
+        uniforms,
+    },
     shader_file,
 };
 
@@ -26,15 +31,17 @@ pub const MODULE: Module = Module {
     ],
 };
 
-/// Marches toward every light that shines, as many to a dispatch as its loops allow.
+/// Marches toward the lights of `trace`, as many to a dispatch as its loops allow.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.marchers.shadow.clone();
     let at_once = uniforms::lights_per_dispatch(recorder.inputs.picture.fractal.iterations);
-    for lights in portions(recorder.inputs.shining(), at_once) {
+    for lights in portions(trace.lights, at_once) {
         let mut slice = recorder.slice(trace, grid);
         slice.lights = [lights as u32, (lights >> 32) as u32];
         recorder.dispatch(&pipeline, slice, trace.workgroups);
         recorder.dispatches.shadow += 1;
+        recorder.dispatches.shadow_rays +=
+            u64::from(trace.workgroups * WORKGROUP_THREADS) * u64::from(lights.count_ones());
     }
 }
 

@@ -1,18 +1,31 @@
 //! What work has cost so far, and how much of it fits a time.
 //!
-//! A piece of work takes a fixed time, whatever its size, and a time for each pixel. The fixed
+//! A piece of work takes a fixed time, whatever its size, and a time for each ray. The fixed
 //! part is small natively; in a browser the interface's own drawing and the way back of the news
 //! can make it many milliseconds, and pieces that shrank for its sake would only add to it. A
 //! straight line through recent measurements tells the two apart.
+//!
+//! Rays are what work is counted in, for the shadow rays of a few lights or many are most of it:
+//! what has been learnt with some lights holds well enough with others.
 
-use super::Stage;
-use crate::render::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
+use super::{Job, Stage};
+use crate::render::lattice::WORKGROUP_THREADS;
 
-/// Pixels of the very first slice: small enough for a device 200 times slower than a desktop's.
-const FIRST_PIXELS: f64 = 1024.0;
+/// Rays of the very first slice: small enough for a device 200 times slower than a desktop's.
+const FIRST_RAYS: f64 = 4096.0;
 
-/// Milliseconds a pixel that are assumed before anything is measured.
-const ASSUMED_MS: f64 = 0.004;
+/// Milliseconds a ray that are assumed before anything is measured.
+const ASSUMED_MS: f64 = 0.001;
+
+/// Rays that one pixel of a job counts as. Where nothing is marched it counts as one.
+fn rays_of_pixel(job: Job) -> f64 {
+    let lights = f64::from(job.lights.count_ones());
+    match job.from {
+        Stage::March | Stage::Normal => 1.0 + lights,
+        Stage::Shadow => lights.max(1.0),
+        Stage::Shade | Stage::Gather => 1.0,
+    }
+}
 
 /// What a measurement weighs against the next one.
 const MEMORY: f64 = 0.85;
@@ -28,33 +41,33 @@ const FEWEST_WORKGROUPS: f64 = 2.0;
 /// Most of the mean time that may count as fixed: the rest keeps slices from growing at once.
 const MOST_FIXED: f64 = 0.95;
 
-/// Weighted sums over measurements of pixels and milliseconds.
+/// Weighted sums over measurements of rays and milliseconds.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     weight: f64,
-    pixels: f64,
+    rays: f64,
     ms: f64,
-    pixels_squared: f64,
-    pixels_ms: f64,
+    rays_squared: f64,
+    rays_ms: f64,
 }
 
 impl Sums {
-    fn add(&mut self, memory: f64, pixels: f64, ms: f64) {
+    fn add(&mut self, memory: f64, rays: f64, ms: f64) {
         *self = Self {
             weight: self.weight * memory + 1.0,
-            pixels: self.pixels * memory + pixels,
+            rays: self.rays * memory + rays,
             ms: self.ms * memory + ms,
-            pixels_squared: self.pixels_squared * memory + pixels * pixels,
-            pixels_ms: self.pixels_ms * memory + pixels * ms,
+            rays_squared: self.rays_squared * memory + rays * rays,
+            rays_ms: self.rays_ms * memory + rays * ms,
         };
     }
 
     /// The fixed part of the line of least squares; none where all slices were of one size.
     fn fixed_ms(&self) -> Option<f64> {
-        let (pixels, ms) = (self.pixels / self.weight, self.ms / self.weight);
-        let variance = self.pixels_squared / self.weight - pixels * pixels;
-        let covariance = self.pixels_ms / self.weight - pixels * ms;
-        (variance > 0.01 * pixels * pixels).then(|| ms - covariance.max(0.0) / variance * pixels)
+        let (rays, ms) = (self.rays / self.weight, self.ms / self.weight);
+        let variance = self.rays_squared / self.weight - rays * rays;
+        let covariance = self.rays_ms / self.weight - rays * ms;
+        (variance > 0.01 * rays * rays).then(|| ms - covariance.max(0.0) / variance * rays)
     }
 }
 
@@ -62,32 +75,32 @@ impl Sums {
 #[derive(Clone, Copy, Debug)]
 struct Rate {
     fixed_ms: f64,
-    pixel_ms: f64,
+    ray_ms: f64,
     sums: Sums,
-    /// Pixels of the largest slice so far that was measured.
-    largest_px: f64,
+    /// Rays of the largest slice so far that was measured.
+    largest: f64,
 }
 
 impl Rate {
     const UNKNOWN: Self = Self {
         fixed_ms: 0.0,
-        pixel_ms: ASSUMED_MS,
-        sums: Sums { weight: 0.0, pixels: 0.0, ms: 0.0, pixels_squared: 0.0, pixels_ms: 0.0 },
-        largest_px: FIRST_PIXELS / 2.0,
+        ray_ms: ASSUMED_MS,
+        sums: Sums { weight: 0.0, rays: 0.0, ms: 0.0, rays_squared: 0.0, rays_ms: 0.0 },
+        largest: FIRST_RAYS / 2.0,
     };
 
     fn is_measured(&self) -> bool {
         self.sums.weight > 0.0
     }
 
-    fn learn(&mut self, pixels: f64, ms: f64) {
-        let is_surprise = ms > SURPRISE * (self.fixed_ms + self.pixel_ms * pixels);
-        self.sums.add(if is_surprise { MEMORY_AFTER_SURPRISE } else { MEMORY }, pixels, ms);
+    fn learn(&mut self, rays: f64, ms: f64) {
+        let is_surprise = ms > SURPRISE * (self.fixed_ms + self.ray_ms * rays);
+        self.sums.add(if is_surprise { MEMORY_AFTER_SURPRISE } else { MEMORY }, rays, ms);
         let mean_ms = self.sums.ms / self.sums.weight;
         let fixed_ms = self.sums.fixed_ms().unwrap_or(self.fixed_ms);
         self.fixed_ms = fixed_ms.clamp(0.0, MOST_FIXED * mean_ms);
-        self.pixel_ms = (mean_ms - self.fixed_ms) / (self.sums.pixels / self.sums.weight);
-        self.largest_px = self.largest_px.max(pixels);
+        self.ray_ms = (mean_ms - self.fixed_ms) / (self.sums.rays / self.sums.weight);
+        self.largest = self.largest.max(rays);
     }
 }
 
@@ -95,22 +108,23 @@ impl Rate {
 #[derive(Clone, Debug)]
 pub struct Cost {
     /// Of traces that start with each [`Stage`].
-    rates: [Rate; 4],
+    rates: [Rate; 5],
     show_ms: f64,
 }
 
 impl Default for Cost {
     /// No experience yet.
     fn default() -> Self {
-        Self { rates: [Rate::UNKNOWN; 4], show_ms: 0.0 }
+        Self { rates: [Rate::UNKNOWN; 5], show_ms: 0.0 }
     }
 }
 
 impl Cost {
-    /// A slice of so many pixels that started with `from` took so long.
-    pub fn traced(&mut self, from: Stage, pixels: u32, busy_ms: f64) {
+    /// A slice of so many pixels took so long.
+    pub fn traced(&mut self, job: Job, pixels: u32, busy_ms: f64) {
         if pixels > 0 {
-            self.rates[from as usize].learn(f64::from(pixels), busy_ms.max(1e-3));
+            let rays = f64::from(pixels) * rays_of_pixel(job);
+            self.rates[job.from as usize].learn(rays, busy_ms.max(1e-3));
         }
     }
 
@@ -126,11 +140,14 @@ impl Cost {
 
     fn rate(&self, from: Stage) -> Rate {
         let own = self.rates[from as usize];
-        // A later start never costs more than an earlier one.
-        let dearer = self.rates[..from as usize].iter().rev().find(|rate| rate.is_measured());
+        // A later start never costs more than an earlier one, and shading next to nothing.
+        let earlier = &self.rates[..from.min(Stage::Shade) as usize];
+        let dearer = earlier.iter().rev().find(|rate| rate.is_measured());
         match dearer {
             Some(dearer) if !own.is_measured() => {
-                Rate { fixed_ms: dearer.fixed_ms, pixel_ms: dearer.pixel_ms, ..own }
+                // Gathering is no part of the others: what is too much of it has to be found out.
+                let largest = if from == Stage::Gather { own.largest } else { dearer.largest };
+                Rate { fixed_ms: dearer.fixed_ms, ray_ms: dearer.ray_ms, largest, ..own }
             }
             _ => own,
         }
@@ -139,32 +156,27 @@ impl Cost {
     /// Workgroups of a slice whose pixels are to take `aim_ms`, or as long as the fixed part does
     /// where that is longer: never more than twice the largest slice that has been seen to end
     /// well, and two at least.
-    pub fn slice_workgroups(&self, aim_ms: f64, from: Stage) -> u32 {
-        let rate = self.rate(from);
-        let pixels = (aim_ms.max(rate.fixed_ms) / rate.pixel_ms).min(2.0 * rate.largest_px);
-        (pixels / f64::from(WORKGROUP_THREADS)).clamp(FEWEST_WORKGROUPS, 1e9) as u32
+    pub fn slice_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
+        let rate = self.rate(job.from);
+        let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(2.0 * rate.largest);
+        let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel(job);
+        (rays / workgroup).clamp(FEWEST_WORKGROUPS, 1e9) as u32
     }
 
-    /// The finest lattice level of a region that fits `budget_ms` together with its display.
-    /// `gathers`: its indirect light too.
-    pub fn level_within(
-        &self,
-        budget_ms: f64,
-        from: Stage,
-        gathers: bool,
-        size_px: [u32; 2],
-    ) -> u32 {
-        let mut rate = self.rate(from);
+    /// Whether so many pixels fit `budget_ms` together with their display. `gathers`: and with
+    /// their indirect light.
+    pub fn fits(&self, budget_ms: f64, pixels: u32, job: Job, gathers: bool) -> bool {
+        let rate = self.rate(job.from);
+        let mut fixed_ms = rate.fixed_ms;
+        let mut pixel_ms = rate.ray_ms * rays_of_pixel(job);
         if gathers {
             let gather = self.rate(Stage::Gather);
-            rate.fixed_ms += gather.fixed_ms;
-            rate.pixel_ms += gather.pixel_ms;
+            fixed_ms += gather.fixed_ms;
+            pixel_ms += gather.ray_ms;
         }
         // At least a quarter of the budget goes into the lattice's pixels, however slow the
         // display and the way to it.
-        let left_ms = (budget_ms - self.show_ms - rate.fixed_ms).max(0.25 * budget_ms);
-        let fits =
-            |level| f64::from(Grid::level(level, size_px).threads()) * rate.pixel_ms <= left_ms;
-        (0..COARSEST).find(|&level| fits(level)).unwrap_or(COARSEST)
+        let left_ms = (budget_ms - self.show_ms - fixed_ms).max(0.25 * budget_ms);
+        f64::from(pixels) * pixel_ms <= left_ms
     }
 }

@@ -19,6 +19,27 @@ struct Device {
     longest_ms: f64,
 }
 
+/// What a pixel takes of the time that one takes from the start with three lights. Shadow rays are
+/// most of it, shading is next to nothing.
+fn share_of_frame(from: Stage, lights: f64) -> f64 {
+    let before = match from {
+        Stage::March => 0.33,
+        Stage::Normal => 0.1,
+        Stage::Shadow | Stage::Shade => 0.0,
+        Stage::Gather => return 0.3,
+    };
+    before + 0.22 * lights + 0.01
+}
+
+/// The bits of three lights.
+const LIGHTS: u64 = 0b111;
+
+fn schedule_of_lights(pace: Pace, size_px: [u32; 2]) -> Schedule {
+    let mut schedule = Schedule::new(pace, size_px);
+    schedule.set_lights(LIGHTS, LIGHTS);
+    schedule
+}
+
 impl Device {
     fn new(slowness: f64, spike_ms: f64) -> Self {
         Self::with_overhead(slowness, spike_ms, 0.05)
@@ -54,7 +75,8 @@ impl Device {
         let pixels = match work {
             Work::Trace(trace) => {
                 let whole = f64::from(trace.workgroups * WORKGROUP_THREADS);
-                if trace.from == Stage::March { whole } else { 0.6 * whole }
+                let lights = f64::from(trace.lights.count_ones());
+                whole * share_of_frame(trace.from, lights)
             }
             Work::Show { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
         };
@@ -109,7 +131,7 @@ fn every_device_finishes_and_then_rests() {
     for slowness in [0.05, 1.0, 20.0, 200.0] {
         for spike_ms in [0.0, 80.0] {
             let mut device = Device::new(slowness, spike_ms);
-            let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+            let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
             schedule.aim(16.0, 4);
             let mut now = 0.0;
             let frames = settle(&mut schedule, &mut device, &mut now);
@@ -127,7 +149,7 @@ fn every_device_finishes_and_then_rests() {
 fn slices_stay_short() {
     for slowness in [0.05, 1.0, 20.0, 200.0] {
         let mut device = Device::new(slowness, 0.0);
-        let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+        let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
         schedule.aim(16.0, 4);
         settle(&mut schedule, &mut device, &mut 0.0);
         // The display of a whole picture cannot be cut; it is small on anything but the slowest.
@@ -140,7 +162,7 @@ fn slices_stay_short() {
 /// Pictures shown while everything changes in each of 600 displayed frames.
 fn pictures_of_a_movement(slowness: f64, spike_ms: f64) -> usize {
     let mut device = Device::new(slowness, spike_ms);
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 1);
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
@@ -177,7 +199,7 @@ fn a_long_way_back_does_not_stall_refinement() {
     for slowness in [1.0, 20.0] {
         let overhead_ms = 60.0;
         let mut device = Device::with_overhead(slowness, 0.0, overhead_ms);
-        let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+        let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
         schedule.aim(16.0, 4);
         let mut now = 0.0;
         settle(&mut schedule, &mut device, &mut now);
@@ -195,7 +217,7 @@ fn an_unsteady_way_back_does_not_stall_refinement() {
     for seed in 0..200 {
         let mut device = Device::with_overhead(1.0, 0.0, 55.0);
         device.noise = Some(seed);
-        let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+        let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
         schedule.aim(16.0, 1);
         let mut now = 0.0;
         settle(&mut schedule, &mut device, &mut now);
@@ -207,7 +229,7 @@ fn an_unsteady_way_back_does_not_stall_refinement() {
 #[test]
 fn the_complete_lattice_is_shown_before_more_samples_come() {
     let mut device = Device::with_overhead(20.0, 0.0, 60.0);
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 4);
     let mut now = 0.0;
     run(&mut schedule, &mut device, &mut now, 400_000, |s, now, _| {
@@ -217,60 +239,116 @@ fn the_complete_lattice_is_shown_before_more_samples_come() {
     });
 }
 
-/// The stages that the traces of an edit at rest start with.
-fn stages_of(stale: Stale) -> Vec<Stage> {
+/// Runs to rest and returns all traces and shows on the way.
+fn works_until_rest(schedule: &mut Schedule, device: &mut Device, now: &mut f64) -> Vec<Work> {
+    let mut works = Vec::new();
+    while !schedule.status(*now).idle {
+        while let Some(work) = schedule.next(*now) {
+            works.push(work);
+            device.submit(work, *now);
+        }
+        *now += FRAME_SECS;
+        device.collect(schedule, *now);
+    }
+    works
+}
+
+/// What the traces of an edit at rest do, which makes some lights shine and moves some.
+fn jobs_of(stale: Stale, shining: u64, moved: u64) -> Vec<Job> {
     let mut device = Device::new(1.0, 0.0);
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 1);
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
+    schedule.set_lights(shining, moved);
     schedule.change(stale, false, now);
-    let mut stages = Vec::new();
-    while !schedule.status(now).idle {
-        while let Some(work) = schedule.next(now) {
-            if let Work::Trace(trace) = work {
-                stages.push(trace.from);
-            }
-            device.submit(work, now);
-        }
-        now += FRAME_SECS;
-        device.collect(&mut schedule, now);
-    }
-    stages
+    works_until_rest(&mut schedule, &mut device, &mut now)
+        .into_iter()
+        .filter_map(|work| match work {
+            Work::Trace(trace) => Some(trace.job()),
+            Work::Show { .. } => None,
+        })
+        .collect()
 }
 
 #[test]
 fn an_edit_restarts_from_its_own_stage() {
-    for (stale, stage) in [
-        (Stale::Light, Stage::Shadow),
-        (Stale::Normals, Stage::Normal),
-        (Stale::Geometry, Stage::March),
+    for (stale, shining, moved, from, lights) in [
+        (Stale::Light, LIGHTS, 0, Stage::Shade, 0),
+        (Stale::Light, LIGHTS, 0b010, Stage::Shadow, 0b010),
+        (Stale::Light, 0b101, 0b010, Stage::Shade, 0),
+        (Stale::Light, 0b1111, 0b1000, Stage::Shadow, 0b1000),
+        (Stale::Light, 0b1011, 0b1001, Stage::Shadow, 0b1001),
+        (Stale::Normals, LIGHTS, 0, Stage::Normal, LIGHTS),
+        (Stale::Geometry, 0b011, 0, Stage::March, 0b011),
     ] {
-        let stages = stages_of(stale);
-        assert!(!stages.is_empty() && stages.iter().all(|&from| from == stage), "{stages:?}");
+        let jobs = jobs_of(stale, shining, moved);
+        let is_right = |job: &Job| *job == Job { from, lights };
+        assert!(!jobs.is_empty() && jobs.iter().all(is_right), "{stale:?} {moved}: {jobs:?}");
     }
 }
 
-/// A light edit in the middle of finding new normals leaves none of the old ones.
+/// An edit in the middle of another leaves nothing of what that one found untrue.
 #[test]
 fn what_a_restart_interrupts_is_not_forgotten() {
     let mut device = Device::new(20.0, 0.0);
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 1);
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
-    schedule.change(Stale::Normals, false, now);
-    assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { from: Stage::Normal, .. }))));
-    let half_way = schedule.clone();
+    schedule.set_lights(LIGHTS, 0b001);
     schedule.change(Stale::Light, false, now);
-    assert_eq!(schedule.first_stage(0), half_way.first_stage(0));
-    assert_eq!(schedule.first_stage(0), Stage::Normal);
+    assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { lights: 0b001, .. }))));
+    schedule.set_lights(LIGHTS, 0b100);
+    schedule.change(Stale::Light, false, now);
+    // What opens the second edit may be known of the first light already.
+    assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { from: Stage::Shadow, .. }))));
+    let job = Job { from: Stage::Shadow, lights: 0b101 };
+    assert_eq!(schedule.job(Points::Level(0)), job);
+    schedule.change(Stale::Normals, false, now);
+    let half_way = schedule.clone();
+    schedule.set_lights(LIGHTS, 0);
+    schedule.change(Stale::Light, false, now);
+    let job = Job { from: Stage::Normal, lights: LIGHTS };
+    assert_eq!(schedule.job(Points::Level(0)), job);
+    assert_eq!(half_way.job(Points::Level(0)), job);
+}
+
+/// While one of three lights is dragged, pictures are finer than while the camera moves, and while
+/// a colour is, finer still: every pixel where shading them all fits the budget.
+#[test]
+fn what_costs_less_is_seen_finer() {
+    let shown_while = |stale: Stale, moved: u64| {
+        let mut device = Device::new(20.0, 0.0);
+        let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+        schedule.aim(16.0, 1);
+        let mut now = 0.0;
+        settle(&mut schedule, &mut device, &mut now);
+        let mut levels = Vec::new();
+        run(&mut schedule, &mut device, &mut now, 120, |s, now, _| {
+            if s.accepts_changes() {
+                levels.push(s.status(now).shown_level);
+                s.set_lights(LIGHTS, moved);
+                s.change(stale, true, now);
+            }
+            false
+        });
+        levels[levels.len() / 2..].to_vec()
+    };
+    let camera = shown_while(Stale::Geometry, 0);
+    let light = shown_while(Stale::Light, 0b010);
+    let color = shown_while(Stale::Light, 0);
+    let most = |levels: &[u32]| levels.iter().copied().max().unwrap_or(0);
+    let least = |levels: &[u32]| levels.iter().copied().min().unwrap_or(0);
+    assert!(most(&light) < least(&camera), "{light:?} {camera:?}");
+    assert!(most(&color) < least(&light), "{color:?} {light:?}");
+    assert_eq!(most(&color), 0);
 }
 
 #[test]
 fn tone_edits_only_show() {
     let mut device = Device::new(1.0, 0.0);
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 3);
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
@@ -298,7 +376,7 @@ fn adaptations(schedule: &mut Schedule, now: &mut f64) -> Vec<(f64, f32)> {
 
 #[test]
 fn exposure_settles_and_the_view_rests() {
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 3);
     schedule.set_adapting(true);
     let mut now = 0.0;
@@ -332,7 +410,7 @@ fn exposure_settles_and_the_view_rests() {
 
 #[test]
 fn tone_edits_and_stills_have_their_exposure_at_once() {
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 2);
     schedule.set_adapting(true);
     let mut now = 0.0;
@@ -341,7 +419,7 @@ fn tone_edits_and_stills_have_their_exposure_at_once() {
     let shows = adaptations(&mut schedule, &mut now);
     assert_eq!(shows.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
 
-    let mut still = Schedule::new(Pace::Still, SIZE);
+    let mut still = schedule_of_lights(Pace::Still, SIZE);
     still.aim(16.0, 2);
     still.set_adapting(true);
     let shows = adaptations(&mut still, &mut now);
@@ -351,7 +429,7 @@ fn tone_edits_and_stills_have_their_exposure_at_once() {
 #[test]
 fn more_samples_go_on_and_fewer_start_again() {
     let mut device = Device::new(1.0, 0.0);
-    let mut schedule = Schedule::new(Pace::Interactive, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 2);
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
@@ -368,7 +446,7 @@ fn more_samples_go_on_and_fewer_start_again() {
 #[test]
 fn a_still_goes_straight_to_every_pixel_and_shows_once() {
     let mut device = Device::new(1.0, 0.0);
-    let mut schedule = Schedule::new(Pace::Still, SIZE);
+    let mut schedule = schedule_of_lights(Pace::Still, SIZE);
     schedule.aim(16.0, 3);
     let mut now = 0.0;
     let mut shows = 0;
@@ -394,7 +472,7 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
 #[test]
 fn a_region_of_one_pixel_works() {
     let mut device = Device::new(1.0, 0.0);
-    let mut schedule = Schedule::new(Pace::Interactive, [1, 1]);
+    let mut schedule = schedule_of_lights(Pace::Interactive, [1, 1]);
     schedule.aim(16.0, 2);
     let mut now = 0.0;
     assert!(settle(&mut schedule, &mut device, &mut now) < 1000);

@@ -34,10 +34,21 @@ pub enum Stage {
     March,
     /// Normals, of depths that are there.
     Normal,
-    /// Shadow rays and light, of depths and normals that are there.
+    /// Shadow rays, of depths and normals that are there.
     Shadow,
+    /// Light and colours, of visibility bits that are there.
+    Shade,
     /// Indirect light, of direct light that is there.
     Gather,
+}
+
+/// What has to be done for some sample points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Job {
+    /// Where it starts: what comes before is in the G-buffer.
+    pub from: Stage,
+    /// The lights whose shadow rays are marched, by their visibility bits.
+    pub lights: u64,
 }
 
 /// A run of workgroups over some sample points.
@@ -47,10 +58,19 @@ pub struct Trace {
     pub points: Points,
     /// Where it starts: what comes before is in the G-buffer.
     pub from: Stage,
+    /// The lights whose shadow rays are marched, by their visibility bits; the bits of others stay.
+    pub lights: u64,
     /// First workgroup of the points' grid.
     pub first_workgroup: u32,
     /// How many workgroups.
     pub workgroups: u32,
+}
+
+impl Trace {
+    /// What is done for each of its points.
+    pub fn job(&self) -> Job {
+        Job { from: self.from, lights: self.lights }
+    }
 }
 
 /// One piece of work: one submit.

@@ -72,3 +72,117 @@ pub fn shining(lights: &[Light]) -> u64 {
     let shine = lights.iter().filter(|light| light.color != [0.0; 3]);
     shine.fold(0, |bits, light| bits | 1 << light.bit)
 }
+
+/// Gives each light the visibility bit of an old one whose rays are its own, as far as there are
+/// such; the others get bits that are free. So no bit is lost where lights come, go or change places.
+pub fn keep_bits(lights: &mut [Light], old: &[Light]) {
+    let mut taken = 0_u64;
+    let mut strangers = Vec::new();
+    for light in lights {
+        let same = |other: &&Light| taken >> other.bit & 1 == 0 && has_same_rays(light, other);
+        match old.iter().find(same) {
+            Some(other) => {
+                light.bit = other.bit;
+                taken |= 1 << light.bit;
+            }
+            None => strangers.push(light),
+        }
+    }
+    for light in strangers {
+        // There are as many bits as lights at most.
+        light.bit = taken.trailing_ones();
+        taken |= 1 << light.bit;
+    }
+}
+
+/// The visibility bits of the lights whose rays no old light with the same bit had.
+pub fn moved(lights: &[Light], old: &[Light]) -> u64 {
+    let stayed = |light: &Light| {
+        old.iter().any(|other| other.bit == light.bit && has_same_rays(light, other))
+    };
+    lights.iter().filter(|light| !stayed(light)).fold(0, |bits, light| bits | 1 << light.bit)
+}
+
+/// Whether rays toward both lights are the same: colour has no part in it.
+fn has_same_rays(a: &Light, b: &Light) -> bool {
+    let rays = |light: &Light| Light { color: [0.0; 3], bit: 0, ..*light };
+    rays(a) == rays(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn light(x: f32, bit: u32) -> Light {
+        Light { vector: [x, 0.0, 1.0], color: [1.0; 3], bit, ..Light::zeroed() }
+    }
+
+    /// Lights at these places with the bits of their places in the list.
+    fn list(places: &[f32]) -> Vec<Light> {
+        (0..).zip(places).map(|(bit, x)| light(*x, bit)).collect()
+    }
+
+    /// The bits that a new list gets, and which of them moved.
+    fn follow(places: &[f32], old: &[Light]) -> (Vec<u32>, u64) {
+        let mut new = list(places);
+        keep_bits(&mut new, old);
+        (new.iter().map(|light| light.bit).collect(), moved(&new, old))
+    }
+
+    #[test]
+    fn lights_keep_their_bits() {
+        let old = list(&[1.0, 2.0, 3.0]);
+        assert_eq!(follow(&[1.0, 2.0, 3.0], &old), (vec![0, 1, 2], 0));
+        // One is moved, removed, added in front of the others, or two change places.
+        assert_eq!(follow(&[1.0, 9.0, 3.0], &old), (vec![0, 1, 2], 0b010));
+        assert_eq!(follow(&[2.0, 3.0], &old), (vec![1, 2], 0));
+        assert_eq!(follow(&[9.0, 1.0, 2.0, 3.0], &old), (vec![3, 0, 1, 2], 0b1000));
+        assert_eq!(follow(&[3.0, 2.0, 1.0], &old), (vec![2, 1, 0], 0));
+        // A second one at the same place has a bit of its own.
+        assert_eq!(follow(&[2.0, 2.0], &old), (vec![1, 0], 0b01));
+        assert_eq!(follow(&[], &old), (vec![], 0));
+    }
+
+    #[test]
+    fn a_full_table_has_room_for_every_change() {
+        let places: Vec<f32> = (0..MAX_LIGHTS as u16).map(f32::from).collect();
+        let mut old = list(&places);
+        let mut random = 1_u32;
+        for _ in 0..200 {
+            let mut new = old.clone();
+            for light in &mut new {
+                random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                if random >> 30 == 0 {
+                    light.vector[1] += 1.0;
+                }
+            }
+            let by = (random >> 20) as usize % MAX_LIGHTS;
+            new.rotate_left(by);
+            keep_bits(&mut new, &old);
+            assert_eq!(new.iter().fold(0, |bits, light| bits | 1 << light.bit), u64::MAX);
+            for light in &new {
+                let other = old.iter().find(|other| other.vector == light.vector);
+                assert!(other.is_none_or(|other| other.bit == light.bit));
+            }
+            old = new;
+        }
+    }
+
+    #[test]
+    fn colour_is_no_move() {
+        let old = list(&[1.0]);
+        let mut new = old.clone();
+        new[0].color = [0.0; 3];
+        assert_eq!(moved(&new, &old), 0);
+        assert_eq!((shining(&old), shining(&new)), (1, 0));
+        for change in [
+            |light: &mut Light| light.casts_shadows = 1,
+            |light: &mut Light| light.shadow_reach = 2.0,
+            |light: &mut Light| light.kind = 1,
+        ] {
+            let mut new = old.clone();
+            change(&mut new[0]);
+            assert_eq!(moved(&new, &old), 1);
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! Whatever was edited, in which order, and how far the picture was when the next edit came: it
+//! ends as the picture of a view that never saw another scene.
+
+use glam::DVec3;
+use mandelight::{
+    render::{Kernels, Pace, Region, View},
+    scene::{EnvironmentLight, IndirectKind, Normals, PointLight, RigKind, Scene},
+};
+
+use crate::harness::{kernels, pixels, sampled, still};
+
+const SIZE: [u32; 2] = [67, 50];
+
+/// Numbers that look random: a linear congruential generator (Knuth's MMIX constants).
+struct Dice(u64);
+
+impl Dice {
+    /// A number below `count`.
+    fn below(&mut self, count: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        ((self.0 >> 33) % count as u64) as usize
+    }
+
+    fn unit(&mut self) -> f64 {
+        self.below(1 << 20) as f64 / f64::from(1 << 20)
+    }
+
+    fn direction(&mut self) -> [f64; 3] {
+        let [x, y, z] = [(); 3].map(|()| self.unit() - 0.5);
+        DVec3::new(x, y, z + 0.01).normalize_or(DVec3::Z).to_array()
+    }
+
+    fn color(&mut self) -> [f32; 3] {
+        [(); 3].map(|()| self.unit() as f32)
+    }
+}
+
+/// Changes something of the scene; most often lights.
+fn edit(scene: &mut Scene, dice: &mut Dice) {
+    let lights = &mut scene.lights;
+    let count = lights.environment.len();
+    let any = if count > 0 { dice.below(count) } else { 0 };
+    match (dice.below(18), count) {
+        (0 | 1, 0..=5) => lights.environment.insert(
+            any,
+            EnvironmentLight {
+                direction: dice.direction(),
+                color: dice.color(),
+                ..EnvironmentLight::default()
+            },
+        ),
+        (2, 1..) => {
+            lights.environment.remove(any);
+        }
+        (3..=5, 1..) => lights.environment[any].direction = dice.direction(),
+        (6, 1..) => lights.environment[any].color = dice.color(),
+        (7 | 8, 1..) => lights.environment[any].muted ^= true,
+        (9, 1..) => lights.environment[any].solo ^= true,
+        (10, 1..) => lights.environment[any].casts_shadows ^= true,
+        (11, _) if lights.point.is_empty() => lights.point.push(PointLight::default()),
+        (11, _) => lights.point[0].position = (1.4 * DVec3::from_array(dice.direction())).into(),
+        (12, _) => {
+            lights.rig.kind = [RigKind::Sky, RigKind::None][dice.below(2)];
+            lights.rig.count = 3 + dice.below(3) as u32;
+        }
+        (13, _) => scene.surface.diffuse = dice.unit(),
+        (14, _) => scene.quality.normals = [Normals::Six, Normals::Analytic][dice.below(2)],
+        (15, _) => {
+            let kinds = [IndirectKind::Off, IndirectKind::Uniform, IndirectKind::Horizon];
+            scene.indirect.kind = kinds[dice.below(3)];
+        }
+        (16, _) => scene.camera.vertical_fov_deg = 30.0 + 20.0 * dice.unit(),
+        _ => scene.tone.exposure = dice.unit(),
+    }
+}
+
+/// Edits a view's scene again and again, at any moment of its refinement, and lets it finish.
+fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene, View) {
+    let mut scene = sampled(Scene::default(), 1 + dice.below(2) as u32);
+    // Openings on sparse lattices have the most to remember.
+    scene.quality.motion_budget_ms = 4.0;
+    let mut view = View::new(kernels, Region::whole(SIZE), Pace::Interactive);
+    let mut now_secs = 0.0;
+    for _ in 0..12 {
+        for _ in 0..=dice.below(2) {
+            edit(&mut scene, dice);
+        }
+        view.set_scene(&scene, dice.below(3) == 0);
+        for _ in 0..dice.below(9) {
+            now_secs += 0.016;
+            view.pump(now_secs);
+            if dice.below(2) == 0 {
+                kernels.gpu.wait();
+            }
+        }
+    }
+    view.set_scene(&scene, false);
+    for _ in 0..20_000 {
+        now_secs += 0.016;
+        if !view.pump(now_secs) {
+            return (scene, view);
+        }
+        kernels.gpu.wait();
+    }
+    panic!("the view never rests: {:?}", view.report());
+}
+
+#[test]
+fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
+    let kernels = kernels();
+    // A view that comes to rest sooner compiles them later.
+    kernels.specialise(8);
+    for seed in 0..40 {
+        let (scene, view) = edited(kernels, &mut Dice(seed));
+        assert!(pixels(&view) == still(&scene, SIZE), "seed {seed}: {scene:#?}");
+    }
+}
+
+/// The same where nothing is interrupted: each of a few edits of lights, one after the other.
+#[test]
+fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
+    kernels().specialise(8);
+    let mut scene = sampled(Scene::default(), 1);
+    let mut view = crate::harness::finished(&scene, SIZE, Pace::Interactive);
+    let edits: [fn(&mut Scene); 4] = [
+        |scene| scene.lights.environment[1].direction = [0.0, -1.0, 0.0],
+        |scene| scene.lights.environment[0].color = [0.1, 0.9, 0.1],
+        |scene| {
+            scene.lights.environment.remove(0);
+        },
+        |scene| scene.lights.environment.insert(0, EnvironmentLight::default()),
+    ];
+    for edit in edits {
+        let before = pixels(&view);
+        edit(&mut scene);
+        view.set_scene(&scene, false);
+        crate::harness::settle(&mut view);
+        let after = pixels(&view);
+        assert!(after != before, "the edit shows");
+        assert!(after == still(&scene, SIZE));
+    }
+}
