@@ -3,6 +3,7 @@
 //! In: the command line. Out: the exit code, 0 when all went well, 1 when something failed, 2 for a
 //! command line that makes no sense. Each command gets what it needs by itself (see `need.rs`).
 
+mod bench;
 mod check;
 mod need;
 mod page;
@@ -21,6 +22,7 @@ Usage: cargo xtask <command>
   dist              write dist/, a folder that any static host can serve
   check             formatting and lints, native and wasm32, warnings denied
   bless             make the golden pictures again from what the renderer draws now
+  bench [OPTION…]   measure the renderer beside the thesis's algorithm; --help tells the options
   pictures [NAME…]  draw the pictures of the README and the docs again
   help              this text
 ";
@@ -33,6 +35,7 @@ enum Wish {
     Dist,
     Check,
     Bless,
+    Bench { options: Vec<String> },
     Pictures { names: Vec<String> },
     Help,
 }
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Wish::Dist => page::dist().map(drop),
         Wish::Check => check::check(),
         Wish::Bless => test::bless(),
+        Wish::Bench { options } => bench::bench(&options),
         Wish::Pictures { names } => pictures::pictures(&names),
         Wish::Help => {
             print!("{HELP}");
@@ -81,6 +85,9 @@ fn wish_of(words: &[String]) -> Result<Wish, String> {
         ["dist"] => Ok(Wish::Dist),
         ["check"] => Ok(Wish::Check),
         ["bless"] => Ok(Wish::Bless),
+        ["bench", options @ ..] => {
+            Ok(Wish::Bench { options: options.iter().map(|&option| option.to_owned()).collect() })
+        }
         ["pictures", names @ ..] => {
             Ok(Wish::Pictures { names: names.iter().map(|&name| name.to_owned()).collect() })
         }
@@ -101,6 +108,8 @@ mod tests {
         assert_eq!(parsed("serve"), Ok(Wish::Serve { port: 8080 }));
         assert_eq!(parsed("serve --port 9000"), Ok(Wish::Serve { port: 9000 }));
         assert_eq!(parsed("test"), Ok(Wish::Test));
+        let options = vec!["--views".into(), "whole,filled".into()];
+        assert_eq!(parsed("bench --views whole,filled"), Ok(Wish::Bench { options }));
         assert_eq!(parsed("pictures bloom"), Ok(Wish::Pictures { names: vec!["bloom".into()] }));
         assert_eq!(parsed(""), Ok(Wish::Help));
     }

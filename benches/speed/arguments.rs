@@ -1,0 +1,49 @@
+//! What the command line asks for.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+use mandelight::export;
+
+/// Measures the renderer beside the thesis's own algorithm, in one run on one adapter.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "cargo xtask bench", about)]
+pub struct Arguments {
+    /// Views to run, by name, separated by commas; all of them unless told
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    pub views: Vec<String>,
+    /// Draw every view in this size rather than its own, such as 320x180
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Rounds of one picture by either side; medians are told
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub rounds: u32,
+    /// Also time the program's passes one by one, each a dispatch over the whole picture
+    #[arg(long)]
+    pub passes: bool,
+    /// Also write what both sides draw, as PNG files, to this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub pictures: Option<PathBuf>,
+    /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Cargo says so of every benchmark
+    #[arg(long, hide = true)]
+    pub bench: bool,
+}
+
+impl Arguments {
+    /// The wanted adapter's name, where there is one.
+    pub fn adapter_name(&self) -> Option<String> {
+        let wanted = self.adapter.clone().or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok());
+        wanted.filter(|name| !name.is_empty())
+    }
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text
+        .split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    let sides = sides.ok_or("write it as width x height in pixels, such as 320x180")?;
+    export::checked_size(sides).map_err(|error| error.to_string())
+}

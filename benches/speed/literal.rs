@@ -1,0 +1,350 @@
+//! The thesis's own algorithm on the GPU: `literal.wgsl`, and what drives it.
+//!
+//! In: the program's inputs of a scene, and the settings that [`super::kindness`] finds. Out: how
+//! long its pictures take, and what is in them. It shares no kernel with the program. Tone mapping
+//! is left out: it costs the literal side nothing.
+
+use bytemuck::{Pod, Zeroable};
+use mandelight::{
+    gpu::{Gpu, readback::Readback},
+    render::{
+        lattice,
+        uniforms::{GRADIENT_ENTRIES, Inputs},
+    },
+};
+use std::time::Instant;
+
+/// llvmpipe stops an invocation after 65,535 turns of all its loops together.
+const LOOP_TURNS: u32 = 60_000;
+
+/// What one literal picture is made with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kindness {
+    /// How near to the set counts as on it, scene units.
+    pub epsilon: f64,
+    /// Most steps of an orbit.
+    pub iterations: u32,
+    /// Most steps of a ray.
+    pub steps: u32,
+}
+
+/// Host twin of `Settings` in `literal.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Settings {
+    eye: [f32; 3],
+    half_height: f32,
+    right: [f32; 3],
+    aspect: f32,
+    up: [f32; 3],
+    epsilon: f32,
+    forward: [f32; 3],
+    power: f32,
+    constant: [f32; 3],
+    divergence: f32,
+    size_px: [u32; 2],
+    stride: u32,
+    julia: u32,
+    max_iterations: u32,
+    max_steps: u32,
+    outside: f32,
+    first_light: u32,
+    jitter: [f32; 2],
+    end_light: u32,
+    light_count: u32,
+    color_source: u32,
+    color_repeats: f32,
+    color_offset: f32,
+    ambient: f32,
+    diffuse: f32,
+    specular: f32,
+    shininess: f32,
+    log_divergence: f32,
+    background_top: [f32; 4],
+    background_bottom: [f32; 4],
+}
+
+impl Settings {
+    fn new(inputs: &Inputs, kindness: Kindness, stride: u32) -> Self {
+        let picture = &inputs.picture;
+        let (camera, fractal) = (&picture.camera, &picture.fractal);
+        let (surface, background) = (&picture.surface, &picture.background);
+        Self {
+            eye: camera.origin,
+            half_height: camera.half_height,
+            right: camera.right,
+            aspect: camera.aspect,
+            up: camera.up,
+            epsilon: kindness.epsilon as f32,
+            forward: camera.forward,
+            power: fractal.power,
+            constant: fractal.julia_constant,
+            divergence: fractal.bailout,
+            size_px: picture.picture_px,
+            stride,
+            julia: fractal.julia,
+            max_iterations: kindness.iterations,
+            max_steps: kindness.steps,
+            outside: fractal.bounding_radius,
+            first_light: 0,
+            jitter: [0.5; 2],
+            end_light: 0,
+            light_count: surface.light_count,
+            color_source: surface.color_source,
+            color_repeats: surface.color_repeats,
+            color_offset: surface.color_offset,
+            ambient: surface.ambient,
+            diffuse: surface.diffuse,
+            specular: surface.specular,
+            shininess: surface.shininess,
+            log_divergence: fractal.bailout.ln(),
+            background_top: background.top,
+            background_bottom: background.bottom,
+        }
+    }
+}
+
+/// Host twin of `Light` in `literal.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Light {
+    direction: [f32; 3],
+    casts_shadows: u32,
+    color: [f32; 3],
+    unused: u32,
+}
+
+/// Host twin of `Point` in `literal.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Point {
+    normal: [f32; 3],
+    depth: f32,
+    colors: [f32; 4],
+}
+
+/// What the literal kernel found for one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// The pixel, from the upper left.
+    pub pixel: [u32; 2],
+    /// Depth of the newest sample; 0 where it met nothing.
+    pub depth: f32,
+    /// Its normal.
+    pub normal: glam::Vec3,
+    /// A bit a light that reaches it.
+    pub visibility: u64,
+    /// Mean radiance of all samples, linear Rec. 709.
+    pub radiance: [f32; 3],
+}
+
+/// The literal kernel's pipelines.
+pub struct Literal {
+    gpu: Gpu,
+    layout: wgpu::BindGroupLayout,
+    see: wgpu::ComputePipeline,
+    shadow: wgpu::ComputePipeline,
+    shade: wgpu::ComputePipeline,
+}
+
+impl Literal {
+    /// Compiles them.
+    pub fn new(gpu: &Gpu) -> Self {
+        let device = &gpu.device;
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("literal"),
+            source: wgpu::ShaderSource::Wgsl(include_str!("literal.wgsl").into()),
+        });
+        let entries: Vec<_> = (0..6)
+            .map(|binding| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: binding < 3 },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("literal"),
+            entries: &entries,
+        });
+        let pipelines = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("literal"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let made = |entry| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry),
+                layout: Some(&pipelines),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        let [see, shadow, shade] = ["see", "shadow", "shade"].map(made);
+        Self { gpu: gpu.clone(), layout, see, shadow, shade }
+    }
+}
+
+/// One view, ready to be drawn over and over by the literal kernel.
+pub struct Picture<'a> {
+    literal: &'a Literal,
+    settings: Settings,
+    samples: u32,
+    blocks: [u32; 2],
+    buffers: [wgpu::Buffer; 6],
+    group: wgpu::BindGroup,
+}
+
+impl<'a> Picture<'a> {
+    /// Allocates what the view needs. One block of 8x8 pixels in `stride` is drawn, each way.
+    pub fn new(
+        literal: &'a Literal,
+        inputs: &Inputs,
+        samples: u32,
+        kindness: Kindness,
+        stride: u32,
+    ) -> Self {
+        let device = &literal.gpu.device;
+        let settings = Settings::new(inputs, kindness, stride);
+        let blocks = settings.size_px.map(|side| side.div_ceil(8).div_ceil(stride));
+        let pixels = 64 * u64::from(blocks[0]) * u64::from(blocks[1]);
+        let buffer = |label, size| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::COPY_DST
+                    | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            })
+        };
+        let count = settings.light_count as usize;
+        let lights: Vec<_> = inputs.lights[..count.max(1)]
+            .iter()
+            .map(|light| Light {
+                direction: light.vector,
+                casts_shadows: light.casts_shadows,
+                color: light.color,
+                unused: 0,
+            })
+            .collect();
+        let buffers = [
+            buffer("literal settings", size_of::<Settings>() as u64),
+            buffer("literal lights", size_of_val(lights.as_slice()) as u64),
+            buffer("literal gradient", 16 * GRADIENT_ENTRIES as u64),
+            buffer("literal points", size_of::<Point>() as u64 * pixels),
+            buffer("literal visibility", 4 * pixels),
+            buffer("literal film", 16 * pixels),
+        ];
+        literal.gpu.queue.write_buffer(&buffers[1], 0, bytemuck::cast_slice(&lights));
+        literal.gpu.queue.write_buffer(&buffers[2], 0, bytemuck::cast_slice(&inputs.gradient));
+        let entries: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("literal"),
+            layout: &literal.layout,
+            entries: &entries,
+        });
+        Self { literal, settings, samples, blocks, buffers, group }
+    }
+
+    /// Draws it, every sample from scratch, and says how long that took from the first submit to
+    /// the end of the last, milliseconds, for all pixels of the picture: where blocks are left out,
+    /// their share is added.
+    pub fn draw_ms(&self) -> f64 {
+        let gpu = &self.literal.gpu;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.clear_buffer(&self.buffers[5], 0, None);
+        gpu.queue.submit([encoder.finish()]);
+        gpu.wait();
+        let start = Instant::now();
+        for sample in 0..self.samples {
+            let mut settings = self.settings;
+            settings.jitter = lattice::jitter(sample);
+            self.dispatch(&self.literal.see, settings);
+            // As many lights at once as a driver's cap on loops allows.
+            let turns = settings.max_steps * (settings.max_iterations + 1);
+            let at_once = (LOOP_TURNS / turns).max(1);
+            let mut first = 0;
+            while first < settings.light_count {
+                settings.first_light = first;
+                settings.end_light = settings.light_count.min(first + at_once);
+                self.dispatch(&self.literal.shadow, settings);
+                first += at_once;
+            }
+            self.dispatch(&self.literal.shade, settings);
+        }
+        gpu.wait();
+        start.elapsed().as_secs_f64() * 1e3 / self.share()
+    }
+
+    /// The part of the picture's pixels that are drawn.
+    pub fn share(&self) -> f64 {
+        let [width, height] = self.settings.size_px;
+        self.pixels().count() as f64 / (f64::from(width) * f64::from(height))
+    }
+
+    fn dispatch(&self, pipeline: &wgpu::ComputePipeline, settings: Settings) {
+        let gpu = &self.literal.gpu;
+        gpu.queue.write_buffer(&self.buffers[0], 0, bytemuck::bytes_of(&settings));
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
+        pass.dispatch_workgroups(self.blocks[0], self.blocks[1], 1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// The pixels that are drawn, with their places in the buffers: as `place_of` has them.
+    fn pixels(&self) -> impl Iterator<Item = ([u32; 2], usize)> + '_ {
+        let ([columns, rows], stride) = (self.blocks, self.settings.stride);
+        let blocks = (0..rows).flat_map(move |row| (0..columns).map(move |column| [column, row]));
+        let pixels = blocks.zip(0..).flat_map(move |([column, row], block)| {
+            let corner = [column * stride + row * stride / 2 % stride, row * stride];
+            (0..64_u32).map(move |local| {
+                let pixel = [corner[0] * 8 + local % 8, corner[1] * 8 + local / 8];
+                (pixel, block * 64 + local as usize)
+            })
+        });
+        let [width, height] = self.settings.size_px;
+        pixels.filter(move |([x, y], _)| *x < width && *y < height)
+    }
+
+    /// What was drawn last, reading it back.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn seen(&self) -> Result<Vec<Seen>, mandelight::gpu::readback::ReadbackError> {
+        let gpu = &self.literal.gpu;
+        let read = |index: usize| Readback::buffer(gpu, &self.buffers[index]).wait(gpu);
+        let (points, visibility, film) = (read(3)?, read(4)?, read(5)?);
+        let points: Vec<Point> = bytemuck::pod_collect_to_vec(&points);
+        let visibility: Vec<u32> = bytemuck::pod_collect_to_vec(&visibility);
+        let film: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&film);
+        Ok(self
+            .pixels()
+            .map(|(pixel, index)| {
+                let ([r, g, b, samples], point) = (film[index], points[index]);
+                Seen {
+                    pixel,
+                    depth: point.depth,
+                    normal: point.normal.into(),
+                    visibility: visibility[index].into(),
+                    radiance: [r, g, b].map(|sum| sum / samples.max(1.0)),
+                }
+            })
+            .collect())
+    }
+}

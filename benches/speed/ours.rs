@@ -1,0 +1,94 @@
+//! The program's own side: stills as `mandelight render` draws them, and its passes one by one.
+
+use std::{sync::Arc, time::Instant};
+
+use mandelight::{
+    gpu::readback::ReadbackError,
+    render::{
+        Kernels, Pace, Region, View,
+        frame::{Dispatches, Recorder},
+        pass,
+        schedule::{Points, Stage, Trace},
+        targets::Targets,
+        uniforms::Inputs,
+    },
+    scene::Scene,
+};
+
+/// Draws a still from nothing and says how long that took, milliseconds: from when the view has
+/// its scene until its picture is there, tone mapped. Buffers are allocated before.
+pub fn draw_ms(kernels: &Arc<Kernels>, scene: &Scene, size_px: [u32; 2]) -> (f64, View) {
+    let mut view = View::new(kernels, Region::whole(size_px), Pace::Still);
+    kernels.gpu.wait();
+    let start = Instant::now();
+    view.set_scene(scene, false);
+    while view.pump(start.elapsed().as_secs_f64()) {
+        kernels.gpu.wait();
+    }
+    kernels.gpu.wait();
+    (start.elapsed().as_secs_f64() * 1e3, view)
+}
+
+/// The display picture's bytes, RGBA.
+///
+/// # Errors
+/// Where the device is lost.
+pub fn display(kernels: &Kernels, view: &View) -> Result<Vec<u8>, ReadbackError> {
+    let texture = view.texture().ok_or(ReadbackError)?;
+    let size_px = [texture.width(), texture.height()];
+    mandelight::gpu::readback::Readback::texture(&kernels.gpu, texture, size_px).wait(&kernels.gpu)
+}
+
+type Record = fn(&mut Recorder<'_>, &Trace, &mandelight::render::lattice::Grid);
+
+/// The passes over centre samples, in the order in which they run.
+const PASSES: &[(&str, Record)] = &[
+    ("march", pass::march::record),
+    ("normal", pass::normal::record),
+    ("shadow", pass::shadow::record),
+    ("shade", pass::shade::record),
+];
+
+/// The program's passes over the centre samples of a whole picture, one submit each.
+pub struct Split<'a> {
+    kernels: &'a Kernels,
+    inputs: Inputs,
+    targets: Targets,
+}
+
+impl<'a> Split<'a> {
+    /// Allocates the buffers. The power's own pipelines are there already.
+    pub fn new(kernels: &'a Kernels, scene: &Scene, size_px: [u32; 2]) -> Self {
+        let region = Region::whole(size_px);
+        let inputs = Inputs::new(scene, region);
+        let targets = Targets::new(kernels, region);
+        targets.upload(&kernels.gpu.queue, &inputs);
+        Self { kernels, inputs, targets }
+    }
+
+    /// Each pass's name and time from submit to end, milliseconds.
+    pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
+        let points = Points::Level(0);
+        let grid = points.grid(self.inputs.picture.size_px);
+        let trace =
+            Trace { points, from: Stage::March, first_workgroup: 0, workgroups: grid.workgroups() };
+        let marchers = self.kernels.marchers(self.inputs.picture.fractal.integer_power);
+        let timed = |&(name, record): &(&'static str, Record)| {
+            let mut dispatches = Dispatches::default();
+            let mut recorder = Recorder::new(
+                self.kernels,
+                &marchers,
+                &self.targets,
+                &self.inputs,
+                &mut dispatches,
+            );
+            record(&mut recorder, &trace, &grid);
+            let commands = recorder.finish();
+            let start = Instant::now();
+            self.kernels.gpu.queue.submit([commands]);
+            self.kernels.gpu.wait();
+            (name, start.elapsed().as_secs_f64() * 1e3)
+        };
+        PASSES.iter().map(timed).collect()
+    }
+}

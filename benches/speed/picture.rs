@@ -1,0 +1,44 @@
+//! What both sides draw, as PNG files to look at.
+
+use std::{fs::File, io::BufWriter, path::Path};
+
+use super::literal::Seen;
+
+/// Writes 8-bit RGBA pixels, rows from the top.
+///
+/// # Errors
+/// Where the file can't be written.
+pub fn write(
+    path: &Path,
+    size_px: [u32; 2],
+    rgba: &[u8],
+) -> Result<(), Box<dyn std::error::Error>> {
+    let mut encoder =
+        png::Encoder::new(BufWriter::new(File::create(path)?), size_px[0], size_px[1]);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.write_header()?.write_image_data(rgba)?;
+    Ok(())
+}
+
+/// The literal kernel's film by Reinhard's curve on luminance, as the views' scenes have it; clear
+/// where nothing was drawn.
+pub fn developed(seen: &[Seen], size_px: [u32; 2], exposure: f64, white: f64) -> Vec<u8> {
+    let mut rgba = vec![0; 4 * (size_px[0] * size_px[1]) as usize];
+    for Seen { pixel: [x, y], radiance, .. } in seen {
+        let exposed = radiance.map(|v| f64::from(v) * exposure.exp2());
+        let luminance = 0.2126 * exposed[0] + 0.7152 * exposed[1] + 0.0722 * exposed[2];
+        let scale = (1.0 + luminance / (white * white)) / (1.0 + luminance);
+        let at = 4 * (y * size_px[0] + x) as usize;
+        for (channel, value) in exposed.into_iter().enumerate() {
+            rgba[at + channel] = (255.0 * srgb(value * scale)).round() as u8;
+        }
+        rgba[at + 3] = 255;
+    }
+    rgba
+}
+
+fn srgb(linear: f64) -> f64 {
+    let v = linear.clamp(0.0, 1.0);
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
