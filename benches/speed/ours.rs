@@ -70,8 +70,13 @@ impl<'a> Split<'a> {
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
         let points = Points::Level(0);
         let grid = points.grid(self.inputs.picture.size_px);
-        let trace =
-            Trace { points, from: Stage::March, first_workgroup: 0, workgroups: grid.workgroups() };
+        let trace = Trace {
+            points,
+            from: Stage::March,
+            lights: u64::MAX >> (64 - self.inputs.picture.surface.light_count.clamp(1, 64)),
+            first_workgroup: 0,
+            workgroups: grid.workgroups(),
+        };
         let marchers = self.kernels.marchers(self.inputs.picture.fractal.integer_power);
         let timed = |&(name, record): &(&'static str, Record)| {
             let mut dispatches = Dispatches::default();

@@ -86,7 +86,8 @@ impl Estimator {
         }
         let height = 0.5 * r.ln() * r;
         let distance = height / dr.max(LEAST_DERIVATIVE);
-        let step = (self.step_factor * height / dg.max(LEAST_DERIVATIVE)).min(distance).min(self.max_step);
+        let step =
+            (self.step_factor * height / dg.max(LEAST_DERIVATIVE)).min(distance).min(self.max_step);
         Reach { distance, step }
     }
 
