@@ -21,9 +21,18 @@ pub struct Arguments {
     /// Also time the program's passes one by one, each a dispatch over the whole picture
     #[arg(long)]
     pub passes: bool,
+    /// About how many pixels are compared with the reference in f64
+    #[arg(long, value_name = "N", default_value_t = 4000)]
+    pub error_pixels: u32,
     /// Also write what both sides draw, as PNG files, to this folder
     #[arg(long, value_name = "FOLDER")]
     pub pictures: Option<PathBuf>,
+    /// Also write everything that was measured to this file, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Fail where a picture is not good enough for its ratio to count
+    #[arg(long)]
+    pub check: bool,
     /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,

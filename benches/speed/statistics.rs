@@ -28,3 +28,8 @@ pub fn quantile(mut values: Vec<f64>, part: f64) -> f64 {
 pub fn median(values: &[f64]) -> f64 {
     quantile(values.to_vec(), 0.5)
 }
+
+/// The mean; 0 of none.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}

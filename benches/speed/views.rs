@@ -1,9 +1,7 @@
 //! The views that are measured: scenes, sizes, and how many samples.
 
 use glam::DVec3;
-use mandelight::scene::{
-    Camera, Coloring, EnvironmentLight, Fractal, Lights, Quality, Scene, Surface, Tone,
-};
+use mandelight::scene::{Camera, EnvironmentLight, Lights, Quality, Scene, ToneChannels};
 
 /// One thing to measure.
 #[derive(Clone, Debug)]
@@ -19,6 +17,10 @@ pub struct View {
     /// The literal kernel draws one block of 8x8 pixels in so many each way, and its time counts
     /// for all of them.
     pub stride: u32,
+    /// How far normals may be off in the mean, degrees.
+    pub normals_within_deg: f64,
+    /// It takes long enough that fewer rounds tell as much.
+    pub is_long: bool,
 }
 
 /// Width and height of most views: what the prototype's figures were measured at.
@@ -26,34 +28,52 @@ pub const SIZE_PX: [u32; 2] = [960, 540];
 
 /// Every view, in the order in which they are measured.
 pub fn all() -> Vec<View> {
+    let lit = |lights: Vec<EnvironmentLight>| with_lights(filled(), lights);
     vec![
+        view("whole", "the whole Mandelbulb", whole()),
+        view("filled", "a picture filled by it, at a distance of 0.15", filled()),
+        deep_view("crevice", "a crevice, partly in shadow, at a distance of 1e-3", crevice()),
+        view("julia", "the Julia form of power 8", julia()),
+        view("power2", "power 2", powered(2.0, [0.9, -1.75, 1.3], [-0.2, 0.0, 0.0])),
+        view("power3", "power 3", powered(3.0, [1.4, -1.9, 1.6], [0.0; 3])),
+        view("power16", "power 16", powered(16.0, [1.5, -2.3, 1.2], [0.0; 3])),
+        view("lights1", "the filled view in one light", lit(sky()[..1].to_vec())),
+        view("lights16", "the filled view in sixteen lights", lit(many_lights(16))),
         View {
-            name: "whole",
-            about: "the whole Mandelbulb",
-            scene: scene([1.57, -2.88, 1.05], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0], &sky()),
-            size_px: SIZE_PX,
-            stride: 1,
+            size_px: [1920, 1080],
+            stride: 4,
+            is_long: true,
+            ..view("job", "the thesis's job: the filled view, 16 samples, tone mapped", job())
         },
         View {
-            name: "filled",
-            about: "a picture filled by it, at a distance of 0.15",
-            scene: scene(
-                [0.1385390, -0.3897377, 1.0369570],
-                [0.0352275, -0.2738807, 0.7802395],
-                [0.32164, -0.83080, 0.45423],
-                &sky(),
-            ),
-            size_px: SIZE_PX,
-            stride: 1,
-        },
-        View {
-            name: "crevice",
-            about: "a crevice, partly in shadow, at a distance of 1e-3",
-            scene: crevice(),
-            size_px: SIZE_PX,
-            stride: 1,
+            stride: 2,
+            is_long: true,
+            ..deep_view("crevice16", "the crevice with 16 samples", sampled(crevice(), 16))
         },
     ]
+}
+
+fn view(name: &'static str, about: &'static str, scene: Scene) -> View {
+    let normals_within_deg = 1.0;
+    View { name, about, scene, size_px: SIZE_PX, stride: 1, normals_within_deg, is_long: false }
+}
+
+/// A view at 1e-3 of the surface, where an f32 begins to show its grain.
+fn deep_view(name: &'static str, about: &'static str, scene: Scene) -> View {
+    View { normals_within_deg: 3.0, ..view(name, about, scene) }
+}
+
+fn whole() -> Scene {
+    scene([1.57, -2.88, 1.05], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0])
+}
+
+/// The filled view.
+pub fn filled() -> Scene {
+    scene(
+        [0.1385390, -0.3897377, 1.0369570],
+        [0.0352275, -0.2738807, 0.7802395],
+        [0.32164, -0.83080, 0.45423],
+    )
 }
 
 fn crevice() -> Scene {
@@ -61,12 +81,59 @@ fn crevice() -> Scene {
         [0.6144420, -0.6200878, -0.2452360],
         [0.6148446, -0.6203554, -0.2471768],
         [0.46384, -0.55397, 0.69135],
-        &sky(),
     )
 }
 
+fn julia() -> Scene {
+    let mut scene = scene([1.3, -2.2, 1.2], [0.0; 3], [0.0, 0.0, 1.0]);
+    scene.fractal.julia = true;
+    scene
+}
+
+fn powered(power: f64, eye: [f64; 3], at: [f64; 3]) -> Scene {
+    let mut scene = scene(eye, at, [0.0, 0.0, 1.0]);
+    scene.fractal.power = power;
+    if power < 3.0 {
+        // Its orbits escape slowly: with fewer, whole regions that pixels could show are lost.
+        scene.fractal.iterations = 48;
+    }
+    scene
+}
+
+/// The filled view as the thesis drew its own: 16 samples, each channel tone mapped.
+fn job() -> Scene {
+    let mut scene = sampled(filled(), 16);
+    scene.tone.channels = ToneChannels::PerChannel;
+    scene.tone.auto_exposure = true;
+    scene
+}
+
+/// A scene with another number of samples.
+pub fn sampled(mut scene: Scene, samples: u32) -> Scene {
+    scene.quality.samples = samples;
+    scene
+}
+
+/// A scene with other lights.
+pub fn with_lights(mut scene: Scene, lights: Vec<EnvironmentLight>) -> Scene {
+    scene.lights.environment = lights;
+    scene
+}
+
+/// Lights spread evenly over the sky, as bright as three together.
+pub fn many_lights(count: u32) -> Vec<EnvironmentLight> {
+    let golden_rad = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let one = |k: u32| {
+        let z = 1.0 - 1.6 * (f64::from(k) + 0.5) / f64::from(count);
+        let (sin, cos) = (golden_rad * f64::from(k)).sin_cos();
+        let rho = (1.0 - z * z).sqrt();
+        light([rho * cos, rho * sin, z], [1.0, 0.92, 0.85], 4.8 / f64::from(count))
+    };
+    (0..count).map(one).collect()
+}
+
 /// Three lights: a warm key, a cool rim, a faint fill.
-fn sky() -> Vec<EnvironmentLight> {
+pub fn sky() -> Vec<EnvironmentLight> {
     vec![
         light([-0.35, -0.75, 0.8], [1.0, 0.86, 0.68], 2.6),
         light([0.6, 0.75, 0.35], [0.6, 0.75, 1.0], 1.4),
@@ -75,20 +142,17 @@ fn sky() -> Vec<EnvironmentLight> {
 }
 
 /// A light whose shadows reach through all of the scene, as the thesis's do.
-fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
+pub fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
     let direction = DVec3::from_array(direction).normalize().to_array();
     EnvironmentLight { direction, color, intensity, shadow_reach: None, ..Default::default() }
 }
 
-/// The Mandelbulb of power 8, one sample a pixel.
-fn scene(eye: [f64; 3], at: [f64; 3], up: [f64; 3], lights: &[EnvironmentLight]) -> Scene {
+/// The Mandelbulb of power 8 in three lights, one sample a pixel.
+fn scene(eye: [f64; 3], at: [f64; 3], up: [f64; 3]) -> Scene {
     let [eye, at, up] = [eye, at, up].map(DVec3::from_array);
     Scene {
-        fractal: Fractal::default(),
         camera: Camera::looking_at(eye, at, up),
-        lights: Lights { environment: lights.to_vec(), point: Vec::new(), ..Default::default() },
-        surface: Surface { coloring: Coloring::default(), ..Default::default() },
-        tone: Tone::default(),
+        lights: Lights { environment: sky(), point: Vec::new(), ..Default::default() },
         quality: Quality { samples: 1, ..Default::default() },
         ..Default::default()
     }

@@ -1,0 +1,144 @@
+//! One view by both sides, in turn.
+
+use std::{collections::HashMap, sync::Arc};
+
+use mandelight::render::{self, Kernels, Region, uniforms::Inputs};
+
+use super::{
+    Failure,
+    arguments::Arguments,
+    errors::{Shown, Truths},
+    kindness,
+    literal::{Kindness, Literal, Picture},
+    ours, picture,
+    report::{Comparison, Side},
+    statistics::median,
+    views::View,
+};
+
+/// Measures a view.
+///
+/// # Errors
+/// Where the device is lost, or a picture can't be written.
+pub fn compare(
+    arguments: &Arguments,
+    kernels: &Arc<Kernels>,
+    literal: &Literal,
+    view: &View,
+) -> Result<Comparison, Failure> {
+    let View { name, about, ref scene, size_px, stride, .. } = *view;
+    let samples = scene.quality.samples;
+    let kindness = kindness::find(scene, size_px);
+    let inputs = Inputs::new(scene, Region::whole(size_px));
+    let theirs = Picture::new(literal, &inputs, samples, kindness, stride);
+
+    // Errors are those of one sample. Its pictures warm up: pipelines are compiled, and drivers
+    // have seen them.
+    let one_sample = super::views::sampled(scene.clone(), 1);
+    let truths = Truths::new(scene, size_px, arguments.error_pixels);
+    let (hit, lit) = truths.coverage();
+    let literal_errors = truths.compare(&literal_shown(literal, &inputs, kindness, &truths)?);
+    let (_, shown) = ours::draw_ms(kernels, &one_sample, size_px);
+    let our_errors = truths.compare(&our_shown(&shown, size_px, &truths)?);
+    let complaints = our_errors.complaints(&literal_errors, view.normals_within_deg);
+    drop(shown);
+
+    let (mut literal_ms, mut ours_ms) = (Vec::new(), Vec::new());
+    let rounds = if view.is_long { arguments.rounds.div_ceil(2) } else { arguments.rounds };
+    for _ in 0..rounds {
+        literal_ms.push(theirs.draw_ms());
+        ours_ms.push(ours::draw_ms(kernels, scene, size_px).0);
+    }
+    if let Some(folder) = &arguments.pictures {
+        std::fs::create_dir_all(folder)?;
+        let (_, shown) = ours::draw_ms(kernels, scene, size_px);
+        let ours = ours::display(kernels, &shown)?;
+        picture::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
+        let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
+        let literal = picture::developed(&theirs.seen()?, size_px, exposure, white);
+        picture::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
+    }
+    let side = |rounds_ms: Vec<f64>, iterations, errors| Side {
+        ms: median(&rounds_ms),
+        rounds_ms,
+        iterations,
+        errors,
+    };
+    let literal = side(literal_ms, kindness.iterations, literal_errors);
+    let ours = side(ours_ms, scene.fractal.iterations, our_errors);
+    let mut passes_ms = Vec::new();
+    if arguments.passes {
+        passes_ms = passes(arguments, kernels, view, ours.ms);
+    }
+    Ok(Comparison {
+        view: name,
+        about,
+        size_px,
+        samples,
+        lights: scene.lights.len(),
+        hit,
+        lit,
+        ratio: literal.ms / ours.ms,
+        literal,
+        ours,
+        complaints,
+        passes_ms,
+    })
+}
+
+/// Times the program's passes over one sample of each pixel; the rest is what a sample of the
+/// still takes beyond them.
+fn passes(
+    arguments: &Arguments,
+    kernels: &Kernels,
+    view: &View,
+    still_ms: f64,
+) -> Vec<(&'static str, f64)> {
+    let split = ours::Split::new(kernels, &view.scene, view.size_px);
+    split.draw_ms();
+    let rounds: Vec<_> = (0..arguments.rounds).map(|_| split.draw_ms()).collect();
+    let mut passes: Vec<_> = rounds[0]
+        .iter()
+        .enumerate()
+        .map(|(index, (name, _))| {
+            let times: Vec<_> = rounds.iter().map(|round| round[index].1).collect();
+            (*name, median(&times))
+        })
+        .collect();
+    let sum_ms: f64 = passes.iter().map(|(_, ms)| ms).sum();
+    passes.push(("rest", still_ms / f64::from(view.scene.quality.samples) - sum_ms));
+    passes
+}
+
+/// What the literal kernel's centre samples show of the compared pixels.
+fn literal_shown(
+    literal: &Literal,
+    inputs: &Inputs,
+    kindness: Kindness,
+    truths: &Truths,
+) -> Result<Vec<Shown>, Failure> {
+    let picture = Picture::new(literal, inputs, 1, kindness, 1);
+    picture.draw_ms();
+    let seen: HashMap<_, _> = picture.seen()?.into_iter().map(|seen| (seen.pixel, seen)).collect();
+    let shown = truths.pixels.iter().filter_map(|pixel| seen.get(pixel)).map(|seen| Shown {
+        depth: seen.depth,
+        normal: seen.normal,
+        visibility: seen.visibility,
+    });
+    Ok(shown.collect())
+}
+
+/// What the program's centre samples show of the compared pixels.
+fn our_shown(
+    view: &render::View,
+    size_px: [u32; 2],
+    truths: &Truths,
+) -> Result<Vec<Shown>, Failure> {
+    let samples = view.gbuffer()?;
+    let shown = truths.pixels.iter().map(|[x, y]| (y * size_px[0] + x) as usize).map(|i| Shown {
+        depth: samples.depth[i],
+        normal: samples.normal[i],
+        visibility: samples.visibility[i],
+    });
+    Ok(shown.collect())
+}

@@ -1,0 +1,90 @@
+//! What was measured: for people as it comes, as JSON at the end.
+
+use serde::Serialize;
+
+use super::errors::Errors;
+
+/// Everything that one run measured.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Report {
+    /// The adapter's name and backend.
+    pub adapter: String,
+    /// The views, in the order in which they were measured.
+    pub views: Vec<Comparison>,
+}
+
+/// One view by both sides.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// The view's name.
+    pub view: &'static str,
+    /// What it shows.
+    pub about: &'static str,
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// Samples a pixel.
+    pub samples: u32,
+    /// How many lights there are.
+    pub lights: usize,
+    /// Part of the pixels that hit the set, and of the bits that are set, by the reference.
+    pub hit: f64,
+    /// As above.
+    pub lit: f64,
+    /// The thesis's algorithm.
+    pub literal: Side,
+    /// The program.
+    pub ours: Side,
+    /// Literal time over ours.
+    pub ratio: f64,
+    /// What keeps the ratio from counting; empty where it counts.
+    pub complaints: Vec<String>,
+    /// Times of the program's passes over one sample of each pixel, milliseconds.
+    pub passes_ms: Vec<(&'static str, f64)>,
+}
+
+/// One side of a comparison.
+#[derive(Clone, Debug, Serialize)]
+pub struct Side {
+    /// Median time, milliseconds.
+    pub ms: f64,
+    /// Each round's.
+    pub rounds_ms: Vec<f64>,
+    /// Most iterations of an orbit.
+    pub iterations: u32,
+    /// One sample's errors.
+    pub errors: Errors,
+}
+
+impl Comparison {
+    /// Tells it to people, and its ratio to scripts.
+    pub fn print(&self) {
+        let Self { view, about, size_px: [width, height], samples, lights, .. } = self;
+        println!("\n{view}: {about}");
+        println!(
+            "  {width}x{height}, {samples} samples, {lights} lights; {:.0} % of the pixels hit, {:.0} % of their lights' bits set",
+            100.0 * self.hit,
+            100.0 * self.lit
+        );
+        println!("  {:<18}{:>12}{:>12}", "", "literal", "ours");
+        let row = |name: &str, literal: String, ours: String| {
+            println!("  {name:<18}{literal:>12}{ours:>12}");
+        };
+        let (literal, ours) = (&self.literal, &self.ours);
+        row("ms", format!("{:.1}", literal.ms), format!("{:.1}", ours.ms));
+        row("iterations", literal.iterations.to_string(), ours.iterations.to_string());
+        let columns = literal.errors.columns().into_iter().zip(ours.errors.columns());
+        for ((name, literal), (_, ours)) in columns {
+            row(name, format!("{literal:.4}"), format!("{ours:.4}"));
+        }
+        for (name, ms) in &self.passes_ms {
+            println!("  pass {name} {ms:.1} ms");
+        }
+        if self.complaints.is_empty() {
+            println!("  pass: the picture is as good");
+        }
+        for complaint in &self.complaints {
+            println!("  FAIL: {complaint}");
+        }
+        println!("ratio {view} {:.2}", self.ratio);
+    }
+}
