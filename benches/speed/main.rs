@@ -18,17 +18,17 @@
 //! | `report` | what was measured, told |
 //! | `statistics` | medians, quantiles |
 
-mod arguments;
-mod compare;
-mod errors;
-mod kindness;
-mod literal;
-mod ours;
-mod picture;
-mod reference;
-mod report;
-mod statistics;
-mod views;
+pub mod arguments;
+pub mod compare;
+pub mod errors;
+pub mod kindness;
+pub mod literal;
+pub mod ours;
+pub mod picture;
+pub mod reference;
+pub mod report;
+pub mod statistics;
+pub mod views;
 
 use std::process::ExitCode;
 
@@ -38,7 +38,7 @@ use mandelight::{gpu::Gpu, render::Kernels};
 use report::Report;
 use views::View;
 
-type Failure = Box<dyn std::error::Error>;
+pub type Failure = Box<dyn std::error::Error>;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -57,7 +57,7 @@ fn main() -> ExitCode {
 }
 
 /// Measures what the arguments ask for and tells it; true where every picture is good enough.
-fn run(arguments: &Arguments) -> Result<bool, Failure> {
+pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     let views = chosen(arguments)?;
     let gpu = pollster::block_on(Gpu::open(arguments.adapter_name().as_deref()))?;
     let mut report = Report { adapter: gpu.name(), ..Report::default() };

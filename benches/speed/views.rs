@@ -35,7 +35,7 @@ pub fn all() -> Vec<View> {
         deep_view("crevice", "a crevice, partly in shadow, at a distance of 1e-3", crevice()),
         view("julia", "the Julia form of power 8", julia()),
         view("power2", "power 2", powered(2.0, [0.9, -1.75, 1.3], [-0.2, 0.0, 0.0])),
-        view("power3", "power 3", powered(3.0, [1.4, -1.9, 1.6], [0.0; 3])),
+        view("power3", "power 3", powered(3.0, [1.7, -2.3, 1.95], [0.0; 3])),
         view("power16", "power 16", powered(16.0, [1.5, -2.3, 1.2], [0.0; 3])),
         view("lights1", "the filled view in one light", lit(sky()[..1].to_vec())),
         view("lights16", "the filled view in sixteen lights", lit(many_lights(16))),
@@ -85,7 +85,7 @@ fn crevice() -> Scene {
 }
 
 fn julia() -> Scene {
-    let mut scene = scene([1.3, -2.2, 1.2], [0.0; 3], [0.0, 0.0, 1.0]);
+    let mut scene = scene([1.6, -2.7, 1.45], [0.0; 3], [0.0, 0.0, 1.0]);
     scene.fractal.julia = true;
     scene
 }
@@ -93,10 +93,6 @@ fn julia() -> Scene {
 fn powered(power: f64, eye: [f64; 3], at: [f64; 3]) -> Scene {
     let mut scene = scene(eye, at, [0.0, 0.0, 1.0]);
     scene.fractal.power = power;
-    if power < 3.0 {
-        // Its orbits escape slowly: with fewer, whole regions that pixels could show are lost.
-        scene.fractal.iterations = 48;
-    }
     scene
 }
 

@@ -1,0 +1,188 @@
+//! The benchmark: that it runs, and that its literal kernel is literal.
+
+#[path = "../benches/speed/main.rs"]
+#[expect(dead_code, reason = "tests use parts of the benchmark")]
+mod bench;
+#[path = "oracle/estimate.rs"]
+#[expect(dead_code, reason = "the oracle knows more than distances")]
+mod estimate;
+
+use bench::{arguments::Arguments, kindness, literal, statistics, views};
+use clap::Parser as _;
+use glam::DVec3;
+use mandelight::{
+    fractal::{Estimator, Ray},
+    gpu::Gpu,
+    render::{Region, uniforms::Inputs},
+    scene::Fractal,
+};
+
+/// Width and height of the pictures.
+const SIZE: [u32; 2] = [96, 54];
+
+/// The thesis's rays in f64, step by step as `literal.wgsl` has them, on the oracle's Algorithm 1.
+struct Thesis {
+    fractal: Fractal,
+    kindness: literal::Kindness,
+    outside: f64,
+}
+
+impl Thesis {
+    fn distance(&self, point: DVec3) -> f64 {
+        estimate::distance(&self.fractal, point)
+    }
+
+    fn march(&self, ray: Ray) -> Option<f64> {
+        let mut t = 0.0;
+        for _ in 0..self.kindness.steps {
+            let point = ray.at(t);
+            if point.length() > self.fractal.bailout && point.dot(ray.direction) > 0.0 {
+                return None;
+            }
+            let d = self.distance(point);
+            if d < self.kindness.epsilon {
+                return Some(t);
+            }
+            t += d;
+        }
+        Some(t)
+    }
+
+    fn normal(&self, point: DVec3) -> DVec3 {
+        let slope = |axis: DVec3| {
+            let offset = axis * self.kindness.epsilon;
+            self.distance(point + offset) - self.distance(point - offset)
+        };
+        DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).normalize_or_zero()
+    }
+
+    fn is_lit(&self, point: DVec3, normal: DVec3, light: DVec3) -> bool {
+        if normal.dot(light) <= 0.0 {
+            return false;
+        }
+        let epsilon = self.kindness.epsilon;
+        let ray = Ray { origin: point + normal * (2.0 * epsilon), direction: light };
+        let mut s = ray.sphere_span(self.outside).map_or(0.0, |(_, far)| far);
+        for _ in 0..self.kindness.steps {
+            if s <= epsilon {
+                return true;
+            }
+            let d = self.distance(ray.at(s));
+            if d < 0.5 * epsilon {
+                return false;
+            }
+            s -= d;
+        }
+        true
+    }
+}
+
+/// Every pixel of a literal picture against the same algorithm in f64.
+fn is_literal(literal: &literal::Literal, view: &views::View) {
+    let views::View { name, scene, .. } = view;
+    // What an f32 makes of positions at 1e-3 of the surface.
+    let grain = if view.normals_within_deg > 1.0 { 10.0 } else { 1.0 };
+    let kindness = kindness::find(scene, SIZE);
+    let inputs = Inputs::new(scene, Region::whole(SIZE));
+    let picture = literal::Picture::new(literal, &inputs, 1, kindness, 1);
+    picture.draw_ms();
+    let seen = picture.seen().expect("the picture's bytes");
+    assert_eq!(seen.len(), (SIZE[0] * SIZE[1]) as usize, "{name}");
+    let fractal = Fractal { iterations: kindness.iterations, ..scene.fractal.clone() };
+    let outside = Estimator::new(&scene.fractal).bounding_radius();
+    let thesis = Thesis { fractal, kindness, outside };
+    let lights: Vec<_> =
+        scene.lights.environment.iter().map(|light| DVec3::from_array(light.direction)).collect();
+    let both = statistics::in_parallel(&seen, |seen| {
+        let ray = kindness::pixel_ray(scene, SIZE, seen.pixel);
+        let is_same_hit = thesis.march(ray).is_some() == (seen.depth > 0.0);
+        let depth = thesis.march(ray).filter(|_| seen.depth > 0.0);
+        let off = depth.map(|depth| {
+            let found = f64::from(seen.depth);
+            // Of the kernel's own point, and for shadows its own normal.
+            let (point, normal) = (ray.at(found), seen.normal.as_dvec3());
+            let bits: u64 = (0..)
+                .zip(&lights)
+                .map(|(k, l)| u64::from(thesis.is_lit(point, normal, *l)) << k)
+                .sum();
+            let angle_deg = normal.angle_between(thesis.normal(point)).to_degrees();
+            (
+                (found - depth).abs() / kindness.epsilon,
+                angle_deg,
+                (bits ^ seen.visibility).count_ones(),
+            )
+        });
+        (is_same_hit, off)
+    });
+    let differ = both.iter().filter(|(is_same, _)| !is_same).count();
+    let off: Vec<_> = both.iter().filter_map(|(_, off)| *off).collect();
+    let depths: Vec<_> = off.iter().map(|(depth, _, _)| *depth).collect();
+    let angles: Vec<_> = off.iter().map(|(_, angle, _)| *angle).collect();
+    let bits: u32 = off.iter().map(|(_, _, bits)| bits).sum();
+    let bits = f64::from(bits) / (off.len() * lights.len()) as f64;
+    let (depth, angle) = (statistics::quantile(depths, 0.95), statistics::median(&angles));
+    assert!(off.len() > 500, "{name}: {} hits", off.len());
+    assert!(differ <= 10, "{name}: {differ} hits differ");
+    assert!(depth < 0.1 * grain, "{name}: depths differ by {depth} epsilons");
+    assert!(angle < 0.1 * grain, "{name}: normals differ by {angle} degrees");
+    assert!(bits < 0.02, "{name}: {bits} of the shadow bits differ");
+}
+
+#[test]
+fn the_literal_kernel_is_literal() {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+    let literal = literal::Literal::new(&gpu);
+    for view in views::all().into_iter().filter(|view| !view.is_long) {
+        is_literal(&literal, &view);
+    }
+    assert_eq!(gpu.faults(), 0);
+}
+
+/// The part of the blocks that stand for all of them is spread over the whole picture.
+#[test]
+fn left_out_blocks_are_left_out_evenly() {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+    let literal = literal::Literal::new(&gpu);
+    let scene = views::filled();
+    let size = [256, 144];
+    let kindness = kindness::find(&scene, size);
+    let inputs = Inputs::new(&scene, Region::whole(size));
+    let seen = |stride| {
+        let picture = literal::Picture::new(&literal, &inputs, 1, kindness, stride);
+        picture.draw_ms();
+        (picture.share(), picture.seen().expect("the picture's bytes"))
+    };
+    let ((whole, all), (part, some)) = (seen(1), seen(4));
+    assert_eq!(whole, 1.0);
+    assert!((0.05..0.08).contains(&part), "{part}");
+    for seen in &some {
+        assert!(all.contains(seen), "{seen:?}");
+    }
+    for quarter in 0..4 {
+        let inside = |[x, y]: [u32; 2]| x / 128 + y / 72 * 2 == quarter;
+        let count = some.iter().filter(|seen| inside(seen.pixel)).count() as f64;
+        assert!((0.15..0.4).contains(&(count / some.len() as f64)), "{quarter}: {count}");
+    }
+}
+
+#[test]
+fn the_benchmark_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let json = folder.path().join("speed.json");
+    let words =
+        "bench --views whole,crevice --size 96x54 --rounds 1 --error-pixels 300 --passes --json";
+    let words = words.split(' ').map(Into::into).chain([json.clone().into_os_string()]);
+    bench::run(&Arguments::parse_from(words)).expect("figures");
+    let text = std::fs::read_to_string(json).expect("the figures' file");
+    let figures: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let views = figures["views"].as_array().expect("views");
+    let names: Vec<_> = views.iter().filter_map(|view| view["view"].as_str()).collect();
+    assert_eq!(names, ["whole", "crevice"]);
+    for view in views {
+        let ratio = view["literal"]["ms"].as_f64().zip(view["ours"]["ms"].as_f64());
+        let ratio = ratio.map(|(literal, ours)| literal / ours).expect("times");
+        assert!((ratio / view["ratio"].as_f64().expect("a ratio") - 1.0).abs() < 1e-6);
+        // A view with a hole in it is no view.
+        assert!(view["hit"].as_f64() > Some(0.25), "{view}");
+    }
+}
