@@ -119,6 +119,9 @@ pub struct Recorder<'a> {
     pub neighbours: Neighbours,
     /// What of it a display brings up to date.
     pub tasks: Tasks,
+    /// The dispatches are of no workgroups at all: drivers then compile what they left for the
+    /// first use of a pipeline.
+    pub is_rehearsal: bool,
     /// Counted by each pass.
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
@@ -147,6 +150,7 @@ impl<'a> Recorder<'a> {
             glow: &targets.glow,
             neighbours: targets.neighbours(inputs.picture.indirect.around_px),
             tasks: Tasks::default(),
+            is_rehearsal: false,
             dispatches,
             compute,
             encoder,
@@ -214,6 +218,7 @@ impl<'a> Recorder<'a> {
         self.slices += 1;
         self.compute.set_pipeline(pipeline);
         self.compute.set_bind_group(0, &self.targets.picture_group, &[offset]);
+        let workgroups = if self.is_rehearsal { 0 } else { workgroups };
         self.compute.dispatch_workgroups(workgroups, 1, 1);
     }
 

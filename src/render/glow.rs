@@ -19,6 +19,7 @@ use super::{
     targets,
     uniforms::{Picture, Statistics},
 };
+use crate::scene::Scene;
 
 /// The finest mip level: one element for 4×4 pixels.
 pub const FIRST_LEVEL: u32 = 2;
@@ -42,6 +43,11 @@ impl Need {
     /// What the tone pass of a picture reads.
     pub fn of(picture: &Picture) -> Self {
         Self { mean: picture.tone.auto_exposure != 0, bloom: picture.bloom.strength > 0.0 }
+    }
+
+    /// The same of a scene's pictures.
+    pub fn of_scene(scene: &Scene) -> Self {
+        Self { mean: scene.tone.auto_exposure, bloom: scene.bloom.strength as f32 > 0.0 }
     }
 
     /// Nothing at all.

@@ -1,8 +1,8 @@
 //! The compute pipelines of one device, shared by every view on it.
 
 use std::{
-    collections::HashMap,
-    sync::{Arc, Mutex, OnceLock, PoisonError},
+    collections::{HashMap, HashSet},
+    sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError},
 };
 
 use super::pass;
@@ -80,6 +80,19 @@ const fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntr
     wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None }
 }
 
+fn pipeline_layout(
+    device: &wgpu::Device,
+    label: &str,
+    groups: &[&wgpu::BindGroupLayout],
+) -> wgpu::PipelineLayout {
+    let bind_group_layouts: Vec<_> = groups.iter().copied().map(Some).collect();
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &bind_group_layouts,
+        immediate_size: 0,
+    })
+}
+
 /// Makes one pipeline; `power` is the value of the `POWER` override where the module has it.
 fn pipeline(
     device: &wgpu::Device,
@@ -113,6 +126,48 @@ pub struct Marchers {
     pub shadow: wgpu::ComputePipeline,
 }
 
+impl Marchers {
+    /// Their names and modules, in the order of the fields.
+    const PARTS: [&Module; 3] =
+        [&pass::march::MODULE, &pass::normal::MODULE, &pass::shadow::MODULE];
+
+    /// Those of one power, made by `part` from their places in [`Self::PARTS`].
+    fn from_parts(mut part: impl FnMut(usize) -> wgpu::ComputePipeline) -> Self {
+        Self { march: part(0), normal: part(1), shadow: part(2) }
+    }
+}
+
+/// Pipelines beyond those that every picture needs: made when one needs them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Extra {
+    /// A whole power's own, faster than the general ones.
+    Power(u32),
+    /// Indirect light.
+    Gather,
+    /// Mean, histogram, bloom.
+    Glow,
+}
+
+impl Extra {
+    /// What they are for, in words that follow "Preparing".
+    pub fn name(self) -> String {
+        match self {
+            Self::Power(power) => format!("power {power}"),
+            Self::Gather => "indirect light".to_owned(),
+            Self::Glow => "exposure and bloom".to_owned(),
+        }
+    }
+
+    /// How many pipelines they are.
+    pub fn parts(self) -> usize {
+        match self {
+            Self::Power(_) => Marchers::PARTS.len(),
+            Self::Gather => 1,
+            Self::Glow => GlowKernels::PARTS.len(),
+        }
+    }
+}
+
 /// The passes that see the film as a whole.
 pub struct GlowKernels {
     /// Film to the finest mip level.
@@ -129,7 +184,31 @@ pub struct GlowKernels {
     pub blur: wgpu::ComputePipeline,
 }
 
-/// The pipelines that every picture needs, and those specialised so far.
+impl GlowKernels {
+    /// Their names and modules, in the order of the fields.
+    const PARTS: [&Module; 6] = [
+        &pass::mean::MODULE,
+        &pass::reduce::MODULE,
+        &pass::expose::MODULE,
+        &pass::histogram::MODULE,
+        &pass::bloom::MODULE,
+        &pass::blur::MODULE,
+    ];
+
+    /// All of them, made by `part` from their places in [`Self::PARTS`].
+    fn from_parts(mut part: impl FnMut(usize) -> wgpu::ComputePipeline) -> Self {
+        Self {
+            mean: part(0),
+            reduce: part(1),
+            expose: part(2),
+            histogram: part(3),
+            bloom: part(4),
+            blur: part(5),
+        }
+    }
+}
+
+/// The pipelines that every picture needs, and the [extra](Extra) ones made so far.
 pub struct Kernels {
     /// The device.
     pub gpu: Gpu,
@@ -139,145 +218,159 @@ pub struct Kernels {
     general: Marchers,
     /// One set for each whole power that has been asked for.
     special: Mutex<HashMap<u32, Marchers>>,
-    march_module: wgpu::ShaderModule,
-    normal_module: wgpu::ShaderModule,
-    shadow_module: wgpu::ShaderModule,
+    march_modules: [wgpu::ShaderModule; Marchers::PARTS.len()],
     layout: wgpu::PipelineLayout,
     /// Light and colour onto the film.
     pub shade: wgpu::ComputePipeline,
-    /// Direct and indirect light onto the film: made when a scene first asks for it.
     gather: OnceLock<wgpu::ComputePipeline>,
     /// Pixels between those of a sparse lattice.
     pub fill: wgpu::ComputePipeline,
-    /// Mean, histogram, bloom: made when a scene first asks for one of them.
     glow: OnceLock<GlowKernels>,
     glow_layout: wgpu::PipelineLayout,
     /// Film to display.
     pub tone: wgpu::ComputePipeline,
+    /// Those that can be used without delay.
+    ready: Mutex<HashSet<Extra>>,
+    /// The labels of all pipelines so far.
+    made: Mutex<Vec<String>>,
 }
 
 impl Kernels {
-    /// Makes the pipelines that every picture needs. Specialised ones come with
-    /// [`Self::specialise`].
+    /// Makes the pipelines that every picture needs.
     pub fn new(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("picture passes"),
-            bind_group_layouts: &[
-                Some(&layouts.picture),
-                Some(&layouts.gbuffer),
-                Some(&layouts.film),
-            ],
-            immediate_size: 0,
-        });
-        let shade_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("shading"),
-            bind_group_layouts: &[
-                Some(&layouts.picture),
-                Some(&layouts.gbuffer),
-                Some(&layouts.film),
-                Some(&layouts.backdrop),
-            ],
-            immediate_size: 0,
-        });
-        let glow_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("passes over the film as a whole"),
-            bind_group_layouts: &[Some(&layouts.picture), Some(&layouts.glow), Some(&layouts.film)],
-            immediate_size: 0,
-        });
-        let made = |layout: &wgpu::PipelineLayout, module: &Module| {
+        let Layouts { picture, gbuffer, film, glow, backdrop, .. } = &layouts;
+        let layout = pipeline_layout(device, "picture passes", &[picture, gbuffer, film]);
+        let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
+        let glow_layout =
+            pipeline_layout(device, "passes over the film as a whole", &[picture, glow, film]);
+        let mut labels = Vec::new();
+        let mut made = |layout: &wgpu::PipelineLayout, module: &Module| {
+            labels.push(module.label.to_owned());
             pipeline(device, layout, &module.create(device), module.label, None)
         };
-        let plain = |module| made(&layout, module);
-        let march_module = pass::march::MODULE.create(device);
-        let normal_module = pass::normal::MODULE.create(device);
-        let shadow_module = pass::shadow::MODULE.create(device);
-        let general = Marchers {
-            march: pipeline(device, &layout, &march_module, "march", Some(0)),
-            normal: pipeline(device, &layout, &normal_module, "normal", Some(0)),
-            shadow: pipeline(device, &layout, &shadow_module, "shadow", Some(0)),
-        };
+        let shade = made(&shade_layout, &pass::shade::MODULE);
+        let fill = made(&layout, &pass::fill::MODULE);
+        let tone = made(&glow_layout, &pass::tone::MODULE);
+        let march_modules = Marchers::PARTS.map(|module| module.create(device));
+        let general = Marchers::from_parts(|part| {
+            let label = Marchers::PARTS[part].label;
+            labels.push(label.to_owned());
+            pipeline(device, &layout, &march_modules[part], label, Some(0))
+        });
         Arc::new(Self {
             gpu: gpu.clone(),
             general,
             special: Mutex::default(),
-            shade: made(&shade_layout, &pass::shade::MODULE),
+            shade,
             gather: OnceLock::new(),
-            fill: plain(&pass::fill::MODULE),
+            fill,
             glow: OnceLock::new(),
-            tone: made(&glow_layout, &pass::tone::MODULE),
-            march_module,
-            normal_module,
-            shadow_module,
+            tone,
+            march_modules,
             layout,
             glow_layout,
             layouts,
+            ready: Mutex::default(),
+            made: Mutex::new(labels),
         })
     }
 
-    /// The passes that see the film as a whole.
+    /// The passes that see the film as a whole; compiles them where nobody
+    /// [prepared](Self::prepare) them.
     pub fn glow(&self) -> &GlowKernels {
-        self.glow.get_or_init(|| {
-            let device = &self.gpu.device;
-            let made = |module: &Module| {
-                pipeline(device, &self.glow_layout, &module.create(device), module.label, None)
-            };
-            GlowKernels {
-                mean: made(&pass::mean::MODULE),
-                reduce: made(&pass::reduce::MODULE),
-                expose: made(&pass::expose::MODULE),
-                histogram: made(&pass::histogram::MODULE),
-                bloom: made(&pass::bloom::MODULE),
-                blur: made(&pass::blur::MODULE),
-            }
-        })
+        self.glow.get_or_init(|| GlowKernels::from_parts(|part| self.make(Extra::Glow, part)))
     }
 
-    /// Direct and indirect light onto the film.
+    /// Direct and indirect light onto the film; compiles that where nobody
+    /// [prepared](Self::prepare) it.
     pub fn gather(&self) -> &wgpu::ComputePipeline {
-        self.gather.get_or_init(|| {
-            let device = &self.gpu.device;
-            let Layouts { picture, samples, film, around, .. } = &self.layouts;
-            let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("gathering"),
-                bind_group_layouts: &[Some(picture), Some(samples), Some(film), Some(around)],
-                immediate_size: 0,
-            });
-            let module = &pass::gather::MODULE;
-            pipeline(device, &layout, &module.create(device), module.label, None)
-        })
+        self.gather.get_or_init(|| self.make(Extra::Gather, 0))
     }
 
     /// The fastest pipelines that are ready for a power (0 where it isn't whole).
     pub fn marchers(&self, integer_power: u32) -> Marchers {
-        self.lock().get(&integer_power).unwrap_or(&self.general).clone()
+        locked(&self.special).get(&integer_power).unwrap_or(&self.general).clone()
     }
 
-    /// True where [`Self::specialise`] has nothing to do for this power.
-    pub fn is_specialised(&self, integer_power: u32) -> bool {
-        integer_power == 0 || self.lock().contains_key(&integer_power)
+    /// Whether these can be used without delay.
+    pub fn is_ready(&self, extra: Extra) -> bool {
+        extra == Extra::Power(0) || locked(&self.ready).contains(&extra)
+    }
+
+    /// Compiles what is missing of these. This may take a second and blocks.
+    pub fn prepare(&self, extra: Extra) {
+        if !self.is_ready(extra) {
+            self.keep(extra, (0..extra.parts()).map(|part| self.make(extra, part)).collect());
+            self.set_ready(extra);
+        }
     }
 
     /// Compiles the pipelines of a whole power. This may take a second and blocks.
     pub fn specialise(&self, integer_power: u32) {
-        if self.is_specialised(integer_power) {
-            return;
-        }
-        let make = |module, label: &str| {
-            let label = format!("{label}, power {integer_power}");
-            pipeline(&self.gpu.device, &self.layout, module, &label, Some(integer_power))
-        };
-        let marchers = Marchers {
-            march: make(&self.march_module, "march"),
-            normal: make(&self.normal_module, "normal"),
-            shadow: make(&self.shadow_module, "shadow"),
-        };
-        self.lock().insert(integer_power, marchers);
+        self.prepare(Extra::Power(integer_power));
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, HashMap<u32, Marchers>> {
-        // Whole entries are inserted: the map is valid whatever interrupted its holder.
-        self.special.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Makes one pipeline, `part` of as many as there are [parts](Extra::parts). For
+    /// [`Self::keep`].
+    pub(super) fn make(&self, extra: Extra, part: usize) -> wgpu::ComputePipeline {
+        let device = &self.gpu.device;
+        let (label, pipeline) = match extra {
+            Extra::Power(power) => {
+                let label = format!("{}, power {power}", Marchers::PARTS[part].label);
+                let module = &self.march_modules[part];
+                let pipeline = pipeline(device, &self.layout, module, &label, Some(power));
+                (label, pipeline)
+            }
+            Extra::Gather => {
+                let Layouts { picture, samples, film, around, .. } = &self.layouts;
+                let groups = [picture, samples, film, around];
+                let layout = pipeline_layout(device, "gathering", &groups);
+                let module = &pass::gather::MODULE;
+                let pipeline =
+                    pipeline(device, &layout, &module.create(device), module.label, None);
+                (module.label.to_owned(), pipeline)
+            }
+            Extra::Glow => {
+                let module = GlowKernels::PARTS[part];
+                let layout = &self.glow_layout;
+                let pipeline = pipeline(device, layout, &module.create(device), module.label, None);
+                (module.label.to_owned(), pipeline)
+            }
+        };
+        locked(&self.made).push(label);
+        pipeline
     }
+
+    /// Takes all parts of these, in order. Where somebody else was faster, theirs stay.
+    pub(super) fn keep(&self, extra: Extra, parts: Vec<wgpu::ComputePipeline>) {
+        let part = |index: usize| parts[index].clone();
+        match extra {
+            Extra::Power(power) => {
+                locked(&self.special).entry(power).or_insert_with(|| Marchers::from_parts(part));
+            }
+            Extra::Gather => {
+                self.gather.get_or_init(|| part(0));
+            }
+            Extra::Glow => {
+                self.glow.get_or_init(|| GlowKernels::from_parts(part));
+            }
+        }
+    }
+
+    /// Says that these are kept and have been used once.
+    pub(super) fn set_ready(&self, extra: Extra) {
+        locked(&self.ready).insert(extra);
+    }
+
+    /// The labels of all pipelines made so far, in that order.
+    pub fn made(&self) -> Vec<String> {
+        locked(&self.made).clone()
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Whole entries are inserted: the collection is valid whatever interrupted its holder.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

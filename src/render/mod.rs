@@ -10,11 +10,13 @@
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`backdrop`] | the picture of the surroundings |
 //! | [`kernels`] | pipelines and bind group layouts |
+//! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | a finished view's pixels on their way back |
 //! | [`memory`] | what a view holds of the GPU's memory |
+//! | `watch` | the film's histogram on its way to the interface |
 //! | [`report`] | what a view says of itself |
 
 pub mod around;
@@ -26,6 +28,7 @@ pub mod kernels;
 pub mod lattice;
 pub mod memory;
 pub mod pass;
+mod preparation;
 mod region;
 pub mod report;
 pub mod samples;
@@ -33,6 +36,7 @@ pub mod schedule;
 pub mod targets;
 pub mod uniforms;
 pub mod view;
+mod watch;
 
 pub use kernels::Kernels;
 pub use region::{Eyes, MAX_REGION_PIXELS, MAX_REGION_PX, Region};

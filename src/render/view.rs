@@ -6,15 +6,17 @@ use super::{
     around::Neighbours,
     backdrop::Backdrop,
     frame::{self, Dispatches, Recorder},
-    glow::{self, Glow, Need, Tasks},
-    kernels::Kernels,
+    glow::{Glow, Need, Tasks},
+    kernels::{Extra, Kernels},
     memory::Memory,
+    preparation::Preparation,
     region::Region,
-    report::{Activity, Histogram, Report},
+    report::{Activity, Report},
     samples::{self, SamplesReadback},
     schedule::{Pace, Schedule, Stale, Work},
     targets::{Targets, texture_bytes},
     uniforms::Inputs,
+    watch::Watch,
 };
 use crate::{
     gpu::{
@@ -32,16 +34,6 @@ const REST_SECS: f64 = 0.3;
 struct Known {
     mean: bool,
     histogram: bool,
-}
-
-/// The film's histogram on its way to the interface.
-#[derive(Default)]
-struct Watch {
-    wanted: bool,
-    reading: Option<Readback>,
-    /// There has been another picture since the reading began.
-    is_stale: bool,
-    histogram: Option<Histogram>,
 }
 
 /// One picture in progress.
@@ -66,9 +58,8 @@ pub struct View {
     lent_glow: Option<Arc<Glow>>,
     /// The same of where its indirect light comes from.
     lent_neighbours: Option<Neighbours>,
-    /// It was said that pipelines will be compiled: the next pump does so, for the word to be
-    /// seen first.
-    compile_announced: bool,
+    /// Pipelines on their way.
+    preparation: Option<Preparation>,
     dispatches: Dispatches,
     /// The texture of the newest picture; while a new region has none, that of the old one.
     shown: Option<wgpu::Texture>,
@@ -103,7 +94,7 @@ impl View {
             watch: Watch::default(),
             lent_glow: None,
             lent_neighbours: None,
-            compile_announced: false,
+            preparation: None,
             dispatches: Dispatches::default(),
             shown: None,
             texture_generation: 0,
@@ -171,24 +162,26 @@ impl View {
     pub fn pump(&mut self, now_secs: f64) -> bool {
         self.now_secs = now_secs;
         self.collect();
+        if self.inputs.is_none() {
+            let Some(scene) = self.pending.take() else { return false };
+            self.apply(scene);
+        }
+        if self.prepare() {
+            self.finished_secs = now_secs;
+            return true;
+        }
         if self.schedule.accepts_changes()
             && let Some(scene) = self.pending.take()
         {
             self.apply(scene);
         }
-        if self.inputs.is_none() {
-            return false;
+        while let Some(work) = self.schedule.next(now_secs) {
+            self.submit(work);
         }
-        if !self.prepare() {
-            while let Some(work) = self.schedule.next(now_secs) {
-                self.submit(work);
-            }
-        }
-        self.read_histogram();
+        self.watch.read(&self.kernels.gpu, &self.targets.glow.statistics);
         let idle = self.schedule.status(now_secs).idle
-            && self.watch.reading.is_none()
-            && self.pending.is_none()
-            && !self.compile_announced;
+            && !self.watch.is_reading()
+            && self.pending.is_none();
         if !idle {
             self.finished_secs = now_secs;
         }
@@ -249,29 +242,56 @@ impl View {
         self.inputs = Some(inputs);
     }
 
-    fn integer_power(&self) -> u32 {
-        self.inputs.as_ref().map_or(0, |inputs| inputs.picture.fractal.integer_power)
+    /// Sees to it that pipelines are there before anything needs them: for a still at once,
+    /// otherwise after saying so. True while nothing else should start.
+    fn prepare(&mut self) -> bool {
+        while let Some(extra) = self.missing() {
+            if self.pace == Pace::Still {
+                self.kernels.prepare(extra);
+                continue;
+            }
+            let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return false };
+            let preparation = match self.preparation.take() {
+                Some(preparation) if preparation.extra() == extra => preparation,
+                _ => Preparation::announce(extra, self.now_secs),
+            };
+            let inputs = self.inputs_of(scene);
+            let preparation = self.preparation.insert(preparation);
+            if !preparation.step(&self.kernels, &self.targets, &inputs, self.now_secs) {
+                return true;
+            }
+        }
+        self.preparation = None;
+        false
     }
 
-    /// Sees to it that the power's own pipelines get compiled: for a still at once, otherwise
-    /// when a picture has been shown and nothing has changed for a while. True while nothing else
-    /// should start.
-    fn prepare(&mut self) -> bool {
-        let power = self.integer_power();
-        if self.kernels.is_specialised(power) {
-            self.compile_announced = false;
-            return false;
-        }
-        if self.pace == Pace::Still || self.compile_announced {
-            self.kernels.specialise(power);
-            self.compile_announced = false;
-            return false;
-        }
+    /// The pipelines that are to be prepared now, if any.
+    fn missing(&self) -> Option<Extra> {
+        let scene = self.pending.as_ref().or(self.scene.as_ref())?;
+        let gathers = scene.indirect.kind != IndirectKind::Off;
+        let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
+        let wanted = [
+            gathers.then_some(Extra::Gather),
+            (glows || self.watch.is_wanted()).then_some(Extra::Glow),
+            self.power_to_prepare(scene),
+        ];
+        wanted.into_iter().flatten().find(|extra| !self.kernels.is_ready(*extra))
+    }
+
+    /// The power whose own pipelines are due: for a still any, otherwise when a picture has been
+    /// shown and nothing has changed for a while, for the general ones do as well until then.
+    fn power_to_prepare(&self, scene: &Scene) -> Option<Extra> {
+        let extra = Extra::Power(scene.fractal.integer_power()?);
         // Rest first: a drag of the power passes through many.
-        self.compile_announced = self.schedule.status(self.now_secs).shown
+        let is_at_rest = self.pending.is_none()
+            && self.schedule.status(self.now_secs).shown
             && !self.moving
             && self.now_secs - self.changed_secs >= REST_SECS;
-        self.compile_announced
+        let has_begun = self
+            .preparation
+            .as_ref()
+            .is_some_and(|preparation| preparation.extra() == extra && preparation.has_begun());
+        (self.pace == Pace::Still || is_at_rest || has_begun).then_some(extra)
     }
 
     /// Allocates what the scene needs to know of its film as a whole, and frees what it doesn't.
@@ -298,7 +318,7 @@ impl View {
         let need = self.targets.glow.need();
         let tasks = Tasks {
             mean: need.mean && !self.known.mean,
-            histogram: self.watch.wanted && !self.known.histogram,
+            histogram: self.watch.is_wanted() && !self.known.histogram,
             adapt: need.mean.then_some(adapt),
             bloom: need.bloom,
         };
@@ -327,35 +347,19 @@ impl View {
             self.shown = Some(self.targets.texture.clone());
             self.texture_generation += 1;
         }
-        self.watch.is_stale |= matches!(work, Work::Show { .. });
+        if matches!(work, Work::Show { .. }) {
+            self.watch.note_picture();
+        }
     }
 
     /// Says whether the interface shows the film's histogram: [`Report::histogram`] has it then.
     pub fn watch_histogram(&mut self, wanted: bool) {
-        if wanted == self.watch.wanted {
+        if wanted == self.watch.is_wanted() {
             return;
         }
-        self.watch = Watch { wanted, ..Watch::default() };
+        self.watch = Watch::new(wanted);
         if wanted {
             self.schedule.show_again();
-        }
-    }
-
-    /// Fetches the histogram of the newest picture.
-    fn read_histogram(&mut self) {
-        let watch = &mut self.watch;
-        if let Some(reading) = &mut watch.reading {
-            match reading.take(&self.kernels.gpu) {
-                Ok(None) => return,
-                Ok(Some(bytes)) => watch.histogram = glow::histogram(&bytes),
-                // A lost device says so elsewhere.
-                Err(ReadbackError) => {}
-            }
-            watch.reading = None;
-        }
-        if watch.wanted && std::mem::take(&mut watch.is_stale) {
-            let statistics = &self.targets.glow.statistics;
-            watch.reading = Some(Readback::buffer(&self.kernels.gpu, statistics));
         }
     }
 
@@ -390,8 +394,8 @@ impl View {
     /// What the view is doing.
     pub fn report(&self) -> Report {
         let status = self.schedule.status(self.now_secs);
-        let activity = if self.compile_announced {
-            Activity::Compiling(format!("power {}", self.integer_power()))
+        let activity = if let Some(preparation) = &self.preparation {
+            Activity::Compiling(preparation.extra().name())
         } else if self.inputs.is_none() || (status.idle && self.pending.is_none()) {
             Activity::Idle
         } else if status.moving {
@@ -407,7 +411,7 @@ impl View {
             pixels_per_sample: 1 << status.shown_level,
             elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),
             frame_ms: self.frame_ms,
-            histogram: self.watch.histogram.clone(),
+            histogram: self.watch.histogram().cloned(),
             memory: self.memory(),
             pictures: self.pictures,
         }

@@ -25,7 +25,7 @@ use super::{
 use crate::{
     export::{PictureFormat, StillOptions},
     gpu::Gpu,
-    render::{Activity, Kernels},
+    render::{Activity, Kernels, Report},
     ui::{self, ExportProgress},
 };
 
@@ -271,9 +271,12 @@ impl Engine {
     }
 
     /// Asks for a frame where there is something new to show.
-    fn show(&mut self, pictures_before: u64, busy: bool, report: &crate::render::Report) {
+    fn show(&mut self, before: &Report, busy: bool, report: &Report) {
         let now_secs = page::now_secs();
-        let is_new = report.pictures != pictures_before || !busy;
+        // What will be compiled is told before the screen may stand still for it.
+        let is_told = before.activity == report.activity
+            || !matches!(report.activity, Activity::Compiling(_));
+        let is_new = report.pictures != before.pictures || !is_told || !busy;
         if is_new || now_secs - self.told_at_secs > TELL_EVERY_SECS {
             self.told_at_secs = now_secs;
             self.context.request_repaint();
@@ -289,9 +292,9 @@ fn tick() {
     let session = engine.session.clone();
     let Ok(mut session) = session.try_borrow_mut() else { return };
     engine.is_ticking = false;
-    let pictures_before = session.status.report.pictures;
+    let before = session.status.report.clone();
     let busy = engine.step(&mut session, page::now_secs());
-    engine.show(pictures_before, busy, &session.status.report);
+    engine.show(&before, busy, &session.status.report);
     if busy {
         engine.tick_later();
     }

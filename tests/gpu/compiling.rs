@@ -1,0 +1,179 @@
+//! When pipelines are compiled: some at the start, and then none that was not announced.
+
+use std::{
+    collections::BTreeSet,
+    time::{Duration, Instant},
+};
+
+use mandelight::{
+    gpu::Gpu,
+    render::{Activity, Kernels, Pace, Region, View},
+    scene::{IndirectKind, Scene},
+};
+
+use crate::harness::{kernels, sampled};
+
+const SIZE: [u32; 2] = [48, 32];
+
+/// Kernels of their own: what others compiled does not count.
+fn fresh_kernels() -> std::sync::Arc<Kernels> {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+    Kernels::new(&gpu)
+}
+
+/// A live view whose every pump is watched.
+struct Watched {
+    kernels: std::sync::Arc<Kernels>,
+    view: View,
+    start: Instant,
+    /// What was announced, one after the other.
+    announced: Vec<String>,
+}
+
+impl Watched {
+    fn new() -> Self {
+        let kernels = fresh_kernels();
+        let view = View::new(&kernels, Region::whole(SIZE), Pace::Interactive);
+        Self { kernels, view, start: Instant::now(), announced: Vec::new() }
+    }
+
+    /// Pumps once. One pipeline at most is compiled, and none but where the report of the pump
+    /// before says so, some displayed frames ago.
+    fn pump(&mut self) -> bool {
+        let activity = self.view.report().activity;
+        let pictures = self.view.dispatches();
+        let made = self.kernels.made();
+        let is_busy = self.view.pump(self.start.elapsed().as_secs_f64());
+        let new = self.kernels.made().split_off(made.len());
+        match &activity {
+            Activity::Compiling(_) => assert!(new.len() <= 1, "{new:?} at once"),
+            other => assert!(new.is_empty(), "{new:?} compiled while {other:?}"),
+        }
+        if let Activity::Compiling(what) = self.view.report().activity {
+            if self.announced.last() != Some(&what) {
+                self.announced.push(what);
+            }
+            if made.len() > 6 {
+                assert_eq!(self.view.dispatches(), pictures, "the picture stays meanwhile");
+            }
+        }
+        std::thread::sleep(Duration::from_millis(1));
+        is_busy
+    }
+
+    /// Pumps until the view rests, and for a while longer.
+    fn settle(&mut self) {
+        let mut rest = Instant::now();
+        while rest.elapsed() < Duration::from_millis(400) {
+            if self.pump() {
+                rest = Instant::now();
+            }
+            assert!(self.start.elapsed().as_secs() < 300, "{:?}", self.view.report());
+        }
+    }
+
+    fn show(&mut self, scene: &Scene) {
+        self.view.set_scene(scene, false);
+        self.settle();
+    }
+}
+
+/// Whatever is switched on or changed, in the order in which the panels have it.
+#[test]
+fn nothing_is_compiled_unannounced() {
+    let mut watched = Watched::new();
+    let mut scene = sampled(Scene::default(), 1);
+    let first = watched.kernels.made();
+    assert_eq!(first, ["shade", "fill", "tone", "march", "normal", "shadow"]);
+    watched.show(&scene);
+    assert_eq!(watched.announced, ["power 8"]);
+    type Edit = fn(&mut Scene);
+    let edits: [(Edit, &[&str]); 8] = [
+        (|scene| scene.fractal.power = 4.5, &[]),
+        (|scene| scene.fractal.power = 3.0, &["power 3"]),
+        (|scene| scene.lights.environment[0].muted = true, &[]),
+        (|scene| scene.indirect.kind = IndirectKind::Horizon, &["indirect light"]),
+        (|scene| scene.indirect.kind = IndirectKind::Uniform, &[]),
+        (|scene| scene.bloom.strength = 0.4, &["exposure and bloom"]),
+        (|scene| scene.tone.auto_exposure = true, &[]),
+        (|scene| scene.fractal.power = 8.0, &[]),
+    ];
+    for (edit, expected) in edits {
+        watched.announced.clear();
+        edit(&mut scene);
+        watched.show(&scene);
+        assert_eq!(watched.announced, expected);
+    }
+    watched.announced.clear();
+    watched.view.watch_histogram(true);
+    watched.settle();
+    assert_eq!(watched.announced, [""; 0]);
+
+    let made = watched.kernels.made();
+    let mut all: BTreeSet<String> = first.into_iter().collect();
+    let special =
+        |power: u32| ["march", "normal", "shadow"].map(|pass| format!("{pass}, power {power}"));
+    all.extend(special(8));
+    all.extend(special(3));
+    all.extend(
+        ["gather", "mean", "reduce", "expose", "histogram", "bloom", "blur"].map(str::to_owned),
+    );
+    assert_eq!(made.len(), all.len(), "each once: {made:?}");
+    assert_eq!(BTreeSet::from_iter(made), all);
+}
+
+/// The histogram alone needs pipelines too.
+#[test]
+fn a_first_look_at_the_histogram_is_announced() {
+    let mut watched = Watched::new();
+    watched.show(&sampled(Scene::default(), 1));
+    watched.announced.clear();
+    watched.view.watch_histogram(true);
+    watched.settle();
+    assert_eq!(watched.announced, ["exposure and bloom"]);
+    assert!(watched.view.report().histogram.is_some());
+}
+
+/// A drag of the power passes through many, and stops none of them.
+#[test]
+fn a_drag_of_the_power_compiles_nothing() {
+    let mut watched = Watched::new();
+    let mut scene = sampled(Scene::default(), 1);
+    watched.show(&scene);
+    let made = watched.kernels.made();
+    for power in [7.0, 6.0, 5.0, 4.0, 3.0, 2.0] {
+        scene.fractal.power = power;
+        watched.view.set_scene(&scene, true);
+        for _ in 0..10 {
+            watched.pump();
+        }
+    }
+    assert_eq!(watched.kernels.made(), made);
+    watched.show(&scene);
+    assert_eq!(watched.kernels.made().len(), made.len() + 3);
+}
+
+/// A still has nobody to tell, and waits for nothing.
+#[test]
+fn a_still_compiles_at_once() {
+    let kernels = fresh_kernels();
+    let mut scene = sampled(Scene::default(), 1);
+    scene.bloom.strength = 0.4;
+    let mut view = View::new(&kernels, Region::whole(SIZE), Pace::Still);
+    view.set_scene(&scene, false);
+    view.pump(0.0);
+    assert_eq!(kernels.made().len(), 6 + 3 + 6);
+    assert_eq!(view.report().activity, Activity::Refining);
+}
+
+/// Pipelines that one view prepared are there for all others of the device.
+#[test]
+fn what_is_ready_is_not_announced_again() {
+    kernels().prepare(mandelight::render::kernels::Extra::Gather);
+    let mut scene = sampled(Scene::default(), 1);
+    scene.indirect.kind = IndirectKind::Uniform;
+    let mut view = View::new(kernels(), Region::whole(SIZE), Pace::Interactive);
+    view.set_scene(&scene, false);
+    view.pump(0.0);
+    assert_eq!(view.report().activity, Activity::Refining);
+}
