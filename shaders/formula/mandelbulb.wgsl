@@ -3,85 +3,119 @@
 // instead of trigonometry:
 //     rho = |x + iy|, u = (x + iy) / rho, w = rho + iz
 //     z^n = (Re w^n Re u^n, Re w^n Im u^n, Im w^n)
+// Roots and divisions cost most, so they come late or not at all: u² and w² need only a = rho²,
+// and an even power of w is p + i q rho with polynomials p and q of a and z:
+//     n = 2 m:      Re w^n = p,             Im w^n = q rho
+//     n = 2 m + 1:  Re w^n = (p - z q) rho, Im w^n = a q + z p
 // The fractal is passed by value and read from the picture once, outside all loops: some drivers
 // read a buffer anew for every use, and marches that do take twice as long on lavapipe.
 
 // The power this pipeline is specialised for, 2 to 16; 0 reads it from the picture.
 override POWER: u32 = 0u;
 
+// Orbits run this far beside the polar axis, on which there is no longitude: toward +x, as
+// atan2(0, 0) = 0 has it, and off the plane y = 0, in which a step could still meet the axis.
+const BESIDE_AXIS = vec3f(1e-9, 1e-16, 0.0);
+
 // How much more than n |z|^(n - 1) a step may be taken to stretch along the parallels: at the
 // poles it would stop every ray.
 const SIDEWAYS_MAX = 10.0;
 
-// z^n in parts, which its derivatives are made of too.
-struct Turned {
-    // The rotor u and |x + iy|.
-    u: vec2f,
-    rho: f32,
-    // Their powers.
-    un: vec2f,
-    wn: vec2f,
-    // n |z|^(n - 1): what the derivative is multiplied by.
-    stretch: f32,
+// The squares that a step begins with.
+struct Squares {
+    // x² - y² + 2 i x y.
+    xy: vec2f,
+    // rho² = x² + y².
+    a: f32,
+    zz: f32,
+    // |z|².
+    s: f32,
 }
 
-// On the polar axis the rotor's direction is taken as that of +x.
-fn rotor(z: vec3f, rho: f32) -> vec2f {
-    if (rho > 0.0) { return z.xy / rho; }
-    return vec2f(1.0, 0.0);
+fn squares(z: vec3f) -> Squares {
+    let xx = z.x * z.x;
+    let yy = z.y * z.y;
+    let zz = z.z * z.z;
+    let a = xx + yy;
+    return Squares(vec2f(xx - yy, (z.x + z.x) * z.y), a, zz, a + zz);
 }
 
-// A whole power n.
-fn turned_whole(z: vec3f, r: f32, n: u32) -> Turned {
-    let rho = length(z.xy);
-    let u = rotor(z, rho);
-    let wn = complex_power(vec2f(rho, z.z), n);
-    return Turned(u, rho, complex_power(u, n), wn, f32(n) * real_power(r, n - 1u));
-}
-
-// A real power n in polar coordinates.
-fn turned_real(z: vec3f, r: f32, n: f32) -> Turned {
-    let rho = length(z.xy);
-    let u = rotor(z, rho);
-    if (r == 0.0) { return Turned(u, rho, u, vec2f(0.0), 0.0); }
-    let log2_r = accurate_log2(r);
-    let latitude = cos_sin_turns(n * angle_turns(z.z, rho));
-    let longitude = cos_sin_turns(n * angle_turns(z.y, z.x));
-    let stretch = n * accurate_exp2((n - 1.0) * log2_r);
-    return Turned(u, rho, longitude, accurate_exp2(n * log2_r) * latitude, stretch);
-}
-
-fn turned(fractal: Fractal, z: vec3f, r: f32) -> Turned {
-    if (POWER != 0u) { return turned_whole(z, r, POWER); }
-    if (fractal.integer_power != 0u) {
-        return turned_whole(z, r, fractal.integer_power);
-    }
-    return turned_real(z, r, fractal.power);
-}
-
-fn triplex_power(fractal: Fractal, t: Turned) -> vec3f {
-    return vec3f(t.wn.x * t.un, t.wn.y * fractal.z_sign);
-}
-
-// The stretch along the parallels, n Re w^n / rho: 1e-15 is near enough to the axis for the
-// limit, and the quotient stays finite.
-fn sideways_stretch(fractal: Fractal, t: Turned) -> f32 {
-    return fractal.power * t.wn.x / max(t.rho, 1e-15);
-}
-
-struct OrbitStep {
-    // z^n without the constant.
+// z^n and what its derivatives are made of. What a caller leaves unused is not computed.
+struct Raised {
     power: vec3f,
     // n |z|^(n - 1): what the derivative is multiplied by.
     stretch: f32,
-    // What the step stretches most, along parallels too: at least `stretch`.
-    widest_stretch: f32,
+    // The stretch along the parallels: n Re w^n / rho.
+    sideways: f32,
+    // Powers of the rotor u and of w.
+    un: vec2f,
+    wn: vec2f,
 }
 
-fn orbit_step(fractal: Fractal, z: vec3f, r: f32) -> OrbitStep {
-    let t = turned(fractal, z, r);
-    let widest = clamp(abs(sideways_stretch(fractal, t)), t.stretch, SIDEWAYS_MAX * t.stretch);
-    return OrbitStep(triplex_power(fractal, t), t.stretch, widest);
+// u^2m. The division waits while (x + iy)^4 is made; a higher power would underflow near the axis.
+fn rotor_power(q: Squares, inverse_a: f32, m: u32) -> vec2f {
+    if (m % 2u == 0u) {
+        return complex_power(inverse_a * (inverse_a * complex_square(q.xy)), m / 2u);
+    }
+    return complex_power(inverse_a * q.xy, m);
+}
+
+// The whole power that the pipeline is specialised for.
+fn raised_whole(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
+    let n = fractal.power;
+    let m = POWER / 2u;
+    let inverse_a = 1.0 / q.a;
+    let rho = sqrt(q.a);
+    let even_u = rotor_power(q, inverse_a, m);
+    let even_w = rooted_power(q.a, vec2f(q.a - q.zz, z.z + z.z), m);
+    if (POWER % 2u == 0u) {
+        let wn = vec2f(even_w.x, even_w.y * rho);
+        let power = vec3f(wn.x * even_u, wn.y * fractal.z_sign);
+        let stretch = (n * sqrt(q.s)) * real_power(q.s, m - 1u);
+        return Raised(power, stretch, (n * rho * inverse_a) * wn.x, even_u, wn);
+    }
+    let across = even_w.x - z.z * even_w.y;
+    let along = q.a * even_w.y + z.z * even_w.x;
+    let power = vec3f(complex_product(even_u, across * z.xy), along * fractal.z_sign);
+    let un = (rho * inverse_a) * complex_product(even_u, z.xy);
+    return Raised(power, n * real_power(q.s, m), n * across, un, vec2f(across * rho, along));
+}
+
+// A real power in polar coordinates.
+fn raised_real(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
+    let n = fractal.power;
+    let rho = sqrt(q.a);
+    let r = sqrt(q.s);
+    let latitude = cos_sin_turns(n * angle_turns(z.z, rho));
+    let un = cos_sin_turns(n * angle_turns(z.y, z.x));
+    let shrunk = accurate_exp2(0.5 * (n - 1.0) * accurate_log2(q.s));
+    let wn = (r * shrunk) * latitude;
+    return Raised(vec3f(wn.x * un, wn.y * fractal.z_sign), n * shrunk, n * wn.x / rho, un, wn);
+}
+
+fn raised(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
+    if (POWER != 0u) { return raised_whole(fractal, z, q); }
+    return raised_real(fractal, z, q);
+}
+
+// Where an orbit starts and what its steps add.
+struct Orbit {
+    start: vec3f,
+    constant: vec3f,
+    // The constant's own derivative: the Julia form's does not move with the point.
+    constant_derivative: f32,
+    // The bailout's square.
+    limit: f32,
+}
+
+fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
+    let julia = fractal.julia != 0u;
+    return Orbit(
+        point + BESIDE_AXIS,
+        select(point, fractal.julia_constant, julia) + BESIDE_AXIS,
+        select(1.0, 0.0, julia),
+        fractal.bailout * fractal.bailout,
+    );
 }
 
 struct Reach {
@@ -99,27 +133,29 @@ fn step_factor(fractal: Fractal) -> f32 {
 }
 
 fn reach(fractal: Fractal, point: vec3f) -> Reach {
-    let julia = fractal.julia != 0u;
-    let constant = select(point, fractal.julia_constant, julia);
-    let derivative_constant = select(1.0, 0.0, julia);
-    let bailout = fractal.bailout;
-    var z = point;
-    var r = length(z);
+    let orbit = orbit_of(fractal, point);
+    var z = orbit.start;
     var dr = 1.0;
-    var dg = 1.0;
-    for (var i = 0u; i < fractal.iterations; i++) {
-        if (r > bailout) { break; }
-        let next = orbit_step(fractal, z, r);
-        dr = min(next.stretch * dr + derivative_constant, fractal.derivative_max);
-        dg = min(next.widest_stretch * dg + derivative_constant, fractal.derivative_max);
-        z = next.power + constant;
-        r = length(z);
+    // In units of the step factor, so that a step is this over the larger of dr and dg.
+    let unit = 1.0 / step_factor(fractal);
+    var dg = unit;
+    var s: f32;
+    for (var i = 0u; ; i++) {
+        let q = squares(z);
+        s = q.s;
+        if ((s > orbit.limit) | (i >= fractal.iterations)) { break; }
+        let next = raised(fractal, z, q);
+        z = next.power + orbit.constant;
+        let widest = clamp(abs(next.sideways), next.stretch, SIDEWAYS_MAX * next.stretch);
+        dr = min(next.stretch * dr + orbit.constant_derivative, fractal.derivative_max);
+        dg = min(widest * dg + unit * orbit.constant_derivative, fractal.derivative_max);
     }
-    if (r <= 1.0) { return Reach(0.0, 0.0); }
-    let height = 0.5 * log(r) * r;
+    if (s <= 1.0) { return Reach(0.0, 0.0); }
+    // 0.5 ln(r) r.
+    let height = 0.25 * log(s) * sqrt(s);
     let distance = height / max(dr, 1e-37);
-    let step = step_factor(fractal) * height / max(dg, 1e-37);
-    return Reach(distance, min(min(step, distance), fractal.max_step));
+    let step = height / max(max(dg, dr), 1e-37);
+    return Reach(distance, min(step, fractal.max_step));
 }
 
 fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
@@ -128,16 +164,17 @@ fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
 
 // The Jacobian of z^n over `stretch`: a turn of the meridian's plane by n - 1 latitudes, of the
 // parallels by n - 1 longitudes, and a further stretch along these.
-fn turned_jacobian(fractal: Fractal, t: Turned, height: f32, inverse_r: f32) -> mat3x3f {
+fn raised_jacobian(fractal: Fractal, t: Raised, z: vec3f, rho: f32, inverse_r: f32) -> mat3x3f {
+    let u = z.xy / rho;
     // w^(n - 1) over its length.
     let unit = inverse_r / max(length(t.wn), 1e-20);
-    let m = unit * complex_product(t.wn, vec2f(t.rho, -height));
-    let sideways = clamp(sideways_stretch(fractal, t) / max(t.stretch, 1e-30), -1e6, 1e6);
+    let m = unit * complex_product(t.wn, vec2f(rho, -z.z));
+    let sideways = clamp(t.sideways / max(t.stretch, 1e-30), -1e6, 1e6);
     let parallel = sideways * vec2f(-t.un.y, t.un.x);
     let sign = fractal.z_sign;
     return mat3x3f(
-        vec3f(m.x * t.u.x * t.un - t.u.y * parallel, sign * m.y * t.u.x),
-        vec3f(m.x * t.u.y * t.un + t.u.x * parallel, sign * m.y * t.u.y),
+        vec3f(m.x * u.x * t.un - u.y * parallel, sign * m.y * u.x),
+        vec3f(m.x * u.y * t.un + u.x * parallel, sign * m.y * u.y),
         vec3f(-m.y * t.un, sign * m.x),
     );
 }
@@ -148,30 +185,29 @@ fn turned_jacobian(fractal: Fractal, t: Turned, height: f32, inverse_r: f32) -> 
 // J grows as dr does and grad dr as its square, past what an f32 holds: both are kept in units
 // of dr, which leaves the direction alone.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
-    let julia = fractal.julia != 0u;
-    let constant = select(point, fractal.julia_constant, julia);
-    let n = fractal.power;
-    var z = point;
-    var r = length(z);
+    let orbit = orbit_of(fractal, point);
+    var z = orbit.start;
+    var r: f32;
     // J / dr, grad dr / dr^2, and the constant's own derivative over dr.
     var jacobian = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     var slope = vec3f(0.0);
-    var added = select(1.0, 0.0, julia);
-    for (var i = 0u; i < fractal.iterations; i++) {
-        if (r > fractal.bailout) { break; }
-        let t = turned(fractal, z, r);
+    var added = orbit.constant_derivative;
+    for (var i = 0u; ; i++) {
+        let q = squares(z);
+        r = sqrt(q.s);
+        if ((q.s > orbit.limit) | (i >= fractal.iterations)) { break; }
+        let t = raised(fractal, z, q);
         // This dr over the next: infinite where a Julia orbit meets the origin.
         let shrink = 1.0 / max(t.stretch + added, 1e-9);
         let kept = t.stretch * shrink;
         let inverse_r = 1.0 / max(r, 1e-9);
-        slope = (kept * shrink) * ((n - 1.0) * inverse_r * inverse_r * (z * jacobian) + slope);
-        jacobian = kept * (turned_jacobian(fractal, t, z.z, inverse_r) * jacobian);
+        slope = (kept * shrink) * ((fractal.power - 1.0) * inverse_r * inverse_r * (z * jacobian) + slope);
+        jacobian = kept * (raised_jacobian(fractal, t, z, sqrt(q.a), inverse_r) * jacobian);
         added *= shrink;
         jacobian[0].x += added;
         jacobian[1].y += added;
         jacobian[2].z += added;
-        z = triplex_power(fractal, t) + constant;
-        r = length(z);
+        z = t.power + orbit.constant;
     }
     if (r <= 1.0) { return vec3f(0.0); }
     let log_r = log(r);
@@ -186,20 +222,21 @@ struct OrbitColors {
 }
 
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
-    let constant = select(point, fractal.julia_constant, fractal.julia != 0u);
-    var z = point;
-    var r = length(z);
-    var traps = vec3f(2.0);
+    let orbit = orbit_of(fractal, point);
+    var z = orbit.start;
+    var q = squares(z);
+    // Squared until the end.
+    var traps = vec3f(4.0);
     var count = 0u;
-    for (; count < fractal.iterations; count++) {
-        if (r > fractal.bailout) { break; }
-        z = orbit_step(fractal, z, r).power + constant;
-        r = length(z);
-        traps = min(traps, vec3f(r, length(z.xy), abs(z.z)));
+    for (; ; count++) {
+        if ((q.s > orbit.limit) | (count >= fractal.iterations)) { break; }
+        z = raised(fractal, z, q).power + orbit.constant;
+        q = squares(z);
+        traps = min(traps, vec3f(q.s, q.a, q.zz));
     }
     var smooth_iterations = f32(count);
-    if (r > fractal.bailout) {
-        smooth_iterations -= log2(max(log2(r) / fractal.log2_bailout, 1.0)) / log2(fractal.power);
+    if (q.s > orbit.limit) {
+        smooth_iterations -= log2(max(0.5 * log2(q.s) / fractal.log2_bailout, 1.0)) / log2(fractal.power);
     }
-    return OrbitColors(smooth_iterations, traps);
+    return OrbitColors(smooth_iterations, sqrt(traps));
 }

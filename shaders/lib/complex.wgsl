@@ -1,40 +1,59 @@
-// Complex numbers as vec2f (real, imaginary), and whole powers by squaring.
+// Complex numbers as vec2f (real, imaginary), numbers p + i q √a as vec2f(p, q), and their whole
+// powers by squaring. With a constant exponent only its own products remain.
 
-fn complex_product(a: vec2f, b: vec2f) -> vec2f {
-    return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+fn complex_product(v: vec2f, w: vec2f) -> vec2f {
+    return vec2f(v.x * w.x - v.y * w.y, v.x * w.y + v.y * w.x);
 }
 
-fn complex_square(a: vec2f) -> vec2f {
-    return vec2f((a.x - a.y) * (a.x + a.y), 2.0 * a.x * a.y);
+fn complex_square(v: vec2f) -> vec2f {
+    return vec2f((v.x - v.y) * (v.x + v.y), (v.x + v.x) * v.y);
 }
 
-// One step of left-to-right binary powering: a², times w where the exponent's next bit is set.
-fn complex_power_bit(a: vec2f, w: vec2f, bit: u32) -> vec2f {
-    let squared = complex_square(a);
+// One step of left-to-right binary powering: v², times w where the exponent's next bit is set.
+fn complex_power_bit(v: vec2f, w: vec2f, bit: u32) -> vec2f {
+    let squared = complex_square(v);
     if (bit != 0u) { return complex_product(squared, w); }
     return squared;
 }
 
-// w^n for n from 1 to 31. With a constant n only its own products remain.
+// w^n for n from 1 to 15.
 fn complex_power(w: vec2f, n: u32) -> vec2f {
-    var a = w;
-    if (n >= 16u) { a = complex_power_bit(a, w, n & 8u); }
-    if (n >= 8u) { a = complex_power_bit(a, w, n & 4u); }
-    if (n >= 4u) { a = complex_power_bit(a, w, n & 2u); }
-    if (n >= 2u) { a = complex_power_bit(a, w, n & 1u); }
-    return a;
+    var v = w;
+    if (n >= 8u) { v = complex_power_bit(v, w, n & 4u); }
+    if (n >= 4u) { v = complex_power_bit(v, w, n & 2u); }
+    if (n >= 2u) { v = complex_power_bit(v, w, n & 1u); }
+    return v;
 }
 
-fn real_power_bit(a: f32, x: f32, bit: u32) -> f32 {
-    return select(a * a, a * a * x, bit != 0u);
+fn rooted_product(a: f32, v: vec2f, w: vec2f) -> vec2f {
+    return vec2f(v.x * w.x - a * (v.y * w.y), v.x * w.y + v.y * w.x);
 }
 
-// x^n for n from 1 to 31.
+fn rooted_power_bit(a: f32, v: vec2f, w: vec2f, bit: u32) -> vec2f {
+    let squared = vec2f(v.x * v.x - a * (v.y * v.y), (v.x + v.x) * v.y);
+    if (bit != 0u) { return rooted_product(a, squared, w); }
+    return squared;
+}
+
+// w^n for n from 1 to 15.
+fn rooted_power(a: f32, w: vec2f, n: u32) -> vec2f {
+    var v = w;
+    if (n >= 8u) { v = rooted_power_bit(a, v, w, n & 4u); }
+    if (n >= 4u) { v = rooted_power_bit(a, v, w, n & 2u); }
+    if (n >= 2u) { v = rooted_power_bit(a, v, w, n & 1u); }
+    return v;
+}
+
+fn real_power_bit(v: f32, x: f32, bit: u32) -> f32 {
+    return select(v * v, v * v * x, bit != 0u);
+}
+
+// x^n for n from 0 to 15.
 fn real_power(x: f32, n: u32) -> f32 {
-    var a = x;
-    if (n >= 16u) { a = real_power_bit(a, x, n & 8u); }
-    if (n >= 8u) { a = real_power_bit(a, x, n & 4u); }
-    if (n >= 4u) { a = real_power_bit(a, x, n & 2u); }
-    if (n >= 2u) { a = real_power_bit(a, x, n & 1u); }
-    return a;
+    if (n == 0u) { return 1.0; }
+    var v = x;
+    if (n >= 8u) { v = real_power_bit(v, x, n & 4u); }
+    if (n >= 4u) { v = real_power_bit(v, x, n & 2u); }
+    if (n >= 2u) { v = real_power_bit(v, x, n & 1u); }
+    return v;
 }
