@@ -7,14 +7,18 @@ mod bench;
 #[expect(dead_code, reason = "the oracle knows more than distances")]
 mod estimate;
 
-use bench::{arguments::Arguments, kindness, literal, statistics, views};
+use bench::{arguments::Arguments, counts, kindness, literal, statistics, views};
 use clap::Parser as _;
 use glam::DVec3;
 use mandelight::{
     fractal::{Estimator, Ray},
     gpu::Gpu,
-    render::{Region, uniforms::Inputs},
-    scene::Fractal,
+    render::{
+        Region,
+        pass::probe,
+        uniforms::{Inputs, Picture},
+    },
+    scene::{Fractal, Scene},
 };
 
 /// Width and height of the pictures.
@@ -185,4 +189,87 @@ fn the_benchmark_runs() {
         // A view with a hole in it is no view.
         assert!(view["hit"].as_f64() > Some(0.25), "{view}");
     }
+}
+
+/// What counting shaders count against orbits in f64: estimates, gradients and colours of the same
+/// points, an orbit each.
+#[test]
+fn counters_count_orbits() {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+    for (power, julia) in [(2.0, false), (3.0, false), (8.0, false), (8.0, true), (6.5, false)] {
+        let mut scene = views::filled();
+        scene.fractal = Fractal { power, julia, ..scene.fractal };
+        // A grid through the set and past it, of points that an f32 holds.
+        let side = |i: u32| f64::from(i) / 8.0 - 1.25;
+        let points: Vec<_> = (0..21 * 21 * 21_u32)
+            .map(|i| DVec3::new(side(i % 21), side(i / 21 % 21), side(i / 441)) * 0.9375)
+            .collect();
+        let expected: u32 = points.iter().map(|p| estimate::orbit(&scene.fractal, *p).steps).sum();
+        for power in [0, scene.fractal.integer_power().unwrap_or(0)] {
+            let found = counted(&gpu, &scene, &points, power);
+            assert_eq!(found.estimates, points.len() as f64, "{:?}", scene.fractal);
+            let off = found.steps / (3.0 * f64::from(expected)) - 1.0;
+            assert!(off.abs() < 2e-3, "{:?}: {found:?} for {expected}", scene.fractal);
+        }
+    }
+    assert_eq!(gpu.faults(), 0);
+}
+
+/// Counts the program's probe at `points`.
+fn counted(gpu: &Gpu, scene: &Scene, points: &[DVec3], power: u32) -> counts::Counts {
+    let device = &gpu.device;
+    let marks = counts::marks(&["reach"], [2, 0]);
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("counting probe"),
+        layout: None,
+        module: &counts::counting(gpu, &probe::MODULE, &marks).expect("a countable text"),
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants: &[("POWER", f64::from(power))],
+            ..Default::default()
+        },
+        cache: None,
+    });
+    let picture = Picture::new(scene, Region::whole([64, 64]));
+    let points: Vec<_> = points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
+    let filled = |bytes: &[u8]| {
+        let usage = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::COPY_SRC;
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: bytes.len() as u64,
+            usage,
+            mapped_at_creation: false,
+        });
+        gpu.queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    };
+    let picture = filled(bytemuck::bytes_of(&picture));
+    let questions = filled(bytemuck::cast_slice(&points));
+    let answers = filled(&vec![0; 32 * points.len()]);
+    let sums = filled(&[0; 8]);
+    let groups = [vec![&picture], vec![&questions, &answers], vec![&sums]];
+    let mut encoder = device.create_command_encoder(&Default::default());
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(&pipeline);
+    for (index, buffers) in (0..).zip(&groups) {
+        let entries: Vec<_> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(index),
+            entries: &entries,
+        });
+        pass.set_bind_group(index, &group, &[]);
+    }
+    pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
+    drop(pass);
+    gpu.queue.submit([encoder.finish()]);
+    counts::Counts::read(gpu, &sums).expect("the counts")
 }

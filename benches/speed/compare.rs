@@ -7,10 +7,13 @@ use mandelight::render::{self, Kernels, Region, uniforms::Inputs};
 use super::{
     Failure,
     arguments::Arguments,
+    counts::{self, Counts},
     errors::{Shown, Truths},
     kindness,
     literal::{Kindness, Literal, Picture},
-    ours, picture,
+    ours,
+    peak::{self, Peak},
+    picture,
     report::{Comparison, Side},
     statistics::median,
     views::View,
@@ -24,6 +27,7 @@ pub fn compare(
     arguments: &Arguments,
     kernels: &Arc<Kernels>,
     literal: &Literal,
+    peak: &Peak,
     view: &View,
 ) -> Result<Comparison, Failure> {
     let View { name, about, ref scene, size_px, stride, .. } = *view;
@@ -43,11 +47,12 @@ pub fn compare(
     let complaints = our_errors.complaints(&literal_errors, view.normals_within_deg);
     drop(shown);
 
-    let (mut literal_ms, mut ours_ms) = (Vec::new(), Vec::new());
+    let (mut literal_ms, mut ours_ms, mut gflops) = (Vec::new(), Vec::new(), Vec::new());
     let rounds = if view.is_long { arguments.rounds.div_ceil(2) } else { arguments.rounds };
     for _ in 0..rounds {
         literal_ms.push(theirs.draw_ms());
         ours_ms.push(ours::draw_ms(kernels, scene, size_px).0);
+        gflops.push(peak.gflops());
     }
     if let Some(folder) = &arguments.pictures {
         std::fs::create_dir_all(folder)?;
@@ -58,14 +63,27 @@ pub fn compare(
         let literal = picture::developed(&theirs.seen()?, size_px, exposure, white);
         picture::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
     }
-    let side = |rounds_ms: Vec<f64>, iterations, errors| Side {
+    let pixels: f64 = size_px.into_iter().map(f64::from).product();
+    let literal_counts = counts::literal(&kernels.gpu, &inputs, kindness)?.per(pixels);
+    let our_counts: Vec<_> = counts::ours(kernels, scene, size_px)?
+        .into_iter()
+        .map(|(pass, counts)| (pass, counts.per(pixels)))
+        .collect();
+    let mut our_sum = Counts::default();
+    our_counts.iter().for_each(|(_, counts)| our_sum += *counts);
+    let side = |rounds_ms: Vec<f64>, iterations, errors, counts| Side {
         ms: median(&rounds_ms),
         rounds_ms,
         iterations,
         errors,
+        counts,
     };
-    let literal = side(literal_ms, kindness.iterations, literal_errors);
-    let ours = side(ours_ms, scene.fractal.iterations, our_errors);
+    let literal = side(literal_ms, kindness.iterations, literal_errors, literal_counts);
+    let ours = side(ours_ms, scene.fractal.iterations, our_errors, our_sum);
+    let peak_gflops = median(&gflops);
+    let flop = scene.fractal.integer_power().map(peak::flop_a_step);
+    let steps = ours.counts.steps * pixels * f64::from(samples);
+    let peak_share = flop.map(|flop| steps * flop / (ours.ms * 1e-3) / (peak_gflops * 1e9));
     let mut passes_ms = Vec::new();
     if arguments.passes {
         passes_ms = passes(arguments, kernels, view, ours.ms);
@@ -81,7 +99,10 @@ pub fn compare(
         ratio: literal.ms / ours.ms,
         literal,
         ours,
+        peak_gflops,
+        peak_share,
         complaints,
+        our_counts,
         passes_ms,
     })
 }

@@ -6,13 +6,20 @@
 
 use bytemuck::{Pod, Zeroable};
 use mandelight::{
-    gpu::{Gpu, readback::Readback},
+    gpu::{
+        Gpu,
+        readback::{Readback, ReadbackError},
+    },
     render::{
         lattice,
         uniforms::{GRADIENT_ENTRIES, Inputs},
     },
 };
 use std::time::Instant;
+
+use super::{counts::Counts, instrument};
+
+const TEXT: &str = include_str!("literal.wgsl");
 
 /// llvmpipe stops an invocation after 65,535 turns of all its loops together.
 const LOOP_TURNS: u32 = 60_000;
@@ -150,10 +157,31 @@ pub struct Literal {
 impl Literal {
     /// Compiles them.
     pub fn new(gpu: &Gpu) -> Self {
+        Self::from_text(gpu, TEXT.into())
+    }
+
+    /// Compiles them with counters.
+    ///
+    /// # Errors
+    /// Where the text can't be counted.
+    pub fn counting(gpu: &Gpu) -> Result<Self, String> {
+        let marks = instrument::Marks {
+            orbits_in: "literal",
+            other_loops: &["march", "six_sample_normal", "is_lit", "shadow", "shade"],
+            estimates: &["distance_to_set"],
+            entries: &["see", "shadow"],
+            // The film, which these do not touch.
+            buffer: [0, 5],
+        };
+        instrument::counting(&[("literal.wgsl", TEXT)], &marks)
+            .map(|text| Self::from_text(gpu, text))
+    }
+
+    fn from_text(gpu: &Gpu, text: String) -> Self {
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("literal"),
-            source: wgpu::ShaderSource::Wgsl(include_str!("literal.wgsl").into()),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
         });
         let entries: Vec<_> = (0..6)
             .map(|binding| wgpu::BindGroupLayoutEntry {
@@ -272,21 +300,39 @@ impl<'a> Picture<'a> {
         for sample in 0..self.samples {
             let mut settings = self.settings;
             settings.jitter = lattice::jitter(sample);
-            self.dispatch(&self.literal.see, settings);
-            // As many lights at once as a driver's cap on loops allows.
-            let turns = settings.max_steps * (settings.max_iterations + 1);
-            let at_once = (LOOP_TURNS / turns).max(1);
-            let mut first = 0;
-            while first < settings.light_count {
-                settings.first_light = first;
-                settings.end_light = settings.light_count.min(first + at_once);
-                self.dispatch(&self.literal.shadow, settings);
-                first += at_once;
-            }
+            self.trace(settings);
             self.dispatch(&self.literal.shade, settings);
         }
         gpu.wait();
         start.elapsed().as_secs_f64() * 1e3 / self.share()
+    }
+
+    /// Camera rays, normals, shadow rays.
+    fn trace(&self, mut settings: Settings) {
+        self.dispatch(&self.literal.see, settings);
+        // As many lights at once as a driver's cap on loops allows.
+        let turns = settings.max_steps * (settings.max_iterations + 1);
+        let at_once = (LOOP_TURNS / turns).max(1);
+        while settings.end_light < settings.light_count {
+            settings.first_light = settings.end_light;
+            settings.end_light = settings.light_count.min(settings.first_light + at_once);
+            self.dispatch(&self.literal.shadow, settings);
+        }
+    }
+
+    /// Counts what one sample of each drawn pixel takes; the pipelines are those of
+    /// [`Literal::counting`].
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn count(&self) -> Result<Counts, ReadbackError> {
+        let gpu = &self.literal.gpu;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.clear_buffer(&self.buffers[5], 0, None);
+        gpu.queue.submit([encoder.finish()]);
+        self.trace(self.settings);
+        gpu.wait();
+        Counts::read(gpu, &self.buffers[5])
     }
 
     /// The part of the picture's pixels that are drawn.
@@ -326,7 +372,7 @@ impl<'a> Picture<'a> {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn seen(&self) -> Result<Vec<Seen>, mandelight::gpu::readback::ReadbackError> {
+    pub fn seen(&self) -> Result<Vec<Seen>, ReadbackError> {
         let gpu = &self.literal.gpu;
         let read = |index: usize| Readback::buffer(gpu, &self.buffers[index]).wait(gpu);
         let (points, visibility, film) = (read(3)?, read(4)?, read(5)?);

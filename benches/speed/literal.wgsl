@@ -70,16 +70,40 @@ struct Point {
 // Sums of radiance, and the number of samples.
 @group(0) @binding(5) var<storage, read_write> film: array<vec4f>;
 
+// What Algorithm 1 requires beside the point, and how near counts. Read once a thread: some drivers
+// read a buffer anew for every use, which the loops would pay for.
+struct Required {
+    constant: vec3f,
+    power: f32,
+    divergence: f32,
+    epsilon: f32,
+    maxiter: u32,
+    maxsteps: u32,
+    julia: bool,
+}
+
+fn required() -> Required {
+    return Required(
+        settings.constant,
+        settings.power,
+        settings.divergence,
+        settings.epsilon,
+        settings.max_iterations,
+        settings.max_steps,
+        settings.julia != 0u,
+    );
+}
+
 // Algorithm 1.
-fn distance_to_set(point: vec3f) -> f32 {
-    let c = select(point, settings.constant, settings.julia != 0u);
-    let one = select(1.0, 0.0, settings.julia != 0u);
-    let power = settings.power;
+fn distance_to_set(point: vec3f, needs: Required) -> f32 {
+    let c = select(point, needs.constant, needs.julia);
+    let one = select(1.0, 0.0, needs.julia);
+    let power = needs.power;
     var z = point;
     var r = length(z);
     var dr = 1.0;
-    var i = settings.max_iterations;
-    while (r <= settings.divergence && i > 0u) {
+    var i = needs.maxiter;
+    while (r <= needs.divergence && i > 0u) {
         i -= 1u;
         let ph = atan2(z.z, length(z.xy));
         let th = atan2(z.y, z.x);
@@ -99,14 +123,14 @@ fn distance_to_set(point: vec3f) -> f32 {
 }
 
 // The same orbit, for colours: thesis equation 3.1 for any power, and orbit traps.
-fn orbit_colors(point: vec3f) -> vec4f {
-    let c = select(point, settings.constant, settings.julia != 0u);
-    let power = settings.power;
+fn orbit_colors(point: vec3f, needs: Required) -> vec4f {
+    let c = select(point, needs.constant, needs.julia);
+    let power = needs.power;
     var z = point;
     var r = length(z);
     var traps = vec3f(2.0);
     var i = 0u;
-    while (r <= settings.divergence && i < settings.max_iterations) {
+    while (r <= needs.divergence && i < needs.maxiter) {
         i += 1u;
         let ph = atan2(z.z, length(z.xy));
         let th = atan2(z.y, z.x);
@@ -118,7 +142,7 @@ fn orbit_colors(point: vec3f) -> vec4f {
         traps = min(traps, vec3f(r, length(z.xy), abs(z.z)));
     }
     var smooth_iterations = f32(i);
-    if (r > settings.divergence) {
+    if (r > needs.divergence) {
         smooth_iterations -= log(log(r) / settings.log_divergence) / log(power);
     }
     return vec4f(smooth_iterations, traps);
@@ -144,25 +168,25 @@ fn ray_direction(pixel: vec2u) -> vec3f {
 }
 
 // Steps along the ray (thesis 4.2); 0 where it met nothing.
-fn march(direction: vec3f) -> f32 {
+fn march(eye: vec3f, direction: vec3f, needs: Required) -> f32 {
     var t = 0.0;
-    for (var i = 0u; i < settings.max_steps; i++) {
-        let point = settings.eye + t * direction;
+    for (var i = 0u; i < needs.maxsteps; i++) {
+        let point = eye + t * direction;
         // Nothing is ahead of a ray that has passed the radius from which every orbit has escaped.
-        if (length(point) > settings.divergence && dot(point, direction) > 0.0) { return 0.0; }
-        let d = distance_to_set(point);
-        if (d < settings.epsilon) { return max(t, 1e-30); }
+        if (length(point) > needs.divergence && dot(point, direction) > 0.0) { return 0.0; }
+        let d = distance_to_set(point, needs);
+        if (d < needs.epsilon) { return max(t, 1e-30); }
         t += d;
     }
     return t;
 }
 
-fn six_sample_normal(point: vec3f, toward_eye: vec3f) -> vec3f {
+fn six_sample_normal(point: vec3f, toward_eye: vec3f, needs: Required) -> vec3f {
     var slope = vec3f(0.0);
     for (var axis = 0u; axis < 3u; axis++) {
         var offset = vec3f(0.0);
-        offset[axis] = settings.epsilon;
-        slope[axis] = distance_to_set(point + offset) - distance_to_set(point - offset);
+        offset[axis] = needs.epsilon;
+        slope[axis] = distance_to_set(point + offset, needs) - distance_to_set(point - offset, needs);
     }
     let size = max(max(abs(slope.x), abs(slope.y)), abs(slope.z));
     if (!(size > 0.0)) { return toward_eye; }
@@ -178,24 +202,26 @@ fn see(
     let place = place_of(workgroup, local, groups);
     if (place.index >= arrayLength(&points) || any(place.pixel >= settings.size_px)) { return; }
     let direction = ray_direction(place.pixel);
-    let depth = march(direction);
+    let needs = required();
+    let eye = settings.eye;
+    let depth = march(eye, direction, needs);
     var seen = Point(vec3f(0.0), depth, vec4f(0.0));
     if (depth > 0.0) {
-        let point = settings.eye + depth * direction;
-        seen.normal = six_sample_normal(point, -direction);
-        seen.colors = orbit_colors(point);
+        let point = eye + depth * direction;
+        seen.normal = six_sample_normal(point, -direction, needs);
+        seen.colors = orbit_colors(point, needs);
     }
     points[place.index] = seen;
 }
 
 // Steps from outside of the set to the point.
-fn is_lit(point: vec3f, direction: vec3f) -> bool {
+fn is_lit(point: vec3f, direction: vec3f, needs: Required) -> bool {
     let b = dot(point, direction);
     var s = sqrt(max(b * b - dot(point, point) + settings.outside * settings.outside, 0.0)) - b;
-    for (var i = 0u; i < settings.max_steps; i++) {
-        if (s <= settings.epsilon) { return true; }
-        let d = distance_to_set(point + s * direction);
-        if (d < 0.5 * settings.epsilon) { return false; }
+    for (var i = 0u; i < needs.maxsteps; i++) {
+        if (s <= needs.epsilon) { return true; }
+        let d = distance_to_set(point + s * direction, needs);
+        if (d < 0.5 * needs.epsilon) { return false; }
         s -= d;
     }
     return true;
@@ -211,14 +237,16 @@ fn shadow(
     if (place.index >= arrayLength(&points) || any(place.pixel >= settings.size_px)) { return; }
     let seen = points[place.index];
     if (seen.depth <= 0.0) { return; }
+    let needs = required();
     // Lifted off the surface, which would otherwise shade itself.
-    let point = settings.eye + seen.depth * ray_direction(place.pixel) + seen.normal * (2.0 * settings.epsilon);
+    let point = settings.eye + seen.depth * ray_direction(place.pixel) + seen.normal * (2.0 * needs.epsilon);
     var bits = 0u;
     if (settings.first_light > 0u) { bits = visibility[place.index]; }
-    for (var k = settings.first_light; k < settings.end_light; k++) {
+    let end = settings.end_light;
+    for (var k = settings.first_light; k < end; k++) {
         let light = lights[k];
         if (dot(seen.normal, light.direction) <= 0.0) { continue; }
-        if (light.casts_shadows == 0u || is_lit(point, light.direction)) { bits |= 1u << k; }
+        if (light.casts_shadows == 0u || is_lit(point, light.direction, needs)) { bits |= 1u << k; }
     }
     visibility[place.index] = bits;
 }

@@ -14,16 +14,22 @@
 //! | `ours` | the program's stills, and its passes one by one |
 //! | `reference` | what a picture should show, in f64 |
 //! | `errors` | how far pictures are from that |
+//! | `counts` | distance estimates and orbit steps of both sides |
+//! | `instrument` | shaders that count what they do |
+//! | `peak` | the adapter's multiply-adds |
 //! | `picture` | what both sides draw, as files |
 //! | `report` | what was measured, told |
 //! | `statistics` | medians, quantiles |
 
 pub mod arguments;
 pub mod compare;
+pub mod counts;
 pub mod errors;
+pub mod instrument;
 pub mod kindness;
 pub mod literal;
 pub mod ours;
+pub mod peak;
 pub mod picture;
 pub mod reference;
 pub mod report;
@@ -64,8 +70,12 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     println!("adapter {}", report.adapter);
     let kernels = Kernels::new(&gpu);
     let literal = literal::Literal::new(&gpu);
+    if gpu.faults() > 0 {
+        return Err("the adapter does not take the literal kernel".into());
+    }
+    let peak = peak::Peak::new(&gpu);
     for view in &views {
-        let comparison = compare::compare(arguments, &kernels, &literal, view)?;
+        let comparison = compare::compare(arguments, &kernels, &literal, &peak, view)?;
         comparison.print();
         report.views.push(comparison);
     }

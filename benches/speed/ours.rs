@@ -7,6 +7,7 @@ use mandelight::{
     render::{
         Kernels, Pace, Region, View,
         frame::{Dispatches, Recorder},
+        kernels::Marchers,
         pass,
         schedule::{Points, Stage, Trace},
         targets::Targets,
@@ -14,6 +15,8 @@ use mandelight::{
     },
     scene::Scene,
 };
+
+use super::{Failure, counts::Counts};
 
 /// Draws a still from nothing and says how long that took, milliseconds: from when the view has
 /// its scene until its picture is there, tone mapped. Buffers are allocated before.
@@ -68,6 +71,34 @@ impl<'a> Split<'a> {
 
     /// Each pass's name and time from submit to end, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
+        let marchers = self.kernels.marchers(self.inputs.picture.fractal.integer_power);
+        let timed = |&(name, record): &(&'static str, Record)| {
+            let commands = self.recorded(record, &marchers);
+            let start = Instant::now();
+            self.kernels.gpu.queue.submit([commands]);
+            self.kernels.gpu.wait();
+            (name, start.elapsed().as_secs_f64() * 1e3)
+        };
+        PASSES.iter().map(timed).collect()
+    }
+
+    /// What each pass that marches takes, by pipelines that count into the film's first half.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn count(&self, marchers: &Marchers) -> Result<Vec<(&'static str, Counts)>, Failure> {
+        let gpu = &self.kernels.gpu;
+        let counted = |&(name, record): &(&'static str, Record)| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.clear_buffer(&self.targets.film_rg, 0, None);
+            gpu.queue.submit([encoder.finish(), self.recorded(record, marchers)]);
+            Ok((name, Counts::read(gpu, &self.targets.film_rg)?))
+        };
+        PASSES.iter().filter(|(name, _)| *name != "shade").map(counted).collect()
+    }
+
+    /// One pass over the centre samples of the whole picture.
+    fn recorded(&self, record: Record, marchers: &Marchers) -> wgpu::CommandBuffer {
         let points = Points::Level(0);
         let grid = points.grid(self.inputs.picture.size_px);
         let trace = Trace {
@@ -77,23 +108,10 @@ impl<'a> Split<'a> {
             first_workgroup: 0,
             workgroups: grid.workgroups(),
         };
-        let marchers = self.kernels.marchers(self.inputs.picture.fractal.integer_power);
-        let timed = |&(name, record): &(&'static str, Record)| {
-            let mut dispatches = Dispatches::default();
-            let mut recorder = Recorder::new(
-                self.kernels,
-                &marchers,
-                &self.targets,
-                &self.inputs,
-                &mut dispatches,
-            );
-            record(&mut recorder, &trace, &grid);
-            let commands = recorder.finish();
-            let start = Instant::now();
-            self.kernels.gpu.queue.submit([commands]);
-            self.kernels.gpu.wait();
-            (name, start.elapsed().as_secs_f64() * 1e3)
-        };
-        PASSES.iter().map(timed).collect()
+        let mut dispatches = Dispatches::default();
+        let mut recorder =
+            Recorder::new(self.kernels, marchers, &self.targets, &self.inputs, &mut dispatches);
+        record(&mut recorder, &trace, &grid);
+        recorder.finish()
     }
 }

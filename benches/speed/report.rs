@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::errors::Errors;
+use super::{counts::Counts, errors::Errors};
 
 /// Everything that one run measured.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -36,8 +36,15 @@ pub struct Comparison {
     pub ours: Side,
     /// Literal time over ours.
     pub ratio: f64,
+    /// The adapter's multiply-adds, measured in the same rounds, GFLOP/s.
+    pub peak_gflops: f64,
+    /// The program's share of that, 0 to 1: orbit steps as the mathematics needs them, over all of
+    /// its time; none for a power that isn't whole.
+    pub peak_share: Option<f64>,
     /// What keeps the ratio from counting; empty where it counts.
     pub complaints: Vec<String>,
+    /// What the program's passes take for one sample of a pixel in the mean.
+    pub our_counts: Vec<(&'static str, Counts)>,
     /// Times of the program's passes over one sample of each pixel, milliseconds.
     pub passes_ms: Vec<(&'static str, f64)>,
 }
@@ -53,6 +60,8 @@ pub struct Side {
     pub iterations: u32,
     /// One sample's errors.
     pub errors: Errors,
+    /// What one sample of a pixel takes in the mean.
+    pub counts: Counts,
 }
 
 impl Comparison {
@@ -72,9 +81,29 @@ impl Comparison {
         let (literal, ours) = (&self.literal, &self.ours);
         row("ms", format!("{:.1}", literal.ms), format!("{:.1}", ours.ms));
         row("iterations", literal.iterations.to_string(), ours.iterations.to_string());
+        row(
+            "estimates a pixel",
+            format!("{:.1}", literal.counts.estimates),
+            format!("{:.1}", ours.counts.estimates),
+        );
+        row(
+            "steps a pixel",
+            format!("{:.1}", literal.counts.steps),
+            format!("{:.1}", ours.counts.steps),
+        );
+        if let Some(share) = self.peak_share {
+            let peak = format!("% of {:.0} GFLOP/s", self.peak_gflops);
+            row(&peak, String::new(), format!("{:.1}", 100.0 * share));
+        }
         let columns = literal.errors.columns().into_iter().zip(ours.errors.columns());
         for ((name, literal), (_, ours)) in columns {
             row(name, format!("{literal:.4}"), format!("{ours:.4}"));
+        }
+        for (name, counts) in &self.our_counts {
+            println!(
+                "  in {name}: {:.1} estimates, {:.1} steps a pixel",
+                counts.estimates, counts.steps
+            );
         }
         for (name, ms) in &self.passes_ms {
             println!("  pass {name} {ms:.1} ms");

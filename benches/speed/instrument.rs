@@ -1,0 +1,118 @@
+//! Shaders that count what they do: the text of a module with counters put in.
+//!
+//! The program's kernels stay what they are; the benchmark compiles a second copy of their text in
+//! which every orbit step and every distance estimate adds one to a counter of its thread's, and
+//! every thread adds its counters to a buffer when it is done. `tests/speed.rs` compares what they
+//! count with orbits in f64.
+
+/// One file of a module: its path and its text.
+pub type File<'a> = (&'a str, &'a str);
+
+/// What counts as what in a module.
+pub struct Marks<'a> {
+    /// Files whose outermost loops are orbits, by how their paths begin.
+    pub orbits_in: &'a str,
+    /// In those files, functions whose loops are something else.
+    pub other_loops: &'a [&'a str],
+    /// Functions of which each call is a distance estimate.
+    pub estimates: &'a [&'a str],
+    /// Entry points.
+    pub entries: &'a [&'a str],
+    /// A storage buffer that no entry point uses: group and binding.
+    pub buffer: [u32; 2],
+}
+
+/// The joined text of `files` with counters.
+///
+/// # Errors
+/// Where an entry point, an estimate or an orbit isn't found: the text was written anew.
+pub fn counting(files: &[File<'_>], marks: &Marks<'_>) -> Result<String, String> {
+    let [group, binding] = marks.buffer;
+    let mut text = format!(
+        "@group({group}) @binding({binding}) var<storage, read_write> counts: array<atomic<u32>>;\n\
+         var<private> counted_estimates: u32;\nvar<private> counted_steps: u32;\n"
+    );
+    let mut orbits = 0;
+    for (path, file) in files {
+        if path.starts_with(marks.orbits_in) {
+            let (counted, found) = count_orbits(file, marks.other_loops);
+            orbits += found;
+            text += &counted;
+        } else {
+            text += file;
+        }
+        text += "\n";
+    }
+    if orbits == 0 {
+        return Err(format!("there is no orbit in {}", marks.orbits_in));
+    }
+    for name in marks.estimates {
+        let start = function(&text, name)?;
+        let brace = start + text[start..].find('{').ok_or_else(|| missing(name))?;
+        text.insert_str(brace + 1, " counted_estimates += 1u;");
+    }
+    for name in marks.entries {
+        wrap(&mut text, name)?;
+    }
+    Ok(text)
+}
+
+fn missing(name: &str) -> String {
+    format!("there is no function {name}")
+}
+
+fn function(text: &str, name: &str) -> Result<usize, String> {
+    text.find(&format!("fn {name}(")).ok_or_else(|| missing(name))
+}
+
+/// Counts each full turn of the outermost loops: what a `break` ends early is no step.
+fn count_orbits(file: &str, other_loops: &[&str]) -> (String, u32) {
+    let (mut text, mut found) = (String::new(), 0);
+    let mut inside = false;
+    // The line that closes the loop which is counted.
+    let mut close = None;
+    for line in file.lines() {
+        if let Some(rest) = line.strip_prefix("fn ") {
+            inside = !other_loops.iter().any(|name| rest.starts_with(&format!("{name}(")));
+        }
+        let word = line.trim_start();
+        let is_loop =
+            ["for ", "for(", "while ", "while(", "loop "].iter().any(|w| word.starts_with(w));
+        if close.as_deref() == Some(line) {
+            text += "counted_steps += 1u;\n";
+            close = None;
+            found += 1;
+        } else if inside && close.is_none() && is_loop && line.ends_with('{') {
+            let indentation = &line[..line.len() - word.len()];
+            close = Some(format!("{indentation}}}"));
+        }
+        text += line;
+        text += "\n";
+    }
+    (text, found)
+}
+
+/// Puts an entry point in another's place, which calls it and then adds up.
+fn wrap(text: &mut String, name: &str) -> Result<(), String> {
+    let start = function(text, name)?;
+    let attributes = text[..start].rfind("@compute").ok_or_else(|| missing(name))?;
+    let open = start + text[start..].find('(').ok_or_else(|| missing(name))?;
+    let close = open + text[open..].find(") {").ok_or_else(|| missing(name))?;
+    let header = text[attributes..start].to_owned();
+    let parameters = text[open + 1..close].to_owned();
+    // What follows the attribute: `name: type`.
+    let plain: Vec<_> = parameters
+        .split(',')
+        .filter_map(|parameter| parameter.rsplit_once(')'))
+        .map(|(_, declared)| declared.trim())
+        .collect();
+    let names: Vec<_> = plain.iter().filter_map(|p| p.split(':').next()).collect();
+    let inner = format!("fn counted_{name}({}", plain.join(", "));
+    text.replace_range(attributes..close, &inner);
+    *text += &format!(
+        "{header}fn {name}({parameters}) {{\n    counted_{name}({});\n    \
+         atomicAdd(&counts[0], counted_estimates);\n    atomicAdd(&counts[1], counted_steps);\n}}\n",
+        names.join(", ")
+    );
+    Ok(())
+}
