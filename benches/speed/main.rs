@@ -17,6 +17,7 @@
 //! | `counts` | distance estimates and orbit steps of both sides |
 //! | `instrument` | shaders that count what they do |
 //! | `peak` | the adapter's multiply-adds |
+//! | `feel` | a recorded session against the clock |
 //! | `picture` | what both sides draw, as files |
 //! | `report` | what was measured, told |
 //! | `statistics` | medians, quantiles |
@@ -25,6 +26,7 @@ pub mod arguments;
 pub mod compare;
 pub mod counts;
 pub mod errors;
+pub mod feel;
 pub mod instrument;
 pub mod kindness;
 pub mod literal;
@@ -79,6 +81,11 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         comparison.print();
         report.views.push(comparison);
     }
+    if wants_feel(arguments) {
+        let feel = feel::run(&kernels, arguments.pictures.as_deref())?;
+        feel.print();
+        report.feel = Some(feel);
+    }
     if let Some(file) = &arguments.json {
         let text = serde_json::to_string_pretty(&report)?;
         std::fs::write(file, text + "\n")?;
@@ -89,12 +96,17 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     }
 }
 
+fn wants_feel(arguments: &Arguments) -> bool {
+    arguments.views.is_empty() || arguments.views.iter().any(|name| name == feel::NAME)
+}
+
 /// The views that were asked for, in the size that was asked for.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
     for name in &arguments.views {
-        if !views.iter().any(|view| view.name == name) {
-            let names: Vec<_> = views.iter().map(|view| view.name).collect();
+        if name != feel::NAME && !views.iter().any(|view| view.name == name) {
+            let names = views.iter().map(|view| view.name).chain([feel::NAME]);
+            let names: Vec<_> = names.collect();
             return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());
         }
     }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{counts::Counts, errors::Errors};
+use super::{counts::Counts, errors::Errors, feel};
 
 /// Everything that one run measured.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -11,6 +11,8 @@ pub struct Report {
     pub adapter: String,
     /// The views, in the order in which they were measured.
     pub views: Vec<Comparison>,
+    /// The recorded session, where it was asked for.
+    pub feel: Option<feel::Report>,
 }
 
 /// One view by both sides.

@@ -1,0 +1,67 @@
+//! How the page feels in the hand: a recorded session, replayed at 1280x720 against the clock.
+//!
+//! The motion budget is a twentieth of what a full frame takes on this adapter, so that the
+//! figures mean the same on every one. In: an adapter's pipelines. Out: moving frames' times in
+//! budgets, what edits cost next to a camera move, how soon the whole picture follows a release,
+//! and how good moving pictures are.
+
+mod edits;
+mod error;
+mod picture;
+mod replay;
+mod report;
+mod session;
+
+use std::{path::Path, sync::Arc};
+
+use mandelight::{render::Kernels, scene::Scene};
+
+pub use report::Report;
+use session::{Hold, PARTS, Session};
+
+/// What the command line calls it.
+pub const NAME: &str = "feel";
+
+/// The picture's size.
+pub const SIZE_PX: [u32; 2] = [1280, 720];
+
+/// Budgets in a full frame.
+const BUDGETS: f64 = 20.0;
+
+/// The part after which the picture is filled with surface: there a full frame is measured.
+const FILLED_AFTER: usize = 1;
+
+/// The scene with another motion budget, milliseconds.
+fn aimed(scene: &Scene, budget_ms: f64) -> Scene {
+    let mut scene = scene.clone();
+    scene.quality.motion_budget_ms = budget_ms;
+    scene
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    part_of(&mut values, 0.5)
+}
+
+/// The value that so large a part of all are no larger than.
+fn part_of(values: &mut [f64], part: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let index = (part * values.len() as f64).ceil() as usize;
+    values.get(index.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+}
+
+/// Replays the session. Pictures that were compared go to the folder `pictures`.
+pub fn run(kernels: &Arc<Kernels>, pictures: Option<&Path>) -> Result<Report, super::Failure> {
+    let session = Session::record();
+    let costs = edits::costs(kernels, session.end_of(FILLED_AFTER));
+    let budget_ms = costs.camera_ms / BUDGETS;
+    let replay = replay::play(kernels, &session, budget_ms);
+    let own_ms = PARTS.iter().enumerate().map(|(part, of)| match of.hold {
+        Hold::Dive => Some(costs.camera_ms),
+        // Nothing is traced: there is nothing to wait for.
+        Hold::Exposure => None,
+        _ => Some(edits::full_frame_ms(kernels, session.end_of(part))),
+    });
+    let own_ms: Vec<_> = own_ms.collect();
+    let qualities = picture::qualities(kernels, &session, &replay.frames, budget_ms, pictures)?;
+    Ok(Report::new(budget_ms, costs, &replay, &own_ms, &qualities))
+}

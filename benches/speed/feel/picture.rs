@@ -1,0 +1,153 @@
+//! How good moving pictures are: each against the full frame of its scene, beside what filling
+//! with the nearest computed pixel makes of the same lattice.
+
+use std::{
+    path::Path,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use mandelight::{
+    gpu::readback::Readback,
+    render::{Kernels, Pace, Region, View},
+    scene::Scene,
+};
+
+use super::{
+    super::{Failure, picture},
+    SIZE_PX,
+    error::Errors,
+    replay::Frame,
+    session::Session,
+};
+
+/// Of the moving pictures of each part so many are looked at.
+const LOOKED_AT: usize = 4;
+
+/// Errors of a moving picture, and of the same lattice filled otherwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Quality {
+    /// The part of the session.
+    pub part: usize,
+    /// One pixel of so many was computed.
+    pub pixels_per_sample: u32,
+    /// Of the picture shown.
+    pub shown: Errors,
+    /// Of the nearest computed pixel's colour.
+    pub nearest: Errors,
+}
+
+/// Plays the frames that a replay showed once more, without a clock, and compares.
+pub fn qualities(
+    kernels: &Arc<Kernels>,
+    session: &Session,
+    frames: &[Frame],
+    budget_ms: f64,
+    keep: Option<&Path>,
+) -> Result<Vec<Quality>, Failure> {
+    let mut moving = View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive);
+    let start = Instant::now();
+    let mut found = Vec::new();
+    if let Some(folder) = keep {
+        std::fs::create_dir_all(folder)?;
+    }
+    for part in 0..session.parts.len() {
+        let frames: Vec<_> = frames.iter().filter(|frame| frame.part == part).collect();
+        let first = super::aimed(&session.parts[part][0], budget_ms);
+        settle(&mut moving, &first, start);
+        let every = (frames.len() / LOOKED_AT).max(1);
+        for (index, frame) in frames.iter().enumerate() {
+            let scene = &session.parts[part][frame.tick as usize];
+            move_to(kernels, &mut moving, &super::aimed(scene, budget_ms), start);
+            let pixels_per_sample = moving.report().pixels_per_sample;
+            if index % every != every / 2 || pixels_per_sample == 1 {
+                continue;
+            }
+            let shown = pixels(kernels, &moving)?;
+            let full = full_frame(kernels, scene)?;
+            let nearest = nearest(&full, pixels_per_sample);
+            if let Some(folder) = keep {
+                let name = |kind| folder.join(format!("feel-{part}-{index:02}-{kind}.png"));
+                for (kind, bytes) in [("shown", &shown), ("full", &full), ("nearest", &nearest)] {
+                    picture::write(&name(kind), SIZE_PX, bytes)?;
+                }
+            }
+            found.push(Quality {
+                part,
+                pixels_per_sample,
+                shown: Errors::between(&shown, &full),
+                nearest: Errors::between(&nearest, &full),
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// Rests on a scene until each pixel has been computed.
+fn settle(view: &mut View, scene: &Scene, start: Instant) {
+    view.set_scene(scene, false);
+    while view.pump(start.elapsed().as_secs_f64()) && view.report().samples_done == 0 {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    view.pump(start.elapsed().as_secs_f64());
+}
+
+/// Draws one moving picture.
+fn move_to(kernels: &Kernels, view: &mut View, scene: &Scene, start: Instant) {
+    kernels.gpu.wait();
+    view.pump(start.elapsed().as_secs_f64());
+    kernels.gpu.wait();
+    view.set_scene(scene, true);
+    let tones = view.dispatches().tone;
+    while view.dispatches().tone == tones {
+        if !view.pump(start.elapsed().as_secs_f64()) {
+            // The scene before it was the same.
+            return;
+        }
+        kernels.gpu.wait();
+    }
+}
+
+fn full_frame(kernels: &Arc<Kernels>, scene: &Scene) -> Result<Vec<u8>, Failure> {
+    let mut scene = scene.clone();
+    scene.quality.samples = 1;
+    let mut view = View::new(kernels, Region::whole(SIZE_PX), Pace::Still);
+    view.set_scene(&scene, false);
+    let start = Instant::now();
+    while view.pump(start.elapsed().as_secs_f64()) {
+        kernels.gpu.wait();
+    }
+    pixels(kernels, &view)
+}
+
+fn pixels(kernels: &Kernels, view: &View) -> Result<Vec<u8>, Failure> {
+    let texture = view.texture().ok_or("the view shows nothing")?;
+    Ok(Readback::texture(&kernels.gpu, texture, SIZE_PX).wait(&kernels.gpu)?)
+}
+
+/// The picture whose lattice, one pixel in so many, is spread to the pixels that are nearest.
+fn nearest(full: &[u8], pixels_per_sample: u32) -> Vec<u8> {
+    let spacing = 1 << (pixels_per_sample.ilog2() / 2);
+    let is_staggered = pixels_per_sample.ilog2() % 2 == 1;
+    let [width, height] = SIZE_PX;
+    let is_on = |x: u32, y: u32| !is_staggered || (x / spacing + y / spacing).is_multiple_of(2);
+    let mut picture = Vec::with_capacity(full.len());
+    for y in 0..height {
+        for x in 0..width {
+            let mut best = (u32::MAX, 0);
+            for cell_y in (y / spacing).saturating_sub(1)..=y / spacing + 1 {
+                for cell_x in (x / spacing).saturating_sub(1)..=x / spacing + 1 {
+                    let at = [cell_x * spacing, cell_y * spacing];
+                    if at[0] >= width || at[1] >= height || !is_on(at[0], at[1]) {
+                        continue;
+                    }
+                    let far = at[0].abs_diff(x).pow(2) + at[1].abs_diff(y).pow(2);
+                    best = best.min((far, at[1] * width + at[0]));
+                }
+            }
+            let from = 4 * best.1 as usize;
+            picture.extend_from_slice(&full[from..from + 4]);
+        }
+    }
+    picture
+}

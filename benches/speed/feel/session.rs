@@ -1,0 +1,208 @@
+//! A session as a hand left it: where the pointer was at which tick of the display, and what it
+//! held. In: a table. Out: the scene of every tick, the same on every machine.
+
+use glam::{DQuat, DVec2, DVec3};
+use mandelight::{
+    fractal::Estimator,
+    scene::Scene,
+    ui::navigation::{Navigator, Viewport, World},
+};
+
+use super::SIZE_PX;
+
+/// What the pointer holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hold {
+    /// The view, to turn about what is under the pointer.
+    Orbit,
+    /// Nothing, but its wheel comes nearer: the third number is the wheel's travel, in natural
+    /// logarithms of the distance.
+    Dive,
+    /// The first light's ball.
+    Light,
+    /// The power's slider.
+    Power,
+    /// The exposure's slider.
+    Exposure,
+}
+
+/// A part of the session: a drag, and the rest after it.
+pub struct Part {
+    /// Its name in the results.
+    pub name: &'static str,
+    /// What is held.
+    pub hold: Hold,
+    /// Tick, pointer x and y in normalised device coordinates; the wheel's travel so far. Places
+    /// between these lie on straight lines.
+    strokes: &'static [(u32, f64, f64, f64)],
+}
+
+/// The session. The hand sets out slowly, hurries, hesitates, turns back and lets go.
+pub const PARTS: [Part; 5] = [
+    Part {
+        name: "orbit",
+        hold: Hold::Orbit,
+        strokes: &[
+            (0, 0.21, -0.08, 0.0),
+            (4, 0.20, -0.08, 0.0),
+            (9, 0.12, -0.05, 0.0),
+            (15, -0.06, 0.02, 0.0),
+            (22, -0.27, 0.06, 0.0),
+            (27, -0.35, 0.05, 0.0),
+            (31, -0.36, 0.04, 0.0),
+            (37, -0.30, -0.06, 0.0),
+            (44, -0.16, -0.17, 0.0),
+            (52, -0.11, -0.20, 0.0),
+            (58, -0.10, -0.21, 0.0),
+        ],
+    },
+    Part {
+        name: "dive",
+        hold: Hold::Dive,
+        strokes: &[
+            (0, 0.05, 0.12, 0.0),
+            (6, 0.05, 0.12, 0.25),
+            (18, 0.06, 0.13, 1.1),
+            (30, 0.06, 0.13, 1.8),
+            (40, 0.03, 0.10, 2.3),
+            (52, 0.02, 0.09, 2.9),
+            (60, 0.02, 0.09, 3.1),
+        ],
+    },
+    Part {
+        name: "light",
+        hold: Hold::Light,
+        strokes: &[
+            (0, 0.0, 0.0, 0.0),
+            (5, 0.03, 0.01, 0.0),
+            (14, 0.22, 0.05, 0.0),
+            (24, 0.48, -0.04, 0.0),
+            (33, 0.55, -0.16, 0.0),
+            (42, 0.38, -0.22, 0.0),
+            (50, 0.33, -0.20, 0.0),
+        ],
+    },
+    Part {
+        name: "power",
+        hold: Hold::Power,
+        strokes: &[
+            (0, 0.0, 0.0, 0.0),
+            (6, 0.04, 0.0, 0.0),
+            (16, 0.31, 0.0, 0.0),
+            (28, 0.68, 0.0, 0.0),
+            (38, 0.93, 0.0, 0.0),
+            (46, 0.86, 0.0, 0.0),
+            (52, 0.84, 0.0, 0.0),
+        ],
+    },
+    Part {
+        name: "exposure",
+        hold: Hold::Exposure,
+        strokes: &[
+            (0, 0.0, 0.0, 0.0),
+            (8, 0.10, 0.0, 0.0),
+            (18, 0.55, 0.0, 0.0),
+            (28, 0.70, 0.0, 0.0),
+            (38, 0.42, 0.0, 0.0),
+            (44, 0.40, 0.0, 0.0),
+        ],
+    },
+];
+
+impl Part {
+    /// Ticks from the first to the last of the drag.
+    pub fn ticks(&self) -> u32 {
+        self.strokes.last().map_or(0, |stroke| stroke.0)
+    }
+
+    /// Pointer and wheel at a tick.
+    fn pointer(&self, tick: u32) -> (DVec2, f64) {
+        let after = self.strokes.iter().position(|stroke| stroke.0 > tick);
+        let place = |&(_, x, y, wheel): &(u32, f64, f64, f64)| (DVec2::new(x, y), wheel);
+        let Some(after) = after else { return place(&self.strokes[self.strokes.len() - 1]) };
+        let (from, to) = (&self.strokes[after - 1], &self.strokes[after]);
+        let part = f64::from(tick - from.0) / f64::from(to.0 - from.0);
+        let ((from, wheel_from), (to, wheel_to)) = (place(from), place(to));
+        (from.lerp(to, part), wheel_from + (wheel_to - wheel_from) * part)
+    }
+}
+
+/// The scene at every tick of each part, the first as it was before.
+pub struct Session {
+    /// The scenes of each part.
+    pub parts: Vec<Vec<Scene>>,
+}
+
+impl Session {
+    /// Plays the table against the page's own navigation.
+    pub fn record() -> Self {
+        let mut scene = opening();
+        let parts = PARTS
+            .iter()
+            .map(|part| {
+                let scenes = played(part, &scene);
+                scene = scenes.last().unwrap_or(&scene).clone();
+                scenes
+            })
+            .collect();
+        Self { parts }
+    }
+
+    /// The scene in which a part ends.
+    pub fn end_of(&self, part: usize) -> &Scene {
+        let scenes = &self.parts[part];
+        &scenes[scenes.len() - 1]
+    }
+}
+
+/// The page's first scene, with every light of its three casting shadows.
+fn opening() -> Scene {
+    let mut scene = Scene::default();
+    for light in &mut scene.lights.environment {
+        light.casts_shadows = true;
+    }
+    scene
+}
+
+fn played(part: &Part, start: &Scene) -> Vec<Scene> {
+    let [width, height] = SIZE_PX.map(f64::from);
+    let viewport =
+        Viewport { aspect: width / height, height_px: height, detail: start.quality.detail };
+    let field = Estimator::new(&start.fractal);
+    let world = World { field: &field, viewport };
+    let mut scene = start.clone();
+    let mut navigator = Navigator::default();
+    let (first, _) = part.pointer(0);
+    if part.hold == Hold::Orbit {
+        navigator.begin_orbit(&mut scene.camera, world, first);
+    }
+    let mut scenes = vec![scene.clone()];
+    let mut last_wheel = 0.0;
+    for tick in 1..=part.ticks() {
+        let (at, wheel) = part.pointer(tick);
+        let gone = at - first;
+        match part.hold {
+            Hold::Orbit => {
+                navigator.drag(&mut scene.camera, world, at);
+            }
+            Hold::Dive => {
+                navigator.dolly(&mut scene.camera, world, at, wheel - last_wheel);
+            }
+            Hold::Light => {
+                let turn = DQuat::from_rotation_z(2.5 * gone.x) * DQuat::from_rotation_x(gone.y);
+                let from = DVec3::from_array(start.lights.environment[0].direction);
+                scene.lights.environment[0].direction = (turn * from).normalize().to_array();
+            }
+            // As sliders do, in steps that their numbers show.
+            Hold::Power => {
+                scene.fractal.power = (100.0 * (start.fractal.power + 2.0 * gone.x)).round() * 0.01;
+            }
+            Hold::Exposure => {
+                scene.tone.exposure = (100.0 * (start.tone.exposure + 2.0 * gone.x)).round() * 0.01;
+            }
+        }
+        last_wheel = wheel;
+        scenes.push(scene.clone());
+    }
+    scenes
+}
