@@ -90,7 +90,8 @@ fn raised_real(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
     let un = cos_sin_turns(n * angle_turns(z.y, z.x));
     let shrunk = accurate_exp2(0.5 * (n - 1.0) * accurate_log2(q.s));
     let wn = (r * shrunk) * latitude;
-    return Raised(vec3f(wn.x * un, wn.y * fractal.z_sign), n * shrunk, n * wn.x / rho, un, wn);
+    let power = vec3f(wn.x * un, wn.y * fractal.z_sign);
+    return Raised(power, n * shrunk, n * shrunk * (r * latitude.x / rho), un, wn);
 }
 
 fn raised(fractal: Fractal, z: vec3f, q: Squares) -> Raised {

@@ -1,7 +1,7 @@
 // Elementary functions at full f32 accuracy. WGSL promises its own only to 2^-11 (sin, cos),
 // 4096 ulp (atan2) and 2^-21 absolute (log2), too coarse for orbits of a real power.
-
-const TAU = 6.2831853071795864769;
+// The polynomials have the least greatest error of their degree, and are summed in pairs (Estrin):
+// several short chains of operations instead of a long one.
 
 // log2(x) for normal x > 0, about 1 ulp: exponent plus an atanh series on [sqrt(1/2), sqrt(2)).
 fn accurate_log2(x: f32) -> f32 {
@@ -11,54 +11,44 @@ fn accurate_log2(x: f32) -> f32 {
     let mantissa = bitcast<f32>(bits - (u32(exponent) << 23u));
     let s = (mantissa - 1.0) / (mantissa + 1.0);
     let q = s * s;
-    let series = 1.0 + q * (0.33333333 + q * (0.2 + q * (0.14285715 + q * 0.11111111)));
-    return f32(exponent) + s * series * 2.8853900817779268;
+    let series = (2.88539009 + q * 0.961796341) + q * q * (0.576913935 + q * 0.427533686);
+    return f32(exponent) + s * series;
 }
 
-// 2^x for x in [-126, 127], about 2 ulp.
+// 2^x for x up to 127, about 2 ulp; 2^-126 for all that is smaller.
 fn accurate_exp2(x: f32) -> f32 {
-    let clamped = clamp(x, -126.0, 127.0);
-    let whole = round(clamped);
-    let f = (clamped - whole) * 0.69314718;
-    let series = 1.0 + f * (1.0 + f * (0.5 + f * (0.16666667 + f * (0.041666668
-        + f * (0.0083333338 + f * (0.0013888889 + f * 0.00019841270))))));
-    return series * bitcast<f32>(u32(i32(whole) + 127) << 23u);
+    let within = max(x, -126.0);
+    let whole = round(within);
+    let f = within - whole;
+    let q = f * f;
+    let low = (1.0 + f * 0.693147203) + q * (0.240226479 + f * 0.0555033246);
+    let high = (0.00961843736 + f * 0.00133988789) + q * 0.000153533734;
+    return (low + q * q * high) * bitcast<f32>(u32(i32(whole) + 127) << 23u);
 }
 
-// (cos, sin) of an angle given in turns, absolute error about 1e-7.
+// (cos, sin) of an angle given in turns, absolute error about 1e-7. Quarter turns leave an eighth
+// of a turn on either side for the series.
 fn cos_sin_turns(turns: f32) -> vec2f {
-    // Quarter turns leave an eighth of a turn on either side for the series.
-    let reduced = turns - round(turns);
-    let quarter = round(reduced * 4.0);
-    let a = (reduced - quarter * 0.25) * TAU;
-    let q = a * a;
-    let s = a * (1.0 + q * (-0.16666667 + q * (0.0083333333 + q * (-0.00019841270 + q * 2.7557319e-6))));
-    let c = 1.0 + q * (-0.5 + q * (0.041666667 + q * (-0.0013888889 + q * (2.4801587e-5 - q * 2.7557319e-7))));
-    let k = i32(quarter) & 3;
-    if (k == 0) { return vec2f(c, s); }
-    if (k == 1) { return vec2f(-s, c); }
-    if (k == 2) { return vec2f(-c, -s); }
-    return vec2f(s, -c);
+    let quarter = round(turns * 4.0);
+    let t = turns * 4.0 - quarter;
+    let q = t * t;
+    let c = 1.0 + q * ((-1.23370054 + q * 0.253669244) + q * q * (-0.0208602885 + q * 0.000904021656));
+    let s = t * ((1.57079631 - q * 0.64596294) + q * q * (0.0796759 - q * 0.00459229));
+    let k = i32(quarter);
+    let turned = select(vec2f(c, s), vec2f(-s, c), (k & 1) != 0);
+    return select(turned, -turned, (k & 2) != 0);
 }
 
-// The angle of (x, y) in turns, in [-1/2, 1/2]; 0 at the origin. Absolute error about 3e-8.
+// The angle of (x, y), which is not the origin, in turns, in [-1/2, 1/2]. Absolute error about 2e-8.
 fn angle_turns(y: f32, x: f32) -> f32 {
-    let ax = abs(x);
-    let ay = abs(y);
-    let large = max(ax, ay);
-    if (large == 0.0) { return 0.0; }
-    var t = min(ax, ay) / large;
-    // atan(t) = pi/4 + atan((t - 1) / (t + 1)) keeps the series' argument below tan(pi/8).
-    var base = 0.0;
-    if (t > 0.41421356) {
-        t = (t - 1.0) / (t + 1.0);
-        base = 0.125;
-    }
+    let steep = abs(y) > abs(x);
+    let t = select(abs(y), abs(x), steep) / select(abs(x), abs(y), steep);
     let q = t * t;
-    let series = t * (1.0 + q * (-0.33333333 + q * (0.2 + q * (-0.14285714 + q * (0.11111111
-        + q * (-0.09090909 + q * (0.07692308 - q * 0.06666667)))))));
-    var turns = base + series / TAU;
-    if (ay > ax) { turns = 0.25 - turns; }
-    if (x < 0.0) { turns = 0.5 - turns; }
-    return select(turns, -turns, y < 0.0);
+    let q2 = q * q;
+    let low = (0.159154925 - q * 0.0530504758) + q2 * (0.0318085585 - q * 0.022538296);
+    let high = (0.0167095908 - q * 0.0115146312) + q2 * (0.00633137599 - q * 0.00229204578);
+    let acute = t * (low + q2 * q2 * (high + q2 * q2 * 0.000390999465));
+    let near = select(acute, 0.25 - acute, steep);
+    let right = select(near, 0.5 - near, x < 0.0);
+    return select(right, -right, y < 0.0);
 }
