@@ -7,7 +7,7 @@ mod bench;
 #[expect(dead_code, reason = "the oracle knows more than distances")]
 mod estimate;
 
-use bench::{arguments::Arguments, counts, kindness, literal, statistics, views};
+use bench::{arguments::Arguments, counts, kindness, literal, powers, statistics, views};
 use clap::Parser as _;
 use glam::DVec3;
 use mandelight::{
@@ -173,8 +173,8 @@ fn left_out_blocks_are_left_out_evenly() {
 fn the_benchmark_runs() {
     let folder = tempfile::tempdir().expect("a folder");
     let json = folder.path().join("speed.json");
-    let words =
-        "bench --views whole,crevice --size 96x54 --rounds 1 --error-pixels 300 --passes --json";
+    let words = "bench --views whole,crevice,scaling --size 96x54 --rounds 1 --error-pixels 300 \
+                 --passes --json";
     let words = words.split(' ').map(Into::into).chain([json.clone().into_os_string()]);
     bench::run(&Arguments::parse_from(words)).expect("figures");
     let text = std::fs::read_to_string(json).expect("the figures' file");
@@ -189,6 +189,9 @@ fn the_benchmark_runs() {
         // A view with a hole in it is no view.
         assert!(view["hit"].as_f64() > Some(0.25), "{view}");
     }
+    let rows = figures["scaling"].as_array().expect("rows");
+    assert!(rows.iter().all(|row| row["growth"].as_f64() > Some(0.0)), "{rows:?}");
+    bench::start::once(&Arguments::parse_from(["bench", "--size", "96x54"])).expect("a start");
 }
 
 /// What counting shaders count against orbits in f64: estimates, gradients and colours of the same
@@ -272,4 +275,16 @@ fn counted(gpu: &Gpu, scene: &Scene, points: &[DVec3], power: u32) -> counts::Co
     drop(pass);
     gpu.queue.submit([encoder.finish()]);
     counts::Counts::read(gpu, &sums).expect("the counts")
+}
+
+#[test]
+fn a_cost_of_so_much_a_product_is_found() {
+    let table = powers::table((2..=16).map(|power: u32| {
+        let products = power.ilog2() + power.count_ones() - 1;
+        let off = if power == 7 { 1.5 } else { 1.0 };
+        (power, [(1.5 + 0.25 * f64::from(products)) * off, 10.0])
+    }));
+    assert!((table.fixed_ns - 1.5).abs() < 0.15, "{table:?}");
+    assert!((table.product_ns - 0.25).abs() < 0.05, "{table:?}");
+    assert!((1.3..1.5).contains(&table.worst) && !table.is_good(), "{table:?}");
 }

@@ -9,7 +9,7 @@ use mandelight::export;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "cargo xtask bench", about)]
 pub struct Arguments {
-    /// Views to run, by name, separated by commas; all of them unless told
+    /// Views and tables to run, by name, separated by commas; all of them unless told
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub views: Vec<String>,
     /// Draw every view in this size rather than its own, such as 320x180
@@ -36,12 +36,20 @@ pub struct Arguments {
     /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+    /// Start once and say how long that took
+    #[arg(long, hide = true)]
+    pub start_once: bool,
     /// Cargo says so of every benchmark
     #[arg(long, hide = true)]
     pub bench: bool,
 }
 
 impl Arguments {
+    /// True where a view or a table was asked for, or nothing in particular.
+    pub fn wants(&self, name: &str) -> bool {
+        self.views.is_empty() || self.views.iter().any(|wanted| wanted == name)
+    }
+
     /// The wanted adapter's name, where there is one.
     pub fn adapter_name(&self) -> Option<String> {
         let wanted = self.adapter.clone().or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok());

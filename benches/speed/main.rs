@@ -17,6 +17,9 @@
 //! | `counts` | distance estimates and orbit steps of both sides |
 //! | `instrument` | shaders that count what they do |
 //! | `peak` | the adapter's multiply-adds |
+//! | `powers` | what an orbit step costs, power by power |
+//! | `scaling` | how time grows with what is asked for |
+//! | `start` | how long it takes until there is a picture |
 //! | `feel` | a recorded session against the clock |
 //! | `picture` | what both sides draw, as files |
 //! | `report` | what was measured, told |
@@ -33,8 +36,11 @@ pub mod literal;
 pub mod ours;
 pub mod peak;
 pub mod picture;
+pub mod powers;
 pub mod reference;
 pub mod report;
+pub mod scaling;
+pub mod start;
 pub mod statistics;
 pub mod views;
 
@@ -54,7 +60,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) if !arguments.check => ExitCode::SUCCESS,
         Ok(false) => {
-            eprintln!("bench: some picture is not good enough for its ratio to count");
+            eprintln!("bench: something is not as good as it has to be");
             ExitCode::FAILURE
         }
         Err(failure) => {
@@ -64,24 +70,48 @@ fn main() -> ExitCode {
     }
 }
 
-/// Measures what the arguments ask for and tells it; true where every picture is good enough.
+/// Measures what the arguments ask for and tells it; true where every picture is good enough, and
+/// every power as cheap as its products.
+///
+/// # Errors
+/// Where a view has no such name, there is no such adapter, its device is lost or reports errors,
+/// or a file can't be written.
 pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
+    if arguments.start_once {
+        return start::once(arguments).map(|()| true);
+    }
     let views = chosen(arguments)?;
     let gpu = pollster::block_on(Gpu::open(arguments.adapter_name().as_deref()))?;
     let mut report = Report { adapter: gpu.name(), ..Report::default() };
     println!("adapter {}", report.adapter);
     let kernels = Kernels::new(&gpu);
-    let literal = literal::Literal::new(&gpu);
-    if gpu.faults() > 0 {
-        return Err("the adapter does not take the literal kernel".into());
+    if !views.is_empty() {
+        let literal = literal::Literal::new(&gpu);
+        let peak = peak::Peak::new(&gpu);
+        if gpu.faults() > 0 {
+            return Err("the adapter does not take the literal kernel".into());
+        }
+        for view in &views {
+            let comparison = compare::compare(arguments, &kernels, &literal, &peak, view)?;
+            comparison.print();
+            report.views.push(comparison);
+        }
     }
-    let peak = peak::Peak::new(&gpu);
-    for view in &views {
-        let comparison = compare::compare(arguments, &kernels, &literal, &peak, view)?;
-        comparison.print();
-        report.views.push(comparison);
+    if arguments.wants(powers::NAME) {
+        let table = powers::measure(&gpu, arguments.rounds)?;
+        table.print();
+        report.powers = Some(table);
     }
-    if wants_feel(arguments) {
+    if arguments.wants(scaling::NAME) {
+        report.scaling = scaling::measure(&kernels, arguments.rounds, arguments.size);
+        scaling::print(&report.scaling);
+    }
+    if arguments.wants(start::NAME) {
+        let starts = start::measure(arguments)?;
+        starts.print();
+        report.start = Some(starts);
+    }
+    if arguments.wants(feel::NAME) {
         let feel = feel::run(&kernels, arguments.pictures.as_deref())?;
         feel.print();
         report.feel = Some(feel);
@@ -91,28 +121,20 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         std::fs::write(file, text + "\n")?;
     }
     match gpu.faults() {
-        0 => Ok(report.views.iter().all(|view| view.complaints.is_empty())),
+        0 => Ok(report.is_good()),
         faults => Err(format!("the device reported {faults} errors").into()),
     }
-}
-
-fn wants_feel(arguments: &Arguments) -> bool {
-    arguments.views.is_empty() || arguments.views.iter().any(|name| name == feel::NAME)
 }
 
 /// The views that were asked for, in the size that was asked for.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
-    for name in &arguments.views {
-        if name != feel::NAME && !views.iter().any(|view| view.name == name) {
-            let names = views.iter().map(|view| view.name).chain([feel::NAME]);
-            let names: Vec<_> = names.collect();
-            return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());
-        }
+    let tables = [powers::NAME, scaling::NAME, start::NAME, feel::NAME];
+    let names: Vec<_> = views.iter().map(|view| view.name).chain(tables).collect();
+    if let Some(name) = arguments.views.iter().find(|name| !names.contains(&name.as_str())) {
+        return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());
     }
-    views.retain(|view| {
-        arguments.views.is_empty() || arguments.views.iter().any(|name| name == view.name)
-    });
+    views.retain(|view| arguments.wants(view.name));
     for view in &mut views {
         view.size_px = arguments.size.unwrap_or(view.size_px);
     }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{counts::Counts, errors::Errors, feel};
+use super::{counts::Counts, errors::Errors, feel, powers, scaling, start};
 
 /// Everything that one run measured.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -11,8 +11,23 @@ pub struct Report {
     pub adapter: String,
     /// The views, in the order in which they were measured.
     pub views: Vec<Comparison>,
+    /// What an orbit step costs, power by power.
+    pub powers: Option<powers::Table>,
+    /// How time grows with what is asked for.
+    pub scaling: Vec<scaling::Row>,
+    /// How long it takes until there is a picture.
+    pub start: Option<start::Starts>,
     /// The recorded session, where it was asked for.
     pub feel: Option<feel::Report>,
+}
+
+impl Report {
+    /// True where every picture is good enough for its ratio to count, and every power costs no
+    /// more than its products.
+    pub fn is_good(&self) -> bool {
+        self.views.iter().all(|view| view.complaints.is_empty())
+            && self.powers.as_ref().is_none_or(powers::Table::is_good)
+    }
 }
 
 /// One view by both sides.
