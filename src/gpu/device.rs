@@ -6,6 +6,8 @@ use std::sync::{
     atomic::{AtomicU64, Ordering},
 };
 
+use super::Aside;
+
 /// Why there is no usable GPU.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
@@ -40,6 +42,8 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
+    /// How pipelines are compiled aside, where whoever opened the device knows a way.
+    pub aside: Option<Aside>,
     faults: Arc<AtomicU64>,
 }
 
@@ -79,7 +83,7 @@ impl Gpu {
             counted.fetch_add(1, Ordering::Relaxed);
             log::error!("GPU error: {error}");
         }));
-        Ok(Self { instance, adapter, device, queue, faults })
+        Ok(Self { instance, adapter, device, queue, aside: None, faults })
     }
 
     /// The adapter's name and backend, for people: `llvmpipe (LLVM 15.0.6) · Vulkan`.

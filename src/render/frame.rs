@@ -119,9 +119,9 @@ pub struct Recorder<'a> {
     pub neighbours: Neighbours,
     /// What of it a display brings up to date.
     pub tasks: Tasks,
-    /// The dispatches are of no workgroups at all: drivers then compile what they left for the
-    /// first use of a pipeline.
-    pub is_rehearsal: bool,
+    /// A count of workgroups, zero, that all dispatches have: drivers then compile what they left
+    /// for the first use of a pipeline. None where this is no rehearsal.
+    pub rehearsal: Option<wgpu::Buffer>,
     /// Counted by each pass.
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
@@ -150,7 +150,7 @@ impl<'a> Recorder<'a> {
             glow: &targets.glow,
             neighbours: targets.neighbours(inputs.picture.indirect.around_px),
             tasks: Tasks::default(),
-            is_rehearsal: false,
+            rehearsal: None,
             dispatches,
             compute,
             encoder,
@@ -218,7 +218,10 @@ impl<'a> Recorder<'a> {
         self.slices += 1;
         self.compute.set_pipeline(pipeline);
         self.compute.set_bind_group(0, &self.targets.picture_group, &[offset]);
-        let workgroups = if self.is_rehearsal { 0 } else { workgroups };
+        if let Some(nothing) = &self.rehearsal {
+            self.compute.dispatch_workgroups_indirect(nothing, 0);
+            return;
+        }
         self.compute.dispatch_workgroups(workgroups, 1, 1);
     }
 

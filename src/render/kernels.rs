@@ -2,7 +2,7 @@
 
 use std::{
     collections::{HashMap, HashSet},
-    sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, atomic::AtomicBool},
 };
 
 use super::pass;
@@ -312,11 +312,30 @@ impl Kernels {
         self.prepare(Extra::Power(integer_power));
     }
 
+    /// Starts to compile one pipeline aside, `part` of as many as there are
+    /// [parts](Extra::parts), for [`Self::make`] to have it at once when the flag is true; none
+    /// where pipelines cannot be compiled aside.
+    pub(super) fn begin(&self, extra: Extra, part: usize) -> Option<Arc<AtomicBool>> {
+        let aside = self.gpu.aside?;
+        Some((aside.begin)(&self.gpu.device, &mut || drop(self.ask(extra, part))))
+    }
+
     /// Makes one pipeline, `part` of as many as there are [parts](Extra::parts). For
     /// [`Self::keep`].
     pub(super) fn make(&self, extra: Extra, part: usize) -> wgpu::ComputePipeline {
+        let mut made = None;
+        if let Some(aside) = self.gpu.aside {
+            (aside.take)(&self.gpu.device, &mut || made = Some(self.ask(extra, part)));
+        }
+        let (label, pipeline) = made.unwrap_or_else(|| self.ask(extra, part));
+        locked(&self.made).push(label);
+        pipeline
+    }
+
+    /// Asks the device for one pipeline; its label and what the device gives.
+    fn ask(&self, extra: Extra, part: usize) -> (String, wgpu::ComputePipeline) {
         let device = &self.gpu.device;
-        let (label, pipeline) = match extra {
+        match extra {
             Extra::Power(power) => {
                 let label = format!("{}, power {power}", Marchers::PARTS[part].label);
                 let module = &self.march_modules[part];
@@ -338,9 +357,7 @@ impl Kernels {
                 let pipeline = pipeline(device, layout, &module.create(device), module.label, None);
                 (module.label.to_owned(), pipeline)
             }
-        };
-        locked(&self.made).push(label);
-        pipeline
+        }
     }
 
     /// Takes all parts of these, in order. Where somebody else was faster, theirs stay.

@@ -1,4 +1,5 @@
-//! Pipelines on their way: announced, compiled one at a time, and used once before they count.
+//! Pipelines on their way: announced, compiled aside or one at a time, and used once before they
+//! count.
 //!
 //! In: what a view lacks, the time. Out: the same pipelines, [kept](Kernels) and ready. A view
 //! that someone watches says what it prepares before anything is compiled, so that the word is on
@@ -20,22 +21,47 @@ use super::{
     uniforms::Inputs,
 };
 
-/// How long the word is out before anything is compiled, seconds: three displayed frames.
-const ANNOUNCE_SECS: f64 = 0.05;
+/// Displayed frames after which the word is on the screen: one to draw it, one more to know that
+/// it was shown.
+const FRAMES_TO_SEE: u32 = 2;
+
+/// After this long nobody looks, seconds: a page that is hidden draws no frames.
+const UNSEEN_SECS: f64 = 0.25;
 
 /// Pipelines on their way.
 pub struct Preparation {
     extra: Extra,
     announced_secs: f64,
+    frames: u32,
+    /// Whether each part has been compiled aside; empty before that began, and where it cannot.
+    aside: Vec<Arc<AtomicBool>>,
     made: Vec<wgpu::ComputePipeline>,
     /// Whether the rehearsal is over; none before it.
     rehearsed: Option<Arc<AtomicBool>>,
 }
 
+/// How far a preparation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// Other work can go on.
+    Aside,
+    /// Other work should wait.
+    Alone,
+    /// All are ready.
+    Ready,
+}
+
 impl Preparation {
     /// Says what will be compiled.
     pub fn announce(extra: Extra, now_secs: f64) -> Self {
-        Self { extra, announced_secs: now_secs, made: Vec::new(), rehearsed: None }
+        Self {
+            extra,
+            announced_secs: now_secs,
+            frames: 0,
+            aside: Vec::new(),
+            made: Vec::new(),
+            rehearsed: None,
+        }
     }
 
     /// What is prepared.
@@ -45,33 +71,50 @@ impl Preparation {
 
     /// Whether more than the word is out.
     pub fn has_begun(&self) -> bool {
-        !self.made.is_empty()
+        !self.made.is_empty() || !self.aside.is_empty() || self.rehearsed.is_some()
     }
 
-    /// Does what comes next, one pipeline at most. True once all are ready.
+    /// The interface has drawn a frame.
+    pub fn note_frame(&mut self) {
+        self.frames += 1;
+    }
+
+    /// Does what comes next: of pipelines that hold others up, one at most.
     pub fn step(
         &mut self,
         kernels: &Kernels,
         targets: &Targets,
         inputs: &Inputs,
         now_secs: f64,
-    ) -> bool {
+    ) -> Progress {
+        let is_true = |flag: &Arc<AtomicBool>| flag.load(Ordering::Acquire);
         if let Some(rehearsed) = &self.rehearsed {
-            let is_over = rehearsed.load(Ordering::Acquire);
-            if is_over {
-                kernels.set_ready(self.extra);
+            if !is_true(rehearsed) {
+                return Progress::Alone;
             }
-            return is_over;
+            kernels.set_ready(self.extra);
+            return Progress::Ready;
         }
-        if now_secs - self.announced_secs < ANNOUNCE_SECS {
-            return false;
+        let is_seen = self.frames >= FRAMES_TO_SEE || now_secs - self.announced_secs >= UNSEEN_SECS;
+        if !is_seen {
+            return Progress::Aside;
         }
-        self.made.push(kernels.make(self.extra, self.made.len()));
-        if self.made.len() == self.extra.parts() {
-            kernels.keep(self.extra, self.made.clone());
+        let parts = self.extra.parts();
+        if !self.has_begun() {
+            self.aside = (0..parts).filter_map(|part| kernels.begin(self.extra, part)).collect();
+        }
+        if !self.aside.iter().all(is_true) {
+            return Progress::Aside;
+        }
+        let at_once = if self.aside.is_empty() { 1 } else { parts };
+        for part in (self.made.len()..parts).take(at_once) {
+            self.made.push(kernels.make(self.extra, part));
+        }
+        if self.made.len() == parts {
+            kernels.keep(self.extra, std::mem::take(&mut self.made));
             self.rehearsed = Some(rehearse(self.extra, kernels, targets, inputs));
         }
-        false
+        Progress::Alone
     }
 }
 
@@ -87,7 +130,13 @@ fn rehearse(
     let marchers = kernels.marchers(power);
     let mut uncounted = Dispatches::default();
     let mut recorder = Recorder::new(kernels, &marchers, targets, inputs, &mut uncounted);
-    recorder.is_rehearsal = true;
+    // A count in a buffer: browsers warn of a plain zero.
+    recorder.rehearsal = Some(kernels.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("no workgroups"),
+        size: 12,
+        usage: wgpu::BufferUsages::INDIRECT,
+        mapped_at_creation: false,
+    }));
     recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     let trace = |points: Points, from: Stage| {
         Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })

@@ -7,7 +7,7 @@ use super::{
     backdrop::Backdrop,
     frame::{self, Dispatches, Recorder},
     glow::{Glow, Need, Tasks},
-    kernels::{Extra, Kernels},
+    kernels::Kernels,
     memory::Memory,
     preparation::Preparation,
     region::Region,
@@ -26,8 +26,7 @@ use crate::{
     scene::{IndirectKind, Panorama, Quality, Scene},
 };
 
-/// A power that has been kept for so long, seconds, gets pipelines of its own.
-const REST_SECS: f64 = 0.3;
+mod prepare;
 
 /// What is known of the film as it is.
 #[derive(Clone, Copy, Debug, Default)]
@@ -144,6 +143,14 @@ impl View {
         self.pending = is_new.then(|| scene.clone());
     }
 
+    /// Says that the interface has drawn a frame, with what [`Self::report`] said before it: no
+    /// pipeline is compiled before that could be read.
+    pub fn note_frame(&mut self) {
+        if let Some(preparation) = &mut self.preparation {
+            preparation.note_frame();
+        }
+    }
+
     /// Gives the view the picture of the surroundings that is at hand: a scene that names it and
     /// has it as background shows it.
     pub fn set_panorama(&mut self, panorama: Option<&Arc<Panorama>>) {
@@ -185,7 +192,7 @@ impl View {
         if !idle {
             self.finished_secs = now_secs;
         }
-        !idle
+        !idle || self.preparation.is_some()
     }
 
     /// Takes note of what the GPU has finished.
@@ -240,58 +247,6 @@ impl View {
             self.targets.backdrop = Arc::new(Backdrop::new(&self.kernels, shown));
         }
         self.inputs = Some(inputs);
-    }
-
-    /// Sees to it that pipelines are there before anything needs them: for a still at once,
-    /// otherwise after saying so. True while nothing else should start.
-    fn prepare(&mut self) -> bool {
-        while let Some(extra) = self.missing() {
-            if self.pace == Pace::Still {
-                self.kernels.prepare(extra);
-                continue;
-            }
-            let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return false };
-            let preparation = match self.preparation.take() {
-                Some(preparation) if preparation.extra() == extra => preparation,
-                _ => Preparation::announce(extra, self.now_secs),
-            };
-            let inputs = self.inputs_of(scene);
-            let preparation = self.preparation.insert(preparation);
-            if !preparation.step(&self.kernels, &self.targets, &inputs, self.now_secs) {
-                return true;
-            }
-        }
-        self.preparation = None;
-        false
-    }
-
-    /// The pipelines that are to be prepared now, if any.
-    fn missing(&self) -> Option<Extra> {
-        let scene = self.pending.as_ref().or(self.scene.as_ref())?;
-        let gathers = scene.indirect.kind != IndirectKind::Off;
-        let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
-        let wanted = [
-            gathers.then_some(Extra::Gather),
-            (glows || self.watch.is_wanted()).then_some(Extra::Glow),
-            self.power_to_prepare(scene),
-        ];
-        wanted.into_iter().flatten().find(|extra| !self.kernels.is_ready(*extra))
-    }
-
-    /// The power whose own pipelines are due: for a still any, otherwise when a picture has been
-    /// shown and nothing has changed for a while, for the general ones do as well until then.
-    fn power_to_prepare(&self, scene: &Scene) -> Option<Extra> {
-        let extra = Extra::Power(scene.fractal.integer_power()?);
-        // Rest first: a drag of the power passes through many.
-        let is_at_rest = self.pending.is_none()
-            && self.schedule.status(self.now_secs).shown
-            && !self.moving
-            && self.now_secs - self.changed_secs >= REST_SECS;
-        let has_begun = self
-            .preparation
-            .as_ref()
-            .is_some_and(|preparation| preparation.extra() == extra && preparation.has_begun());
-        (self.pace == Pace::Still || is_at_rest || has_begun).then_some(extra)
     }
 
     /// Allocates what the scene needs to know of its film as a whole, and frees what it doesn't.

@@ -187,6 +187,7 @@ impl Engine {
             scale,
             now_secs,
         );
+        self.picture.note_frame();
         self.picture.set_panorama(interface.panorama());
         self.picture.set_scene(interface.scene(), interface.is_moving());
         self.picture.watch_histogram(interface.wants_histogram());
@@ -271,12 +272,11 @@ impl Engine {
     }
 
     /// Asks for a frame where there is something new to show.
-    fn show(&mut self, before: &Report, busy: bool, report: &Report) {
+    fn show(&mut self, pictures_before: u64, busy: bool, report: &Report) {
         let now_secs = page::now_secs();
-        // What will be compiled is told before the screen may stand still for it.
-        let is_told = before.activity == report.activity
-            || !matches!(report.activity, Activity::Compiling(_));
-        let is_new = report.pictures != before.pictures || !is_told || !busy;
+        // What will be compiled waits until it could be read.
+        let is_compiling = matches!(report.activity, Activity::Compiling(_));
+        let is_new = report.pictures != pictures_before || is_compiling || !busy;
         if is_new || now_secs - self.told_at_secs > TELL_EVERY_SECS {
             self.told_at_secs = now_secs;
             self.context.request_repaint();
@@ -292,9 +292,9 @@ fn tick() {
     let session = engine.session.clone();
     let Ok(mut session) = session.try_borrow_mut() else { return };
     engine.is_ticking = false;
-    let before = session.status.report.clone();
+    let pictures_before = session.status.report.pictures;
     let busy = engine.step(&mut session, page::now_secs());
-    engine.show(&before, busy, &session.status.report);
+    engine.show(pictures_before, busy, &session.status.report);
     if busy {
         engine.tick_later();
     }

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | [`start`] | opening the GPU, and again when it is lost |
 //! | `session` | what outlives the GPU: the interface, its scene, where they are kept |
+//! | `aside` | pipelines that are compiled while everything else goes on |
 //! | `app` | one frame of the interface |
 //! | `engine` | the GPU's work between frames |
 //! | `picture` | the view in the window and its texture in egui |
@@ -21,6 +22,7 @@
 
 mod address;
 mod app;
+mod aside;
 mod disk;
 mod engine;
 mod faults;

@@ -102,6 +102,13 @@ impl Picture {
         }
     }
 
+    /// Says that the interface draws a frame.
+    pub fn note_frame(&mut self) {
+        if let Some(view) = &mut self.view {
+            view.note_frame();
+        }
+    }
+
     /// Says whether the interface shows the film's histogram.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if let Some(view) = &mut self.view {

@@ -14,7 +14,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::HtmlCanvasElement;
 
-use super::{app::App, faults, hook::Hook, loss, page, session::Session};
+use super::{app::App, aside, faults, hook::Hook, loss, page, session::Session};
 use crate::{gpu::Gpu, render::MAX_REGION_PX};
 
 thread_local! {
@@ -61,7 +61,8 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
 
 /// Opens a device and runs an app on it.
 async fn raise(stage: &Rc<Stage>) -> Result<(), String> {
-    let gpu = Gpu::open(None).await.map_err(|error| error.to_string())?;
+    let mut gpu = Gpu::open(None).await.map_err(|error| error.to_string())?;
+    gpu.aside = aside::aside(&gpu.device);
     let generation = stage.generation.get() + 1;
     stage.generation.set(generation);
     watch_device(&gpu.device, generation);
