@@ -22,6 +22,8 @@
 //!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
 //! 5. Where the scene asks for it, the film is first looked at as a whole: its mean sets the
 //!    exposure, and what is bright in it blooms ([`render::glow`]).
+//!    A sparse lattice that nothing else has to know as a whole never fills the film: its samples are
+//!    developed by themselves, and spread over the display.
 //! 6. What the film holds is shown: by the page's interface, or tile by tile as a PNG
 //!    ([`export::StillJob`]).
 //!

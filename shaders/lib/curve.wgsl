@@ -1,14 +1,9 @@
-// Exposure and the tone curves: from linear radiance to what the display shows, linear, 0 to 1.
+// The tone curves: from linear radiance to what the display shows, linear, 0 to 1.
 
 const CURVE_REINHARD = 1u;
 const CURVE_ACES = 2u;
 const CURVE_AGX = 3u;
 const CURVE_KHRONOS_NEUTRAL = 4u;
-
-fn exposure_factor() -> f32 {
-    let automatic = select(0.0, statistics.adapted_stops, picture.tone.auto_exposure != 0u);
-    return picture.tone.exposure * exp2(automatic);
-}
 
 // Reinhard et al. 2002, eq. 4, on luminance, so that colours keep their hue, or on each channel.
 fn reinhard(color: vec3f) -> vec3f {

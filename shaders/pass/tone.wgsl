@@ -1,20 +1,10 @@
 // Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
 
+// Whether there may be bloom, another curve than Reinhard's, or two eyes in one picture. Some
+// drivers go through all that a shader might do for every pixel.
+override PLAIN: bool = false;
+
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
-
-// IEC 61966-2-1.
-fn srgb_from_linear(linear: vec3f) -> vec3f {
-    let low = linear * 12.92;
-    let high = 1.055 * pow(max(linear, vec3f(1e-10)), vec3f(1.0 / 2.4)) - 0.055;
-    return select(high, low, linear <= vec3f(0.0031308));
-}
-
-// Interleaved gradient noise (Jimenez 2014), -1/2 to 1/2: one dither step keeps dark
-// gradients free of bands. A function of the whole picture's pixel, so that tiles join.
-fn dither(pixel: vec2u) -> f32 {
-    let p = vec2f(pixel);
-    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715)))) - 0.5;
-}
 
 // The film beside a pixel, or the pixel's own where that is outside of the region or of another eye.
 fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
@@ -59,22 +49,27 @@ fn bloom_at(pixel: vec2u) -> vec3f {
     return mix(above, below, part.y);
 }
 
+fn curved(color: vec3f) -> vec3f {
+    if (PLAIN) { return clamp(reinhard(color), vec3f(0.0), vec3f(1.0)); }
+    return tone_mapped(color);
+}
+
 fn shown(pixel: vec2u) -> vec3f {
     var color = reconstructed(pixel) * exposure_factor();
     var bloom = vec3f(0.0);
-    if (picture.bloom.strength > 0.0) { bloom = picture.bloom.strength * bloom_at(pixel); }
-    if (picture.bloom.after == 0u) { color += bloom; }
-    color = tone_mapped(color);
-    if (picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
+    if (!PLAIN && picture.bloom.strength > 0.0) { bloom = picture.bloom.strength * bloom_at(pixel); }
+    if (!PLAIN && picture.bloom.after == 0u) { color += bloom; }
+    color = curved(color);
+    if (!PLAIN && picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
     return srgb_from_linear(color);
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    let pixel = lattice_pixel(workgroup.x, local_index);
+    let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     var encoded = shown(pixel);
-    if (picture.eyes.anaglyph != 0u) {
+    if (!PLAIN && picture.eyes.anaglyph != 0u) {
         if (is_second_eye(pixel)) { return; }
         // The left glass is red and lets the left eye's red through, the right one all but red.
         encoded = vec3f(encoded.r, shown(pixel + picture.eyes.second_at).gb);

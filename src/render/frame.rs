@@ -4,7 +4,7 @@ use super::{
     around::{self, Neighbours},
     glow::{Glow, Tasks},
     kernels::{Kernels, Marchers},
-    lattice::Grid,
+    lattice::{Grid, WORKGROUP_SIDE},
     pass,
     schedule::{Points, Stage, Trace, Work},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
@@ -35,6 +35,12 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
             }
         }
         Work::Show { level, fill, .. } => {
+            if let Some(level) = recorder.spread {
+                recorder.begin_spread();
+                pass::develop::record(recorder, level);
+                pass::spread::record(recorder, level);
+                return;
+            }
             if fill {
                 pass::fill::record(recorder, level);
             }
@@ -122,6 +128,8 @@ pub struct Recorder<'a> {
     /// A count of workgroups, zero, that all dispatches have: drivers then compile what they left
     /// for the first use of a pipeline. None where this is no rehearsal.
     pub rehearsal: Option<wgpu::Buffer>,
+    /// A display is made of the samples of this lattice level alone, and leaves the film as it is.
+    pub spread: Option<u32>,
     /// Counted by each pass.
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
@@ -151,6 +159,7 @@ impl<'a> Recorder<'a> {
             neighbours: targets.neighbours(inputs.picture.indirect.around_px),
             tasks: Tasks::default(),
             rehearsal: None,
+            spread: None,
             dispatches,
             compute,
             encoder,
@@ -163,6 +172,11 @@ impl<'a> Recorder<'a> {
     fn begin_whole(&mut self) -> Tasks {
         self.compute.set_bind_group(1, &self.glow.group, &[]);
         self.tasks
+    }
+
+    /// Turns to passes that use the jittered samples' buffers as a place for other things.
+    fn begin_spread(&mut self) {
+        self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
     }
 
     /// Binds the picture of the surroundings.
@@ -205,8 +219,23 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Adds a dispatch over all pixels of the region, row by row.
+    pub fn dispatch_plane(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+        let workgroups = self.inputs.picture.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
+        self.dispatch_groups(pipeline, slice, workgroups);
+    }
+
     /// Adds a dispatch of `workgroups`.
     pub fn dispatch(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice, workgroups: u32) {
+        self.dispatch_groups(pipeline, slice, [workgroups, 1]);
+    }
+
+    fn dispatch_groups(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        slice: Slice,
+        [columns, rows]: [u32; 2],
+    ) {
         debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
         let offset = self.slices * SLICE_STRIDE_BYTES;
         // Writes take effect in order with submits: the last submit has its own slices already.
@@ -222,7 +251,7 @@ impl<'a> Recorder<'a> {
             self.compute.dispatch_workgroups_indirect(nothing, 0);
             return;
         }
-        self.compute.dispatch_workgroups(workgroups, 1, 1);
+        self.compute.dispatch_workgroups(columns, rows, 1);
     }
 
     /// The commands, ready for submission.

@@ -93,22 +93,21 @@ fn pipeline_layout(
     })
 }
 
-/// Makes one pipeline; `power` is the value of the `POWER` override where the module has it.
+/// Makes one pipeline, with the value of an override where the module has one.
 fn pipeline(
     device: &wgpu::Device,
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
     label: &str,
-    power: Option<u32>,
+    constant: Option<(&str, f64)>,
 ) -> wgpu::ComputePipeline {
-    let constants: Vec<_> = power.iter().map(|&power| ("POWER", f64::from(power))).collect();
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
         layout: Some(layout),
         module,
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &constants,
+            constants: constant.as_slice(),
             ..Default::default()
         },
         cache: None,
@@ -229,6 +228,12 @@ pub struct Kernels {
     glow_layout: wgpu::PipelineLayout,
     /// Film to display.
     pub tone: wgpu::ComputePipeline,
+    /// The same for one eye, without bloom, by Reinhard's curve.
+    pub tone_plain: wgpu::ComputePipeline,
+    /// Samples of a sparse lattice to display values.
+    pub develop: wgpu::ComputePipeline,
+    /// Those to the display.
+    pub spread: wgpu::ComputePipeline,
     /// Those that can be used without delay.
     ready: Mutex<HashSet<Extra>>,
     /// The labels of all pipelines so far.
@@ -252,12 +257,18 @@ impl Kernels {
         };
         let shade = made(&shade_layout, &pass::shade::MODULE);
         let fill = made(&layout, &pass::fill::MODULE);
+        let develop = made(&layout, &pass::develop::MODULE);
+        let spread = made(&layout, &pass::spread::MODULE);
         let tone = made(&glow_layout, &pass::tone::MODULE);
+        let plain = Some(("PLAIN", 1.0));
+        let tone_module = pass::tone::MODULE.create(device);
+        let tone_plain = pipeline(device, &glow_layout, &tone_module, "tone, plain", plain);
+        labels.push("tone, plain".to_owned());
         let march_modules = Marchers::PARTS.map(|module| module.create(device));
         let general = Marchers::from_parts(|part| {
             let label = Marchers::PARTS[part].label;
             labels.push(label.to_owned());
-            pipeline(device, &layout, &march_modules[part], label, Some(0))
+            pipeline(device, &layout, &march_modules[part], label, Some(("POWER", 0.0)))
         });
         Arc::new(Self {
             gpu: gpu.clone(),
@@ -268,6 +279,9 @@ impl Kernels {
             fill,
             glow: OnceLock::new(),
             tone,
+            tone_plain,
+            develop,
+            spread,
             march_modules,
             layout,
             glow_layout,
@@ -339,7 +353,13 @@ impl Kernels {
             Extra::Power(power) => {
                 let label = format!("{}, power {power}", Marchers::PARTS[part].label);
                 let module = &self.march_modules[part];
-                let pipeline = pipeline(device, &self.layout, module, &label, Some(power));
+                let pipeline = pipeline(
+                    device,
+                    &self.layout,
+                    module,
+                    &label,
+                    Some(("POWER", f64::from(power))),
+                );
                 (label, pipeline)
             }
             Extra::Gather => {

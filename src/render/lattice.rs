@@ -11,7 +11,7 @@ use super::uniforms::Slice;
 pub const COARSEST: u32 = 10;
 
 /// Pixels along a workgroup's side.
-const WORKGROUP_SIDE: u32 = 8;
+pub const WORKGROUP_SIDE: u32 = 8;
 
 /// Threads in a workgroup.
 pub const WORKGROUP_THREADS: u32 = WORKGROUP_SIDE * WORKGROUP_SIDE;

@@ -10,6 +10,7 @@
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`backdrop`] | the picture of the surroundings |
 //! | [`kernels`] | pipelines and bind group layouts |
+//! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
 //! | [`targets`] | buffers and the display texture |
@@ -21,6 +22,7 @@
 
 pub mod around;
 pub mod backdrop;
+mod filling;
 pub mod frame;
 pub mod gbuffer;
 pub mod glow;

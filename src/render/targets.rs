@@ -10,8 +10,9 @@ use super::{
     backdrop::Backdrop,
     glow::{Glow, Need},
     kernels::Kernels,
-    lattice::{Grid, WORKGROUP_THREADS},
+    lattice::{COARSEST, Grid, WORKGROUP_THREADS},
     memory::Memory,
+    pass,
     region::Region,
     schedule::SAMPLE_WORKGROUPS,
     uniforms::{self, GRADIENT_ENTRIES, Light, Picture, Slice},
@@ -137,6 +138,14 @@ impl Targets {
             self.direct = storage(&kernels.gpu.device, "direct light", bytes);
             self.film_group = self.film_with(kernels, &self.direct);
         }
+    }
+
+    /// The finest lattice level whose samples have room, once developed, where jittered samples
+    /// have their visibility bits at other times: 2 or more, for it is a quarter of all pixels.
+    pub fn finest_spread(&self, size_px: [u32; 2]) -> u32 {
+        let room = self.jittered.visibility.size() / 4;
+        let fits = |&level: &u32| pass::develop::places(level, size_px) <= room;
+        (2..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 
     /// What all of it takes.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::{
     around::Neighbours,
     backdrop::Backdrop,
+    filling::Filling,
     frame::{self, Dispatches, Recorder},
     glow::{Glow, Need, Tasks},
     kernels::Kernels,
@@ -52,6 +53,7 @@ pub struct View {
     pending: Option<Scene>,
     moving: bool,
     known: Known,
+    filling: Filling,
     watch: Watch,
     /// What another view knows of the whole picture, of which this one draws a part.
     lent_glow: Option<Arc<Glow>>,
@@ -90,6 +92,7 @@ impl View {
             pending: None,
             moving: false,
             known: Known::default(),
+            filling: Filling::default(),
             watch: Watch::default(),
             lent_glow: None,
             lent_neighbours: None,
@@ -282,13 +285,25 @@ impl View {
         tasks
     }
 
+    /// The lattice level whose samples a display is made of by themselves, where it is.
+    fn spread_level(&mut self, work: Work) -> Option<u32> {
+        let picture = &self.inputs.as_ref()?.picture;
+        let is_plain = picture.eyes.count == 1
+            && self.lent_glow.is_none()
+            && self.targets.glow.need().is_none()
+            && !self.watch.is_wanted();
+        self.filling.spread_level(work, is_plain, self.targets.finest_spread(picture.size_px))
+    }
+
     fn submit(&mut self, work: Work) {
-        let tasks = self.tasks(work);
+        let spread = self.spread_level(work);
+        let tasks = if spread.is_some() { Tasks::default() } else { self.tasks(work) };
         let Some(inputs) = &self.inputs else { return };
         let marchers = self.kernels.marchers(inputs.picture.fractal.integer_power);
         let mut recorder =
             Recorder::new(&self.kernels, &marchers, &self.targets, inputs, &mut self.dispatches);
         recorder.tasks = tasks;
+        recorder.spread = spread;
         if let Some(lent) = &self.lent_glow {
             recorder.glow = lent;
         }

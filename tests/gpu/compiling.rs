@@ -117,7 +117,10 @@ fn nothing_is_compiled_unannounced() {
     let mut watched = Watched::new();
     let mut scene = sampled(Scene::default(), 1);
     let first = watched.kernels.made();
-    assert_eq!(first, ["shade", "fill", "tone", "march", "normal", "shadow"]);
+    assert_eq!(
+        first,
+        ["shade", "fill", "develop", "spread", "tone", "tone, plain", "march", "normal", "shadow"]
+    );
     watched.show(&scene);
     assert_eq!(watched.announced, ["power 8"]);
     type Edit = fn(&mut Scene);
@@ -237,7 +240,7 @@ fn a_still_compiles_at_once() {
     let mut view = View::new(&kernels, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(kernels.made().len(), 6 + 3 + 6);
+    assert_eq!(kernels.made().len(), 9 + 3 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 

@@ -8,6 +8,7 @@ mod golden;
 mod harness;
 mod indirect;
 mod memory;
+mod moving;
 mod picture;
 mod samples;
 mod staleness;

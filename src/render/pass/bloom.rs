@@ -24,6 +24,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/luminance.wgsl"),
         shader_file!("lib/mip.wgsl"),
         shader_file!("lib/curve.wgsl"),
+        shader_file!("lib/exposure.wgsl"),
         shader_file!("pass/bloom.wgsl"),
     ],
 };

@@ -5,6 +5,7 @@ use crate::gpu::shader::Module;
 
 pub mod bloom;
 pub mod blur;
+pub mod develop;
 pub mod expose;
 pub mod fill;
 pub mod gather;
@@ -16,6 +17,7 @@ pub mod probe;
 pub mod reduce;
 pub mod shade;
 pub mod shadow;
+pub mod spread;
 pub mod tone;
 
 /// Every shader module of the program.
@@ -26,6 +28,8 @@ pub const MODULES: &[&Module] = &[
     &shade::MODULE,
     &gather::MODULE,
     &fill::MODULE,
+    &develop::MODULE,
+    &spread::MODULE,
     &mean::MODULE,
     &reduce::MODULE,
     &expose::MODULE,

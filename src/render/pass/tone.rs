@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid},
+    render::{frame::Recorder, lattice::Grid, uniforms::Slice},
     shader_file,
 };
 
@@ -19,14 +19,25 @@ pub const MODULE: Module = Module {
         shader_file!("lib/luminance.wgsl"),
         shader_file!("lib/mip.wgsl"),
         shader_file!("lib/curve.wgsl"),
+        shader_file!("lib/exposure.wgsl"),
+        shader_file!("lib/srgb.wgsl"),
         shader_file!("pass/tone.wgsl"),
     ],
 };
 
+/// Whether the picture needs nothing that the plain pipeline leaves out.
+fn is_plain(recorder: &Recorder<'_>) -> bool {
+    const REINHARD: u32 = 1;
+    let picture = &recorder.inputs.picture;
+    picture.bloom.strength == 0.0 && picture.eyes.anaglyph == 0 && picture.tone.curve == REINHARD
+}
+
 /// Makes the whole region's display picture of a film whose finest complete lattice is `level`.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.kernels.tone.clone();
-    let grid = Grid::level(0, recorder.inputs.picture.size_px);
-    recorder.dispatch_grid(&pipeline, &grid, if level == 0 { 0 } else { 1 << (level / 2) });
+    let kernels = recorder.kernels;
+    let pipeline = if is_plain(recorder) { &kernels.tone_plain } else { &kernels.tone };
+    let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
+    let whole = Grid::level(0, recorder.inputs.picture.size_px);
+    recorder.dispatch_plane(pipeline, Slice { spacing, ..whole.slice(0) });
     recorder.dispatches.tone += 1;
 }

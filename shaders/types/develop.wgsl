@@ -1,0 +1,24 @@
+// Display values of a sparse lattice's samples, row by row, where jittered samples have their
+// visibility bits at other times: 11, 11 and 10 bits of red, green and blue, sRGB.
+@group(1) @binding(2) var<storage, read_write> developed: array<u32>;
+
+const DEVELOPED_STEPS = vec3f(2047.0, 2047.0, 1023.0);
+
+// Lattice points in a row, in cells of `spacing` pixels. Staggered lattices leave every other
+// one of a row out.
+fn developed_columns() -> u32 {
+    return ((picture.size_px.x - 1u) >> slice.shift) + 1u;
+}
+
+fn developed_index(cell: vec2u) -> u32 {
+    return cell.y * developed_columns() + cell.x;
+}
+
+fn developed_pack(color: vec3f) -> u32 {
+    let steps = vec3u(color * DEVELOPED_STEPS + 0.5);
+    return steps.r | (steps.g << 11u) | (steps.b << 22u);
+}
+
+fn developed_unpack(packed: u32) -> vec3f {
+    return vec3f(vec3u(packed & 2047u, (packed >> 11u) & 2047u, packed >> 22u)) / DEVELOPED_STEPS;
+}
