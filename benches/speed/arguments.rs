@@ -7,7 +7,7 @@ use mandelight::export;
 
 /// Measures the renderer beside the thesis's own algorithm, in one run on one adapter.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "cargo xtask bench", about)]
+#[command(name = "bench", bin_name = "cargo xtask bench")]
 pub struct Arguments {
     /// Views and tables to run, by name, separated by commas; all of them unless told
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
@@ -30,6 +30,9 @@ pub struct Arguments {
     /// Also write everything that was measured to this file, as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+    /// Also put the tables into this file, docs/benchmark.md, in place of its own
+    #[arg(long, value_name = "FILE")]
+    pub tables: Option<PathBuf>,
     /// Fail where a picture is not good enough for its ratio to count
     #[arg(long)]
     pub check: bool,

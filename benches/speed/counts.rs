@@ -87,7 +87,11 @@ pub fn literal(gpu: &Gpu, inputs: &Inputs, kindness: Kindness) -> Result<Counts,
     Ok(Picture::new(&counting, inputs, 1, kindness, 1).count()?)
 }
 
-/// The program's counts for one sample of each pixel of a whole picture, pass by pass.
+/// What later samples' counts are called.
+pub const LATER: &str = "a later sample";
+
+/// The program's counts for the first sample of each pixel of a whole picture, pass by pass, and
+/// for a later one where there is one.
 ///
 /// # Errors
 /// Where the device is lost, or a kernel can't be counted.
@@ -127,5 +131,10 @@ pub fn ours(
         normal: made(&pass::normal::MODULE, "distance_gradient")?,
         shadow: made(&pass::shadow::MODULE, "reach")?,
     };
-    ours::Split::new(kernels, scene, size_px).count(&marchers)
+    let split = ours::Split::new(kernels, scene, size_px);
+    let mut counts = split.count(&marchers)?;
+    if scene.quality.samples > 1 {
+        counts.push((LATER, split.count_later(&marchers)?));
+    }
+    Ok(counts)
 }

@@ -23,6 +23,7 @@
 //! | `feel` | a recorded session against the clock |
 //! | `picture` | what both sides draw, as files |
 //! | `report` | what was measured, told |
+//! | `tables` | the same for `docs/benchmark.md` |
 //! | `statistics` | medians, quantiles |
 
 pub mod arguments;
@@ -42,6 +43,7 @@ pub mod report;
 pub mod scaling;
 pub mod start;
 pub mod statistics;
+pub mod tables;
 pub mod views;
 
 use std::process::ExitCode;
@@ -119,6 +121,10 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     if let Some(file) = &arguments.json {
         let text = serde_json::to_string_pretty(&report)?;
         std::fs::write(file, text + "\n")?;
+    }
+    if let Some(file) = &arguments.tables {
+        let text = tables::updated(std::fs::read_to_string(file)?, &report)?;
+        std::fs::write(file, text)?;
     }
     match gpu.faults() {
         0 => Ok(report.is_good()),

@@ -9,7 +9,7 @@ use mandelight::{
         frame::{Dispatches, Recorder},
         kernels::Marchers,
         pass,
-        schedule::{Points, Stage, Trace},
+        schedule::{Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -45,11 +45,14 @@ pub fn display(kernels: &Kernels, view: &View) -> Result<Vec<u8>, ReadbackError>
 type Record = fn(&mut Recorder<'_>, &Trace, &mandelight::render::lattice::Grid);
 
 /// The passes over centre samples, in the order in which they run.
-const PASSES: &[(&str, Record)] = &[
+const PASSES: &[(&str, Record)] =
+    &[MARCHING[0], MARCHING[1], MARCHING[2], ("shade", pass::shade::record)];
+
+/// Those that evaluate the formula.
+const MARCHING: &[(&str, Record)] = &[
     ("march", pass::march::record),
     ("normal", pass::normal::record),
     ("shadow", pass::shadow::record),
-    ("shade", pass::shade::record),
 ];
 
 /// The program's passes over the centre samples of a whole picture, one submit each.
@@ -73,7 +76,7 @@ impl<'a> Split<'a> {
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
         let marchers = self.kernels.marchers(self.inputs.picture.fractal.integer_power);
         let timed = |&(name, record): &(&'static str, Record)| {
-            let commands = self.recorded(record, &marchers);
+            let commands = self.recorded(record, &marchers, self.trace(Points::Level(0)));
             let start = Instant::now();
             self.kernels.gpu.queue.submit([commands]);
             self.kernels.gpu.wait();
@@ -82,32 +85,63 @@ impl<'a> Split<'a> {
         PASSES.iter().map(timed).collect()
     }
 
-    /// What each pass that marches takes, by pipelines that count into the film's first half.
+    /// What each pass that marches takes for the centre samples, by pipelines that count into the
+    /// film's first half.
     ///
     /// # Errors
     /// Where the device is lost.
     pub fn count(&self, marchers: &Marchers) -> Result<Vec<(&'static str, Counts)>, Failure> {
-        let gpu = &self.kernels.gpu;
         let counted = |&(name, record): &(&'static str, Record)| {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            encoder.clear_buffer(&self.targets.film_rg, 0, None);
-            gpu.queue.submit([encoder.finish(), self.recorded(record, marchers)]);
-            Ok((name, Counts::read(gpu, &self.targets.film_rg)?))
+            self.clear_counts();
+            let commands = self.recorded(record, marchers, self.trace(Points::Level(0)));
+            self.kernels.gpu.queue.submit([commands]);
+            Ok((name, self.counts()?))
         };
-        PASSES.iter().filter(|(name, _)| *name != "shade").map(counted).collect()
+        MARCHING.iter().map(counted).collect()
     }
 
-    /// One pass over the centre samples of the whole picture.
-    fn recorded(&self, record: Record, marchers: &Marchers) -> wgpu::CommandBuffer {
-        let points = Points::Level(0);
-        let grid = points.grid(self.inputs.picture.size_px);
-        let trace = Trace {
+    /// What a later sample of every pixel takes; [`Self::count`] has marched the centre samples.
+    ///
+    /// # Errors
+    /// Where the device is lost.
+    pub fn count_later(&self, marchers: &Marchers) -> Result<Counts, Failure> {
+        self.clear_counts();
+        let all = self.trace(Points::Sample(1));
+        // The jittered samples' buffers hold so many.
+        for first in (0..all.workgroups).step_by(SAMPLE_WORKGROUPS as usize) {
+            let workgroups = SAMPLE_WORKGROUPS.min(all.workgroups - first);
+            let trace = Trace { first_workgroup: first, workgroups, ..all };
+            for (_, record) in MARCHING {
+                self.kernels.gpu.queue.submit([self.recorded(*record, marchers, trace)]);
+            }
+        }
+        Ok(self.counts()?)
+    }
+
+    fn clear_counts(&self) {
+        let mut encoder = self.kernels.gpu.device.create_command_encoder(&Default::default());
+        encoder.clear_buffer(&self.targets.film_rg, 0, None);
+        self.kernels.gpu.queue.submit([encoder.finish()]);
+    }
+
+    fn counts(&self) -> Result<Counts, ReadbackError> {
+        Counts::read(&self.kernels.gpu, &self.targets.film_rg)
+    }
+
+    /// These points of the whole picture.
+    fn trace(&self, points: Points) -> Trace {
+        Trace {
             points,
             from: Stage::March,
             lights: u64::MAX >> (64 - self.inputs.picture.surface.light_count.clamp(1, 64)),
             first_workgroup: 0,
-            workgroups: grid.workgroups(),
-        };
+            workgroups: points.grid(self.inputs.picture.size_px).workgroups(),
+        }
+    }
+
+    /// One pass over some points.
+    fn recorded(&self, record: Record, marchers: &Marchers, trace: Trace) -> wgpu::CommandBuffer {
+        let grid = trace.points.grid(self.inputs.picture.size_px);
         let mut dispatches = Dispatches::default();
         let mut recorder =
             Recorder::new(self.kernels, marchers, &self.targets, &self.inputs, &mut dispatches);

@@ -60,7 +60,7 @@ pub struct Comparison {
     pub peak_share: Option<f64>,
     /// What keeps the ratio from counting; empty where it counts.
     pub complaints: Vec<String>,
-    /// What the program's passes take for one sample of a pixel in the mean.
+    /// What the program's passes take for the first sample of a pixel, and what a later one takes.
     pub our_counts: Vec<(&'static str, Counts)>,
     /// Times of the program's passes over one sample of each pixel, milliseconds.
     pub passes_ms: Vec<(&'static str, f64)>,
@@ -77,7 +77,7 @@ pub struct Side {
     pub iterations: u32,
     /// One sample's errors.
     pub errors: Errors,
-    /// What one sample of a pixel takes in the mean.
+    /// What a sample of a pixel takes in the mean.
     pub counts: Counts,
 }
 

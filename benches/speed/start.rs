@@ -48,6 +48,19 @@ impl Start {
     }
 }
 
+/// One line of the table: its name, and what of a start it tells.
+type Part = (&'static str, fn(&Start) -> f64);
+
+/// The table's lines.
+pub const PARTS: &[Part] = &[
+    ("until a device is there", |start| start.device),
+    ("shader compilation", Start::compilation),
+    ("the first picture itself", |start| start.again),
+    ("in all", Start::all),
+    ("the power's own pipelines", |start| start.special),
+    ("every pixel's first sample", |start| start.complete),
+];
+
 /// A first visit and a later one.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Starts {
@@ -148,14 +161,8 @@ impl Starts {
     pub fn print(&self) {
         println!("\nstart: milliseconds until there is a picture");
         println!("  {:<34}{:>10}{:>10}", "", "first", "later");
-        let row = |name: &str, part: fn(&Start) -> f64| {
+        for (name, part) in PARTS {
             println!("  {name:<34}{:>10.1}{:>10.1}", part(&self.first), part(&self.later));
-        };
-        row("until a device is there", |start| start.device);
-        row("shader compilation", Start::compilation);
-        row("the first picture itself", |start| start.again);
-        row("in all", Start::all);
-        row("the power's own pipelines", |start| start.special);
-        row("every pixel's first sample", |start| start.complete);
+        }
     }
 }

@@ -1,0 +1,125 @@
+//! What was measured, as the tables of `docs/benchmark.md`.
+//!
+//! Each table stands between two markers and is put there anew; tables that were not measured stay.
+
+use std::fmt::Write as _;
+
+use super::report::{Comparison, Report};
+
+/// `text` with the tables that `report` has.
+///
+/// # Errors
+/// Where a table's markers are missing.
+pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
+    let mut tables = Vec::new();
+    if !report.views.is_empty() {
+        tables.push(("times", times(report)));
+        tables.push(("errors", errors(&report.views)));
+        tables.push(("counts", counts(&report.views)));
+    }
+    if let Some(powers) = &report.powers {
+        let mut table = head(&["power", "products", "own kernel", "fit", "general kernel"]);
+        for row in &powers.rows {
+            let ns = [row.special_ns, row.fitted_ns, row.general_ns].map(|ns| format!("{ns:.2}"));
+            line(
+                &mut table,
+                [row.power.to_string(), row.products.to_string()].into_iter().chain(ns),
+            );
+        }
+        let (fixed, product, worst) = (powers.fixed_ns, powers.product_ns, powers.worst);
+        let _ = writeln!(
+            table,
+            "\nFit: {fixed:.2} ns and {product:.2} ns a product; no power is further off than {worst:.2} times."
+        );
+        tables.push(("powers", table));
+    }
+    if !report.scaling.is_empty() {
+        let mut table = head(&["asked for", "beside", "times as much", "times as long"]);
+        for row in report.scaling.iter().filter(|row| row.factor > 1.0) {
+            let numbers = [row.factor, row.growth].map(|factor| format!("{factor:.2}"));
+            line(&mut table, [row.name.into(), row.against.into()].into_iter().chain(numbers));
+        }
+        tables.push(("scaling", table));
+    }
+    if let Some(start) = &report.start {
+        let mut table = head(&["milliseconds", "first visit", "later"]);
+        for (name, part) in super::start::PARTS {
+            let ms = [part(&start.first), part(&start.later)].map(|ms| format!("{ms:.0}"));
+            line(&mut table, [(*name).to_owned()].into_iter().chain(ms));
+        }
+        tables.push(("start", table));
+    }
+    for (name, table) in tables {
+        let (begin, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
+        let missing = || format!("there are no markers for a table of {name}");
+        let from = text.find(&begin).ok_or_else(missing)? + begin.len();
+        let to = from + text[from..].find(&end).ok_or_else(missing)?;
+        text.replace_range(from..to, &table);
+    }
+    Ok(text)
+}
+
+fn head(columns: &[&str]) -> String {
+    format!("| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()))
+}
+
+fn line(table: &mut String, cells: impl Iterator<Item = String>) {
+    let cells: Vec<_> = cells.collect();
+    let _ = writeln!(table, "| {} |", cells.join(" | "));
+}
+
+fn times(report: &Report) -> String {
+    let mut table = format!("On {}:\n\n", report.adapter);
+    table += &head(&["view", "pixels", "samples", "lights", "literal, ms", "ours, ms", "ratio"]);
+    for view in &report.views {
+        let [width, height] = view.size_px;
+        let counts = if view.complaints.is_empty() { "" } else { " (does not count)" };
+        let cells = [
+            format!("`{}`: {}", view.view, view.about),
+            format!("{width}×{height}"),
+            view.samples.to_string(),
+            view.lights.to_string(),
+            format!("{:.0}", view.literal.ms),
+            format!("{:.0}", view.ours.ms),
+            format!("{:.1}{counts}", view.ratio),
+        ];
+        line(&mut table, cells.into_iter());
+    }
+    table
+}
+
+fn errors(views: &[Comparison]) -> String {
+    let names = views.first().map(|view| view.ours.errors.columns().map(|(name, _)| name));
+    let mut table = head(&[["view"].as_slice(), names.unwrap_or_default().as_slice()].concat());
+    for view in views {
+        let both = view.literal.errors.columns().into_iter().zip(view.ours.errors.columns());
+        let cells = both.map(|((name, literal), (_, ours))| {
+            if name.starts_with("hit") || name.starts_with("shadow") {
+                format!("{:.2} / {:.2} %", 100.0 * literal, 100.0 * ours)
+            } else {
+                format!("{literal:.2} / {ours:.2}")
+            }
+        });
+        line(&mut table, [format!("`{}`", view.view)].into_iter().chain(cells));
+    }
+    table
+}
+
+fn counts(views: &[Comparison]) -> String {
+    let columns =
+        ["view", "iterations", "estimates a pixel", "orbit steps a pixel", "share of the peak"];
+    let mut table = head(&columns);
+    for view in views {
+        let (literal, ours) = (&view.literal, &view.ours);
+        let share = view.peak_share.map_or("–".into(), |share| format!("{:.0} %", 100.0 * share));
+        let cells = [
+            format!("`{}`", view.view),
+            format!("{} / {}", literal.iterations, ours.iterations),
+            format!("{:.1} / {:.1}", literal.counts.estimates, ours.counts.estimates),
+            format!("{:.0} / {:.0}", literal.counts.steps, ours.counts.steps),
+            share,
+        ];
+        line(&mut table, cells.into_iter());
+    }
+    table
+}
