@@ -177,7 +177,10 @@ impl View {
             self.apply(scene);
         }
         if self.prepare() {
-            self.finished_secs = now_secs;
+            // What is prepared for later takes nothing of the time that a picture took.
+            if self.pending.is_some() || !self.schedule.status(now_secs).idle {
+                self.finished_secs = now_secs;
+            }
             return true;
         }
         if self.schedule.accepts_changes()

@@ -27,9 +27,10 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   scenes.quick = await page.scene();
 
   // Idle means idle: no dispatch and no frame while nobody does anything. (Half a second after a
-  // change the page writes its scene down, and a frame or two come of that.)
+  // change the page writes its scene down, and a frame or two come of that; and what it may need
+  // later is compiled at rest.)
   await rest(2);
-  v.seen.idle = [await page.report()];
+  v.seen.idle = [await page.settled()];
   await rest(3);
   v.seen.idle.push(await page.report());
 
