@@ -7,7 +7,9 @@ mod bench;
 #[expect(dead_code, reason = "the oracle knows more than distances")]
 mod estimate;
 
-use bench::{arguments::Arguments, counts, kindness, literal, powers, statistics, views};
+use bench::{
+    arguments::Arguments, counts, instrument, kindness, literal, powers, statistics, views,
+};
 use clap::Parser as _;
 use glam::DVec3;
 use mandelight::{
@@ -216,6 +218,26 @@ fn counters_count_orbits() {
         }
     }
     assert_eq!(gpu.faults(), 0);
+}
+
+#[test]
+fn what_cannot_be_counted_is_said() {
+    let marks = |estimates| instrument::Marks {
+        orbits_in: "formula/",
+        other_loops: &[],
+        estimates,
+        entries: &["main"],
+        buffer: [0, 0],
+    };
+    let orbit = "fn far(n: u32) {\n    for (var i = 0u; i < n; i++) {\n    }\n}\n";
+    let entry = "@compute @workgroup_size(1)\nfn main(@builtin(workgroup_id) id: vec3u) {\n}\n";
+    let files = [("formula/a.wgsl", orbit), ("pass/b.wgsl", entry)];
+    let text = instrument::counting(&files, &marks(&["far"])).expect("all is there");
+    assert!(text.contains("fn counted_main(id: vec3u) {"), "{text}");
+    assert!(text.contains("fn far(n: u32) { counted_estimates += 1u;"), "{text}");
+    assert!(instrument::counting(&files, &marks(&["near"])).unwrap_err().contains("near"));
+    assert!(instrument::counting(&files[..1], &marks(&["far"])).unwrap_err().contains("main"));
+    assert!(instrument::counting(&files[1..], &marks(&[])).unwrap_err().contains("formula/"));
 }
 
 /// Counts the program's probe at `points`.

@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Also write what both sides draw, as PNG files, to this folder
     #[arg(long, value_name = "FOLDER")]
     pub pictures: Option<PathBuf>,
-    /// Also write everything that was measured to this file, as JSON
+    /// Also write everything that was measured to this file, or - for standard output, as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
     /// Also put the tables into this file, docs/benchmark.md, in place of its own

@@ -99,6 +99,11 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
             report.views.push(comparison);
         }
     }
+    if arguments.views.iter().any(|name| name == views::DEEP) {
+        println!(
+            "\ndeep: no view yet: single precision ends at some ten-thousandths above the surface"
+        );
+    }
     if arguments.wants(powers::NAME) {
         let table = powers::measure(&gpu, arguments.rounds)?;
         table.print();
@@ -120,7 +125,11 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     }
     if let Some(file) = &arguments.json {
         let text = serde_json::to_string_pretty(&report)?;
-        std::fs::write(file, text + "\n")?;
+        if file.as_os_str() == "-" {
+            println!("{text}");
+        } else {
+            std::fs::write(file, text + "\n")?;
+        }
     }
     if let Some(file) = &arguments.tables {
         let text = tables::updated(std::fs::read_to_string(file)?, &report)?;
@@ -135,7 +144,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
 /// The views that were asked for, in the size that was asked for.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
-    let tables = [powers::NAME, scaling::NAME, start::NAME, feel::NAME];
+    let tables = [views::DEEP, powers::NAME, scaling::NAME, start::NAME, feel::NAME];
     let names: Vec<_> = views.iter().map(|view| view.name).chain(tables).collect();
     if let Some(name) = arguments.views.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());
