@@ -308,6 +308,11 @@ impl Kernels {
         locked(&self.special).get(&integer_power).unwrap_or(&self.general).clone()
     }
 
+    /// Whether [`Self::marchers`] has a set for this power alone.
+    pub fn has_own(&self, integer_power: u32) -> bool {
+        locked(&self.special).contains_key(&integer_power)
+    }
+
     /// Whether these can be used without delay.
     pub fn is_ready(&self, extra: Extra) -> bool {
         extra == Extra::Power(0) || locked(&self.ready).contains(&extra)

@@ -5,6 +5,8 @@
 //! sparse as the motion budget demands, is shown, and is then completed level by level; jittered
 //! samples follow until there are enough, and then there is no more work.
 
+use std::collections::VecDeque;
+
 use super::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
 
 mod adaptation;
@@ -13,6 +15,7 @@ mod known;
 mod work;
 
 use adaptation::Adaptation;
+pub use cost::Arithmetic;
 use cost::Cost;
 use known::Known;
 pub use work::{Job, Points, Stage, Trace, Work};
@@ -113,7 +116,8 @@ pub struct Schedule {
     shown_at: f64,
     /// Exposure follows the film.
     adaptation: Adaptation,
-    in_flight: usize,
+    /// What each piece in flight is traced by.
+    in_flight: VecDeque<Arithmetic>,
     slice_ms: f64,
     /// Slices so far.
     slices: u32,
@@ -142,7 +146,7 @@ impl Schedule {
             changed_at: 0.0,
             shown_at: f64::NEG_INFINITY,
             adaptation: Adaptation::default(),
-            in_flight: 0,
+            in_flight: VecDeque::new(),
             slice_ms: match pace {
                 Pace::Interactive => SLICE_MS,
                 Pace::Still => STILL_SLICE_MS,
@@ -172,6 +176,11 @@ impl Schedule {
     /// Says whether there is indirect light. Follow it with the change that it is.
     pub fn set_gathering(&mut self, gathers: bool) {
         self.gathers = gathers;
+    }
+
+    /// Says what powers are raised by from now on.
+    pub fn set_arithmetic(&mut self, arithmetic: Arithmetic) {
+        self.cost.arithmetic = arithmetic;
     }
 
     /// Says which lights shine, and which of all are not where their rays were marched to, both by
@@ -247,11 +256,11 @@ impl Schedule {
 
     /// A piece of work that [`Self::next`] gave has finished, after `busy_ms` of the GPU's time.
     pub fn finished(&mut self, work: Work, busy_ms: f64) {
-        self.in_flight = self.in_flight.saturating_sub(1);
+        let arithmetic = self.in_flight.pop_front().unwrap_or_default();
         match work {
             Work::Trace(trace) => {
                 let pixels = trace.workgroups * WORKGROUP_THREADS;
-                self.cost.traced(trace.job(), pixels, busy_ms);
+                self.cost.traced(trace.job(), arithmetic, pixels, busy_ms);
             }
             Work::Show { .. } => self.cost.shown(busy_ms),
         }
@@ -260,11 +269,11 @@ impl Schedule {
     /// The next piece of work at `now_secs`; none where enough is in flight, where a movement
     /// is being followed and has been shown, or where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
-        if self.in_flight >= MOST_IN_FLIGHT {
+        if self.in_flight.len() >= MOST_IN_FLIGHT {
             return None;
         }
         let work = self.choose(now_secs)?;
-        self.in_flight += 1;
+        self.in_flight.push_back(self.cost.arithmetic);
         Some(work)
     }
 
@@ -450,7 +459,7 @@ impl Schedule {
             shown_level: self.shown_level,
             shown: !self.opening,
             moving: self.moving && now_secs - self.changed_at < QUIET_SECS,
-            idle: self.in_flight == 0
+            idle: self.in_flight.is_empty()
                 && !self.show_due
                 && self.under_way.is_none()
                 && !self.adaptation.is_under_way()

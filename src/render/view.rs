@@ -14,7 +14,7 @@ use super::{
     region::Region,
     report::{Activity, Report},
     samples::{self, SamplesReadback},
-    schedule::{Pace, Schedule, Stale, Work},
+    schedule::{Arithmetic, Pace, Schedule, Stale, Work},
     targets::{Targets, texture_bytes},
     uniforms::Inputs,
     watch::Watch,
@@ -188,6 +188,7 @@ impl View {
         {
             self.apply(scene);
         }
+        self.schedule.set_arithmetic(self.arithmetic());
         while let Some(work) = self.schedule.next(now_secs) {
             self.submit(work);
         }
@@ -286,6 +287,16 @@ impl View {
         self.known.mean |= tasks.mean;
         self.known.histogram |= tasks.histogram;
         tasks
+    }
+
+    /// What powers are raised by.
+    fn arithmetic(&self) -> Arithmetic {
+        let power = self.inputs.as_ref().map_or(0, |inputs| inputs.picture.fractal.integer_power);
+        match power {
+            0 => Arithmetic::Real,
+            power if self.kernels.has_own(power) => Arithmetic::Special,
+            _ => Arithmetic::Whole,
+        }
     }
 
     /// The lattice level whose samples a display is made of by themselves, where it is.

@@ -41,6 +41,9 @@ const FEWEST_WORKGROUPS: f64 = 2.0;
 /// Most of the mean time that may count as fixed: the rest keeps slices from growing at once.
 const MOST_FIXED: f64 = 0.95;
 
+/// Part of a budget that is planned for: one frame takes a little more than the one before it.
+const AIM: f64 = 0.9;
+
 /// Weighted sums over measurements of rays and milliseconds.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
@@ -104,27 +107,57 @@ impl Rate {
     }
 }
 
+/// How powers are raised: what a ray costs hangs on it more than on anything else that can change
+/// from one moving picture to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// By pipelines for one whole power.
+    #[default]
+    Special,
+    /// By pipelines for any whole power.
+    Whole,
+    /// By series, for real powers.
+    Real,
+}
+
+impl Arithmetic {
+    const ALL: [Self; 3] = [Self::Special, Self::Whole, Self::Real];
+
+    /// What an orbit step usually costs, in parts of the first one's. It only has to do until the
+    /// first picture of another kind has been measured.
+    fn usual(self) -> f64 {
+        match self {
+            Self::Special => 1.0,
+            Self::Whole => 2.0,
+            Self::Real => 4.0,
+        }
+    }
+}
+
 /// Running estimates of what traces and shows cost.
 #[derive(Clone, Debug)]
 pub struct Cost {
-    /// Of traces that start with each [`Stage`].
-    rates: [Rate; 5],
+    /// Of traces that start with each [`Stage`], by each arithmetic.
+    rates: [[Rate; 5]; Arithmetic::ALL.len()],
+    /// What is traced by from now on.
+    pub arithmetic: Arithmetic,
     show_ms: f64,
 }
 
 impl Default for Cost {
     /// No experience yet.
     fn default() -> Self {
-        Self { rates: [Rate::UNKNOWN; 5], show_ms: 0.0 }
+        let rates = [[Rate::UNKNOWN; 5]; Arithmetic::ALL.len()];
+        Self { rates, arithmetic: Arithmetic::default(), show_ms: 0.0 }
     }
 }
 
 impl Cost {
-    /// A slice of so many pixels took so long.
-    pub fn traced(&mut self, job: Job, pixels: u32, busy_ms: f64) {
+    /// A slice of so many pixels, traced by `arithmetic`, took so long.
+    pub fn traced(&mut self, job: Job, arithmetic: Arithmetic, pixels: u32, busy_ms: f64) {
         if pixels > 0 {
             let rays = f64::from(pixels) * rays_of_pixel(job);
-            self.rates[job.from as usize].learn(rays, busy_ms.max(1e-3));
+            self.rates[arithmetic as usize][job.from as usize].learn(rays, busy_ms.max(1e-3));
         }
     }
 
@@ -139,15 +172,29 @@ impl Cost {
     }
 
     fn rate(&self, from: Stage) -> Rate {
-        let own = self.rates[from as usize];
+        let own = self.rate_by(self.arithmetic, from);
+        let of_others = Arithmetic::ALL.map(|other| (other, self.rate_by(other, from)));
+        match of_others.into_iter().find(|(_, rate)| rate.is_measured()) {
+            Some((other, rate)) if !own.is_measured() => {
+                let dearer = self.arithmetic.usual() / other.usual();
+                Rate { ray_ms: rate.ray_ms * dearer, ..rate }
+            }
+            _ => own,
+        }
+    }
+
+    /// What is known of one arithmetic.
+    fn rate_by(&self, arithmetic: Arithmetic, from: Stage) -> Rate {
+        let rates = &self.rates[arithmetic as usize];
+        let own = rates[from as usize];
         // A later start never costs more than an earlier one, and shading next to nothing.
-        let earlier = &self.rates[..from.min(Stage::Shade) as usize];
+        let earlier = &rates[..from.min(Stage::Shade) as usize];
         let dearer = earlier.iter().rev().find(|rate| rate.is_measured());
         match dearer {
             Some(dearer) if !own.is_measured() => {
                 // Gathering is no part of the others: what is too much of it has to be found out.
                 let largest = if from == Stage::Gather { own.largest } else { dearer.largest };
-                Rate { fixed_ms: dearer.fixed_ms, ray_ms: dearer.ray_ms, largest, ..own }
+                Rate { largest, ..*dearer }
             }
             _ => own,
         }
@@ -176,7 +223,7 @@ impl Cost {
         }
         // At least a quarter of the budget goes into the lattice's pixels, however slow the
         // display and the way to it.
-        let left_ms = (budget_ms - self.show_ms - fixed_ms).max(0.25 * budget_ms);
+        let left_ms = (AIM * budget_ms - self.show_ms - fixed_ms).max(0.25 * budget_ms);
         f64::from(pixels) * pixel_ms <= left_ms
     }
 }

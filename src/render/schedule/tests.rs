@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod arithmetic;
+
 const SIZE: [u32; 2] = [1280, 720];
 const FRAME_SECS: f64 = 1.0 / 60.0;
 

@@ -1,0 +1,34 @@
+//! What powers are raised by changes from one picture to the next.
+
+use super::*;
+
+/// A power that is dragged leaves its own pipelines for those of real powers from one picture to the
+/// next: that one is late already if what it costs is only known afterwards.
+#[test]
+fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
+    let (mut device, mut now) = (Device::new(20.0, 0.0), 0.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 1);
+    schedule.change(Stale::Geometry, false, now);
+    settle(&mut schedule, &mut device, &mut now);
+    let pictures =
+        [(Arithmetic::Special, 1.0), (Arithmetic::Real, 4.0), (Arithmetic::Special, 1.0)];
+    for (arithmetic, dearer) in pictures {
+        schedule.set_arithmetic(arithmetic);
+        schedule.change(Stale::Geometry, true, now);
+        let mut ms = 0.0;
+        while !schedule.status(now).shown || !schedule.in_flight.is_empty() {
+            while let Some(work) = schedule.next(now) {
+                let is_trace = matches!(work, Work::Trace(_));
+                device.pixel_ns = 20.0 * 20.0 * if is_trace { dearer } else { 1.0 };
+                device.submit(work, now);
+            }
+            ms += device.queue.iter().map(|(_, _, ms)| ms).sum::<f64>();
+            now = device.busy_until;
+            device.collect(&mut schedule, now);
+        }
+        assert!(ms <= 1.25 * 16.0, "{arithmetic:?}: {ms} ms");
+        // Neither is it sparser than it has to be.
+        assert!(ms >= 0.3 * 16.0, "{arithmetic:?}: {ms} ms");
+    }
+}
