@@ -82,6 +82,18 @@ fn host_structs_match_their_wgsl_twins() {
     }
 }
 
+/// Else it would be all zeros: see `types/picture.wgsl`.
+#[test]
+fn every_pass_begins_by_reading_the_picture() {
+    for module in MODULES {
+        let text = module.text();
+        let (_, main) = text.split_once("fn main(").expect("an entry point");
+        let (_, body) = main.split_once("{\n").expect("its body");
+        let first = body.lines().next().map(str::trim);
+        assert_eq!(first, Some("picture = given_picture;"), "{}", module.label);
+    }
+}
+
 /// A file in `shaders/` that no module joins is dead.
 #[test]
 fn every_shader_file_is_part_of_a_module() {

@@ -163,4 +163,9 @@ struct Picture {
     unused: u32,
 }
 
-@group(0) @binding(0) var<storage, read> picture: Picture;
+@group(0) @binding(0) var<storage, read> given_picture: Picture;
+
+// Every entry point begins with `picture = given_picture`. Where all threads are still together,
+// lavapipe reads a value once for all of them; past any branch, once for each, and again for each
+// use in a loop.
+var<private> picture: Picture;
