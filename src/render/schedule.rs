@@ -191,6 +191,11 @@ impl Schedule {
         self.known.forget_lights(moved);
     }
 
+    /// Says which lights have shadow rays at all, by their visibility bits.
+    pub fn set_casting(&mut self, casting: u64) {
+        self.cost.set_casting(casting);
+    }
+
     /// The finest level that is on the film.
     fn filmed(&self) -> Option<u32> {
         if self.gathers { self.gathered } else { self.shaded }

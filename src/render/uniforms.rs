@@ -264,6 +264,11 @@ impl Inputs {
         lights::shining(self.lights_in_use())
     }
 
+    /// The visibility bits of the lights that have shadow rays.
+    pub fn casting(&self) -> u64 {
+        lights::casting(self.lights_in_use())
+    }
+
     /// The visibility bits of the lights, shining or not, whose rays are others than `old` had for
     /// these bits.
     pub fn moved_since(&self, old: &Self) -> u64 {

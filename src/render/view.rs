@@ -246,6 +246,7 @@ impl View {
     fn upload(&mut self, inputs: Inputs) {
         let moved = self.inputs.as_ref().map_or(u64::MAX, |old| inputs.moved_since(old));
         self.schedule.set_lights(inputs.shining(), moved);
+        self.schedule.set_casting(inputs.casting());
         self.targets.upload(&self.kernels.gpu.queue, &inputs);
         self.fit_glow(Need::of(&inputs.picture));
         self.targets.fit_direct(&self.kernels, inputs.gathers());

@@ -7,7 +7,7 @@ use mandelight::{
     scene::{EnvironmentLight, IndirectKind, Normals, PointLight, RigKind, Scene},
 };
 
-use crate::harness::{kernels, pixels, sampled, still};
+use crate::harness::{kernels, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [67, 50];
 
@@ -74,7 +74,8 @@ fn edit(scene: &mut Scene, dice: &mut Dice) {
     }
 }
 
-/// Edits a view's scene again and again, at any moment of its refinement, and lets it finish.
+/// Edits a view's scene again and again, at any moment of its refinement, gives it another region
+/// now and then, and lets it finish.
 fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene, View) {
     let mut scene = sampled(Scene::default(), 1 + dice.below(2) as u32);
     // Openings on sparse lattices have the most to remember.
@@ -84,6 +85,12 @@ fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene,
     for _ in 0..12 {
         for _ in 0..=dice.below(2) {
             edit(&mut scene, dice);
+        }
+        if dice.below(8) == 0 {
+            // The same size elsewhere in a larger picture, or another size.
+            let other = Region { picture_px: [90, 70], origin_px: [20, 11], ..Region::whole(SIZE) };
+            let regions = [Region::whole(SIZE), other, Region::whole([40, 33])];
+            view.set_region(regions[dice.below(3)]);
         }
         view.set_scene(&scene, dice.below(3) == 0);
         for _ in 0..dice.below(9) {
@@ -112,7 +119,10 @@ fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
     kernels.specialise(8);
     for seed in 0..40 {
         let (scene, view) = edited(kernels, &mut Dice(seed));
-        assert!(pixels(&view) == still(&scene, SIZE), "seed {seed}: {scene:#?}");
+        let mut fresh = View::new(kernels, view.region(), Pace::Still);
+        fresh.set_scene(&scene, false);
+        settle(&mut fresh);
+        assert!(pixels(&view) == pixels(&fresh), "seed {seed}: {scene:#?}");
     }
 }
 
@@ -134,7 +144,7 @@ fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
         let before = pixels(&view);
         edit(&mut scene);
         view.set_scene(&scene, false);
-        crate::harness::settle(&mut view);
+        settle(&mut view);
         let after = pixels(&view);
         assert!(after != before, "the edit shows");
         assert!(after == still(&scene, SIZE));

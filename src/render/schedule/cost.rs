@@ -17,15 +17,8 @@ const FIRST_RAYS: f64 = 4096.0;
 /// Milliseconds a ray that are assumed before anything is measured.
 const ASSUMED_MS: f64 = 0.001;
 
-/// Rays that one pixel of a job counts as. Where nothing is marched it counts as one.
-fn rays_of_pixel(job: Job) -> f64 {
-    let lights = f64::from(job.lights.count_ones());
-    match job.from {
-        Stage::March | Stage::Normal => 1.0 + lights,
-        Stage::Shadow => lights.max(1.0),
-        Stage::Shade | Stage::Gather => 1.0,
-    }
-}
+/// Rays that shading is taken for until it has been measured.
+const SHADING_RAYS: f64 = 0.25;
 
 /// What a measurement weighs against the next one.
 const MEMORY: f64 = 0.85;
@@ -142,22 +135,41 @@ pub struct Cost {
     /// What is traced by from now on.
     pub arithmetic: Arithmetic,
     show_ms: f64,
+    /// The visibility bits of the lights that have shadow rays.
+    casting: u64,
 }
 
 impl Default for Cost {
     /// No experience yet.
     fn default() -> Self {
         let rates = [[Rate::UNKNOWN; 5]; Arithmetic::ALL.len()];
-        Self { rates, arithmetic: Arithmetic::default(), show_ms: 0.0 }
+        Self { rates, arithmetic: Arithmetic::default(), show_ms: 0.0, casting: u64::MAX }
     }
 }
 
 impl Cost {
+    /// Says which lights have shadow rays, by their visibility bits: others are as good as free.
+    pub fn set_casting(&mut self, casting: u64) {
+        self.casting = casting;
+    }
+
+    /// The stage that a job costs as much as, and the rays that one of its pixels counts as.
+    fn price(&self, job: Job) -> (Stage, f64) {
+        let lights = f64::from((job.lights & self.casting).count_ones());
+        match job.from {
+            Stage::March | Stage::Normal => (job.from, 1.0 + lights),
+            Stage::Shadow if lights > 0.0 => (Stage::Shadow, lights),
+            Stage::Shadow | Stage::Shade => (Stage::Shade, SHADING_RAYS),
+            Stage::Gather => (Stage::Gather, 1.0),
+        }
+    }
+
     /// A slice of so many pixels, traced by `arithmetic`, took so long.
     pub fn traced(&mut self, job: Job, arithmetic: Arithmetic, pixels: u32, busy_ms: f64) {
         if pixels > 0 {
-            let rays = f64::from(pixels) * rays_of_pixel(job);
-            self.rates[arithmetic as usize][job.from as usize].learn(rays, busy_ms.max(1e-3));
+            let (stage, rays) = self.price(job);
+            let rate = &mut self.rates[arithmetic as usize][stage as usize];
+            rate.learn(f64::from(pixels) * rays, busy_ms.max(1e-3));
         }
     }
 
@@ -187,7 +199,7 @@ impl Cost {
     fn rate_by(&self, arithmetic: Arithmetic, from: Stage) -> Rate {
         let rates = &self.rates[arithmetic as usize];
         let own = rates[from as usize];
-        // A later start never costs more than an earlier one, and shading next to nothing.
+        // Rays cost about the same at any start.
         let earlier = &rates[..from.min(Stage::Shade) as usize];
         let dearer = earlier.iter().rev().find(|rate| rate.is_measured());
         match dearer {
@@ -204,18 +216,20 @@ impl Cost {
     /// where that is longer: never more than twice the largest slice that has been seen to end
     /// well, and two at least.
     pub fn slice_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
-        let rate = self.rate(job.from);
+        let (stage, rays_of_pixel) = self.price(job);
+        let rate = self.rate(stage);
         let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(2.0 * rate.largest);
-        let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel(job);
+        let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel;
         (rays / workgroup).clamp(FEWEST_WORKGROUPS, 1e9) as u32
     }
 
     /// Whether so many pixels fit `budget_ms` together with their display. `gathers`: and with
     /// their indirect light.
     pub fn fits(&self, budget_ms: f64, pixels: u32, job: Job, gathers: bool) -> bool {
-        let rate = self.rate(job.from);
+        let (stage, rays_of_pixel) = self.price(job);
+        let rate = self.rate(stage);
         let mut fixed_ms = rate.fixed_ms;
-        let mut pixel_ms = rate.ray_ms * rays_of_pixel(job);
+        let mut pixel_ms = rate.ray_ms * rays_of_pixel;
         if gathers {
             let gather = self.rate(Stage::Gather);
             fixed_ms += gather.fixed_ms;

@@ -14,6 +14,8 @@ struct Device {
     /// Seed of the noise in the overhead, log-normal with a deviation of 1.5; none where steady.
     noise: Option<u32>,
     pixel_ns: f64,
+    /// The lights that have shadow rays.
+    casting: u64,
     spike_ms: f64,
     busy_until: f64,
     submits: u32,
@@ -53,6 +55,7 @@ impl Device {
             noise: None,
             // 20 ns a pixel: 18 ms for a full 1280x720 frame at slowness 1.
             pixel_ns: 20.0 * slowness,
+            casting: u64::MAX,
             spike_ms,
             busy_until: 0.0,
             submits: 0,
@@ -77,7 +80,7 @@ impl Device {
         let pixels = match work {
             Work::Trace(trace) => {
                 let whole = f64::from(trace.workgroups * WORKGROUP_THREADS);
-                let lights = f64::from(trace.lights.count_ones());
+                let lights = f64::from((trace.lights & self.casting).count_ones());
                 whole * share_of_frame(trace.from, lights)
             }
             Work::Show { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
@@ -314,6 +317,31 @@ fn what_a_restart_interrupts_is_not_forgotten() {
     let job = Job { from: Stage::Normal, lights: LIGHTS };
     assert_eq!(schedule.job(Points::Level(0)), job);
     assert_eq!(half_way.job(Points::Level(0)), job);
+}
+
+/// What a light without shadows costs says nothing of others: they are not taken for as cheap.
+#[test]
+fn lights_without_shadows_are_not_priced_as_rays() {
+    let mut device = Device::new(20.0, 0.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 1);
+    schedule.set_casting(0b011);
+    device.casting = 0b011;
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    let mut level_of = |moved: u64| {
+        schedule.set_lights(LIGHTS, moved);
+        schedule.change(Stale::Light, false, now);
+        let works = works_until_rest(&mut schedule, &mut device, &mut now);
+        works.into_iter().find_map(|work| match work {
+            Work::Trace(Trace { points: Points::Level(level), .. }) => Some(level),
+            _ => None,
+        })
+    };
+    let before = level_of(0b001);
+    let others: Vec<_> = (0..10).map(|_| level_of(0b100)).collect();
+    assert_eq!(others[1..], [Some(0); 9], "{others:?}");
+    assert_eq!(level_of(0b010), before);
 }
 
 /// While one of three lights is dragged, pictures are finer than while the camera moves, and while

@@ -69,8 +69,16 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
 
 /// The visibility bits of the lights that shine: only they need any.
 pub fn shining(lights: &[Light]) -> u64 {
-    let shine = lights.iter().filter(|light| light.color != [0.0; 3]);
-    shine.fold(0, |bits, light| bits | 1 << light.bit)
+    bits(lights.iter().filter(|light| light.color != [0.0; 3]))
+}
+
+/// The visibility bits of the lights that surfaces block.
+pub fn casting(lights: &[Light]) -> u64 {
+    bits(lights.iter().filter(|light| light.casts_shadows != 0))
+}
+
+fn bits<'a>(lights: impl Iterator<Item = &'a Light>) -> u64 {
+    lights.fold(0, |bits, light| bits | 1 << light.bit)
 }
 
 /// Gives each light the visibility bit of an old one whose rays are its own, as far as there are
@@ -100,7 +108,7 @@ pub fn moved(lights: &[Light], old: &[Light]) -> u64 {
     let stayed = |light: &Light| {
         old.iter().any(|other| other.bit == light.bit && has_same_rays(light, other))
     };
-    lights.iter().filter(|light| !stayed(light)).fold(0, |bits, light| bits | 1 << light.bit)
+    bits(lights.iter().filter(|light| !stayed(light)))
 }
 
 /// Whether rays toward both lights are the same: colour has no part in it.
