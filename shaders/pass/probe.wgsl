@@ -1,12 +1,13 @@
-// Distance estimates, their gradients and colour data at given points: how tests ask the kernels
-// themselves.
+// Distance estimates, safe steps, gradients and colour data at given points: how tests ask the
+// kernels themselves.
 
 struct Answer {
     // Of any length.
     gradient: vec3f,
     distance: f32,
-    // Smooth iteration count, origin trap, axis trap. w: unused.
-    colors: vec4f,
+    // Smooth iteration count, origin trap, axis trap.
+    colors: vec3f,
+    step: f32,
 }
 
 // xyz: the point. w: unused.
@@ -20,9 +21,11 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let point = points[id.x].xyz;
     let fractal = picture.fractal;
     let colors = orbit_colors(fractal, point);
+    let ahead = reach(fractal, point);
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
-        distance_estimate(fractal, point),
-        vec4f(colors.smooth_iterations, colors.traps.xy, 0.0),
+        ahead.distance,
+        vec3f(colors.smooth_iterations, colors.traps.xy),
+        ahead.step,
     );
 }

@@ -74,7 +74,8 @@ fn estimates_at_random_points() {
     fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
     for fractal in fractals {
         let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
-        let radius = 1.2 * Estimator::new(&fractal).bounding_radius();
+        let estimator = Estimator::new(&fractal);
+        let radius = 1.2 * estimator.bounding_radius();
         let mut random = Random(0x0DDB_1A5E_5BAD_5EED);
         // Points that an f32 holds exactly: the oracle gets the very same ones.
         let points: Vec<_> =
@@ -90,6 +91,13 @@ fn estimates_at_random_points() {
                 if expected > 1e-2 && orbit.r > fractal.bailout {
                     away += 1;
                     assert!(off < 1e-4, "{fractal:?} at {point}: {answer:?}, expected {expected}");
+                    // The same steps as on the CPU, whose safety is tested.
+                    let step = estimator.reach(point).step;
+                    let off = (f64::from(answer.step) - step).abs() / step;
+                    assert!(
+                        off < 2e-4,
+                        "{fractal:?} at {point}: {answer:?}, expected a step of {step}"
+                    );
                     let smooth = estimate::smooth_iterations(&fractal, point);
                     assert!((f64::from(answer.smooth_iterations) - smooth).abs() < 1e-3);
                 }
@@ -104,6 +112,35 @@ fn estimates_at_random_points() {
             // Nearer, estimates and traps are off by no more than rounding that grows along the orbit.
             let most = quantile(rounding, 0.999);
             assert!(most < 3.0, "{fractal:?}: {most} roundings");
+        }
+    }
+}
+
+/// On the polar axis the longitude is that of +x, and so it is right beside it.
+#[test]
+fn estimates_on_the_axis() {
+    let gpu = gpu();
+    for power in [2.0, 3.0, 4.0, 7.0, 8.0, 16.0, 5.5] {
+        let scene = Scene { fractal: Fractal { power, ..Fractal::default() }, ..Scene::default() };
+        let radius = Estimator::new(&scene.fractal).bounding_radius();
+        let heights = (0..512).map(|i| radius * (f64::from(i) / 256.0 - 1.0));
+        let on_axis = heights.map(|z| DVec3::new(0.0, 0.0, z).as_vec3().as_dvec3());
+        let points: Vec<_> = on_axis.collect();
+        for specialised in [false, true] {
+            let answers = probe::ask(&gpu, &scene, &points, specialised).expect("the answers");
+            let mut away = 0;
+            for (&point, answer) in points.iter().zip(&answers) {
+                let expected = estimate::distance(&scene.fractal, point);
+                if expected > 1e-2 {
+                    away += 1;
+                    let off = (f64::from(answer.distance) - expected).abs() / expected;
+                    assert!(off < 1e-4, "power {power} at {point}: {answer:?} for {expected}");
+                    assert!(answer.step > 0.0 && answer.step <= answer.distance);
+                } else {
+                    assert!(answer.distance.is_finite() && answer.step.is_finite());
+                }
+            }
+            assert!(away > 20, "power {power}: {away} points away from the surface");
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Distance estimates, their gradients and colour data at given points: how tests ask the kernels
-//! themselves.
+//! Distance estimates, safe steps, gradients and colour data at given points: how tests ask the
+//! kernels themselves.
 
 use glam::{DVec3, Vec3};
 
@@ -39,6 +39,8 @@ pub struct Answer {
     pub origin_trap: f32,
     /// The same from the z axis.
     pub axis_trap: f32,
+    /// How far a ray may go, scene units.
+    pub step: f32,
 }
 
 /// Asks the formula's kernel about `points` of the scene's set and waits: natively only.
@@ -103,10 +105,10 @@ pub fn ask(
         .0
         .iter()
         .map(|chunk| {
-            let [x, y, z, distance, smooth_iterations, origin_trap, axis_trap, _]: [f32; 8] =
+            let [x, y, z, distance, smooth_iterations, origin_trap, axis_trap, step]: [f32; 8] =
                 bytemuck::cast(*chunk);
             let gradient = Vec3::new(x, y, z);
-            Answer { gradient, distance, smooth_iterations, origin_trap, axis_trap }
+            Answer { gradient, distance, smooth_iterations, origin_trap, axis_trap, step }
         })
         .collect())
 }
