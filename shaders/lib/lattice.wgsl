@@ -12,12 +12,36 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
     return vec2u(x, y);
 }
 
-// The thread's pixel in the region; it may lie outside of it.
-fn lattice_pixel(workgroup: u32, local_index: u32) -> vec2u {
+// The quarter of its workgroup in which a thread has its place, in reading order.
+fn quarter_of_workgroup(local_index: u32) -> u32 {
+    let quarter = place_in_workgroup(local_index) >> vec2u(2u);
+    return quarter.x + 2u * quarter.y;
+}
+
+// The place of a workgroup's first thread in the lattice's grid.
+fn workgroup_corner(workgroup: u32) -> vec2u {
     let id = slice.first_workgroup + workgroup;
     let place = vec2u(id % slice.workgroups.x, id / slice.workgroups.x);
-    let corner = (place * slice.scatter) % slice.workgroups * WORKGROUP_SIDE;
-    let thread = corner + place_in_workgroup(local_index);
+    return (place * slice.scatter) % slice.workgroups * WORKGROUP_SIDE;
+}
+
+struct PixelBox {
+    // The pixels at its upper left and its lower right.
+    first: vec2u,
+    last: vec2u,
+}
+
+// The pixels that hold those of `count` by `count` threads of a workgroup, from its thread at
+// `place` on; they may lie outside of the region.
+fn lattice_box(workgroup: u32, place: vec2u, count: u32) -> PixelBox {
+    let first = (workgroup_corner(workgroup) + place) * slice.step + slice.offset;
+    let last = first + (count - 1u) * slice.step + vec2u(slice.stagger, 0u);
+    return PixelBox(first << vec2u(slice.shift), last << vec2u(slice.shift));
+}
+
+// The thread's pixel in the region; it may lie outside of it.
+fn lattice_pixel(workgroup: u32, local_index: u32) -> vec2u {
+    let thread = workgroup_corner(workgroup) + place_in_workgroup(local_index);
     let shifted = slice.stagger * ((thread.y + slice.row_phase) & 1u);
     return (thread * slice.step + slice.offset + vec2u(shifted, 0u)) << vec2u(slice.shift);
 }

@@ -1,32 +1,71 @@
 // Camera rays to surface points: depth and colour data of each sample.
 
 // No step is shorter than this part of the hit distance: what is thinner may be passed.
-const LEAST_STEP = 0.25;
+const LEAST_STEP = 0.5;
 
-// Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone. 0 on a miss.
-fn march(camera: Camera, fractal: Fractal, ray: Ray) -> f32 {
+// Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone, from a depth that
+// is known to be clear. 0 on a miss.
+fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let interval = bounding_interval(ray.origin, ray.direction);
-    var t = interval.x;
+    var t = max(interval.x, clear);
+    var pace = paced();
     for (var i = 0u; i < fractal.march_steps; i++) {
-        if (t > interval.y) { return 0.0; }
+        let is_inside = t <= interval.y;
+        var ahead = Reach(0.0, 0.0);
+        if (is_inside) { ahead = reach(fractal, ray.origin + t * ray.direction); }
+        let back = step_back(&pace, ahead.step);
+        if (back > 0.0) {
+            t -= back;
+            continue;
+        }
+        if (!is_inside) { return 0.0; }
         let hit = hit_distance(camera, fractal, t);
-        let ahead = reach(fractal, ray.origin + t * ray.direction);
         if (ahead.distance < hit) { return max(t, 1e-30); }
-        t += max(ahead.step, LEAST_STEP * hit);
+        t += next_step(&pace, max(ahead.step, LEAST_STEP * hit));
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;
 }
 
+// Depths that are clear for all rays of the workgroup, and for those of its quarters.
+var<workgroup> clear_depth: array<f32, 5>;
+
+// How deep all rays through `count` by `count` threads of the workgroup's grid may go.
+fn clear_part(fractal: Fractal, workgroup: u32, first: vec2u, count: u32, known: f32) -> f32 {
+    let box = lattice_box(workgroup, first, count);
+    if (is_second_eye(box.first) != is_second_eye(box.last)) { return known; }
+    let side = eye_side(box.first);
+    let size = vec2f(box.last - box.first + vec2u(1u));
+    let middle = eye_ray(eye_position(box.first, 0.5 * size), side);
+    var spread = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let corner = eye_ray(eye_position(box.first, size * vec2f(vec2u(i & 1u, i >> 1u))), side);
+        spread = max(spread, distance(corner.direction, middle.direction));
+    }
+    let entry = bounding_entry(middle.origin, middle.direction, spread);
+    if (entry < 0.0) { return known; }
+    return clear_cone(fractal, middle.origin, middle.direction, spread, max(entry, known));
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     picture = given_picture;
+    let fractal = picture.fractal;
+    if (local_index == 0u) {
+        clear_depth[4] = clear_part(fractal, workgroup.x, vec2u(0u), WORKGROUP_SIDE, 0.0);
+    }
+    workgroupBarrier();
+    if (local_index < 4u) {
+        let half = WORKGROUP_SIDE / 2u;
+        let first = half * vec2u(local_index & 1u, local_index >> 1u);
+        clear_depth[local_index] = clear_part(fractal, workgroup.x, first, half, clear_depth[4]);
+    }
+    workgroupBarrier();
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
     let ray = camera_ray(pixel);
-    let fractal = picture.fractal;
-    let t = march(picture.camera, fractal, ray);
+    let t = march(picture.camera, fractal, ray, clear_depth[quarter_of_workgroup(local_index)]);
     surface[index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
     let point = ray.origin + t * ray.direction;
