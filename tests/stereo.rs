@@ -242,10 +242,16 @@ fn sheets_hold_the_pictures_of_a_pair() {
         }
         // The view that shows both at once, and finds out about the film by itself.
         let live = rgb(&view(&scene, STILL_SIZE, Eyes::of(layout)));
-        let steps = live.as_flattened().iter().zip(expected.as_flattened());
-        let largest = steps.map(|(a, b)| a.abs_diff(*b)).max();
-        assert!(largest <= Some(1), "{layout:?}: {largest:?} from the live view");
+        assert!(part_that_differs(&live, &expected) < 0.02, "{layout:?}: the live view differs");
     }
+}
+
+/// The part of the pixels that differ by more than a few steps: where two eyes share a film, rays
+/// of the second go in other bundles than alone, and those that graze the surface end a little
+/// otherwise.
+fn part_that_differs(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
+    let differs = |(a, b): (&[u8; 3], &[u8; 3])| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 12);
+    a.iter().zip(b).filter(|pair| differs(*pair)).count() as f64 / a.len() as f64
 }
 
 /// In a window an anaglyph has half the columns, each twice as wide: it shows what the whole
@@ -290,9 +296,12 @@ fn an_anaglyph_is_red_for_the_left_eye_and_cyan_for_the_right_one() {
     let expected: Vec<_> = left.iter().zip(right).map(|(l, r)| [l[0], r[1], r[2]]).collect();
     for tile_px in [[2048, 256], [25, 17]] {
         let options = StillOptions { tile_px, ..StillOptions::new(STILL_SIZE) };
-        assert!(still(&scene, options) == (STILL_SIZE, expected.clone()), "{tile_px:?}");
+        let (size_px, found) = still(&scene, options);
+        assert_eq!(size_px, STILL_SIZE);
+        assert!(part_that_differs(&found, &expected) < 0.02, "{tile_px:?}");
     }
-    assert!(rgb(&view(&scene, STILL_SIZE, Eyes::Anaglyph)) == expected);
+    let live = rgb(&view(&scene, STILL_SIZE, Eyes::Anaglyph));
+    assert!(part_that_differs(&live, &expected) < 0.02);
 }
 
 #[test]

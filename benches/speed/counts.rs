@@ -8,7 +8,7 @@ use mandelight::{
         readback::{Readback, ReadbackError},
         shader::Module,
     },
-    render::{Kernels, kernels::Marchers, pass, uniforms::Inputs},
+    render::{Kernels, kernels::Passes, pass, uniforms::Inputs},
     scene::Scene,
 };
 use serde::Serialize;
@@ -126,15 +126,15 @@ pub fn ours(
             cache: None,
         }))
     };
-    let marchers = Marchers {
+    let passes = Passes {
         march: made(&pass::march::MODULE, "reach")?,
         normal: made(&pass::normal::MODULE, "distance_gradient")?,
         shadow: made(&pass::shadow::MODULE, "reach")?,
     };
     let split = ours::Split::new(kernels, scene, size_px);
-    let mut counts = split.count(&marchers)?;
+    let mut counts = split.count(&passes)?;
     if scene.quality.samples > 1 {
-        counts.push((LATER, split.count_later(&marchers)?));
+        counts.push((LATER, split.count_later(&passes)?));
     }
     Ok(counts)
 }

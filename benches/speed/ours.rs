@@ -7,7 +7,7 @@ use mandelight::{
     render::{
         Kernels, Pace, Region, View,
         frame::{Dispatches, Recorder},
-        kernels::Marchers,
+        kernels::Passes,
         pass,
         schedule::{Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
@@ -26,7 +26,7 @@ pub fn draw_ms(kernels: &Arc<Kernels>, scene: &Scene, size_px: [u32; 2]) -> (f64
     let start = Instant::now();
     view.set_scene(scene, false);
     while view.pump(start.elapsed().as_secs_f64()) {
-        kernels.gpu.wait();
+        view.wait();
     }
     kernels.gpu.wait();
     (start.elapsed().as_secs_f64() * 1e3, view)
@@ -74,9 +74,9 @@ impl<'a> Split<'a> {
 
     /// Each pass's name and time from submit to end, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
-        let marchers = self.kernels.marchers(self.inputs.picture.fractal.integer_power);
+        let passes = self.kernels.passes(&self.inputs.picture);
         let timed = |&(name, record): &(&'static str, Record)| {
-            let commands = self.recorded(record, &marchers, self.trace(Points::Level(0)));
+            let commands = self.recorded(record, &passes, self.trace(Points::Level(0)));
             let start = Instant::now();
             self.kernels.gpu.queue.submit([commands]);
             self.kernels.gpu.wait();
@@ -90,10 +90,10 @@ impl<'a> Split<'a> {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn count(&self, marchers: &Marchers) -> Result<Vec<(&'static str, Counts)>, Failure> {
+    pub fn count(&self, passes: &Passes) -> Result<Vec<(&'static str, Counts)>, Failure> {
         let counted = |&(name, record): &(&'static str, Record)| {
             self.clear_counts();
-            let commands = self.recorded(record, marchers, self.trace(Points::Level(0)));
+            let commands = self.recorded(record, passes, self.trace(Points::Level(0)));
             self.kernels.gpu.queue.submit([commands]);
             Ok((name, self.counts()?))
         };
@@ -104,7 +104,7 @@ impl<'a> Split<'a> {
     ///
     /// # Errors
     /// Where the device is lost.
-    pub fn count_later(&self, marchers: &Marchers) -> Result<Counts, Failure> {
+    pub fn count_later(&self, passes: &Passes) -> Result<Counts, Failure> {
         self.clear_counts();
         let all = self.trace(Points::Sample(1));
         // The jittered samples' buffers hold so many.
@@ -112,7 +112,7 @@ impl<'a> Split<'a> {
             let workgroups = SAMPLE_WORKGROUPS.min(all.workgroups - first);
             let trace = Trace { first_workgroup: first, workgroups, ..all };
             for (_, record) in MARCHING {
-                self.kernels.gpu.queue.submit([self.recorded(*record, marchers, trace)]);
+                self.kernels.gpu.queue.submit([self.recorded(*record, passes, trace)]);
             }
         }
         Ok(self.counts()?)
@@ -140,11 +140,11 @@ impl<'a> Split<'a> {
     }
 
     /// One pass over some points.
-    fn recorded(&self, record: Record, marchers: &Marchers, trace: Trace) -> wgpu::CommandBuffer {
+    fn recorded(&self, record: Record, passes: &Passes, trace: Trace) -> wgpu::CommandBuffer {
         let grid = trace.points.grid(self.inputs.picture.size_px);
         let mut dispatches = Dispatches::default();
         let mut recorder =
-            Recorder::new(self.kernels, marchers, &self.targets, &self.inputs, &mut dispatches);
+            Recorder::new(self.kernels, passes, &self.targets, &self.inputs, &mut dispatches);
         record(&mut recorder, &trace, &grid);
         recorder.finish()
     }

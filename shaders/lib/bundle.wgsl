@@ -3,15 +3,22 @@
 // to be empty has to hold the bundle's whole width (cone marching, as of Seven, "Fast realistic
 // ray marching"; here with balls rather than steps alone).
 
+// The part of a safe step that is taken for an empty ball in all directions: a ray relies on it in one
+// direction only. At low powers less.
+fn ball_part(power: f32) -> f32 {
+    return clamp(0.25 * power - 0.25, 0.25, 1.0);
+}
+
 // Steps after which a bundle that creeps along a surface leaves the rest to its rays.
 const BUNDLE_STEPS = 48u;
 
 // How far the rays from `origin` whose directions differ from `axis` by `spread` at most (the length of the
 // difference of unit vectors) may go, from a distance that is known to be clear.
 fn clear_cone(fractal: Fractal, origin: vec3f, axis: vec3f, spread: f32, start: f32) -> f32 {
+    let part = ball_part(fractal.power);
     var t = start;
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        let ball = reach(fractal, origin + t * axis).step;
+        let ball = part * reach(fractal, origin + t * axis).step;
         let width = t * spread;
         // Points of the cone as far from the origin as t + advance are in the ball:
         //     advance^2 + t (t + advance) spread^2 <= ball^2
@@ -27,9 +34,10 @@ fn clear_cone(fractal: Fractal, origin: vec3f, axis: vec3f, spread: f32, start: 
 // The same for parallel rays against `direction`, of which none is farther than `width` from the
 // one through `center`: down to what distance from its plane they are clear, from `start`.
 fn clear_tube(fractal: Fractal, center: vec3f, direction: vec3f, width: f32, start: f32) -> f32 {
+    let part = ball_part(fractal.power);
     var s = start;
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        let ball = reach(fractal, center + s * direction).step;
+        let ball = part * reach(fractal, center + s * direction).step;
         let advance = sqrt(max(ball * ball - width * width, 0.0));
         if (advance <= width) { break; }
         s -= advance;

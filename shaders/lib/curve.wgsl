@@ -5,6 +5,14 @@ const CURVE_ACES = 2u;
 const CURVE_AGX = 3u;
 const CURVE_KHRONOS_NEUTRAL = 4u;
 
+// The curve that this pipeline is specialised for; -1 reads it from the picture.
+override CURVE: i32 = -1;
+
+fn tone_curve() -> u32 {
+    if (CURVE >= 0) { return u32(CURVE); }
+    return picture.tone.curve;
+}
+
 // Reinhard et al. 2002, eq. 4, on luminance, so that colours keep their hue, or on each channel.
 fn reinhard(color: vec3f) -> vec3f {
     let by = select(vec3f(luminance(color)), color, picture.tone.per_channel != 0u);
@@ -67,7 +75,7 @@ fn khronos_neutral(color: vec3f) -> vec3f {
 
 fn tone_mapped(color: vec3f) -> vec3f {
     var mapped = color;
-    switch picture.tone.curve {
+    switch tone_curve() {
         case CURVE_REINHARD: { mapped = reinhard(color); }
         case CURVE_ACES: { mapped = aces(color); }
         case CURVE_AGX: { mapped = agx(color); }

@@ -1,5 +1,13 @@
 // Light and colour of a sample. No ray is marched here: visibility is a bit.
 
+// Whether this pipeline shows the picture of the surroundings: 0 no, 1 yes, -1 as the picture says.
+override BACKDROP: i32 = -1;
+
+fn has_backdrop() -> bool {
+    if (BACKDROP >= 0) { return BACKDROP == 1; }
+    return picture.background.picture_gain > 0.0;
+}
+
 const SOURCE_ITERATIONS = 0u;
 const SOURCE_ORIGIN_TRAP = 1u;
 const SOURCE_AXIS_TRAP = 2u;
@@ -59,7 +67,7 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
 // What a ray sees that meets nothing, `height` below the picture's upper edge.
 fn background(direction: vec3f, height: f32) -> vec3f {
     let behind = picture.background;
-    if (behind.picture_gain == 0.0) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
+    if (!has_backdrop()) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
     let in_picture = vec3f(
         dot(direction, behind.picture_x), dot(direction, behind.picture_y), dot(direction, behind.picture_z));
     return behind.picture_gain * surroundings_at(in_picture);

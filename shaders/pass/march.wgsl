@@ -1,14 +1,14 @@
 // Camera rays to surface points: depth and colour data of each sample.
 
 // No step is shorter than this part of the hit distance: what is thinner may be passed.
-const LEAST_STEP = 0.5;
+const LEAST_STEP = 0.25;
 
 // Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone, from a depth that
 // is known to be clear. 0 on a miss.
 fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
-    var pace = paced();
+    var pace = paced(fractal.power);
     for (var i = 0u; i < fractal.march_steps; i++) {
         let is_inside = t <= interval.y;
         var ahead = Reach(0.0, 0.0);

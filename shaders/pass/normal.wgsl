@@ -1,10 +1,18 @@
 // Normals of the surface points, in one of the ways of thesis 3.2, fig. 3.3, or exactly.
 
+// The kind that this pipeline is specialised for; -1 reads it from the picture.
+override NORMALS: i32 = -1;
+
+fn normals_kind() -> u32 {
+    if (NORMALS >= 0) { return u32(NORMALS); }
+    return picture.normals;
+}
+
 // The grid points that are sampled, the nearest ones of a 3x3x3 grid about the point.
 fn is_sampled(offset: vec3f) -> bool {
     // 0 the point itself, 1 on the axes, 2 on the faces' diagonals, 3 at the corners.
     let axes = dot(abs(offset), vec3f(1.0));
-    switch (picture.normals) {
+    switch normals_kind() {
         case NORMALS_THREE: { return axes <= 1.0 && all(offset >= vec3f(0.0)); }
         case NORMALS_SIX: { return axes == 1.0; }
         case NORMALS_EIGHTEEN: { return axes == 1.0 || axes == 2.0; }
@@ -28,9 +36,9 @@ fn sampled_gradient(fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
 // Toward the eye where there is no gradient, as inside, and where none is asked for.
 fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
     var gradient = vec3f(0.0);
-    if (picture.normals == NORMALS_ANALYTIC) {
+    if (normals_kind() == NORMALS_ANALYTIC) {
         gradient = distance_gradient(fractal, point);
-    } else if (picture.normals != NORMALS_NONE) {
+    } else if (normals_kind() != NORMALS_NONE) {
         gradient = sampled_gradient(fractal, point, spacing);
     }
     // Its square may be past what an f32 holds.

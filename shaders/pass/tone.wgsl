@@ -1,8 +1,24 @@
 // Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
 
-// Whether there may be bloom, another curve than Reinhard's, or two eyes in one picture. Some
-// drivers go through all that a shader might do for every pixel.
-override PLAIN: bool = false;
+// What this pipeline is specialised for: 0 no, 1 yes, -1 as the picture says.
+override BLOOM: i32 = -1;
+override ANAGLYPH: i32 = -1;
+override SPARSE: i32 = -1;
+
+fn has_bloom() -> bool {
+    if (BLOOM >= 0) { return BLOOM == 1; }
+    return picture.bloom.strength > 0.0;
+}
+
+fn is_anaglyph() -> bool {
+    if (ANAGLYPH >= 0) { return ANAGLYPH == 1; }
+    return picture.eyes.anaglyph != 0u;
+}
+
+fn is_sparse() -> bool {
+    if (SPARSE >= 0) { return SPARSE == 1; }
+    return slice.spacing != 0u;
+}
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
 
@@ -18,7 +34,7 @@ fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
 // held to its neighbours' range.
 fn reconstructed(pixel: vec2u) -> vec3f {
     let own = film_mean(pixel_index(pixel));
-    if (slice.spacing == 0u) { return own; }
+    if (!is_sparse()) { return own; }
     let left = film_beside(pixel, vec2i(-1, 0));
     let right = film_beside(pixel, vec2i(1, 0));
     let above = film_beside(pixel, vec2i(0, -1));
@@ -49,18 +65,13 @@ fn bloom_at(pixel: vec2u) -> vec3f {
     return mix(above, below, part.y);
 }
 
-fn curved(color: vec3f) -> vec3f {
-    if (PLAIN) { return clamp(reinhard(color), vec3f(0.0), vec3f(1.0)); }
-    return tone_mapped(color);
-}
-
 fn shown(pixel: vec2u) -> vec3f {
     var color = reconstructed(pixel) * exposure_factor();
     var bloom = vec3f(0.0);
-    if (!PLAIN && picture.bloom.strength > 0.0) { bloom = picture.bloom.strength * bloom_at(pixel); }
-    if (!PLAIN && picture.bloom.after == 0u) { color += bloom; }
-    color = curved(color);
-    if (!PLAIN && picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
+    if (has_bloom()) { bloom = picture.bloom.strength * bloom_at(pixel); }
+    if (picture.bloom.after == 0u) { color += bloom; }
+    color = tone_mapped(color);
+    if (picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
     return srgb_from_linear(color);
 }
 
@@ -70,7 +81,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     var encoded = shown(pixel);
-    if (!PLAIN && picture.eyes.anaglyph != 0u) {
+    if (is_anaglyph()) {
         if (is_second_eye(pixel)) { return; }
         // The left glass is red and lets the left eye's red through, the right one all but red.
         encoded = vec3f(encoded.r, shown(pixel + picture.eyes.second_at).gb);

@@ -341,7 +341,7 @@ impl<W: Write> StillJob<W> {
             if status == StillStatus::Done {
                 return self.finish();
             }
-            self.kernels.gpu.wait();
+            self.view.wait();
         }
     }
 }

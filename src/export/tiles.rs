@@ -4,7 +4,7 @@
 //! forgotten before the next is finished.
 
 use super::sheet::Sheet;
-use crate::render::Region;
+use crate::render::{Region, lattice::WORKGROUP_SIDE};
 
 /// A sheet cut into tiles of nearly equal size, each a part of one picture.
 #[derive(Clone, Copy, Debug)]
@@ -30,12 +30,16 @@ pub(super) struct Tile {
 impl Tiling {
     /// Cuts every picture into the fewest tiles that are at most `max_tile_px` large, then makes
     /// them as equal as whole pixels allow: buffers are made anew only where sizes differ.
-    /// All sides are at least 1.
+    /// All sides are at least 1. Tiles start where workgroups do, unless they may not be as large
+    /// as one: rays then go in the same bundles as in the whole picture.
     pub fn new(sheet: Sheet, max_tile_px: [u32; 2]) -> Self {
         let picture_px = sheet.picture_px;
-        let counts: [u32; 2] =
-            std::array::from_fn(|i| picture_px[i].div_ceil(max_tile_px[i].max(1)));
-        let tile_px = std::array::from_fn(|i| picture_px[i].div_ceil(counts[i].max(1)));
+        let tile_px = std::array::from_fn(|i| {
+            let side = if max_tile_px[i] < WORKGROUP_SIDE { 1 } else { WORKGROUP_SIDE };
+            let most = (max_tile_px[i].max(1) / side) * side;
+            let count = picture_px[i].div_ceil(most).max(1);
+            picture_px[i].div_ceil(count).next_multiple_of(side)
+        });
         // Equal tiles can be so much larger than needed that one fewer of them is enough.
         let [columns, rows] = std::array::from_fn(|i| picture_px[i].div_ceil(tile_px[i]));
         Self { sheet, tile_px, columns, rows }

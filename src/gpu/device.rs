@@ -105,7 +105,19 @@ impl Gpu {
 
     /// Waits until all submitted work is done. On the web this returns at once.
     pub fn wait(&self) {
-        if let Err(error) = self.device.poll(wgpu::PollType::wait_indefinitely()) {
+        self.poll_for(wgpu::PollType::wait_indefinitely());
+    }
+
+    /// Waits until one submit, and what came before it, is done. On the web this returns at once.
+    pub fn wait_for(&self, submit: &wgpu::SubmissionIndex) {
+        self.poll_for(wgpu::PollType::Wait {
+            submission_index: Some(submit.clone()),
+            timeout: None,
+        });
+    }
+
+    fn poll_for(&self, what: wgpu::PollType) {
+        if let Err(error) = self.device.poll(what) {
             log::warn!("waiting for the GPU: {error}");
         }
     }

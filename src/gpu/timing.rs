@@ -24,7 +24,7 @@ pub struct Finished<T> {
 /// Browsers report the end of work through a promise, Chrome at once, Firefox on a 100 ms
 /// poll; the time is then an upper bound.
 pub struct Stopwatch<T> {
-    in_flight: VecDeque<(T, Instant)>,
+    in_flight: VecDeque<(T, Instant, wgpu::SubmissionIndex)>,
     ends: Arc<Mutex<VecDeque<Instant>>>,
     last_end: Option<Instant>,
 }
@@ -48,16 +48,26 @@ impl<T> Stopwatch<T> {
 
     /// Submits one command buffer, remembered by `mark`.
     pub fn submit(&mut self, gpu: &Gpu, commands: wgpu::CommandBuffer, mark: T) {
-        gpu.queue.submit([commands]);
-        self.in_flight.push_back((mark, Instant::now()));
+        let index = gpu.queue.submit([commands]);
+        self.in_flight.push_back((mark, Instant::now(), index));
         let ends = self.ends.clone();
         gpu.queue.on_submitted_work_done(move || locked(&ends).push_back(Instant::now()));
+    }
+
+    /// Waits until the oldest submit in flight has finished, so that those behind it keep the GPU
+    /// busy while the next is made; where there is none, until all work is done. On the web this
+    /// returns at once.
+    pub fn wait(&self, gpu: &Gpu) {
+        match self.in_flight.front() {
+            Some((.., index)) => gpu.wait_for(index),
+            None => gpu.wait(),
+        }
     }
 
     /// The oldest submit that has finished since the last call; none where there is none.
     pub fn next_finished(&mut self) -> Option<Finished<T>> {
         let end = locked(&self.ends).pop_front()?;
-        let (mark, submitted) = self.in_flight.pop_front()?;
+        let (mark, submitted, _) = self.in_flight.pop_front()?;
         let start = self.last_end.map_or(submitted, |last| last.max(submitted));
         self.last_end = Some(end);
         Some(Finished { mark, busy_ms: end.saturating_duration_since(start).as_secs_f64() * 1e3 })

@@ -3,7 +3,7 @@
 use super::{
     around::{self, Neighbours},
     glow::{Glow, Tasks},
-    kernels::{Kernels, Marchers},
+    kernels::{Kernels, Passes},
     lattice::{Grid, WORKGROUP_SIDE},
     pass,
     schedule::{Points, Stage, Trace, Work},
@@ -113,8 +113,8 @@ impl Dispatches {
 pub struct Recorder<'a> {
     /// The pipelines.
     pub kernels: &'a Kernels,
-    /// Those that evaluate the formula.
-    pub marchers: &'a Marchers,
+    /// The forms of the picture's passes that it uses.
+    pub passes: &'a Passes,
     /// The buffers.
     pub targets: &'a Targets,
     /// What the buffers hold of the scene.
@@ -141,7 +141,7 @@ impl<'a> Recorder<'a> {
     /// An empty submit.
     pub fn new(
         kernels: &'a Kernels,
-        marchers: &'a Marchers,
+        passes: &'a Passes,
         targets: &'a Targets,
         inputs: &'a Inputs,
         dispatches: &'a mut Dispatches,
@@ -152,7 +152,7 @@ impl<'a> Recorder<'a> {
         compute.set_bind_group(2, &targets.film_group, &[]);
         Self {
             kernels,
-            marchers,
+            passes,
             targets,
             inputs,
             glow: &targets.glow,

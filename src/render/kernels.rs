@@ -5,8 +5,11 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, atomic::AtomicBool},
 };
 
-use super::pass;
-use crate::gpu::{Gpu, shader::Module};
+use super::{Region, pass, uniforms::Picture};
+use crate::{
+    gpu::{Gpu, shader::Module},
+    scene::Scene,
+};
 
 /// The bind group layouts that all passes of a picture share.
 pub struct Layouts {
@@ -93,13 +96,17 @@ fn pipeline_layout(
     })
 }
 
-/// Makes one pipeline, with the value of an override where the module has one.
+/// Values of a module's overrides, by their names; those left out stay open, and the passes read
+/// them from the picture.
+type Constants = Vec<(&'static str, f64)>;
+
+/// Makes one pipeline.
 fn pipeline(
     device: &wgpu::Device,
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
     label: &str,
-    constant: Option<(&str, f64)>,
+    constants: &Constants,
 ) -> wgpu::ComputePipeline {
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
@@ -107,40 +114,87 @@ fn pipeline(
         module,
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions {
-            constants: constant.as_slice(),
+            constants,
             ..Default::default()
         },
         cache: None,
     })
 }
 
-/// The passes that evaluate the formula, for one power.
+/// A pass that any picture can have in its general form, and that is faster with some of the
+/// picture's values compiled in: then there is nothing left to decide. (Where lanes disagree, and
+/// always on lavapipe, all sides of a decision are computed.)
+struct Special {
+    label: &'static str,
+    module: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
+    general: wgpu::ComputePipeline,
+    /// By what they are for, and which of its parts they are.
+    made: Mutex<HashMap<(Extra, usize), wgpu::ComputePipeline>>,
+}
+
+impl Special {
+    fn new(device: &wgpu::Device, layout: &wgpu::PipelineLayout, module: &Module) -> Self {
+        let shader = module.create(device);
+        Self {
+            label: module.label,
+            general: pipeline(device, layout, &shader, module.label, &Constants::new()),
+            module: shader,
+            layout: layout.clone(),
+            made: Mutex::default(),
+        }
+    }
+
+    /// Its form for `extra`, or the general one until that is kept.
+    fn of(&self, extra: Extra, part: usize) -> wgpu::ComputePipeline {
+        locked(&self.made).get(&(extra, part)).unwrap_or(&self.general).clone()
+    }
+
+    fn keep(&self, extra: Extra, part: usize, pipeline: wgpu::ComputePipeline) {
+        locked(&self.made).entry((extra, part)).or_insert(pipeline);
+    }
+}
+
+/// The passes of a picture that there are general and special forms of: the fastest that are ready.
 #[derive(Clone)]
-pub struct Marchers {
+pub struct Passes {
     /// Camera rays to the G-buffer.
     pub march: wgpu::ComputePipeline,
     /// Depths to normals.
     pub normal: wgpu::ComputePipeline,
     /// Shadow rays to visibility bits.
     pub shadow: wgpu::ComputePipeline,
+    /// Light and colour onto the film.
+    pub shade: wgpu::ComputePipeline,
+    /// Film to display, where every pixel has its sample.
+    pub tone: wgpu::ComputePipeline,
+    /// The same for a sparse lattice.
+    pub sparse_tone: wgpu::ComputePipeline,
 }
 
-impl Marchers {
-    /// Their names and modules, in the order of the fields.
-    const PARTS: [&Module; 3] =
-        [&pass::march::MODULE, &pass::normal::MODULE, &pass::shadow::MODULE];
-
-    /// Those of one power, made by `part` from their places in [`Self::PARTS`].
-    fn from_parts(mut part: impl FnMut(usize) -> wgpu::ComputePipeline) -> Self {
-        Self { march: part(0), normal: part(1), shadow: part(2) }
-    }
+/// What tone mapping is specialised for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ToneForm {
+    /// The tone curve, as the shaders count them.
+    pub curve: u32,
+    /// Whether there is bloom.
+    pub blooms: bool,
+    /// Whether both eyes are shown in one picture, red and cyan.
+    pub is_anaglyph: bool,
 }
 
-/// Pipelines beyond those that every picture needs: made when one needs them.
+/// Pipelines beyond those that every picture needs: made when one needs them, or is faster with
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Extra {
-    /// A whole power's own, faster than the general ones.
+    /// Rays for a whole power.
     Power(u32),
+    /// Normals of one kind, as the shaders count them, for a whole power.
+    Normals(u32, u32),
+    /// Shading, with the picture of the surroundings behind all or without.
+    Shade(bool),
+    /// Tone mapping.
+    Tone(ToneForm),
     /// Indirect light.
     Gather,
     /// Mean, histogram, bloom.
@@ -148,10 +202,28 @@ pub enum Extra {
 }
 
 impl Extra {
+    /// The special forms of a picture's passes.
+    pub fn special(picture: &Picture) -> [Self; 4] {
+        let power = picture.fractal.integer_power;
+        let tone = ToneForm {
+            curve: picture.tone.curve,
+            blooms: picture.bloom.strength > 0.0,
+            is_anaglyph: picture.eyes.anaglyph != 0,
+        };
+        [
+            Self::Power(power),
+            Self::Normals(power, picture.normals),
+            Self::Shade(picture.background.picture_gain > 0.0),
+            Self::Tone(tone),
+        ]
+    }
+
     /// What they are for, in words that follow "Preparing".
     pub fn name(self) -> String {
         match self {
-            Self::Power(power) => format!("power {power}"),
+            Self::Power(power) | Self::Normals(power, _) => format!("power {power}"),
+            Self::Shade(_) => "light".to_owned(),
+            Self::Tone(_) => "tone mapping".to_owned(),
             Self::Gather => "indirect light".to_owned(),
             Self::Glow => "exposure and bloom".to_owned(),
         }
@@ -160,9 +232,26 @@ impl Extra {
     /// How many pipelines they are.
     pub fn parts(self) -> usize {
         match self {
-            Self::Power(_) => Marchers::PARTS.len(),
-            Self::Gather => 1,
+            Self::Power(_) | Self::Tone(_) => 2,
+            Self::Normals(..) | Self::Shade(_) | Self::Gather => 1,
             Self::Glow => GlowKernels::PARTS.len(),
+        }
+    }
+
+    /// The overrides that one of its parts sets.
+    fn constants(self, part: usize) -> Constants {
+        let power = |power: u32| ("POWER", f64::from(power));
+        match self {
+            Self::Power(n) => vec![power(n)],
+            Self::Normals(n, kind) => vec![power(n), ("NORMALS", f64::from(kind))],
+            Self::Shade(has_backdrop) => vec![("BACKDROP", f64::from(has_backdrop))],
+            Self::Tone(ToneForm { curve, blooms, is_anaglyph }) => vec![
+                ("CURVE", f64::from(curve)),
+                ("BLOOM", f64::from(blooms)),
+                ("ANAGLYPH", f64::from(is_anaglyph)),
+                ("SPARSE", f64::from(part == 1)),
+            ],
+            Self::Gather | Self::Glow => Vec::new(),
         }
     }
 }
@@ -213,23 +302,16 @@ pub struct Kernels {
     pub gpu: Gpu,
     /// What bind groups look like.
     pub layouts: Layouts,
-    /// Any power, whole or real: always ready.
-    general: Marchers,
-    /// One set for each whole power that has been asked for.
-    special: Mutex<HashMap<u32, Marchers>>,
-    march_modules: [wgpu::ShaderModule; Marchers::PARTS.len()],
-    layout: wgpu::PipelineLayout,
-    /// Light and colour onto the film.
-    pub shade: wgpu::ComputePipeline,
+    march: Special,
+    normal: Special,
+    shadow: Special,
+    shade: Special,
+    tone: Special,
     gather: OnceLock<wgpu::ComputePipeline>,
     /// Pixels between those of a sparse lattice.
     pub fill: wgpu::ComputePipeline,
     glow: OnceLock<GlowKernels>,
     glow_layout: wgpu::PipelineLayout,
-    /// Film to display.
-    pub tone: wgpu::ComputePipeline,
-    /// The same for one eye, without bloom, by Reinhard's curve.
-    pub tone_plain: wgpu::ComputePipeline,
     /// Samples of a sparse lattice to display values.
     pub develop: wgpu::ComputePipeline,
     /// Those to the display.
@@ -251,39 +333,35 @@ impl Kernels {
         let glow_layout =
             pipeline_layout(device, "passes over the film as a whole", &[picture, glow, film]);
         let mut labels = Vec::new();
-        let mut made = |layout: &wgpu::PipelineLayout, module: &Module| {
+        let mut special = |layout: &wgpu::PipelineLayout, module: &Module| {
             labels.push(module.label.to_owned());
-            pipeline(device, layout, &module.create(device), module.label, None)
+            Special::new(device, layout, module)
         };
-        let shade = made(&shade_layout, &pass::shade::MODULE);
-        let fill = made(&layout, &pass::fill::MODULE);
-        let develop = made(&layout, &pass::develop::MODULE);
-        let spread = made(&layout, &pass::spread::MODULE);
-        let tone = made(&glow_layout, &pass::tone::MODULE);
-        let plain = Some(("PLAIN", 1.0));
-        let tone_module = pass::tone::MODULE.create(device);
-        let tone_plain = pipeline(device, &glow_layout, &tone_module, "tone, plain", plain);
-        labels.push("tone, plain".to_owned());
-        let march_modules = Marchers::PARTS.map(|module| module.create(device));
-        let general = Marchers::from_parts(|part| {
-            let label = Marchers::PARTS[part].label;
-            labels.push(label.to_owned());
-            pipeline(device, &layout, &march_modules[part], label, Some(("POWER", 0.0)))
-        });
+        let march = special(&layout, &pass::march::MODULE);
+        let normal = special(&layout, &pass::normal::MODULE);
+        let shadow = special(&layout, &pass::shadow::MODULE);
+        let shade = special(&shade_layout, &pass::shade::MODULE);
+        let tone = special(&glow_layout, &pass::tone::MODULE);
+        let mut plain = |module: &Module| {
+            labels.push(module.label.to_owned());
+            let shader = module.create(device);
+            pipeline(device, &layout, &shader, module.label, &Constants::new())
+        };
+        let fill = plain(&pass::fill::MODULE);
+        let develop = plain(&pass::develop::MODULE);
+        let spread = plain(&pass::spread::MODULE);
         Arc::new(Self {
             gpu: gpu.clone(),
-            general,
-            special: Mutex::default(),
+            march,
+            normal,
+            shadow,
             shade,
+            tone,
             gather: OnceLock::new(),
             fill,
             glow: OnceLock::new(),
-            tone,
-            tone_plain,
             develop,
             spread,
-            march_modules,
-            layout,
             glow_layout,
             layouts,
             ready: Mutex::default(),
@@ -303,9 +381,17 @@ impl Kernels {
         self.gather.get_or_init(|| self.make(Extra::Gather, 0))
     }
 
-    /// The fastest pipelines that are ready for a power (0 where it isn't whole).
-    pub fn marchers(&self, integer_power: u32) -> Marchers {
-        locked(&self.special).get(&integer_power).unwrap_or(&self.general).clone()
+    /// The fastest forms of a picture's passes that are ready.
+    pub fn passes(&self, picture: &Picture) -> Passes {
+        let [power, normals, light, tone] = Extra::special(picture);
+        Passes {
+            march: self.march.of(power, 0),
+            shadow: self.shadow.of(power, 1),
+            normal: self.normal.of(normals, 0),
+            shade: self.shade.of(light, 0),
+            tone: self.tone.of(tone, 0),
+            sparse_tone: self.tone.of(tone, 1),
+        }
     }
 
     /// Whether [`Self::marchers`] has a set for this power alone.
@@ -315,7 +401,9 @@ impl Kernels {
 
     /// Whether these can be used without delay.
     pub fn is_ready(&self, extra: Extra) -> bool {
-        extra == Extra::Power(0) || locked(&self.ready).contains(&extra)
+        // Other powers have the general forms only.
+        matches!(extra, Extra::Power(0) | Extra::Normals(0, _))
+            || locked(&self.ready).contains(&extra)
     }
 
     /// Compiles what is missing of these. This may take a second and blocks.
@@ -326,9 +414,22 @@ impl Kernels {
         }
     }
 
-    /// Compiles the pipelines of a whole power. This may take a second and blocks.
-    pub fn specialise(&self, integer_power: u32) {
-        self.prepare(Extra::Power(integer_power));
+    /// Compiles all special forms of a scene's passes. This may take a second and blocks.
+    pub fn specialise(&self, scene: &Scene) {
+        for extra in Extra::special(&Picture::new(scene, Region::whole([64, 64]))) {
+            self.prepare(extra);
+        }
+    }
+
+    /// The passes that an extra has special forms of, in the order of its parts.
+    fn special(&self, extra: Extra) -> Vec<&Special> {
+        match extra {
+            Extra::Power(_) => vec![&self.march, &self.shadow],
+            Extra::Normals(..) => vec![&self.normal],
+            Extra::Shade(_) => vec![&self.shade],
+            Extra::Tone(_) => vec![&self.tone, &self.tone],
+            Extra::Gather | Extra::Glow => Vec::new(),
+        }
     }
 
     /// Starts to compile one pipeline aside, `part` of as many as there are
@@ -354,33 +455,24 @@ impl Kernels {
     /// Asks the device for one pipeline; its label and what the device gives.
     fn ask(&self, extra: Extra, part: usize) -> (String, wgpu::ComputePipeline) {
         let device = &self.gpu.device;
+        let plain = |layout: &wgpu::PipelineLayout, module: &Module| {
+            let shader = module.create(device);
+            (module.label.to_owned(), pipeline(device, layout, &shader, module.label, &Vec::new()))
+        };
         match extra {
-            Extra::Power(power) => {
-                let label = format!("{}, power {power}", Marchers::PARTS[part].label);
-                let module = &self.march_modules[part];
-                let pipeline = pipeline(
-                    device,
-                    &self.layout,
-                    module,
-                    &label,
-                    Some(("POWER", f64::from(power))),
-                );
-                (label, pipeline)
-            }
             Extra::Gather => {
                 let Layouts { picture, samples, film, around, .. } = &self.layouts;
                 let groups = [picture, samples, film, around];
-                let layout = pipeline_layout(device, "gathering", &groups);
-                let module = &pass::gather::MODULE;
-                let pipeline =
-                    pipeline(device, &layout, &module.create(device), module.label, None);
-                (module.label.to_owned(), pipeline)
+                plain(&pipeline_layout(device, "gathering", &groups), &pass::gather::MODULE)
             }
-            Extra::Glow => {
-                let module = GlowKernels::PARTS[part];
-                let layout = &self.glow_layout;
-                let pipeline = pipeline(device, layout, &module.create(device), module.label, None);
-                (module.label.to_owned(), pipeline)
+            Extra::Glow => plain(&self.glow_layout, GlowKernels::PARTS[part]),
+            _ => {
+                let Special { label, module, layout, .. } = self.special(extra)[part];
+                let constants = extra.constants(part);
+                let values = constants.iter().map(|(name, value)| format!(", {name} {value}"));
+                let label = format!("{label}{}", values.collect::<String>());
+                let pipeline = pipeline(device, layout, module, &label, &constants);
+                (label, pipeline)
             }
         }
     }
@@ -389,14 +481,16 @@ impl Kernels {
     pub(super) fn keep(&self, extra: Extra, parts: Vec<wgpu::ComputePipeline>) {
         let part = |index: usize| parts[index].clone();
         match extra {
-            Extra::Power(power) => {
-                locked(&self.special).entry(power).or_insert_with(|| Marchers::from_parts(part));
-            }
             Extra::Gather => {
                 self.gather.get_or_init(|| part(0));
             }
             Extra::Glow => {
                 self.glow.get_or_init(|| GlowKernels::from_parts(part));
+            }
+            _ => {
+                for (part, pipeline) in parts.into_iter().enumerate() {
+                    self.special(extra)[part].keep(extra, part, pipeline);
+                }
             }
         }
     }

@@ -126,10 +126,9 @@ fn rehearse(
     targets: &Targets,
     inputs: &Inputs,
 ) -> Arc<AtomicBool> {
-    let power = if let Extra::Power(power) = extra { power } else { 0 };
-    let marchers = kernels.marchers(power);
+    let passes = kernels.passes(&inputs.picture);
     let mut uncounted = Dispatches::default();
-    let mut recorder = Recorder::new(kernels, &marchers, targets, inputs, &mut uncounted);
+    let mut recorder = Recorder::new(kernels, &passes, targets, inputs, &mut uncounted);
     // A count in a buffer: browsers warn of a plain zero.
     recorder.rehearsal = Some(kernels.gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("no workgroups"),
@@ -137,16 +136,25 @@ fn rehearse(
         usage: wgpu::BufferUsages::INDIRECT,
         mapped_at_creation: false,
     }));
-    recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
+    if extra == Extra::Glow {
+        recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
+    }
     let trace = |points: Points, from: Stage| {
         Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
     };
+    let show = |level: u32| Work::Show { level, fill: false, adapt: 1.0 };
     let work = match extra {
-        Extra::Power(_) => trace(Points::Level(0), Stage::March),
-        Extra::Gather => trace(Points::Around(0), Stage::Gather),
-        Extra::Glow => Work::Show { level: 0, fill: false, adapt: 1.0 },
+        Extra::Power(_) | Extra::Normals(..) | Extra::Shade(_) => {
+            vec![trace(Points::Level(0), Stage::March)]
+        }
+        Extra::Gather => vec![trace(Points::Around(0), Stage::Gather)],
+        Extra::Glow => vec![show(0)],
+        // Of a whole picture, and of a sparse lattice.
+        Extra::Tone(_) => vec![show(0), show(1)],
     };
-    frame::record(&mut recorder, work);
+    for work in work {
+        frame::record(&mut recorder, work);
+    }
     let queue = &kernels.gpu.queue;
     queue.submit([recorder.finish()]);
     let is_over = Arc::new(AtomicBool::new(false));

@@ -202,6 +202,12 @@ impl View {
         !idle || self.preparation.is_some()
     }
 
+    /// Waits until the oldest piece of work has finished, or all work where the view has none in
+    /// flight: between two pumps of a still. On the web this returns at once.
+    pub fn wait(&self) {
+        self.stopwatch.wait(&self.kernels.gpu);
+    }
+
     /// Takes note of what the GPU has finished.
     fn collect(&mut self) {
         self.kernels.gpu.poll();
@@ -314,9 +320,9 @@ impl View {
         let spread = self.spread_level(work);
         let tasks = if spread.is_some() { Tasks::default() } else { self.tasks(work) };
         let Some(inputs) = &self.inputs else { return };
-        let marchers = self.kernels.marchers(inputs.picture.fractal.integer_power);
+        let passes = self.kernels.passes(&inputs.picture);
         let mut recorder =
-            Recorder::new(&self.kernels, &marchers, &self.targets, inputs, &mut self.dispatches);
+            Recorder::new(&self.kernels, &passes, &self.targets, inputs, &mut self.dispatches);
         recorder.tasks = tasks;
         recorder.spread = spread;
         if let Some(lent) = &self.lent_glow {

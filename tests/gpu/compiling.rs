@@ -119,10 +119,10 @@ fn nothing_is_compiled_unannounced() {
     let first = watched.kernels.made();
     assert_eq!(
         first,
-        ["shade", "fill", "develop", "spread", "tone", "tone, plain", "march", "normal", "shadow"]
+        ["march", "normal", "shadow", "shade", "tone", "fill", "develop", "spread"]
     );
     watched.show(&scene);
-    assert_eq!(watched.announced, ["power 8"]);
+    assert_eq!(watched.announced, ["power 8", "light", "tone mapping"]);
     type Edit = fn(&mut Scene);
     let edits: [(Edit, &[&str]); 8] = [
         (|scene| scene.fractal.power = 4.5, &[]),
@@ -130,7 +130,7 @@ fn nothing_is_compiled_unannounced() {
         (|scene| scene.lights.environment[0].muted = true, &[]),
         (|scene| scene.indirect.kind = IndirectKind::Horizon, &["indirect light"]),
         (|scene| scene.indirect.kind = IndirectKind::Uniform, &[]),
-        (|scene| scene.bloom.strength = 0.4, &["exposure and bloom"]),
+        (|scene| scene.bloom.strength = 0.4, &["exposure and bloom", "tone mapping"]),
         (|scene| scene.tone.auto_exposure = true, &[]),
         (|scene| scene.fractal.power = 8.0, &[]),
     ];
@@ -147,10 +147,15 @@ fn nothing_is_compiled_unannounced() {
 
     let made = watched.kernels.made();
     let mut all: BTreeSet<String> = first.into_iter().collect();
-    let special =
-        |power: u32| ["march", "normal", "shadow"].map(|pass| format!("{pass}, power {power}"));
-    all.extend(special(8));
-    all.extend(special(3));
+    for power in [8, 3] {
+        all.insert(format!("march, POWER {power}"));
+        all.insert(format!("shadow, POWER {power}"));
+        all.insert(format!("normal, POWER {power}, NORMALS 5"));
+    }
+    all.insert("shade, BACKDROP 0".to_owned());
+    for (bloom, sparse) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        all.insert(format!("tone, CURVE 1, BLOOM {bloom}, ANAGLYPH 0, SPARSE {sparse}"));
+    }
     all.extend(
         ["gather", "mean", "reduce", "expose", "histogram", "bloom", "blur"].map(str::to_owned),
     );
@@ -240,7 +245,7 @@ fn a_still_compiles_at_once() {
     let mut view = View::new(&kernels, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(kernels.made().len(), 9 + 3 + 6);
+    assert_eq!(kernels.made().len(), 8 + 3 + 3 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 

@@ -7,7 +7,7 @@ use mandelight::{
     scene::{EnvironmentLight, IndirectKind, Normals, PointLight, RigKind, Scene},
 };
 
-use crate::harness::{kernels, pixels, sampled, settle, still};
+use crate::harness::{assert_same, kernels, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [67, 50];
 
@@ -116,20 +116,21 @@ fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene,
 fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
     let kernels = kernels();
     // A view that comes to rest sooner compiles them later.
-    kernels.specialise(8);
+    kernels.specialise(&Scene::default());
     for seed in 0..40 {
         let (scene, view) = edited(kernels, &mut Dice(seed));
         let mut fresh = View::new(kernels, view.region(), Pace::Still);
         fresh.set_scene(&scene, false);
         settle(&mut fresh);
-        assert!(pixels(&view) == pixels(&fresh), "seed {seed}: {scene:#?}");
+        let what = format!("seed {seed}: {scene:#?}");
+        assert_same(&pixels(&view), &pixels(&fresh), &what);
     }
 }
 
 /// The same where nothing is interrupted: each of a few edits of lights, one after the other.
 #[test]
 fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
-    kernels().specialise(8);
+    kernels().specialise(&Scene::default());
     let mut scene = sampled(Scene::default(), 1);
     let mut view = crate::harness::finished(&scene, SIZE, Pace::Interactive);
     let edits: [fn(&mut Scene); 4] = [
@@ -147,6 +148,6 @@ fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
         settle(&mut view);
         let after = pixels(&view);
         assert!(after != before, "the edit shows");
-        assert!(after == still(&scene, SIZE));
+        assert_same(&after, &still(&scene, SIZE), "an edit of lights");
     }
 }

@@ -45,7 +45,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let inputs = Inputs::new(scene, Region::whole(size));
     targets.fit_direct(kernels, inputs.gathers());
     targets.upload(&kernels.gpu.queue, &inputs);
-    let marchers = kernels.marchers(inputs.picture.fractal.integer_power);
+    let passes = kernels.passes(&inputs.picture);
     let mut dispatches = Dispatches::default();
     let trace = |points: Points, from| {
         let workgroups = points.grid(size).workgroups();
@@ -56,7 +56,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let show = Work::Show { level, fill: level > 0, adapt: 1.0 };
     let works = [Some(trace(Points::Level(level), Stage::March)), gather, Some(show)];
     for work in works.into_iter().flatten() {
-        let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
+        let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);
         kernels.gpu.queue.submit([recorder.finish()]);
     }

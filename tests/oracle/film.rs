@@ -70,10 +70,10 @@ impl Film {
         let bw: Vec<_> = colors.iter().map(|[_, _, b]| [*b, 1.0]).collect();
         gpu.queue.write_buffer(&self.targets.film_rg, 0, bytemuck::cast_slice(&rg));
         gpu.queue.write_buffer(&self.targets.film_bw, 0, bytemuck::cast_slice(&bw));
-        let marchers = kernels.marchers(0);
+        let passes = kernels.passes(&inputs.picture);
         let mut dispatches = Dispatches::default();
         let mut recorder =
-            Recorder::new(kernels, &marchers, &self.targets, &inputs, &mut dispatches);
+            Recorder::new(kernels, &passes, &self.targets, &inputs, &mut dispatches);
         recorder.tasks = Tasks {
             mean: true,
             histogram: true,

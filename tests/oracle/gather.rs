@@ -75,9 +75,9 @@ fn gathered(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let direct: Vec<_> = made.iter().map(|m| shared_exponent(m.direct)).collect();
     gpu.queue.write_buffer(&targets.center.surface, 0, cast_slice(&surface));
     gpu.queue.write_buffer(&targets.direct, 0, cast_slice(&direct));
-    let marchers = kernels.marchers(0);
+    let passes = kernels.passes(&inputs.picture);
     let mut dispatches = Dispatches::default();
-    let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
+    let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
     let points = Points::Around(0);
     let workgroups = points.grid(SIZE).workgroups();
     record(

@@ -84,16 +84,16 @@ fn costs(kernels: &Kernels, scene: &Scene) -> Vec<f64> {
     let grid = points.grid(PICTURE_PX);
     let workgroups = grid.workgroups();
     let trace = Trace { points, from: Stage::March, lights: 0, first_workgroup: 0, workgroups };
-    kernels.specialise(8);
     let targets = Targets::new(kernels, Region::whole(PICTURE_PX));
-    let marchers = kernels.marchers(8);
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {
         let mut scene = scene.clone();
         scene.quality.normals = way.unwrap_or(Normals::None);
         let inputs = Inputs::new(&scene, Region::whole(PICTURE_PX));
+        kernels.specialise(&scene);
+        let passes = kernels.passes(&inputs.picture);
         targets.upload(&kernels.gpu.queue, &inputs);
-        let mut recorder = Recorder::new(kernels, &marchers, &targets, &inputs, &mut dispatches);
+        let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
         match way {
             Some(_) => pass::normal::record(&mut recorder, &trace, &grid),
             None => frame::record(&mut recorder, Work::Trace(trace)),

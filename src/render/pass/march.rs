@@ -28,7 +28,7 @@ pub const MODULE: Module = Module {
 
 /// Marches the rays of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.marchers.march.clone();
+    let pipeline = recorder.passes.march.clone();
     let slice = recorder.slice(trace, grid);
     recorder.dispatch(&pipeline, slice, trace.workgroups);
     recorder.dispatches.march += 1;

@@ -6,7 +6,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER` specialises it.
+/// The pass's shader; `POWER` and `NORMALS` specialise it.
 pub const MODULE: Module = Module {
     label: "normal",
     files: &[
@@ -26,7 +26,7 @@ pub const MODULE: Module = Module {
 
 /// Finds the normals of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.marchers.normal.clone();
+    let pipeline = recorder.passes.normal.clone();
     let slice = recorder.slice(trace, grid);
     recorder.dispatch(&pipeline, slice, trace.workgroups);
     recorder.dispatches.normal += 1;

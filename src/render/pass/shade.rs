@@ -7,7 +7,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader.
+/// The pass's shader; `BACKDROP` specialises it.
 pub const MODULE: Module = Module {
     label: "shade",
     files: &[
@@ -30,7 +30,7 @@ pub const MODULE: Module = Module {
 
 /// Shades the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.kernels.shade.clone();
+    let pipeline = recorder.passes.shade.clone();
     let slice = recorder.slice(trace, grid);
     recorder.bind_backdrop();
     recorder.dispatch(&pipeline, slice, trace.workgroups);

@@ -33,7 +33,7 @@ pub const MODULE: Module = Module {
 
 /// Marches toward the lights of `trace`, as many to a dispatch as its loops allow.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.marchers.shadow.clone();
+    let pipeline = recorder.passes.shadow.clone();
     let at_once = uniforms::lights_per_dispatch(recorder.inputs.picture.fractal.iterations);
     for lights in portions(trace.lights, at_once) {
         let mut slice = recorder.slice(trace, grid);

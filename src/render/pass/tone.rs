@@ -6,7 +6,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader.
+/// The pass's shader; `CURVE`, `BLOOM`, `ANAGLYPH` and `SPARSE` specialise it.
 pub const MODULE: Module = Module {
     label: "tone",
     files: &[
@@ -25,17 +25,10 @@ pub const MODULE: Module = Module {
     ],
 };
 
-/// Whether the picture needs nothing that the plain pipeline leaves out.
-fn is_plain(recorder: &Recorder<'_>) -> bool {
-    const REINHARD: u32 = 1;
-    let picture = &recorder.inputs.picture;
-    picture.bloom.strength == 0.0 && picture.eyes.anaglyph == 0 && picture.tone.curve == REINHARD
-}
-
 /// Makes the whole region's display picture of a film whose finest complete lattice is `level`.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let kernels = recorder.kernels;
-    let pipeline = if is_plain(recorder) { &kernels.tone_plain } else { &kernels.tone };
+    let passes = recorder.passes;
+    let pipeline = if level == 0 { &passes.tone } else { &passes.sparse_tone };
     let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
     let whole = Grid::level(0, recorder.inputs.picture.size_px);
     recorder.dispatch_plane(pipeline, Slice { spacing, ..whole.slice(0) });

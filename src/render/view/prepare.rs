@@ -50,14 +50,14 @@ impl View {
             gathers.then_some(Extra::Gather),
             (glows || self.watch.is_wanted()).then_some(Extra::Glow),
         ];
-        // General pipelines do as well until a power has its own. A finished picture leaves time
+        // General forms do as well until there are special ones. A finished picture leaves time
         // for what may come, where that holds nothing up.
         let is_free = self.kernels.gpu.aside.is_some()
             && self.pace == Pace::Interactive
             && self.is_at_rest()
             && self.schedule.status(self.now_secs).idle;
         let others = [
-            self.power_to_prepare(scene),
+            self.special_to_prepare(scene),
             is_free.then_some(Extra::Gather),
             is_free.then_some(Extra::Glow),
         ];
@@ -67,15 +67,21 @@ impl View {
             .find(|(extra, _)| !self.kernels.is_ready(*extra))
     }
 
-    /// The power whose own pipelines are due: for a still at once, otherwise at rest, for a drag
-    /// passes through many. What has begun is finished.
-    fn power_to_prepare(&self, scene: &Scene) -> Option<Extra> {
-        let extra = Extra::Power(scene.fractal.integer_power()?);
-        let has_begun = self
-            .preparation
-            .as_ref()
-            .is_some_and(|preparation| preparation.extra() == extra && preparation.has_begun());
-        (self.pace == Pace::Still || self.is_at_rest() || has_begun).then_some(extra)
+    /// The special forms of passes that are due: for a still at once, otherwise at rest, for a
+    /// drag passes through many. What has begun is finished.
+    fn special_to_prepare(&self, scene: &Scene) -> Option<Extra> {
+        let begun = self.preparation.as_ref().filter(|preparation| preparation.has_begun());
+        let begun = begun.map(Preparation::extra);
+        let is_due = self.pace == Pace::Still || self.is_at_rest();
+        if !is_due && begun.is_none() {
+            return None;
+        }
+        let special = match &self.inputs {
+            Some(inputs) if self.pending.is_none() => Extra::special(&inputs.picture),
+            _ => Extra::special(&self.inputs_of(scene).picture),
+        };
+        let is_wanted = |extra: &Extra| is_due || begun == Some(*extra);
+        special.into_iter().find(|extra| is_wanted(extra) && !self.kernels.is_ready(*extra))
     }
 
     /// Whether a picture has been shown, and nothing has changed for a while.
