@@ -13,13 +13,17 @@ fn ball_part(power: f32) -> f32 {
 const BUNDLE_STEPS = 48u;
 
 // How far the rays from `origin` whose directions differ from `axis` by `spread` at most (the length of the
-// difference of unit vectors) may go, from a distance that is known to be clear.
-fn clear_cone(fractal: Fractal, origin: vec3f, axis: vec3f, spread: f32, start: f32) -> f32 {
+// difference of unit vectors) may go, from a distance that is known to be clear, before any of
+// them is as near to the surface as `hit_cone` says: where a ray ends is up to the ray alone.
+fn clear_cone(
+    fractal: Fractal, origin: vec3f, axis: vec3f, spread: f32, start: f32, hit_cone: f32,
+) -> f32 {
     let part = ball_part(fractal.power);
     var t = start;
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        let ball = part * reach(fractal, origin + t * axis).step;
+        let ball = part * reach(fractal, origin + t * axis).step - hit_cone * t;
         let width = t * spread;
+        if (ball <= width) { break; }
         // Points of the cone as far from the origin as t + advance are in the ball:
         //     advance^2 + t (t + advance) spread^2 <= ball^2
         let lag = 0.5 * width * spread;

@@ -9,6 +9,9 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
     var pace = paced(fractal.power);
+    // Depth of the last point and what was left to its hit.
+    var before = t;
+    var left = 0.0;
     for (var i = 0u; i < fractal.march_steps; i++) {
         let is_inside = t <= interval.y;
         var ahead = Reach(0.0, 0.0);
@@ -20,7 +23,13 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
         }
         if (!is_inside) { return 0.0; }
         let hit = hit_distance(camera, fractal, t);
-        if (ahead.distance < hit) { return max(t, 1e-30); }
+        if (ahead.distance < hit) {
+            // Where on the last step the hit was, about: wherever its two ends were.
+            let past = hit - ahead.distance;
+            return max(mix(before, t, left / max(left + past, 1e-30)), 1e-30);
+        }
+        before = t;
+        left = ahead.distance - hit;
         t += next_step(&pace, max(ahead.step, LEAST_STEP * hit));
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
@@ -44,7 +53,8 @@ fn clear_part(fractal: Fractal, workgroup: u32, first: vec2u, count: u32, known:
     }
     let entry = bounding_entry(middle.origin, middle.direction, spread);
     if (entry < 0.0) { return known; }
-    return clear_cone(fractal, middle.origin, middle.direction, spread, max(entry, known));
+    let start = max(entry, known);
+    return clear_cone(fractal, middle.origin, middle.direction, spread, start, picture.camera.hit_cone);
 }
 
 @compute @workgroup_size(64)

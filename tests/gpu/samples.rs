@@ -84,8 +84,7 @@ fn samples_converge_to_the_pixels_mean() {
         assert!(rms < independent, "{count} samples: off by {rms}, chance alone by {independent}");
         let bias = mean(errors.iter().copied());
         let chance = independent / (errors.len() as f64).sqrt();
-        // Hits are a cone's radius off at most, which a finer picture's are elsewhere.
-        assert!(bias.abs() < 3.0 * chance + 1e-3, "{count} samples: {bias} too bright");
+        assert!(bias.abs() < 3.0 * chance, "{count} samples: {bias} too bright");
         let far = errors.iter().zip(&reference).filter(|(error, pixel)| {
             error.abs() > 3.0 * (pixel.variance / f64::from(count)).sqrt() + 1e-3
         });
