@@ -126,12 +126,13 @@ pub fn ours(
             cache: None,
         }))
     };
+    let split = ours::Split::new(kernels, scene, size_px);
     let passes = Passes {
         march: made(&pass::march::MODULE, "reach")?,
         normal: made(&pass::normal::MODULE, "distance_gradient")?,
         shadow: made(&pass::shadow::MODULE, "reach")?,
+        ..kernels.passes(split.picture())
     };
-    let split = ours::Split::new(kernels, scene, size_px);
     let mut counts = split.count(&passes)?;
     if scene.quality.samples > 1 {
         counts.push((LATER, split.count_later(&passes)?));

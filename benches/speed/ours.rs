@@ -11,7 +11,7 @@ use mandelight::{
         pass,
         schedule::{Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
-        uniforms::Inputs,
+        uniforms::{Inputs, Picture},
     },
     scene::Scene,
 };
@@ -70,6 +70,11 @@ impl<'a> Split<'a> {
         let targets = Targets::new(kernels, region);
         targets.upload(&kernels.gpu.queue, &inputs);
         Self { kernels, inputs, targets }
+    }
+
+    /// What the passes know of the scene.
+    pub fn picture(&self) -> &Picture {
+        &self.inputs.picture
     }
 
     /// Each pass's name and time from submit to end, milliseconds.

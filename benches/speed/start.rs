@@ -103,7 +103,7 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let picture = lap();
     drawn_until(has_picture);
     let again = lap();
-    kernels.specialise(scene.fractal.integer_power().unwrap_or(0));
+    kernels.specialise(&scene);
     let made = lap();
     let has_sample = |report: &Report| report.samples_done > 0;
     drawn_until(has_sample);

@@ -28,6 +28,7 @@ pub mod gbuffer;
 pub mod glow;
 pub mod kernels;
 pub mod lattice;
+mod layouts;
 pub mod memory;
 pub mod pass;
 mod preparation;

@@ -72,8 +72,7 @@ impl Film {
         gpu.queue.write_buffer(&self.targets.film_bw, 0, bytemuck::cast_slice(&bw));
         let passes = kernels.passes(&inputs.picture);
         let mut dispatches = Dispatches::default();
-        let mut recorder =
-            Recorder::new(kernels, &passes, &self.targets, &inputs, &mut dispatches);
+        let mut recorder = Recorder::new(kernels, &passes, &self.targets, &inputs, &mut dispatches);
         recorder.tasks = Tasks {
             mean: true,
             histogram: true,

@@ -71,9 +71,7 @@ fn measured<const N: usize>(
 ) -> [f64; N] {
     let mut scene = super::aimed(scene, NO_HURRY_MS);
     scene.quality.samples = 1;
-    if let Some(power) = scene.fractal.integer_power() {
-        kernels.specialise(power);
-    }
+    kernels.specialise(&scene);
     let mut view = View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive);
     let start = Instant::now();
     let mut times = [(); N].map(|()| Vec::new());
