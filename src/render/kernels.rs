@@ -307,9 +307,9 @@ impl Kernels {
         }
     }
 
-    /// Whether [`Self::marchers`] has a set for this power alone.
+    /// Whether [`Self::passes`] has rays for this power alone.
     pub fn has_own(&self, integer_power: u32) -> bool {
-        locked(&self.special).contains_key(&integer_power)
+        locked(&self.march.made).contains_key(&(Extra::Power(integer_power), 0))
     }
 
     /// Whether these can be used without delay.
