@@ -7,6 +7,7 @@
 
 mod edits;
 mod error;
+mod load;
 mod picture;
 mod replay;
 mod report;

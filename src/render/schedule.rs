@@ -32,6 +32,10 @@ const MOST_WORKGROUPS: u32 = 65_535;
 /// GPU time that one piece aims at while someone is watching, milliseconds.
 pub const SLICE_MS: f64 = 8.0;
 
+/// Most of the motion budget that it aims at: what is in flight when the hand moves again makes the
+/// first picture late, by two pieces at worst.
+const SLICE_SHARE: f64 = 0.4;
+
 /// GPU time that one piece of a still aims at, milliseconds.
 pub const STILL_SLICE_MS: f64 = 60.0;
 
@@ -160,6 +164,9 @@ impl Schedule {
     /// each pixel is to have, at least one.
     pub fn aim(&mut self, budget_ms: f64, samples: u32) {
         self.budget_ms = budget_ms;
+        if self.pace == Pace::Interactive {
+            self.slice_ms = SLICE_MS.min(SLICE_SHARE * budget_ms);
+        }
         self.samples_wanted = samples.max(1);
         // More samples go on from those that are there; fewer would need a film without them.
         if self.samples_done > self.samples_wanted {

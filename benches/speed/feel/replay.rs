@@ -18,7 +18,7 @@ use mandelight::{
     scene::Scene,
 };
 
-use super::{SIZE_PX, session::Session};
+use super::{SIZE_PX, load::Load, session::Session};
 
 /// Between two pumps, as in the page, seconds.
 const PUMP_SECS: f64 = 0.004;
@@ -51,6 +51,8 @@ pub struct Replay {
     pub frames: Vec<Frame>,
     /// Of each part, seconds from its release to the first picture of all pixels.
     pub releases: Vec<Option<f64>>,
+    /// Part of the machine's processors that other programs had meanwhile, where it tells.
+    pub others: Option<f64>,
 }
 
 /// Runs callbacks of finished work as soon as they are due, as browsers do.
@@ -195,8 +197,11 @@ impl Player {
 
     /// Rests for a while, and until the whole picture is there.
     fn rest(&mut self) {
+        let mut whole_ticks = 0;
         for tick in 0..REST_TICKS + MOST_REST_TICKS {
-            if tick >= REST_TICKS && self.view.report().samples_done > 0 {
+            // The picture of the last pixel is still to come.
+            whole_ticks += u32::from(self.view.report().samples_done > 0);
+            if tick >= REST_TICKS && whole_ticks > 4 {
                 break;
             }
             self.wait_until(self.now_secs() + self.budget_secs);
@@ -207,6 +212,7 @@ impl Player {
 /// Plays the session with a display that ticks every `budget_ms`.
 pub fn play(kernels: &Arc<Kernels>, session: &Session, budget_ms: f64) -> Replay {
     let _poller = Poller::new(&kernels.gpu);
+    let before = Load::now();
     let mut player = Player {
         gpu: kernels.gpu.clone(),
         view: View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive),
@@ -235,7 +241,8 @@ pub fn play(kernels: &Arc<Kernels>, session: &Session, budget_ms: f64) -> Replay
     }
     kernels.gpu.wait();
     let shown = player.shown.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    summed_up(&shown, &releases)
+    let others = Load::now().zip(before).map(|(now, before)| now.of_others_since(&before));
+    Replay { others, ..summed_up(&shown, &releases) }
 }
 
 fn summed_up(shown: &[Shown], released_secs: &[f64]) -> Replay {
@@ -260,5 +267,6 @@ fn summed_up(shown: &[Shown], released_secs: &[f64]) -> Replay {
         whole.map(|picture| picture.done_secs - secs)
     };
     let releases = released_secs.iter().enumerate();
-    Replay { frames, releases: releases.map(|(part, &secs)| whole_after(part, secs)).collect() }
+    let releases = releases.map(|(part, &secs)| whole_after(part, secs)).collect();
+    Replay { frames, releases, others: None }
 }

@@ -26,6 +26,9 @@ pub struct Report {
     pub costs: Costs,
     /// The parts of the session, then all of it.
     pub parts: Vec<Feel>,
+    /// Part of the machine's processors that other programs had during the replay, 0 to 1, where
+    /// the machine tells.
+    pub others: Option<f64>,
 }
 
 /// How a part of the session felt.
@@ -107,7 +110,7 @@ impl Report {
             })
             .collect();
         parts.push(feel("all", None));
-        Self { size_px: SIZE_PX, budget_ms, costs, parts }
+        Self { size_px: SIZE_PX, budget_ms, costs, parts, others: replay.others }
     }
 
     /// Tells it to people, and its figures to scripts.
@@ -119,6 +122,9 @@ impl Report {
             "  a full frame takes {camera_ms:.1} ms, the motion budget is a twentieth: {:.2} ms",
             self.budget_ms
         );
+        if let Some(others) = self.others {
+            println!("  other programs had {:.0} % of the processors meanwhile", 100.0 * others);
+        }
         println!(
             "  in budgets      frames  p50    p95    max    in time  lag p95  one pixel of  release"
         );
