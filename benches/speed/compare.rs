@@ -1,6 +1,6 @@
 //! One view by both sides, in turn.
 
-use std::{collections::HashMap, sync::Arc};
+use std::{collections::HashMap, sync::Arc, time::Instant};
 
 use mandelight::render::{self, Kernels, Region, uniforms::Inputs};
 
@@ -18,6 +18,9 @@ use super::{
     statistics::median,
     views::View,
 };
+
+/// How long either side's turn takes at least, seconds.
+const TURN_SECS: f64 = 0.4;
 
 /// Measures a view.
 ///
@@ -50,8 +53,8 @@ pub fn compare(
     let (mut literal_ms, mut ours_ms, mut gflops) = (Vec::new(), Vec::new(), Vec::new());
     let rounds = if view.is_long { arguments.rounds.div_ceil(2) } else { arguments.rounds };
     for _ in 0..rounds {
-        literal_ms.push(theirs.draw_ms());
-        ours_ms.push(ours::draw_ms(kernels, scene, size_px).0);
+        literal_ms.push(repeated_ms(|| theirs.draw_ms()));
+        ours_ms.push(repeated_ms(|| ours::draw_ms(kernels, scene, size_px).0));
         gflops.push(peak.gflops());
     }
     if let Some(folder) = &arguments.pictures {
@@ -109,6 +112,18 @@ pub fn compare(
         our_counts,
         passes_ms,
     })
+}
+
+/// The mean of as many pictures as take [`TURN_SECS`]: where others use the machine too, a side
+/// with short pictures is held up as much as one with long ones.
+fn repeated_ms(mut draw_ms: impl FnMut() -> f64) -> f64 {
+    let start = Instant::now();
+    let (mut sum_ms, mut pictures) = (0.0, 0.0);
+    while pictures == 0.0 || start.elapsed().as_secs_f64() < TURN_SECS {
+        sum_ms += draw_ms();
+        pictures += 1.0;
+    }
+    sum_ms / pictures
 }
 
 /// Times the program's passes over one sample of each pixel; the rest is what a sample of the

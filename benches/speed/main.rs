@@ -105,7 +105,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         );
     }
     if arguments.wants(powers::NAME) {
-        let table = powers::measure(&gpu, arguments.rounds)?;
+        let table = powers::measure(&gpu, 3 * arguments.rounds)?;
         table.print();
         report.powers = Some(table);
     }
