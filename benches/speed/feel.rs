@@ -56,13 +56,17 @@ pub fn run(kernels: &Arc<Kernels>, pictures: Option<&Path>) -> Result<Report, su
     let costs = edits::costs(kernels, session.end_of(FILLED_AFTER));
     let budget_ms = costs.camera_ms / BUDGETS;
     let replay = replay::play(kernels, &session, budget_ms);
-    let own_ms = PARTS.iter().enumerate().map(|(part, of)| match of.hold {
-        Hold::Dive => Some(costs.camera_ms),
-        // Nothing is traced: there is nothing to wait for.
-        Hold::Exposure => None,
-        _ => Some(edits::full_frame_ms(kernels, session.end_of(part))),
+    let releases = PARTS.iter().enumerate().map(|(part, of)| {
+        let edit = match of.hold {
+            Hold::Orbit | Hold::Dive => edits::move_camera,
+            Hold::Light => edits::move_light,
+            Hold::Power => edits::raise_power,
+            // Nothing is traced: there is nothing to wait for.
+            Hold::Exposure => return None,
+        };
+        Some(edits::release(kernels, session.end_of(part), edit, budget_ms))
     });
-    let own_ms: Vec<_> = own_ms.collect();
+    let releases: Vec<_> = releases.collect();
     let qualities = picture::qualities(kernels, &session, &replay.frames, budget_ms, pictures)?;
-    Ok(Report::new(budget_ms, costs, &replay, &own_ms, &qualities))
+    Ok(Report::new(budget_ms, costs, &replay, &releases, &qualities))
 }

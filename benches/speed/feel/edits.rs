@@ -2,7 +2,10 @@
 //!
 //! A view with time without end for a moving frame draws each edit whole at once, as one picture.
 
-use std::{sync::Arc, time::Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use glam::{DQuat, DVec3};
 use mandelight::{
@@ -11,7 +14,7 @@ use mandelight::{
 };
 use serde::Serialize;
 
-use super::{SIZE_PX, median};
+use super::{SIZE_PX, median, replay::PUMP_SECS};
 
 /// A motion budget that every frame fits, milliseconds.
 const NO_HURRY_MS: f64 = 1e7;
@@ -33,9 +36,64 @@ pub struct Costs {
     pub exposure_ms: f64,
 }
 
-/// A camera move alone on one scene: a full frame's own time, milliseconds.
-pub fn full_frame_ms(kernels: &Arc<Kernels>, scene: &Scene) -> f64 {
-    measured(kernels, scene, [move_camera])[0]
+/// From the release after an edit to the picture of all pixels, in full frames' own time: the median
+/// of rounds in which both have their turn.
+pub fn release(
+    kernels: &Arc<Kernels>,
+    scene: &Scene,
+    edit: fn(&mut Scene, f64),
+    budget_ms: f64,
+) -> f64 {
+    let start = Instant::now();
+    let new_view = || View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive);
+    let (mut hurried, mut unhurried) = (new_view(), new_view());
+    let (mut scene, mut turned) = (scene.clone(), super::aimed(scene, NO_HURRY_MS));
+    turned.quality.samples = 1;
+    let mut ratios = Vec::new();
+    for round in 0..WARM_UP + ROUNDS {
+        let sign = if round % 2 == 0 { 1.0 } else { -1.0 };
+        move_camera(&mut turned, sign);
+        let own_ms = draw(kernels, &mut unhurried, &turned, start);
+        edit(&mut scene, sign);
+        let aimed = super::aimed(&scene, budget_ms);
+        draw_until(kernels, &mut hurried, &aimed, true, start, |_| true);
+        let whole = |pixels_per_sample| pixels_per_sample == 1;
+        let released_ms = draw_until(kernels, &mut hurried, &aimed, false, start, whole);
+        if round >= WARM_UP {
+            ratios.push(released_ms / own_ms);
+        }
+    }
+    median(ratios)
+}
+
+/// Gives a scene to a view that is pumped as the page does; milliseconds until a picture is
+/// `enough`, one pixel of so many having been computed.
+fn draw_until(
+    kernels: &Kernels,
+    view: &mut View,
+    scene: &Scene,
+    moving: bool,
+    start: Instant,
+    enough: impl Fn(u32) -> bool,
+) -> f64 {
+    let given = Instant::now();
+    view.set_scene(scene, moving);
+    let before = view.report().pictures;
+    let mut pumped = Instant::now();
+    view.pump(start.elapsed().as_secs_f64());
+    loop {
+        std::thread::sleep(Duration::from_micros(200));
+        // Browsers tell by themselves when work is done.
+        kernels.gpu.poll();
+        if pumped.elapsed().as_secs_f64() >= PUMP_SECS {
+            pumped = Instant::now();
+            view.pump(start.elapsed().as_secs_f64());
+        }
+        let report = view.report();
+        if report.pictures > before && enough(report.pixels_per_sample) {
+            return given.elapsed().as_secs_f64() * 1e3;
+        }
+    }
 }
 
 /// Measures the edits on one scene.
@@ -45,15 +103,22 @@ pub fn costs(kernels: &Arc<Kernels>, scene: &Scene) -> Costs {
     Costs { camera_ms, light_ms, intensity_ms, exposure_ms }
 }
 
-fn move_camera(scene: &mut Scene, sign: f64) {
+/// Turns the camera a little.
+pub fn move_camera(scene: &mut Scene, sign: f64) {
     let turn = DQuat::from_rotation_y(sign * 1e-3);
     scene.camera.orientation = (scene.camera.rotation() * turn).normalize().into();
 }
 
-fn move_light(scene: &mut Scene, sign: f64) {
+/// Turns the first light a little.
+pub fn move_light(scene: &mut Scene, sign: f64) {
     let light = &mut scene.lights.environment[0];
     let turn = DQuat::from_rotation_z(sign * 0.02);
     light.direction = (turn * DVec3::from_array(light.direction)).normalize().to_array();
+}
+
+/// Raises the power a little.
+pub fn raise_power(scene: &mut Scene, sign: f64) {
+    scene.fractal.power += 0.01 * sign;
 }
 
 fn dim_light(scene: &mut Scene, sign: f64) {

@@ -21,7 +21,7 @@ use mandelight::{
 use super::{SIZE_PX, load::Load, session::Session};
 
 /// Between two pumps, as in the page, seconds.
-const PUMP_SECS: f64 = 0.004;
+pub const PUMP_SECS: f64 = 0.004;
 
 /// Ticks of rest between two parts: two and a half full frames.
 const REST_TICKS: u32 = 50;
@@ -49,8 +49,6 @@ pub struct Frame {
 pub struct Replay {
     /// Its moving pictures.
     pub frames: Vec<Frame>,
-    /// Of each part, seconds from its release to the first picture of all pixels.
-    pub releases: Vec<Option<f64>>,
     /// Part of the machine's processors that other programs had meanwhile, where it tells.
     pub others: Option<f64>,
 }
@@ -173,8 +171,8 @@ impl Player {
         }
     }
 
-    /// Plays a part from the tick that comes next; returns when the hand let go.
-    fn play(&mut self, part: usize, scenes: &[Scene]) -> f64 {
+    /// Plays a part from the tick that comes next until the hand lets go.
+    fn play(&mut self, part: usize, scenes: &[Scene]) {
         let first_secs = self.now_secs();
         let last = scenes.len() as u32 - 1;
         let mut count = 0;
@@ -190,9 +188,7 @@ impl Player {
             self.wait_until(first_secs + f64::from(tick) * self.budget_secs);
         }
         self.give(&scenes[last as usize], part, last, false);
-        let released_secs = self.now_secs();
         self.pump();
-        released_secs
     }
 
     /// Rests for a while, and until the whole picture is there.
@@ -228,7 +224,6 @@ pub fn play(kernels: &Arc<Kernels>, session: &Session, budget_ms: f64) -> Replay
         let aimed = part.iter().map(|scene| super::aimed(scene, budget_ms));
         aimed.collect::<Vec<_>>()
     });
-    let mut releases = Vec::new();
     for (part, scenes) in scenes.enumerate() {
         if part == 0 {
             player.give(&scenes[0], part, 0, false);
@@ -236,16 +231,16 @@ pub fn play(kernels: &Arc<Kernels>, session: &Session, budget_ms: f64) -> Replay
             player.rest();
             player.rest();
         }
-        releases.push(player.play(part, &scenes));
+        player.play(part, &scenes);
         player.rest();
     }
     kernels.gpu.wait();
     let shown = player.shown.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let others = Load::now().zip(before).map(|(now, before)| now.of_others_since(&before));
-    Replay { others, ..summed_up(&shown, &releases) }
+    Replay { frames: moving_frames(&shown), others }
 }
 
-fn summed_up(shown: &[Shown], released_secs: &[f64]) -> Replay {
+fn moving_frames(shown: &[Shown]) -> Vec<Frame> {
     let mut frames = Vec::new();
     let mut before_secs = f64::NEG_INFINITY;
     for picture in shown {
@@ -260,13 +255,5 @@ fn summed_up(shown: &[Shown], released_secs: &[f64]) -> Replay {
         }
         before_secs = picture.done_secs;
     }
-    let whole_after = |part: usize, secs: f64| {
-        let whole = shown.iter().find(|picture| {
-            picture.part == part && picture.done_secs > secs && picture.pixels_per_sample == 1
-        });
-        whole.map(|picture| picture.done_secs - secs)
-    };
-    let releases = released_secs.iter().enumerate();
-    let releases = releases.map(|(part, &secs)| whole_after(part, secs)).collect();
-    Replay { frames, releases, others: None }
+    frames
 }

@@ -90,7 +90,7 @@ impl Report {
         budget_ms: f64,
         costs: Costs,
         replay: &Replay,
-        own_ms: &[Option<f64>],
+        releases: &[Option<f64>],
         qualities: &[Quality],
     ) -> Self {
         let feel = |name, part: Option<usize>| {
@@ -103,9 +103,7 @@ impl Report {
             .iter()
             .enumerate()
             .map(|(part, of)| {
-                let secs = replay.releases.get(part).copied().flatten();
-                let own_ms = own_ms.get(part).copied().flatten();
-                let release = secs.zip(own_ms).map(|(secs, own_ms)| secs * 1e3 / own_ms);
+                let release = releases.get(part).copied().flatten();
                 Feel { release, ..feel(of.name, Some(part)) }
             })
             .collect();
