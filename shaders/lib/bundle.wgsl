@@ -34,17 +34,3 @@ fn clear_cone(
     }
     return t;
 }
-
-// The same for parallel rays against `direction`, of which none is farther than `width` from the
-// one through `center`: down to what distance from its plane they are clear, from `start`.
-fn clear_tube(fractal: Fractal, center: vec3f, direction: vec3f, width: f32, start: f32) -> f32 {
-    let part = ball_part(fractal.power);
-    var s = start;
-    for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        let ball = part * reach(fractal, center + s * direction).step;
-        let advance = sqrt(max(ball * ball - width * width, 0.0));
-        if (advance <= width) { break; }
-        s -= advance;
-    }
-    return s;
-}

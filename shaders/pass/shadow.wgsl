@@ -10,7 +10,13 @@ const SHADOW_CONE = 0.004;
 // No step is shorter than this part of the distance that blocks.
 const LEAST_STEP = 0.25;
 
-fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, light: Light) -> bool {
+// How near the surface may come to a ray, `s` before its point.
+fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
+    return max(SHADOW_CONE * s, 0.5 * surface_distance);
+}
+
+// `clear`: as far before the point a ray is known not to be blocked.
+fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, light: Light, clear: f32) -> bool {
     var direction = light.vector;
     var farthest = light.shadow_reach;
     if (light.kind == LIGHT_POINT) {
@@ -18,41 +24,115 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, light: L
         farthest = min(farthest, length(to_light));
         direction = to_light / max(farthest, 1e-30);
     }
-    var s = min(farthest, bounding_interval(point, direction).y);
+    var s = min(min(farthest, clear), bounding_interval(point, direction).y);
+    var pace = paced(fractal.power);
     for (var i = 0u; i < fractal.shadow_steps; i++) {
+        var ahead = Reach(0.0, 0.0);
+        if (s > surface_distance) { ahead = reach(fractal, point + s * direction); }
+        let back = step_back(&pace, ahead.step);
+        s += back;
+        // Where a step too long is taken back, what is left may be known to be empty.
         if (s <= surface_distance) { return true; }
-        let ahead = reach(fractal, point + s * direction);
-        let blocks = max(SHADOW_CONE * s, 0.5 * surface_distance);
+        if (back > 0.0) { continue; }
+        let blocks = blocking_distance(s, surface_distance);
         if (ahead.distance < blocks) { return false; }
-        s -= max(ahead.step, LEAST_STEP * blocks);
+        s -= next_step(&pace, max(ahead.step, LEAST_STEP * blocks));
     }
     return true;
+}
+
+// The workgroup's points, lifted, and their hit distances: 0 where there is none.
+var<workgroup> points: array<vec4f, WORKGROUP_THREADS>;
+// The lights that each point faces and that are marched toward, by their places in `lights`.
+var<workgroup> facing: array<vec2u, WORKGROUP_THREADS>;
+// For each light, how far along its direction the plane lies that rays to all points that face it
+// come to unblocked.
+var<workgroup> clear_plane: array<f32, MAX_LIGHTS>;
+
+// That plane for the light at `place`, not a point light.
+fn clear_part(fractal: Fractal, place: u32) -> f32 {
+    let light = lights[place];
+    let direction = light.vector;
+    var low = vec3f(1e30);
+    var high = vec3f(-1e30);
+    var surface_distance = 0.0;
+    for (var i = 0u; i < WORKGROUP_THREADS; i++) {
+        if (((facing[i][place >> 5u] >> (place & 31u)) & 1u) == 0u) { continue; }
+        low = min(low, points[i].xyz);
+        high = max(high, points[i].xyz);
+        surface_distance = max(surface_distance, points[i].w);
+    }
+    if (surface_distance == 0.0) { return 1e30; }
+    let center = 0.5 * (low + high);
+    var width = 0.0;
+    var extent = 0.0;
+    for (var i = 0u; i < WORKGROUP_THREADS; i++) {
+        if (((facing[i][place >> 5u] >> (place & 31u)) & 1u) == 0u) { continue; }
+        let offset = points[i].xyz - center;
+        let along = dot(offset, direction);
+        width = max(width, length(offset - along * direction));
+        extent = max(extent, along);
+    }
+    // Where the last of the rays leaves the bounding sphere, or where shadows end.
+    let height = dot(center, direction);
+    let aside = max(length(center - height * direction) - width, 0.0);
+    let radius = fractal.bounding_radius;
+    let leaves = sqrt(max(radius * radius - aside * aside, 0.0)) - height;
+    let part = ball_part(fractal.power);
+    var s = min(leaves, light.shadow_reach + extent);
+    for (var i = 0u; i < BUNDLE_STEPS; i++) {
+        // No point is farther than this from the plane through `s`.
+        let blocks = blocking_distance(s + extent, surface_distance);
+        let ball = part * reach(fractal, center + s * direction).step - blocks;
+        let advance = sqrt(max(ball * ball - width * width, 0.0));
+        if (ball <= width || advance <= width) { break; }
+        s -= advance;
+    }
+    return height + s;
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     picture = given_picture;
+    let fractal = picture.fractal;
     let pixel = lattice_pixel(workgroup.x, local_index);
-    if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
-    var bits = visibility[index] & ~slice.lights;
-    let seen = surface[index];
+    var seen = vec2u(0u);
+    if (inside_region(pixel)) { seen = surface[index]; }
     let t = bitcast<f32>(seen.x);
+    let n = octahedral_unpack(seen.y);
+    let surface_distance = hit_distance(picture.camera, fractal, t);
+    // Lifted off the surface, so that the point's own neighbourhood does not shade it.
+    let ray = camera_ray(pixel);
+    let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
+    var faced = vec2u(0u);
     if (t > 0.0) {
-        let n = octahedral_unpack(seen.y);
-        let fractal = picture.fractal;
-        let surface_distance = hit_distance(picture.camera, fractal, t);
-        // Lifted off the surface, so that the point's own neighbourhood does not shade it.
-        let ray = camera_ray(pixel);
-        let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
         for (var k = 0u; k < picture.surface.light_count; k++) {
             let light = lights[k];
-            if (!has_light(slice.lights, light)) { continue; }
             let toward = select(light.vector, light.vector - point, light.kind == LIGHT_POINT);
-            if (picture.normals != NORMALS_NONE && dot(n, toward) <= 0.0) { continue; }
-            if (light.casts_shadows == 0u || light_reaches(fractal, point, surface_distance, light)) {
-                bits[light.bit >> 5u] |= 1u << (light.bit & 31u);
-            }
+            let faces = picture.normals == NORMALS_NONE || dot(n, toward) > 0.0;
+            faced[k >> 5u] |= select(0u, 1u << (k & 31u), faces && has_light(slice.lights, light));
+        }
+    }
+    points[local_index] = vec4f(point, select(0.0, surface_distance, t > 0.0));
+    facing[local_index] = faced;
+    workgroupBarrier();
+    if (local_index < picture.surface.light_count) {
+        clear_plane[local_index] = 1e30;
+        let light = lights[local_index];
+        if (light.kind != LIGHT_POINT && light.casts_shadows != 0u && has_light(slice.lights, light)) {
+            clear_plane[local_index] = clear_part(fractal, local_index);
+        }
+    }
+    workgroupBarrier();
+    if (!inside_region(pixel)) { return; }
+    var bits = visibility[index] & ~slice.lights;
+    for (var k = 0u; k < picture.surface.light_count; k++) {
+        if (((faced[k >> 5u] >> (k & 31u)) & 1u) == 0u) { continue; }
+        let light = lights[k];
+        let clear = clear_plane[k] - dot(point, light.vector);
+        if (light.casts_shadows == 0u || light_reaches(fractal, point, surface_distance, light, clear)) {
+            bits[light.bit >> 5u] |= 1u << (light.bit & 31u);
         }
     }
     visibility[index] = bits;

@@ -27,6 +27,8 @@ pub const MODULE: Module = Module {
         shader_file!("lib/sphere.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
+        shader_file!("lib/pace.wgsl"),
+        shader_file!("lib/bundle.wgsl"),
         shader_file!("pass/shadow.wgsl"),
     ],
 };
