@@ -12,10 +12,15 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
     return vec2u(x, y);
 }
 
-// The quarter of its workgroup in which a thread has its place, in reading order.
-fn quarter_of_workgroup(local_index: u32) -> u32 {
-    let quarter = place_in_workgroup(local_index) >> vec2u(2u);
-    return quarter.x + 2u * quarter.y;
+// A workgroup's threads in the order of their index make eight blocks of four by two: rays of one
+// go in one bundle.
+const BLOCKS = 8u;
+const BLOCK_THREADS = 8u;
+const BLOCK_SIZE = vec2u(4u, 2u);
+
+// The place of a block's first thread in its workgroup.
+fn place_of_block(block: u32) -> vec2u {
+    return place_in_workgroup(block * BLOCK_THREADS);
 }
 
 // The place of a workgroup's first thread in the lattice's grid.
@@ -31,11 +36,11 @@ struct PixelBox {
     last: vec2u,
 }
 
-// The pixels that hold those of `count` by `count` threads of a workgroup, from its thread at
-// `place` on; they may lie outside of the region.
-fn lattice_box(workgroup: u32, place: vec2u, count: u32) -> PixelBox {
-    let first = (workgroup_corner(workgroup) + place) * slice.step + slice.offset;
-    let last = first + (count - 1u) * slice.step + vec2u(slice.stagger, 0u);
+// The pixels that hold those of a workgroup's block; they may lie outside of the region.
+fn block_box(workgroup: u32, block: u32) -> PixelBox {
+    let thread = workgroup_corner(workgroup) + place_of_block(block);
+    let first = thread * slice.step + slice.offset;
+    let last = first + (BLOCK_SIZE - 1u) * slice.step + vec2u(slice.stagger, 0u);
     return PixelBox(first << vec2u(slice.shift), last << vec2u(slice.shift));
 }
 

@@ -42,8 +42,9 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
     var sum = color * picture.surface.ambient;
     for (var k = 0u; k < picture.surface.light_count; k++) {
         let light = lights[k];
-        // Nobody marched toward a light without light: its bit means nothing.
-        if (all(light.color == vec3f(0.0)) || !has_light(bits, light)) { continue; }
+        // Nobody marched toward a light without light, or without shadows: their bits mean nothing.
+        if (all(light.color == vec3f(0.0))) { continue; }
+        if (light.casts_shadows != 0u && !has_light(bits, light)) { continue; }
         var toward_light = light.vector;
         var radiance = light.color;
         if (light.kind == LIGHT_POINT) {
@@ -56,7 +57,8 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
             sum += radiance * color * picture.surface.diffuse;
             continue;
         }
-        let cosine = max(dot(n, toward_light), 0.0);
+        let cosine = dot(n, toward_light);
+        if (cosine <= 0.0) { continue; }
         let half_way = normalize(toward_light + toward_eye);
         let highlight = pow(max(dot(n, half_way), 0.0), picture.surface.shininess);
         sum += radiance * (color * (picture.surface.diffuse * cosine) + picture.surface.specular * highlight);

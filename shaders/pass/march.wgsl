@@ -36,13 +36,13 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     return t;
 }
 
-// Depths that are clear for all rays of the workgroup, and for those of its quarters.
-var<workgroup> clear_depth: array<f32, 5>;
+// Depths that are clear for all rays of each block.
+var<workgroup> clear_depth: array<f32, BLOCKS>;
 
-// How deep all rays through `count` by `count` threads of the workgroup's grid may go.
-fn clear_part(fractal: Fractal, workgroup: u32, first: vec2u, count: u32, known: f32) -> f32 {
-    let box = lattice_box(workgroup, first, count);
-    if (is_second_eye(box.first) != is_second_eye(box.last)) { return known; }
+// How deep all rays of a block may go before any of them may have hit.
+fn clear_block(fractal: Fractal, workgroup: u32, block: u32) -> f32 {
+    let box = block_box(workgroup, block);
+    if (is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
     let side = eye_side(box.first);
     let size = vec2f(box.last - box.first + vec2u(1u));
     let middle = eye_ray(eye_position(box.first, 0.5 * size), side);
@@ -52,30 +52,23 @@ fn clear_part(fractal: Fractal, workgroup: u32, first: vec2u, count: u32, known:
         spread = max(spread, distance(corner.direction, middle.direction));
     }
     let entry = bounding_entry(middle.origin, middle.direction, spread);
-    if (entry < 0.0) { return known; }
-    let start = max(entry, known);
-    return clear_cone(fractal, middle.origin, middle.direction, spread, start, picture.camera.hit_cone);
+    if (entry < 0.0) { return 0.0; }
+    return clear_cone(fractal, middle.origin, middle.direction, spread, entry, picture.camera.hit_cone);
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     picture = given_picture;
     let fractal = picture.fractal;
-    if (local_index == 0u) {
-        clear_depth[4] = clear_part(fractal, workgroup.x, vec2u(0u), WORKGROUP_SIDE, 0.0);
-    }
-    workgroupBarrier();
-    if (local_index < 4u) {
-        let half = WORKGROUP_SIDE / 2u;
-        let first = half * vec2u(local_index & 1u, local_index >> 1u);
-        clear_depth[local_index] = clear_part(fractal, workgroup.x, first, half, clear_depth[4]);
+    if (local_index < BLOCKS) {
+        clear_depth[local_index] = clear_block(fractal, workgroup.x, local_index);
     }
     workgroupBarrier();
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let index = sample_index(pixel, workgroup.x, local_index);
     let ray = camera_ray(pixel);
-    let t = march(picture.camera, fractal, ray, clear_depth[quarter_of_workgroup(local_index)]);
+    let t = march(picture.camera, fractal, ray, clear_depth[local_index / BLOCK_THREADS]);
     surface[index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
     let point = ray.origin + t * ray.direction;

@@ -1,5 +1,4 @@
-// One visibility bit for each of the slice's lights: does it reach the sample's point? The bits of
-// the others stay.
+// The visibility bit of the slice's light: does it reach the sample's point? The bits of others stay.
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 
@@ -16,13 +15,13 @@ fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
 }
 
 // `clear`: as far before the point a ray is known not to be blocked.
-fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, light: Light, clear: f32) -> bool {
-    var direction = light.vector;
-    var farthest = light.shadow_reach;
-    if (light.kind == LIGHT_POINT) {
-        let to_light = light.vector - point;
+fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f32) -> bool {
+    var direction = slice.light_vector;
+    var farthest = slice.light_reach;
+    if (slice.light_kind == LIGHT_POINT) {
+        let to_light = slice.light_vector - point;
         farthest = min(farthest, length(to_light));
-        direction = to_light / max(farthest, 1e-30);
+        direction = to_light / max(length(to_light), 1e-30);
     }
     var s = min(min(farthest, clear), bounding_interval(point, direction).y);
     var pace = paced(fractal.power);
@@ -41,23 +40,22 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, light: L
     return true;
 }
 
-// The workgroup's points, lifted, and their hit distances: 0 where there is none.
+// The workgroup's points that face the light, lifted, and their hit distances: 0 where there is
+// none.
 var<workgroup> points: array<vec4f, WORKGROUP_THREADS>;
-// The lights that each point faces and that are marched toward, by their places in `lights`.
-var<workgroup> facing: array<vec2u, WORKGROUP_THREADS>;
-// For each light, how far along its direction the plane lies that rays to all points that face it
-// come to unblocked.
-var<workgroup> clear_plane: array<f32, MAX_LIGHTS>;
+// How far along the light's direction the plane lies that rays to all points of a block come to
+// unblocked.
+var<workgroup> clear_plane: array<f32, BLOCKS>;
 
-// That plane for the light at `place`, not a point light.
-fn clear_part(fractal: Fractal, place: u32) -> f32 {
-    let light = lights[place];
-    let direction = light.vector;
+// That plane for a block, where the light is no point light.
+fn clear_block(fractal: Fractal, block: u32) -> f32 {
+    let direction = slice.light_vector;
+    let first = block * BLOCK_THREADS;
     var low = vec3f(1e30);
     var high = vec3f(-1e30);
     var surface_distance = 0.0;
-    for (var i = 0u; i < WORKGROUP_THREADS; i++) {
-        if (((facing[i][place >> 5u] >> (place & 31u)) & 1u) == 0u) { continue; }
+    for (var i = first; i < first + BLOCK_THREADS; i++) {
+        if (points[i].w == 0.0) { continue; }
         low = min(low, points[i].xyz);
         high = max(high, points[i].xyz);
         surface_distance = max(surface_distance, points[i].w);
@@ -66,8 +64,8 @@ fn clear_part(fractal: Fractal, place: u32) -> f32 {
     let center = 0.5 * (low + high);
     var width = 0.0;
     var extent = 0.0;
-    for (var i = 0u; i < WORKGROUP_THREADS; i++) {
-        if (((facing[i][place >> 5u] >> (place & 31u)) & 1u) == 0u) { continue; }
+    for (var i = first; i < first + BLOCK_THREADS; i++) {
+        if (points[i].w == 0.0) { continue; }
         let offset = points[i].xyz - center;
         let along = dot(offset, direction);
         width = max(width, length(offset - along * direction));
@@ -76,10 +74,9 @@ fn clear_part(fractal: Fractal, place: u32) -> f32 {
     // Where the last of the rays leaves the bounding sphere, or where shadows end.
     let height = dot(center, direction);
     let aside = max(length(center - height * direction) - width, 0.0);
-    let radius = fractal.bounding_radius;
-    let leaves = sqrt(max(radius * radius - aside * aside, 0.0)) - height;
+    let leaves = sqrt(max(fractal.bounding_radius * fractal.bounding_radius - aside * aside, 0.0)) - height;
     let part = ball_part(fractal.power);
-    var s = min(leaves, light.shadow_reach + extent);
+    var s = min(leaves, slice.light_reach + extent);
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
         // No point is farther than this from the plane through `s`.
         let blocks = blocking_distance(s + extent, surface_distance);
@@ -105,35 +102,23 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     // Lifted off the surface, so that the point's own neighbourhood does not shade it.
     let ray = camera_ray(pixel);
     let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
-    var faced = vec2u(0u);
-    if (t > 0.0) {
-        for (var k = 0u; k < picture.surface.light_count; k++) {
-            let light = lights[k];
-            let toward = select(light.vector, light.vector - point, light.kind == LIGHT_POINT);
-            let faces = picture.normals == NORMALS_NONE || dot(n, toward) > 0.0;
-            faced[k >> 5u] |= select(0u, 1u << (k & 31u), faces && has_light(slice.lights, light));
-        }
-    }
-    points[local_index] = vec4f(point, select(0.0, surface_distance, t > 0.0));
-    facing[local_index] = faced;
+    let is_point_light = slice.light_kind == LIGHT_POINT;
+    let toward = select(slice.light_vector, slice.light_vector - point, is_point_light);
+    let faces = t > 0.0 && (picture.normals == NORMALS_NONE || dot(n, toward) > 0.0);
+    points[local_index] = vec4f(point, select(0.0, surface_distance, faces));
     workgroupBarrier();
-    if (local_index < picture.surface.light_count) {
+    if (local_index < BLOCKS) {
         clear_plane[local_index] = 1e30;
-        let light = lights[local_index];
-        if (light.kind != LIGHT_POINT && light.casts_shadows != 0u && has_light(slice.lights, light)) {
-            clear_plane[local_index] = clear_part(fractal, local_index);
-        }
+        if (!is_point_light) { clear_plane[local_index] = clear_block(fractal, local_index); }
     }
     workgroupBarrier();
     if (!inside_region(pixel)) { return; }
-    var bits = visibility[index] & ~slice.lights;
-    for (var k = 0u; k < picture.surface.light_count; k++) {
-        if (((faced[k >> 5u] >> (k & 31u)) & 1u) == 0u) { continue; }
-        let light = lights[k];
-        let clear = clear_plane[k] - dot(point, light.vector);
-        if (light.casts_shadows == 0u || light_reaches(fractal, point, surface_distance, light, clear)) {
-            bits[light.bit >> 5u] |= 1u << (light.bit & 31u);
-        }
+    var is_lit = false;
+    if (faces) {
+        let clear = clear_plane[local_index / BLOCK_THREADS] - dot(point, slice.light_vector);
+        is_lit = light_reaches(fractal, point, surface_distance, select(clear, 1e30, is_point_light));
     }
-    visibility[index] = bits;
+    let word = slice.light_bit >> 5u;
+    let bit = 1u << (slice.light_bit & 31u);
+    visibility[index][word] = (visibility[index][word] & ~bit) | select(0u, bit, is_lit);
 }

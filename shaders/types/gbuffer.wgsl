@@ -5,5 +5,5 @@
 @group(1) @binding(0) var<storage, read_write> surface: array<vec2u>;
 // Smooth iterations / (iterations + 1) and origin trap / 2; axis trap / 2 and plane trap / 2.
 @group(1) @binding(1) var<storage, read_write> color_data: array<vec2u>;
-// One bit a light: set where the light reaches the point.
+// One bit a light that casts shadows: set where the light reaches the point.
 @group(1) @binding(2) var<storage, read_write> visibility: array<vec2u>;

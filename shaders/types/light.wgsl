@@ -18,7 +18,6 @@ struct Light {
 }
 
 const MAX_LIGHTS = 64u;
-const LIGHT_POINT = 1u;
 
 @group(0) @binding(2) var<uniform> lights: array<Light, MAX_LIGHTS>;
 

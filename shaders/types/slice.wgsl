@@ -19,8 +19,11 @@ struct Slice {
     compact: u32,
     // 1: add to the film; 0: replace what it holds.
     accumulate: u32,
-    // The lights that a shadow dispatch marches toward, by their visibility bits.
-    lights: vec2u,
+    // The light that a shadow dispatch marches toward, as in `Light`: its bit and its reach here,
+    // its vector and its kind below. (One light a dispatch: the table of lights, read with an index that
+    // a loop counts, is read lane by lane on some drivers.)
+    light_bit: u32,
+    light_reach: f32,
     // The spacing of the lattice on the film, in pixels; 0 where it is complete.
     spacing: u32,
     // The mip level that a glow's pass reads, or starts from.
@@ -33,6 +36,10 @@ struct Slice {
     adapt: f32,
     // The lattice level that indirect light's neighbours are taken from.
     neighbour_level: u32,
+    light_vector: vec3f,
+    light_kind: u32,
 }
+
+const LIGHT_POINT = 1u;
 
 @group(0) @binding(1) var<uniform> slice: Slice;

@@ -9,7 +9,7 @@ pub struct Samples {
     pub depth: Vec<f32>,
     /// Unit normals; meaningless where depth is 0.
     pub normal: Vec<Vec3>,
-    /// One bit a light, environment lights first.
+    /// One bit a light that casts shadows; meaningless for others.
     pub visibility: Vec<u64>,
 }
 

@@ -96,7 +96,8 @@ impl Grid {
             first_workgroup,
             compact: 0,
             accumulate: 0,
-            lights: [0, 0],
+            light_bit: 0,
+            light_reach: 0.0,
             jitter: [0.5, 0.5],
             spacing: 0,
             mip_level: 0,
@@ -104,6 +105,8 @@ impl Grid {
             half_width: 0.0,
             adapt: 0.0,
             neighbour_level: 0,
+            light_vector: [0.0; 3],
+            light_kind: 0,
         }
     }
 

@@ -187,11 +187,6 @@ fn shadow_steps(iterations: u32) -> u32 {
     SHADOW_STEPS.min(LOOP_TURNS / (iterations + 1))
 }
 
-/// How many lights one shadow dispatch may march toward without more than [`LOOP_TURNS`].
-pub fn lights_per_dispatch(iterations: u32) -> u32 {
-    (LOOP_TURNS / (shadow_steps(iterations) * (iterations + 1))).max(1)
-}
-
 fn surface(scene: &Scene) -> Surface {
     let surface = &scene.surface;
     Surface {
@@ -275,7 +270,7 @@ impl Inputs {
         lights::moved(self.lights_in_use(), old.lights_in_use())
     }
 
-    fn lights_in_use(&self) -> &[Light] {
+    pub fn lights_in_use(&self) -> &[Light] {
         let count = self.picture.surface.light_count as usize;
         &self.lights[..count.min(MAX_LIGHTS)]
     }

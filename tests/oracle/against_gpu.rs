@@ -9,7 +9,7 @@ use glam::DVec3;
 use mandelight::{
     fractal::Estimator,
     gpu::{Gpu, readback::Readback},
-    render::{Kernels, Pace, Region, View, gbuffer::Samples, pass::probe},
+    render::{Kernels, Pace, Region, View, gbuffer::Samples, pass::probe, uniforms::Inputs},
     scene::{Fractal, Normals, Scene, Variant},
 };
 
@@ -310,6 +310,7 @@ fn shading_and_tone_of_whole_views() {
         let scene = &view.scene;
         let picture = draw(&kernels, scene);
         let indexed: Vec<_> = pixels().into_iter().zip(0..).collect();
+        let casting = Inputs::new(scene, Region::whole(views::SIZE)).casting();
         // Light and colour alone: points, normals and visibility are the kernel's own.
         let off = in_parallel(&indexed, |&(pixel, index): &([u32; 2], usize)| {
             let depth = picture.samples.depth[index];
@@ -318,7 +319,7 @@ fn shading_and_tone_of_whole_views() {
                 let toward_eye = -rays::direction(&scene.camera, views::SIZE, pixel);
                 let normal = picture.samples.normal[index].as_dvec3();
                 light::shade(scene, point_at(scene, pixel, depth), normal, toward_eye, |k| {
-                    bits >> k & 1 == 1
+                    (bits | !casting) >> k & 1 == 1
                 })
             } else {
                 light::background(scene, (f64::from(pixel[1]) + 0.5) / f64::from(views::SIZE[1]))

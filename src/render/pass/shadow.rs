@@ -6,7 +6,6 @@ use crate::{
         frame::Recorder,
         lattice::{Grid, WORKGROUP_THREADS},
         schedule::Trace,
-        uniforms,
     },
     shader_file,
 };
@@ -17,7 +16,6 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/light.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
@@ -33,48 +31,22 @@ pub const MODULE: Module = Module {
     ],
 };
 
-/// Marches toward the lights of `trace`, as many to a dispatch as its loops allow.
+/// Marches toward the lights of `trace` that surfaces block, one to a dispatch.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.shadow.clone();
-    let at_once = uniforms::lights_per_dispatch(recorder.inputs.picture.fractal.iterations);
-    for lights in portions(trace.lights, at_once) {
+    let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
+    let inputs = recorder.inputs;
+    for light in inputs.lights_in_use() {
+        if light.casts_shadows == 0 || (trace.lights >> light.bit) & 1 == 0 {
+            continue;
+        }
         let mut slice = recorder.slice(trace, grid);
-        slice.lights = [lights as u32, (lights >> 32) as u32];
+        slice.light_bit = light.bit;
+        slice.light_reach = light.shadow_reach;
+        slice.light_vector = light.vector;
+        slice.light_kind = light.kind;
         recorder.dispatch(&pipeline, slice, trace.workgroups);
         recorder.dispatches.shadow += 1;
-        recorder.dispatches.shadow_rays +=
-            u64::from(trace.workgroups * WORKGROUP_THREADS) * u64::from(lights.count_ones());
-    }
-}
-
-/// The bits of `lights`, at most `at_once` in each portion.
-fn portions(mut lights: u64, at_once: u32) -> impl Iterator<Item = u64> {
-    std::iter::from_fn(move || {
-        let all = lights;
-        for _ in 0..at_once {
-            // Clears the lowest bit.
-            lights &= lights.wrapping_sub(1);
-        }
-        (all != 0).then_some(all & !lights)
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn portions_have_every_light_once() {
-        for lights in [0, 1, 0b1011_0110, u64::MAX, 1 << 63, 0xf0f0_0000_1234_0001] {
-            for at_once in [1, 2, 3, 64, 1000] {
-                let all: Vec<u64> = portions(lights, at_once).collect();
-                assert!(all.iter().all(|portion| (1..=at_once).contains(&portion.count_ones())));
-                assert_eq!(
-                    all.iter().fold(0, |sum, portion| sum + u128::from(*portion)),
-                    u128::from(lights)
-                );
-                assert_eq!(all.len() as u32, lights.count_ones().div_ceil(at_once));
-            }
-        }
+        recorder.dispatches.shadow_rays += rays;
     }
 }

@@ -248,8 +248,10 @@ host_shared! {
         compact: u32,
         /// 1: add to the film.
         accumulate: u32,
-        /// The lights of a shadow dispatch, by their visibility bits: 0 to 31, 32 to 63.
-        lights: [u32; 2],
+        /// The visibility bit of a shadow dispatch's light, 0 to 63.
+        light_bit: u32,
+        /// How far a blocker may be, scene units.
+        light_reach: f32,
         /// Spacing of the lattice on the film, pixels; 0 where it is complete.
         spacing: u32,
         /// Mip level that a glow's pass reads, or starts from.
@@ -262,6 +264,10 @@ host_shared! {
         adapt: f32,
         /// The lattice level that indirect light's neighbours are taken from.
         neighbour_level: u32,
+        /// Direction toward a shadow dispatch's light, or its position; world space.
+        light_vector: [f32; 3],
+        /// 0 environment, 1 point.
+        light_kind: u32,
     }
     /// What is known of a film as a whole.
     Statistics {
