@@ -20,8 +20,7 @@ struct Slice {
     // 1: add to the film; 0: replace what it holds.
     accumulate: u32,
     // The light that a shadow dispatch marches toward, as in `Light`: its bit and its reach here,
-    // its vector and its kind below. (One light a dispatch: the table of lights, read with an index that
-    // a loop counts, is read lane by lane on some drivers.)
+    // its vector and its kind below. One light a dispatch keeps an invocation's loops short.
     light_bit: u32,
     light_reach: f32,
     // The spacing of the lattice on the film, in pixels; 0 where it is complete.
