@@ -156,11 +156,12 @@ fn a_lost_gpu_comes_back_with_the_same_scene() {
     assert!(after.contrast() > 0.5 * before.contrast(), "{}", after.contrast());
 }
 
-/// Two GPUs round differently, so that single rays at a silhouette end elsewhere: a few pixels may
-/// differ much, all others by no more than a step. Between SwiftShader and lavapipe the worst of the
-/// opening scenes has a mean of 0.03 steps and 0.08 % notable pixels.
-const MOST_MEAN_STEPS: f64 = 0.25;
-const MOST_NOTABLE: f64 = 0.005;
+/// Two GPUs round differently, and the page fills its lattice by and by, so that rays go in other
+/// bundles: those that graze the surface end elsewhere. A few pixels may differ much, all others by no
+/// more than a step. Between SwiftShader and lavapipe the worst of the opening scenes has a mean of
+/// 0.49 steps and 1.1 % notable pixels.
+const MOST_MEAN_STEPS: f64 = 0.75;
+const MOST_NOTABLE: f64 = 0.02;
 
 #[test]
 fn the_page_and_the_native_program_draw_the_same_pictures() {

@@ -330,7 +330,8 @@ fn the_eye_stays_where_coordinates_are_allowed() {
         navigator.dolly(&mut camera, world(&field), DVec2::new(0.2, 0.1), -1.0);
         let away = FlyInput { travel: DVec3::NEG_Z, faster: true, ..FlyInput::default() };
         navigator.fly(&mut camera, world(&field), away, 0.1);
-        assert!(camera.position.to_dvec3().length() <= FARTHEST_EYE * (1.0 + 1e-9));
+        // Positions are rounded to what the view can show.
+        assert!(camera.position.to_dvec3().length() <= FARTHEST_EYE * (1.0 + 1e-8));
     }
     assert!(camera.position.to_dvec3().length() > 0.9 * FARTHEST_EYE);
 }
