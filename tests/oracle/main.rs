@@ -11,6 +11,7 @@
 //! | `tone` | oracle: the tone curves |
 //! | `bloom` | oracle: light that spreads |
 //! | `film` | films of any colours, given to the kernels |
+//! | `parallel` | work on all cores; the benchmark's references use it too |
 //! | `views` | the views that pictures are compared on |
 //! | `against_cpu` | `src/fractal` and `src/scene` against the oracle |
 //! | `toned` | what the kernels make of a film, against the oracle |
@@ -25,10 +26,13 @@ mod gather;
 mod light;
 mod normals;
 mod normals_table;
+mod parallel;
 mod rays;
 mod tone;
 mod toned;
 mod views;
+
+pub use parallel::in_parallel;
 
 /// A small generator of repeatable numbers (xorshift).
 pub struct Random(pub u64);
@@ -51,20 +55,6 @@ impl Random {
             }
         }
     }
-}
-
-/// `f` of every item, on all cores, in order.
-pub fn in_parallel<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
-    let share = items.len().div_ceil(threads).max(1);
-    std::thread::scope(|scope| {
-        let f = &f;
-        let parts: Vec<_> = items
-            .chunks(share)
-            .map(|part| scope.spawn(move || part.iter().map(f).collect::<Vec<R>>()))
-            .collect();
-        parts.into_iter().flat_map(|part| part.join().expect("no thread panics")).collect()
-    })
 }
 
 /// The value below which `part` (0 to 1) of `values` lie.
