@@ -36,10 +36,8 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.shadow.clone();
     let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
     let inputs = recorder.inputs;
-    for light in inputs.lights_in_use() {
-        if light.casts_shadows == 0 || (trace.lights >> light.bit) & 1 == 0 {
-            continue;
-        }
+    let marched = trace.lights & inputs.casting();
+    for light in inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0) {
         let mut slice = recorder.slice(trace, grid);
         slice.light_bit = light.bit;
         slice.light_reach = light.shadow_reach;
