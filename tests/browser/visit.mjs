@@ -31,6 +31,9 @@ const SOFTWARE_GPU = [
 
 const POLL_MS = 50;
 
+/** What Chromium says of a request that its page's leaving, or a download, broke off. */
+const LEFT = "net::ERR_ABORTED";
+
 /**
  * Visits the page.
  * @param {{gpu?: boolean, context?: object}} how `gpu: false` starts the browser without a GPU;
@@ -76,7 +79,11 @@ export class Visit {
     const note = (kind, text) => this.seen.errors.push(`${kind}: ${text}`);
     this.tab.on("pageerror", (error) => note("page", error.stack ?? String(error)));
     this.tab.on("crash", () => note("page", "the tab crashed"));
-    this.tab.on("requestfailed", (request) => note("request", request.url()));
+    this.tab.on("requestfailed", (request) => {
+      // What was still under way when the tab went to another page (an icon, say) failed nobody.
+      if (request.failure()?.errorText === LEFT) return;
+      note("request", `${request.url()} (${request.failure()?.errorText})`);
+    });
     this.tab.on("console", (message) => {
       const text = message.text();
       if (process.env.MANDELIGHT_TALK) console.error(`${message.type()}: ${text}`);
