@@ -100,37 +100,32 @@ pub fn ours(
     scene: &Scene,
     size_px: [u32; 2],
 ) -> Result<Vec<(&'static str, Counts)>, Failure> {
-    let gpu = &kernels.gpu;
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("counting passes"),
-        bind_group_layouts: &[
-            Some(&kernels.layouts.picture),
-            Some(&kernels.layouts.gbuffer),
-            Some(&kernels.layouts.film),
-        ],
-        immediate_size: 0,
-    });
     let power = f64::from(scene.fractal.integer_power().unwrap_or(0));
-    let made = |module: &Module, estimate: &str| -> Result<_, Failure> {
-        // The film is not touched before shading.
-        let shader = counting(gpu, module, &marks(&[estimate], [2, 0]))?;
-        Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(module.label),
-            layout: Some(&layout),
-            module: &shader,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("POWER", power)],
-                ..Default::default()
-            },
-            cache: None,
-        }))
-    };
     let split = ours::Split::new(kernels, scene, size_px);
+    let gpu = &kernels.gpu;
+    let [listing, listed] = [&kernels.layouts.listing, &kernels.layouts.listed]
+        .map(|layout| split.counting_layout(layout));
+    let made =
+        |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
+            let shader = counting(gpu, module, &marks(&[estimate], ours::Split::COUNTS))?;
+            Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(module.label),
+                layout: Some(layout),
+                module: &shader,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &[("POWER", power)],
+                    ..Default::default()
+                },
+                cache: None,
+            }))
+        };
     let passes = Passes {
-        march: made(&pass::march::MODULE, "reach")?,
-        normal: made(&pass::normal::MODULE, "distance_gradient")?,
-        shadow: made(&pass::shadow::MODULE, "reach")?,
+        cone: made(&listing, &pass::cone::MODULE, "reach")?,
+        march: made(&listed, &pass::march::MODULE, "reach")?,
+        normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
+        tube: made(&listing, &pass::tube::MODULE, "reach")?,
+        shadow: made(&listed, &pass::shadow::MODULE, "reach")?,
         ..kernels.passes(split.picture())
     };
     let mut counts = split.count(&passes)?;

@@ -9,7 +9,7 @@ use mandelight::{
         frame::{Dispatches, Recorder},
         kernels::Passes,
         pass,
-        schedule::{Points, SAMPLE_WORKGROUPS, Stage, Trace},
+        schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
         uniforms::{Inputs, Picture},
     },
@@ -45,31 +45,71 @@ pub fn display(kernels: &Kernels, view: &View) -> Result<Vec<u8>, ReadbackError>
 type Record = fn(&mut Recorder<'_>, &Trace, &mandelight::render::lattice::Grid);
 
 /// The passes over centre samples, in the order in which they run.
-const PASSES: &[(&str, Record)] =
-    &[MARCHING[0], MARCHING[1], MARCHING[2], ("shade", pass::shade::record)];
+const PASSES: [(&str, Record); 4] =
+    [MARCHING[0], MARCHING[1], MARCHING[2], ("shade", pass::shade::record)];
 
-/// Those that evaluate the formula.
-const MARCHING: &[(&str, Record)] = &[
-    ("march", pass::march::record),
+/// Those that evaluate the formula, each after what lists its threads.
+const MARCHING: [(&str, Record); 3] = [
+    ("march", |recorder, trace, grid| {
+        pass::cone::record(recorder, trace, grid);
+        pass::march::record(recorder, trace, grid);
+        pass::hits::record(recorder, trace, grid);
+    }),
     ("normal", pass::normal::record),
     ("shadow", pass::shadow::record),
 ];
 
-/// The program's passes over the centre samples of a whole picture, one submit each.
+/// The program's passes over the samples of a whole picture, each in submits of its own.
 pub struct Split<'a> {
     kernels: &'a Kernels,
     inputs: Inputs,
     targets: Targets,
+    counts: wgpu::Buffer,
+    counts_layout: wgpu::BindGroupLayout,
+    counts_group: wgpu::BindGroup,
 }
 
 impl<'a> Split<'a> {
+    /// The bind group that no marching pass uses: counting copies add to its storage buffer.
+    pub const COUNTS: [u32; 2] = [3, 0];
+
     /// Allocates the buffers. The power's own pipelines are there already.
     pub fn new(kernels: &'a Kernels, scene: &Scene, size_px: [u32; 2]) -> Self {
         let region = Region::whole(size_px);
         let inputs = Inputs::new(scene, region);
         let targets = Targets::new(kernels, region);
         targets.upload(&kernels.gpu.queue, &inputs);
-        Self { kernels, inputs, targets }
+        let device = &kernels.gpu.device;
+        let counts = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("counts"),
+            size: 8,
+            usage: wgpu::BufferUsages::STORAGE
+                | wgpu::BufferUsages::COPY_SRC
+                | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let counts_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("counts"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: Self::COUNTS[1],
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: false },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let counts_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("counts"),
+            layout: &counts_layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: Self::COUNTS[1],
+                resource: counts.as_entire_binding(),
+            }],
+        });
+        Self { kernels, inputs, targets, counts, counts_layout, counts_group }
     }
 
     /// What the passes know of the scene.
@@ -77,32 +117,50 @@ impl<'a> Split<'a> {
         &self.inputs.picture
     }
 
+    /// What counting copies bind that either `listed` or `listing` passes are of.
+    pub fn counting_layout(&self, lists: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+        let layouts = &self.kernels.layouts;
+        self.kernels.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("counting passes"),
+            bind_group_layouts: &[
+                Some(&layouts.picture),
+                Some(&layouts.gbuffer),
+                Some(lists),
+                Some(&self.counts_layout),
+            ],
+            immediate_size: 0,
+        })
+    }
+
     /// Each pass's name and time from submit to end, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
         let passes = self.kernels.passes(&self.inputs.picture);
-        let timed = |&(name, record): &(&'static str, Record)| {
-            let commands = self.recorded(record, &passes, self.trace(Points::Level(0)));
-            let start = Instant::now();
-            self.kernels.gpu.queue.submit([commands]);
-            self.kernels.gpu.wait();
-            (name, start.elapsed().as_secs_f64() * 1e3)
-        };
-        PASSES.iter().map(timed).collect()
+        let mut ms = PASSES.map(|(name, _)| (name, 0.0));
+        // Lists hold what one piece of work has listed.
+        for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
+            for ((_, ms), (_, record)) in ms.iter_mut().zip(PASSES) {
+                let commands = self.recorded(record, &passes, trace);
+                let start = Instant::now();
+                self.kernels.gpu.queue.submit([commands]);
+                self.kernels.gpu.wait();
+                *ms += start.elapsed().as_secs_f64() * 1e3;
+            }
+        }
+        ms.to_vec()
     }
 
-    /// What each pass that marches takes for the centre samples, by pipelines that count into the
-    /// film's first half.
+    /// What each pass that marches takes for the centre samples, by pipelines that count.
     ///
     /// # Errors
     /// Where the device is lost.
     pub fn count(&self, passes: &Passes) -> Result<Vec<(&'static str, Counts)>, Failure> {
-        let counted = |&(name, record): &(&'static str, Record)| {
-            self.clear_counts();
-            let commands = self.recorded(record, passes, self.trace(Points::Level(0)));
-            self.kernels.gpu.queue.submit([commands]);
-            Ok((name, self.counts()?))
-        };
-        MARCHING.iter().map(counted).collect()
+        let mut counts = MARCHING.map(|(name, _)| (name, Counts::default()));
+        for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
+            for ((_, counts), (_, record)) in counts.iter_mut().zip(MARCHING) {
+                *counts += self.counted(record, passes, trace)?;
+            }
+        }
+        Ok(counts.to_vec())
     }
 
     /// What a later sample of every pixel takes; [`Self::count`] has marched the centre samples.
@@ -110,38 +168,39 @@ impl<'a> Split<'a> {
     /// # Errors
     /// Where the device is lost.
     pub fn count_later(&self, passes: &Passes) -> Result<Counts, Failure> {
-        self.clear_counts();
-        let all = self.trace(Points::Sample(1));
-        // The jittered samples' buffers hold so many.
-        for first in (0..all.workgroups).step_by(SAMPLE_WORKGROUPS as usize) {
-            let workgroups = SAMPLE_WORKGROUPS.min(all.workgroups - first);
-            let trace = Trace { first_workgroup: first, workgroups, ..all };
+        let mut counts = Counts::default();
+        for trace in self.traces(Points::Sample(1), SAMPLE_WORKGROUPS) {
             for (_, record) in MARCHING {
-                self.kernels.gpu.queue.submit([self.recorded(*record, passes, trace)]);
+                counts += self.counted(record, passes, trace)?;
             }
         }
-        Ok(self.counts()?)
+        Ok(counts)
     }
 
-    fn clear_counts(&self) {
-        let mut encoder = self.kernels.gpu.device.create_command_encoder(&Default::default());
-        encoder.clear_buffer(&self.targets.film_rg, 0, None);
-        self.kernels.gpu.queue.submit([encoder.finish()]);
+    /// What one pass counts.
+    fn counted(
+        &self,
+        record: Record,
+        passes: &Passes,
+        trace: Trace,
+    ) -> Result<Counts, ReadbackError> {
+        let queue = &self.kernels.gpu.queue;
+        queue.write_buffer(&self.counts, 0, &[0; 8]);
+        queue.submit([self.recorded(record, passes, trace)]);
+        Counts::read(&self.kernels.gpu, &self.counts)
     }
 
-    fn counts(&self) -> Result<Counts, ReadbackError> {
-        Counts::read(&self.kernels.gpu, &self.targets.film_rg)
-    }
-
-    /// These points of the whole picture.
-    fn trace(&self, points: Points) -> Trace {
-        Trace {
+    /// These points of the whole picture, in pieces of `most` workgroups.
+    fn traces(&self, points: Points, most: u32) -> impl Iterator<Item = Trace> {
+        let lights = u64::MAX >> (64 - self.inputs.picture.surface.light_count.clamp(1, 64));
+        let all = points.grid(self.inputs.picture.size_px).workgroups();
+        (0..all).step_by(most as usize).map(move |first_workgroup| Trace {
             points,
             from: Stage::March,
-            lights: u64::MAX >> (64 - self.inputs.picture.surface.light_count.clamp(1, 64)),
-            first_workgroup: 0,
-            workgroups: points.grid(self.inputs.picture.size_px).workgroups(),
-        }
+            lights,
+            first_workgroup,
+            workgroups: most.min(all - first_workgroup),
+        })
     }
 
     /// One pass over some points.
@@ -150,6 +209,7 @@ impl<'a> Split<'a> {
         let mut dispatches = Dispatches::default();
         let mut recorder =
             Recorder::new(self.kernels, passes, &self.targets, &self.inputs, &mut dispatches);
+        recorder.bind(Self::COUNTS[0], &self.counts_group);
         record(&mut recorder, &trace, &grid);
         recorder.finish()
     }

@@ -36,39 +36,17 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     return t;
 }
 
-// Depths that are clear for all rays of each block.
-var<workgroup> clear_depth: array<f32, BLOCKS>;
-
-// How deep all rays of a block may go before any of them may have hit.
-fn clear_block(fractal: Fractal, workgroup: u32, block: u32) -> f32 {
-    let box = block_box(workgroup, block);
-    if (is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
-    let side = eye_side(box.first);
-    let size = vec2f(box.last - box.first + vec2u(1u));
-    let middle = eye_ray(eye_position(box.first, 0.5 * size), side);
-    var spread = 0.0;
-    for (var i = 0u; i < 4u; i++) {
-        let corner = eye_ray(eye_position(box.first, size * vec2f(vec2u(i & 1u, i >> 1u))), side);
-        spread = max(spread, distance(corner.direction, middle.direction));
-    }
-    let entry = bounding_entry(middle.origin, middle.direction, spread);
-    if (entry < 0.0) { return 0.0; }
-    return clear_cone(fractal, middle.origin, middle.direction, spread, entry, picture.camera.hit_cone);
-}
-
 @compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
+    let place = listed_ray(thread.x);
+    if (!place.is_there) { return; }
     let fractal = picture.fractal;
-    if (local_index < BLOCKS) {
-        clear_depth[local_index] = clear_block(fractal, workgroup.x, local_index);
-    }
-    workgroupBarrier();
-    let pixel = lattice_pixel(workgroup.x, local_index);
+    let pixel = lattice_pixel(place.workgroup, place.local_index);
     if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, workgroup.x, local_index);
+    let index = sample_index(pixel, place.workgroup, place.local_index);
     let ray = camera_ray(pixel);
-    let t = march(picture.camera, fractal, ray, clear_depth[local_index / BLOCK_THREADS]);
+    let t = march(picture.camera, fractal, ray, place.clear);
     surface[index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
     let point = ray.origin + t * ray.direction;

@@ -48,11 +48,13 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
 }
 
 @compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let pixel = lattice_pixel(workgroup.x, local_index);
+    let place = listed_hit(thread.x);
+    if (!place.is_there) { return; }
+    let pixel = lattice_pixel(place.workgroup, place.local_index);
     if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, workgroup.x, local_index);
+    let index = sample_index(pixel, place.workgroup, place.local_index);
     let t = bitcast<f32>(surface[index].x);
     if (t == 0.0) { return; }
     let ray = camera_ray(pixel);

@@ -37,6 +37,12 @@ struct Slice {
     neighbour_level: u32,
     light_vector: vec3f,
     light_kind: u32,
+    // Blocks of a dispatch that goes through all of them: see `types/lists.wgsl`.
+    blocks: u32,
+    // The ray list that a dispatch writes or reads.
+    ray_list: u32,
+    unused_a: u32,
+    unused_b: u32,
 }
 
 const LIGHT_POINT = 1u;

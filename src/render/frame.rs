@@ -4,7 +4,8 @@ use super::{
     around::{self, Neighbours},
     glow::{Glow, Tasks},
     kernels::{Kernels, Passes},
-    lattice::{Grid, WORKGROUP_SIDE},
+    lattice::{Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
+    lists::{BLOCK_THREADS, List},
     pass,
     schedule::{Points, Stage, Trace, Work},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
@@ -17,7 +18,11 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
         Work::Trace(trace) => {
             let grid = trace.points.grid(recorder.inputs.picture.size_px);
             if trace.from <= Stage::March {
+                pass::cone::record(recorder, &trace, &grid);
                 pass::march::record(recorder, &trace, &grid);
+            }
+            if trace.from <= Stage::Normal || trace.lights & recorder.inputs.casting() != 0 {
+                pass::hits::record(recorder, &trace, &grid);
             }
             if trace.from <= Stage::Normal {
                 pass::normal::record(recorder, &trace, &grid);
@@ -67,6 +72,8 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
 pub struct Dispatches {
     /// Camera rays.
     pub march: u64,
+    /// Lists of blocks: of rays, with the bundles that decide about them, and of hits.
+    pub list: u64,
     /// Normals.
     pub normal: u64,
     /// Shadow rays.
@@ -94,6 +101,7 @@ impl Dispatches {
     pub fn total(&self) -> u64 {
         let Self {
             march,
+            list,
             normal,
             shadow,
             shadow_rays: _,
@@ -105,7 +113,7 @@ impl Dispatches {
             bloom,
             tone,
         } = *self;
-        march + normal + shadow + shade + gather + fill + mean + histogram + bloom + tone
+        march + list + normal + shadow + shade + gather + fill + mean + histogram + bloom + tone
     }
 }
 
@@ -179,6 +187,16 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
     }
 
+    /// Binds the film, for passes that come after those that use lists of blocks.
+    pub fn bind_film(&mut self) {
+        self.compute.set_bind_group(2, &self.targets.film_group, &[]);
+    }
+
+    /// Binds something of one's own, for pipelines that are not the program's.
+    pub fn bind(&mut self, index: u32, group: &wgpu::BindGroup) {
+        self.compute.set_bind_group(index, group, &[]);
+    }
+
     /// Binds the picture of the surroundings.
     pub fn bind_backdrop(&mut self) {
         self.compute.set_bind_group(3, &self.targets.backdrop.group, &[]);
@@ -199,6 +217,7 @@ impl<'a> Recorder<'a> {
     /// The uniform of a trace; also binds the G-buffer that its samples live in.
     pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
         let mut slice = grid.slice(trace.first_workgroup);
+        slice.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
         if let Points::Sample(index) = trace.points {
             slice.jitter = super::lattice::jitter(index);
             slice.compact = 1;
@@ -225,6 +244,35 @@ impl<'a> Recorder<'a> {
         self.dispatch_groups(pipeline, slice, workgroups);
     }
 
+    /// Adds a dispatch over all blocks of a trace, that lists some of them.
+    pub fn dispatch_blocks(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        lists: &wgpu::BindGroup,
+        slice: Slice,
+    ) {
+        self.compute.set_bind_group(2, lists, &[]);
+        self.dispatch(pipeline, slice, slice.blocks.div_ceil(WORKGROUP_THREADS));
+        self.dispatches.list += 1;
+    }
+
+    /// Adds a dispatch over a list, that reads lists, or reads one and writes another.
+    pub fn dispatch_list(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        lists: &wgpu::BindGroup,
+        slice: Slice,
+        list: List,
+    ) {
+        self.compute.set_bind_group(2, lists, &[]);
+        self.prepare(pipeline, slice);
+        let (workgroups, offset) = match &self.rehearsal {
+            Some(nothing) => (nothing, 0),
+            None => self.targets.lists.workgroups(list),
+        };
+        self.compute.dispatch_workgroups_indirect(workgroups, offset);
+    }
+
     /// Adds a dispatch of `workgroups`.
     pub fn dispatch(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice, workgroups: u32) {
         self.dispatch_groups(pipeline, slice, [workgroups, 1]);
@@ -236,6 +284,16 @@ impl<'a> Recorder<'a> {
         slice: Slice,
         [columns, rows]: [u32; 2],
     ) {
+        self.prepare(pipeline, slice);
+        if let Some(nothing) = &self.rehearsal {
+            self.compute.dispatch_workgroups_indirect(nothing, 0);
+            return;
+        }
+        self.compute.dispatch_workgroups(columns, rows, 1);
+    }
+
+    /// Sets what the next dispatch has of its own.
+    fn prepare(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
         debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
         let offset = self.slices * SLICE_STRIDE_BYTES;
         // Writes take effect in order with submits: the last submit has its own slices already.
@@ -247,11 +305,6 @@ impl<'a> Recorder<'a> {
         self.slices += 1;
         self.compute.set_pipeline(pipeline);
         self.compute.set_bind_group(0, &self.targets.picture_group, &[offset]);
-        if let Some(nothing) = &self.rehearsal {
-            self.compute.dispatch_workgroups_indirect(nothing, 0);
-            return;
-        }
-        self.compute.dispatch_workgroups(columns, rows, 1);
     }
 
     /// The commands, ready for submission.

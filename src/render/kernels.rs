@@ -71,10 +71,14 @@ impl Special {
 /// The passes of a picture that there are general and special forms of: the fastest that are ready.
 #[derive(Clone)]
 pub struct Passes {
+    /// Bundles of camera rays to a list of those that may hit.
+    pub cone: wgpu::ComputePipeline,
     /// Camera rays to the G-buffer.
     pub march: wgpu::ComputePipeline,
     /// Depths to normals.
     pub normal: wgpu::ComputePipeline,
+    /// Bundles of shadow rays to a list of those that are needed.
+    pub tube: wgpu::ComputePipeline,
     /// Shadow rays to visibility bits.
     pub shadow: wgpu::ComputePipeline,
     /// Light and colour onto the film.
@@ -145,7 +149,8 @@ impl Extra {
     /// How many pipelines they are.
     pub fn parts(self) -> usize {
         match self {
-            Self::Power(_) | Self::Tone(_) => 2,
+            Self::Power(_) => 4,
+            Self::Tone(_) => 2,
             Self::Normals(..) | Self::Shade(_) | Self::Gather => 1,
             Self::Glow => GlowKernels::PARTS.len(),
         }
@@ -215,8 +220,12 @@ pub struct Kernels {
     pub gpu: Gpu,
     /// What bind groups look like.
     pub layouts: Layouts,
+    cone: Special,
     march: Special,
+    /// G-buffer to a list of its surface points.
+    pub hits: wgpu::ComputePipeline,
     normal: Special,
+    tube: Special,
     shadow: Special,
     shade: Special,
     tone: Special,
@@ -240,7 +249,9 @@ impl Kernels {
     pub fn new(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
-        let Layouts { picture, gbuffer, film, glow, backdrop, .. } = &layouts;
+        let Layouts { picture, gbuffer, listed, listing, film, glow, backdrop, .. } = &layouts;
+        let listing_layout = pipeline_layout(device, "listing", &[picture, gbuffer, listing]);
+        let listed_layout = pipeline_layout(device, "listed", &[picture, gbuffer, listed]);
         let layout = pipeline_layout(device, "picture passes", &[picture, gbuffer, film]);
         let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
         let glow_layout =
@@ -250,23 +261,29 @@ impl Kernels {
             labels.push(module.label.to_owned());
             Special::new(device, layout, module)
         };
-        let march = special(&layout, &pass::march::MODULE);
-        let normal = special(&layout, &pass::normal::MODULE);
-        let shadow = special(&layout, &pass::shadow::MODULE);
+        let cone = special(&listing_layout, &pass::cone::MODULE);
+        let march = special(&listed_layout, &pass::march::MODULE);
+        let normal = special(&listed_layout, &pass::normal::MODULE);
+        let tube = special(&listing_layout, &pass::tube::MODULE);
+        let shadow = special(&listed_layout, &pass::shadow::MODULE);
         let shade = special(&shade_layout, &pass::shade::MODULE);
         let tone = special(&glow_layout, &pass::tone::MODULE);
-        let mut plain = |module: &Module| {
+        let mut plain = |layout: &wgpu::PipelineLayout, module: &Module| {
             labels.push(module.label.to_owned());
             let shader = module.create(device);
-            pipeline(device, &layout, &shader, module.label, &Constants::new())
+            pipeline(device, layout, &shader, module.label, &Constants::new())
         };
-        let fill = plain(&pass::fill::MODULE);
-        let develop = plain(&pass::develop::MODULE);
-        let spread = plain(&pass::spread::MODULE);
+        let hits = plain(&listing_layout, &pass::hits::MODULE);
+        let fill = plain(&layout, &pass::fill::MODULE);
+        let develop = plain(&layout, &pass::develop::MODULE);
+        let spread = plain(&layout, &pass::spread::MODULE);
         Arc::new(Self {
             gpu: gpu.clone(),
+            cone,
             march,
+            hits,
             normal,
+            tube,
             shadow,
             shade,
             tone,
@@ -298,8 +315,10 @@ impl Kernels {
     pub fn passes(&self, picture: &Picture) -> Passes {
         let [power, normals, light, tone] = Extra::special(picture);
         Passes {
-            march: self.march.of(power, 0),
-            shadow: self.shadow.of(power, 1),
+            cone: self.cone.of(power, 0),
+            march: self.march.of(power, 1),
+            tube: self.tube.of(power, 2),
+            shadow: self.shadow.of(power, 3),
             normal: self.normal.of(normals, 0),
             shade: self.shade.of(light, 0),
             tone: self.tone.of(tone, 0),
@@ -309,7 +328,7 @@ impl Kernels {
 
     /// Whether [`Self::passes`] has rays for this power alone.
     pub fn has_own(&self, integer_power: u32) -> bool {
-        locked(&self.march.made).contains_key(&(Extra::Power(integer_power), 0))
+        locked(&self.march.made).contains_key(&(Extra::Power(integer_power), 1))
     }
 
     /// Whether these can be used without delay.
@@ -337,7 +356,7 @@ impl Kernels {
     /// The passes that an extra has special forms of, in the order of its parts.
     fn special(&self, extra: Extra) -> Vec<&Special> {
         match extra {
-            Extra::Power(_) => vec![&self.march, &self.shadow],
+            Extra::Power(_) => vec![&self.cone, &self.march, &self.tube, &self.shadow],
             Extra::Normals(..) => vec![&self.normal],
             Extra::Shade(_) => vec![&self.shade],
             Extra::Tone(_) => vec![&self.tone, &self.tone],

@@ -107,6 +107,10 @@ impl Grid {
             neighbour_level: 0,
             light_vector: [0.0; 3],
             light_kind: 0,
+            blocks: 0,
+            ray_list: 0,
+            unused_a: 0,
+            unused_b: 0,
         }
     }
 

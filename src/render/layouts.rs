@@ -11,6 +11,10 @@ pub struct Layouts {
     /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
     /// all storage.
     pub glow: wgpu::BindGroupLayout,
+    /// Group 2 of passes that read lists of blocks: these.
+    pub listed: wgpu::BindGroupLayout,
+    /// Group 2 of passes that write them: the same, and the workgroups of those that read them.
+    pub listing: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves, the display texture, direct light.
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the picture of the surroundings and its sampler.
@@ -39,6 +43,8 @@ impl Layouts {
             gbuffer: group("gbuffer", &[STORAGE; 3]),
             samples: group("samples", &[READ_ONLY; 3]),
             glow: group("glow", &[STORAGE; 3]),
+            listed: group("listed", &[STORAGE]),
+            listing: group("listing", &[STORAGE; 2]),
             film: group("film", &[STORAGE, STORAGE, display, STORAGE]),
             backdrop: group("surroundings", &[backdrop_texture, backdrop_sampler]),
             around: group("neighbours", &[backdrop_texture, backdrop_sampler, READ_ONLY]),

@@ -21,6 +21,8 @@ pub struct Memory {
     pub sample_points: u64,
     /// The jittered samples of one piece of work.
     pub jittered_samples: u64,
+    /// Lists of the threads that a piece of work has something to do for.
+    pub block_lists: u64,
     /// Direct light of the centre samples, where indirect light is made of it.
     pub direct_light: u64,
     /// Sums of radiance, 32-bit.
@@ -39,10 +41,11 @@ pub struct Memory {
 
 impl Memory {
     /// Each purpose, in the order of a frame.
-    pub fn purposes(&self) -> [(&'static str, u64); 9] {
+    pub fn purposes(&self) -> [(&'static str, u64); 10] {
         let Self {
             sample_points,
             jittered_samples,
+            block_lists,
             direct_light,
             film,
             mip_levels,
@@ -54,6 +57,7 @@ impl Memory {
         [
             ("sample points", sample_points),
             ("jittered samples", jittered_samples),
+            ("block lists", block_lists),
             ("direct light", direct_light),
             ("film", film),
             ("mip levels", mip_levels),

@@ -13,6 +13,7 @@
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
+//! | [`lists`] | which threads a pass has work for |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | a finished view's pixels on their way back |
@@ -29,6 +30,7 @@ pub mod glow;
 pub mod kernels;
 pub mod lattice;
 mod layouts;
+pub mod lists;
 pub mod memory;
 pub mod pass;
 mod preparation;

@@ -26,8 +26,8 @@ pub const MOST_IN_FLIGHT: usize = 2;
 /// Most workgroups of jittered samples in one piece: their G-buffer has this size.
 pub const SAMPLE_WORKGROUPS: u32 = 4096;
 
-/// Most workgroups in any piece: WebGPU's default limit for one dispatch.
-const MOST_WORKGROUPS: u32 = 65_535;
+/// Most workgroups in any piece: its lists have room for a megapixel.
+pub const MOST_WORKGROUPS: u32 = 16_384;
 
 /// GPU time that one piece aims at while someone is watching, milliseconds.
 pub const SLICE_MS: f64 = 8.0;

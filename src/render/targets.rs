@@ -11,10 +11,11 @@ use super::{
     glow::{Glow, Need},
     kernels::Kernels,
     lattice::{COARSEST, Grid, WORKGROUP_THREADS},
+    lists::Lists,
     memory::Memory,
     pass,
     region::Region,
-    schedule::SAMPLE_WORKGROUPS,
+    schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
     uniforms::{self, GRADIENT_ENTRIES, Light, Picture, Slice},
 };
 use crate::scene::MAX_LIGHTS;
@@ -28,8 +29,8 @@ pub const SLICE_STRIDE_BYTES: u32 = 256;
 /// Direct light of one pixel.
 const DIRECT_BYTES: u64 = 4;
 
-/// Most dispatches of one submit: march, normal, a shadow dispatch a light, shade.
-pub const MOST_SLICES: u32 = MAX_LIGHTS as u32 + 3;
+/// Most dispatches of one submit: two that march, hits, normal, two a light, shade.
+pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 5;
 
 /// One element a sample point in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
@@ -59,6 +60,8 @@ pub struct Targets {
     pub center: GBuffer,
     /// The jittered samples of one slice.
     pub jittered: GBuffer,
+    /// What a piece of work has listed for its later passes.
+    pub lists: Lists,
     /// 2 × f32 a pixel: sums of red and green.
     pub film_rg: wgpu::Buffer,
     /// 2 × f32 a pixel: sum of blue, number of samples.
@@ -84,8 +87,8 @@ impl Targets {
         let layouts = &kernels.layouts;
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
         // A slice holds whole workgroups, some of them past the region's last pixels.
-        let slice_samples =
-            Grid::level(0, size_px).threads().min(SAMPLE_WORKGROUPS * WORKGROUP_THREADS);
+        let workgroups = Grid::level(0, size_px).workgroups();
+        let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
         let picture = storage(device, "picture", size_of::<Picture>() as u64);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
@@ -120,6 +123,7 @@ impl Targets {
             picture_group,
             center: GBuffer::new(kernels, pixels),
             jittered: GBuffer::new(kernels, u64::from(slice_samples)),
+            lists: Lists::new(kernels, workgroups.min(MOST_WORKGROUPS)),
             film_rg,
             film_bw,
             direct,
@@ -155,6 +159,7 @@ impl Targets {
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
+            block_lists: self.lists.bytes(),
             direct_light: self.direct.size(),
             film: self.film_rg.size() + self.film_bw.size(),
             mip_levels,

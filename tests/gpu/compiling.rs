@@ -117,7 +117,11 @@ fn nothing_is_compiled_unannounced() {
     let mut watched = Watched::new();
     let mut scene = sampled(Scene::default(), 1);
     let first = watched.kernels.made();
-    assert_eq!(first, ["march", "normal", "shadow", "shade", "tone", "fill", "develop", "spread"]);
+    let general = [
+        "cone", "march", "normal", "tube", "shadow", "shade", "tone", "hits", "fill", "develop",
+        "spread",
+    ];
+    assert_eq!(first, general);
     watched.show(&scene);
     assert_eq!(watched.announced, ["power 8", "light", "tone mapping"]);
     type Edit = fn(&mut Scene);
@@ -145,8 +149,9 @@ fn nothing_is_compiled_unannounced() {
     let made = watched.kernels.made();
     let mut all: BTreeSet<String> = first.into_iter().collect();
     for power in [8, 3] {
-        all.insert(format!("march, POWER {power}"));
-        all.insert(format!("shadow, POWER {power}"));
+        for pass in ["cone", "march", "tube", "shadow"] {
+            all.insert(format!("{pass}, POWER {power}"));
+        }
         all.insert(format!("normal, POWER {power}, NORMALS 5"));
     }
     all.insert("shade, BACKDROP 0".to_owned());
@@ -188,7 +193,7 @@ fn a_drag_of_the_power_compiles_nothing() {
     }
     assert_eq!(watched.kernels.made(), made);
     watched.show(&scene);
-    assert_eq!(watched.kernels.made().len(), made.len() + 3);
+    assert_eq!(watched.kernels.made().len(), made.len() + 5);
 }
 
 /// Where pipelines are compiled aside, the view goes on meanwhile, and is ready for all that may
@@ -209,7 +214,7 @@ fn what_is_compiled_aside_holds_nothing_up() {
         assert_eq!(watched.announced.last().map(String::as_str), Some(what));
     };
     watched.view.set_scene(&scene, false);
-    pump_until(&mut watched, "power 8", 2);
+    pump_until(&mut watched, "power 8", 4);
     // An edit is drawn while the power is on its way.
     let before = watched.view.report().pictures;
     scene.lights.environment[0].intensity = 1.0;
@@ -218,19 +223,19 @@ fn what_is_compiled_aside_holds_nothing_up() {
         watched.pump();
     }
     assert_eq!(watched.kernels.made(), made);
-    assert_eq!(aside::finish(), 2);
+    assert_eq!(aside::finish(), 4);
     // Its normals are a matter of their own.
     for (what, parts) in [("power 8", 1), ("light", 1), ("tone mapping", 2)] {
         pump_until(&mut watched, what, parts);
         assert_eq!(aside::finish(), parts);
     }
     pump_until(&mut watched, "indirect light", 1);
-    assert_eq!(watched.kernels.made().len(), made.len() + 6);
+    assert_eq!(watched.kernels.made().len(), made.len() + 8);
     assert_eq!(aside::finish(), 1);
     pump_until(&mut watched, "exposure and bloom", 6);
     assert_eq!(aside::finish(), 6);
     watched.settle();
-    assert_eq!(watched.kernels.made().len(), made.len() + 13);
+    assert_eq!(watched.kernels.made().len(), made.len() + 15);
     watched.announced.clear();
     scene.indirect.kind = IndirectKind::Horizon;
     scene.tone.auto_exposure = true;
@@ -247,7 +252,7 @@ fn a_still_compiles_at_once() {
     let mut view = View::new(&kernels, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(kernels.made().len(), 8 + 3 + 3 + 6);
+    assert_eq!(kernels.made().len(), 11 + 5 + 3 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace},
+    render::{frame::Recorder, lattice::Grid, lists::List, schedule::Trace},
     shader_file,
 };
 
@@ -13,6 +13,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/lists.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -21,7 +22,6 @@ pub const MODULE: Module = Module {
         shader_file!("lib/sphere.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("lib/pace.wgsl"),
-        shader_file!("lib/bundle.wgsl"),
         shader_file!("pass/march.wgsl"),
     ],
 };
@@ -30,6 +30,6 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.march.clone();
     let slice = recorder.slice(trace, grid);
-    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatch_list(&pipeline, &recorder.targets.lists.reading, slice, List::Rays(0));
     recorder.dispatches.march += 1;
 }

@@ -5,11 +5,13 @@ use crate::gpu::shader::Module;
 
 pub mod bloom;
 pub mod blur;
+pub mod cone;
 pub mod develop;
 pub mod expose;
 pub mod fill;
 pub mod gather;
 pub mod histogram;
+pub mod hits;
 pub mod march;
 pub mod mean;
 pub mod normal;
@@ -19,11 +21,15 @@ pub mod shade;
 pub mod shadow;
 pub mod spread;
 pub mod tone;
+pub mod tube;
 
 /// Every shader module of the program.
 pub const MODULES: &[&Module] = &[
+    &cone::MODULE,
     &march::MODULE,
+    &hits::MODULE,
     &normal::MODULE,
+    &tube::MODULE,
     &shadow::MODULE,
     &shade::MODULE,
     &gather::MODULE,

@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace},
+    render::{frame::Recorder, lattice::Grid, lists::List, schedule::Trace},
     shader_file,
 };
 
@@ -13,6 +13,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/lists.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -28,6 +29,6 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.normal.clone();
     let slice = recorder.slice(trace, grid);
-    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatch_list(&pipeline, &recorder.targets.lists.reading, slice, List::HitPoints);
     recorder.dispatches.normal += 1;
 }

@@ -32,6 +32,7 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.shade.clone();
     let slice = recorder.slice(trace, grid);
+    recorder.bind_film();
     recorder.bind_backdrop();
     recorder.dispatch(&pipeline, slice, trace.workgroups);
     recorder.dispatches.shade += 1;

@@ -5,6 +5,7 @@ use crate::{
     render::{
         frame::Recorder,
         lattice::{Grid, WORKGROUP_THREADS},
+        lists::List,
         schedule::Trace,
     },
     shader_file,
@@ -17,6 +18,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/lists.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -26,24 +28,30 @@ pub const MODULE: Module = Module {
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("lib/pace.wgsl"),
-        shader_file!("lib/bundle.wgsl"),
+        shader_file!("lib/shadow.wgsl"),
         shader_file!("pass/shadow.wgsl"),
     ],
 };
 
-/// Marches toward the lights of `trace` that surfaces block, one to a dispatch.
+/// Marches toward the lights of `trace` that surfaces block, each with two dispatches of its own.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.passes.shadow.clone();
+    let [tube, shadow] = [&recorder.passes.tube, &recorder.passes.shadow].map(Clone::clone);
     let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
-    let inputs = recorder.inputs;
+    let (inputs, lists) = (recorder.inputs, &recorder.targets.lists);
+    lists.clear_rays(&recorder.kernels.gpu.queue);
     let marched = trace.lights & inputs.casting();
-    for light in inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0) {
+    let lights = inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0);
+    // The first list is the camera's.
+    for (list, light) in (1..).zip(lights) {
         let mut slice = recorder.slice(trace, grid);
+        slice.ray_list = list;
         slice.light_bit = light.bit;
         slice.light_reach = light.shadow_reach;
         slice.light_vector = light.vector;
         slice.light_kind = light.kind;
-        recorder.dispatch(&pipeline, slice, trace.workgroups);
+        recorder.dispatch_list(&tube, &lists.listing_rays, slice, List::HitBlocks);
+        recorder.dispatch_list(&shadow, &lists.reading, slice, List::Rays(list));
+        recorder.dispatches.list += 1;
         recorder.dispatches.shadow += 1;
         recorder.dispatches.shadow_rays += rays;
     }

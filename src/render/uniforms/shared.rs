@@ -268,6 +268,14 @@ host_shared! {
         light_vector: [f32; 3],
         /// 0 environment, 1 point.
         light_kind: u32,
+        /// Blocks of a dispatch that goes through all of them.
+        blocks: u32,
+        /// The ray list that a dispatch writes or reads.
+        ray_list: u32,
+        /// Padding.
+        unused_a: u32,
+        /// Padding.
+        unused_b: u32,
     }
     /// What is known of a film as a whole.
     Statistics {

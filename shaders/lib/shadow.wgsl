@@ -1,0 +1,40 @@
+// Where shadow rays start and what blocks them.
+
+// A blocker counts once it fills this cone about the ray, in radius for distance to the point:
+// half the sun's own size in the sky.
+const SHADOW_CONE = 0.004;
+
+// How near the surface may come to a ray, `s` before its point.
+fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
+    return max(SHADOW_CONE * s, 0.5 * surface_distance);
+}
+
+// A sample's point as shadow rays see it.
+struct Receiver {
+    // Lifted off the surface, so that the point's own neighbourhood does not shade it.
+    point: vec3f,
+    // Its hit distance.
+    surface_distance: f32,
+    // Whether there is a point, and it faces the slice's light.
+    faces: bool,
+}
+
+fn receiver(pixel: vec2u, seen: vec2u) -> Receiver {
+    let t = bitcast<f32>(seen.x);
+    let n = octahedral_unpack(seen.y);
+    let surface_distance = hit_distance(picture.camera, picture.fractal, t);
+    let ray = camera_ray(pixel);
+    let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
+    let toward = select(slice.light_vector, slice.light_vector - point, slice.light_kind == LIGHT_POINT);
+    let faces = t > 0.0 && (picture.normals == NORMALS_NONE || dot(n, toward) > 0.0);
+    return Receiver(point, surface_distance, faces);
+}
+
+// The slice's light among a sample's visibility bits.
+fn light_word() -> u32 {
+    return slice.light_bit >> 5u;
+}
+
+fn light_mask() -> u32 {
+    return 1u << (slice.light_bit & 31u);
+}

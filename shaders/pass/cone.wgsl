@@ -1,0 +1,36 @@
+// How far all rays of a block go before any of them may hit, and which blocks have any that may:
+// these are listed for marching, and the others' samples meet nothing.
+
+// How deep all rays of a block may go; negative where all of them miss.
+fn clear_block(fractal: Fractal, workgroup: u32, block: u32) -> f32 {
+    let box = block_box(workgroup, block);
+    if (is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
+    let side = eye_side(box.first);
+    let size = vec2f(box.last - box.first + vec2u(1u));
+    let middle = eye_ray(eye_position(box.first, 0.5 * size), side);
+    var spread = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let corner = eye_ray(eye_position(box.first, size * vec2f(vec2u(i & 1u, i >> 1u))), side);
+        spread = max(spread, distance(corner.direction, middle.direction));
+    }
+    let entry = bounding_entry(middle.origin, middle.direction, spread);
+    if (entry < 0.0) { return -1.0; }
+    return clear_cone(fractal, middle.origin, middle.direction, spread, entry, picture.camera.hit_cone);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) thread: vec3u) {
+    picture = given_picture;
+    let block = thread.x;
+    if (block >= slice.blocks) { return; }
+    let clear = clear_block(picture.fractal, block / BLOCKS, block % BLOCKS);
+    if (clear >= 0.0) {
+        list_ray(block, clear);
+        return;
+    }
+    for (var i = 0u; i < BLOCK_THREADS; i++) {
+        let local_index = block % BLOCKS * BLOCK_THREADS + i;
+        let pixel = lattice_pixel(block / BLOCKS, local_index);
+        if (inside_region(pixel)) { surface[sample_index(pixel, block / BLOCKS, local_index)].x = 0u; }
+    }
+}

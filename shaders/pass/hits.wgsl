@@ -1,0 +1,15 @@
+// Which blocks have a surface point: these are listed for what follows.
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) thread: vec3u) {
+    picture = given_picture;
+    let block = thread.x;
+    if (block >= slice.blocks) { return; }
+    var any = 0u;
+    for (var i = 0u; i < BLOCK_THREADS; i++) {
+        let local_index = block % BLOCKS * BLOCK_THREADS + i;
+        let pixel = lattice_pixel(block / BLOCKS, local_index);
+        if (inside_region(pixel)) { any |= surface[sample_index(pixel, block / BLOCKS, local_index)].x; }
+    }
+    if (any != 0u) { list_hit(block); }
+}

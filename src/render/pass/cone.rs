@@ -1,0 +1,37 @@
+//! Bundles of camera rays: lists the blocks of samples that may hit, and how far their rays are clear.
+
+use crate::{
+    gpu::shader::Module,
+    render::{frame::Recorder, lattice::Grid, schedule::Trace},
+    shader_file,
+};
+
+/// The pass's shader; `POWER` specialises it.
+pub const MODULE: Module = Module {
+    label: "cone",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/lists.wgsl"),
+        shader_file!("types/listing.wgsl"),
+        shader_file!("lib/numeric.wgsl"),
+        shader_file!("lib/complex.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/eye.wgsl"),
+        shader_file!("lib/camera.wgsl"),
+        shader_file!("lib/sphere.wgsl"),
+        shader_file!("formula/mandelbulb.wgsl"),
+        shader_file!("lib/bundle.wgsl"),
+        shader_file!("pass/cone.wgsl"),
+    ],
+};
+
+/// Sends out the bundles of `trace`.
+pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
+    let pipeline = recorder.passes.cone.clone();
+    let slice = recorder.slice(trace, grid);
+    let lists = &recorder.targets.lists;
+    lists.clear_rays(&recorder.kernels.gpu.queue);
+    recorder.dispatch_blocks(&pipeline, &lists.listing_rays, slice);
+}

@@ -1,0 +1,30 @@
+//! Surface points to a list: lists the blocks of samples that have any.
+
+use crate::{
+    gpu::shader::Module,
+    render::{frame::Recorder, lattice::Grid, schedule::Trace},
+    shader_file,
+};
+
+/// The pass's shader.
+pub const MODULE: Module = Module {
+    label: "hits",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/lists.wgsl"),
+        shader_file!("types/listing.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("pass/hits.wgsl"),
+    ],
+};
+
+/// Lists the surface points of `trace`.
+pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
+    let pipeline = recorder.kernels.hits.clone();
+    let slice = recorder.slice(trace, grid);
+    let lists = &recorder.targets.lists;
+    lists.clear_hits(&recorder.kernels.gpu.queue);
+    recorder.dispatch_blocks(&pipeline, &lists.listing_hits, slice);
+}

@@ -1,0 +1,26 @@
+//! Bundles of shadow rays: lists the blocks of samples that face a light, and how far their rays are
+//! clear. [`super::shadow`] dispatches it.
+
+use crate::{gpu::shader::Module, shader_file};
+
+/// The pass's shader; `POWER` specialises it.
+pub const MODULE: Module = Module {
+    label: "tube",
+    files: &[
+        shader_file!("types/picture.wgsl"),
+        shader_file!("types/slice.wgsl"),
+        shader_file!("types/gbuffer.wgsl"),
+        shader_file!("types/lists.wgsl"),
+        shader_file!("types/listing.wgsl"),
+        shader_file!("lib/numeric.wgsl"),
+        shader_file!("lib/complex.wgsl"),
+        shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/eye.wgsl"),
+        shader_file!("lib/camera.wgsl"),
+        shader_file!("lib/octahedral.wgsl"),
+        shader_file!("formula/mandelbulb.wgsl"),
+        shader_file!("lib/bundle.wgsl"),
+        shader_file!("lib/shadow.wgsl"),
+        shader_file!("pass/tube.wgsl"),
+    ],
+};
