@@ -12,12 +12,16 @@ use super::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
 mod adaptation;
 mod cost;
 mod known;
+mod rate;
+mod terms;
 mod work;
 
 use adaptation::Adaptation;
 pub use cost::Arithmetic;
 use cost::Cost;
 use known::Known;
+use rate::Aim;
+pub use terms::{Pace, Stale, Status};
 pub use work::{Job, Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
@@ -51,44 +55,14 @@ const QUIET_SECS: f64 = 0.12;
 /// Least time between two displays that only adapt, seconds.
 const ADAPT_INTERVAL_SECS: f64 = 0.03;
 
-/// How a view spends GPU time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pace {
-    /// Someone is watching: sparse lattices while things change, small slices.
-    Interactive,
-    /// A still: straight to all samples, larger slices.
-    Still,
-}
-
-/// What an edit makes stale; each level contains those before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stale {
-    /// Exposure, tone curve: the film stays.
-    Tone,
-    /// How indirect light is gathered: the centre samples' direct light stays.
-    Around,
-    /// Lights, surface, colours: the centre samples' G-buffer stays, but for the bits of lights
-    /// that moved. Those are told apart by [`Schedule::set_lights`].
-    Light,
-    /// How normals are found: the centre samples' depths stay.
-    Normals,
-    /// Camera, fractal, size: nothing stays.
-    Geometry,
-}
-
-/// What the schedule says of itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Status {
-    /// Whole samples on the film; 0 while the lattice is incomplete.
-    pub samples_done: u32,
-    /// Level of the lattice in the picture shown last.
-    pub shown_level: u32,
-    /// True once something of the last change has been shown.
-    pub shown: bool,
-    /// True while the opening lattice follows a movement.
-    pub moving: bool,
-    /// True when there is no more work.
-    pub idle: bool,
+/// What is known of a piece of work that has not ended.
+#[derive(Clone, Copy, Debug)]
+struct InFlight {
+    aim: Aim,
+    /// What it is traced by.
+    arithmetic: Arithmetic,
+    /// What it is going to take.
+    expected_ms: f64,
 }
 
 /// The state machine.
@@ -120,8 +94,7 @@ pub struct Schedule {
     shown_at: f64,
     /// Exposure follows the film.
     adaptation: Adaptation,
-    /// What each piece in flight is traced by.
-    in_flight: VecDeque<Arithmetic>,
+    in_flight: VecDeque<InFlight>,
     slice_ms: f64,
     /// Slices so far.
     slices: u32,
@@ -268,13 +241,14 @@ impl Schedule {
 
     /// A piece of work that [`Self::next`] gave has finished, after `busy_ms` of the GPU's time.
     pub fn finished(&mut self, work: Work, busy_ms: f64) {
-        let arithmetic = self.in_flight.pop_front().unwrap_or_default();
-        match work {
-            Work::Trace(trace) => {
+        let of = self.in_flight.pop_front();
+        match (work, of) {
+            (Work::Trace(trace), Some(InFlight { aim, arithmetic, .. })) => {
                 let pixels = trace.workgroups * WORKGROUP_THREADS;
-                self.cost.traced(trace.job(), arithmetic, pixels, busy_ms);
+                self.cost.traced(trace.job(), aim, arithmetic, pixels, busy_ms);
             }
-            Work::Show { .. } => self.cost.shown(busy_ms),
+            (Work::Trace(_), None) => {}
+            (Work::Show { .. }, _) => self.cost.shown(busy_ms),
         }
     }
 
@@ -284,9 +258,23 @@ impl Schedule {
         if self.in_flight.len() >= MOST_IN_FLIGHT {
             return None;
         }
+        let aim = self.aim_now();
         let work = self.choose(now_secs)?;
-        self.in_flight.push_back(self.cost.arithmetic);
+        let expected_ms = match work {
+            Work::Trace(trace) => {
+                self.cost.expected_ms(trace.job(), aim, trace.workgroups * WORKGROUP_THREADS)
+            }
+            Work::Show { .. } => self.cost.show_ms(),
+        };
+        let arithmetic = self.cost.arithmetic;
+        self.in_flight.push_back(InFlight { aim, arithmetic, expected_ms });
         Some(work)
+    }
+
+    /// What the next piece of work is for.
+    fn aim_now(&self) -> Aim {
+        let is_seen = self.pace == Pace::Interactive;
+        if self.opening && is_seen { Aim::Opening } else { Aim::Refining }
     }
 
     fn choose(&mut self, now_secs: f64) -> Option<Work> {
@@ -377,9 +365,12 @@ impl Schedule {
     /// The finest level, none finer than `finest`, that the budget has room for. `gathers`: with
     /// its indirect light.
     fn finest_within_budget(&self, finest: u32, job: impl Fn(u32) -> Job, gathers: bool) -> u32 {
+        // What refined the picture before cannot be called back.
+        let refining = self.in_flight.iter().filter(|piece| piece.aim == Aim::Refining);
+        let before_ms = refining.map(|piece| piece.expected_ms).sum();
         let fits = |level: &u32| {
             let pixels = Grid::level(*level, self.size_px).threads();
-            self.cost.fits(self.budget_ms, pixels, job(*level), gathers)
+            self.cost.fits(self.budget_ms, before_ms, pixels, job(*level), gathers)
         };
         (finest..COARSEST).find(fits).unwrap_or(COARSEST)
     }
@@ -415,13 +406,13 @@ impl Schedule {
         let total = points.grid(self.size_px).workgroups();
         // An opening goes out whole where the budget has room for it: it and its display are
         // then the two pieces in flight, and every displayed frame can have one.
-        let opening = self.opening && self.pace == Pace::Interactive;
+        let opening = self.aim_now() == Aim::Opening;
         let aim_ms = if opening { self.slice_ms.max(self.budget_ms) } else { self.slice_ms };
         let most = match points {
             Points::Sample(_) => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
         };
-        let largest = self.cost.slice_workgroups(aim_ms, job).min(most);
+        let largest = self.cost.slice_workgroups(aim_ms, job, self.aim_now()).min(most);
         // Slices of two sizes tell the cost of a slice from that of its pixels.
         self.slices = self.slices.wrapping_add(1);
         let smaller = !opening && self.slices.is_multiple_of(2);

@@ -3,6 +3,7 @@
 use super::*;
 
 mod arithmetic;
+mod hand;
 mod light;
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -15,6 +16,8 @@ struct Device {
     /// Seed of the noise in the overhead, log-normal with a deviation of 1.5; none where steady.
     noise: Option<u32>,
     pixel_ns: f64,
+    /// What a pixel of an opening takes, in pixels of a dense lattice.
+    sparser: f64,
     /// The lights that have shadow rays.
     casting: u64,
     spike_ms: f64,
@@ -56,6 +59,7 @@ impl Device {
             noise: None,
             // 20 ns a pixel: 18 ms for a full 1280x720 frame at slowness 1.
             pixel_ns: 20.0 * slowness,
+            sparser: 1.0,
             casting: u64::MAX,
             spike_ms,
             busy_until: 0.0,
@@ -82,7 +86,9 @@ impl Device {
             Work::Trace(trace) => {
                 let whole = f64::from(trace.workgroups * WORKGROUP_THREADS);
                 let lights = f64::from((trace.lights & self.casting).count_ones());
-                whole * share_of_frame(trace.from, lights)
+                let is_sparse = matches!(trace.points, Points::Level(1..));
+                let each = if is_sparse { self.sparser } else { 1.0 };
+                whole * each * share_of_frame(trace.from, lights)
             }
             Work::Show { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
         };

@@ -1,0 +1,127 @@
+//! A hand that sets out while a picture refines: its first picture is in time.
+
+use super::*;
+
+const BUDGET_MS: f64 = 16.0;
+
+/// A schedule and a device of which a full frame takes twenty budgets, after a while of rest.
+fn at_rest(sparser: f64) -> (Schedule, Device, f64) {
+    let mut device = Device::new(20.0 * BUDGET_MS / 18.4, 0.0);
+    device.sparser = sparser;
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(BUDGET_MS, 16);
+    let mut now = 0.0;
+    refine(&mut schedule, &mut device, &mut now, 2.0);
+    (schedule, device, now)
+}
+
+/// Gives the device all that it takes for so many seconds, looking as often as the page does.
+fn refine(schedule: &mut Schedule, device: &mut Device, now: &mut f64, secs: f64) {
+    let end = *now + secs;
+    while *now < end {
+        device.collect(schedule, *now);
+        while let Some(work) = schedule.next(*now) {
+            device.submit(work, *now);
+        }
+        *now += 0.004;
+    }
+}
+
+/// From a change to the end of its picture, in budgets.
+fn picture_of_a_move(schedule: &mut Schedule, device: &mut Device, now: &mut f64) -> f64 {
+    let moved_at = *now;
+    schedule.change(Stale::Geometry, true, moved_at);
+    loop {
+        while let Some(work) = schedule.next(*now) {
+            let is_show = matches!(work, Work::Show { .. });
+            device.submit(work, *now);
+            if is_show {
+                let end = device.busy_until;
+                *now = end;
+                device.collect(schedule, end);
+                return (end - moved_at) * 1e3 / BUDGET_MS;
+            }
+        }
+        *now += 0.001;
+        device.collect(schedule, *now);
+    }
+}
+
+/// What is in flight cannot be called back, and a sparse lattice's rays are dearer than those that
+/// refined: neither makes the first picture of a movement late.
+#[test]
+fn the_first_picture_of_a_movement_is_in_time() {
+    for sparser in (0..=10).map(|tenths| 1.0 + 0.1 * f64::from(tenths)) {
+        let (mut schedule, mut device, mut now) = at_rest(sparser);
+        let mut first = Vec::new();
+        for movement in 0..40 {
+            let mut times = Vec::new();
+            for _ in 0..6 {
+                times.push(picture_of_a_move(&mut schedule, &mut device, &mut now));
+            }
+            // The first movement of all tells what a movement costs.
+            if movement > 0 {
+                first.push(times[0]);
+                assert!(times[1..].iter().all(|&time| time <= 1.0), "{sparser}: {times:?}");
+            }
+            schedule.set_moving(false);
+            refine(&mut schedule, &mut device, &mut now, 1.0 + 0.0137 * f64::from(movement));
+        }
+        let worst = first.iter().copied().fold(0.0, f64::max);
+        assert!(worst <= 1.1, "sparser {sparser}: {first:?}");
+    }
+}
+
+/// Where others hold up a short piece now and then, pieces get shorter, not many times as long.
+#[test]
+fn pieces_that_were_held_up_do_not_make_others_long() {
+    let longest = |seed: u32, stumbles: bool| {
+        let (mut schedule, mut device, mut now) = at_rest(1.4);
+        let (mut seed, mut longest) = (seed, 0.0_f64);
+        let end = now + 20.0;
+        while now < end {
+            device.collect(&mut schedule, now);
+            while let Some(work) = schedule.next(now) {
+                device.submit(work, now);
+                let (_, ends_at, ms) = device.queue.last_mut().expect("a piece");
+                longest = longest.max(*ms);
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                if stumbles && seed >> 24 < 25 {
+                    *ms += 12.0;
+                    *ends_at += 0.012;
+                    device.busy_until = *ends_at;
+                }
+            }
+            now += 0.004;
+            if schedule.status(now).idle {
+                schedule.change(Stale::Geometry, false, now);
+            }
+        }
+        longest
+    };
+    let steady_ms = longest(0, false);
+    for seed in 0..20 {
+        let held_up_ms = longest(seed, true);
+        assert!(held_up_ms <= 1.5 * steady_ms, "{held_up_ms} ms instead of {steady_ms} ms");
+    }
+}
+
+/// Views of a movement differ: a dear one on a coarse lattice and a cheap one on a fine one must
+/// not be taken for a fixed cost that leaves rays next to nothing.
+#[test]
+fn a_movement_through_dearer_and_cheaper_views_stays_in_time() {
+    for seed in 0..20 {
+        let (mut schedule, mut device, mut now) = at_rest(1.4);
+        let (mut seed, mut dearer) = (seed as u32, 0.0_f64);
+        let pixel_ns = device.pixel_ns;
+        let mut times = Vec::new();
+        for _ in 0..300 {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            dearer += 0.2 * (f64::from(seed) / f64::from(u32::MAX) - 0.5) - 0.01 * dearer;
+            device.pixel_ns = pixel_ns * dearer.exp();
+            times.push(picture_of_a_move(&mut schedule, &mut device, &mut now));
+        }
+        let worst = times[1..].iter().copied().fold(0.0, f64::max);
+        assert!(worst <= 1.4, "seed {seed}: {worst} budgets");
+    }
+}
