@@ -142,7 +142,7 @@ fn rehearse(
     let trace = |points: Points, from: Stage| {
         Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
     };
-    let show = |level: u32| Work::Show { level, fill: false, adapt: 1.0 };
+    let show = |level: u32| Work::Show { level, fill: false, film: false, adapt: 1.0 };
     let work = match extra {
         Extra::Power(_) | Extra::Normals(..) | Extra::Shade(_) => {
             vec![trace(Points::Level(0), Stage::March)]

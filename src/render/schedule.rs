@@ -1,15 +1,16 @@
 //! What to compute next: a state machine without a GPU, a clock or a scene of its own.
 //!
 //! In: what became stale, the time, and how long finished work took. Out: [`Work`], one piece
-//! at a time, sized to take [`SLICE_MS`] or less. A view that changes opens on a lattice as
-//! sparse as the motion budget demands, is shown, and is then completed level by level; jittered
-//! samples follow until there are enough, and then there is no more work.
+//! at a time, sized to take a few milliseconds. A view that changes opens on a lattice as sparse as
+//! the motion budget demands and is shown; all pixels follow, by way of finer lattices where that
+//! takes long, then jittered samples until there are enough, and then there is no more work.
 
 use std::collections::VecDeque;
 
-use super::lattice::{COARSEST, Grid, WORKGROUP_THREADS};
+use super::lattice::{COARSEST, WORKGROUP_THREADS};
 
 mod adaptation;
+mod choice;
 mod cost;
 mod known;
 mod rate;
@@ -17,6 +18,7 @@ mod terms;
 mod work;
 
 use adaptation::Adaptation;
+use choice::STRAIGHT_MS;
 pub use cost::Arithmetic;
 use cost::Cost;
 use known::Known;
@@ -36,9 +38,15 @@ pub const MOST_WORKGROUPS: u32 = 16_384;
 /// GPU time that one piece aims at while someone is watching, milliseconds.
 pub const SLICE_MS: f64 = 8.0;
 
-/// Most of the motion budget that it aims at: what is in flight when the hand moves again makes the
-/// first picture late, by two pieces at worst.
+/// Most of the motion budget that it aims at: what is in flight when the hand moves again takes of
+/// its first picture's time.
 const SLICE_SHARE: f64 = 0.4;
+
+/// The same once nothing has changed for a while: each piece has its own dispatches, whose last
+/// workgroups leave much of the GPU idle. Two of them and a sparse picture take less than two motion
+/// budgets.
+const REST_SLICE_MS: f64 = 25.0;
+const REST_SLICE_SHARE: f64 = 0.5;
 
 /// GPU time that one piece of a still aims at, milliseconds.
 pub const STILL_SLICE_MS: f64 = 60.0;
@@ -47,13 +55,16 @@ pub const STILL_SLICE_MS: f64 = 60.0;
 const SHOW_INTERVAL_SECS: f64 = 0.25;
 
 /// Most of the GPU's time that displays of a refining picture may take.
-const SHOW_SHARE: f64 = 0.2;
+const SHOW_SHARE: f64 = 0.05;
 
 /// A movement counts as over when nothing has changed for this long, seconds.
 const QUIET_SECS: f64 = 0.12;
 
 /// Least time between two displays that only adapt, seconds.
 const ADAPT_INTERVAL_SECS: f64 = 0.03;
+
+/// Most of the GPU's time that they may take.
+const ADAPT_SHARE: f64 = 0.2;
 
 /// What is known of a piece of work that has not ended.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +95,8 @@ pub struct Schedule {
     samples_done: u32,
     /// The points under way and the next workgroup to submit.
     under_way: Option<(Points, u32)>,
+    /// The film has been filled in, so that it can be shown while pixels come.
+    is_filled: bool,
     /// The film holds something that the display does not.
     show_due: bool,
     /// Since the last restart nothing has been shown yet.
@@ -95,7 +108,6 @@ pub struct Schedule {
     /// Exposure follows the film.
     adaptation: Adaptation,
     in_flight: VecDeque<InFlight>,
-    slice_ms: f64,
     /// Slices so far.
     slices: u32,
     cost: Cost,
@@ -116,6 +128,7 @@ impl Schedule {
             gathered: None,
             samples_done: 0,
             under_way: None,
+            is_filled: false,
             show_due: false,
             opening: true,
             shown_level: COARSEST,
@@ -124,10 +137,6 @@ impl Schedule {
             shown_at: f64::NEG_INFINITY,
             adaptation: Adaptation::default(),
             in_flight: VecDeque::new(),
-            slice_ms: match pace {
-                Pace::Interactive => SLICE_MS,
-                Pace::Still => STILL_SLICE_MS,
-            },
             slices: 0,
             cost: Cost::default(),
         }
@@ -137,9 +146,6 @@ impl Schedule {
     /// each pixel is to have, at least one.
     pub fn aim(&mut self, budget_ms: f64, samples: u32) {
         self.budget_ms = budget_ms;
-        if self.pace == Pace::Interactive {
-            self.slice_ms = SLICE_MS.min(SLICE_SHARE * budget_ms);
-        }
         self.samples_wanted = samples.max(1);
         // More samples go on from those that are there; fewer would need a film without them.
         if self.samples_done > self.samples_wanted {
@@ -235,6 +241,7 @@ impl Schedule {
         self.gathered = None;
         self.samples_done = 0;
         self.under_way = None;
+        self.is_filled = false;
         self.show_due = false;
         self.opening = true;
     }
@@ -288,10 +295,17 @@ impl Schedule {
         loop {
             let (points, first_workgroup) = match self.under_way {
                 Some(state) => state,
-                None => (self.next_points(now_secs)?, 0),
+                None => {
+                    let points = self.next_points(now_secs)?;
+                    if points == Points::All && !self.is_filled && self.whole_ms() > STRAIGHT_MS {
+                        self.is_filled = true;
+                        return Some(self.show(now_secs));
+                    }
+                    (points, 0)
+                }
             };
             if points.grid(self.size_px).workgroups() > 0 {
-                return Some(Work::Trace(self.slice(points, first_workgroup)));
+                return Some(Work::Trace(self.slice(points, first_workgroup, now_secs)));
             }
             // A small region has no pixels of this kind.
             self.complete(points);
@@ -318,7 +332,7 @@ impl Schedule {
 
     /// Whether exposure is on its way and another step of it is due.
     fn adapt_now(&self, now_secs: f64) -> bool {
-        let interval_secs = ADAPT_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
+        let interval_secs = ADAPT_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / ADAPT_SHARE);
         self.adaptation.is_under_way()
             && self.filmed().is_some()
             && !self.opening
@@ -336,78 +350,24 @@ impl Schedule {
         let level = self.filmed().unwrap_or(0);
         self.shown_level = level;
         // A level under way has put true pixels where the fill would go: only fill when whole.
-        Work::Show { level, fill: level > 0 && self.under_way.is_none(), adapt }
+        let fill = level > 0 && self.under_way.is_none();
+        Work::Show { level, fill, film: self.is_filled && level > 0, adapt }
     }
 
-    /// What comes after everything computed so far.
-    fn next_points(&self, now_secs: f64) -> Option<Points> {
-        match self.shaded {
-            None if self.pace == Pace::Still => Some(Points::Level(0)),
-            None => Some(Points::Level(self.opening_level())),
-            Some(level) if self.filmed() != Some(level) && self.gather_now(level, now_secs) => {
-                Some(Points::Around(self.gather_level(level)))
-            }
-            Some(0) if self.samples_done < self.samples_wanted => {
-                Some(Points::Sample(self.samples_done))
-            }
-            Some(0) => None,
-            Some(level) => Some(Points::Added(level - 1)),
-        }
-    }
-
-    /// The finest lattice that the budget allows, and none finer than the G-buffer where only
-    /// light is stale.
-    fn opening_level(&self) -> u32 {
-        let finest = self.known.marched().unwrap_or(0);
-        self.finest_within_budget(finest, |level| self.job(Points::Level(level)), self.gathers)
-    }
-
-    /// The finest level, none finer than `finest`, that the budget has room for. `gathers`: with
-    /// its indirect light.
-    fn finest_within_budget(&self, finest: u32, job: impl Fn(u32) -> Job, gathers: bool) -> u32 {
-        // What refined the picture before cannot be called back.
-        let refining = self.in_flight.iter().filter(|piece| piece.aim == Aim::Refining);
-        let before_ms = refining.map(|piece| piece.expected_ms).sum();
-        let fits = |level: &u32| {
-            let pixels = Grid::level(*level, self.size_px).threads();
-            self.cost.fits(self.budget_ms, before_ms, pixels, job(*level), gathers)
-        };
-        (finest..COARSEST).find(fits).unwrap_or(COARSEST)
-    }
-
-    /// Whether a level gets its indirect light, rather than wait for a finer one: where it is the
-    /// first to be seen, or the last, or where something new should be seen by now.
-    fn gather_now(&self, level: u32, now_secs: f64) -> bool {
-        self.opening || level == 0 || now_secs - self.shown_at >= self.show_interval_secs()
-    }
-
-    /// The level whose indirect light comes next, where `shaded` has its direct light: where that
-    /// is too fine for the budget, an edit opens on a coarser one.
-    fn gather_level(&self, shaded: u32) -> u32 {
-        if !self.opening || self.pace == Pace::Still {
-            return shaded;
-        }
-        self.finest_within_budget(shaded, |level| self.job(Points::Around(level)), false)
-    }
-
-    /// What samples need: the stage they have to start with, and the lights they have to be
-    /// marched toward.
-    fn job(&self, points: Points) -> Job {
-        let (from, lights) = match points {
-            Points::Level(level) | Points::Added(level) => self.known.start(level, self.shining),
-            Points::Around(_) => (Stage::Gather, 0),
-            Points::Sample(_) => (Stage::March, self.shining),
-        };
-        Job { from, lights }
-    }
-
-    fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
+    fn slice(&mut self, points: Points, first_workgroup: u32, now_secs: f64) -> Trace {
         let job = self.job(points);
         let total = points.grid(self.size_px).workgroups();
         // An opening goes out whole where the budget has room for it: it and its display are
         // then the two pieces in flight, and every displayed frame can have one.
         let opening = self.aim_now() == Aim::Opening;
-        let aim_ms = if opening { self.slice_ms.max(self.budget_ms) } else { self.slice_ms };
+        let aim_ms = match self.pace {
+            Pace::Still => STILL_SLICE_MS,
+            Pace::Interactive if opening => self.budget_ms,
+            Pace::Interactive if now_secs - self.changed_at < QUIET_SECS => {
+                SLICE_MS.min(SLICE_SHARE * self.budget_ms)
+            }
+            Pace::Interactive => REST_SLICE_MS.min(REST_SLICE_SHARE * self.budget_ms),
+        };
         let most = match points {
             Points::Sample(_) => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
@@ -423,8 +383,11 @@ impl Schedule {
             self.under_way = Some((points, next));
             // A complete lattice is below: what has come so far may be shown, unless it waits for
             // its indirect light.
-            let is_filmed =
-                !self.gathers || matches!(points, Points::Around(_) | Points::Sample(_));
+            let is_filmed = match points {
+                Points::All => self.is_filled,
+                Points::Level(_) | Points::Added(_) => !self.gathers,
+                Points::Around(_) | Points::Sample(_) => true,
+            };
             self.show_due |= is_filmed && self.filmed().is_some() && self.pace == Pace::Interactive;
         } else {
             self.complete(points);
@@ -436,7 +399,8 @@ impl Schedule {
     fn complete(&mut self, points: Points) {
         self.under_way = None;
         match points {
-            Points::Level(level) | Points::Added(level) => {
+            Points::Level(_) | Points::Added(_) | Points::All => {
+                let level = points.level();
                 self.shaded = Some(level);
                 // What waits for indirect light is not on the film yet.
                 self.show_due = !self.gathers;

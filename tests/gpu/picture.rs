@@ -53,7 +53,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
         Work::Trace(Trace { points, from, lights, first_workgroup: 0, workgroups })
     };
     let gather = inputs.gathers().then(|| trace(Points::Around(level), Stage::Gather));
-    let show = Work::Show { level, fill: level > 0, adapt: 1.0 };
+    let show = Work::Show { level, fill: level > 0, film: false, adapt: 1.0 };
     let works = [Some(trace(Points::Level(level), Stage::March)), gather, Some(show)];
     for work in works.into_iter().flatten() {
         let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);

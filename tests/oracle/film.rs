@@ -79,7 +79,7 @@ impl Film {
             adapt: Some(1.0),
             bloom: scene.bloom.strength > 0.0,
         };
-        record(&mut recorder, Work::Show { level, fill: level > 0, adapt: 1.0 });
+        record(&mut recorder, Work::Show { level, fill: level > 0, film: false, adapt: 1.0 });
         gpu.queue.submit([recorder.finish()]);
 
         let glow = &self.targets.glow;

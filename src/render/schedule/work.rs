@@ -9,6 +9,9 @@ pub enum Points {
     Level(u32),
     /// Centre samples of the pixels that a level adds to the next coarser one.
     Added(u32),
+    /// Centre samples of every pixel, those of the lattice that is there once more: rays of a dense
+    /// lattice have more in common, and cost less, than those that a sparse one lacks.
+    All,
     /// Centre samples of every pixel of a lattice level, which all have their direct light, for
     /// the indirect light among them.
     Around(u32),
@@ -17,12 +20,20 @@ pub enum Points {
 }
 
 impl Points {
+    /// The lattice level that is complete with them: every pixel's unless they belong to one.
+    pub fn level(self) -> u32 {
+        match self {
+            Self::Level(level) | Self::Added(level) | Self::Around(level) => level,
+            Self::All | Self::Sample(_) => 0,
+        }
+    }
+
     /// The grid of pixels that they lie in.
     pub fn grid(self, size_px: [u32; 2]) -> Grid {
         match self {
             Self::Level(level) | Self::Around(level) => Grid::level(level, size_px),
             Self::Added(level) => Grid::added(level, size_px),
-            Self::Sample(_) => Grid::level(0, size_px),
+            Self::All | Self::Sample(_) => Grid::level(0, size_px),
         }
     }
 }
@@ -84,6 +95,8 @@ pub enum Work {
         level: u32,
         /// Whether the pixels between that lattice's have to be filled in first.
         fill: bool,
+        /// Whether it is made from the film, which has more than the lattice or soon will have.
+        film: bool,
         /// How far auto exposure moves toward its goal, above 0 to 1: there at once.
         adapt: f32,
     },
