@@ -133,6 +133,13 @@ fn step_factor(fractal: Fractal) -> f32 {
     return clamp(0.75 * fractal.power, 2.0, 6.0);
 }
 
+// Below power 3 the estimate dips next to hairs that are far thinner than the dips say:
+// `fractal::estimator::dips`.
+fn dips(fractal: Fractal) -> bool {
+    if (POWER != 0u) { return POWER < 3u; }
+    return fractal.power < 3.0;
+}
+
 fn reach(fractal: Fractal, point: vec3f) -> Reach {
     let orbit = orbit_of(fractal, point);
     var z = orbit.start;

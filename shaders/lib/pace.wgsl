@@ -37,3 +37,40 @@ fn next_step(pace: ptr<function, Pace>, ball: f32) -> f32 {
     *pace = Pace((*pace).relaxation, (*pace).relaxation, ball, step);
     return step;
 }
+
+// Where the estimate dips, a hit counts if it lasts: `THICK` footprints on, and at the other places on the
+// way there, the ray is still as near. Rays that end in any dip end in noise: what makes
+// the dip is thinner than a thousandth of a pixel.
+const THICK = 0.25;
+const THICK_PLACES = 3u;
+// Halvings of the step that crossed the hit distance, so that the places lie where they should.
+const HALVINGS = 4u;
+const LOOKS = HALVINGS + THICK_PLACES;
+
+// A hit that is looked at.
+struct Crossing {
+    // Depths before and behind it.
+    outside: f32,
+    inside: f32,
+    // How many looks were taken, the one that found it among them. 0: none is looked at. More than
+    // `LOOKS`: it lasts.
+    looks: u32,
+}
+
+// After a look at depth `t`: where the next one goes, or, where the hit lasts, its depth.
+fn next_look(crossing: ptr<function, Crossing>, before: f32, t: f32, hit: f32, is_near: bool) -> f32 {
+    let looks = (*crossing).looks;
+    if (looks == 0u) {
+        *crossing = Crossing(before, t, 1u);
+        return 0.5 * (before + t);
+    }
+    if (looks > HALVINGS) {
+        (*crossing).looks = select(0u, looks + 1u, is_near);
+        if (is_near && looks == LOOKS) { return (*crossing).inside; }
+        return t + select(0.0, THICK / f32(THICK_PLACES) * hit, is_near);
+    }
+    if (is_near) { (*crossing).inside = t; } else { (*crossing).outside = t; }
+    (*crossing).looks = looks + 1u;
+    if (looks == HALVINGS) { return (*crossing).inside + THICK / f32(THICK_PLACES) * hit; }
+    return 0.5 * ((*crossing).outside + (*crossing).inside);
+}

@@ -12,17 +12,27 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     // Depth of the last point and what was left to its hit.
     var before = t;
     var left = 0.0;
+    let has_dips = dips(fractal);
+    var crossing = Crossing(0.0, 0.0, 0u);
     for (var i = 0u; i < fractal.march_steps; i++) {
-        let is_inside = t <= interval.y;
+        let is_looking = has_dips && crossing.looks > 0u;
+        let is_inside = t <= interval.y || is_looking;
         var ahead = Reach(0.0, 0.0);
         if (is_inside) { ahead = reach(fractal, ray.origin + t * ray.direction); }
-        let back = step_back(&pace, ahead.step);
-        if (back > 0.0) {
-            t -= back;
-            continue;
+        if (!is_looking) {
+            let back = step_back(&pace, ahead.step);
+            if (back > 0.0) {
+                t -= back;
+                continue;
+            }
+            if (!is_inside) { return 0.0; }
         }
-        if (!is_inside) { return 0.0; }
         let hit = hit_distance(camera, fractal, t);
+        if (has_dips && (is_looking || ahead.distance < hit)) {
+            t = next_look(&crossing, before, t, hit, ahead.distance < hit);
+            if (crossing.looks > LOOKS) { return max(t, 1e-30); }
+            if (crossing.looks > 0u) { continue; }
+        }
         if (ahead.distance < hit) {
             // Where on the last step the hit was, about: wherever its two ends were.
             let past = hit - ahead.distance;

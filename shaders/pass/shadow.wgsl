@@ -2,8 +2,12 @@
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 
-// No step is shorter than this part of the distance that blocks.
+// No step is shorter than this part of the distance that blocks, at low powers a longer one than that.
 const LEAST_STEP = 0.25;
+
+fn least_step(fractal: Fractal, blocks: f32, surface_distance: f32) -> f32 {
+    return max(LEAST_STEP * blocks, 0.6 * saturate(3.0 - fractal.power) * surface_distance);
+}
 
 // `clear`: as far before the point a ray is known not to be blocked.
 fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f32) -> bool {
@@ -16,17 +20,29 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
     }
     var s = min(min(farthest, clear), bounding_interval(point, direction).y);
     var pace = paced(fractal.power);
+    let has_dips = dips(fractal);
+    var looks = 0u;
     for (var i = 0u; i < fractal.shadow_steps; i++) {
         var ahead = Reach(0.0, 0.0);
-        if (s > surface_distance) { ahead = reach(fractal, point + s * direction); }
-        let back = step_back(&pace, ahead.step);
-        s += back;
-        // Where a step too long is taken back, what is left may be known to be empty.
-        if (s <= surface_distance) { return true; }
-        if (back > 0.0) { continue; }
-        let blocks = blocking_distance(s, surface_distance);
-        if (ahead.distance < blocks) { return false; }
-        s -= next_step(&pace, max(ahead.step, LEAST_STEP * blocks));
+        let is_looking = has_dips && looks > 0u;
+        if (s > surface_distance || is_looking) { ahead = reach(fractal, point + s * direction); }
+        if (!is_looking) {
+            let back = step_back(&pace, ahead.step);
+            s += back;
+            // Where a step too long is taken back, what is left may be known to be empty.
+            if (s <= surface_distance) { return true; }
+            if (back > 0.0) { continue; }
+        }
+        let blocks = blocking_distance(fractal, s, surface_distance);
+        if (ahead.distance < blocks) {
+            // A dip has to last, as for a camera ray.
+            if (!has_dips || looks == THICK_PLACES) { return false; }
+            looks++;
+            s -= THICK / f32(THICK_PLACES) * surface_distance;
+            continue;
+        }
+        looks = 0u;
+        s -= next_step(&pace, max(ahead.step, least_step(fractal, blocks, surface_distance)));
     }
     return true;
 }

@@ -34,7 +34,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
     var s = min(leaves, slice.light_reach + extent);
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
         // No point is farther than this from the plane through `s`.
-        let blocks = blocking_distance(s + extent, surface_distance);
+        let blocks = blocking_distance(fractal, s + extent, surface_distance);
         let ball = part * reach(fractal, center + s * direction).step - blocks;
         let advance = sqrt(max(ball * ball - width * width, 0.0));
         if (ball <= width || advance <= width) { break; }
