@@ -1,7 +1,7 @@
 //! What a picture should show, in f64: hits, depths, normals, shadows.
 //!
 //! A pixel shows where its ray first comes within the pixel's footprint of the set: what is finer
-//! no pixel can show; and what it is near to for less than a quarter of a footprint along the ray is
+//! no pixel can show; and what it is near to for less than half a footprint along the ray is
 //! passed. The reference finds that place by short steps and halving, to a
 //! thousandth of a footprint, with more iterations than anything here needs. The surface has the
 //! estimate's own gradient there as normal. A light reaches it where no way back from outside of
@@ -26,7 +26,7 @@ const LEAST_STEP: f64 = 0.02;
 const BLOCKS: f64 = 0.1;
 /// Where a ray has to be still as near, behind the place where it came near, footprints: at power 2 an
 /// estimate dips for thousandths of a footprint, and which of the dips short steps meet is chance.
-const STILL: [f64; 3] = [0.25 / 3.0, 0.5 / 3.0, 0.25];
+const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 /// Rays that are still on their way then have all but arrived.
 const MOST_STEPS: u32 = 100_000;
 

@@ -41,10 +41,10 @@ fn next_step(pace: ptr<function, Pace>, ball: f32) -> f32 {
 // Where the estimate dips, a hit counts if it lasts: `THICK` footprints on, and at the other places on the
 // way there, the ray is still as near. Rays that end in any dip end in noise: what makes
 // the dip is thinner than a thousandth of a pixel.
-const THICK = 0.25;
-const THICK_PLACES = 3u;
+const THICK = 0.5;
+const THICK_PLACES = 6u;
 // Halvings of the step that crossed the hit distance, so that the places lie where they should.
-const HALVINGS = 4u;
+const HALVINGS = 5u;
 const LOOKS = HALVINGS + THICK_PLACES;
 
 // A hit that is looked at.
