@@ -100,15 +100,27 @@ fn fine_march(fractal: &Fractal, ray: Ray, cone: f64) -> Option<f64> {
     let estimator = Estimator::new(fractal);
     let part = (fractal.power / 10.0).clamp(0.25, 1.0) / 16.0;
     let (near, far) = ray.sphere_span(estimator.bounding_radius())?;
-    let mut depth = near;
+    let (mut depth, mut was_near) = (near, false);
     while depth <= far {
         let distance = estimator.distance(ray.at(depth));
-        if distance <= cone * depth {
+        let is_near = distance <= cone * depth;
+        if is_near && !was_near && lasts(&estimator, ray, cone, depth) {
             return Some(depth);
         }
-        depth += (part * distance).min(0.003 * estimator.bounding_radius());
+        was_near = is_near;
+        let least = 0.01 * cone * depth;
+        depth += (part * distance).clamp(least, 0.003 * estimator.bounding_radius());
     }
     None
+}
+
+/// Is the ray still near half a cone radius behind `depth`, and all the way there, if that matters?
+fn lasts(estimator: &Estimator, ray: Ray, cone: f64, depth: f64) -> bool {
+    let is_near = |part: u32| {
+        let place = depth * (1.0 + cone * f64::from(part) / 12.0);
+        estimator.distance(ray.at(place)) <= cone * place
+    };
+    !estimator.has_dips() || (1..=6).all(is_near)
 }
 
 /// Counts, of `count` rays, those that pass the surface altogether, and those that are

@@ -96,7 +96,7 @@ fn julia() -> Scene {
 fn powered(power: f64, eye: [f64; 3], at: [f64; 3]) -> Scene {
     let mut scene = scene(eye, at, [0.0, 0.0, 1.0]);
     scene.fractal.power = power;
-    if power < 3.0 {
+    if power < 2.5 {
         // With fewer than 18 some rays end too early at 960x540.
         scene.fractal.iterations = 20;
     }

@@ -130,14 +130,13 @@ struct Reach {
 
 // How many times the estimate by dg a ray may step: `fractal::estimator::step_factor`.
 fn step_factor(fractal: Fractal) -> f32 {
-    return clamp(0.75 * fractal.power, 2.0, 6.0);
+    return clamp(0.75 * fractal.power, 3.0, 6.0);
 }
 
-// Below power 3 the estimate dips next to hairs that are far thinner than the dips say:
-// `fractal::estimator::dips`.
+// Does the estimate dip for less than a thousandth of what it is around: `fractal::Estimator::has_dips`.
 fn dips(fractal: Fractal) -> bool {
-    if (POWER != 0u) { return POWER < 3u; }
-    return fractal.power < 3.0;
+    if (POWER != 0u) { return POWER < 4u; }
+    return fractal.power < 4.0;
 }
 
 fn reach(fractal: Fractal, point: vec3f) -> Reach {

@@ -7,7 +7,7 @@ const SHADOW_CONE = 0.004;
 // How near the surface may come to a ray, `s` before its point.
 fn blocking_distance(fractal: Fractal, s: f32, surface_distance: f32) -> f32 {
     // At low powers the estimate is small far around hairs.
-    let low = saturate(3.0 - fractal.power);
+    let low = saturate(4.0 - fractal.power);
     return max(mix(SHADOW_CONE, 0.5 * SHADOW_CONE, low) * s, mix(0.5, 0.15, low) * surface_distance);
 }
 

@@ -2,6 +2,8 @@
 
 // No step is shorter than this part of the hit distance: what is thinner may be passed.
 const LEAST_STEP = 0.25;
+// The same where a hit has to last anyway.
+const LEAST_STEP_OVER_DIPS = 0.4;
 
 // Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone, from a depth that
 // is known to be clear. 0 on a miss.
@@ -13,6 +15,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     var before = t;
     var left = 0.0;
     let has_dips = dips(fractal);
+    let least_step = select(LEAST_STEP, LEAST_STEP_OVER_DIPS, has_dips);
     var crossing = Crossing(0.0, 0.0, 0u);
     for (var i = 0u; i < fractal.march_steps; i++) {
         let is_looking = has_dips && crossing.looks > 0u;
@@ -40,7 +43,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
         }
         before = t;
         left = ahead.distance - hit;
-        t += next_step(&pace, max(ahead.step, LEAST_STEP * hit));
+        t += next_step(&pace, max(ahead.step, least_step * hit));
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

@@ -2,11 +2,13 @@
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 
-// No step is shorter than this part of the distance that blocks, at low powers a longer one than that.
+// No step is shorter than this part of the distance that blocks.
 const LEAST_STEP = 0.25;
 
+// At low powers steps of a whole hit distance may pass what would block: most of it is hairs.
 fn least_step(fractal: Fractal, blocks: f32, surface_distance: f32) -> f32 {
-    return max(LEAST_STEP * blocks, 0.6 * saturate(3.0 - fractal.power) * surface_distance);
+    let low = clamp(3.5 - fractal.power, 0.0, 1.5);
+    return max(LEAST_STEP * blocks, low * surface_distance);
 }
 
 // `clear`: as far before the point a ray is known not to be blocked.

@@ -4,7 +4,8 @@
 //! (x + 0.5, y + 0.5); normalised device coordinates run from −1 to 1, x right and y up;
 //! depth is Euclidean distance along the unit ray. A pixel's cone has the radius
 //! `half_height / height_px` per unit of depth, half the pixel's width; a ray has hit where the
-//! distance is below that cone's radius times the scene's detail setting.
+//! distance is below that cone's radius times the scene's detail setting, at low powers for half of
+//! that length along the ray.
 
 use glam::{DVec2, DVec3};
 
@@ -16,6 +17,13 @@ pub const MAX_MARCH_STEPS: u32 = 4096;
 
 /// No step of a ray is shorter than this part of the hit distance; what is thinner may be passed.
 pub const LEAST_STEP: f64 = 0.25;
+/// The same where a hit has to last ([`DistanceField::has_dips`]).
+const LEAST_STEP_OVER_DIPS: f64 = 0.4;
+/// How long it has to, in hit distances, and at how many places that is asked.
+const THICK: f64 = 0.5;
+const THICK_PLACES: u32 = 6;
+/// Halvings of the step that crossed the hit distance, so that these places lie where they should.
+const HALVINGS: u32 = 5;
 
 /// What a field says of a point, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +47,13 @@ pub trait DistanceField {
 
     /// Radius of a sphere about the origin that holds all of the surface, in scene units.
     fn bounding_radius(&self) -> f64;
+
+    /// Does the distance dip for far less than it says? Then a ray passes what it is near to for less
+    /// than half a hit distance: which of the dips it meets is chance, and no pixel shows what is in
+    /// them.
+    fn has_dips(&self) -> bool {
+        false
+    }
 
     /// [`Self::distance`], mended where the estimate is far too large: past the bounding sphere,
     /// never less than the way to it, never more than the way to its centre. For speeds and
@@ -66,18 +81,37 @@ pub trait DistanceField {
     fn march(&self, ray: Ray, cone: f64, max_depth: f64) -> Option<f64> {
         let (near, far) = ray.sphere_span(self.bounding_radius())?;
         let far = far.min(max_depth);
-        let mut depth = near;
+        let least_step = if self.has_dips() { LEAST_STEP_OVER_DIPS } else { LEAST_STEP };
+        let (mut before, mut depth) = (near, near);
         for _ in 0..MAX_MARCH_STEPS {
             if depth > far {
                 return None;
             }
             let (reach, hit) = (self.reach(ray.at(depth)), cone * depth);
             if reach.distance <= hit {
-                return Some(depth);
+                if !self.has_dips() {
+                    return Some(depth);
+                }
+                if let Some(depth) = self.lasting_hit(ray, cone, [before, depth]) {
+                    return Some(depth);
+                }
             }
-            depth += reach.step.max(LEAST_STEP * hit);
+            before = depth;
+            depth += reach.step.max(least_step * hit);
         }
         None
+    }
+
+    /// Where between two depths, of which the second is within the hit distance, the ray comes that
+    /// near, if it stays so for [`THICK`] hit distances.
+    fn lasting_hit(&self, ray: Ray, cone: f64, [mut before, mut hit]: [f64; 2]) -> Option<f64> {
+        let is_near = |depth: f64| self.distance(ray.at(depth)) <= cone * depth;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (before + hit);
+            *(if is_near(middle) { &mut hit } else { &mut before }) = middle;
+        }
+        let place = |k: u32| hit * (1.0 + cone * THICK * f64::from(k) / f64::from(THICK_PLACES));
+        (1..=THICK_PLACES).all(|k| is_near(place(k))).then_some(hit)
     }
 
     /// Where along `ray` it comes closest to the surface as seen from its origin (least

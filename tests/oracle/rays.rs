@@ -14,6 +14,12 @@ const HOLDS_ALL: f64 = 2.5;
 /// A ray that is still on its way after so many steps is as near as it will get.
 const MOST_STEPS: u32 = 20_000;
 
+/// At powers below 4 a ray passes what it is near to for less than half of the hit distance: shares of
+/// that at which it is asked.
+const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
+/// Part of the hit distance that a step covers at least inside of what is passed.
+const LEAST_STEP: f64 = 0.01;
+
 /// A picture's width and height in pixels.
 pub type Size = [u32; 2];
 
@@ -51,18 +57,38 @@ pub fn march(scene: &Scene, size: Size, pixel: [u32; 2]) -> Option<f64> {
     let origin = scene.camera.position.to_dvec3();
     let direction = direction(&scene.camera, size, pixel);
     let (near, far) = crossing(origin, direction)?;
+    let is_near =
+        |t: f64| distance(&scene.fractal, origin + direction * t) < hit_distance(scene, size, t);
     let mut t = near.max(0.0);
+    let (mut before, mut was_near) = (t, false);
     for _ in 0..MOST_STEPS {
         if t > far {
             return None;
         }
         let d = distance(&scene.fractal, origin + direction * t);
-        if d < hit_distance(scene, size, t) {
-            return Some(t);
+        let hit = hit_distance(scene, size, t);
+        if d < hit && !was_near {
+            if scene.fractal.power >= 4.0 {
+                return Some(t);
+            }
+            let entry = entry(before, t, is_near);
+            if STILL.iter().all(|share| is_near(entry + share * hit)) {
+                return Some(entry);
+            }
         }
-        t += (STEP_PART * d).min(LONGEST_STEP);
+        (before, was_near) = (t, d < hit);
+        t += (STEP_PART * d).clamp(LEAST_STEP * hit, LONGEST_STEP);
     }
     Some(t)
+}
+
+/// Where a ray comes near, between a place where it is not and one where it is.
+fn entry(mut away: f64, mut near: f64, is_near: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..12 {
+        let middle = 0.5 * (away + near);
+        *(if is_near(middle) { &mut near } else { &mut away }) = middle;
+    }
+    near
 }
 
 /// The normal from six samples on the main axes of a grid (thesis figure 3.3 c).
@@ -84,7 +110,8 @@ pub struct ShadowRay {
 pub const SHADOW_CONE: f64 = 0.004;
 
 /// How near the surface comes to the light's ray, over how near counts as blocking: below 1 the
-/// light is blocked. The ray runs from outside toward the point (thesis 4.5) and ends one hit
+/// light is blocked. At powers below 4 it has to come nearer, and to stay so for half of the hit
+/// distance. The ray runs from outside toward the point (thesis 4.5) and ends one hit
 /// distance before it; half of that is the least that blocks. The point is lifted off the surface
 /// by two hit distances.
 pub fn openness(fractal: &Fractal, point: DVec3, normal: DVec3, hit: f64, ray: &ShadowRay) -> f64 {
@@ -92,13 +119,20 @@ pub fn openness(fractal: &Fractal, point: DVec3, normal: DVec3, hit: f64, ray: &
     let Some((_, far)) = crossing(origin, ray.toward) else { return f64::INFINITY };
     let mut s = far.min(ray.reach);
     let mut least = f64::INFINITY;
+    let low = (4.0 - fractal.power).clamp(0.0, 1.0);
+    let blocks = |s: f64| (SHADOW_CONE * (1.0 - 0.5 * low) * s).max((0.5 - 0.35 * low) * hit);
+    let openness = |s: f64| distance(fractal, origin + ray.toward * s) / blocks(s);
     while s > hit {
-        let d = distance(fractal, origin + ray.toward * s);
-        least = least.min(d / (SHADOW_CONE * s).max(0.5 * hit));
+        let mut open = openness(s);
+        let d = open * blocks(s);
+        if open < 1.0 && low > 0.0 {
+            open = STILL.iter().map(|share| openness(s - share * hit)).fold(open, f64::max);
+        }
+        least = least.min(open);
         if least < 0.5 {
             break;
         }
-        s -= (STEP_PART * d).min(LONGEST_STEP);
+        s -= (STEP_PART * d).clamp(LEAST_STEP * hit, LONGEST_STEP);
     }
     least
 }
