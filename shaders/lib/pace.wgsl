@@ -38,9 +38,9 @@ fn next_step(pace: ptr<function, Pace>, ball: f32) -> f32 {
     return step;
 }
 
-// Where the estimate dips, a hit counts if it lasts: `THICK` footprints on, and at the other places on the
-// way there, the ray is still as near. Rays that end in any dip end in noise: what makes
-// the dip is thinner than a thousandth of a pixel.
+// Where the estimate dips, a hit counts if it lasts: `THICK` hit distances on, and at the other places
+// on the way there, the ray is still as near. What makes the others is far thinner than a pixel, and
+// which of them a ray meets is chance.
 const THICK = 0.5;
 const THICK_PLACES = 6u;
 // Halvings of the step that crossed the hit distance, so that the places lie where they should.
