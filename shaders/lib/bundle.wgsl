@@ -4,9 +4,9 @@
 // ray marching"; here with balls rather than steps alone).
 
 // The part of a safe step that is taken for an empty ball in all directions: a ray relies on it in one
-// direction only. At low powers less, and at power 2, where what is near can be thin, nothing.
+// direction only. At low powers less.
 fn ball_part(power: f32) -> f32 {
-    return clamp(0.25 * power - 0.5, 0.0, 1.0);
+    return clamp(0.25 * power - 0.5, 0.7, 1.0);
 }
 
 // Steps after which a bundle that creeps along a surface leaves the rest to its rays.

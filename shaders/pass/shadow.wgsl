@@ -5,9 +5,9 @@
 // No step is shorter than this part of the distance that blocks.
 const LEAST_STEP = 0.25;
 
-// At low powers steps of a whole hit distance may pass what would block: most of it is hairs.
+// At power 2 steps of two hit distances may pass what would block, for most of it is hairs; at 3 of half a one.
 fn least_step(fractal: Fractal, blocks: f32, surface_distance: f32) -> f32 {
-    let low = clamp(3.5 - fractal.power, 0.0, 1.5);
+    let low = clamp(5.0 - 1.5 * fractal.power, 0.0, 2.0);
     return max(LEAST_STEP * blocks, low * surface_distance);
 }
 
