@@ -28,6 +28,9 @@ const SPARSER: f64 = 1.5;
 /// fixed. Were they all of one workgroup, their own smallness could never be found to be the trouble.
 const FEWEST_WORKGROUPS: f64 = 2.0;
 
+/// How many times as many rays as those before it an opening may have: two lattice levels.
+const FINER: f64 = 5.0;
+
 /// Part of a budget that is planned for: one frame takes a little more than the one before it.
 const AIM: f64 = 0.9;
 
@@ -202,6 +205,10 @@ impl Cost {
         // At least a quarter of the budget goes into the lattice's pixels, however slow the
         // display and the way to it.
         let left_ms = AIM * budget_ms - before_ms - self.show_ms - fixed_ms;
-        f64::from(pixels) * pixel_ms <= left_ms.max(0.25 * budget_ms)
+        let pixels = f64::from(pixels);
+        // What few rays took says little of what many will.
+        let tried = self.rate_for(Aim::Opening, self.arithmetic, stage);
+        let is_near = !tried.is_measured() || pixels * rays_of_pixel <= FINER * tried.largest;
+        is_near && pixels * pixel_ms <= left_ms.max(0.25 * budget_ms)
     }
 }

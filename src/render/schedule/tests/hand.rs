@@ -127,6 +127,33 @@ fn a_movement_through_dearer_and_cheaper_views_stays_in_time() {
     }
 }
 
+/// Where others hold up the little that a first picture takes, the next one is not many times finer.
+#[test]
+fn pictures_get_finer_step_by_step() {
+    for held_up_ms in [0.0, 1.0, 3.0, 10.0] {
+        let (mut schedule, mut device, mut now) = at_rest(1.4);
+        // What pieces that refine take says that nearly all of it is fixed.
+        device.overhead_ms = 5.0;
+        refine(&mut schedule, &mut device, &mut now, 2.0);
+        device.overhead_ms = held_up_ms;
+        let mut before = None;
+        for _ in 0..10 {
+            schedule.set_lights(LIGHTS, 0b001);
+            schedule.change(Stale::Light, true, now);
+            while !schedule.status(now).shown || !schedule.in_flight.is_empty() {
+                while let Some(work) = schedule.next(now) {
+                    device.submit(work, now);
+                }
+                now = now.max(device.busy_until);
+                device.collect(&mut schedule, now);
+            }
+            let level = schedule.status(now).shown_level;
+            assert!(before.is_none_or(|before| level + 2 >= before), "{before:?}, then {level}");
+            before = Some(level);
+        }
+    }
+}
+
 /// From the release to the picture of all pixels, in full frames at one go; and what was shown.
 fn release(full_ms: f64, piece_ms: f64) -> (f64, Vec<Work>) {
     let budget_ms = full_ms / 20.0;
