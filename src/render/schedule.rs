@@ -35,18 +35,13 @@ pub const SAMPLE_WORKGROUPS: u32 = 4096;
 /// Most workgroups in any piece: its lists have room for a megapixel.
 pub const MOST_WORKGROUPS: u32 = 16_384;
 
-/// GPU time that one piece aims at while someone is watching, milliseconds.
-pub const SLICE_MS: f64 = 8.0;
+/// Most GPU time that one piece aims at while someone is watching, milliseconds. Each has its own
+/// dispatches, whose last workgroups leave much of the GPU idle: small ones waste time.
+pub const SLICE_MS: f64 = 25.0;
 
-/// Most of the motion budget that it aims at: what is in flight when the hand moves again takes of
-/// its first picture's time.
-const SLICE_SHARE: f64 = 0.4;
-
-/// The same once nothing has changed for a while: each piece has its own dispatches, whose last
-/// workgroups leave much of the GPU idle. Two of them and a sparse picture take less than two motion
-/// budgets.
-const REST_SLICE_MS: f64 = 25.0;
-const REST_SLICE_SHARE: f64 = 0.5;
+/// Most of the motion budget that it aims at. Two pieces that are in flight when the hand moves
+/// again and a sparse picture take little more than a budget.
+const SLICE_SHARE: f64 = 0.5;
 
 /// GPU time that one piece of a still aims at, milliseconds.
 pub const STILL_SLICE_MS: f64 = 60.0;
@@ -208,6 +203,11 @@ impl Schedule {
         self.pace == Pace::Still || !self.opening || self.is_between()
     }
 
+    /// Whether a movement goes on.
+    fn follows(&self, now_secs: f64) -> bool {
+        self.moving && now_secs - self.changed_at < QUIET_SECS
+    }
+
     /// Nothing of an opening is under way, nor about to be.
     fn is_between(&self) -> bool {
         self.under_way.is_none() && !self.show_due && self.filmed() == self.shaded
@@ -288,8 +288,7 @@ impl Schedule {
         if (self.show_due && self.show_now(now_secs)) || self.adapt_now(now_secs) {
             return Some(self.show(now_secs));
         }
-        let following = self.moving && now_secs - self.changed_at < QUIET_SECS;
-        if following && !self.opening {
+        if self.follows(now_secs) && !self.opening {
             return None;
         }
         loop {
@@ -305,7 +304,7 @@ impl Schedule {
                 }
             };
             if points.grid(self.size_px).workgroups() > 0 {
-                return Some(Work::Trace(self.slice(points, first_workgroup, now_secs)));
+                return Some(Work::Trace(self.slice(points, first_workgroup)));
             }
             // A small region has no pixels of this kind.
             self.complete(points);
@@ -354,7 +353,7 @@ impl Schedule {
         Work::Show { level, fill, film: self.is_filled && level > 0, adapt }
     }
 
-    fn slice(&mut self, points: Points, first_workgroup: u32, now_secs: f64) -> Trace {
+    fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let job = self.job(points);
         let total = points.grid(self.size_px).workgroups();
         // An opening goes out whole where the budget has room for it: it and its display are
@@ -363,10 +362,7 @@ impl Schedule {
         let aim_ms = match self.pace {
             Pace::Still => STILL_SLICE_MS,
             Pace::Interactive if opening => self.budget_ms,
-            Pace::Interactive if now_secs - self.changed_at < QUIET_SECS => {
-                SLICE_MS.min(SLICE_SHARE * self.budget_ms)
-            }
-            Pace::Interactive => REST_SLICE_MS.min(REST_SLICE_SHARE * self.budget_ms),
+            Pace::Interactive => SLICE_MS.min(SLICE_SHARE * self.budget_ms),
         };
         let most = match points {
             Points::Sample(_) => SAMPLE_WORKGROUPS,
@@ -425,7 +421,7 @@ impl Schedule {
             samples_done: self.samples_done,
             shown_level: self.shown_level,
             shown: !self.opening,
-            moving: self.moving && now_secs - self.changed_at < QUIET_SECS,
+            moving: self.follows(now_secs),
             idle: self.in_flight.is_empty()
                 && !self.show_due
                 && self.under_way.is_none()

@@ -6,8 +6,8 @@ use crate::render::lattice::{COARSEST, Grid};
 /// A full frame that is done this soon comes straight after the opening, milliseconds.
 pub(super) const STRAIGHT_MS: f64 = 1000.0;
 
-/// Any other one comes once this lattice level, one pixel of 16, has been seen.
-pub(super) const PREVIEW_LEVEL: u32 = 4;
+/// Any other one comes once this lattice level, one pixel of 32, has been seen.
+pub(super) const PREVIEW_LEVEL: u32 = 5;
 
 /// The finest lattice level whose pixels are so few that they are computed once more.
 const SPARSE_LEVEL: u32 = 3;

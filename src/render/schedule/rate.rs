@@ -8,10 +8,8 @@ const FIRST_RAYS: f64 = 4096.0;
 /// Milliseconds a ray that are assumed before anything is measured.
 const ASSUMED_MS: f64 = 0.001;
 
-/// A measurement so many times above what was expected is a surprise. Once it is believed, all
-/// that came before is dearer by this power of it: slices shrink at once.
+/// A measurement so many times above what was expected is a surprise.
 const SURPRISE: f64 = 2.0;
-const DEARER_BY: f64 = 0.5;
 
 /// How many times as large as the largest one lately a slice may be: it is measured before the
 /// line is trusted any further.
@@ -45,6 +43,15 @@ impl Aim {
         match self {
             Self::Opening => 1,
             Self::Refining => 4,
+        }
+    }
+
+    /// Once a surprise is believed, all that came before is dearer by this power of it: what
+    /// comes next shrinks at once.
+    fn belief(self) -> f64 {
+        match self {
+            Self::Opening => 0.75,
+            Self::Refining => 0.4,
         }
     }
 
@@ -132,7 +139,7 @@ impl Rate {
         // and the next slices would take many times as long as they should.
         let mut ms = ms;
         if self.surprises >= aim.patience().min(self.sums.weight as u32) {
-            self.sums.scale(dearer.powf(DEARER_BY));
+            self.sums.scale(dearer.powf(aim.belief()));
         } else if self.surprises > 0 {
             ms = SURPRISE * expected_ms;
         }

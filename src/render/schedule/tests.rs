@@ -169,7 +169,7 @@ fn slices_stay_short() {
         settle(&mut schedule, &mut device, &mut 0.0);
         // The display of a whole picture cannot be cut; it is small on anything but the slowest.
         let show_ms = f64::from(SIZE[0] * SIZE[1]) * 0.02 * device.pixel_ns * 1e-6;
-        let bound = (1.5 * REST_SLICE_MS).min(budget_ms).max(show_ms + 1.0);
+        let bound = (1.5 * SLICE_MS).min(budget_ms).max(show_ms + 1.0);
         assert!(device.longest_ms <= bound, "slowness {slowness}: {} ms", device.longest_ms);
     }
 }
