@@ -24,6 +24,9 @@ const SHADING_RAYS: f64 = 0.25;
 /// What a ray of an opening costs, in rays of what refines, until it has been measured.
 const SPARSER: f64 = 1.5;
 
+/// The most that it costs in those.
+const SPARSEST: f64 = 2.0;
+
 /// Fewest workgroups of a slice: two can be halved, and slices of two sizes keep telling what is
 /// fixed. Were they all of one workgroup, their own smallness could never be found to be the trouble.
 const FEWEST_WORKGROUPS: f64 = 2.0;
@@ -114,6 +117,12 @@ impl Cost {
             let fixed_ms = (aim == Aim::Opening).then_some(refining);
             let rate = &mut self.rates[aim as usize][arithmetic as usize][stage as usize];
             rate.learn(aim, fixed_ms, f64::from(pixels) * rays, busy_ms.max(1e-3));
+            if aim == Aim::Opening {
+                // It has seen a view that what refines has not.
+                let ray_ms = rate.ray_ms / SPARSEST;
+                let rates = &mut self.rates[Aim::Refining as usize];
+                rates[arithmetic as usize][stage as usize].raise_to(ray_ms);
+            }
         }
     }
 

@@ -161,6 +161,16 @@ impl Rate {
         self.fixed_ms + self.ray_ms * rays
     }
 
+    /// Makes all of it dearer, where rays cost less than this.
+    pub fn raise_to(&mut self, ray_ms: f64) {
+        let dearer = ray_ms / self.ray_ms;
+        if self.is_measured() && dearer > 1.0 {
+            self.sums.scale(dearer);
+            self.fixed_ms *= dearer;
+            self.ray_ms *= dearer;
+        }
+    }
+
     /// The same with rays so many times as dear.
     pub fn times(self, dearer: f64) -> Self {
         Self { ray_ms: self.ray_ms * dearer, ..self }

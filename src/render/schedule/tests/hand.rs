@@ -127,6 +127,32 @@ fn a_movement_through_dearer_and_cheaper_views_stays_in_time() {
     }
 }
 
+/// What refines a view that is dearer than the one before it is cut by what its opening took.
+#[test]
+fn pieces_of_a_dearer_view_are_no_longer() {
+    let (mut schedule, mut device, mut now) = at_rest(1.4);
+    for _ in 0..6 {
+        picture_of_a_move(&mut schedule, &mut device, &mut now);
+    }
+    device.pixel_ns *= 3.0;
+    for _ in 0..6 {
+        picture_of_a_move(&mut schedule, &mut device, &mut now);
+    }
+    schedule.set_moving(false);
+    let (end, mut longest) = (now + 0.5, 0.0_f64);
+    while now < end {
+        device.collect(&mut schedule, now);
+        while let Some(work) = schedule.next(now) {
+            device.submit(work, now);
+            if matches!(work, Work::Trace(_)) {
+                longest = longest.max(device.queue.last().expect("a piece").2);
+            }
+        }
+        now += 0.001;
+    }
+    assert!(longest <= 1.1 * BUDGET_MS, "{longest} ms");
+}
+
 /// Where others hold up the little that a first picture takes, the next one is not many times finer.
 #[test]
 fn pictures_get_finer_step_by_step() {
