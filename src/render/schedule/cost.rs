@@ -59,7 +59,7 @@ impl Arithmetic {
         match self {
             Self::Special => 1.0,
             Self::Whole => 2.0,
-            Self::Real => 4.0,
+            Self::Real => 6.0,
         }
     }
 }
