@@ -8,6 +8,7 @@ use mandelight::{
         Kernels, Pace, Region, View,
         frame::{Dispatches, Recorder},
         kernels::Passes,
+        lattice::MOST_TOGETHER,
         pass,
         schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
@@ -163,18 +164,19 @@ impl<'a> Split<'a> {
         Ok(counts.to_vec())
     }
 
-    /// What a later sample of every pixel takes; [`Self::count`] has marched the centre samples.
+    /// What later samples of every pixel take, in the mean; [`Self::count`] has marched the centre samples.
     ///
     /// # Errors
     /// Where the device is lost.
     pub fn count_later(&self, passes: &Passes) -> Result<Counts, Failure> {
         let mut counts = Counts::default();
-        for trace in self.traces(Points::Sample(1), SAMPLE_WORKGROUPS) {
+        let points = Points::Samples { first: 1, count: MOST_TOGETHER };
+        for trace in self.traces(points, SAMPLE_WORKGROUPS) {
             for (_, record) in MARCHING {
                 counts += self.counted(record, passes, trace)?;
             }
         }
-        Ok(counts)
+        Ok(counts.per(f64::from(MOST_TOGETHER)))
     }
 
     /// What one pass counts.

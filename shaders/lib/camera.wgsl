@@ -18,9 +18,9 @@ fn eye_ray(position: vec2f, side: f32) -> Ray {
     );
 }
 
-// The ray through a pixel's sample position.
-fn camera_ray(pixel: vec2u) -> Ray {
-    return eye_ray(eye_position(pixel, slice.jitter), eye_side(pixel));
+// The ray through a sample.
+fn camera_ray(site: Site) -> Ray {
+    return eye_ray(eye_position(site.pixel, place_in_pixel(site.sample)), eye_side(site.pixel));
 }
 
 // How close to the surface a ray must come, at this depth, to have hit it.

@@ -1,4 +1,4 @@
-// Which pixel a thread works on. Threads run over a grid that is a lattice of the region:
+// Which sample of which pixel a thread works on. Threads run over a grid that is a lattice of the region:
 // every 2^shift-th pixel, every other one of those in staggered rows, and so on.
 
 const WORKGROUP_SIDE = 8u;
@@ -12,22 +12,27 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
     return vec2u(x, y);
 }
 
-// A workgroup's threads in the order of their index make eight blocks of four by two: rays of one
-// go in one bundle.
+// A workgroup's threads in the order of their index make eight blocks: rays of one go in one
+// bundle. Of single samples a block has four by two pixels; of samples that are computed together, all
+// those of two by two, of two, or of a single pixel.
 const BLOCKS = 8u;
 const BLOCK_THREADS = 8u;
-const BLOCK_SIZE = vec2u(4u, 2u);
 
-// The place of a block's first thread in its workgroup.
+// The logarithms of a block's width and height, in pixels.
+fn block_shift() -> vec2u {
+    return vec2u(2u - (slice.samples_shift + 1u) / 2u, 1u - slice.samples_shift / 2u);
+}
+
+// A block's first pixel in its workgroup.
 fn place_of_block(block: u32) -> vec2u {
-    return place_in_workgroup(block * BLOCK_THREADS);
+    return vec2u(block & 1u, block >> 1u) << block_shift();
 }
 
 // The place of a workgroup's first thread in the lattice's grid.
 fn workgroup_corner(workgroup: u32) -> vec2u {
     let id = slice.first_workgroup + workgroup;
     let place = vec2u(id % slice.workgroups.x, id / slice.workgroups.x);
-    return (place * slice.scatter) % slice.workgroups * WORKGROUP_SIDE;
+    return (place * slice.scatter) % slice.workgroups * (vec2u(2u, 4u) << block_shift());
 }
 
 struct PixelBox {
@@ -40,15 +45,19 @@ struct PixelBox {
 fn block_box(workgroup: u32, block: u32) -> PixelBox {
     let thread = workgroup_corner(workgroup) + place_of_block(block);
     let first = thread * slice.step + slice.offset;
-    let last = first + (BLOCK_SIZE - 1u) * slice.step + vec2u(slice.stagger, 0u);
+    let last = first + ((vec2u(1u) << block_shift()) - 1u) * slice.step + vec2u(slice.stagger, 0u);
     return PixelBox(first << vec2u(slice.shift), last << vec2u(slice.shift));
 }
 
-// The thread's pixel in the region; it may lie outside of it.
+// The pixel in the region at a place of the lattice's grid; it may lie outside of it.
+fn pixel_at(place: vec2u) -> vec2u {
+    let shifted = slice.stagger * ((place.y + slice.row_phase) & 1u);
+    return (place * slice.step + slice.offset + vec2u(shifted, 0u)) << vec2u(slice.shift);
+}
+
+// The pixel of a thread where each has one of its own; it may lie outside of the region.
 fn lattice_pixel(workgroup: u32, local_index: u32) -> vec2u {
-    let thread = workgroup_corner(workgroup) + place_in_workgroup(local_index);
-    let shifted = slice.stagger * ((thread.y + slice.row_phase) & 1u);
-    return (thread * slice.step + slice.offset + vec2u(shifted, 0u)) << vec2u(slice.shift);
+    return pixel_at(workgroup_corner(workgroup) + place_in_workgroup(local_index));
 }
 
 fn inside_region(pixel: vec2u) -> bool {
@@ -60,7 +69,41 @@ fn pixel_index(pixel: vec2u) -> u32 {
     return pixel.y * picture.size_px.x + pixel.x;
 }
 
-// The element of G-buffer arrays that a thread reads and writes.
-fn sample_index(pixel: vec2u, workgroup: u32, local_index: u32) -> u32 {
-    return select(pixel_index(pixel), workgroup * WORKGROUP_THREADS + local_index, slice.compact != 0u);
+// A sample: what a thread of a block computes.
+struct Site {
+    // Whether there is one: a pixel of the region, and no more of its samples than are asked for.
+    is_there: bool,
+    pixel: vec2u,
+    // Which of those that are computed together.
+    sample: u32,
+    // Its element of G-buffer arrays.
+    index: u32,
+}
+
+// Of `place` by `block` in a workgroup: pixels of a block come first, then their next samples.
+fn block_site(workgroup: u32, block: u32, place: u32) -> Site {
+    let pixels_shift = 3u - slice.samples_shift;
+    let sample = place >> pixels_shift;
+    let in_block = place & ((1u << pixels_shift) - 1u);
+    let width_shift = block_shift().x;
+    let at = vec2u(in_block & ((1u << width_shift) - 1u), in_block >> width_shift);
+    let pixel = pixel_at(workgroup_corner(workgroup) + place_of_block(block) + at);
+    let packed = (workgroup * BLOCKS + block) * BLOCK_THREADS + place;
+    let index = select(pixel_index(pixel), packed, slice.compact != 0u);
+    return Site(inside_region(pixel) && sample < slice.samples, pixel, sample, index);
+}
+
+// A sample of the pixel of a thread, where a thread goes through all samples of one pixel.
+fn pixel_site(thread: u32, sample: u32) -> Site {
+    let pixels_shift = 3u - slice.samples_shift;
+    let block = thread >> pixels_shift;
+    let place = (sample << pixels_shift) + (thread & ((1u << pixels_shift) - 1u));
+    var site = block_site(block / BLOCKS, block % BLOCKS, place);
+    site.is_there = site.is_there && block < slice.blocks;
+    return site;
+}
+
+// Where in its pixel a sample lies, 0 to 1.
+fn place_in_pixel(sample: u32) -> vec2f {
+    return fract(slice.jitter + f32(sample) * slice.jitter_step);
 }

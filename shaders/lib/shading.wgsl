@@ -75,25 +75,26 @@ fn background(direction: vec3f, height: f32) -> vec3f {
     return behind.picture_gain * surroundings_at(in_picture);
 }
 
-// Light straight from its source that a pixel's sample sends to the eye.
-fn direct_radiance(pixel: vec2u, index: u32) -> vec3f {
-    let ray = camera_ray(pixel);
-    let seen = surface[index];
+// Light straight from its source that a sample sends to the eye.
+fn direct_radiance(site: Site) -> vec3f {
+    let ray = camera_ray(site);
+    let seen = surface[site.index];
     let t = bitcast<f32>(seen.x);
-    if (t <= 0.0) { return background(ray.direction, eye_position(pixel, slice.jitter).y); }
+    if (t <= 0.0) { return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y); }
     let point = ray.origin + t * ray.direction;
     let n = octahedral_unpack(seen.y);
-    return reflected(point, n, -ray.direction, surface_color(color_data[index]), visibility[index]);
+    return reflected(point, n, -ray.direction, surface_color(color_data[site.index]), visibility[site.index]);
 }
 
-// Adds a sample to its pixel, or replaces what there is.
-fn put_on_film(pixel: vec2u, radiance: vec3f) {
+// Adds the sum of a pixel's samples to it, or replaces what there is.
+fn put_on_film(pixel: vec2u, sum: vec3f) {
     let at = pixel_index(pixel);
+    let blue_weight = vec2f(sum.b, f32(slice.samples));
     if (slice.accumulate != 0u) {
-        film_rg[at] += radiance.rg;
-        film_bw[at] += vec2f(radiance.b, 1.0);
+        film_rg[at] += sum.rg;
+        film_bw[at] += blue_weight;
     } else {
-        film_rg[at] = radiance.rg;
-        film_bw[at] = vec2f(radiance.b, 1.0);
+        film_rg[at] = sum.rg;
+        film_bw[at] = blue_weight;
     }
 }

@@ -29,8 +29,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     for (var i = 0u; i < BLOCK_THREADS; i++) {
-        let local_index = block % BLOCKS * BLOCK_THREADS + i;
-        let pixel = lattice_pixel(block / BLOCKS, local_index);
-        if (inside_region(pixel)) { surface[sample_index(pixel, block / BLOCKS, local_index)].x = 0u; }
+        let site = block_site(block / BLOCKS, block % BLOCKS, i);
+        if (site.is_there) { surface[site.index].x = 0u; }
     }
 }

@@ -27,43 +27,44 @@ fn on_lattice(at: vec2i) -> vec2i {
 // What is seen `aside` of a pixel's sample, in parts of the picture's height. `reach` is how far
 // the operator looks, at the sample's own depth in scene units: what is farther away than that
 // belongs to something else, and counts less and less.
-fn neighbour(pixel: vec2u, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
+fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
     let eye_px = picture.indirect.around_px;
-    let middle = eye_position(pixel, slice.jitter) * vec2f(eye_px);
+    let middle = eye_position(site.pixel, place_in_pixel(site.sample)) * vec2f(eye_px);
     // Heights to pixels, which need not be square.
     let px = vec2f(f32(eye_px.x) / picture.camera.aspect, f32(eye_px.y));
     let at = on_lattice(vec2i(floor(middle + aside * px)));
     if (any(at < vec2i(0)) || any(at >= vec2i(eye_px))) { return NOBODY; }
     let film_px = vec2u(round(vec2f(eye_px) / picture.eyes.share));
-    let corner = vec2u(round(eye_corner(pixel) * vec2f(film_px)));
+    let corner = vec2u(round(eye_corner(site.pixel) * vec2f(film_px)));
     let index = (corner.y + u32(at.y)) * film_px.x + corner.x + u32(at.x);
     let seen = neighbour_surface[index];
     let t = bitcast<f32>(seen.x);
     if (t <= 0.0) { return NOBODY; }
-    let ray = eye_ray((vec2f(at) + 0.5) / vec2f(eye_px), eye_side(pixel));
+    let ray = eye_ray((vec2f(at) + 0.5) / vec2f(eye_px), eye_side(site.pixel));
     let offset = ray.origin + t * ray.direction - point;
     let weight = saturate(2.0 - length(offset) / reach);
     return Neighbour(weight, offset, octahedral_unpack(seen.y), shared_exponent_unpack(direct[index]));
 }
 
 // Interleaved gradient noise (Jimenez 2014), 0 to 1, other for each sample of a pixel.
-fn noise(pixel: vec2u, salt: f32) -> f32 {
-    let p = vec2f(picture.origin_px + eye_pixel(pixel)) + salt;
-    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715))) + slice.jitter.x + slice.jitter.y);
+fn noise(site: Site, salt: f32) -> f32 {
+    let p = vec2f(picture.origin_px + eye_pixel(site.pixel)) + salt;
+    let shift = dot(place_in_pixel(site.sample), vec2f(1.0));
+    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715))) + shift);
 }
 
 // Eq. 4.1 over a square of half width `radius`: the mean of the neighbours' light, each by the
 // cosine of its normal to the sample's, negative ones clamped. Where the square has more pixels
 // than samples they lie on a grid, one at a noisy place of each of its cells.
-fn uniform_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
+fn uniform_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     let count = i32(picture.indirect.samples);
     let stride = picture.indirect.radius / (f32(count) + 0.5);
-    let place = vec2f(noise(pixel, 0.0), noise(pixel, 37.0)) - 0.5;
+    let place = vec2f(noise(site, 0.0), noise(site, 37.0)) - 0.5;
     var sum = vec3f(0.0);
     var total = 0.0;
     for (var y = -count; y <= count; y++) {
         for (var x = -count; x <= count; x++) {
-            let other = neighbour(pixel, point, (vec2f(vec2i(x, y)) + place) * stride, reach);
+            let other = neighbour(site, point, (vec2f(vec2i(x, y)) + place) * stride, reach);
             sum += other.weight * max(dot(n, other.normal), 0.0) * other.radiance;
             total += other.weight;
         }
@@ -75,10 +76,10 @@ fn uniform_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
 // far adds its light and the ambient factor, the less the higher it stands. Printed, the horizon
 // is never lowered between directions, and a sum of nothing is divided by nothing: here each
 // direction begins with its own, and a sample without neighbours gets the ambient light alone.
-fn horizon_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
+fn horizon_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     let ambient = vec3f(picture.indirect.ambient);
-    let turn = noise(pixel, 0.0);
-    let along = noise(pixel, 37.0);
+    let turn = noise(site, 0.0);
+    let along = noise(site, 37.0);
     var sum = vec3f(0.0);
     var total = 0.0;
     for (var d = 0u; d < picture.indirect.directions; d++) {
@@ -87,7 +88,7 @@ fn horizon_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
         var horizon = 0.0;
         for (var k = 0u; k < picture.indirect.samples; k++) {
             let part = (f32(k) + along) / f32(picture.indirect.samples);
-            let other = neighbour(pixel, point, direction * (part * picture.indirect.radius), reach);
+            let other = neighbour(site, point, direction * (part * picture.indirect.radius), reach);
             let distance = length(other.offset);
             // Pixels so near that they may be the sample's own tell nothing.
             if (other.weight <= 0.0 || distance < 0.02 * part * reach) { continue; }
@@ -102,27 +103,31 @@ fn horizon_light(pixel: vec2u, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     return sum / total;
 }
 
-@compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given_picture;
-    let pixel = lattice_pixel(workgroup.x, local_index);
-    if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, workgroup.x, local_index);
-    var radiance = direct_radiance(pixel, index);
-    let seen = surface[index];
+// All light that a sample sends to the eye.
+fn radiance_of(site: Site) -> vec3f {
+    let radiance = direct_radiance(site);
+    let seen = surface[site.index];
     let t = bitcast<f32>(seen.x);
-    if (t > 0.0) {
-        let ray = camera_ray(pixel);
-        let point = ray.origin + t * ray.direction;
-        let n = octahedral_unpack(seen.y);
-        let reach = picture.indirect.radius * 2.0 * picture.camera.half_height * t;
-        var arriving: vec3f;
-        if (picture.indirect.kind == INDIRECT_UNIFORM) {
-            arriving = uniform_light(pixel, point, n, reach);
-        } else {
-            arriving = horizon_light(pixel, point, n, reach);
-        }
-        radiance += picture.indirect.strength * surface_color(color_data[index]) * arriving;
+    if (t <= 0.0) { return radiance; }
+    let ray = camera_ray(site);
+    let point = ray.origin + t * ray.direction;
+    let n = octahedral_unpack(seen.y);
+    let reach = picture.indirect.radius * 2.0 * picture.camera.half_height * t;
+    var arriving: vec3f;
+    if (picture.indirect.kind == INDIRECT_UNIFORM) {
+        arriving = uniform_light(site, point, n, reach);
+    } else {
+        arriving = horizon_light(site, point, n, reach);
     }
-    put_on_film(pixel, radiance);
+    return radiance + picture.indirect.strength * surface_color(color_data[site.index]) * arriving;
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) thread: vec3u) {
+    picture = given_picture;
+    let first = pixel_site(thread.x, 0u);
+    if (!first.is_there) { return; }
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < slice.samples; i++) { sum += radiance_of(pixel_site(thread.x, i)); }
+    put_on_film(first.pixel, sum);
 }

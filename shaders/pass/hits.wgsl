@@ -7,9 +7,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (block >= slice.blocks) { return; }
     var any = 0u;
     for (var i = 0u; i < BLOCK_THREADS; i++) {
-        let local_index = block % BLOCKS * BLOCK_THREADS + i;
-        let pixel = lattice_pixel(block / BLOCKS, local_index);
-        if (inside_region(pixel)) { any |= surface[sample_index(pixel, block / BLOCKS, local_index)].x; }
+        let site = block_site(block / BLOCKS, block % BLOCKS, i);
+        if (site.is_there) { any |= surface[site.index].x; }
     }
     if (any != 0u) { list_hit(block); }
 }

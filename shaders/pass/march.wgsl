@@ -52,19 +52,17 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let place = listed_ray(thread.x);
-    if (!place.is_there) { return; }
+    let listed = listed_ray(thread.x);
+    let site = listed.site;
+    if (!site.is_there) { return; }
     let fractal = picture.fractal;
-    let pixel = lattice_pixel(place.workgroup, place.local_index);
-    if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, place.workgroup, place.local_index);
-    let ray = camera_ray(pixel);
-    let t = march(picture.camera, fractal, ray, place.clear);
-    surface[index].x = bitcast<u32>(t);
+    let ray = camera_ray(site);
+    let t = march(picture.camera, fractal, ray, listed.clear);
+    surface[site.index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
     let point = ray.origin + t * ray.direction;
     let colors = orbit_colors(fractal, point);
-    color_data[index] = vec2u(
+    color_data[site.index] = vec2u(
         pack2x16unorm(vec2f(colors.smooth_iterations / f32(fractal.iterations + 1u), colors.traps.x * 0.5)),
         pack2x16unorm(colors.traps.yz * 0.5),
     );

@@ -50,16 +50,13 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let place = listed_hit(thread.x);
-    if (!place.is_there) { return; }
-    let pixel = lattice_pixel(place.workgroup, place.local_index);
-    if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, place.workgroup, place.local_index);
-    let t = bitcast<f32>(surface[index].x);
+    let site = listed_hit(thread.x);
+    if (!site.is_there) { return; }
+    let t = bitcast<f32>(surface[site.index].x);
     if (t == 0.0) { return; }
-    let ray = camera_ray(pixel);
+    let ray = camera_ray(site);
     let point = ray.origin + t * ray.direction;
     let fractal = picture.fractal;
     let spacing = hit_distance(picture.camera, fractal, t);
-    surface[index].y = octahedral_pack(surface_normal(fractal, point, spacing, -ray.direction));
+    surface[site.index].y = octahedral_pack(surface_normal(fractal, point, spacing, -ray.direction));
 }

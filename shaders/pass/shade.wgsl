@@ -1,14 +1,16 @@
 // Light and colour of each sample, onto the film, or to where indirect light is made of it.
 
 @compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let pixel = lattice_pixel(workgroup.x, local_index);
-    if (!inside_region(pixel)) { return; }
-    let radiance = direct_radiance(pixel, sample_index(pixel, workgroup.x, local_index));
+    let first = pixel_site(thread.x, 0u);
+    if (!first.is_there) { return; }
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < slice.samples; i++) { sum += direct_radiance(pixel_site(thread.x, i)); }
     if (picture.indirect.kind == INDIRECT_OFF) {
-        put_on_film(pixel, radiance);
+        put_on_film(first.pixel, sum);
     } else {
-        direct[pixel_index(pixel)] = shared_exponent_pack(radiance);
+        // Of centre samples alone.
+        direct[pixel_index(first.pixel)] = shared_exponent_pack(sum);
     }
 }

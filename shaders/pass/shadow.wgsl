@@ -52,16 +52,14 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let place = listed_ray(thread.x);
-    if (!place.is_there) { return; }
-    let pixel = lattice_pixel(place.workgroup, place.local_index);
-    if (!inside_region(pixel)) { return; }
-    let index = sample_index(pixel, place.workgroup, place.local_index);
-    let seen = receiver(pixel, surface[index]);
+    let listed = listed_ray(thread.x);
+    let site = listed.site;
+    if (!site.is_there) { return; }
+    let seen = receiver(site);
     if (!seen.faces) { return; }
     var clear = 1e30;
-    if (slice.light_kind != LIGHT_POINT) { clear = place.clear - dot(seen.point, slice.light_vector); }
+    if (slice.light_kind != LIGHT_POINT) { clear = listed.clear - dot(seen.point, slice.light_vector); }
     if (light_reaches(picture.fractal, seen.point, seen.surface_distance, clear)) {
-        visibility[index][light_word()] |= light_mask();
+        visibility[site.index][light_word()] |= light_mask();
     }
 }

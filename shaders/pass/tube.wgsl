@@ -51,12 +51,10 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     var any_faces = false;
     for (var i = 0u; i < BLOCK_THREADS; i++) {
         points[i] = vec4f(0.0);
-        let local_index = block % BLOCKS * BLOCK_THREADS + i;
-        let pixel = lattice_pixel(block / BLOCKS, local_index);
-        if (!inside_region(pixel)) { continue; }
-        let index = sample_index(pixel, block / BLOCKS, local_index);
-        let seen = receiver(pixel, surface[index]);
-        visibility[index][light_word()] &= ~light_mask();
+        let site = block_site(block / BLOCKS, block % BLOCKS, i);
+        if (!site.is_there) { continue; }
+        let seen = receiver(site);
+        visibility[site.index][light_word()] &= ~light_mask();
         if (!seen.faces) { continue; }
         any_faces = true;
         points[i] = vec4f(seen.point, seen.surface_distance);

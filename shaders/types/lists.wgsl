@@ -20,26 +20,24 @@ fn most_blocks() -> u32 {
     return arrayLength(&lists.entries) / 3u;
 }
 
-// A thread of a listed block.
+// A sample of a listed block.
 struct Listed {
-    is_there: bool,
-    // Its place in the trace.
-    workgroup: u32,
-    local_index: u32,
+    site: Site,
     // How far its block's rays are known to be clear; of ray lists only.
     clear: f32,
 }
 
-// A thread of the block at an entry: each entry's eight threads come one after the other.
+// A thread's sample of the block at an entry: each entry's eight threads come one after the other.
 fn listed(is_there: bool, entry: u32, thread: u32, clear: u32) -> Listed {
     let block = select(0u, lists.entries[entry], is_there);
-    let local_index = block % BLOCKS * BLOCK_THREADS + thread % BLOCK_THREADS;
-    return Listed(is_there, block / BLOCKS, local_index, bitcast<f32>(clear));
+    var site = block_site(block / BLOCKS, block % BLOCKS, thread % BLOCK_THREADS);
+    site.is_there = site.is_there && is_there;
+    return Listed(site, bitcast<f32>(clear));
 }
 
-fn listed_hit(thread: u32) -> Listed {
+fn listed_hit(thread: u32) -> Site {
     let entry = thread / BLOCK_THREADS;
-    return listed(entry < atomicLoad(&lists.hits), entry, thread, 0u);
+    return listed(entry < atomicLoad(&lists.hits), entry, thread, 0u).site;
 }
 
 fn listed_ray(thread: u32) -> Listed {

@@ -13,7 +13,7 @@ struct Slice {
     // visited: coprime to the counts, so that a slice is spread over the whole region.
     workgroups: vec2u,
     scatter: vec2u,
-    // Position of the sample inside its pixel, 0 to 1.
+    // Position of the first sample inside its pixel, 0 to 1.
     jitter: vec2f,
     // 1: G-buffer records are packed in dispatch order; 0: one for each pixel of the region.
     compact: u32,
@@ -41,8 +41,13 @@ struct Slice {
     blocks: u32,
     // The ray list that a dispatch writes or reads.
     ray_list: u32,
-    unused_a: u32,
-    unused_b: u32,
+    // How many samples of a pixel are computed together, and the logarithm to base two of the
+    // threads that they have.
+    samples: u32,
+    samples_shift: u32,
+    // From each of them to the next, round the pixel.
+    jitter_step: vec2f,
+    unused: vec2u,
 }
 
 const LIGHT_POINT = 1u;

@@ -31,7 +31,8 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
                 pass::shadow::record(recorder, &trace, &grid);
             }
             // Indirect light of centre samples waits until all of a level have their direct light.
-            let gathers = recorder.inputs.gathers() && matches!(trace.points, Points::Sample(_));
+            let gathers =
+                recorder.inputs.gathers() && matches!(trace.points, Points::Samples { .. });
             if trace.from <= Stage::Shade && !gathers {
                 pass::shade::record(recorder, &trace, &grid);
             }
@@ -205,7 +206,7 @@ impl<'a> Recorder<'a> {
     /// Binds what indirect light is gathered from and for.
     pub fn bind_neighbours(&mut self, trace: &Trace) {
         let samples = match trace.points {
-            Points::Sample(_) => &self.targets.jittered,
+            Points::Samples { .. } => &self.targets.jittered,
             _ => &self.targets.center,
         };
         let groups = around::groups(self.kernels, self.targets, samples, &self.neighbours);
@@ -218,8 +219,9 @@ impl<'a> Recorder<'a> {
     pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
         let mut slice = grid.slice(trace.first_workgroup);
         slice.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
-        if let Points::Sample(index) = trace.points {
-            slice.jitter = super::lattice::jitter(index);
+        if let Points::Samples { first, count } = trace.points {
+            slice.jitter = super::lattice::jitter(first);
+            slice.samples = count;
             slice.compact = 1;
             slice.accumulate = 1;
             self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
@@ -242,6 +244,12 @@ impl<'a> Recorder<'a> {
     pub fn dispatch_plane(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
         let workgroups = self.inputs.picture.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
         self.dispatch_groups(pipeline, slice, workgroups);
+    }
+
+    /// Adds a dispatch with a thread for each pixel of a trace.
+    pub fn dispatch_pixels(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+        let pixels = (slice.blocks * BLOCK_THREADS) >> slice.samples_shift;
+        self.dispatch(pipeline, slice, pixels.div_ceil(WORKGROUP_THREADS));
     }
 
     /// Adds a dispatch over all blocks of a trace, that lists some of them.

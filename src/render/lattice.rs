@@ -13,6 +13,9 @@ pub const COARSEST: u32 = 10;
 /// Pixels along a workgroup's side.
 pub const WORKGROUP_SIDE: u32 = 8;
 
+/// Most samples of a pixel that are marched together: they are a block of threads then.
+pub const MOST_TOGETHER: u32 = 8;
+
 /// Threads in a workgroup.
 pub const WORKGROUP_THREADS: u32 = WORKGROUP_SIDE * WORKGROUP_SIDE;
 
@@ -24,11 +27,22 @@ pub struct Grid {
     stagger: u32,
     row_phase: u32,
     shift: u32,
+    /// log2 of the threads that a pixel has.
+    samples_shift: u32,
     columns: u32,
     rows: u32,
 }
 
 impl Grid {
+    /// All pixels, with threads for `together` samples of each, 1 to [`MOST_TOGETHER`].
+    pub fn samples(together: u32, size_px: [u32; 2]) -> Self {
+        let shift = together.next_power_of_two().min(MOST_TOGETHER).ilog2();
+        // Two by four blocks, each of four by two pixels, two by two, two by one, or of one.
+        let sides = [2 * (4 >> shift.div_ceil(2)), 4 * (2 >> (shift / 2))];
+        let [columns, rows] = std::array::from_fn(|axis| size_px[axis].div_ceil(sides[axis]));
+        Self { samples_shift: shift, columns, rows, ..Self::level(0, size_px) }
+    }
+
     /// All pixels of a lattice level.
     pub fn level(level: u32, size_px: [u32; 2]) -> Self {
         let shift = level / 2;
@@ -67,6 +81,7 @@ impl Grid {
             stagger,
             row_phase,
             shift,
+            samples_shift: 0,
             columns: threads(0).div_ceil(WORKGROUP_SIDE),
             rows: threads(1).div_ceil(WORKGROUP_SIDE),
         }
@@ -109,8 +124,10 @@ impl Grid {
             light_kind: 0,
             blocks: 0,
             ray_list: 0,
-            unused_a: 0,
-            unused_b: 0,
+            samples: 1,
+            samples_shift: self.samples_shift,
+            jitter_step: JITTER_STEP.map(|step| step as f32),
+            unused: [0; 2],
         }
     }
 
@@ -146,15 +163,16 @@ fn scatter(count: u32) -> u32 {
     (golden.max(1)..=count).find(|&stride| coprime(stride)).unwrap_or(1)
 }
 
+/// From each sample of a pixel to the next: the plastic number's inverse and its square.
+const JITTER_STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
+
 /// Where sample `index` of a pixel lies inside it, 0 to 1. Sample 0 is the middle; the others
 /// follow Roberts' R2 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences",
 /// 2018), which fills the square evenly at every count. All pixels share it: shifts of their own
 /// (Cranley and Patterson 1976, by a hash, by gradient noise, by R2 over the pixels) left the same
 /// error at every count from 4 to 1024, within an eighth, and rougher edges at few samples.
 pub fn jitter(index: u32) -> [f32; 2] {
-    // The plastic number's inverse and its square.
-    const A: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
-    A.map(|a| (0.5 + a * f64::from(index)).fract() as f32)
+    JITTER_STEP.map(|a| (0.5 + a * f64::from(index)).fract() as f32)
 }
 
 #[cfg(test)]

@@ -143,7 +143,11 @@ impl Schedule {
         self.budget_ms = budget_ms;
         self.samples_wanted = samples.max(1);
         // More samples go on from those that are there; fewer would need a film without them.
-        if self.samples_done > self.samples_wanted {
+        let coming = match self.under_way {
+            Some((Points::Samples { first, count }, _)) => first + count,
+            _ => self.samples_done,
+        };
+        if coming > self.samples_wanted {
             self.restart(Stale::Light);
         }
     }
@@ -365,7 +369,7 @@ impl Schedule {
             Pace::Interactive => SLICE_MS.min(SLICE_SHARE * self.budget_ms),
         };
         let most = match points {
-            Points::Sample(_) => SAMPLE_WORKGROUPS,
+            Points::Samples { .. } => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
         };
         let largest = self.cost.slice_workgroups(aim_ms, job, self.aim_now()).min(most);
@@ -382,7 +386,7 @@ impl Schedule {
             let is_filmed = match points {
                 Points::All => self.is_filled,
                 Points::Level(_) | Points::Added(_) => !self.gathers,
-                Points::Around(_) | Points::Sample(_) => true,
+                Points::Around(_) | Points::Samples { .. } => true,
             };
             self.show_due |= is_filmed && self.filmed().is_some() && self.pace == Pace::Interactive;
         } else {
@@ -406,8 +410,8 @@ impl Schedule {
                 self.gathered = Some(level);
                 self.show_due = true;
             }
-            Points::Sample(index) => {
-                self.samples_done = index + 1;
+            Points::Samples { first, count } => {
+                self.samples_done = first + count;
                 self.show_due = true;
                 return;
             }

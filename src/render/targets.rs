@@ -10,7 +10,7 @@ use super::{
     backdrop::Backdrop,
     glow::{Glow, Need},
     kernels::Kernels,
-    lattice::{COARSEST, Grid, WORKGROUP_THREADS},
+    lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
     lists::Lists,
     memory::Memory,
     pass,
@@ -87,7 +87,8 @@ impl Targets {
         let layouts = &kernels.layouts;
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
         // A slice holds whole workgroups, some of them past the region's last pixels.
-        let workgroups = Grid::level(0, size_px).workgroups();
+        // As many as there can be: of samples that are computed together.
+        let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
         let picture = storage(device, "picture", size_of::<Picture>() as u64);

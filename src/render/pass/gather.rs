@@ -41,6 +41,6 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         slice.neighbour_level = level;
     }
     recorder.bind_neighbours(trace);
-    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatch_pixels(&pipeline, slice);
     recorder.dispatches.gather += 1;
 }

@@ -34,6 +34,6 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let slice = recorder.slice(trace, grid);
     recorder.bind_film();
     recorder.bind_backdrop();
-    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    recorder.dispatch_pixels(&pipeline, slice);
     recorder.dispatches.shade += 1;
 }

@@ -1,7 +1,7 @@
 //! Which sample points come next: how sparse an opening is, and by which way it is completed.
 
 use super::{Job, Pace, Points, Schedule, Stage, rate::Aim};
-use crate::render::lattice::{COARSEST, Grid};
+use crate::render::lattice::{COARSEST, Grid, MOST_TOGETHER};
 
 /// A full frame that is done this soon comes straight after the opening, milliseconds.
 pub(super) const STRAIGHT_MS: f64 = 1000.0;
@@ -22,7 +22,8 @@ impl Schedule {
                 Some(Points::Around(self.gather_level(level)))
             }
             Some(0) if self.samples_done < self.samples_wanted => {
-                Some(Points::Sample(self.samples_done))
+                let left = self.samples_wanted - self.samples_done;
+                Some(Points::Samples { first: self.samples_done, count: left.min(MOST_TOGETHER) })
             }
             Some(0) => None,
             Some(level) => Some(self.completing(level)),
@@ -90,7 +91,7 @@ impl Schedule {
             Points::Level(level) | Points::Added(level) => self.known.start(level, self.shining),
             Points::All => self.known.start(0, self.shining),
             Points::Around(_) => (Stage::Gather, 0),
-            Points::Sample(_) => (Stage::March, self.shining),
+            Points::Samples { .. } => (Stage::March, self.shining),
         };
         Job { from, lights }
     }

@@ -362,7 +362,7 @@ fn more_samples_go_on_and_fewer_start_again() {
     schedule.aim(16.0, 4);
     assert!(matches!(
         schedule.next(now),
-        Some(Work::Trace(Trace { points: Points::Sample(2), .. }))
+        Some(Work::Trace(Trace { points: Points::Samples { first: 2, .. }, .. }))
     ));
     settle(&mut schedule, &mut device, &mut now);
     schedule.aim(16.0, 1);
@@ -384,7 +384,7 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
                     shows += 1;
                 }
                 Work::Trace(trace) => {
-                    assert!(matches!(trace.points, Points::Level(0) | Points::Sample(_)));
+                    assert!(matches!(trace.points, Points::Level(0) | Points::Samples { .. }));
                 }
             }
             device.submit(work, now);

@@ -15,8 +15,13 @@ pub enum Points {
     /// Centre samples of every pixel of a lattice level, which all have their direct light, for
     /// the indirect light among them.
     Around(u32),
-    /// The jittered sample of this index, of every pixel.
-    Sample(u32),
+    /// Jittered samples of every pixel, computed together.
+    Samples {
+        /// The index of the first one.
+        first: u32,
+        /// How many, 1 to [`MOST_TOGETHER`](crate::render::lattice::MOST_TOGETHER).
+        count: u32,
+    },
 }
 
 impl Points {
@@ -24,7 +29,7 @@ impl Points {
     pub fn level(self) -> u32 {
         match self {
             Self::Level(level) | Self::Added(level) | Self::Around(level) => level,
-            Self::All | Self::Sample(_) => 0,
+            Self::All | Self::Samples { .. } => 0,
         }
     }
 
@@ -33,7 +38,8 @@ impl Points {
         match self {
             Self::Level(level) | Self::Around(level) => Grid::level(level, size_px),
             Self::Added(level) => Grid::added(level, size_px),
-            Self::All | Self::Sample(_) => Grid::level(0, size_px),
+            Self::All => Grid::level(0, size_px),
+            Self::Samples { count, .. } => Grid::samples(count, size_px),
         }
     }
 }

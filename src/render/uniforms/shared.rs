@@ -242,7 +242,7 @@ host_shared! {
         workgroups: [u32; 2],
         /// Strides in which columns and rows are visited.
         scatter: [u32; 2],
-        /// Sample position in its pixel.
+        /// Position of the first sample in its pixel.
         jitter: [f32; 2],
         /// 1: G-buffer in dispatch order.
         compact: u32,
@@ -272,10 +272,14 @@ host_shared! {
         blocks: u32,
         /// The ray list that a dispatch writes or reads.
         ray_list: u32,
+        /// Samples of a pixel that are computed together.
+        samples: u32,
+        /// log2 of the threads that they have.
+        samples_shift: u32,
+        /// From each of them to the next, round the pixel.
+        jitter_step: [f32; 2],
         /// Padding.
-        unused_a: u32,
-        /// Padding.
-        unused_b: u32,
+        unused: [u32; 2],
     }
     /// What is known of a film as a whole.
     Statistics {
