@@ -4,9 +4,10 @@
 //! sample to a pixel, averaged over blocks. Its detail is coarser by that factor, so that hit
 //! distances and normals are the same.
 
+use glam::DVec3;
 use mandelight::{
-    render::Pace,
-    scene::{Scene, param},
+    render::{Pace, lattice},
+    scene::{Background, Camera, Scene, param},
 };
 
 use crate::harness::{finished, sampled};
@@ -96,4 +97,28 @@ fn samples_converge_to_the_pixels_mean() {
     }
     let slope = slope(&fall);
     assert!(slope < -0.6, "the error falls with a slope of {slope} only");
+}
+
+/// Samples are computed one, two, four or eight of a pixel at a time. Before an empty sky, whose
+/// colour is a straight line down the picture, a pixel's mean tells which of them it got: each once.
+#[test]
+fn every_pixel_gets_each_sample_once() {
+    // Not whole blocks of any shape.
+    let size = [53, 37];
+    let mut scene = Scene::default();
+    scene.camera =
+        Camera::looking_at(DVec3::new(0.0, -9.0, 0.0), DVec3::new(0.0, -20.0, 0.0), DVec3::Z);
+    scene.background = Background::gradient([0.0; 3], [1.0; 3]);
+    for count in [1, 2, 3, 4, 5, 7, 8, 9, 10, 16, 17, 40] {
+        let view = finished(&sampled(scene.clone(), count), size, Pace::Still);
+        let film = view.film().expect("the film's bytes");
+        let places = (0..count).map(|index| f64::from(lattice::jitter(index)[1]));
+        let place = places.sum::<f64>() / f64::from(count);
+        for (pixel, found) in film.iter().enumerate() {
+            let row = (pixel / size[0] as usize) as f64;
+            let expected = (row + place) / f64::from(size[1]);
+            let off = f64::from(found[0]) - expected;
+            assert!(off.abs() < 2e-6, "{count} samples, pixel {pixel}: {off} too bright");
+        }
+    }
 }
