@@ -28,11 +28,34 @@ fn place_of_block(block: u32) -> vec2u {
     return vec2u(block & 1u, block >> 1u) << block_shift();
 }
 
+// What is left of `a` over `b`, both below 2^27, and b > 0. CPUs divide integers one lane at a time: here
+// the quotient comes by way of f32, whose error of one at most is put right.
+fn remainder(a: vec2u, b: vec2u) -> vec2u {
+    let quotient = vec2u(vec2f(a) / vec2f(b));
+    let rest = bitcast<vec2i>(a - quotient * b);
+    let low = select(rest, rest + vec2i(b), rest < vec2i(0));
+    return vec2u(select(low, low - vec2i(b), low >= vec2i(b)));
+}
+
 // The place of a workgroup's first thread in the lattice's grid.
 fn workgroup_corner(workgroup: u32) -> vec2u {
     let id = slice.first_workgroup + workgroup;
-    let place = vec2u(id % slice.workgroups.x, id / slice.workgroups.x);
-    return (place * slice.scatter) % slice.workgroups * (vec2u(2u, 4u) << block_shift());
+    let column = remainder(vec2u(id), slice.workgroups).x;
+    // Without a rest, this division is exact enough.
+    let row = u32(round(f32(id - column) / f32(slice.workgroups.x)));
+    return remainder(vec2u(column, row) * slice.scatter, slice.workgroups) * (vec2u(2u, 4u) << block_shift());
+}
+
+// A block of a trace.
+struct Block {
+    // Counted from the trace's first.
+    index: u32,
+    // The place of its first pixel in the lattice's grid.
+    corner: vec2u,
+}
+
+fn block_at(index: u32) -> Block {
+    return Block(index, workgroup_corner(index / BLOCKS) + place_of_block(index % BLOCKS));
 }
 
 struct PixelBox {
@@ -41,10 +64,9 @@ struct PixelBox {
     last: vec2u,
 }
 
-// The pixels that hold those of a workgroup's block; they may lie outside of the region.
-fn block_box(workgroup: u32, block: u32) -> PixelBox {
-    let thread = workgroup_corner(workgroup) + place_of_block(block);
-    let first = thread * slice.step + slice.offset;
+// The pixels that hold those of a block; they may lie outside of the region.
+fn block_box(block: Block) -> PixelBox {
+    let first = block.corner * slice.step + slice.offset;
     let last = first + ((vec2u(1u) << block_shift()) - 1u) * slice.step + vec2u(slice.stagger, 0u);
     return PixelBox(first << vec2u(slice.shift), last << vec2u(slice.shift));
 }
@@ -80,27 +102,32 @@ struct Site {
     index: u32,
 }
 
-// Of `place` by `block` in a workgroup: pixels of a block come first, then their next samples.
-fn block_site(workgroup: u32, block: u32, place: u32) -> Site {
+// A block's sample, 0 to 7: the pixels of a block come first, then their next samples.
+fn block_site(block: Block, place: u32) -> Site {
     let pixels_shift = 3u - slice.samples_shift;
     let sample = place >> pixels_shift;
     let in_block = place & ((1u << pixels_shift) - 1u);
     let width_shift = block_shift().x;
     let at = vec2u(in_block & ((1u << width_shift) - 1u), in_block >> width_shift);
-    let pixel = pixel_at(workgroup_corner(workgroup) + place_of_block(block) + at);
-    let packed = (workgroup * BLOCKS + block) * BLOCK_THREADS + place;
+    let pixel = pixel_at(block.corner + at);
+    let packed = block.index * BLOCK_THREADS + place;
     let index = select(pixel_index(pixel), packed, slice.compact != 0u);
     return Site(inside_region(pixel) && sample < slice.samples, pixel, sample, index);
 }
 
-// A sample of the pixel of a thread, where a thread goes through all samples of one pixel.
-fn pixel_site(thread: u32, sample: u32) -> Site {
+// The first sample of the pixel of a thread that goes through all samples of one pixel.
+fn pixel_site(thread: u32) -> Site {
     let pixels_shift = 3u - slice.samples_shift;
     let block = thread >> pixels_shift;
-    let place = (sample << pixels_shift) + (thread & ((1u << pixels_shift) - 1u));
-    var site = block_site(block / BLOCKS, block % BLOCKS, place);
+    var site = block_site(block_at(block), thread & ((1u << pixels_shift) - 1u));
     site.is_there = site.is_there && block < slice.blocks;
     return site;
+}
+
+// Another sample of the pixel of `first`.
+fn sample_site(first: Site, sample: u32) -> Site {
+    let on = select(0u, sample << (3u - slice.samples_shift), slice.compact != 0u);
+    return Site(first.is_there, first.pixel, sample, first.index + on);
 }
 
 // Where in its pixel a sample lies, 0 to 1.

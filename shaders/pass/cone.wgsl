@@ -2,8 +2,8 @@
 // these are listed for marching, and the others' samples meet nothing.
 
 // How deep all rays of a block may go; negative where all of them miss.
-fn clear_block(fractal: Fractal, workgroup: u32, block: u32) -> f32 {
-    let box = block_box(workgroup, block);
+fn clear_block(fractal: Fractal, block: Block) -> f32 {
+    let box = block_box(block);
     if (is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
     let side = eye_side(box.first);
     let size = vec2f(box.last - box.first + vec2u(1u));
@@ -21,15 +21,15 @@ fn clear_block(fractal: Fractal, workgroup: u32, block: u32) -> f32 {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let block = thread.x;
-    if (block >= slice.blocks) { return; }
-    let clear = clear_block(picture.fractal, block / BLOCKS, block % BLOCKS);
+    if (thread.x >= slice.blocks) { return; }
+    let block = block_at(thread.x);
+    let clear = clear_block(picture.fractal, block);
     if (clear >= 0.0) {
-        list_ray(block, clear);
+        list_ray(block.index, clear);
         return;
     }
     for (var i = 0u; i < BLOCK_THREADS; i++) {
-        let site = block_site(block / BLOCKS, block % BLOCKS, i);
+        let site = block_site(block, i);
         if (site.is_there) { surface[site.index].x = 0u; }
     }
 }

@@ -125,9 +125,9 @@ fn radiance_of(site: Site) -> vec3f {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let first = pixel_site(thread.x, 0u);
+    let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    for (var i = 0u; i < slice.samples; i++) { sum += radiance_of(pixel_site(thread.x, i)); }
+    for (var i = 0u; i < slice.samples; i++) { sum += radiance_of(sample_site(first, i)); }
     put_on_film(first.pixel, sum);
 }

@@ -3,12 +3,12 @@
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let block = thread.x;
-    if (block >= slice.blocks) { return; }
+    if (thread.x >= slice.blocks) { return; }
+    let block = block_at(thread.x);
     var any = 0u;
     for (var i = 0u; i < BLOCK_THREADS; i++) {
-        let site = block_site(block / BLOCKS, block % BLOCKS, i);
+        let site = block_site(block, i);
         if (site.is_there) { any |= surface[site.index].x; }
     }
-    if (any != 0u) { list_hit(block); }
+    if (any != 0u) { list_hit(block.index); }
 }

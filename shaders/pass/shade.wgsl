@@ -1,12 +1,16 @@
 // Light and colour of each sample, onto the film, or to where indirect light is made of it.
 
+// Whether this pipeline is for single samples: a loop of one turn is dear on llvmpipe.
+override SINGLE: bool = false;
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
-    let first = pixel_site(thread.x, 0u);
+    let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    for (var i = 0u; i < slice.samples; i++) { sum += direct_radiance(pixel_site(thread.x, i)); }
+    if (SINGLE) { sum = direct_radiance(first); }
+    for (var i = 0u; !SINGLE && i < slice.samples; i++) { sum += direct_radiance(sample_site(first, i)); }
     if (picture.indirect.kind == INDIRECT_OFF) {
         put_on_film(first.pixel, sum);
     } else {

@@ -47,11 +47,11 @@ fn clear_plane(fractal: Fractal) -> f32 {
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given_picture;
     if (thread.x >= atomicLoad(&lists.hits)) { return; }
-    let block = lists.entries[thread.x];
+    let block = block_at(lists.entries[thread.x]);
     var any_faces = false;
     for (var i = 0u; i < BLOCK_THREADS; i++) {
         points[i] = vec4f(0.0);
-        let site = block_site(block / BLOCKS, block % BLOCKS, i);
+        let site = block_site(block, i);
         if (!site.is_there) { continue; }
         let seen = receiver(site);
         visibility[site.index][light_word()] &= ~light_mask();
@@ -62,5 +62,5 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!any_faces) { return; }
     var clear = 1e30;
     if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(picture.fractal); }
-    list_ray(block, clear);
+    list_ray(block.index, clear);
 }

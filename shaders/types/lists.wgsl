@@ -30,7 +30,7 @@ struct Listed {
 // A thread's sample of the block at an entry: each entry's eight threads come one after the other.
 fn listed(is_there: bool, entry: u32, thread: u32, clear: u32) -> Listed {
     let block = select(0u, lists.entries[entry], is_there);
-    var site = block_site(block / BLOCKS, block % BLOCKS, thread % BLOCK_THREADS);
+    var site = block_site(block_at(block), thread % BLOCK_THREADS);
     site.is_there = site.is_there && is_there;
     return Listed(site, bitcast<f32>(clear));
 }

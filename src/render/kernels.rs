@@ -81,8 +81,10 @@ pub struct Passes {
     pub tube: wgpu::ComputePipeline,
     /// Shadow rays to visibility bits.
     pub shadow: wgpu::ComputePipeline,
-    /// Light and colour onto the film.
+    /// Light and colour of single samples onto the film.
     pub shade: wgpu::ComputePipeline,
+    /// The same of samples that are computed together.
+    pub shade_together: wgpu::ComputePipeline,
     /// Film to display, where every pixel has its sample.
     pub tone: wgpu::ComputePipeline,
     /// The same for a sparse lattice.
@@ -150,8 +152,8 @@ impl Extra {
     pub fn parts(self) -> usize {
         match self {
             Self::Power(_) => 4,
-            Self::Tone(_) => 2,
-            Self::Normals(..) | Self::Shade(_) | Self::Gather => 1,
+            Self::Tone(_) | Self::Shade(_) => 2,
+            Self::Normals(..) | Self::Gather => 1,
             Self::Glow => GlowKernels::PARTS.len(),
         }
     }
@@ -162,7 +164,9 @@ impl Extra {
         match self {
             Self::Power(n) => vec![power(n)],
             Self::Normals(n, kind) => vec![power(n), ("NORMALS", f64::from(kind))],
-            Self::Shade(has_backdrop) => vec![("BACKDROP", f64::from(has_backdrop))],
+            Self::Shade(has_backdrop) => {
+                vec![("BACKDROP", f64::from(has_backdrop)), ("SINGLE", f64::from(part == 0))]
+            }
             Self::Tone(ToneForm { curve, blooms, is_anaglyph }) => vec![
                 ("CURVE", f64::from(curve)),
                 ("BLOOM", f64::from(blooms)),
@@ -321,6 +325,7 @@ impl Kernels {
             shadow: self.shadow.of(power, 3),
             normal: self.normal.of(normals, 0),
             shade: self.shade.of(light, 0),
+            shade_together: self.shade.of(light, 1),
             tone: self.tone.of(tone, 0),
             sparse_tone: self.tone.of(tone, 1),
         }
@@ -358,7 +363,7 @@ impl Kernels {
         match extra {
             Extra::Power(_) => vec![&self.cone, &self.march, &self.tube, &self.shadow],
             Extra::Normals(..) => vec![&self.normal],
-            Extra::Shade(_) => vec![&self.shade],
+            Extra::Shade(_) => vec![&self.shade, &self.shade],
             Extra::Tone(_) => vec![&self.tone, &self.tone],
             Extra::Gather | Extra::Glow => Vec::new(),
         }

@@ -144,9 +144,11 @@ fn rehearse(
     };
     let show = |level: u32| Work::Show { level, fill: false, film: false, adapt: 1.0 };
     let work = match extra {
-        Extra::Power(_) | Extra::Normals(..) | Extra::Shade(_) => {
-            vec![trace(Points::Level(0), Stage::March)]
-        }
+        Extra::Power(_) | Extra::Normals(..) => vec![trace(Points::Level(0), Stage::March)],
+        // Of single samples, and of some together.
+        Extra::Shade(_) => [Points::Level(0), Points::Samples { first: 1, count: 2 }]
+            .map(|points| trace(points, Stage::Shade))
+            .to_vec(),
         Extra::Gather => vec![trace(Points::Around(0), Stage::Gather)],
         Extra::Glow => vec![show(0)],
         // Of a whole picture, and of a sparse lattice.

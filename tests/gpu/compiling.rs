@@ -154,7 +154,7 @@ fn nothing_is_compiled_unannounced() {
         }
         all.insert(format!("normal, POWER {power}, NORMALS 5"));
     }
-    all.insert("shade, BACKDROP 0".to_owned());
+    all.extend([0, 1].map(|single| format!("shade, BACKDROP 0, SINGLE {single}")));
     for (bloom, sparse) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         all.insert(format!("tone, CURVE 1, BLOOM {bloom}, ANAGLYPH 0, SPARSE {sparse}"));
     }
@@ -225,17 +225,17 @@ fn what_is_compiled_aside_holds_nothing_up() {
     assert_eq!(watched.kernels.made(), made);
     assert_eq!(aside::finish(), 4);
     // Its normals are a matter of their own.
-    for (what, parts) in [("power 8", 1), ("light", 1), ("tone mapping", 2)] {
+    for (what, parts) in [("power 8", 1), ("light", 2), ("tone mapping", 2)] {
         pump_until(&mut watched, what, parts);
         assert_eq!(aside::finish(), parts);
     }
     pump_until(&mut watched, "indirect light", 1);
-    assert_eq!(watched.kernels.made().len(), made.len() + 8);
+    assert_eq!(watched.kernels.made().len(), made.len() + 9);
     assert_eq!(aside::finish(), 1);
     pump_until(&mut watched, "exposure and bloom", 6);
     assert_eq!(aside::finish(), 6);
     watched.settle();
-    assert_eq!(watched.kernels.made().len(), made.len() + 15);
+    assert_eq!(watched.kernels.made().len(), made.len() + 16);
     watched.announced.clear();
     scene.indirect.kind = IndirectKind::Horizon;
     scene.tone.auto_exposure = true;
@@ -252,7 +252,7 @@ fn a_still_compiles_at_once() {
     let mut view = View::new(&kernels, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(kernels.made().len(), 11 + 5 + 3 + 6);
+    assert_eq!(kernels.made().len(), 11 + 5 + 4 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 

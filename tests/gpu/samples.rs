@@ -105,10 +105,11 @@ fn samples_converge_to_the_pixels_mean() {
 fn every_pixel_gets_each_sample_once() {
     // Not whole blocks of any shape.
     let size = [53, 37];
-    let mut scene = Scene::default();
-    scene.camera =
-        Camera::looking_at(DVec3::new(0.0, -9.0, 0.0), DVec3::new(0.0, -20.0, 0.0), DVec3::Z);
-    scene.background = Background::gradient([0.0; 3], [1.0; 3]);
+    let scene = Scene {
+        camera: Camera::looking_at(DVec3::NEG_Y * 9.0, DVec3::NEG_Y * 20.0, DVec3::Z),
+        background: Background::gradient([0.0; 3], [1.0; 3]),
+        ..Scene::default()
+    };
     for count in [1, 2, 3, 4, 5, 7, 8, 9, 10, 16, 17, 40] {
         let view = finished(&sampled(scene.clone(), count), size, Pace::Still);
         let film = view.film().expect("the film's bytes");

@@ -7,7 +7,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `BACKDROP` specialises it.
+/// The pass's shader; `BACKDROP` and `SINGLE` specialise it.
 pub const MODULE: Module = Module {
     label: "shade",
     files: &[
@@ -30,8 +30,9 @@ pub const MODULE: Module = Module {
 
 /// Shades the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.passes.shade.clone();
     let slice = recorder.slice(trace, grid);
+    let passes = recorder.passes;
+    let pipeline = if slice.samples == 1 { &passes.shade } else { &passes.shade_together }.clone();
     recorder.bind_film();
     recorder.bind_backdrop();
     recorder.dispatch_pixels(&pipeline, slice);
