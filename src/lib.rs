@@ -21,6 +21,8 @@
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.
 //! 4. [`render::frame::record`] records each piece, pass by pass, in the order in which they run.
+//!    Bundles of rays go first and list the blocks of threads that have any left to march
+//!    ([`render::lists`]): the passes after them are as large as their lists.
 //!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
 //! 5. Where the scene asks for it, the film is first looked at as a whole: its mean sets the
 //!    exposure, and what is bright in it blooms ([`render::glow`]).

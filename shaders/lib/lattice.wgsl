@@ -43,7 +43,10 @@ fn workgroup_corner(workgroup: u32) -> vec2u {
     let column = remainder(vec2u(id), slice.workgroups).x;
     // Without a rest, this division is exact enough.
     let row = u32(round(f32(id - column) / f32(slice.workgroups.x)));
-    return remainder(vec2u(column, row) * slice.scatter, slice.workgroups) * (vec2u(2u, 4u) << block_shift());
+    // Each column begins elsewhere: a row at a time would show as stripes.
+    let across = remainder(vec2u(column * slice.scatter.x), slice.workgroups).x;
+    let down = remainder(vec2u((row + across) * slice.scatter.y), slice.workgroups).y;
+    return vec2u(across, down) * (vec2u(2u, 4u) << block_shift());
 }
 
 // A block of a trace.

@@ -137,7 +137,7 @@ impl Grid {
         let columns = self.columns.max(1);
         let rows = self.rows.max(1);
         let column = (workgroup % columns) * scatter(columns) % columns;
-        let row = (workgroup / columns) * scatter(rows) % rows;
+        let row = (workgroup / columns + column) * scatter(rows) % rows;
         let x = column * WORKGROUP_SIDE + place[0];
         let y = row * WORKGROUP_SIDE + place[1];
         let shifted = self.stagger * ((y + self.row_phase) & 1);
