@@ -3,7 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use mandelight::render::{pass::MODULES, uniforms::HOST_SHARED};
+use mandelight::{
+    render::{lattice, lists, pass::MODULES, uniforms},
+    scene::MAX_LIGHTS,
+};
 use naga::{
     TypeInner,
     proc::Layouter,
@@ -66,7 +69,7 @@ fn host_structs_match_their_wgsl_twins() {
     let mut seen = Vec::new();
     for module in MODULES {
         let wgsl = structs(&parsed(module));
-        for (name, size, fields) in HOST_SHARED {
+        for (name, size, fields) in uniforms::HOST_SHARED {
             let Some((span, members)) = wgsl.get(*name) else { continue };
             seen.push(*name);
             assert_eq!(*size as u32, *span, "size of {name} in {}", module.label);
@@ -77,7 +80,7 @@ fn host_structs_match_their_wgsl_twins() {
             assert_eq!(host, *members, "fields of {name} in {}", module.label);
         }
     }
-    for (name, ..) in HOST_SHARED {
+    for (name, ..) in uniforms::HOST_SHARED {
         assert!(seen.contains(name), "no shader knows the host's struct {name}");
     }
 }
@@ -118,5 +121,34 @@ fn every_pass_file_has_its_rust_half() {
         let last = module.files.last().expect("at least one file").path;
         assert_eq!(last, format!("pass/{}.wgsl", module.label));
         assert!(root.join(format!("src/render/pass/{}.rs", module.label)).is_file());
+    }
+}
+
+#[test]
+fn host_constants_match_their_wgsl_twins() {
+    let host = [
+        ("MAX_LIGHTS", MAX_LIGHTS),
+        ("GRADIENT_ENTRIES", uniforms::GRADIENT_ENTRIES),
+        ("WORKGROUP_SIDE", lattice::WORKGROUP_SIDE as usize),
+        ("WORKGROUP_THREADS", lattice::WORKGROUP_THREADS as usize),
+        ("BLOCK_THREADS", lists::BLOCK_THREADS as usize),
+        ("BLOCKS", (lattice::WORKGROUP_THREADS / lists::BLOCK_THREADS) as usize),
+        ("RAY_LISTS", lists::RAY_LISTS),
+    ];
+    for (name, value) in host {
+        let mut seen = 0;
+        for module in MODULES.iter().map(|module| parsed(module)) {
+            let named = module.constants.iter().filter(|(_, c)| c.name.as_deref() == Some(name));
+            for (_, constant) in named {
+                let naga::Expression::Literal(naga::Literal::U32(found)) =
+                    module.global_expressions[constant.init]
+                else {
+                    panic!("{name} is no whole number");
+                };
+                assert_eq!(found as usize, value, "{name}");
+                seen += 1;
+            }
+        }
+        assert!(seen > 0, "no shader has {name}");
     }
 }

@@ -1,6 +1,7 @@
 //! Lists of the blocks of threads that a pass has work for: its dispatch is as large as its list.
 //!
-//! A block is four by two threads that are neighbours in the picture. Passes that write a list are
+//! A block is eight threads: for one sample each of four by two neighbouring pixels, or for more samples
+//! of fewer. Passes that write a list are
 //! dispatched over all blocks of a trace or of another list, a thread each; the GPU itself counts
 //! the workgroups of those that read it.
 
@@ -15,7 +16,7 @@ use crate::scene::MAX_LIGHTS;
 pub const BLOCK_THREADS: u32 = 8;
 
 /// The camera's rays, and those to each light; `RAY_LISTS` in `shaders/types/lists.wgsl`.
-const RAY_LISTS: usize = MAX_LIGHTS + 1;
+pub const RAY_LISTS: usize = MAX_LIGHTS + 1;
 
 /// Bytes of a counter.
 const WORD: u64 = 4;
