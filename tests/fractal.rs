@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 use mandelight::{
     fractal::{DistanceField, Estimator, Ray, camera_ray, pick, pixel_cone},
-    scene::{Camera, Fractal, Scene},
+    scene::{Camera, Fractal, PrecisePoint, Scene},
 };
 
 /// A small generator of repeatable numbers (xorshift).
@@ -99,7 +99,7 @@ fn rays_from_outside(estimator: &Estimator, count: usize) -> Vec<Ray> {
 fn fine_march(fractal: &Fractal, ray: Ray, cone: f64) -> Option<f64> {
     let estimator = Estimator::new(fractal);
     let part = (fractal.power / 10.0).clamp(0.25, 1.0) / 16.0;
-    let (near, far) = ray.sphere_span(estimator.bounding_radius())?;
+    let (near, far) = ray.sphere_span(DVec3::ZERO, estimator.bounding_radius())?;
     let (mut depth, mut was_near) = (near, false);
     while depth <= far {
         let distance = estimator.distance(ray.at(depth));
@@ -202,7 +202,7 @@ fn picks_what_the_picture_shows() {
     let scene = Scene::default();
     let depth =
         pick(&scene, DVec2::ZERO, 16.0 / 9.0, 540.0).expect("the opening scene fills its centre");
-    let ray = camera_ray(&scene.camera, DVec2::ZERO, 16.0 / 9.0);
+    let ray = camera_ray(&scene.camera, &PrecisePoint::ORIGIN, DVec2::ZERO, 16.0 / 9.0);
     assert!((ray.direction - scene.camera.forward()).length() < 1e-12);
     let estimator = Estimator::new(&scene.fractal);
     assert!(
@@ -219,7 +219,7 @@ fn picks_what_the_picture_shows() {
 fn rays_run_through_the_corners_that_the_convention_names() {
     let camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);
     let (aspect, half_height) = (2.0, camera.half_height(2.0));
-    let corner = camera_ray(&camera, DVec2::new(1.0, 1.0), aspect).direction;
+    let corner = camera_ray(&camera, &PrecisePoint::ORIGIN, DVec2::new(1.0, 1.0), aspect).direction;
     // Seen from −y the right is +x and up is +z.
     assert!(
         (corner / corner.y - DVec3::new(aspect * half_height, 1.0, half_height)).length() < 1e-12
@@ -229,9 +229,11 @@ fn rays_run_through_the_corners_that_the_convention_names() {
 #[test]
 fn a_picture_taller_than_wide_spans_the_angle_across_its_width() {
     let camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);
-    let side = |aspect| camera_ray(&camera, DVec2::new(1.0, 0.0), aspect).direction;
+    let side =
+        |aspect| camera_ray(&camera, &PrecisePoint::ORIGIN, DVec2::new(1.0, 0.0), aspect).direction;
     assert!((side(0.5) - side(1.0)).length() < 1e-12);
-    let top = |aspect| camera_ray(&camera, DVec2::new(0.0, 1.0), aspect).direction;
+    let top =
+        |aspect| camera_ray(&camera, &PrecisePoint::ORIGIN, DVec2::new(0.0, 1.0), aspect).direction;
     assert!((top(2.0) - top(1.0)).length() < 1e-12);
 }
 

@@ -3,10 +3,10 @@
 
 use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
-    fractal::{DistanceField, Estimator, camera_ray, pixel_cone},
+    fractal::{DistanceField, Estimator, PLAIN_FOOTPRINT, camera_ray, pixel_cone},
     scene::{Camera, Fractal, PrecisePoint},
     ui::navigation::{
-        FARTHEST_EYE, FlyInput, LEAST_FOOTPRINT, Navigator, Viewport, World, collide,
+        FARTHEST_EYE, FlyInput, Navigator, Viewport, World, collide,
         flight::FLIGHT_SECS,
         fly::{MOST_FALL_PER_SEC, MOST_RISE_PER_SEC},
     },
@@ -300,7 +300,7 @@ fn dolly_stops_where_f32_pictures_end() {
     }
     let standing = world(&field).standing(&camera);
     assert!(standing.at_precision_limit && standing.distance > 0.0, "{standing:?}");
-    assert!(standing.footprint <= LEAST_FOOTPRINT);
+    assert!(standing.footprint <= PLAIN_FOOTPRINT);
     assert!(standing.distance >= 0.9 * world(&field).clearance(&camera), "{standing:?}");
     // And it comes out again.
     navigator.dolly(&mut camera, world(&field), DVec2::ZERO, -4.0);
@@ -458,8 +458,8 @@ fn frame_all_fits_the_bounding_sphere_in_any_picture() {
         assert_eq!(camera.orientation, orientation);
         // The picture's edges pass beside the sphere, and not far beside it.
         let clear = |ndc: DVec2| {
-            let ray = camera_ray(&camera, ndc, aspect);
-            ray.sphere_span(field.bounding_radius()).is_none()
+            let ray = camera_ray(&camera, &field.origin(), ndc, aspect);
+            ray.sphere_span(field.center(), field.bounding_radius()).is_none()
         };
         for along in [-1.0, -0.5, 0.0, 0.5, 1.0] {
             assert!(

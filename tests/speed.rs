@@ -68,7 +68,7 @@ impl Thesis {
         }
         let epsilon = self.kindness.epsilon;
         let ray = Ray { origin: point + normal * (2.0 * epsilon), direction: light };
-        let mut s = ray.sphere_span(self.outside).map_or(0.0, |(_, far)| far);
+        let mut s = ray.sphere_span(DVec3::ZERO, self.outside).map_or(0.0, |(_, far)| far);
         for _ in 0..self.kindness.steps {
             if s <= epsilon {
                 return true;

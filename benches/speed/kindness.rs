@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 use mandelight::{
     fractal::{DistanceField, Estimator, Ray, camera_ray, pixel_cone},
-    scene::{Fractal, Scene},
+    scene::{Fractal, PrecisePoint, Scene},
 };
 
 use super::{literal::Kindness, statistics};
@@ -45,7 +45,7 @@ pub fn pixel_ray(scene: &Scene, size_px: [u32; 2], pixel: [u32; 2]) -> Ray {
     let [width, height] = size_px.map(f64::from);
     let [x, y] = pixel.map(|v| f64::from(v) + 0.5);
     let ndc = DVec2::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height);
-    camera_ray(&scene.camera, ndc, width / height)
+    camera_ray(&scene.camera, &PrecisePoint::ORIGIN, ndc, width / height)
 }
 
 /// Radius of a pixel's cone at depth one.

@@ -84,7 +84,7 @@ impl Reference {
     }
 
     fn march(&self, ray: Ray) -> Option<f64> {
-        let (near, far) = ray.sphere_span(self.estimator.bounding_radius())?;
+        let (near, far) = ray.sphere_span(DVec3::ZERO, self.estimator.bounding_radius())?;
         let (mut before, mut depth, mut was_near) = (near, near, false);
         for _ in 0..MOST_STEPS {
             if depth > far {
@@ -129,7 +129,9 @@ impl Reference {
 
     fn is_lit(&self, point: DVec3, normal: DVec3, footprint: f64, light: DVec3) -> bool {
         let ray = Ray { origin: point + normal * (2.0 * footprint), direction: light };
-        let Some((_, far)) = ray.sphere_span(self.estimator.bounding_radius()) else { return true };
+        let Some((_, far)) = ray.sphere_span(DVec3::ZERO, self.estimator.bounding_radius()) else {
+            return true;
+        };
         let mut s = far;
         for _ in 0..MOST_STEPS {
             if s <= footprint {

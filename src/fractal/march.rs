@@ -6,11 +6,21 @@
 //! `half_height / height_px` per unit of depth, half the pixel's width; a ray has hit where the
 //! distance is below that cone's radius times the scene's detail setting, at low powers for half of
 //! that length along the ray.
+//!
+//! Points are vectors in scene units from the field's own origin ([`DistanceField::origin`]): near
+//! a deep place that origin is near too, so that an f64 tells apart what a picture there shows.
 
 use glam::{DVec2, DVec3};
 
 use super::Estimator;
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, PrecisePoint, Scene};
+
+/// The least radius of a pixel's cone at the surface, in scene units, where plain f32 pictures hold.
+pub const PLAIN_FOOTPRINT: f64 = 2e-7;
+
+/// The same at the end of the deepest dive: with it, a picture 1000 pixels high at the usual field
+/// of view has its eye 1e-27 scene units from the surface.
+pub const DEEP_FOOTPRINT: f64 = 4e-31;
 
 /// Most steps of one ray; one that is still travelling then counts as a miss.
 pub const MAX_MARCH_STEPS: u32 = 4096;
@@ -34,8 +44,24 @@ pub struct Reach {
     pub step: f64,
 }
 
-/// Anything that can say how far away its surface is.
+/// Anything that can say how far away its surface is. All points are relative to [`Self::origin`].
 pub trait DistanceField {
+    /// What points are measured from; the scene's origin unless the field says otherwise.
+    fn origin(&self) -> PrecisePoint {
+        PrecisePoint::ORIGIN
+    }
+
+    /// `point` in the field's coordinates: the difference is formed exactly.
+    fn local(&self, point: &PrecisePoint) -> DVec3 {
+        point - &self.origin()
+    }
+
+    /// The least radius of a pixel's cone at the surface, in scene units, that pictures of this
+    /// field hold for: no movement comes nearer.
+    fn finest_footprint(&self) -> f64 {
+        PLAIN_FOOTPRINT
+    }
+
     /// Estimated distance from `point` to the surface, in scene units; zero inside.
     fn distance(&self, point: DVec3) -> f64;
 
@@ -45,7 +71,12 @@ pub trait DistanceField {
         Reach { distance, step: distance }
     }
 
-    /// Radius of a sphere about the origin that holds all of the surface, in scene units.
+    /// Centre of a sphere that holds all of the surface.
+    fn center(&self) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    /// Radius of that sphere, in scene units.
     fn bounding_radius(&self) -> f64;
 
     /// Does the distance dip for far less than it says? Then a ray passes what it is near to for less
@@ -64,7 +95,7 @@ pub trait DistanceField {
 
     /// [`Self::reach`], mended like [`Self::clear_distance`].
     fn clear_reach(&self, point: DVec3) -> Reach {
-        let from_centre = point.length();
+        let from_centre = point.distance(self.center());
         let to_sphere = from_centre - self.bounding_radius();
         let Reach { distance, step } = self.reach(point);
         if to_sphere > 0.0 {
@@ -79,7 +110,7 @@ pub trait DistanceField {
     /// per unit of depth (not negative); nothing past `max_depth` is looked at. A ray that
     /// starts inside has hit at depth zero.
     fn march(&self, ray: Ray, cone: f64, max_depth: f64) -> Option<f64> {
-        let (near, far) = ray.sphere_span(self.bounding_radius())?;
+        let (near, far) = ray.sphere_span(self.center(), self.bounding_radius())?;
         let far = far.min(max_depth);
         let least_step = if self.has_dips() { LEAST_STEP_OVER_DIPS } else { LEAST_STEP };
         let (mut before, mut depth) = (near, near);
@@ -117,8 +148,8 @@ pub trait DistanceField {
     /// Where along `ray` it comes closest to the surface as seen from its origin (least
     /// distance over depth), for a ray that misses: a depth of at least zero.
     fn closest_approach(&self, ray: Ray, max_depth: f64) -> f64 {
-        let Some((near, far)) = ray.sphere_span(self.bounding_radius()) else {
-            return ray.toward_origin().clamp(0.0, max_depth);
+        let Some((near, far)) = ray.sphere_span(self.center(), self.bounding_radius()) else {
+            return ray.depth_beside(self.center()).clamp(0.0, max_depth);
         };
         let far = far.min(max_depth);
         let (mut depth, mut best, mut best_ratio) = (near, near, f64::INFINITY);
@@ -141,18 +172,18 @@ pub trait DistanceField {
     }
 
     /// The unit normal at `point` from six samples at ± `spacing` on the main axes (thesis
-    /// figure 3.3 c). Where they say nothing, the direction away from the origin.
+    /// figure 3.3 c). Where they say nothing, the direction away from the bounding sphere's centre.
     fn normal(&self, point: DVec3, spacing: f64) -> DVec3 {
         let slope = |axis: DVec3| {
             self.distance(point + axis * spacing) - self.distance(point - axis * spacing)
         };
         DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z))
             .try_normalize()
-            .unwrap_or_else(|| point.normalize_or(DVec3::Z))
+            .unwrap_or_else(|| (point - self.center()).normalize_or(DVec3::Z))
     }
 }
 
-/// A half-line in scene units.
+/// A half-line in a field's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Where it starts.
@@ -167,28 +198,29 @@ impl Ray {
         self.origin + self.direction * depth
     }
 
-    /// The depth at which it comes closest to the origin of the scene; negative if behind.
-    fn toward_origin(&self) -> f64 {
-        -self.origin.dot(self.direction)
+    /// The depth at which it comes closest to `point`; negative if behind.
+    fn depth_beside(&self, point: DVec3) -> f64 {
+        (point - self.origin).dot(self.direction)
     }
 
-    /// Entry and exit depths of the sphere of `radius` about the scene's origin, the entry no
-    /// less than zero; none where the ray misses it.
-    pub fn sphere_span(&self, radius: f64) -> Option<(f64, f64)> {
-        let middle = self.toward_origin();
+    /// Entry and exit depths of the sphere of `radius` about `center`, the entry no less than
+    /// zero; none where the ray misses it.
+    pub fn sphere_span(&self, center: DVec3, radius: f64) -> Option<(f64, f64)> {
+        let middle = self.depth_beside(center);
         // The foot of the perpendicular: no cancellation of large squares for a far eye.
-        let half_chord_squared = radius * radius - self.at(middle).length_squared();
+        let half_chord_squared = radius * radius - self.at(middle).distance_squared(center);
         let half_chord = half_chord_squared.max(0.0).sqrt();
         (half_chord_squared > 0.0 && middle + half_chord > 0.0)
             .then(|| ((middle - half_chord).max(0.0), middle + half_chord))
     }
 }
 
-/// The ray through `ndc` of a picture whose width over height is `aspect`.
-pub fn camera_ray(camera: &Camera, ndc: DVec2, aspect: f64) -> Ray {
+/// The ray through `ndc` of a picture whose width over height is `aspect`, in coordinates relative
+/// to `origin` (a field's [`DistanceField::origin`]).
+pub fn camera_ray(camera: &Camera, origin: &PrecisePoint, ndc: DVec2, aspect: f64) -> Ray {
     let half_height = camera.half_height(aspect);
     let in_camera = DVec3::new(ndc.x * aspect * half_height, ndc.y * half_height, -1.0);
-    Ray { origin: camera.position.to_dvec3(), direction: camera.rotation() * in_camera.normalize() }
+    Ray { origin: &camera.position - origin, direction: camera.rotation() * in_camera.normalize() }
 }
 
 /// The radius of one pixel's cone per unit of depth, for a picture `height_px` pixels high whose
@@ -200,9 +232,6 @@ pub fn pixel_cone(camera: &Camera, aspect: f64, height_px: f64) -> f64 {
 /// Depth of the surface that the picture shows at `ndc`, in scene units; none over the background.
 pub fn pick(scene: &Scene, ndc: DVec2, aspect: f64, height_px: f64) -> Option<f64> {
     let cone = pixel_cone(&scene.camera, aspect, height_px) * scene.quality.detail;
-    Estimator::new(&scene.fractal).march(
-        camera_ray(&scene.camera, ndc, aspect),
-        cone,
-        f64::INFINITY,
-    )
+    let field = Estimator::new(&scene.fractal);
+    field.march(camera_ray(&scene.camera, &field.origin(), ndc, aspect), cone, f64::INFINITY)
 }

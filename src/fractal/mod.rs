@@ -16,5 +16,6 @@ pub mod power;
 
 pub use estimator::Estimator;
 pub use march::{
-    DistanceField, LEAST_STEP, MAX_MARCH_STEPS, Ray, Reach, camera_ray, pick, pixel_cone,
+    DEEP_FOOTPRINT, DistanceField, LEAST_STEP, MAX_MARCH_STEPS, PLAIN_FOOTPRINT, Ray, Reach,
+    camera_ray, pick, pixel_cone,
 };

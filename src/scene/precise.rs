@@ -142,6 +142,9 @@ impl<'de> Deserialize<'de> for Precise {
 pub struct PrecisePoint(pub [Precise; 3]);
 
 impl PrecisePoint {
+    /// The scene's origin.
+    pub const ORIGIN: Self = Self([Precise(DBig::ZERO), Precise(DBig::ZERO), Precise(DBig::ZERO)]);
+
     /// The nearest f64 point.
     pub fn to_dvec3(&self) -> DVec3 {
         DVec3::from_array(self.0.each_ref().map(Precise::to_f64))
@@ -198,6 +201,15 @@ mod tests {
         assert_eq!(precise("0").moved_by(0.123456, 1e-3).to_string(), "0.123");
         assert_eq!(precise("0").moved_by(1e-9, 1e-3).to_string(), "0");
         assert_eq!(precise("1e-60").moved_by(0.5, 1e-3).to_string(), "0.5");
+    }
+
+    #[test]
+    fn the_origin_is_exact_and_takes_every_digit() {
+        let deep = precise("0.1234567890123456789012345678901234567890123456789");
+        let point = PrecisePoint([deep.clone(), precise("0"), precise("-1e-70")]);
+        assert_eq!(&point - &PrecisePoint::ORIGIN, point.to_dvec3());
+        let back = PrecisePoint::ORIGIN.moved_by(DVec3::new(0.1, 1e-60, 0.0), 0.0);
+        assert_eq!(back.0.map(|c| c.to_string()).join(" "), format!("0.1 0.{}1 0", "0".repeat(59)));
     }
 
     #[test]

@@ -17,10 +17,12 @@
 //!
 //! The rules that hold for every movement:
 //! - the eye never passes the surface, and stays [`World::clearance`] away from it;
-//! - it comes no nearer to what it looks at than [`World::nearest`], where f32 pictures still
-//!   hold, and goes no farther from the origin than [`FARTHEST_EYE`];
+//! - it comes no nearer to what it looks at than [`World::nearest`], where pictures still hold,
+//!   and goes no farther from the scene's origin than [`FARTHEST_EYE`];
 //! - positions are rounded to 10⁻⁴ of a pixel at the distance of the surface, so that a scene
-//!   says no more than can be seen.
+//!   says no more than can be seen;
+//! - nothing is measured in absolute f64 coordinates: places are exact points, and what is near
+//!   them is a vector from the field's own origin, so that every scale feels the same.
 
 pub mod collide;
 pub mod flight;
@@ -38,9 +40,7 @@ pub use fly::FlyInput;
 use fly::Pace;
 use turn::Turntable;
 
-/// The least radius of a pixel's cone at the surface, in scene units, where f32 pictures hold.
-pub const LEAST_FOOTPRINT: f64 = 2e-7;
-/// The farthest that the eye goes from the origin, in scene units.
+/// The farthest that the eye goes from the scene's origin, in scene units.
 pub const FARTHEST_EYE: f64 = 90.0;
 /// What the eye keeps from any surface, in parts of [`World::nearest`].
 const CLEARANCE: f64 = 0.25;
@@ -81,9 +81,24 @@ pub struct Standing {
 }
 
 impl World<'_> {
+    /// Where the eye is, in the field's coordinates.
+    pub fn eye(&self, camera: &Camera) -> DVec3 {
+        self.field.local(&camera.position)
+    }
+
+    /// The radius of a pixel's cone per unit of depth.
+    fn cone(&self, camera: &Camera) -> f64 {
+        pixel_cone(camera, self.viewport.aspect, self.viewport.height_px)
+    }
+
+    /// The ray through `ndc`, in the field's coordinates.
+    fn ray(&self, camera: &Camera, ndc: DVec2) -> Ray {
+        camera_ray(camera, &self.field.origin(), ndc, self.viewport.aspect)
+    }
+
     /// The least depth of a point that the camera looks at, in scene units.
     pub fn nearest(&self, camera: &Camera) -> f64 {
-        LEAST_FOOTPRINT / pixel_cone(camera, self.viewport.aspect, self.viewport.height_px)
+        self.field.finest_footprint() / self.cone(camera)
     }
 
     /// The least distance between eye and surface, in scene units.
@@ -93,17 +108,17 @@ impl World<'_> {
 
     /// Where `camera` stands.
     pub fn standing(&self, camera: &Camera) -> Standing {
-        let distance = self.field.clear_distance(camera.position.to_dvec3());
+        let distance = self.field.clear_distance(self.eye(camera));
         Standing {
             distance,
-            footprint: distance * pixel_cone(camera, self.viewport.aspect, self.viewport.height_px),
+            footprint: distance * self.cone(camera),
             at_precision_limit: distance <= self.nearest(camera),
         }
     }
 
     /// The vector from the eye to the surface seen at `ndc`; none over the background.
     pub fn pick(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
-        let ray = camera_ray(camera, ndc, self.viewport.aspect);
+        let ray = self.ray(camera, ndc);
         let depth = self.field.march(ray, self.hit_cone(camera), f64::INFINITY)?;
         Some(ray.direction * depth.max(self.nearest(camera)))
     }
@@ -112,7 +127,7 @@ impl World<'_> {
     /// the place on that ray that comes closest to it. Never zero.
     fn target(&self, camera: &Camera, ndc: DVec2) -> DVec3 {
         self.pick(camera, ndc).unwrap_or_else(|| {
-            let ray: Ray = camera_ray(camera, ndc, self.viewport.aspect);
+            let ray = self.ray(camera, ndc);
             let least = self.field.clear_distance(ray.origin).max(self.nearest(camera));
             ray.direction
                 * self.field.closest_approach(ray, f64::INFINITY).clamp(least, 2.0 * FARTHEST_EYE)
@@ -120,17 +135,13 @@ impl World<'_> {
     }
 
     fn hit_cone(&self, camera: &Camera) -> f64 {
-        pixel_cone(camera, self.viewport.aspect, self.viewport.height_px) * self.viewport.detail
+        self.cone(camera) * self.viewport.detail
     }
 
     /// How coarse positions may be here, in scene units.
     fn grain(&self, camera: &Camera) -> f64 {
-        let distance =
-            self.field.clear_distance(camera.position.to_dvec3()).max(self.clearance(camera));
-        GRAIN_PX
-            * 2.0
-            * pixel_cone(camera, self.viewport.aspect, self.viewport.height_px)
-            * distance
+        let distance = self.field.clear_distance(self.eye(camera)).max(self.clearance(camera));
+        GRAIN_PX * 2.0 * self.cone(camera) * distance
     }
 
     /// Where in the picture the point at `offset` from the eye appears; none behind the eye.

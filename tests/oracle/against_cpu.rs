@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use mandelight::{
     fractal::{DistanceField, Estimator, camera_ray, pixel_cone},
-    scene::{Fractal, Variant},
+    scene::{Fractal, PrecisePoint, Variant},
 };
 
 use super::{Random, estimate, in_parallel, quantile, rays, views};
@@ -73,7 +73,7 @@ fn rays_and_cones_are_those_of_the_pixels() {
             let [x, y] = pixel.map(|v| f64::from(v) + 0.5);
             let ndc = DVec2::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height);
             let expected = rays::direction(camera, views::SIZE, pixel);
-            let found = camera_ray(camera, ndc, width / height).direction;
+            let found = camera_ray(camera, &PrecisePoint::ORIGIN, ndc, width / height).direction;
             assert!((found - expected).length() < 1e-14);
         }
     }

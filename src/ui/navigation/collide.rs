@@ -28,31 +28,31 @@ const MAX_SLIDES: u32 = 3;
 
 /// The part of `way` that the eye may go straight on.
 pub fn advance(world: World<'_>, camera: &Camera, way: DVec3) -> DVec3 {
-    let eye = camera.position.to_dvec3();
-    sweep(world.field, eye, within_limit(eye, way), world.clearance(camera))
+    sweep(world.field, world.eye(camera), within_limit(camera, way), world.clearance(camera))
 }
 
 /// Where the eye gets to by going `way`, turned along the surface where that stops it.
 pub fn slide(world: World<'_>, camera: &Camera, way: DVec3) -> DVec3 {
     let clearance = world.clearance(camera);
-    let start = camera.position.to_dvec3();
-    let mut eye = start;
-    let mut left = within_limit(start, way);
+    let start = world.eye(camera);
+    let mut gone = DVec3::ZERO;
+    let mut left = within_limit(camera, way);
     for _ in 0..=MAX_SLIDES {
-        let moved = sweep(world.field, eye, left, clearance);
-        eye += moved;
+        let moved = sweep(world.field, start + gone, left, clearance);
+        gone += moved;
         left -= moved;
         if left.length() <= ARRIVED * clearance {
             break;
         }
+        let eye = start + gone;
         let spacing = 0.5 * world.field.distance(eye).clamp(0.1 * clearance, clearance);
         let normal = world.field.normal(eye, spacing);
         left -= normal * (left.dot(normal).min(0.0) - LIFT * left.length());
     }
-    eye - start
+    gone
 }
 
-/// True where the eye may go straight from `from` to `to`.
+/// True where the eye may go straight from `from` to `to`, both in the field's coordinates.
 pub fn is_free(field: &dyn DistanceField, from: DVec3, to: DVec3, clearance: f64) -> bool {
     let way = to - from;
     sweep(field, from, way, clearance) == way
@@ -90,7 +90,9 @@ fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> 
 }
 
 /// `way`, shortened so that it does not lead out of the sphere that the eye is kept in.
-fn within_limit(eye: DVec3, way: DVec3) -> DVec3 {
+fn within_limit(camera: &Camera, way: DVec3) -> DVec3 {
+    // The limit is far from any surface: here an f64 of the whole scene will do.
+    let eye = camera.position.to_dvec3();
     let end = eye + way;
     if end.length() <= FARTHEST_EYE || end.length() <= eye.length() {
         return way;

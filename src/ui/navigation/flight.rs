@@ -31,26 +31,32 @@ pub struct Flight {
     from: Camera,
     to: Camera,
     route: Route,
+    /// The field's origin and the bounding sphere's centre about it, from which the route is drawn.
+    origin: PrecisePoint,
+    center: DVec3,
     elapsed_secs: f64,
 }
 
 impl Flight {
     /// Plans the journey; none where the surface bars every route.
     fn plan(world: World<'_>, from: &Camera, to: &Camera) -> Option<Self> {
-        let (start, end) = (from.position.to_dvec3(), to.position.to_dvec3());
+        let (start, end) = (world.eye(from), world.eye(to));
+        let (origin, center) = (world.field.origin(), world.field.center());
         let room = |eye: DVec3| world.field.clear_distance(eye).max(world.clearance(from));
         let straight = Route::Straight { growth: (room(end) / room(start)).ln() };
         let outside = world.field.bounding_radius() * ROOM;
-        let around = Route::Around { radius: start.length().max(end.length()).max(outside) };
+        let from_center = |eye: DVec3| eye.distance(center);
+        let around =
+            Route::Around { radius: from_center(start).max(from_center(end)).max(outside) };
         let clearance = world.clearance(from).min(0.5 * room(start)).min(0.5 * room(end));
         let is_free = |route: &Route| {
             let places = (0..=TRIED_PIECES)
-                .map(|i| route.at(start, end, f64::from(i) / f64::from(TRIED_PIECES)));
+                .map(|i| route.at([start, end], center, f64::from(i) / f64::from(TRIED_PIECES)));
             let places: Vec<_> = places.collect();
             places.windows(2).all(|pair| collide::is_free(world.field, pair[0], pair[1], clearance))
         };
         let route = [straight, around].into_iter().find(is_free)?;
-        Some(Self { from: from.clone(), to: to.clone(), route, elapsed_secs: 0.0 })
+        Some(Self { from: from.clone(), to: to.clone(), route, origin, center, elapsed_secs: 0.0 })
     }
 
     /// The camera after `elapsed_secs`.
@@ -62,11 +68,13 @@ impl Flight {
         let (from, to) = (&self.from, &self.to);
         let eased = ease(progress);
         let mix = |a: f64, b: f64| a + (b - a) * eased;
-        let eye = self.route.at(from.position.to_dvec3(), to.position.to_dvec3(), progress);
-        let pivot = from.pivot.to_dvec3().lerp(to.pivot.to_dvec3(), eased);
+        let local = |point: &PrecisePoint| point - &self.origin;
+        let ends = [&from.position, &to.position].map(local);
+        let eye = self.route.at(ends, self.center, progress);
+        let pivot = local(&from.pivot).lerp(local(&to.pivot), eased);
         Camera {
-            position: PrecisePoint::from(eye),
-            pivot: PrecisePoint::from(pivot),
+            position: self.origin.moved_by(eye, 0.0),
+            pivot: self.origin.moved_by(pivot, 0.0),
             orientation: from.rotation().slerp(to.rotation(), eased).into(),
             vertical_fov_deg: mix(from.vertical_fov_deg, to.vertical_fov_deg),
             stereo: to.stereo.clone(),
@@ -76,17 +84,18 @@ impl Flight {
 
 impl Route {
     /// The eye at `progress`, 0 to 1.
-    fn at(self, start: DVec3, end: DVec3, progress: f64) -> DVec3 {
+    fn at(self, [start, end]: [DVec3; 2], center: DVec3, progress: f64) -> DVec3 {
         match self {
             Self::Straight { growth } => start.lerp(end, geometric(ease(progress), growth)),
             Self::Around { radius } => {
                 // Out in the first third, around in the second, in during the last.
                 let third = |i: f64| ease((3.0 * progress - i).clamp(0.0, 1.0));
                 let (out, around, back) = (third(0.0), third(1.0), third(2.0));
+                let (start, end) = (start - center, end - center);
                 let (near, far) = (start.length(), end.length());
                 let length = near * (radius / near.max(1e-9)).powf(out) * (far / radius).powf(back);
                 let (from, to) = (start.normalize_or(DVec3::Z), end.normalize_or(DVec3::Z));
-                from.slerp(to, around) * length
+                center + from.slerp(to, around) * length
             }
         }
     }
@@ -118,10 +127,13 @@ impl Navigator {
     /// Sets off to where the whole bounding sphere fits the picture, in the present direction.
     pub fn frame_all(&mut self, camera: &mut Camera, world: World<'_>) {
         let half_angle = camera.half_height(1.0).atan();
-        let depth = (world.field.bounding_radius() * ROOM / half_angle.sin()).min(FARTHEST_EYE);
+        let radius = world.field.bounding_radius();
+        // Where that is the scene's origin, seen from a deep place, it is so but for rounding.
+        let centre = world.field.origin().moved_by(world.field.center(), 1e-9 * radius);
+        let depth = (radius * ROOM / half_angle.sin()).min(FARTHEST_EYE);
         let to = Camera {
-            position: PrecisePoint::from(camera.forward() * -depth),
-            pivot: PrecisePoint::from(DVec3::ZERO),
+            position: centre.moved_by(camera.forward() * -depth, 0.0),
+            pivot: centre,
             ..camera.clone()
         };
         self.fly_to(camera, world, &to);
@@ -129,8 +141,7 @@ impl Navigator {
 
     /// Turns a rolled camera upright where it stands.
     pub fn level(&mut self, camera: &mut Camera, world: World<'_>) {
-        let eye = camera.position.to_dvec3();
-        let upright = Camera::looking_at(eye, eye + camera.forward(), DVec3::Z);
+        let upright = Camera::looking_at(DVec3::ZERO, camera.forward(), DVec3::Z);
         let to = Camera { orientation: upright.orientation, ..camera.clone() };
         self.fly_to(camera, world, &to);
     }

@@ -88,8 +88,7 @@ impl Navigator {
         if input.travel == DVec3::ZERO || !input.travel.is_finite() {
             self.pace.rest();
         } else {
-            let distance =
-                world.field.clear_distance(camera.position.to_dvec3()).max(world.nearest(camera));
+            let distance = world.field.clear_distance(world.eye(camera)).max(world.nearest(camera));
             let pace = self.pace.follow(distance, dt_secs);
             let speed = pace * SPEED_PER_SEC * if input.faster { FASTER } else { 1.0 };
             let DVec3 { x, y, z } = input.travel.clamp_length_max(1.0);
