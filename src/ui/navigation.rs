@@ -11,6 +11,7 @@
 //! | [`turn`] | rotations that keep the horizon |
 //! | [`fly`] | travel by keys, at a speed that follows the distance to the surface |
 //! | [`flight`] | eased journeys: home, frame-all, level |
+//! | `route` | the ways they take |
 //!
 //! Pointer positions are normalised device coordinates: −1 to 1, x right, y up. Amounts of
 //! zoom are natural logarithms: +1 comes nearer by a factor of e.
@@ -27,6 +28,7 @@
 pub mod collide;
 pub mod flight;
 pub mod fly;
+mod route;
 pub mod turn;
 
 use glam::{DVec2, DVec3};
@@ -140,8 +142,14 @@ impl World<'_> {
 
     /// How coarse positions may be here, in scene units.
     fn grain(&self, camera: &Camera) -> f64 {
-        let distance = self.field.clear_distance(self.eye(camera)).max(self.clearance(camera));
-        GRAIN_PX * 2.0 * self.cone(camera) * distance
+        self.grain_after(camera, DVec3::ZERO)
+    }
+
+    /// The same once the eye has gone `moved` from here: coarser, it could round it into the
+    /// surface that stopped it.
+    fn grain_after(&self, camera: &Camera, moved: DVec3) -> f64 {
+        let distance = self.field.clear_distance(self.eye(camera) + moved);
+        GRAIN_PX * 2.0 * self.cone(camera) * distance.max(self.clearance(camera))
     }
 
     /// Where in the picture the point at `offset` from the eye appears; none behind the eye.
@@ -256,8 +264,14 @@ impl Navigator {
         let moved = collide::advance(world, camera, way);
         // All else scales about the target as the eye's own distance does.
         let scale = (target - moved).length() / depth;
-        let grain = world.grain(camera) * scale.min(1.0);
+        let grain = world.grain(camera).min(world.grain_after(camera, moved));
         let pivot_offset = (&camera.pivot - &camera.position) * scale;
+        // A pivot much nearer than what is approached would go past every limit.
+        let least = world.clearance(camera);
+        let pivot_offset = match pivot_offset.length() {
+            length if length < least => pivot_offset.normalize_or(camera.forward()) * least,
+            _ => pivot_offset,
+        };
         let before = camera.clone();
         camera.position = camera.position.moved_by(moved, grain);
         camera.pivot = camera.position.moved_by(pivot_offset, grain);
@@ -282,7 +296,7 @@ fn pan(camera: &mut Camera, world: World<'_>, held: &PrecisePoint, ndc: DVec2) {
 
 /// Moves eye and pivot together by `moved`, in scene units.
 fn shift(camera: &mut Camera, world: World<'_>, moved: DVec3) {
-    let grain = world.grain(camera);
+    let grain = world.grain(camera).min(world.grain_after(camera, moved));
     let pivot_offset = &camera.pivot - &camera.position;
     camera.position = camera.position.moved_by(moved, grain);
     camera.pivot = camera.position.moved_by(pivot_offset, grain);

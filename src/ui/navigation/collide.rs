@@ -23,6 +23,9 @@ const LIFT: f64 = 0.05;
 const MAX_STEPS: u32 = 256;
 /// A step shorter than this part of the clearance means that the eye has arrived.
 const ARRIVED: f64 = 1e-3;
+/// The least clearance, in parts of a place's distance from the field's origin: closer by, f64
+/// coordinates say nothing of the surface. A field with a nearer origin lets the eye go on.
+const RESOLVED: f64 = 1e-12;
 /// How often a movement may be turned along the surface.
 const MAX_SLIDES: u32 = 3;
 
@@ -70,6 +73,7 @@ fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> 
     for _ in 0..MAX_STEPS {
         // Along a surface there is no room to come nearer, yet the way may be free: a bold step
         // first, then one that the room allows.
+        let clearance = clearance.max(RESOLVED * (from + direction * gone).length());
         let room = here.distance - clearance;
         let longest = here.step.max(LEAST_STEP * clearance);
         let steps = [room.max(BOLD * here.distance), room].map(|it| STEP_PART * it.min(longest));
