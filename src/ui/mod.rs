@@ -10,12 +10,14 @@
 //! | `panel/` | the panels, one a file |
 //! | `widgets/` | sliders of the parameter table, the light ball, the gradient |
 //! | `view`, `pilot`, `handles` | the picture, what moves its camera, its point lights |
+//! | `field` | the distance field that the camera moves in |
 //! | [`navigation`] | the camera's movements themselves, free of egui |
 //! | [`shortcuts`] | the one table of keys, dispatched and listed in help |
 //! | [`editor`] | the scene and the path under edit, and their history |
 //! | `timeline` | the playhead: which moment of the path is in view |
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, the look, drawn icons, widgets' places |
 
+mod field;
 mod handles;
 mod icon;
 mod interface;

@@ -3,16 +3,19 @@
 //! In: the view's response and this frame's commands. Out: a moved camera, by way of
 //! [`Navigator`]. Knows which gesture means what; how a camera moves is the navigator's.
 
+use std::sync::Arc;
+
 use egui::{Context, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
 
 use super::{
+    field::Fields,
     navigation::{FlyInput, Navigator, Standing, Viewport, World},
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
-    fractal::Estimator,
-    scene::{Camera, Fractal, Scene, StereoLayout},
+    fractal::DistanceField,
+    scene::{Camera, Scene, StereoLayout},
 };
 
 /// Natural logarithm of the approach per point of wheel travel; a notch is about 100 points.
@@ -38,7 +41,7 @@ pub struct Pilot {
     looking: bool,
     /// Until when further notches join the gesture, on egui's clock.
     run_until_secs: f64,
-    measured: Option<(Fractal, Estimator)>,
+    fields: Fields,
 }
 
 /// The picture's place in the window.
@@ -121,10 +124,17 @@ impl Pilot {
         self.run_until_secs = now_secs + RUN_SECS;
     }
 
+    /// Measures movements by `deep` from now on, the field about the deep place in view; none where
+    /// there is none. It has to be of the scene's fractal.
+    pub fn measure_by(&mut self, deep: Option<Arc<dyn DistanceField>>) {
+        self.fields.deep = deep;
+    }
+
     /// Where the camera stands, for the camera panel.
     pub fn standing(&mut self, scene: &Scene, frame: Frame) -> Standing {
-        let field = self.field(&scene.fractal);
-        world(&field, scene, frame).standing(&scene.camera)
+        let viewport = viewport(scene, frame);
+        let field = self.fields.choose(scene, viewport);
+        World { field: &*field, viewport }.standing(&scene.camera)
     }
 
     /// Moves the scene's camera by this frame's input.
@@ -137,9 +147,10 @@ impl Pilot {
         home: &Camera,
         commands: &[Command],
     ) {
-        let field = self.field(&scene.fractal);
+        let viewport = viewport(scene, frame);
+        let field = self.fields.choose(scene, viewport);
         let mut camera = scene.camera.clone();
-        let world = world(&field, scene, frame);
+        let world = World { field: &*field, viewport };
         let ctx = ui.ctx();
         for &command in commands {
             self.command(command, &mut camera, world, home, ctx);
@@ -155,17 +166,6 @@ impl Pilot {
             ctx.request_repaint();
         }
         scene.camera = camera;
-    }
-
-    fn field(&mut self, fractal: &Fractal) -> Estimator {
-        match &self.measured {
-            Some((known, estimator)) if known == fractal => *estimator,
-            _ => {
-                let estimator = Estimator::new(fractal);
-                self.measured = Some((fractal.clone(), estimator));
-                estimator
-            }
-        }
     }
 
     fn command(
@@ -303,13 +303,12 @@ impl Pilot {
     }
 }
 
-fn world<'a>(field: &'a Estimator, scene: &Scene, frame: Frame) -> World<'a> {
-    let viewport = Viewport {
+fn viewport(scene: &Scene, frame: Frame) -> Viewport {
+    Viewport {
         aspect: frame.aspect(),
         height_px: f64::from(frame.height_px.max(1)),
         detail: scene.quality.detail,
-    };
-    World { field, viewport }
+    }
 }
 
 #[cfg(test)]

@@ -4,23 +4,25 @@
 
 use egui::{Rect, RichText, Sense, Ui, pos2};
 
-use super::{navigation::Standing, theme};
+use super::{field::goes_deep, navigation::Standing, theme};
 use crate::{
     render::report::{Activity, Report},
-    scene::Camera,
+    scene::{Camera, Scene},
 };
 
 /// Height of the line, in points.
 pub const HEIGHT: f32 = 24.0;
 /// Lines narrower than this, in points, say less.
 const SHORT_BELOW: f32 = 560.0;
+/// Those narrower than this, in points, say the least of what ends a dive.
+const TERSE_BELOW: f32 = 860.0;
 /// What the line speaks of.
 #[derive(Clone, Copy, Debug)]
 pub struct Status<'a> {
     /// What the renderer says of itself.
     pub report: &'a Report,
-    /// Where the scene is seen from.
-    pub camera: &'a Camera,
+    /// What is seen, and from where.
+    pub scene: &'a Scene,
     /// The device that draws.
     pub adapter: &'a str,
     /// Where the camera stands; none before the first frame.
@@ -40,7 +42,7 @@ pub fn status_line(ui: &mut Ui, status: &Status<'_>) {
     progress(&painter, rect, report);
 
     let font = egui::FontId::proportional(11.5);
-    let right = right_text(status, short);
+    let right = right_text(status, rect.width());
     let right = painter.layout_no_wrap(right, font.clone(), theme::TEXT_DIM);
     let right_at =
         pos2(rect.right() - 10.0 - right.size().x, rect.center().y - right.size().y / 2.0);
@@ -69,7 +71,10 @@ pub fn status_line(ui: &mut Ui, status: &Status<'_>) {
     response.on_hover_ui(|ui| {
         let line = |ui: &mut Ui, text: String| ui.label(RichText::new(text).small());
         line(ui, activity_text(report, false));
-        line(ui, right_text(status, false));
+        line(ui, right_text(status, f32::INFINITY));
+        if is_at_limit(status) {
+            line(ui, limit_help(status.scene).to_owned());
+        }
         line(ui, format!("GPU time of the last frame: {:.1} ms", report.frame_ms));
         line(ui, format!("Drawn by {}", status.adapter));
     });
@@ -121,18 +126,42 @@ pub fn activity_text(report: &Report, short: bool) -> String {
     }
 }
 
-fn right_text(status: &Status<'_>, short: bool) -> String {
-    let [width, height] = status.report.size_px;
-    let zoom = zoom_text(zoom(status.camera));
+fn right_text(status: &Status<'_>, width: f32) -> String {
+    let [width_px, height_px] = status.report.size_px;
+    let zoom = zoom_text(zoom(&status.scene.camera));
     let mut parts = Vec::new();
-    if status.standing.is_some_and(|standing| standing.at_precision_limit) {
-        parts.push(if short { "limit" } else { "precision limit" }.to_owned());
+    if is_at_limit(status) {
+        parts.push(limit_text(goes_deep(&status.scene.fractal), width).to_owned());
     }
     parts.push(zoom);
-    if width > 0 {
-        parts.push(format!("{width} × {height}"));
+    if width_px > 0 {
+        parts.push(format!("{width_px} × {height_px}"));
     }
     parts.join("  ·  ")
+}
+
+fn is_at_limit(status: &Status<'_>) -> bool {
+    status.standing.is_some_and(|standing| standing.at_precision_limit)
+}
+
+/// Why it goes no nearer, in a line `width` points wide.
+fn limit_text(deep: bool, width: f32) -> &'static str {
+    match (deep, width) {
+        (true, ..SHORT_BELOW) => "deepest",
+        (true, _) => "as deep as it goes",
+        (false, ..SHORT_BELOW) => "limit",
+        (false, ..TERSE_BELOW) => "single precision ends here",
+        (false, _) => "single precision ends here; whole powers go deeper",
+    }
+}
+
+/// The same in full.
+fn limit_help(scene: &Scene) -> &'static str {
+    if goes_deep(&scene.fractal) {
+        "The dive ends here: nearer by, the numbers that pictures are made of run out of exponents."
+    } else {
+        "Single precision ends here: nearer by, rounding would show instead of detail. Whole powers go deeper."
+    }
 }
 
 /// How much larger things appear at the pivot than from where a new scene is seen.
@@ -198,6 +227,7 @@ mod tests {
         assert_eq!(zoom_text(812.3), "812×");
         assert_eq!(zoom_text(320_000.0), "3.2 × 10⁵");
         assert_eq!(zoom_text(9.99e11), "1.0 × 10¹²");
+        assert_eq!(zoom_text(3.6e27), "3.6 × 10²⁷");
         assert_eq!(zoom_text(f64::NAN), "–");
     }
 
