@@ -103,6 +103,11 @@ impl Param {
             && (self.scale != Scale::Integer || value.fract() == 0.0)
     }
 
+    /// `value` within the range.
+    pub const fn clamp(&self, value: f64) -> f64 {
+        value.clamp(self.min, self.max)
+    }
+
     /// The accepted range in words: `5 to 120 degrees`; whole numbers say so.
     pub fn range_text(&self) -> String {
         let range = format!("{} to {}", self.min, self.max);

@@ -7,14 +7,14 @@ use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::
 use glam::DVec3;
 
 use super::{panel::LightRef, pilot::Frame, theme};
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, MIN_VIEW_UNIT, Scene};
 
 /// Side of the square that can be grabbed, in points.
 const GRIP: f32 = 30.0;
 /// Natural logarithm of the distance per point of a drag with Shift.
 const DEPTH_PER_POINT: f64 = 0.01;
 /// Nearest and farthest a drag puts a light, in scene units from the eye.
-const DEPTHS: std::ops::RangeInclusive<f64> = 1e-9..=90.0;
+const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
 /// How coarsely positions are rounded, in pixels at the light's depth.
 const GRAIN_PX: f64 = 1e-2;
 
@@ -118,17 +118,23 @@ mod tests {
 
     #[test]
     fn a_dragged_light_stays_under_the_pointer() {
+        for unit in [1.0, 1e-13, 1e-27] {
+            dragged_at(unit);
+        }
+    }
+
+    fn dragged_at(unit: f64) {
         let camera = Camera::default();
         let frame = Frame {
             rect: Rect::from_min_size(Pos2::new(10.0, 20.0), Vec2::new(800.0, 600.0)),
             height_px: 600,
         };
-        let offset = camera.rotation() * DVec3::new(0.3, -0.2, -2.0);
+        let offset = camera.rotation() * DVec3::new(0.3, -0.2, -2.0) * unit;
         let before = project(&camera, frame, offset).expect("in the picture");
         let delta = Vec2::new(35.0, -12.0);
         let moved = offset + displacement(&camera, frame, offset, delta, false);
         let after = project(&camera, frame, moved).expect("in the picture");
-        assert!((after - before - delta).length() < 1e-3, "{before} went to {after}");
+        assert!((after - before - delta).length() < 1e-3, "{unit:e}: {before} went to {after}");
     }
 
     #[test]
@@ -138,11 +144,13 @@ mod tests {
             rect: Rect::from_min_size(Pos2::ZERO, Vec2::new(800.0, 600.0)),
             height_px: 600,
         };
-        let offset = camera.rotation() * DVec3::new(0.3, -0.2, -2.0);
-        let moved = offset + displacement(&camera, frame, offset, Vec2::new(0.0, -50.0), true);
-        assert!(moved.length() > offset.length(), "upward is away");
-        let (a, b) = (project(&camera, frame, offset), project(&camera, frame, moved));
-        assert!((a.expect("seen") - b.expect("seen")).length() < 1e-3);
+        for unit in [1.0, 1e-13, 1e-27] {
+            let offset = camera.rotation() * DVec3::new(0.3, -0.2, -2.0) * unit;
+            let moved = offset + displacement(&camera, frame, offset, Vec2::new(0.0, -50.0), true);
+            assert!(moved.length() > offset.length(), "upward is away");
+            let (a, b) = (project(&camera, frame, offset), project(&camera, frame, moved));
+            assert!((a.expect("seen") - b.expect("seen")).length() < 1e-3, "{unit:e}");
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The interface, driven as people drive it: by pointer, keys and the accessibility tree.
 
 mod controls;
+mod depth;
 mod fit;
 mod gestures;
 mod hostile;

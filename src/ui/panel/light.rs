@@ -4,7 +4,10 @@ use egui::{Response, RichText, Ui};
 use glam::DVec3;
 
 use crate::{
-    scene::{Camera, EnvironmentLight, LightFrame, PointLight, param},
+    scene::{
+        Camera, EnvironmentLight, LightFrame, PointLight,
+        param::{self, Param},
+    },
     ui::{
         theme,
         widgets::{ball, choice, param_slider},
@@ -29,6 +32,9 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
                 let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Limit reach"));
                 if reach.on_hover_text("Let only near surfaces cast shadows, up to the shadow reach below; otherwise the whole scene does").changed() {
                     light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
+                }
+                if light.casts_shadows && light.shadow_reach.is_none() && camera.view_unit() < SMALL_VIEW_UNIT {
+                    ui.label(RichText::new("Deep in the set the whole scene shades nearly all.").small().color(theme::TEXT_DIM));
                 }
             });
             ball
@@ -57,14 +63,48 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
     ball
 }
 
+/// View units below this, in scene units, are small enough that lights near by are told in them.
+const SMALL_VIEW_UNIT: f64 = 1e-3;
+/// How near by those are, in view units.
+const NEAR_BY: f64 = 1e3;
+/// The intensity of such a light. In the document it would be a number like 1e-40.
+const POINT_INTENSITY_NEAR_BY: Param = Param {
+    help: "How strong the light is at one view unit, the distance from you to the pivot; it falls with the square of the distance.",
+    ..param::POINT_INTENSITY
+};
+
+/// The length, in scene units, at which the panel tells a point light's strength: the view unit
+/// where it is small and the light is near by, otherwise the scene unit.
+fn length_of_intensity(light: &PointLight, camera: &Camera) -> f64 {
+    let unit = camera.view_unit();
+    let distance = (&light.position - &camera.position).length();
+    if unit < SMALL_VIEW_UNIT && distance < NEAR_BY * unit { unit } else { 1.0 }
+}
+
 /// Strength, shadows, place of a light from a point.
-pub(super) fn point(ui: &mut Ui, light: &mut PointLight) {
-    param_slider(ui, &param::POINT_INTENSITY, &mut light.intensity);
+pub(super) fn point(ui: &mut Ui, light: &mut PointLight, camera: &Camera) {
+    let length = length_of_intensity(light, camera);
+    let param = if length == 1.0 { &param::POINT_INTENSITY } else { &POINT_INTENSITY_NEAR_BY };
+    let mut intensity = light.intensity / (length * length);
+    if param_slider(ui, param, &mut intensity).changed() {
+        light.intensity = param::POINT_INTENSITY.clamp(intensity * length * length);
+    }
     ui.checkbox(&mut light.casts_shadows, "Shadows")
         .on_hover_text("Whether surfaces block this light");
-    let at = light.position.to_dvec3();
-    ui.label(RichText::new(format!("At {:.4}, {:.4}, {:.4}", at.x, at.y, at.z)).small().color(theme::TEXT_DIM))
-        .on_hover_text("The light's position in scene units. Drag its handle in the view; with Shift it moves toward or away from you.");
+    let (place, hover) = if length == 1.0 {
+        let at = light.position.to_dvec3();
+        (
+            format!("At {:.4}, {:.4}, {:.4}", at.x, at.y, at.z),
+            "The light's position in scene units. Drag its handle in the view; with Shift it moves toward or away from you.",
+        )
+    } else {
+        let distance = (&light.position - &camera.position).length() / length;
+        (
+            format!("{distance:.3} view units from you"),
+            "How far the light is, in multiples of the distance from you to the pivot. Drag its handle in the view; with Shift it moves toward or away from you.",
+        )
+    };
+    ui.label(RichText::new(place).small().color(theme::TEXT_DIM)).on_hover_text(hover);
 }
 
 /// The ball on which the light's direction is dragged.
@@ -113,6 +153,16 @@ pub(super) fn from_view(in_view: DVec3, frame: LightFrame, camera: &Camera) -> [
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_light_deep_in_the_set_is_told_in_view_units() {
+        let mut camera = Camera::default();
+        let near_by = PointLight { position: camera.position.clone(), ..Default::default() };
+        assert_eq!(length_of_intensity(&near_by, &camera), 1.0);
+        camera.pivot = camera.position.moved_by(DVec3::Y * 1e-20, 0.0);
+        assert_eq!(length_of_intensity(&near_by, &camera), 1e-20);
+        assert_eq!(length_of_intensity(&PointLight::default(), &camera), 1.0);
+    }
 
     #[test]
     fn a_direction_survives_both_frames() {

@@ -86,8 +86,9 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             }
         }
         Some(LightRef::Point(index)) => {
+            let camera = &cx.scene.camera;
             if let Some(light) = cx.scene.lights.point.get_mut(index) {
-                light::point(ui, light);
+                light::point(ui, light, camera);
             }
         }
         None if cx.scene.lights.is_empty() => {
@@ -285,8 +286,7 @@ fn new_point(camera: &Camera) -> PointLight {
     let distance = 0.5 * unit;
     PointLight {
         position: camera.position.moved_by(offset, unit * 1e-4),
-        intensity: (distance * distance)
-            .clamp(param::POINT_INTENSITY.min, param::POINT_INTENSITY.max),
+        intensity: param::POINT_INTENSITY.clamp(distance * distance),
         ..Default::default()
     }
 }
@@ -294,6 +294,7 @@ fn new_point(camera: &Camera) -> PointLight {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
 
     #[test]
     fn a_new_point_light_stands_in_the_view() {
@@ -306,6 +307,27 @@ mod tests {
                 seen.z < 0.0 && seen.x.abs() < 0.6 * edge && seen.y.abs() < 0.6 * edge,
                 "{fov}"
             );
+        }
+    }
+
+    #[test]
+    fn a_new_point_light_lights_the_view_at_every_scale() {
+        for unit in [1.0, 1e-5, 1e-13, 1e-20, 1e-27] {
+            let mut camera = Camera::default();
+            camera.position = camera.position.moved_by(DVec3::X / 3.0, 0.0);
+            camera.pivot = camera.position.moved_by(camera.forward() * unit, 0.0);
+            let light = new_point(&camera);
+            let at_pivot = (&light.position - &camera.pivot).length();
+            let strength = light.intensity / (at_pivot * at_pivot);
+            assert!((0.5..2.0).contains(&strength), "{unit:e}: {strength}");
+            let scene = Scene {
+                camera,
+                lights: Lights { point: vec![light], ..Default::default() },
+                ..Default::default()
+            };
+            assert_eq!(scene.validate(), Ok(()), "{unit:e}");
+            let saved = serde_json::to_string(&scene).expect("a document");
+            assert_eq!(serde_json::from_str::<Scene>(&saved).ok(), Some(scene), "{unit:e}");
         }
     }
 

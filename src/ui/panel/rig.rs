@@ -1,6 +1,7 @@
 //! The rig: many lights made together, from a sky or from a picture of the surroundings.
 
 use egui::{Button, Response, RichText, Ui, vec2};
+use glam::DVec3;
 
 use super::{Context, light};
 use crate::{
@@ -27,6 +28,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ],
     );
     cx.rects.note("rig", &chosen);
+    let come_along = light_here(ui, &cx.scene.lights);
+    if come_along.clicked() {
+        tie_to_view(&mut cx.scene.lights);
+    }
+    cx.rects.note("light here", &come_along);
     let turned_on = cx.scene.lights.rig.kind != before;
     match cx.scene.lights.rig.kind {
         RigKind::None => {}
@@ -41,6 +47,43 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         common(ui, &mut cx.scene.lights.rig, &cx.scene.camera);
     }
     keep_within_room(&mut cx.scene.lights, cx.panorama, turned_on.then_some(before));
+}
+
+/// Asks for light that comes along.
+fn light_here(ui: &mut Ui, lights: &Lights) -> Response {
+    let (room, least) = (lights.room_for_rig(), param::RIG_COUNT.min as usize);
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let button = Button::new("Light what is in view").truncate();
+    ui.add_enabled_ui(room >= least && !is_tied_to_view(&lights.rig), |ui| ui.add_sized(size, button))
+        .inner
+        .on_hover_text("A sky that comes along with you, and in which only what is near casts shadows: it lights any place, however deep")
+        .on_disabled_hover_text(if room < least {
+            "The scene has no room for further lights"
+        } else {
+            "The rig comes along with you already, with near shadows"
+        })
+}
+
+fn is_tied_to_view(rig: &Rig) -> bool {
+    let near_shadows = !rig.casts_shadows || rig.shadow_reach.is_some();
+    !rig.is_empty() && rig.frame == LightFrame::View && near_shadows && !rig.muted
+}
+
+/// Makes the rig one that comes along with the camera and is shaded by what is near. A sky keeps
+/// its colours; its sun moves behind the viewer's left shoulder.
+fn tie_to_view(lights: &mut Lights) {
+    let room = lights.room_for_rig();
+    let rig = &mut lights.rig;
+    if rig.is_empty() {
+        rig.kind = RigKind::Sky;
+        rig.count = rig.count.min(room as u32);
+    }
+    if rig.kind == RigKind::Sky {
+        rig.sky.sun_direction = DVec3::new(-0.5, 0.6, 0.65).normalize().to_array();
+    }
+    rig.frame = LightFrame::View;
+    rig.shadow_reach = Some(rig.shadow_reach.unwrap_or(param::RIG_SHADOW_REACH.default));
+    rig.muted = false;
 }
 
 /// Sees to it that the scene has no more lights than it can hold; where there is no room for a

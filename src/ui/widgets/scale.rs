@@ -4,6 +4,9 @@
 
 use crate::scene::param::{Param, Scale};
 
+/// Values of a logarithmic range below this are written with an exponent.
+const TINY: f64 = 1e-5;
+
 /// Whether equal lengths of the rail are equal ratios.
 pub fn is_logarithmic(param: &Param) -> bool {
     match param.scale {
@@ -59,6 +62,9 @@ pub fn tidy_typed(param: &Param, value: f64) -> f64 {
 
 /// The value as a row shows it, without its unit.
 pub fn format_value(param: &Param, value: f64) -> String {
+    if param.scale == Scale::Logarithmic && value != 0.0 && value.abs() < TINY {
+        return format!("{value:.2e}");
+    }
     let places = match param.scale {
         Scale::Integer => 0,
         Scale::Linear => decimals(param.step).max(needed_decimals(value)),
@@ -154,6 +160,8 @@ mod tests {
         assert_eq!(format_value(&param::SAMPLES, 16.0), "16");
         assert_eq!(format_value(&param::SHADOW_REACH, 0.0123456), "0.0123");
         assert_eq!(format_value(&param::ENVIRONMENT_INTENSITY, 2.6), "2.6");
+        assert_eq!(format_value(&param::POINT_INTENSITY, 2.5e-41), "2.50e-41");
+        assert_eq!(format_value(&param::POINT_INTENSITY, 0.0), "0");
         assert_eq!(tidy(&param::POWER, 2.299_999_9), 2.3);
     }
 }
