@@ -24,6 +24,13 @@ use crate::scene::{
 /// largest pictures.
 const EYE_GRAIN: f64 = 1e-8;
 
+/// View units below this are small, in scene units,
+const SMALL_UNIT: f64 = 1e-3;
+/// and within so many of them of the pivot is near by.
+const NEAR_BY: f64 = 1e3;
+/// Numbers below this part of their parameter's step lie far below it.
+const FAR_BELOW: f64 = 1e-3;
+
 /// Something of the keys before, at the beginning, at the end and after; the second and third
 /// are always there.
 type Four<T> = [Option<T>; 4];
@@ -34,7 +41,7 @@ pub fn scenes(keys: Four<Arc<Scene>>, span: &Span) -> Scene {
     let cameras = keys.each_ref().map(|key| key.as_ref().map(|scene| &scene.camera));
     // Every key of a scene's JSON is a string, which is all that could fail.
     let values = keys.each_ref().map(|key| serde_json::to_value(key.as_deref()?).ok());
-    let walk = Walk { span, units: cameras.map(|camera| camera.map(Camera::view_unit)) };
+    let walk = Walk { span, places: cameras.map(|camera| camera.map(place)) };
     let mut path = String::new();
     let blended = walk.value(&mut path, values.each_ref().map(Option::as_ref));
     let scene = blended.and_then(|value| serde_json::from_value::<Scene>(value).ok());
@@ -99,8 +106,8 @@ fn settle(scene: &mut Scene, from: &Scene) {
 /// A walk through four scenes' JSON at once.
 struct Walk<'a> {
     span: &'a Span,
-    /// The cameras' view units.
-    units: Four<f64>,
+    /// Where the cameras look.
+    places: Four<Place>,
 }
 
 impl Walk<'_> {
@@ -177,13 +184,14 @@ impl Walk<'_> {
 
     fn number(&self, path: &str, values: Four<&Value>) -> Option<Value> {
         let param = param::find(path);
-        let numbers =
-            values.map(|value| value.and_then(Value::as_f64).map(|v| onto_line(param, v)));
+        let numbers = values.map(|value| value.and_then(Value::as_f64));
+        let line = Course::of(param, numbers);
+        let numbers = numbers.map(|value| value.map(|v| line.onto(v)));
         let at = self.span.point(&Line, numbers.each_ref().map(Option::as_ref))?;
         let is_whole = |value: Option<&Value>| value.is_some_and(|v| v.is_u64() || v.is_i64());
         // A curve keeps between its keys, so this only takes rounding back.
         let within = |value: f64| param.map_or(value, |param| value.clamp(param.min, param.max));
-        let value = within(from_line(param, at));
+        let value = within(line.from(at));
         Some(if is_whole(values[1]) && is_whole(values[2]) {
             Value::from(value.round() as i64)
         } else {
@@ -192,14 +200,43 @@ impl Walk<'_> {
     }
 
     fn exact_point(&self, values: Four<&Value>) -> Option<Value> {
-        let mut units = self.units.into_iter();
+        let mut seen = self.places.iter();
         let places = values.map(|value| {
-            let unit = units.next()??;
+            let unit = seen.next()?.as_ref()?.unit;
             let point = exact_point(value?)?;
             Some(Place { point, unit })
         });
-        let place = self.span.point(&Places, places.each_ref().map(Option::as_ref))?;
-        serde_json::to_value(place.point).ok()
+        let point = self.near_by(&places).or_else(|| {
+            let place = self.span.point(&Places, places.each_ref().map(Option::as_ref))?;
+            Some(place.point)
+        })?;
+        serde_json::to_value(point).ok()
+    }
+
+    /// The point that rides with the view, where a view is small and it is near by at every key:
+    /// its place as seen from the pivot, in view units, goes by differences.
+    fn near_by(&self, points: &Four<Place>) -> Option<PrecisePoint> {
+        let mut is_small = false;
+        let mut offsets = [None; 4];
+        for (offset, (point, seen)) in offsets.iter_mut().zip(points.iter().zip(&self.places)) {
+            let (Some(point), Some(seen)) = (point, seen) else { continue };
+            let in_view = (&point.point - &seen.point) / seen.unit;
+            if in_view.length() > NEAR_BY {
+                return None;
+            }
+            is_small |= seen.unit < SMALL_UNIT;
+            *offset = Some(in_view);
+        }
+        if !is_small {
+            return None;
+        }
+        let along = |axis: usize| {
+            let numbers = offsets.map(|offset| offset.map(|offset| offset[axis]));
+            self.span.point(&Line, numbers.each_ref().map(Option::as_ref))
+        };
+        let offset = DVec3::new(along(0)?, along(1)?, along(2)?);
+        let seen = self.span.point(&Places, self.places.each_ref().map(Option::as_ref))?;
+        Some(seen.point.moved_by(offset * seen.unit, EYE_GRAIN * seen.unit))
     }
 
     fn direction(&self, values: Four<&Value>) -> Option<Value> {
@@ -244,25 +281,48 @@ fn unlit(mut light: Value) -> Option<Value> {
     Some(light)
 }
 
-/// Where a value lies on the line on which it goes at an even pace: its logarithm where the
-/// table says so, shifted by one step where the range begins at zero.
-fn onto_line(param: Option<&Param>, value: f64) -> f64 {
-    match param {
-        Some(param) if param.scale == Scale::Logarithmic && param.min > 0.0 => value.ln(),
-        Some(param) if param.scale == Scale::Logarithmic && param.min == 0.0 => {
-            (value / param.step).ln_1p()
-        }
-        _ => value,
-    }
+/// How a number goes at an even pace.
+enum Course {
+    /// By equal steps.
+    Even,
+    /// By equal ratios.
+    Ratios,
+    /// By equal ratios from one step of the parameter on, by equal steps near zero.
+    RatiosFrom(f64),
 }
 
-/// The inverse of [`onto_line`].
-fn from_line(param: Option<&Param>, at: f64) -> f64 {
-    match param {
-        Some(param) if param.scale == Scale::Logarithmic && param.min > 0.0 => at.exp(),
-        Some(param) if param.scale == Scale::Logarithmic && param.min == 0.0 => {
-            param.step * at.exp_m1()
+impl Course {
+    /// The course that the table says. Where all numbers are above zero and some are far below the
+    /// parameter's step, as the intensities of lights deep in the set are, it is by ratios: they
+    /// follow the zoom.
+    fn of(param: Option<&Param>, numbers: Four<f64>) -> Self {
+        let Some(param) = param.filter(|param| param.scale == Scale::Logarithmic) else {
+            return Self::Even;
+        };
+        let mut all = numbers.iter().flatten();
+        let is_tiny = |v: &f64| *v < FAR_BELOW * param.step;
+        if param.min > 0.0 || (all.clone().all(|v| *v > 0.0) && all.any(is_tiny)) {
+            Self::Ratios
+        } else {
+            Self::RatiosFrom(param.step)
         }
-        _ => at,
+    }
+
+    /// Where a value lies on the line on which it goes at an even pace.
+    fn onto(&self, value: f64) -> f64 {
+        match self {
+            Self::Even => value,
+            Self::Ratios => value.ln(),
+            Self::RatiosFrom(step) => (value / step).ln_1p(),
+        }
+    }
+
+    /// The inverse of [`Self::onto`].
+    fn from(&self, at: f64) -> f64 {
+        match self {
+            Self::Even => at,
+            Self::Ratios => at.exp(),
+            Self::RatiosFrom(step) => step * at.exp_m1(),
+        }
     }
 }

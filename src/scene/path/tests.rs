@@ -74,6 +74,55 @@ fn a_dive_looks_equally_fast_from_the_whole_to_the_deepest() {
     assert!((-13.5..-11.5).contains(&half), "half the time is not half the zoom: 1e{half}");
 }
 
+/// Where `point` appears, in half heights of the picture from its centre; none behind the eye.
+fn seen_at(camera: &Camera, point: &PrecisePoint) -> Option<glam::DVec2> {
+    let seen = camera.rotation().inverse() * (point - &camera.position);
+    (seen.z < 0.0).then(|| seen.truncate() / -seen.z / camera.half_height(1.0))
+}
+
+#[test]
+fn what_is_dived_to_stays_in_the_picture_and_before_the_eye() {
+    let target = deep_point();
+    // The surface there is a plane through the target, and both keys look at it from above.
+    let above = DQuat::from_rotation_z(0.4) * DQuat::from_rotation_x(1.1) * DVec3::Z;
+    let whole = Camera::looking_at(DVec3::new(1.76, -2.86, 1.2), DVec3::ZERO, DVec3::Z);
+    let starts = [
+        looking(&DVec3::new(0.4, -0.1, 0.05).into(), 2.5, 0.0),
+        looking(&target, 2.0, 1.2),
+        Scene { camera: whole, ..Scene::default() },
+    ];
+    for (start, easing) in
+        starts.iter().flat_map(|start| [Easing::Linear, Easing::Smooth].map(|it| (start, it)))
+    {
+        let end = looking(&target, 1e-25, 0.4);
+        let dive = path(vec![key(0.0, easing, start), key(25.0, easing, &end)]);
+        let cameras: Vec<Camera> =
+            (0..=5000).map(|i| dive.at(f64::from(i) * 0.005).unwrap().camera).collect();
+        for (i, camera) in cameras.iter().enumerate() {
+            let what = format!("{easing:?}, sample {i}, {:e}", camera.view_unit());
+            let seen = seen_at(camera, &target).expect(&what);
+            assert!(seen.abs().max_element() < 1.0, "{what}: the target is at {seen}");
+            let height = (&camera.position - &target).dot(above);
+            assert!(height > 0.3 * camera.view_unit(), "{what}: the eye is {height:e} above");
+        }
+        assert_eq!(cameras.last(), Some(&end.camera), "to the last digit");
+        // Away from rest, equal times zoom by equal factors, and no sample jumps.
+        let zooms: Vec<f64> =
+            cameras.windows(2).map(|p| (p[0].view_unit() / p[1].view_unit()).ln()).collect();
+        let even = (58.0 / 5000.0) * if easing == Easing::Smooth { 1.5 } else { 1.0 };
+        for (i, zoom) in zooms.iter().enumerate() {
+            assert!(*zoom < 1.05 * even, "{easing:?}, sample {i}: a zoom of {zoom}");
+            let middle = (2400..2600).contains(&i);
+            assert!(!middle || *zoom > 0.95 * even, "{easing:?}, sample {i}: only {zoom}");
+        }
+        for pair in zooms.windows(2) {
+            assert!((pair[1] - pair[0]).abs() < 0.02 * even, "{easing:?}: {pair:?}");
+        }
+        let moved = cameras.windows(2).map(|p| seen_motion(&p[0], &p[1])).fold(0.0, f64::max);
+        assert!(moved < 0.03, "{easing:?}: a sample moves what is seen by {moved}");
+    }
+}
+
 #[test]
 fn a_smooth_path_through_even_keys_keeps_its_speed_between_them() {
     let scenes: Vec<Scene> =
@@ -293,6 +342,26 @@ fn logarithmic_numbers_run_by_ratios() {
     (a.surface.shininess, b.surface.shininess) = (4.0, 400.0);
     let path = path(vec![key(0.0, Easing::Linear, &a), key(1.0, Easing::Linear, &b)]);
     assert!((path.at(0.5).unwrap().surface.shininess - 40.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_light_that_is_dived_along_keeps_its_strength_in_the_picture() {
+    let light = |unit: f64| {
+        let mut scene = looking(&deep_point(), unit, 0.0);
+        let position = deep_point().moved_by(DVec3::new(0.3, 0.1, 0.4) * unit, 0.0);
+        let intensity = 0.25 * unit * unit;
+        scene.lights.point = vec![PointLight { position, intensity, ..Default::default() }];
+        scene
+    };
+    let dive =
+        path(vec![key(0.0, Easing::Smooth, &light(1.0)), key(9.0, Easing::Smooth, &light(1e-25))]);
+    for i in 0..=900 {
+        let scene = dive.at(f64::from(i) * 0.01).unwrap();
+        let light = &scene.lights.point[0];
+        let distance = (&light.position - &scene.camera.pivot).length();
+        let strength = light.intensity / (distance * distance);
+        assert!((0.9..1.1).contains(&(strength / (0.25 / 0.26))), "sample {i}: {strength}");
+    }
 }
 
 #[test]
