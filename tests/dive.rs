@@ -156,11 +156,8 @@ fn a_dive_by_the_wheel_ends_at_the_limit_and_comes_back_the_same_way() {
         assert!(field.distance_at(&camera.position) > 0.0, "inside after {notches} notches");
         assert_eq!(camera_fault(&camera), None, "after {notches} notches");
         notches += 1;
-        let standing = world(&field).standing(&camera);
-        if standing.at_precision_limit {
-            break;
-        }
     }
+    assert!(world(&field).standing(&camera).at_precision_limit);
     // Twenty-seven orders of magnitude are 311 notches of a fifth.
     assert!((290..340).contains(&notches), "{notches} notches");
     let distance = field.distance_at(&camera.position);
@@ -169,9 +166,12 @@ fn a_dive_by_the_wheel_ends_at_the_limit_and_comes_back_the_same_way() {
         notch(&mut camera, -0.2);
     }
     let unit = start.view_unit();
-    let off = (&camera.position - &start.position).length() / unit;
-    assert!(off < 0.1, "back {off} view units from where it was");
-    assert!((camera.view_unit() / unit).ln().abs() < 0.1);
+    // The last notches before the limit are cut short, those on the way back are whole.
+    let [was, is] = [&start, &camera].map(|it| &it.position - &field.bottom);
+    assert!(was.angle_between(is) < 1e-3, "it came back another way");
+    let farther = (is.length() / was.length()).ln();
+    assert!((-0.1..0.6).contains(&farther), "farther out by {farther}");
+    assert!((camera.view_unit() / unit / farther.exp() - 1.0).abs() < 0.1);
     assert_eq!(camera.orientation, start.orientation);
 }
 
@@ -179,6 +179,22 @@ fn a_dive_by_the_wheel_ends_at_the_limit_and_comes_back_the_same_way() {
 fn camera_fault(camera: &Camera) -> Option<String> {
     let scene = mandelight::scene::Scene { camera: camera.clone(), ..Default::default() };
     scene.validate().err().map(|fault| fault.to_string())
+}
+
+#[test]
+fn the_pivot_keeps_up_with_what_is_approached() {
+    let field = Valley::new();
+    for scale in SCALES {
+        for part in [1e-9, 1e-3, 1e3] {
+            let (mut camera, mut navigator) = (field.camera(scale), Navigator::default());
+            // Left behind where something else was looked at.
+            camera.pivot = camera.position.moved_by(camera.forward() * scale * part, 0.0);
+            navigator.dolly(&mut camera, world(&field), DVec2::ZERO, 0.2);
+            let ratio = camera.view_unit() / (&field.bottom - &camera.position).length();
+            assert!((0.01..100.0).contains(&ratio), "{scale:e}: a pivot at {ratio} of the depth");
+            assert_eq!(camera_fault(&camera), None);
+        }
+    }
 }
 
 #[test]

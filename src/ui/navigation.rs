@@ -31,6 +31,8 @@ pub mod fly;
 mod route;
 pub mod turn;
 
+use std::ops::RangeInclusive;
+
 use glam::{DVec2, DVec3};
 
 use crate::{
@@ -46,8 +48,15 @@ use turn::Turntable;
 pub const FARTHEST_EYE: f64 = 90.0;
 /// What the eye keeps from any surface, in parts of [`World::nearest`].
 const CLEARANCE: f64 = 0.25;
+/// Nearest distances within which the eye is said to be at the limit: what it looks at is farther
+/// than what is nearest, and the estimate is one.
+const AT_LIMIT: f64 = 2.0;
 /// The coarseness of positions, in pixels at the surface's distance.
 const GRAIN_PX: f64 = 1e-4;
+/// The same for the pivot, in view units.
+const PIVOT_GRAIN: f64 = 1e-6;
+/// How near and far the pivot is while something is approached, in parts of its depth.
+const PIVOT_PARTS: RangeInclusive<f64> = 0.02..=50.0;
 /// How far a drag over half the picture's height turns, in radians.
 const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -114,7 +123,7 @@ impl World<'_> {
         Standing {
             distance,
             footprint: distance * self.cone(camera),
-            at_precision_limit: distance <= self.nearest(camera),
+            at_precision_limit: distance <= AT_LIMIT * self.nearest(camera),
         }
     }
 
@@ -148,8 +157,12 @@ impl World<'_> {
     /// The same once the eye has gone `moved` from here: coarser, it could round it into the
     /// surface that stopped it.
     fn grain_after(&self, camera: &Camera, moved: DVec3) -> f64 {
-        let distance = self.field.clear_distance(self.eye(camera) + moved);
-        GRAIN_PX * 2.0 * self.cone(camera) * distance.max(self.clearance(camera))
+        self.grain_at(camera, self.field.clear_distance(self.eye(camera) + moved))
+    }
+
+    /// How coarse positions may be for a picture of what is `depth` away.
+    fn grain_at(&self, camera: &Camera, depth: f64) -> f64 {
+        GRAIN_PX * 2.0 * self.cone(camera) * depth.max(self.clearance(camera))
     }
 
     /// Where in the picture the point at `offset` from the eye appears; none behind the eye.
@@ -255,7 +268,7 @@ impl Navigator {
             _ => world.target(camera, ndc),
         };
         let depth = target.length();
-        if !amount.is_finite() || amount == 0.0 || depth == 0.0 {
+        if !amount.is_finite() || amount == 0.0 || !(depth > 0.0 && depth.is_finite()) {
             return false;
         }
         let wanted = depth * (-amount.clamp(-20.0, 20.0)).exp();
@@ -263,18 +276,19 @@ impl Navigator {
         let way = target * ((depth - wanted.max(nearest)) / depth);
         let moved = collide::advance(world, camera, way);
         // All else scales about the target as the eye's own distance does.
-        let scale = (target - moved).length() / depth;
+        let left = (target - moved).length();
         let grain = world.grain(camera).min(world.grain_after(camera, moved));
-        let pivot_offset = (&camera.pivot - &camera.position) * scale;
-        // A pivot much nearer than what is approached would go past every limit.
-        let least = world.clearance(camera);
-        let pivot_offset = match pivot_offset.length() {
-            length if length < least => pivot_offset.normalize_or(camera.forward()) * least,
-            _ => pivot_offset,
-        };
+        let pivot_offset = (&camera.pivot - &camera.position) * (left / depth);
+        // A pivot far nearer or farther than what is approached says nothing of the view, and
+        // would go past every limit.
+        let pivot_distance = pivot_offset
+            .length()
+            .clamp(PIVOT_PARTS.start() * left, PIVOT_PARTS.end() * left)
+            .max(world.clearance(camera));
         let before = camera.clone();
-        camera.position = camera.position.moved_by(moved, grain);
-        camera.pivot = camera.position.moved_by(pivot_offset, grain);
+        camera.position = camera.position.moved_by(moved, grain.min(world.grain_at(camera, left)));
+        let pivot_offset = pivot_offset.normalize_or(camera.forward()) * pivot_distance;
+        place_pivot(camera, pivot_offset, grain);
         *camera != before
     }
 }
@@ -299,5 +313,10 @@ fn shift(camera: &mut Camera, world: World<'_>, moved: DVec3) {
     let grain = world.grain(camera).min(world.grain_after(camera, moved));
     let pivot_offset = &camera.pivot - &camera.position;
     camera.position = camera.position.moved_by(moved, grain);
-    camera.pivot = camera.position.moved_by(pivot_offset, grain);
+    place_pivot(camera, pivot_offset, grain);
+}
+
+/// Puts the pivot at `offset` from the eye, rounded to `grain`, and finer where it is very near.
+fn place_pivot(camera: &mut Camera, offset: DVec3, grain: f64) {
+    camera.pivot = camera.position.moved_by(offset, grain.min(PIVOT_GRAIN * offset.length()));
 }

@@ -24,9 +24,13 @@ pub(super) const ROOM: f64 = 1.04;
 /// What a ray out keeps from the surface, in parts of the way gone.
 const FREE_CONE: f64 = 0.01;
 /// Rays that are tried at one place.
-const TRIED_RAYS: u32 = 160;
+const TRIED_RAYS: u32 = 48;
 /// Places from which rays are tried, where none leads out at once.
-const MAX_PLACES: u32 = 16;
+const MAX_PLACES: u32 = 40;
+/// A step of such a ray, in parts of the estimated distance, and its least, in parts of the way gone:
+/// it is looked at where it leads, and need not find every hair.
+const STEP: f64 = 0.7;
+const LEAST_STEP: f64 = 0.08;
 /// Part of the longest free ray that leads to the next such place.
 const ONWARD: f64 = 0.5;
 /// How coarse the eye's places on the way are, in view units.
@@ -206,9 +210,7 @@ fn freest(field: &dyn DistanceField, eye: DVec3, stop: &Stop) -> (DVec3, f64) {
     for direction in likely.into_iter().chain(directions) {
         // Where the field's coordinates are too coarse for this place, from where they are not.
         let origin = if stop.unit < unresolved { eye + direction * unresolved } else { eye };
-        let free = field
-            .march(Ray { origin, direction }, FREE_CONE, f64::INFINITY)
-            .unwrap_or(f64::INFINITY);
+        let free = free_way(field, Ray { origin, direction });
         if free > best.1 {
             best = (direction, free);
         }
@@ -217,6 +219,22 @@ fn freest(field: &dyn DistanceField, eye: DVec3, stop: &Stop) -> (DVec3, f64) {
         }
     }
     best
+}
+
+/// How far a ray goes before it comes close to the surface; without end where it leads out.
+fn free_way(field: &dyn DistanceField, ray: Ray) -> f64 {
+    let Some((_, exit)) = ray.sphere_span(field.center(), field.bounding_radius()) else {
+        return f64::INFINITY;
+    };
+    let mut gone = 0.0;
+    while gone < exit {
+        let distance = field.clear_distance(ray.at(gone));
+        if distance.is_nan() || distance <= FREE_CONE * gone {
+            return gone;
+        }
+        gone += (STEP * distance).max(LEAST_STEP * gone);
+    }
+    f64::INFINITY
 }
 
 /// The `index`-th of [`TRIED_RAYS`] directions, spread evenly on a golden spiral.

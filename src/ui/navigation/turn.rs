@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::{World, collide, shift};
+use super::{World, collide, place_pivot, shift};
 use crate::scene::Camera;
 
 /// Steepest look up or down of an upright camera.
@@ -60,7 +60,7 @@ impl Turntable {
         let rotation = self.rotation(camera, turn);
         let pivot_offset = &camera.pivot - &camera.position;
         camera.orientation = (rotation * camera.rotation()).normalize().into();
-        camera.pivot = camera.position.moved_by(rotation * pivot_offset, grain);
+        place_pivot(camera, rotation * pivot_offset, grain);
     }
 
     /// Turns eye and view about the pivot by `turn` radians, the eye keeping its distance to it.
