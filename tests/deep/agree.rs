@@ -1,0 +1,129 @@
+//! The renderer's views against the march.
+
+use std::sync::Arc;
+
+use mandelight::{
+    gpu::Gpu,
+    render::{Kernels, Pace, Region, View, gbuffer::Samples},
+    scene::Scene,
+};
+
+use super::{
+    parallel::in_parallel,
+    rays::{FARTHEST, Looking, Size},
+    views::{self, ANCHORS, size},
+};
+
+/// The scales that views are drawn at.
+const DRAWN: &[f64] = &[1.0, 1e-3];
+
+fn kernels() -> Arc<Kernels> {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a Vulkan driver, if only lavapipe");
+    Kernels::new(&gpu)
+}
+
+/// One sample a pixel of a finished picture.
+fn draw(kernels: &Arc<Kernels>, scene: &Scene, size: Size) -> Samples {
+    let mut scene = scene.clone();
+    scene.quality.samples = 1;
+    scene.quality.shadows = false;
+    let mut view = View::new(kernels, Region::whole(size), Pace::Still);
+    view.set_scene(&scene, false);
+    let mut now_secs = 0.0;
+    while view.pump(now_secs) {
+        kernels.gpu.wait();
+        now_secs += 0.01;
+    }
+    assert_eq!(kernels.gpu.faults(), 0);
+    view.gbuffer().expect("the G-buffer's bytes")
+}
+
+/// What a picture and the march say of the same pixels.
+#[derive(Default)]
+struct Comparison {
+    /// Parts of all pixels: hit by the march, and hit by one of the two only.
+    hit: f64,
+    differ: f64,
+    /// Part of those hit by both whose depths are two footprints apart or more.
+    apart: f64,
+    /// Mean angle between normals at the picture's own depths, degrees.
+    normal_deg: f64,
+}
+
+fn compare(scene: &Scene, size: Size, samples: &Samples) -> Comparison {
+    let looking = Looking::new(scene, size, views::plenty(scene));
+    // Plenty, where the picture is large.
+    let every = if size[0] > 50 { 5 } else { 1 };
+    let pixels: Vec<_> = (0..size[1])
+        .flat_map(|y| (0..size[0]).map(move |x| [x, y]))
+        .zip(0..)
+        .step_by(every)
+        .collect();
+    let both = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
+        let depth = f64::from(samples.depth[index]);
+        let found = (depth > 0.0 && depth < FARTHEST * scene.camera.view_unit()).then_some(depth);
+        let expected = looking.depth(pixel);
+        let angle = found.zip(expected).map(|(found, _)| {
+            let normal = looking.normal(pixel, found);
+            let cosine = normal.dot(samples.normal[index].as_dvec3());
+            cosine.clamp(-1.0, 1.0).acos().to_degrees()
+        });
+        (found, expected, angle)
+    });
+    let part = |count: usize| count as f64 / pixels.len() as f64;
+    let by_both: Vec<_> = both
+        .iter()
+        .filter_map(|&(found, expected, angle)| Some((found?, expected?, angle?)))
+        .collect();
+    let far_apart = |&&(found, expected, _): &&(f64, f64, f64)| {
+        (found - expected).abs() > 2.0 * looking.footprint(expected)
+    };
+    let count = by_both.len().max(1) as f64;
+    Comparison {
+        hit: part(both.iter().filter(|(_, expected, _)| expected.is_some()).count()),
+        differ: part(both.iter().filter(|(a, b, _)| a.is_some() != b.is_some()).count()),
+        apart: by_both.iter().filter(far_apart).count() as f64 / count,
+        normal_deg: by_both.iter().map(|(_, _, angle)| angle).sum::<f64>() / count,
+    }
+}
+
+fn views_agree(power: f64) {
+    let kernels = kernels();
+    for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
+        for &scale in DRAWN.iter().filter(|&&scale| scale >= anchor.deepest) {
+            let (scene, size) = (anchor.scene(scale), size(scale));
+            let Comparison { hit, differ, apart, normal_deg } =
+                compare(&scene, size, &draw(&kernels, &scene, size));
+            let view = format!("power {power} {} at {scale:e}", anchor.name);
+            println!(
+                "{view}: {hit:.3} hit, {differ:.4} differ, {apart:.4} apart, {normal_deg:.4} degrees"
+            );
+            assert!(hit >= 0.3, "{view}: {hit} of the pixels are hit");
+            assert!(differ <= 0.005, "{view}: {differ} of the pixels are hit by one alone");
+            assert!(apart <= 0.01, "{view}: {apart} of the depths are two footprints apart");
+            if !anchor.is_rough() {
+                assert!(normal_deg < 0.5, "{view}: normals differ by {normal_deg} degrees");
+            }
+        }
+    }
+}
+
+#[test]
+fn views_of_power_2() {
+    views_agree(2.0);
+}
+
+#[test]
+fn views_of_power_3() {
+    views_agree(3.0);
+}
+
+#[test]
+fn views_of_power_8() {
+    views_agree(8.0);
+}
+
+#[test]
+fn views_of_power_16() {
+    views_agree(16.0);
+}

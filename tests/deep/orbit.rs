@@ -1,0 +1,215 @@
+//! Orbits and distance estimates of whole powers (thesis Algorithm 1), at any depth.
+//!
+//! A latitude's and a longitude's multiples are powers of unit complex numbers, so that no
+//! trigonometry is needed: with ρ = √(x² + y²) and u = (x + i y)/ρ, `cos nφ + i sin nφ` is
+//! `(ρ + i z)ⁿ/rⁿ` and `cos nθ + i sin nθ` is `uⁿ`. On the polar axis the longitude is that of +x.
+
+use glam::{DMat3, DVec3};
+use mandelight::scene::{Fractal, Variant};
+
+use super::{
+    arithmetic::{Complex, Point, Real, moved, rounded},
+    estimate,
+};
+
+/// Part of the estimate by the derivative's norm that a step covers.
+const STEP_PART: f64 = 0.5;
+
+/// On the axis itself the derivative along parallels is infinite; taken for that.
+const STRETCH_MAX: f64 = 1e6;
+
+/// Stands in for a distance of zero from the axis, so that its reciprocal is finite.
+const LEAST_RADIUS: f64 = 1e-90;
+
+/// A Mandelbulb or Julia set of a whole power.
+pub struct Set {
+    power: u32,
+    iterations: u32,
+    bailout: f64,
+    is_mirrored: bool,
+    julia_constant: Option<Point>,
+}
+
+/// What an orbit says of the way to the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate {
+    /// ½ ln r · r / dr; 0 where the orbit does not leave.
+    pub distance: f64,
+    /// How far a ray may go: by the norm of the orbit's whole derivative, of which the thesis's dr
+    /// is no bound. Directions along the parallels are stretched by another factor.
+    pub step: f64,
+    /// Steps done.
+    pub steps: u32,
+}
+
+impl Set {
+    /// `fractal`, whose power must be whole, with orbits of up to `iterations` steps.
+    pub fn new(fractal: &Fractal, iterations: u32) -> Self {
+        assert_eq!(fractal.power.fract(), 0.0);
+        Self {
+            power: fractal.power as u32,
+            iterations,
+            bailout: fractal.bailout,
+            is_mirrored: fractal.variant == Variant::NegativeSine,
+            julia_constant: fractal.julia.then(|| fractal.julia_constant.map(Real::from_f64)),
+        }
+    }
+
+    /// Follows the orbit of `point`. Steps need not care for what is smaller than `grain`.
+    pub fn estimate(&self, point: &Point, grain: f64) -> Estimate {
+        let n = f64::from(self.power);
+        let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
+        let mut z = point.clone();
+        let mut r = rounded(&z).length();
+        let (mut dr, mut steps) = (1.0, 0);
+        let mut derivative = DMat3::IDENTITY;
+        // The same of the orbit turned back about the axis, and how fast it is turned back.
+        let (mut unturned, mut turn) = (DMat3::IDENTITY, DVec3::ZERO);
+        let [x, y] = [&added[0], &added[1]].map(Real::to_f64);
+        let around = DVec3::new(-y, x, 0.0);
+        let around = if x == 0.0 && y == 0.0 { DVec3::Y * LEAST_RADIUS } else { around };
+        while r <= self.bailout && steps < self.iterations {
+            steps += 1;
+            let Raised { raised, raising, longitude, parallel } = self.raised(&z);
+            dr = n * r.powf(n - 1.0) * dr + one;
+            let identity = DMat3::from_diagonal(DVec3::splat(one));
+            turn = n * (turn + unturned.transpose() * longitude);
+            unturned = raising * unturned;
+            unturned -= outer(parallel, unturned.transpose() * parallel);
+            // However far it is turned, the constant does not move farther than across the axis.
+            unturned += identity - outer(around, turn.clamp_length_max(2.0 / grain));
+            derivative = raising * derivative + identity;
+            z = [0, 1, 2].map(|i| &raised[i] + &added[i]);
+            r = rounded(&z).length();
+        }
+        if r <= 1.0 {
+            return Estimate { distance: 0.0, step: 0.0, steps };
+        }
+        let height = 0.5 * r.ln() * r;
+        let distance = height / dr;
+        let norm = norm(derivative).min(norm(unturned));
+        Estimate { distance, step: (STEP_PART * height / norm).min(distance), steps }
+    }
+
+    /// zⁿ, and what becomes of small displacements.
+    fn raised(&self, point: &Point) -> Raised {
+        let [x, y, z] = point;
+        let square = &(x * x) + &(y * y);
+        let (rho, u) = if square.is_zero() {
+            let zero = Real::from_f64(0.0);
+            (zero.clone(), Complex { re: Real::from_f64(1.0), im: zero })
+        } else {
+            let inverse = square.inverse_sqrt();
+            (&square * &inverse, Complex { re: x * &inverse, im: y * &inverse })
+        };
+        let w = Complex { re: rho, im: z.clone() };
+        let (mut meridian, parallel) = (w.power(self.power), u.power(self.power));
+        let before = Frame::new(&w, &u);
+        if self.is_mirrored {
+            meridian.im = -&meridian.im;
+        }
+        let after = Frame::new(&meridian, &parallel);
+        // All lengths grow by n r^(n−1), but parallels by as much as their radius has grown.
+        let (n, radius) = (f64::from(self.power), before.radius);
+        let growth = if radius > 0.0 { n * after.radius / radius } else { 0.0 };
+        let mirror = if self.is_mirrored { -growth } else { growth };
+        let along = n * after.from_axis / before.from_axis.max(f64::MIN_POSITIVE);
+        let stretch = DVec3::new(growth, mirror, along.clamp(-STRETCH_MAX, STRETCH_MAX));
+        let raising = after.axes * DMat3::from_diagonal(stretch) * before.axes.transpose();
+        let raised = [&meridian.re * &parallel.re, &meridian.re * &parallel.im, meridian.im];
+        let longitude = before.axes.z_axis / before.from_axis.max(LEAST_RADIUS);
+        Raised { raised, raising, longitude, parallel: after.axes.z_axis }
+    }
+
+    /// The estimate's gradient of unit length from central differences, `spacing` apart; zero
+    /// where there is none.
+    pub fn normal(&self, point: &Point, spacing: f64) -> DVec3 {
+        let at = |way: DVec3| self.estimate(&moved(point, way), spacing).distance;
+        let along = |axis: DVec3| at(axis * spacing) - at(-axis * spacing);
+        DVec3::from_array(DVec3::AXES.map(along)).normalize_or_zero()
+    }
+}
+
+/// A power and its derivatives.
+struct Raised {
+    raised: Point,
+    raising: DMat3,
+    /// Gradient of the longitude before.
+    longitude: DVec3,
+    /// Along the parallel, after.
+    parallel: DVec3,
+}
+
+fn outer(a: DVec3, b: DVec3) -> DMat3 {
+    DMat3::from_cols(a * b.x, a * b.y, a * b.z)
+}
+
+/// No less than any length that a unit vector is given, and no more than √3 times the most.
+fn norm(matrix: DMat3) -> f64 {
+    matrix.to_cols_array().iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// A point's directions outward, along its meridian and along its parallel.
+struct Frame {
+    axes: DMat3,
+    radius: f64,
+    /// Distance from the axis, negative where the meridian has passed the pole.
+    from_axis: f64,
+}
+
+impl Frame {
+    /// Of the point at `w` = ρ + i z on the meridian of `u`.
+    fn new(w: &Complex, u: &Complex) -> Self {
+        let [from_axis, z, x, y] = [&w.re, &w.im, &u.re, &u.im].map(Real::to_f64);
+        let radius = from_axis.hypot(z);
+        let (cosine, sine) =
+            if radius > 0.0 { (from_axis / radius, z / radius) } else { (1.0, 0.0) };
+        let axes = DMat3::from_cols(
+            DVec3::new(cosine * x, cosine * y, sine),
+            DVec3::new(-sine * x, -sine * y, cosine),
+            DVec3::new(-y, x, 0.0),
+        );
+        Self { axes, radius, from_axis }
+    }
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    for (power, variant) in [(2.0, Variant::PositiveSine), (7.0, Variant::NegativeSine)] {
+        let set = Set::new(&Fractal { power, variant, ..Fractal::default() }, 1);
+        let at = |p: DVec3| rounded(&set.raised(&p.to_array().map(Real::from_f64)).raised);
+        let p = DVec3::new(0.4, -0.7, 0.5);
+        let found = set.raised(&p.to_array().map(Real::from_f64)).raising;
+        for axis in DVec3::AXES {
+            let expected = (at(p + axis * 1e-6) - at(p - axis * 1e-6)) / 2e-6;
+            assert!((found * axis - expected).length() < 1e-8, "{} {expected}", found * axis);
+        }
+    }
+}
+
+/// Where f64 is enough, these are the estimates of the printed algorithm, with its sines and
+/// cosines.
+#[test]
+fn estimates_are_those_of_the_printed_algorithm() {
+    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let mut fractals: Vec<_> = [2.0, 3.0, 8.0, 16.0].map(bulb).into();
+    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
+    fractals.push(Fractal { julia: true, ..bulb(7.0) });
+    for fractal in fractals {
+        let set = Set::new(&fractal, fractal.iterations);
+        let mut random = super::Random(0x1234_5678_9ABC_DEF1);
+        let mut away = 0;
+        for _ in 0..1000 {
+            let point = random.in_ball(1.3);
+            let expected = estimate::distance(&fractal, point);
+            let left = estimate::orbit(&fractal, point).r > fractal.bailout;
+            if left && expected > 1e-3 {
+                away += 1;
+                let found = set.estimate(&point.to_array().map(Real::from_f64), 1e-3);
+                let off = (found.distance - expected).abs() / expected;
+                assert!(off < 1e-9, "{fractal:?} at {point}: {found:?} for {expected}");
+            }
+        }
+        assert!(away > 200, "{away} points away from the surface");
+    }
+}

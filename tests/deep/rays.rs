@@ -1,0 +1,142 @@
+//! Rays of a camera at any depth, marched in short steps.
+//!
+//! What counts as a hit is the document's: nearer than the pixel's cone is wide, times the detail
+//! setting; at powers below 4 for half of that length along the ray.
+
+use glam::{DVec2, DVec3};
+use mandelight::scene::{Camera, Precise, Scene};
+
+use super::{
+    arithmetic::{Point, Real, moved, rounded},
+    orbit::{Estimate, Set},
+};
+
+/// Longest step, scene units: a Julia orbit close to the origin makes estimates of any size.
+const LONGEST_STEP: f64 = 0.05;
+/// Part of the hit distance that a step covers at least.
+const LEAST_STEP: f64 = 0.1;
+/// A sphere that holds every set: from |z| ≥ 2.5 and |c| ≤ 2√3, |z|² − |c| > |z|.
+const HOLDS_ALL: f64 = 2.5;
+/// What is farther away than so many view units counts as background.
+pub const FARTHEST: f64 = 1000.0;
+/// A ray that is still on its way after so many steps is as near as it will get.
+const MOST_STEPS: u32 = 20_000;
+/// At powers below 4, where a ray must be near for a hit: shares of the hit distance past the entry.
+const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
+
+/// A picture's width and height in pixels.
+pub type Size = [u32; 2];
+
+/// A set and the camera that looks at it.
+pub struct Looking<'a> {
+    pub set: Set,
+    pub size: Size,
+    scene: &'a Scene,
+    eye: Point,
+    unit: f64,
+}
+
+impl<'a> Looking<'a> {
+    /// Looks at `scene` with orbits of up to `iterations` steps.
+    pub fn new(scene: &'a Scene, size: Size, iterations: u32) -> Self {
+        let position = &scene.camera.position.0;
+        Self {
+            set: Set::new(&scene.fractal, iterations),
+            size,
+            scene,
+            eye: position.each_ref().map(|v: &Precise| Real::parse(&v.to_string())),
+            unit: scene.camera.view_unit(),
+        }
+    }
+
+    /// The unit direction through a point of the picture, in pixels from its upper left corner.
+    pub fn direction(&self, [x, y]: [f64; 2]) -> DVec3 {
+        let camera = &self.scene.camera;
+        let [width, height] = self.size.map(f64::from);
+        let ndc = DVec2::new(x / width * 2.0 - 1.0, 1.0 - y / height * 2.0);
+        let half_height = half_height(camera);
+        let seen = DVec3::new(ndc.x * half_height * width / height, ndc.y * half_height, -1.0);
+        (camera.rotation() * seen).normalize()
+    }
+
+    /// Radius of a pixel's cone at `depth`.
+    pub fn footprint(&self, depth: f64) -> f64 {
+        half_height(&self.scene.camera) / f64::from(self.size[1]) * depth
+    }
+
+    /// How near counts as a hit at `depth`.
+    pub fn hit_distance(&self, depth: f64) -> f64 {
+        self.scene.quality.detail * self.footprint(depth)
+    }
+
+    /// The point at `depth` along a direction.
+    pub fn at(&self, direction: DVec3, depth: f64) -> Point {
+        moved(&self.eye, direction * depth)
+    }
+
+    /// Depth of the surface along a ray whose steps `step` makes of estimates.
+    pub fn march(&self, direction: DVec3, step: impl Fn(Estimate) -> f64) -> Option<f64> {
+        let (near, far) = crossing(rounded(&self.eye), direction)?;
+        let far = far.min(FARTHEST * self.unit);
+        let estimate =
+            |t: f64| self.set.estimate(&self.at(direction, t), LEAST_STEP * self.hit_distance(t));
+        let is_near = |t: f64| estimate(t).distance < self.hit_distance(t);
+        let mut t = near.max(0.0);
+        let (mut before, mut was_near) = (t, false);
+        for _ in 0..MOST_STEPS {
+            if t > far {
+                return None;
+            }
+            let here = estimate(t);
+            let hit = self.hit_distance(t);
+            if here.distance < hit && !was_near {
+                if self.scene.fractal.power >= 4.0 {
+                    return Some(t);
+                }
+                let entry = entry(before, t, is_near);
+                if STILL.iter().all(|share| is_near(entry + share * hit)) {
+                    return Some(entry);
+                }
+            }
+            (before, was_near) = (t, here.distance < hit);
+            t += step(here).clamp(LEAST_STEP * hit, LONGEST_STEP);
+        }
+        Some(t)
+    }
+
+    /// Depth at the centre of a pixel, counted from the upper left.
+    pub fn depth(&self, pixel: [u32; 2]) -> Option<f64> {
+        self.march(self.direction(centre(pixel)), |estimate| estimate.step)
+    }
+
+    /// The normal at `depth` of a pixel's ray.
+    pub fn normal(&self, pixel: [u32; 2], depth: f64) -> DVec3 {
+        let point = self.at(self.direction(centre(pixel)), depth);
+        self.set.normal(&point, 1e-6 * self.hit_distance(depth))
+    }
+}
+
+/// Where a pixel's centre is.
+pub fn centre(pixel: [u32; 2]) -> [f64; 2] {
+    pixel.map(|v| f64::from(v) + 0.5)
+}
+
+fn half_height(camera: &Camera) -> f64 {
+    (camera.vertical_fov_deg.to_radians() / 2.0).tan()
+}
+
+/// Where a line crosses the sphere of [`HOLDS_ALL`].
+fn crossing(origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
+    let b = origin.dot(direction);
+    let under_root = b * b - origin.length_squared() + HOLDS_ALL * HOLDS_ALL;
+    (under_root > 0.0).then(|| (-b - under_root.sqrt(), -b + under_root.sqrt()))
+}
+
+/// Where a ray comes near, between a place where it is not and one where it is.
+fn entry(mut away: f64, mut near: f64, is_near: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..12 {
+        let middle = 0.5 * (away + near);
+        *(if is_near(middle) { &mut near } else { &mut away }) = middle;
+    }
+    near
+}
