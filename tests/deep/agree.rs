@@ -15,11 +15,10 @@ use super::{
 };
 
 /// The scales that views are drawn at.
-const DRAWN: &[f64] = &[1.0, 1e-3];
+pub const DRAWN: &[f64] = &[1.0, 1e-3];
 
-fn kernels() -> Arc<Kernels> {
-    let gpu = pollster::block_on(Gpu::open(None)).expect("a Vulkan driver, if only lavapipe");
-    Kernels::new(&gpu)
+pub fn gpu() -> Gpu {
+    pollster::block_on(Gpu::open(None)).expect("a Vulkan driver, if only lavapipe")
 }
 
 /// One sample a pixel of a finished picture.
@@ -88,7 +87,7 @@ fn compare(scene: &Scene, size: Size, samples: &Samples) -> Comparison {
 }
 
 fn views_agree(power: f64) {
-    let kernels = kernels();
+    let kernels = Kernels::new(&gpu());
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
         for &scale in DRAWN.iter().filter(|&&scale| scale >= anchor.deepest) {
             let (scene, size) = (anchor.scene(scale), size(scale));

@@ -8,9 +8,11 @@
 //! | `rays` | camera rays from an eye at any depth, hits, normals |
 //! | `views` | anchors on the surface, and from where they are looked at |
 //! | `agree` | the renderer's pictures against the march |
+//! | `along` | the kernels' estimates along rays against the march's |
 //! | `search` | how the views were found |
 
 mod agree;
+mod along;
 mod arithmetic;
 mod orbit;
 mod rays;

@@ -16,8 +16,6 @@ use super::{
 
 /// What the estimate is at an anchor, scene units.
 const LEAST: f64 = 1e-33;
-/// Size of the pictures that candidates are judged by.
-const SMALL: Size = [12, 8];
 
 /// A way to the surface: where it ends, where it led, and what orbits needed on it, estimates with
 /// steps.
@@ -119,7 +117,7 @@ fn find_views() {
             println!("power {power} {kind}: {position:?} toward {direction}");
             for scale in SCALES {
                 let scene = views::scene(fractal.clone(), &anchor, direction, scale);
-                let Look { hit, differ, depth } = look(&scene, SMALL);
+                let Look { hit, differ, depth } = look(&scene, views::SMALL);
                 println!("  {scale:e}: {hit:.3} hit, {differ:.3} differ, at {depth:.2}");
             }
         }

@@ -11,6 +11,9 @@ pub fn size(scale: f64) -> Size {
     if scale < 1.0 { [36, 24] } else { [96, 64] }
 }
 
+/// Size of the pictures that candidates are judged by, and that rays are picked from.
+pub const SMALL: Size = [12, 8];
+
 /// How far away the eye is from the anchor, scene units.
 pub const SCALES: [f64; 7] = [1.0, 1e-3, 1e-6, 1e-9, 1e-13, 1e-20, 1e-27];
 
