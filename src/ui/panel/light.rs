@@ -100,7 +100,7 @@ pub(super) fn point(ui: &mut Ui, light: &mut PointLight, camera: &Camera) {
     } else {
         let distance = (&light.position - &camera.position).length() / length;
         (
-            format!("{distance:.3} view units from you"),
+            format!("{distance:.3} view units from you. Its intensity is told at one."),
             "How far the light is, in multiples of the distance from you to the pivot. Drag its handle in the view; with Shift it moves toward or away from you.",
         )
     };
