@@ -17,6 +17,9 @@ use super::{
 /// The scales that views are drawn at.
 pub const DRAWN: &[f64] = &[1.0, 1e-3];
 
+/// One of so many pixels is compared; of pictures 24 high, still 173.
+const EVERY: usize = 5;
+
 pub fn gpu() -> Gpu {
     pollster::block_on(Gpu::open(None)).expect("a Vulkan driver, if only lavapipe")
 }
@@ -51,12 +54,10 @@ struct Comparison {
 
 fn compare(scene: &Scene, size: Size, samples: &Samples) -> Comparison {
     let looking = Looking::new(scene, size, views::plenty(scene));
-    // Plenty, where the picture is large.
-    let every = if size[0] > 50 { 5 } else { 1 };
     let pixels: Vec<_> = (0..size[1])
         .flat_map(|y| (0..size[0]).map(move |x| [x, y]))
         .zip(0..)
-        .step_by(every)
+        .step_by(EVERY)
         .collect();
     let both = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
         let depth = f64::from(samples.depth[index]);

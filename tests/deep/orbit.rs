@@ -55,40 +55,35 @@ impl Set {
         }
     }
 
-    /// Follows the orbit of `point`. Steps need not care for what is smaller than `grain`.
+    /// What the orbit of `point` says. Steps need not care for what is smaller than `grain`.
     pub fn estimate(&self, point: &Point, grain: f64) -> Estimate {
-        let n = f64::from(self.power);
-        let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
-        let mut z = point.clone();
-        let mut r = rounded(&z).length();
-        let (mut dr, mut steps) = (1.0, 0);
-        let mut derivative = DMat3::IDENTITY;
-        // The same of the orbit turned back about the axis, and how fast it is turned back.
-        let (mut unturned, mut turn) = (DMat3::IDENTITY, DVec3::ZERO);
-        let [x, y] = [&added[0], &added[1]].map(Real::to_f64);
-        let around = DVec3::new(-y, x, 0.0);
-        let around = if x == 0.0 && y == 0.0 { DVec3::Y * LEAST_RADIUS } else { around };
-        while r <= self.bailout && steps < self.iterations {
-            steps += 1;
-            let Raised { raised, raising, longitude, parallel } = self.raised(&z);
-            dr = n * r.powf(n - 1.0) * dr + one;
-            let identity = DMat3::from_diagonal(DVec3::splat(one));
-            turn = n * (turn + unturned.transpose() * longitude);
-            unturned = raising * unturned;
-            unturned -= outer(parallel, unturned.transpose() * parallel);
-            // However far it is turned, the constant does not move farther than across the axis.
-            unturned += identity - outer(around, turn.clamp_length_max(2.0 / grain));
-            derivative = raising * derivative + identity;
-            z = [0, 1, 2].map(|i| &raised[i] + &added[i]);
-            r = rounded(&z).length();
-        }
+        let End { z, dr, spread, steps } = self.follow(point, grain);
+        let r = z.length();
         if r <= 1.0 {
             return Estimate { distance: 0.0, step: 0.0, steps };
         }
         let height = 0.5 * r.ln() * r;
         let distance = height / dr;
-        let norm = norm(derivative).min(norm(unturned));
+        let norm = norm(spread.derivative).min(norm(spread.unturned));
         Estimate { distance, step: (STEP_PART * height / norm).min(distance), steps }
+    }
+
+    /// Follows the orbit of `point`.
+    fn follow(&self, point: &Point, grain: f64) -> End {
+        let n = f64::from(self.power);
+        let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
+        let mut z = point.clone();
+        let mut end =
+            End { z: rounded(&z), dr: 1.0, spread: Spread::new(rounded(added), grain), steps: 0 };
+        while end.z.length() <= self.bailout && end.steps < self.iterations {
+            end.steps += 1;
+            end.dr = n * end.z.length().powf(n - 1.0) * end.dr + one;
+            let raised = self.raised(&z);
+            end.spread.advance(n, one, &raised);
+            z = [0, 1, 2].map(|i| &raised.point[i] + &added[i]);
+            end.z = rounded(&z);
+        }
+        end
     }
 
     /// zⁿ, and what becomes of small displacements.
@@ -116,9 +111,9 @@ impl Set {
         let along = n * after.from_axis / before.from_axis.max(f64::MIN_POSITIVE);
         let stretch = DVec3::new(growth, mirror, along.clamp(-STRETCH_MAX, STRETCH_MAX));
         let raising = after.axes * DMat3::from_diagonal(stretch) * before.axes.transpose();
-        let raised = [&meridian.re * &parallel.re, &meridian.re * &parallel.im, meridian.im];
+        let point = [&meridian.re * &parallel.re, &meridian.re * &parallel.im, meridian.im];
         let longitude = before.axes.z_axis / before.from_axis.max(LEAST_RADIUS);
-        Raised { raised, raising, longitude, parallel: after.axes.z_axis }
+        Raised { point, raising, longitude, parallel: after.axes.z_axis }
     }
 
     /// The estimate's gradient of unit length from central differences, `spacing` apart; zero
@@ -130,9 +125,50 @@ impl Set {
     }
 }
 
+/// Where an orbit ends.
+struct End {
+    z: DVec3,
+    dr: f64,
+    spread: Spread,
+    steps: u32,
+}
+
+/// What becomes of small displacements of an orbit's point, told in two ways.
+struct Spread {
+    derivative: DMat3,
+    /// The same of the orbit turned back about the axis so far that longitudes stay, and the gradient
+    /// of the angle by which it is. Turning is no change of |z|, and the constant turns with it.
+    unturned: DMat3,
+    turn: DVec3,
+    /// How the constant moves as it turns.
+    around: DVec3,
+    grain: f64,
+}
+
+impl Spread {
+    fn new(constant: DVec3, grain: f64) -> Self {
+        let around = DVec3::new(-constant.y, constant.x, 0.0);
+        let around = if around == DVec3::ZERO { DVec3::Y * LEAST_RADIUS } else { around };
+        let (derivative, unturned) = (DMat3::IDENTITY, DMat3::IDENTITY);
+        Self { derivative, unturned, turn: DVec3::ZERO, around, grain }
+    }
+
+    /// One step of power `n`; `one` is the derivative of what it adds.
+    fn advance(&mut self, n: f64, one: f64, Raised { raising, longitude, parallel, .. }: &Raised) {
+        let identity = DMat3::from_diagonal(DVec3::splat(one));
+        self.derivative = *raising * self.derivative + identity;
+        self.turn = n * (self.turn + self.unturned.transpose() * *longitude);
+        self.unturned = *raising * self.unturned;
+        self.unturned -= outer(*parallel, self.unturned.transpose() * *parallel);
+        // However far it is turned, the constant does not move farther than across the axis.
+        let turn = self.turn.clamp_length_max(2.0 / self.grain);
+        self.unturned += identity - outer(self.around, turn);
+    }
+}
+
 /// A power and its derivatives.
 struct Raised {
-    raised: Point,
+    point: Point,
     raising: DMat3,
     /// Gradient of the longitude before.
     longitude: DVec3,
@@ -177,7 +213,7 @@ impl Frame {
 fn derivatives_are_those_of_differences() {
     for (power, variant) in [(2.0, Variant::PositiveSine), (7.0, Variant::NegativeSine)] {
         let set = Set::new(&Fractal { power, variant, ..Fractal::default() }, 1);
-        let at = |p: DVec3| rounded(&set.raised(&p.to_array().map(Real::from_f64)).raised);
+        let at = |p: DVec3| rounded(&set.raised(&p.to_array().map(Real::from_f64)).point);
         let p = DVec3::new(0.4, -0.7, 0.5);
         let found = set.raised(&p.to_array().map(Real::from_f64)).raising;
         for axis in DVec3::AXES {
@@ -211,5 +247,26 @@ fn estimates_are_those_of_the_printed_algorithm() {
             }
         }
         assert!(away > 200, "{away} points away from the surface");
+    }
+}
+
+/// |z| grows alike along both ways of telling, and as differences say.
+#[test]
+fn both_derivatives_say_how_the_radius_grows() {
+    for julia in [false, true] {
+        let set = Set::new(&Fractal { power: 5.0, julia, ..Fractal::default() }, 4);
+        let follow = |p: DVec3| set.follow(&p.to_array().map(Real::from_f64), 1e-100);
+        for p in [DVec3::new(0.4, -0.7, 0.5), DVec3::new(-0.1, 0.2, 0.9)] {
+            let End { z, spread, .. } = follow(p);
+            let outward = z.normalize();
+            let slope = spread.derivative.transpose() * outward;
+            let unturned = spread.unturned.transpose() * outward;
+            assert!((slope - unturned).length() < 1e-10 * slope.length(), "{slope} {unturned}");
+            let at = |way: DVec3| follow(p + way).z.length();
+            let expected = DVec3::from_array(
+                DVec3::AXES.map(|axis| (at(axis * 1e-6) - at(-axis * 1e-6)) / 2e-6),
+            );
+            assert!((slope - expected).length() < 1e-6 * slope.length(), "{slope} {expected}");
+        }
     }
 }

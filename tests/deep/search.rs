@@ -129,7 +129,7 @@ fn find_views() {
 fn judge_views() {
     for anchor in ANCHORS {
         for scale in SCALES.into_iter().filter(|&scale| scale >= anchor.deepest) {
-            let Look { hit, differ, depth } = look(&anchor.scene(scale), views::size(scale));
+            let Look { hit, differ, depth } = look(&anchor.scene(scale), views::SMALL);
             println!(
                 "power {} {} at {scale:e}: {hit:.3} hit, {differ:.4} differ, at {depth:.2}",
                 anchor.power, anchor.name

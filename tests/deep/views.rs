@@ -3,7 +3,7 @@
 use glam::DVec3;
 use mandelight::scene::{Camera, Fractal, PrecisePoint, Scene};
 
-use super::rays::Size;
+use super::{arithmetic::Real, orbit::Set, rays::Size};
 
 /// Width and height of a picture from `scale` away. Smaller ones from afar have pixels as wide as the
 /// set's largest parts, of which no step is short enough.
@@ -107,7 +107,7 @@ pub const ANCHORS: &[Anchor] = &[
     Anchor {
         power: 3.0,
         name: "on the axis",
-        position: ["0", "0", "1.08866210790363500000000000000000000000000000"],
+        position: ["0", "0", "1.08966210000000000000000000000000000000000000"],
         toward: [0.0, 0.0, -1.0],
         deepest: 1.0,
     },
@@ -115,22 +115,33 @@ pub const ANCHORS: &[Anchor] = &[
         power: 8.0,
         name: "from aside",
         position: [
-            "0.23586201072295238220573684418701622752160856",
-            "0.70088885322721486264897787359868344466621075",
-            "0.69340101255672243028928834254553803395380649",
+            "-0.29601176724531189050911006306022274230736161",
+            "-0.84328481599099249352515910401335034767521926",
+            "0.37077988123915841580698601171728158967365266",
         ],
-        toward: [-0.1519, -0.8972, -0.4146],
+        toward: [0.373, 0.8337, -0.4073],
         deepest: 1e-27,
     },
     Anchor {
         power: 8.0,
         name: "from below",
         position: [
-            "0.44604375930347170866654434270132845074933149",
-            "0.42171633965115849043026248227779652728520135",
-            "-0.62539595692731235381068463817226053955098445",
+            "0.39004205848639309655696854095817415894558159",
+            "-0.56340974195988038934520765659493996907967598",
+            "-0.49861718042726848204191548015156818013321958",
         ],
-        toward: [-0.3534, -0.5249, 0.7744],
+        toward: [-0.63, 0.3996, 0.6659],
+        deepest: 1e-27,
+    },
+    Anchor {
+        power: 8.0,
+        name: "from the other side",
+        position: [
+            "0.15379861659292883236866770985698080436629960",
+            "-0.84801966252866654201816769898541895762149767",
+            "0.59761228259006374734788457605399937869280647",
+        ],
+        toward: [0.2891, 0.8866, -0.3611],
         deepest: 1e-27,
     },
     Anchor {
@@ -226,4 +237,19 @@ pub fn scene(fractal: Fractal, anchor: &PrecisePoint, toward: DVec3, scale: f64)
 pub fn plenty(scene: &Scene) -> u32 {
     let depth = (1.0 / scene.camera.view_unit()).max(1.0).ln() + 8.0;
     scene.fractal.iterations + (2.0 * depth / scene.fractal.power.ln()) as u32
+}
+
+#[test]
+fn anchors_are_on_the_surface() {
+    for anchor in ANCHORS {
+        let scene = anchor.scene(anchor.deepest);
+        let set = Set::new(&scene.fractal, plenty(&scene));
+        let distance = set.estimate(&anchor.position.map(Real::parse), anchor.deepest).distance;
+        assert!(
+            distance < 1e-4 * anchor.deepest,
+            "power {} {}: {distance}",
+            anchor.power,
+            anchor.name
+        );
+    }
 }
