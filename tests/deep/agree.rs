@@ -15,7 +15,7 @@ use super::{
 };
 
 /// The scales that views are drawn at.
-pub const DRAWN: &[f64] = &[1.0, 1e-3];
+const DRAWN: &[f64] = &[1.0, 1e-3];
 
 /// One of so many pixels is compared; of pictures 24 high, still 173.
 const EVERY: usize = 5;
@@ -87,9 +87,9 @@ fn compare(scene: &Scene, size: Size, samples: &Samples) -> Comparison {
     }
 }
 
-fn views_agree(power: f64) {
+fn views_agree(power: f64, julia: bool) {
     let kernels = Kernels::new(&gpu());
-    for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
+    for anchor in ANCHORS.iter().filter(|anchor| (anchor.power, anchor.julia) == (power, julia)) {
         for &scale in DRAWN.iter().filter(|&&scale| scale >= anchor.deepest) {
             let (scene, size) = (anchor.scene(scale), size(scale));
             let Comparison { hit, differ, apart, normal_deg } =
@@ -110,20 +110,25 @@ fn views_agree(power: f64) {
 
 #[test]
 fn views_of_power_2() {
-    views_agree(2.0);
+    views_agree(2.0, false);
 }
 
 #[test]
 fn views_of_power_3() {
-    views_agree(3.0);
+    views_agree(3.0, false);
 }
 
 #[test]
 fn views_of_power_8() {
-    views_agree(8.0);
+    views_agree(8.0, false);
 }
 
 #[test]
 fn views_of_power_16() {
-    views_agree(16.0);
+    views_agree(16.0, false);
+}
+
+#[test]
+fn views_of_the_julia_form() {
+    views_agree(8.0, true);
 }

@@ -4,13 +4,15 @@ use glam::DVec3;
 use mandelight::{gpu::Gpu, render::pass::probe};
 
 use super::{
-    agree::{DRAWN, gpu},
+    agree::gpu,
     arithmetic::Real,
     parallel::in_parallel,
     rays::Looking,
     views::{self, ANCHORS},
 };
 
+/// The scales of the views that are asked about: those whose points an f32 tells apart.
+const ASKED: &[f64] = &[1.0, 1e-3];
 /// Parts of the way to the surface at which estimates are compared.
 const PLACES: [f64; 6] = [0.1, 0.4, 0.7, 0.85, 0.95, 1.0];
 /// One ray of so many pixels.
@@ -18,7 +20,7 @@ const EVERY: usize = 5;
 
 fn estimates_agree(gpu: &Gpu, power: f64) {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
-        for &scale in DRAWN.iter().filter(|&&scale| scale >= anchor.deepest) {
+        for &scale in ASKED.iter().filter(|&&scale| scale >= anchor.deepest) {
             let (scene, size) = (anchor.scene(scale), views::SMALL);
             let looking = Looking::new(&scene, size, views::plenty(&scene));
             let pixels: Vec<_> = (0..size[1])

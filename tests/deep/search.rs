@@ -107,14 +107,18 @@ fn look(scene: &Scene, size: Size) -> Look {
 #[test]
 #[ignore = "a tool: prints anchors and what their views are like"]
 fn find_views() {
-    for (power, kind, count) in
-        [(2.0, "equator", 40), (3.0, "anywhere", 16), (8.0, "anywhere", 16), (8.0, "axis", 1)]
-    {
-        let fractal = Fractal { power, ..Fractal::default() };
+    for (power, julia, kind, count) in [
+        (2.0, false, "equator", 40),
+        (3.0, false, "anywhere", 16),
+        (8.0, false, "anywhere", 16),
+        (8.0, false, "axis", 1),
+        (8.0, true, "anywhere", 16),
+    ] {
+        let fractal = Fractal { power, julia, ..Fractal::default() };
         for Way { end, direction, .. } in ways(&fractal, kind, count) {
             let position = end.each_ref().map(Real::to_decimal);
             let anchor = PrecisePoint(position.each_ref().map(|t| t.parse().expect("a number")));
-            println!("power {power} {kind}: {position:?} toward {direction}");
+            println!("power {power} julia {julia} {kind}: {position:?} toward {direction}");
             for scale in SCALES {
                 let scene = views::scene(fractal.clone(), &anchor, direction, scale);
                 let Look { hit, differ, depth } = look(&scene, views::SMALL);

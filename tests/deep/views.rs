@@ -20,6 +20,8 @@ pub const SCALES: [f64; 7] = [1.0, 1e-3, 1e-6, 1e-9, 1e-13, 1e-20, 1e-27];
 /// A point of the surface, to less than 1e-30, and the direction it is looked at along.
 pub struct Anchor {
     pub power: f64,
+    /// Of the Julia form, with the document's constant.
+    pub julia: bool,
     pub name: &'static str,
     pub position: [&'static str; 3],
     pub toward: [f64; 3],
@@ -40,6 +42,7 @@ pub struct Anchor {
 pub const ANCHORS: &[Anchor] = &[
     Anchor {
         power: 2.0,
+        julia: false,
         name: "at the equator",
         position: [
             "0.37284181698856026782202310856174138462133399",
@@ -51,6 +54,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 2.0,
+        julia: false,
         name: "at the equator, from aside",
         position: [
             "0.40603871366635733294484433789455709642081258",
@@ -62,6 +66,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 2.0,
+        julia: false,
         name: "at the equator, over a bay",
         position: [
             "0.36162104020517979401232597253949336759674644",
@@ -73,6 +78,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 3.0,
+        julia: false,
         name: "from aside",
         position: [
             "0.20172567310448487218521234894568620894929530",
@@ -84,6 +90,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 3.0,
+        julia: false,
         name: "from the other side",
         position: [
             "-0.61984950289083675921081670677882479678813811",
@@ -95,6 +102,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 3.0,
+        julia: false,
         name: "from below",
         position: [
             "-0.12721121069155965168548486967256585104888992",
@@ -106,6 +114,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 3.0,
+        julia: false,
         name: "on the axis",
         position: ["0", "0", "1.08966210000000000000000000000000000000000000"],
         toward: [0.0, 0.0, -1.0],
@@ -113,6 +122,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 8.0,
+        julia: false,
         name: "from aside",
         position: [
             "-0.29601176724531189050911006306022274230736161",
@@ -124,6 +134,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 8.0,
+        julia: false,
         name: "from below",
         position: [
             "0.39004205848639309655696854095817415894558159",
@@ -135,6 +146,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 8.0,
+        julia: false,
         name: "from the other side",
         position: [
             "0.15379861659292883236866770985698080436629960",
@@ -146,6 +158,19 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 8.0,
+        julia: true,
+        name: "of the Julia form, from aside",
+        position: [
+            "-0.30888984218751890347855344843486610538809678",
+            "0.98597146898507521586390400044472522307089860",
+            "-0.18819905768768892099979488397141155059571933",
+        ],
+        toward: [-0.0731, -0.7977, 0.5986],
+        deepest: 1e-27,
+    },
+    Anchor {
+        power: 8.0,
+        julia: false,
         name: "on the axis",
         position: ["0", "0", "0.85233484699660038752894531303915344489909108"],
         toward: [0.0, 0.0, -1.0],
@@ -153,6 +178,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 16.0,
+        julia: false,
         name: "from aside",
         position: [
             "0.45427026350241359291117039850779952633831394",
@@ -164,6 +190,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 16.0,
+        julia: false,
         name: "from the other side",
         position: [
             "0.49831763361696526362607718014640659715670594",
@@ -175,6 +202,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 16.0,
+        julia: false,
         name: "from below",
         position: [
             "-0.36411780475229877590876839057346480978940078",
@@ -186,6 +214,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 16.0,
+        julia: false,
         name: "near the pole",
         position: [
             "0.20355266372093848560521164957668356029252122",
@@ -197,6 +226,7 @@ pub const ANCHORS: &[Anchor] = &[
     },
     Anchor {
         power: 16.0,
+        julia: false,
         name: "on the axis",
         position: ["0", "0", "0.89540110303005466853046739308248005818170138"],
         toward: [0.0, 0.0, -1.0],
@@ -216,7 +246,7 @@ impl Anchor {
     pub fn scene(&self, scale: f64) -> Scene {
         let parse = |text: &str| text.parse().expect("a decimal number");
         let point = PrecisePoint(self.position.map(parse));
-        let fractal = Fractal { power: self.power, ..Fractal::default() };
+        let fractal = Fractal { power: self.power, julia: self.julia, ..Fractal::default() };
         scene(fractal, &point, self.toward.into(), scale)
     }
 }
