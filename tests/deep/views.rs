@@ -3,7 +3,11 @@
 use glam::DVec3;
 use mandelight::scene::{Camera, Fractal, PrecisePoint, Scene};
 
-use super::{arithmetic::Real, orbit::Set, rays::Size};
+use super::{
+    arithmetic::Real,
+    orbit::Set,
+    rays::{Looking, Size, centre},
+};
 
 /// Width and height of a picture from `scale` away. Smaller ones from afar have pixels as wide as the
 /// set's largest parts, of which no step is short enough.
@@ -267,6 +271,21 @@ pub fn scene(fractal: Fractal, anchor: &PrecisePoint, toward: DVec3, scale: f64)
 pub fn plenty(scene: &Scene) -> u32 {
     let depth = (1.0 / scene.camera.view_unit()).max(1.0).ln() + 8.0;
     scene.fractal.iterations + (2.0 * depth / scene.fractal.power.ln()) as u32
+}
+
+/// Orbits of points that rays visit leave before they are cut, so that longer ones change nothing.
+#[test]
+fn plenty_of_steps_is_enough() {
+    let views: Vec<_> = ANCHORS.iter().map(|anchor| anchor.scene(anchor.deepest)).collect();
+    super::parallel::in_parallel(&views, |scene| {
+        let looking = Looking::new(scene, SMALL, plenty(scene));
+        for pixel in [[2, 2], [6, 4], [9, 5]] {
+            let depth = looking.depth(pixel).expect("a hit");
+            let point = looking.at(looking.direction(centre(pixel)), depth);
+            let steps = looking.set.estimate(&point, depth).steps;
+            assert!(steps < plenty(scene), "{steps} steps for power {}", scene.fractal.power);
+        }
+    });
 }
 
 #[test]
