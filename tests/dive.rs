@@ -198,6 +198,27 @@ fn the_pivot_keeps_up_with_what_is_approached() {
 }
 
 #[test]
+fn a_pointer_over_what_rays_creep_along_takes_little_time() {
+    /// A floor that rays run along, and how often it was asked.
+    struct Floor(std::cell::Cell<u32>);
+    impl DistanceField for Floor {
+        fn distance(&self, point: DVec3) -> f64 {
+            self.0.set(self.0.get() + 1);
+            point.z.max(0.0)
+        }
+        fn bounding_radius(&self) -> f64 {
+            50.0
+        }
+    }
+    let floor = Floor(Default::default());
+    // A ray that leaves the floor so slowly goes more than a thousand steps before it misses.
+    let camera = Camera::looking_at(DVec3::Z * 1e-3, DVec3::new(0.0, 40.0, 0.15), DVec3::Z);
+    let picked = world(&floor).pick(&camera, DVec2::ZERO).expect("it is along there");
+    assert!(picked.angle_between(camera.forward()) < 1e-6 && picked.length() > 0.0);
+    assert!(floor.0.get() <= 400, "asked {} times", floor.0.get());
+}
+
+#[test]
 fn out_and_back_returns() {
     let field = Valley::new();
     for scale in SCALES {

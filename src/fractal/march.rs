@@ -110,27 +110,43 @@ pub trait DistanceField {
     /// per unit of depth (not negative); nothing past `max_depth` is looked at. A ray that
     /// starts inside has hit at depth zero.
     fn march(&self, ray: Ray, cone: f64, max_depth: f64) -> Option<f64> {
-        let (near, far) = ray.sphere_span(self.center(), self.bounding_radius())?;
+        self.trace(ray, cone, max_depth, MAX_MARCH_STEPS).unwrap_or(None)
+    }
+
+    /// [`Self::march`] by at most `max_steps`.
+    ///
+    /// # Errors
+    /// The depth of a ray that is still travelling then: it creeps along something.
+    fn trace(
+        &self,
+        ray: Ray,
+        cone: f64,
+        max_depth: f64,
+        max_steps: u32,
+    ) -> Result<Option<f64>, f64> {
+        let Some((near, far)) = ray.sphere_span(self.center(), self.bounding_radius()) else {
+            return Ok(None);
+        };
         let far = far.min(max_depth);
         let least_step = if self.has_dips() { LEAST_STEP_OVER_DIPS } else { LEAST_STEP };
         let (mut before, mut depth) = (near, near);
-        for _ in 0..MAX_MARCH_STEPS {
+        for _ in 0..max_steps {
             if depth > far {
-                return None;
+                return Ok(None);
             }
             let (reach, hit) = (self.reach(ray.at(depth)), cone * depth);
             if reach.distance <= hit {
                 if !self.has_dips() {
-                    return Some(depth);
+                    return Ok(Some(depth));
                 }
                 if let Some(depth) = self.lasting_hit(ray, cone, [before, depth]) {
-                    return Some(depth);
+                    return Ok(Some(depth));
                 }
             }
             before = depth;
             depth += reach.step.max(least_step * hit);
         }
-        None
+        Err(depth)
     }
 
     /// Where between two depths, of which the second is within the hit distance, the ray comes that

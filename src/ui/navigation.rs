@@ -46,6 +46,8 @@ use turn::Turntable;
 
 /// The farthest that the eye goes from the scene's origin, in scene units.
 pub const FARTHEST_EYE: f64 = 90.0;
+/// Most steps of a ray that looks for what is under the pointer: a hand does not wait for more.
+const PICK_STEPS: u32 = 400;
 /// What the eye keeps from any surface, in parts of [`World::nearest`].
 const CLEARANCE: f64 = 0.25;
 /// Nearest distances within which the eye is said to be at the limit: what it looks at is farther
@@ -130,7 +132,9 @@ impl World<'_> {
     /// The vector from the eye to the surface seen at `ndc`; none over the background.
     pub fn pick(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
         let ray = self.ray(camera, ndc);
-        let depth = self.field.march(ray, self.hit_cone(camera), f64::INFINITY)?;
+        let found = self.field.trace(ray, self.hit_cone(camera), f64::INFINITY, PICK_STEPS);
+        // What a ray creeps along for so long is as good as hit.
+        let depth = found.unwrap_or_else(Some)?;
         Some(ray.direction * depth.max(self.nearest(camera)))
     }
 
