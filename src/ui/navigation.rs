@@ -53,6 +53,8 @@ const CLEARANCE: f64 = 0.25;
 /// Nearest distances within which the eye is said to be at the limit: what it looks at is farther
 /// than what is nearest, and the estimate is one.
 const AT_LIMIT: f64 = 2.0;
+/// The same where the pivot itself is at the limit.
+const FAR_OFF: f64 = 100.0;
 /// The coarseness of positions, in pixels at the surface's distance.
 const GRAIN_PX: f64 = 1e-4;
 /// The same for the pivot, in view units.
@@ -122,10 +124,13 @@ impl World<'_> {
     /// Where `camera` stands.
     pub fn standing(&self, camera: &Camera) -> Standing {
         let distance = self.field.clear_distance(self.eye(camera));
+        let nearest = self.nearest(camera);
+        // At low powers the estimate is often many times too large.
+        let pivot_at_limit = camera.view_unit() <= nearest && distance <= FAR_OFF * nearest;
         Standing {
             distance,
             footprint: distance * self.cone(camera),
-            at_precision_limit: distance <= AT_LIMIT * self.nearest(camera),
+            at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,
         }
     }
 
