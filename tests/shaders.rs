@@ -93,7 +93,7 @@ fn every_pass_begins_by_reading_the_picture() {
         let (_, main) = text.split_once("fn main(").expect("an entry point");
         let (_, body) = main.split_once("{\n").expect("its body");
         let first = body.lines().next().map(str::trim);
-        assert_eq!(first, Some("picture = given_picture;"), "{}", module.label);
+        assert_eq!(first, Some("picture = given.picture;"), "{}", module.label);
     }
 }
 

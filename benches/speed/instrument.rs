@@ -10,7 +10,7 @@ pub type File<'a> = (&'a str, &'a str);
 
 /// What counts as what in a module.
 pub struct Marks<'a> {
-    /// Files whose outermost loops are orbits, by how their paths begin.
+    /// Files whose innermost loops are orbits, by how their paths begin.
     pub orbits_in: &'a str,
     /// In those files, functions whose loops are something else.
     pub other_loops: &'a [&'a str],
@@ -65,12 +65,12 @@ fn function(text: &str, name: &str) -> Result<usize, String> {
     text.find(&format!("fn {name}(")).ok_or_else(|| missing(name))
 }
 
-/// Counts each full turn of the outermost loops: what a `break` ends early is no step.
+/// Counts each full turn of the innermost loops: what a `break` ends early is no step.
 fn count_orbits(file: &str, other_loops: &[&str]) -> (String, u32) {
     let (mut text, mut found) = (String::new(), 0);
     let mut inside = false;
-    // The line that closes the loop which is counted.
-    let mut close = None;
+    // Of the loops that are open: the line that closes each, and whether it has another in it.
+    let mut open: Vec<(String, bool)> = Vec::new();
     for line in file.lines() {
         if let Some(rest) = line.strip_prefix("fn ") {
             inside = !other_loops.iter().any(|name| rest.starts_with(&format!("{name}(")));
@@ -78,13 +78,17 @@ fn count_orbits(file: &str, other_loops: &[&str]) -> (String, u32) {
         let word = line.trim_start();
         let is_loop =
             ["for ", "for(", "while ", "while(", "loop "].iter().any(|w| word.starts_with(w));
-        if close.as_deref() == Some(line) {
-            text += "counted_steps += 1u;\n";
-            close = None;
-            found += 1;
-        } else if inside && close.is_none() && is_loop && line.ends_with('{') {
+        if let Some((_, has_inner)) = open.pop_if(|(close, _)| close == line) {
+            if !has_inner {
+                text += "counted_steps += 1u;\n";
+                found += 1;
+            }
+        } else if inside && is_loop && line.ends_with('{') {
+            if let Some((_, has_inner)) = open.last_mut() {
+                *has_inner = true;
+            }
             let indentation = &line[..line.len() - word.len()];
-            close = Some(format!("{indentation}}}"));
+            open.push((format!("{indentation}}}"), false));
         }
         text += line;
         text += "\n";

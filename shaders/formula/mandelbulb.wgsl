@@ -60,6 +60,12 @@ fn rotor_power(q: Squares, inverse_a: f32, m: u32) -> vec2f {
     return complex_power(inverse_a * q.xy, m);
 }
 
+// n |z|^(n - 1) of that power.
+fn stretch_whole(fractal: Fractal, q: Squares) -> f32 {
+    if (POWER % 2u == 0u) { return (fractal.power * sqrt(q.s)) * real_power(q.s, POWER / 2u - 1u); }
+    return fractal.power * real_power(q.s, POWER / 2u);
+}
+
 // The whole power that the pipeline is specialised for.
 fn raised_whole(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
     let n = fractal.power;
@@ -71,14 +77,13 @@ fn raised_whole(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
     if (POWER % 2u == 0u) {
         let wn = vec2f(even_w.x, even_w.y * rho);
         let power = vec3f(wn.x * even_u, wn.y * fractal.z_sign);
-        let stretch = (n * sqrt(q.s)) * real_power(q.s, m - 1u);
-        return Raised(power, stretch, (n * rho * inverse_a) * wn.x, even_u, wn);
+        return Raised(power, stretch_whole(fractal, q), (n * rho * inverse_a) * wn.x, even_u, wn);
     }
     let across = even_w.x - z.z * even_w.y;
     let along = q.a * even_w.y + z.z * even_w.x;
     let power = vec3f(complex_product(even_u, across * z.xy), along * fractal.z_sign);
     let un = (rho * inverse_a) * complex_product(even_u, z.xy);
-    return Raised(power, n * real_power(q.s, m), n * across, un, vec2f(across * rho, along));
+    return Raised(power, stretch_whole(fractal, q), n * across, un, vec2f(across * rho, along));
 }
 
 // A real power in polar coordinates.
@@ -103,20 +108,58 @@ fn raised(fractal: Fractal, z: vec3f, q: Squares) -> Raised {
 struct Orbit {
     start: vec3f,
     constant: vec3f,
+    // Of deep views: what each step adds to the difference.
+    added: vec3f,
     // The constant's own derivative: the Julia form's does not move with the point.
     constant_derivative: f32,
+    // The point's own.
+    start_derivative: f32,
     // The bailout's square.
     limit: f32,
 }
 
 fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
     let julia = fractal.julia != 0u;
+    let limit = fractal.bailout * fractal.bailout;
+    if (DEEP) {
+        let offset = fractal.scale * point;
+        return Orbit(
+            fractal.anchor + offset,
+            select(fractal.anchor, fractal.julia_constant, julia),
+            select(offset, vec3f(0.0), julia),
+            select(fractal.scale, 0.0, julia),
+            fractal.scale,
+            limit,
+        );
+    }
     return Orbit(
         point + BESIDE_AXIS,
         select(point, fractal.julia_constant, julia) + BESIDE_AXIS,
+        vec3f(0.0),
         select(1.0, 0.0, julia),
-        fractal.bailout * fractal.bailout,
+        1.0,
+        limit,
     );
+}
+
+// The orbit at its beginning, or where its first steps are skipped, behind those.
+fn walk_from(orbit: Orbit, point: vec3f) -> Walk {
+    if (is_skipped(point)) { return skipped_walk(point); }
+    return Walk(orbit.start, 0u, orbit.start_derivative * point, 0u);
+}
+
+fn has_ended(fractal: Fractal, orbit: Orbit, walk: Walk, q: Squares) -> bool {
+    return (q.s > orbit.limit) | (walk.count >= fractal.iterations);
+}
+
+// Goes on from z^n.
+fn step_on(walk: ptr<function, Walk>, power: vec3f, orbit: Orbit) {
+    if (DEEP) {
+        step_anew(walk, power, orbit);
+        return;
+    }
+    (*walk).count += 1u;
+    (*walk).z = power + orbit.constant;
 }
 
 struct Reach {
@@ -139,29 +182,56 @@ fn dips(fractal: Fractal) -> bool {
     return fractal.power < 4.0;
 }
 
+// An orbit's derivatives.
+struct Growth {
+    dr: f32,
+    // In units of the step factor, so that a step is this over the larger of dr and dg.
+    dg: f32,
+}
+
+fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, unit: f32) -> Growth {
+    let widest = clamp(abs(step.sideways), step.stretch, SIDEWAYS_MAX * step.stretch);
+    return Growth(
+        min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max),
+        min(widest * before.dg + unit * orbit.constant_derivative, fractal.derivative_max),
+    );
+}
+
+// Each of an orbit's loops goes through steps of the difference first, where there are any, and
+// then through plain ones: where lanes disagree both sides of a branch are computed, but not of a
+// loop.
 fn reach(fractal: Fractal, point: vec3f) -> Reach {
     let orbit = orbit_of(fractal, point);
-    var z = orbit.start;
-    var dr = 1.0;
-    // In units of the step factor, so that a step is this over the larger of dr and dg.
     let unit = 1.0 / step_factor(fractal);
-    var dg = unit;
-    var s: f32;
-    for (var i = 0u; ; i++) {
-        let q = squares(z);
-        s = q.s;
-        if ((s > orbit.limit) | (i >= fractal.iterations)) { break; }
-        let next = raised(fractal, z, q);
-        z = next.power + orbit.constant;
-        let widest = clamp(abs(next.sideways), next.stretch, SIDEWAYS_MAX * next.stretch);
-        dr = min(next.stretch * dr + orbit.constant_derivative, fractal.derivative_max);
-        dg = min(widest * dg + unit * orbit.constant_derivative, fractal.derivative_max);
+    var walk = walk_from(orbit, point);
+    var growth = Growth(orbit.start_derivative, unit * orbit.start_derivative);
+    if (is_skipped(point)) {
+        let dr = skipped_derivative(point);
+        growth = Growth(dr, unit * picture.skip.careful * dr);
     }
-    if (s <= 1.0) { return Reach(0.0, 0.0); }
+    var q = squares(walk.z);
+    for (; ; ) {
+        for (; DEEP; ) {
+            if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
+            let step = raised_close(fractal, walk, q);
+            growth = grown(fractal, orbit, growth, step, unit);
+            step_close(&walk, step, orbit);
+            q = squares(walk.z);
+        }
+        for (; ; ) {
+            if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
+            let step = raised(fractal, walk.z, q);
+            growth = grown(fractal, orbit, growth, step, unit);
+            step_on(&walk, step.power, orbit);
+            q = squares(walk.z);
+        }
+        if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
+    }
+    if (q.s <= 1.0) { return Reach(0.0, 0.0); }
     // 0.5 ln(r) r.
-    let height = 0.25 * log(s) * sqrt(s);
-    let distance = height / max(dr, 1e-37);
-    let step = height / max(max(dg, dr), 1e-37);
+    let height = 0.25 * log(q.s) * sqrt(q.s);
+    let distance = height / max(growth.dr, 1e-37);
+    let step = height / max(max(growth.dg, growth.dr), 1e-37);
     return Reach(distance, min(step, fractal.max_step));
 }
 
@@ -186,6 +256,31 @@ fn raised_jacobian(fractal: Fractal, t: Raised, z: vec3f, rho: f32, inverse_r: f
     );
 }
 
+// How an orbit and its derivative change with the point.
+struct Tangent {
+    // The orbit's Jacobian over dr.
+    jacobian: mat3x3f,
+    // The gradient of dr over dr^2.
+    slope: vec3f,
+    // The constant's own derivative over dr.
+    added: f32,
+}
+
+// A tangent after another step.
+fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares) -> Tangent {
+    // This dr over the next: infinite where a Julia orbit meets the origin.
+    let shrink = 1.0 / max(step.stretch + before.added, 1e-9);
+    let kept = step.stretch * shrink;
+    let inverse_r = 1.0 / max(sqrt(q.s), 1e-9);
+    let added = before.added * shrink;
+    let along = (fractal.power - 1.0) * inverse_r * inverse_r * (z * before.jacobian);
+    var jacobian = kept * (raised_jacobian(fractal, step, z, sqrt(q.a), inverse_r) * before.jacobian);
+    jacobian[0].x += added;
+    jacobian[1].y += added;
+    jacobian[2].z += added;
+    return Tangent(jacobian, (kept * shrink) * (along + before.slope), added);
+}
+
 // The direction in which `distance_estimate` grows fastest, of any length; 0 inside. Exact: the
 // orbit's Jacobian and the gradient of dr are carried along (forward differentiation).
 //     grad DE = ((ln r + 1) dr grad r - r ln r grad dr) / (2 dr^2),  grad r = J^T z / r
@@ -193,32 +288,36 @@ fn raised_jacobian(fractal: Fractal, t: Raised, z: vec3f, rho: f32, inverse_r: f
 // of dr, which leaves the direction alone.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     let orbit = orbit_of(fractal, point);
-    var z = orbit.start;
-    var r: f32;
+    var walk = walk_from(orbit, point);
     // J / dr, grad dr / dr^2, and the constant's own derivative over dr.
-    var jacobian = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-    var slope = vec3f(0.0);
-    var added = orbit.constant_derivative;
-    for (var i = 0u; ; i++) {
-        let q = squares(z);
-        r = sqrt(q.s);
-        if ((q.s > orbit.limit) | (i >= fractal.iterations)) { break; }
-        let t = raised(fractal, z, q);
-        // This dr over the next: infinite where a Julia orbit meets the origin.
-        let shrink = 1.0 / max(t.stretch + added, 1e-9);
-        let kept = t.stretch * shrink;
-        let inverse_r = 1.0 / max(r, 1e-9);
-        slope = (kept * shrink) * ((fractal.power - 1.0) * inverse_r * inverse_r * (z * jacobian) + slope);
-        jacobian = kept * (raised_jacobian(fractal, t, z, sqrt(q.a), inverse_r) * jacobian);
-        added *= shrink;
-        jacobian[0].x += added;
-        jacobian[1].y += added;
-        jacobian[2].z += added;
-        z = t.power + orbit.constant;
+    var tangent = Tangent(
+        mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        vec3f(0.0),
+        orbit.constant_derivative / orbit.start_derivative,
+    );
+    if (is_skipped(point)) { tangent = skipped_tangent(orbit, point); }
+    var q = squares(walk.z);
+    for (; ; ) {
+        for (; DEEP; ) {
+            if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
+            let step = raised_close(fractal, walk, q);
+            tangent = turned(fractal, tangent, step, walk.z, q);
+            step_close(&walk, step, orbit);
+            q = squares(walk.z);
+        }
+        for (; ; ) {
+            if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
+            let step = raised(fractal, walk.z, q);
+            tangent = turned(fractal, tangent, step, walk.z, q);
+            step_on(&walk, step.power, orbit);
+            q = squares(walk.z);
+        }
+        if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
     }
-    if (r <= 1.0) { return vec3f(0.0); }
+    if (q.s <= 1.0) { return vec3f(0.0); }
+    let r = sqrt(q.s);
     let log_r = log(r);
-    return (log_r + 1.0) / r * (z * jacobian) - r * log_r * slope;
+    return (log_r + 1.0) / r * (walk.z * tangent.jacobian) - r * log_r * tangent.slope;
 }
 
 struct OrbitColors {
@@ -230,18 +329,27 @@ struct OrbitColors {
 
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     let orbit = orbit_of(fractal, point);
-    var z = orbit.start;
-    var q = squares(z);
+    var walk = walk_from(orbit, point);
+    var q = squares(walk.z);
     // Squared until the end.
     var traps = vec3f(4.0);
-    var count = 0u;
-    for (; ; count++) {
-        if ((q.s > orbit.limit) | (count >= fractal.iterations)) { break; }
-        z = raised(fractal, z, q).power + orbit.constant;
-        q = squares(z);
-        traps = min(traps, vec3f(q.s, q.a, q.zz));
+    if (is_skipped(point)) { traps = picture.skip.traps_squared; }
+    for (; ; ) {
+        for (; DEEP; ) {
+            if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
+            step_close(&walk, raised_close(fractal, walk, q), orbit);
+            q = squares(walk.z);
+            traps = min(traps, vec3f(q.s, q.a, q.zz));
+        }
+        for (; ; ) {
+            if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
+            step_on(&walk, raised(fractal, walk.z, q).power, orbit);
+            q = squares(walk.z);
+            traps = min(traps, vec3f(q.s, q.a, q.zz));
+        }
+        if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
     }
-    var smooth_iterations = f32(count);
+    var smooth_iterations = f32(walk.count);
     if (q.s > orbit.limit) {
         smooth_iterations -= log2(max(0.5 * log2(q.s) / fractal.log2_bailout, 1.0)) / log2(fractal.power);
     }

@@ -12,6 +12,9 @@ fn ball_part(power: f32) -> f32 {
 // Steps after which a bundle that creeps along a surface leaves the rest to its rays.
 const BUNDLE_STEPS = 48u;
 
+// No ball is taken for larger, so that an f32 holds its square.
+const MOST_BALL = 1e18;
+
 // How far the rays from `origin` whose directions differ from `axis` by `spread` at most (the length of the
 // difference of unit vectors) may go, from a distance that is known to be clear, before any of
 // them is as near to the surface as `hit_cone` says: where a ray ends is up to the ray alone.
@@ -21,7 +24,7 @@ fn clear_cone(
     let part = ball_part(fractal.power);
     var t = start;
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        let ball = part * reach(fractal, origin + t * axis).step - hit_cone * t;
+        let ball = min(part * reach(fractal, origin + t * axis).step, MOST_BALL) - hit_cone * t;
         let width = t * spread;
         if (ball <= width) { break; }
         // Points of the cone as far from the origin as t + advance are in the ball:

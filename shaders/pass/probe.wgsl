@@ -16,7 +16,7 @@ struct Answer {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    picture = given_picture;
+    picture = given.picture;
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
     let fractal = picture.fractal;

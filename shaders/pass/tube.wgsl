@@ -28,14 +28,13 @@ fn clear_plane(fractal: Fractal) -> f32 {
     }
     // Where the last of the rays leaves the bounding sphere, or where shadows end.
     let height = dot(center, direction);
-    let aside = max(length(center - height * direction) - width, 0.0);
-    let leaves = sqrt(max(fractal.bounding_radius * fractal.bounding_radius - aside * aside, 0.0)) - height;
+    let leaves = bounding_exit(center, direction, width);
     let part = ball_part(fractal.power);
     var s = min(leaves, slice.light_reach + extent);
     for (var i = 0u; i < BUNDLE_STEPS; i++) {
         // No point is farther than this from the plane through `s`.
         let blocks = blocking_distance(fractal, s + extent, surface_distance);
-        let ball = part * reach(fractal, center + s * direction).step - blocks;
+        let ball = min(part * reach(fractal, center + s * direction).step, MOST_BALL) - blocks;
         let advance = sqrt(max(ball * ball - width * width, 0.0));
         if (ball <= width || advance <= width) { break; }
         s -= advance;
@@ -45,7 +44,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given_picture;
+    picture = given.picture;
     if (thread.x >= atomicLoad(&lists.hits)) { return; }
     let block = block_at(lists.entries[thread.x]);
     var any_faces = false;

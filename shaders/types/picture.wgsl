@@ -39,6 +39,59 @@ struct Fractal {
     // Hit distances never go below this: f32 resolves no finer.
     finest_hit: f32,
     log2_bailout: f32,
+    // Where the coordinates of all points begin, in scene units, and their unit in those.
+    anchor: vec3f,
+    scale: f32,
+    // Of views that are drawn from an anchor: how many places the reference has, how many of them are
+    // the anchor's own orbit, and which of them orbits start anew from.
+    places: u32,
+    own_places: u32,
+    restart: u32,
+    unused: u32,
+}
+
+// The first steps of all orbits near the anchor at once, by the point's offset: second-order
+// polynomials. Host twin, with the equations: `fractal::deep::skip`.
+struct Skip {
+    // First derivatives of the difference, then second ones.
+    along_x: vec3f,
+    // How far from the anchor points may be; below 0 nothing is skipped.
+    radius: f32,
+    along_y: vec3f,
+    // How many steps.
+    steps: u32,
+    along_z: vec3f,
+    // dr at the anchor, in units of 1 / scale.
+    derivative: f32,
+    along_xx: vec3f,
+    // dg over dr there.
+    careful: f32,
+    along_yy: vec3f,
+    unused_a: u32,
+    along_zz: vec3f,
+    unused_b: u32,
+    along_xy: vec3f,
+    unused_c: u32,
+    along_yz: vec3f,
+    unused_d: u32,
+    along_zx: vec3f,
+    unused_e: u32,
+    derivative_gradient: vec3f,
+    unused_f: u32,
+    // Squares of the least distances of the skipped places, after the first, from the origin, the z
+    // axis and the plane z = 0.
+    traps_squared: vec3f,
+    unused_g: u32,
+}
+
+// A place of the anchor's orbit.
+struct Place {
+    z: vec3f,
+    // |x + iy|.
+    rho: f32,
+    // (x + iy) / rho; 1 on the axis.
+    rotor: vec2f,
+    unused: vec2u,
 }
 
 struct Surface {
@@ -148,6 +201,7 @@ struct Picture {
     camera: Camera,
     eyes: Eyes,
     fractal: Fractal,
+    skip: Skip,
     surface: Surface,
     indirect: Indirect,
     background: Background,
@@ -163,9 +217,15 @@ struct Picture {
     unused: u32,
 }
 
-@group(0) @binding(0) var<storage, read> given_picture: Picture;
+struct Given {
+    picture: Picture,
+    // The anchor's orbit; for the Julia form that of its constant behind it.
+    places: array<Place>,
+}
 
-// Every entry point begins with `picture = given_picture`. Where all threads are still together,
+@group(0) @binding(0) var<storage, read> given: Given;
+
+// Every entry point begins with `picture = given.picture`. Where all threads are still together,
 // lavapipe reads a value once for all of them; past any branch, once for each, and again for each
 // use in a loop.
 var<private> picture: Picture;

@@ -75,21 +75,25 @@ impl Estimator {
 
     /// The estimated distance, and the step that a ray may take; see the module's head.
     pub fn reach(&self, point: DVec3) -> Reach {
-        let (added, dr_added) = match self.julia_constant {
-            Some(constant) => (constant, 0.0),
-            None => (point, 1.0),
-        };
-        let (mut z, mut r, mut dr, mut dg) = (point, point.length(), 1.0, 1.0);
+        let added = self.julia_constant.unwrap_or(point);
+        self.reach_along(PlainOrbit { z: point, added })
+    }
+
+    /// The same of a point that starts `orbit`.
+    pub(super) fn reach_along(&self, mut orbit: impl Orbit) -> Reach {
+        let dr_added = if self.julia_constant.is_some() { 0.0 } else { 1.0 };
+        let (mut r, mut dr, mut dg) = (orbit.z().length(), 1.0, 1.0);
         for _ in 0..self.iterations {
             if r > self.bailout {
                 break;
             }
+            let z = orbit.z();
             let (raised, growth) = (self.power.apply(z), self.power.growth(r));
             let sideways = self.power.sideways_growth(z, raised);
             dr = growth * dr + dr_added;
             dg = sideways.max(growth).min(SIDEWAYS_MAX * growth) * dg + dr_added;
-            z = raised + added;
-            r = z.length();
+            orbit.step(raised);
+            r = orbit.z().length();
         }
         if r <= 1.0 {
             return Reach { distance: 0.0, step: 0.0 };
@@ -109,6 +113,31 @@ impl Estimator {
     /// The radius of a sphere about the origin that holds the whole fractal; see [`bounding_radius`].
     pub fn bounding_radius(&self) -> f64 {
         self.bounding_radius
+    }
+}
+
+/// An orbit under way.
+pub(super) trait Orbit {
+    /// Where it is.
+    fn z(&self) -> DVec3;
+
+    /// Goes on from there: `raised` is zⁿ.
+    fn step(&mut self, raised: DVec3);
+}
+
+/// An orbit by its places themselves.
+struct PlainOrbit {
+    z: DVec3,
+    added: DVec3,
+}
+
+impl Orbit for PlainOrbit {
+    fn z(&self) -> DVec3 {
+        self.z
+    }
+
+    fn step(&mut self, raised: DVec3) {
+        self.z = raised + self.added;
     }
 }
 

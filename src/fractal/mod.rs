@@ -8,12 +8,15 @@
 //! |---|---|
 //! | [`power`] | zⁿ, without trigonometry where n is a whole number |
 //! | [`estimator`] | the distance estimate (thesis Algorithm 1), its safe step, the bounding sphere |
+//! | [`deep`] | the set about an anchor, at any depth: perturbation |
 //! | [`march`] | rays against any [`DistanceField`], normals, what lies under a pixel |
 
+pub mod deep;
 pub mod estimator;
 pub mod march;
 pub mod power;
 
+pub use deep::{DeepField, Reference};
 pub use estimator::Estimator;
 pub use march::{
     DEEP_FOOTPRINT, DistanceField, LEAST_STEP, MAX_MARCH_STEPS, PLAIN_FOOTPRINT, Ray, Reach,

@@ -14,12 +14,14 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Decodes the bytes of the buffers that `shaders/types/gbuffer.wgsl` declares.
-    pub fn decode(surface: &[u8], visibility: &[u8]) -> Self {
+    /// Decodes the bytes of the buffers that `shaders/types/gbuffer.wgsl` declares, whose depths are
+    /// in units of `scale` scene units.
+    pub fn decode(surface: &[u8], visibility: &[u8], scale: f64) -> Self {
+        let scaled = |depth: f32| (f64::from(depth) * scale) as f32;
         let word = |bytes: [u8; 4]| u32::from_le_bytes(bytes);
         let surface = surface.as_chunks::<4>().0.as_chunks::<2>().0;
         Self {
-            depth: surface.iter().map(|[depth, _]| f32::from_bits(word(*depth))).collect(),
+            depth: surface.iter().map(|[depth, _]| scaled(f32::from_bits(word(*depth)))).collect(),
             normal: surface.iter().map(|[_, normal]| octahedral_unpack(word(*normal))).collect(),
             visibility: visibility
                 .as_chunks::<8>()

@@ -14,7 +14,7 @@ use crate::{
 
 /// Values of a module's overrides, by their names; those left out stay open, and the passes read
 /// them from the picture.
-type Constants = Vec<(&'static str, f64)>;
+pub type Constants = Vec<(&'static str, f64)>;
 
 /// Makes one pipeline.
 fn pipeline(
@@ -91,6 +91,28 @@ pub struct Passes {
     pub sparse_tone: wgpu::ComputePipeline,
 }
 
+/// What rays and normals are specialised for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Form {
+    /// A whole power; 0 for others.
+    pub power: u32,
+    /// Whether they are for views that are drawn from an anchor.
+    pub is_deep: bool,
+}
+
+impl Form {
+    /// A picture's.
+    pub fn of(picture: &Picture) -> Self {
+        Self { power: picture.fractal.integer_power, is_deep: picture.fractal.places > 0 }
+    }
+
+    /// The overrides that make it.
+    pub fn constants(self) -> Constants {
+        let deep = self.is_deep.then_some(("DEEP", 1.0));
+        [("POWER", f64::from(self.power))].into_iter().chain(deep).collect()
+    }
+}
+
 /// What tone mapping is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ToneForm {
@@ -106,10 +128,10 @@ pub struct ToneForm {
 /// them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Extra {
-    /// Rays for a whole power.
-    Power(u32),
-    /// Normals of one kind, as the shaders count them, for a whole power.
-    Normals(u32, u32),
+    /// Rays of one form.
+    Rays(Form),
+    /// Normals of one kind, as the shaders count them, for one form.
+    Normals(Form, u32),
     /// Shading, with the picture of the surroundings behind all or without.
     Shade(bool),
     /// Tone mapping.
@@ -123,15 +145,15 @@ pub enum Extra {
 impl Extra {
     /// The special forms of a picture's passes.
     pub fn special(picture: &Picture) -> [Self; 4] {
-        let power = picture.fractal.integer_power;
+        let form = Form::of(picture);
         let tone = ToneForm {
             curve: picture.tone.curve,
             blooms: picture.bloom.strength > 0.0,
             is_anaglyph: picture.eyes.anaglyph != 0,
         };
         [
-            Self::Power(power),
-            Self::Normals(power, picture.normals),
+            Self::Rays(form),
+            Self::Normals(form, picture.normals),
             Self::Shade(picture.background.picture_gain > 0.0),
             Self::Tone(tone),
         ]
@@ -140,7 +162,9 @@ impl Extra {
     /// What they are for, in words that follow "Preparing".
     pub fn name(self) -> String {
         match self {
-            Self::Power(power) | Self::Normals(power, _) => format!("power {power}"),
+            Self::Rays(Form { is_deep: true, .. })
+            | Self::Normals(Form { is_deep: true, .. }, _) => "the deep zoom".to_owned(),
+            Self::Rays(form) | Self::Normals(form, _) => format!("power {}", form.power),
             Self::Shade(_) => "light".to_owned(),
             Self::Tone(_) => "tone mapping".to_owned(),
             Self::Gather => "indirect light".to_owned(),
@@ -151,7 +175,7 @@ impl Extra {
     /// How many pipelines they are.
     pub fn parts(self) -> usize {
         match self {
-            Self::Power(_) => 4,
+            Self::Rays(_) => 4,
             Self::Tone(_) | Self::Shade(_) => 2,
             Self::Normals(..) | Self::Gather => 1,
             Self::Glow => GlowKernels::PARTS.len(),
@@ -160,10 +184,12 @@ impl Extra {
 
     /// The overrides that one of its parts sets.
     fn constants(self, part: usize) -> Constants {
-        let power = |power: u32| ("POWER", f64::from(power));
         match self {
-            Self::Power(n) => vec![power(n)],
-            Self::Normals(n, kind) => vec![power(n), ("NORMALS", f64::from(kind))],
+            Self::Rays(form) => form.constants(),
+            Self::Normals(form, kind) => {
+                let kind = ("NORMALS", f64::from(kind));
+                form.constants().into_iter().chain([kind]).collect()
+            }
             Self::Shade(has_backdrop) => {
                 vec![("BACKDROP", f64::from(has_backdrop)), ("SINGLE", f64::from(part == 0))]
             }
@@ -317,12 +343,12 @@ impl Kernels {
 
     /// The fastest forms of a picture's passes that are ready.
     pub fn passes(&self, picture: &Picture) -> Passes {
-        let [power, normals, light, tone] = Extra::special(picture);
+        let [rays, normals, light, tone] = Extra::special(picture);
         Passes {
-            cone: self.cone.of(power, 0),
-            march: self.march.of(power, 1),
-            tube: self.tube.of(power, 2),
-            shadow: self.shadow.of(power, 3),
+            cone: self.cone.of(rays, 0),
+            march: self.march.of(rays, 1),
+            tube: self.tube.of(rays, 2),
+            shadow: self.shadow.of(rays, 3),
             normal: self.normal.of(normals, 0),
             shade: self.shade.of(light, 0),
             shade_together: self.shade.of(light, 1),
@@ -331,15 +357,16 @@ impl Kernels {
         }
     }
 
-    /// Whether [`Self::passes`] has rays for this power alone.
-    pub fn has_own(&self, integer_power: u32) -> bool {
-        locked(&self.march.made).contains_key(&(Extra::Power(integer_power), 1))
+    /// Whether [`Self::passes`] has rays of this form alone.
+    pub fn has_own(&self, form: Form) -> bool {
+        locked(&self.march.made).contains_key(&(Extra::Rays(form), 1))
     }
 
     /// Whether these can be used without delay.
     pub fn is_ready(&self, extra: Extra) -> bool {
         // Other powers have the general forms only.
-        matches!(extra, Extra::Power(0) | Extra::Normals(0, _))
+        let general = Form { power: 0, is_deep: false };
+        matches!(extra, Extra::Rays(form) | Extra::Normals(form, _) if form == general)
             || locked(&self.ready).contains(&extra)
     }
 
@@ -361,7 +388,7 @@ impl Kernels {
     /// The passes that an extra has special forms of, in the order of its parts.
     fn special(&self, extra: Extra) -> Vec<&Special> {
         match extra {
-            Extra::Power(_) => vec![&self.cone, &self.march, &self.tube, &self.shadow],
+            Extra::Rays(_) => vec![&self.cone, &self.march, &self.tube, &self.shadow],
             Extra::Normals(..) => vec![&self.normal],
             Extra::Shade(_) => vec![&self.shade, &self.shade],
             Extra::Tone(_) => vec![&self.tone, &self.tone],

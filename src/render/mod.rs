@@ -13,6 +13,8 @@
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
+//! | `anchors` | the anchors of a view that moves |
+//! | [`datum`] | where coordinates begin, and their unit |
 //! | [`lists`] | which threads a pass has work for |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
@@ -21,8 +23,10 @@
 //! | `watch` | the film's histogram on its way to the interface |
 //! | [`report`] | what a view says of itself |
 
+mod anchors;
 pub mod around;
 pub mod backdrop;
+pub mod datum;
 mod filling;
 pub mod frame;
 pub mod gbuffer;

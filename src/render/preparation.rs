@@ -144,7 +144,7 @@ fn rehearse(
     };
     let show = |level: u32| Work::Show { level, fill: false, film: false, adapt: 1.0 };
     let work = match extra {
-        Extra::Power(_) | Extra::Normals(..) => vec![trace(Points::Level(0), Stage::March)],
+        Extra::Rays(_) | Extra::Normals(..) => vec![trace(Points::Level(0), Stage::March)],
         // Of single samples, and of some together.
         Extra::Shade(_) => [Points::Level(0), Points::Samples { first: 1, count: 2 }]
             .map(|points| trace(points, Stage::Shade))

@@ -26,6 +26,7 @@ pub struct PixelSample {
 pub struct SamplesReadback {
     film: [Arrival; 2],
     surface: Arrival,
+    scale: f64,
 }
 
 /// A buffer on its way, or there.
@@ -50,18 +51,19 @@ impl Arrival {
 }
 
 impl SamplesReadback {
-    /// Starts to copy the film's two halves, and depth and normal of the centre samples.
-    pub fn new(gpu: &Gpu, film: [&wgpu::Buffer; 2], surface: &wgpu::Buffer) -> Self {
+    /// Starts to copy the film's two halves, and depth, in units of `scale` scene units, and normal
+    /// of the centre samples.
+    pub fn new(gpu: &Gpu, film: [&wgpu::Buffer; 2], surface: &wgpu::Buffer, scale: f64) -> Self {
         let read = |buffer| Arrival::Awaited(Readback::buffer(gpu, buffer));
-        Self { film: film.map(read), surface: read(surface) }
+        Self { film: film.map(read), surface: read(surface), scale }
     }
 
     /// Every pixel, rows from the upper edge, once all has arrived; none before.
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<PixelSample>>, ReadbackError> {
-        let Self { film: [rg, bw], surface } = self;
+        let Self { film: [rg, bw], surface, scale } = self;
         let all = [rg.look(gpu)?, bw.look(gpu)?, surface.look(gpu)?];
         let [Some(rg), Some(bw), Some(surface)] = all else { return Ok(None) };
-        let surface = Samples::decode(surface, &[]);
+        let surface = Samples::decode(surface, &[], *scale);
         let points = surface.depth.into_iter().zip(surface.normal);
         let pixels = means(rg, bw).zip(points);
         Ok(Some(

@@ -16,7 +16,7 @@ use super::{
     pass,
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
-    uniforms::{self, GRADIENT_ENTRIES, Light, Picture, Slice},
+    uniforms::{self, GRADIENT_ENTRIES, Light, PLACES_BYTES, Picture, Slice},
 };
 use crate::scene::MAX_LIGHTS;
 
@@ -91,7 +91,7 @@ impl Targets {
         let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
-        let picture = storage(device, "picture", size_of::<Picture>() as u64);
+        let picture = storage(device, "picture", size_of::<Picture>() as u64 + PLACES_BYTES);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
         let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
         let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
@@ -185,6 +185,8 @@ impl Targets {
     /// Uploads a picture's uniforms.
     pub fn upload(&self, queue: &wgpu::Queue, inputs: &uniforms::Inputs) {
         queue.write_buffer(&self.picture, 0, bytemuck::bytes_of(&inputs.picture));
+        let places = bytemuck::cast_slice(&inputs.places);
+        queue.write_buffer(&self.picture, size_of::<Picture>() as u64, places);
         queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(&inputs.lights));
         queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));
     }

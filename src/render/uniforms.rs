@@ -4,18 +4,22 @@
 //! by field, with its twin in `shaders/types/`.
 
 mod background;
+mod depth;
 mod lights;
 mod shared;
+
+use std::sync::Arc;
 
 use bytemuck::Zeroable;
 use glam::DVec3;
 
+pub use depth::PLACES_BYTES;
 pub use lights::lights;
 pub use shared::*;
 
-use super::{Region, region::Eyes as RegionEyes, schedule::Stale};
+use super::{Region, datum::Datum, region::Eyes as RegionEyes, schedule::Stale};
 use crate::{
-    fractal::{Estimator, estimator::SIDEWAYS_MAX, pixel_cone},
+    fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
         self, BloomOrder, ColorSource, IndirectKind, MAX_LIGHTS, Normals, Panorama, Scene,
         ToneChannels, ToneCurve, ToneMean, Variant, color,
@@ -39,15 +43,20 @@ const SHADOW_STEPS: u32 = 320;
 const FINEST_HIT: f32 = 4e-7;
 
 impl Picture {
-    /// The scene as it is seen in `region`.
+    /// The scene as it is seen in `region`, in coordinates that are found for it.
     pub fn new(scene: &Scene, region: Region) -> Self {
+        Self::about(scene, region, &Datum::of(scene, region))
+    }
+
+    /// The same in coordinates that are at hand.
+    pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
         let height = f64::from(region.picture_px[1]);
         let camera = &scene.camera;
         let rotation = camera.rotation();
         let aspect = region.aspect();
         Self {
             camera: Camera {
-                origin: camera.position.to_dvec3().as_vec3().to_array(),
+                origin: datum.point(&camera.position).as_vec3().to_array(),
                 half_height: camera.half_height(aspect) as f32,
                 right: (rotation * DVec3::X).as_vec3().to_array(),
                 aspect: aspect as f32,
@@ -56,8 +65,9 @@ impl Picture {
                 forward: camera.forward().as_vec3().to_array(),
                 unused: 0,
             },
-            eyes: eyes(camera, region),
-            fractal: fractal(scene),
+            eyes: eyes(camera, region, datum),
+            fractal: fractal(scene, region, datum),
+            skip: depth::skip(datum),
             surface: surface(scene),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
@@ -126,7 +136,7 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
 }
 
 /// Which eyes a region shows.
-fn eyes(camera: &crate::scene::Camera, region: Region) -> Eyes {
+fn eyes(camera: &scene::Camera, region: Region, datum: &Datum) -> Eyes {
     let stereo = &camera.stereo;
     // Where the eyes change places, the left one's picture comes from the right.
     let left = if stereo.swap_eyes { 1.0 } else { -1.0 };
@@ -148,7 +158,7 @@ fn eyes(camera: &crate::scene::Camera, region: Region) -> Eyes {
             | RegionEyes::Anaglyph
             | RegionEyes::WideAnaglyph => left,
         },
-        half_separation: (half_shift * camera.view_unit()) as f32,
+        half_separation: (half_shift * camera.view_unit() / datum.scale()) as f32,
         half_shift: half_shift as f32,
         share: region.eyes.on_sheet().map(|eyes| 1.0 / eyes as f32),
         first_place: if region.eyes == RegionEyes::Right { 1.0 } else { 0.0 },
@@ -157,8 +167,11 @@ fn eyes(camera: &crate::scene::Camera, region: Region) -> Eyes {
     }
 }
 
-fn fractal(scene: &Scene) -> Fractal {
+fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
     let set = &scene.fractal;
+    let iterations = deep::iterations_for(set, datum.footprint(scene, region));
+    let reference = datum.reference();
+    let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
     let estimator = Estimator::new(set);
     // The next derivative is at most so many times this one, plus one.
     let stretch_max = SIDEWAYS_MAX * set.power * set.bailout.powf(set.power - 1.0);
@@ -166,7 +179,7 @@ fn fractal(scene: &Scene) -> Fractal {
         julia_constant: set.julia_constant.map(|v| v as f32),
         power: set.power as f32,
         integer_power: set.integer_power().unwrap_or(0),
-        iterations: set.iterations,
+        iterations,
         bailout: set.bailout as f32,
         bounding_radius: estimator.bounding_radius() as f32,
         julia: u32::from(set.julia),
@@ -174,12 +187,18 @@ fn fractal(scene: &Scene) -> Fractal {
             Variant::PositiveSine => 1.0,
             Variant::NegativeSine => -1.0,
         },
-        max_step: estimator.max_step().min(1e30) as f32,
+        max_step: (estimator.max_step() / datum.scale()).min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
-        march_steps: MARCH_STEPS.min(LOOP_TURNS / (set.iterations + 1)),
-        shadow_steps: shadow_steps(set.iterations),
+        march_steps: MARCH_STEPS.min(LOOP_TURNS / (iterations + 1)),
+        shadow_steps: shadow_steps(iterations),
         finest_hit: FINEST_HIT,
         log2_bailout: set.bailout.log2() as f32,
+        anchor: anchor.as_vec3().to_array(),
+        scale: datum.scale() as f32,
+        places: reference.map_or(0, |reference| reference.places().len() as u32),
+        own_places: reference.map_or(0, |reference| reference.own_places() as u32),
+        restart: reference.map_or(0, |reference| reference.restart() as u32),
+        unused: 0,
     }
 }
 
@@ -215,17 +234,25 @@ pub struct Inputs {
     pub lights: [Light; MAX_LIGHTS],
     /// The surface's gradient: linear Rec. 709, closed on itself.
     pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
+    /// The anchor's orbit; one place that means nothing where there is none.
+    pub places: Arc<[Place]>,
     /// The [`Panorama::id`] of the picture of the surroundings, where it is shown.
     pub panorama: Option<u64>,
 }
 
 impl Inputs {
-    /// The scene as it is seen in `region`.
+    /// The scene as it is seen in `region`, in coordinates that are found for it.
     pub fn new(scene: &Scene, region: Region) -> Self {
+        Self::about(scene, region, &Datum::of(scene, region))
+    }
+
+    /// The same in coordinates that are at hand.
+    pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
         Self {
-            picture: Picture::new(scene, region),
-            lights: lights(scene),
+            picture: Picture::about(scene, region, datum),
+            lights: lights(scene, datum),
             gradient: color::gradient_lut(&scene.surface.gradient),
+            places: depth::places(datum),
             panorama: None,
         }
     }
@@ -295,6 +322,7 @@ impl Inputs {
         let same_geometry = new_picture.camera == old_picture.camera
             && new_picture.eyes == old_picture.eyes
             && new_picture.fractal == old_picture.fractal
+            && self.places == old.places
             && new_picture.picture_px == old_picture.picture_px
             && new_picture.origin_px == old_picture.origin_px
             && new_picture.size_px == old_picture.size_px;

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use super::{
+    anchors::Anchors,
     around::Neighbours,
     backdrop::Backdrop,
+    datum::{self, Datum},
     filling::Filling,
     frame::{self, Dispatches, Recorder},
     glow::{Glow, Need, Tasks},
-    kernels::Kernels,
+    kernels::{Form, Kernels},
     memory::Memory,
     preparation::Preparation,
     region::Region,
@@ -41,6 +43,11 @@ pub struct View {
     kernels: Arc<Kernels>,
     region: Region,
     pace: Pace,
+    anchors: Anchors,
+    /// Where the coordinates of the scene begin.
+    datum: Datum,
+    /// It was found for this region.
+    is_datum_current: bool,
     targets: Targets,
     schedule: Schedule,
     stopwatch: Stopwatch<Work>,
@@ -82,6 +89,9 @@ impl View {
             kernels: kernels.clone(),
             region,
             pace,
+            anchors: Anchors::default(),
+            datum: Datum::plain(),
+            is_datum_current: false,
             targets: Targets::new(kernels, region),
             schedule: Schedule::new(pace, region.film_px()),
             stopwatch: Stopwatch::default(),
@@ -132,8 +142,14 @@ impl View {
         self.known = Known::default();
         self.region = region;
         self.schedule.resize(region.film_px());
-        if let Some(scene) = &self.scene {
+        let Some(scene) = &self.scene else { return };
+        if datum::wants_anchor(scene, region) == self.datum.reference().is_some() {
             self.upload(self.inputs_of(scene));
+        } else {
+            // Other pixels want other coordinates.
+            self.is_datum_current = false;
+            self.pending = self.pending.take().or_else(|| self.scene.clone());
+            self.inputs = None;
         }
     }
 
@@ -173,8 +189,12 @@ impl View {
         self.now_secs = now_secs;
         self.collect();
         if self.inputs.is_none() {
-            let Some(scene) = self.pending.take() else { return false };
-            self.apply(scene);
+            if self.pending.is_none() {
+                return false;
+            }
+            if !self.look() {
+                return true;
+            }
         }
         if self.prepare() {
             // What is prepared for later takes nothing of the time that a picture took.
@@ -183,10 +203,9 @@ impl View {
             }
             return true;
         }
-        if self.schedule.accepts_changes()
-            && let Some(scene) = self.pending.take()
-        {
-            self.apply(scene);
+        // What it shows may want other pipelines.
+        if self.schedule.accepts_changes() && self.look() && self.prepare() {
+            return true;
         }
         self.schedule.set_arithmetic(self.arithmetic());
         while let Some(work) = self.schedule.next(now_secs) {
@@ -221,6 +240,25 @@ impl View {
         }
     }
 
+    /// Takes the scene that came last, if any, and if its coordinates are known.
+    fn look(&mut self) -> bool {
+        let Some(scene) = self.pending.take() else { return false };
+        // What no ray sees changes no coordinates either: an anchor found since can wait.
+        let is_same_view = self.scene.as_ref().is_some_and(|old| {
+            old.camera == scene.camera && old.fractal == scene.fractal && self.is_datum_current
+        });
+        if !is_same_view {
+            let Some(datum) = self.anchors.datum(&scene, self.region, self.pace) else {
+                self.pending = Some(scene);
+                return false;
+            };
+            self.datum = datum;
+            self.is_datum_current = true;
+        }
+        self.apply(scene);
+        true
+    }
+
     /// Uploads a new scene and tells the schedule what it made stale.
     fn apply(&mut self, scene: Scene) {
         let inputs = self.inputs_of(&scene);
@@ -243,7 +281,7 @@ impl View {
 
     /// The scene as this view's passes read it.
     fn inputs_of(&self, scene: &Scene) -> Inputs {
-        Inputs::new(scene, self.region)
+        Inputs::about(scene, self.region, &self.datum)
             .with_panorama(scene, self.panorama.as_deref())
             .with_neighbours(self.lent_neighbours.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
@@ -298,11 +336,10 @@ impl View {
 
     /// What powers are raised by.
     fn arithmetic(&self) -> Arithmetic {
-        let power = self.inputs.as_ref().map_or(0, |inputs| inputs.picture.fractal.integer_power);
-        match power {
-            0 => Arithmetic::Real,
-            power if self.kernels.has_own(power) => Arithmetic::Special,
-            _ => Arithmetic::Whole,
+        match self.inputs.as_ref().map(|inputs| Form::of(&inputs.picture)) {
+            None | Some(Form { power: 0, .. }) => Arithmetic::Real,
+            Some(form) if self.kernels.has_own(form) => Arithmetic::Special,
+            Some(_) => Arithmetic::Whole,
         }
     }
 
@@ -448,7 +485,7 @@ impl View {
     pub fn read_samples(&self) -> SamplesReadback {
         let Targets { film_rg, film_bw, center, .. } = &self.targets;
         let film = [film_rg, film_bw];
-        SamplesReadback::new(&self.kernels.gpu, film, &center.surface)
+        SamplesReadback::new(&self.kernels.gpu, film, &center.surface, self.datum.scale())
     }
 
     /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.
@@ -456,7 +493,8 @@ impl View {
         let gpu = &self.kernels.gpu;
         let center = &self.targets.center;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
-        Ok(super::gbuffer::Samples::decode(&read(&center.surface)?, &read(&center.visibility)?))
+        let (surface, visibility) = (read(&center.surface)?, read(&center.visibility)?);
+        Ok(super::gbuffer::Samples::decode(&surface, &visibility, self.datum.scale()))
     }
 }
 

@@ -6,7 +6,7 @@
 
 use std::{fmt, ops::Sub, str::FromStr};
 
-use dashu_float::DBig;
+use dashu_float::{DBig, FBig, round::mode};
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
@@ -41,6 +41,12 @@ impl Precise {
     /// The nearest f64.
     pub fn to_f64(&self) -> f64 {
         nearest_f64(&self.0)
+    }
+
+    /// The nearest binary number of so many bits that is not farther from zero.
+    pub fn to_binary(&self, bits: usize) -> FBig<mode::Zero, 2> {
+        let number = self.0.clone().with_rounding::<mode::Zero>();
+        number.with_base_and_precision::<2>(bits).value()
     }
 
     /// `self + delta`, rounded to a decimal place no coarser than `grain` (both in scene

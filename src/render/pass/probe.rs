@@ -9,7 +9,7 @@ use crate::{
         readback::{Readback, ReadbackError},
         shader::Module,
     },
-    render::{Region, uniforms::Picture},
+    render::{Eyes, Region, datum::Datum, kernels::Form, uniforms::Inputs},
     scene::Scene,
     shader_file,
 };
@@ -21,6 +21,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
+        shader_file!("formula/deep.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("pass/probe.wgsl"),
     ],
@@ -51,26 +52,50 @@ pub fn ask(
     points: &[DVec3],
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
+    let inputs = Inputs::about(scene, REGION, &Datum::plain());
+    let power = if specialised { inputs.picture.fractal.integer_power } else { 0 };
+    ask_form(gpu, &inputs, points, Form { power, is_deep: false })
+}
+
+/// The same about points that are given by their offsets from the anchor of `datum`, in its units,
+/// as the answers are.
+pub fn ask_about(
+    gpu: &Gpu,
+    scene: &Scene,
+    datum: &Datum,
+    offsets: &[DVec3],
+) -> Result<Vec<Answer>, ReadbackError> {
+    let inputs = Inputs::about(scene, REGION, datum);
+    ask_form(gpu, &inputs, offsets, Form::of(&inputs.picture))
+}
+
+/// Any will do.
+const REGION: Region =
+    Region { picture_px: [64; 2], origin_px: [0; 2], size_px: [64; 2], eyes: Eyes::Camera };
+
+fn ask_form(
+    gpu: &Gpu,
+    inputs: &Inputs,
+    points: &[DVec3],
+    form: Form,
+) -> Result<Vec<Answer>, ReadbackError> {
     let device = &gpu.device;
-    let power = if specialised { scene.fractal.integer_power().unwrap_or(0) } else { 0 };
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(MODULE.label),
         layout: None,
         module: &MODULE.create(device),
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &[("POWER", f64::from(power))],
+            constants: &form.constants(),
             ..Default::default()
         },
         cache: None,
     });
-    let inputs: Vec<[f32; 4]> = points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
-    let picture = filled(
-        gpu,
-        wgpu::BufferUsages::STORAGE,
-        bytemuck::bytes_of(&Picture::new(scene, Region::whole([64, 64]))),
-    );
-    let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&inputs));
+    let questions: Vec<[f32; 4]> =
+        points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
+    let given = [bytemuck::bytes_of(&inputs.picture), bytemuck::cast_slice(&inputs.places)];
+    let picture = filled(gpu, wgpu::BufferUsages::STORAGE, &given.concat());
+    let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&questions));
     let answers = filled(
         gpu,
         wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,

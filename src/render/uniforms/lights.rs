@@ -4,11 +4,18 @@ use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 
 use super::Light;
-use crate::scene::{LightFrame, MAX_LIGHTS, Scene};
+use crate::{
+    render::datum::Datum,
+    scene::{LightFrame, MAX_LIGHTS, Scene},
+};
+
+/// So many views away a point light is as good as one from its direction: across the view its own
+/// changes by less than a pixel, and its strength by less than a display shows.
+const FAR_VIEWS: f64 = 1e6;
 
 /// The scene's lights: environment, then point lights, then the rig's, each with the visibility bit
 /// of its place. Muted ones stay, in black.
-pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
+pub fn lights(scene: &Scene, datum: &Datum) -> [Light; MAX_LIGHTS] {
     let any_solo = scene.lights.any_solo();
     let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
         let shines = !muted && (solo || !any_solo);
@@ -16,7 +23,7 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
         [r * strength, g * strength, b * strength]
     };
     let casts = |wanted: bool| u32::from(wanted && scene.quality.shadows);
-    let view_unit = scene.camera.view_unit();
+    let view_unit = scene.camera.view_unit() / datum.scale();
     let in_world = |frame: LightFrame, direction: DVec3| {
         let direction = match frame {
             LightFrame::Scene => direction,
@@ -37,13 +44,22 @@ pub fn lights(scene: &Scene) -> [Light; MAX_LIGHTS] {
         }
     });
     let point = scene.lights.point.iter().map(|light| {
-        let radiance = color(light.color, light.intensity, light.muted, light.solo);
+        let place = datum.point(&light.position);
+        let way = place - datum.point(&scene.camera.position);
+        let casts_shadows = casts(light.casts_shadows);
+        // In scene units the square of a distance may be past what an f32 holds.
+        let (vector, kind, falls) = if way.length() > FAR_VIEWS {
+            (way.normalize_or(DVec3::Z), 0, way.length_squared())
+        } else {
+            (place, 1, 1.0)
+        };
+        let strength = light.intensity / (datum.scale() * datum.scale()) / falls;
         Light {
-            vector: light.position.to_dvec3().as_vec3().to_array(),
-            kind: 1,
-            color: radiance,
-            casts_shadows: casts(light.casts_shadows),
-            shadow_reach: 1e30,
+            vector: vector.as_vec3().to_array(),
+            kind,
+            color: color(light.color, strength.min(1e30), light.muted, light.solo),
+            casts_shadows,
+            shadow_reach: if kind == 0 { way.length().min(1e30) as f32 } else { 1e30 },
             ..Light::zeroed()
         }
     });

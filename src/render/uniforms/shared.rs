@@ -118,6 +118,77 @@ host_shared! {
         finest_hit: f32,
         /// Binary logarithm of the bailout.
         log2_bailout: f32,
+        /// Where coordinates begin, scene units.
+        anchor: [f32; 3],
+        /// Their unit, scene units.
+        scale: f32,
+        /// Places of the reference; 0 without an anchor.
+        places: u32,
+        /// How many of them are the anchor's own.
+        own_places: u32,
+        /// The one that orbits start anew from.
+        restart: u32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused: u32,
+    }
+    /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::skip`].
+    Skip {
+        /// First derivatives of the difference by the offset.
+        along_x: [f32; 3],
+        /// How far from the anchor points may be; below 0 nothing is skipped.
+        radius: f32,
+        /// As above.
+        along_y: [f32; 3],
+        /// How many steps.
+        steps: u32,
+        /// As above.
+        along_z: [f32; 3],
+        /// dr at the anchor, one over the scale.
+        derivative: f32,
+        /// Second derivatives.
+        along_xx: [f32; 3],
+        /// dg over dr at the anchor.
+        careful: f32,
+        /// As above.
+        along_yy: [f32; 3],
+        /// A vector's alignment is 16 bytes.
+        unused_a: u32,
+        /// As above.
+        along_zz: [f32; 3],
+        /// The same.
+        unused_b: u32,
+        /// As above.
+        along_xy: [f32; 3],
+        /// The same.
+        unused_c: u32,
+        /// As above.
+        along_yz: [f32; 3],
+        /// The same.
+        unused_d: u32,
+        /// As above.
+        along_zx: [f32; 3],
+        /// The same.
+        unused_e: u32,
+        /// First derivatives of dr.
+        derivative_gradient: [f32; 3],
+        /// The same.
+        unused_f: u32,
+        /// Squares of the least distances of the skipped places from the origin, the z axis and
+        /// the plane z = 0.
+        traps_squared: [f32; 3],
+        /// The same.
+        unused_g: u32,
+    }
+    /// A place of the anchor's orbit.
+    Place {
+        /// z.
+        z: [f32; 3],
+        /// |x + iy|.
+        rho: f32,
+        /// (x + iy)/ρ.
+        rotor: [f32; 2],
+        /// Keeps the size a multiple of 16 bytes.
+        unused: [u32; 2],
     }
     /// Blinn-Phong terms and colouring.
     Surface {
@@ -203,6 +274,8 @@ host_shared! {
         eyes: Eyes,
         /// The set.
         fractal: Fractal,
+        /// What orbits near the anchor skip.
+        skip: Skip,
         /// The surface.
         surface: Surface,
         /// Indirect light.

@@ -46,7 +46,15 @@ impl View {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
         let gathers = scene.indirect.kind != IndirectKind::Off;
         let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
+        // There is no general form of what is drawn from an anchor.
+        let deep = self.inputs.as_ref().filter(|inputs| inputs.picture.fractal.places > 0);
+        let [rays, normals, ..] = match deep {
+            Some(inputs) => Extra::special(&inputs.picture).map(Some),
+            None => [None; 4],
+        };
         let awaited = [
+            rays,
+            normals,
             gathers.then_some(Extra::Gather),
             (glows || self.watch.is_wanted()).then_some(Extra::Glow),
         ];

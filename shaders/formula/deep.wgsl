@@ -1,0 +1,151 @@
+// Orbits by their difference to the anchor's: what f32 can follow at any depth. Host twin, with the
+// equations: `fractal::deep`.
+//
+// Points are offsets from the anchor in units of the scale s, and so are distances; derivatives are
+// in units of 1 / s, so that nothing overflows.
+
+// Whether this pipeline is for views that are drawn from an anchor.
+override DEEP: bool = false;
+
+// A difference is followed by itself while it is smaller than this part of the place:
+// `fractal::deep::CLOSE`.
+const CLOSE = 0.03;
+
+// An orbit under way.
+struct Walk {
+    // Where it is.
+    z: vec3f,
+    // How many steps it has gone.
+    count: u32,
+    // Its difference to a place of the reference, and which place that is. Of deep views only.
+    difference: vec3f,
+    place: u32,
+}
+
+// Its first steps at once where the point is near enough to the anchor.
+fn is_skipped(point: vec3f) -> bool {
+    return DEEP && dot(point, point) <= picture.skip.radius * picture.skip.radius;
+}
+
+fn skipped_walk(point: vec3f) -> Walk {
+    let skip = picture.skip;
+    let squares = point * point;
+    let products = point * point.yzx;
+    let along = mat3x3f(skip.along_x, skip.along_y, skip.along_z) * point;
+    let pure = mat3x3f(skip.along_xx, skip.along_yy, skip.along_zz) * squares;
+    let mixed = mat3x3f(skip.along_xy, skip.along_yz, skip.along_zx) * products;
+    let difference = along + (0.5 * pure + mixed);
+    return Walk(given.places[skip.steps].z + difference, skip.steps, difference, skip.steps);
+}
+
+// The derivative after those steps.
+fn skipped_derivative(point: vec3f) -> f32 {
+    return picture.skip.derivative + dot(picture.skip.derivative_gradient, point);
+}
+
+// Whether the next step is one of the difference.
+fn is_close(walk: Walk, q: Squares) -> bool {
+    let next = walk.place + 1u;
+    let goes_on = (next != picture.fractal.own_places) & (next < picture.fractal.places);
+    // Squares of tiny differences are 0, which is what they are meant to be here.
+    return goes_on & (dot(walk.difference, walk.difference) < CLOSE * CLOSE * q.s);
+}
+
+// A complex number and how another differs from it.
+struct Pair {
+    value: vec2f,
+    difference: vec2f,
+}
+
+fn pair_square(v: Pair) -> Pair {
+    return Pair(
+        complex_square(v.value),
+        complex_product(v.difference, v.value + v.value + v.difference),
+    );
+}
+
+fn pair_product(v: Pair, w: Pair) -> Pair {
+    return Pair(
+        complex_product(v.value, w.value),
+        complex_product(v.difference, w.value) + complex_product(v.value + v.difference, w.difference),
+    );
+}
+
+fn pair_power_bit(v: Pair, w: Pair, bit: u32) -> Pair {
+    let squared = pair_square(v);
+    if (bit != 0u) { return pair_product(squared, w); }
+    return squared;
+}
+
+// w^n for n from 1 to 16.
+fn pair_power(w: Pair, n: u32) -> Pair {
+    var v = w;
+    if (n >= 16u) { v = pair_square(v); }
+    if (n >= 8u) { v = pair_power_bit(v, w, n & 4u); }
+    if (n >= 4u) { v = pair_power_bit(v, w, n & 2u); }
+    if (n >= 2u) { v = pair_power_bit(v, w, n & 1u); }
+    return v;
+}
+
+// |v|, also where its square is too small for an f32.
+fn length_of(v: vec2f) -> f32 {
+    let is_tiny = max(abs(v.x), abs(v.y)) < 1e-15;
+    let up = select(1.0, 1e18, is_tiny);
+    let down = select(1.0, 1e-18, is_tiny);
+    return length(up * v) * down;
+}
+
+// One step of the difference; what derivatives are made of comes with it, and `power` is the
+// difference of z^n.
+fn raised_close(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
+    let place = given.places[walk.place];
+    let aside = walk.difference.xy;
+    let rho = length_of(walk.z.xy);
+    let inverse_rho = 1.0 / max(rho, 1e-37);
+    let inverse_sum = 1.0 / max(rho + place.rho, 1e-37);
+    let along = dot(place.rotor, aside);
+    let d_rho = 2.0 * (place.rho * inverse_sum) * along + dot(aside, inverse_sum * aside);
+    // On the axis the rotor is 1.
+    let turned = inverse_rho * (aside - d_rho * place.rotor);
+    let d_rotor = select(vec2f(1.0, 0.0) - place.rotor, turned, rho > 0.0);
+    let w = pair_power(Pair(vec2f(place.rho, place.z.z), vec2f(d_rho, walk.difference.z)), POWER);
+    let u = pair_power(Pair(place.rotor, d_rotor), POWER);
+    let wn = w.value + w.difference;
+    let un = u.value + u.difference;
+    let across = w.value.x * u.difference + w.difference.x * un;
+    let power = vec3f(across, fractal.z_sign * w.difference.y);
+    let stretch = stretch_whole(fractal, q);
+    return Raised(power, stretch, fractal.power * inverse_rho * wn.x, un, wn);
+}
+
+// Goes on by such a step.
+fn step_close(walk: ptr<function, Walk>, step: Raised, orbit: Orbit) {
+    (*walk).place += 1u;
+    (*walk).count += 1u;
+    (*walk).difference = step.power + orbit.added;
+    (*walk).z = given.places[(*walk).place].z + (*walk).difference;
+}
+
+// Goes on from z^n: its difference to where orbits start anew (rebasing).
+fn step_anew(walk: ptr<function, Walk>, power: vec3f, orbit: Orbit) {
+    (*walk).place = picture.fractal.restart;
+    (*walk).count += 1u;
+    (*walk).difference = power + orbit.added;
+    (*walk).z = orbit.constant + (*walk).difference;
+}
+
+// The tangent behind the steps that are skipped.
+fn skipped_tangent(orbit: Orbit, point: vec3f) -> Tangent {
+    let skip = picture.skip;
+    let inverse = 1.0 / skipped_derivative(point);
+    let jacobian = mat3x3f(
+        skip.along_x + point.x * skip.along_xx + point.y * skip.along_xy + point.z * skip.along_zx,
+        skip.along_y + point.y * skip.along_yy + point.z * skip.along_yz + point.x * skip.along_xy,
+        skip.along_z + point.z * skip.along_zz + point.x * skip.along_zx + point.y * skip.along_yz,
+    );
+    return Tangent(
+        inverse * jacobian,
+        (inverse * inverse) * skip.derivative_gradient,
+        inverse * orbit.constant_derivative,
+    );
+}

@@ -1,0 +1,56 @@
+//! One step of the difference between two orbits, without ever forming either: what f64 and f32
+//! can follow at any depth.
+//!
+//! For a place Z = (X, Y, Z₃) of the reference, with ρ, u and w = ρ + iZ₃, and a difference
+//! δ = (a, b, c) to it:
+//! `ρ' = |X + a, Y + b|`, `dρ = (2(Xa + Yb) + a² + b²)/(ρ' + ρ)`, `dw = dρ + ic`,
+//! `du = (a + ib − u·dρ)/ρ'`; powers by `d(PQ) = dP·Q + (P + dP)·dQ`, and
+//! `dz = (d(Re wⁿ·Re uⁿ), d(Re wⁿ·Im uⁿ), d(Im wⁿ))`.
+
+use glam::{DVec2, DVec3};
+
+use super::orbit::Place;
+
+/// The difference of the n-th powers of `place` and of the point that is `delta` away from it, for
+/// the variant with sine sign `sine_sign`.
+pub fn raised(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
+    let (at, aside) = (place.z.truncate(), delta.truncate());
+    let rho = (at + aside).length();
+    let d_rho = (2.0 * at.dot(aside) + aside.length_squared()) / (rho + place.rho).max(1e-300);
+    let d_rotor = if rho > 0.0 {
+        (aside - place.rotor * d_rho) / rho
+    } else {
+        // On the axis the rotor is 1.
+        DVec2::X - place.rotor
+    };
+    let w = complex_power(DVec2::new(place.rho, place.z.z), DVec2::new(d_rho, delta.z), n);
+    let u = complex_power(place.rotor, d_rotor, n);
+    let across = u.difference * w.value.x + (u.value + u.difference) * w.difference.x;
+    DVec3::new(across.x, across.y, sine_sign * w.difference.y)
+}
+
+/// A complex number and how another differs from it.
+#[derive(Clone, Copy)]
+struct Pair {
+    value: DVec2,
+    difference: DVec2,
+}
+
+impl Pair {
+    fn times(self, other: Self) -> Self {
+        Self {
+            value: self.value.rotate(other.value),
+            difference: self.difference.rotate(other.value)
+                + (self.value + self.difference).rotate(other.difference),
+        }
+    }
+}
+
+/// By squaring, from the exponent's highest bit down.
+fn complex_power(value: DVec2, difference: DVec2, n: u32) -> Pair {
+    let base = Pair { value, difference };
+    (0..n.ilog2()).rev().fold(base, |power, bit| {
+        let squared = power.times(power);
+        if n >> bit & 1 == 1 { squared.times(base) } else { squared }
+    })
+}

@@ -1,0 +1,55 @@
+//! The fractal near one of its points, at any depth: everything is measured from an anchor.
+//!
+//! An f64 places a point to 10⁻¹⁶ of the scene's unit, an f32 to 10⁻⁷. The difference of two points'
+//! orbits can be followed much closer than that ([`difference`]), as long as one of the orbits, the
+//! reference, is known to enough digits ([`orbit`]). The idea is K. I. Martin's, "Superfractalthing
+//! maths" (2013), for the Mandelbrot set. Where the difference has grown as large as the orbit, it
+//! starts anew from the orbit's own beginning (rebasing), so that no point needs another reference.
+//!
+//! | file | what lives there |
+//! |---|---|
+//! | [`orbit`] | reference orbits, to 256 bits |
+//! | [`difference`] | one step of the difference between two orbits |
+//! | [`jet`] | numbers with first and second derivatives |
+//! | [`skip`] | the first steps of all orbits of a view at once |
+//! | [`reference`] | an anchor with its orbit, and the distance field about it |
+//! | [`search`] | the anchor of a view |
+
+pub mod difference;
+pub mod jet;
+pub mod orbit;
+pub mod reference;
+pub mod search;
+pub mod skip;
+
+pub use orbit::Place;
+pub use reference::{CLOSE, DeepField, Reference};
+pub use search::Search;
+pub use skip::Skip;
+
+use crate::scene::Fractal;
+
+/// Views whose pixels are smaller than this at the nearest surface, in scene units, are drawn from
+/// an anchor where that can be: coarser ones f32 draws as well.
+pub const COARSEST_FOOTPRINT: f64 = 2e-6;
+/// The finest pixel at the nearest surface, in scene units: below, f32 has no exponents left.
+pub const FINEST_FOOTPRINT: f64 = 1e-30;
+
+/// A footprint whose view needs no more iterations than the scene says, in scene units.
+const WHOLE_FOOTPRINT: f64 = 1e-3;
+
+/// Whether a set can be drawn from an anchor: whole powers only.
+pub fn has_depth(fractal: &Fractal) -> bool {
+    fractal.integer_power().is_some()
+}
+
+/// Iterations of a view whose pixels have this radius at the nearest surface, in scene units: the
+/// scene's own number, and as many more as orbits take to tell such points apart.
+pub fn iterations_for(fractal: &Fractal, footprint: f64) -> u32 {
+    let finer = (WHOLE_FOOTPRINT / footprint.max(0.1 * FINEST_FOOTPRINT)).max(1.0).ln();
+    let more = (STEPS_PER_POWER * finer / fractal.power.ln()).ceil();
+    fractal.iterations + more as u32
+}
+
+/// Steps in which an orbit near the surface tells points apart by the power's own factor.
+const STEPS_PER_POWER: f64 = 1.2;

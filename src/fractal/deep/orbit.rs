@@ -1,0 +1,141 @@
+//! Reference orbits: one point's orbit, computed with so many digits that f64 or f32 only have to
+//! follow the differences of others to it.
+//!
+//! The orbit's own numbers are rounded to f64 when they are kept: what is lost there is a part in
+//! 10¹⁶ of each step's factor, not of the place.
+
+use dashu_float::{FBig, round::mode};
+use glam::{DVec2, DVec3};
+
+use crate::scene::{Fractal, PrecisePoint, Variant};
+
+/// Bits of a coordinate. An error grows along an orbit as distances do: to 10²⁷ times 2⁻²⁵⁶.
+const BITS: usize = 256;
+
+/// A binary number of [`BITS`] bits.
+type Big = FBig<mode::Zero, 2>;
+
+/// One place of a reference orbit, rounded, and what its powers are made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// z.
+    pub z: DVec3,
+    /// ρ = |x + iy|.
+    pub rho: f64,
+    /// u = (x + iy)/ρ; 1 on the axis.
+    pub rotor: DVec2,
+}
+
+impl Place {
+    fn new(z: DVec3) -> Self {
+        let rho = z.x.hypot(z.y);
+        let rotor = if rho > 0.0 { z.truncate() / rho } else { DVec2::X };
+        Self { z, rho, rotor }
+    }
+}
+
+/// An orbit under way. Each step costs about 20 products of [`BITS`] bits, some microseconds, so
+/// that a caller can stop in between.
+#[derive(Clone, Debug)]
+pub struct Tracer {
+    z: [Big; 3],
+    constant: [Big; 3],
+    power: u32,
+    sine_sign: Big,
+    limit: f64,
+    most: usize,
+    places: Vec<Place>,
+    has_ended: bool,
+}
+
+impl Tracer {
+    /// The orbit of `point`: from there on, `most` places at most, and the first that is past the
+    /// bailout the last. None where the power is no whole number.
+    pub fn of_point(fractal: &Fractal, point: &PrecisePoint, most: usize) -> Option<Self> {
+        let start = big_point(point);
+        let constant = if fractal.julia { julia_constant(fractal) } else { start.clone() };
+        Self::new(fractal, start, constant, most)
+    }
+
+    /// The Julia form's orbit of the origin, from its first place after that: the constant.
+    pub fn critical(fractal: &Fractal, most: usize) -> Option<Self> {
+        let constant = julia_constant(fractal);
+        Self::new(fractal, constant.clone(), constant, most)
+    }
+
+    fn new(fractal: &Fractal, z: [Big; 3], constant: [Big; 3], most: usize) -> Option<Self> {
+        let sine_sign = match fractal.variant {
+            Variant::PositiveSine => Big::ONE,
+            Variant::NegativeSine => Big::NEG_ONE,
+        };
+        let power = fractal.integer_power()?;
+        let first = Place::new(rounded(&z));
+        let limit = fractal.bailout;
+        let has_ended = most <= 1 || first.z.length() > limit;
+        Some(Self { z, constant, power, sine_sign, limit, most, places: vec![first], has_ended })
+    }
+
+    /// Goes one place on; false where the orbit has ended.
+    pub fn step(&mut self) -> bool {
+        if !self.has_ended {
+            let raised = raised(&self.z, self.power);
+            let [x, y, z] = raised;
+            let [cx, cy, cz] = &self.constant;
+            self.z = [x + cx, y + cy, z * &self.sine_sign + cz];
+            let place = Place::new(rounded(&self.z));
+            self.places.push(place);
+            self.has_ended = self.places.len() >= self.most || place.z.length() > self.limit;
+        }
+        !self.has_ended
+    }
+
+    /// All of the orbit, once it has ended.
+    pub fn finish(mut self) -> Vec<Place> {
+        while self.step() {}
+        self.places
+    }
+}
+
+fn big(value: f64) -> Big {
+    // Only an infinite or undefined number has no binary form; constants of a scene are neither.
+    Big::try_from(value).unwrap_or(Big::ZERO).with_precision(BITS).value()
+}
+
+fn big_point(point: &PrecisePoint) -> [Big; 3] {
+    point.0.each_ref().map(|coordinate| coordinate.to_binary(BITS))
+}
+
+fn julia_constant(fractal: &Fractal) -> [Big; 3] {
+    fractal.julia_constant.map(big)
+}
+
+fn rounded(z: &[Big; 3]) -> DVec3 {
+    DVec3::from_array(z.each_ref().map(|coordinate| coordinate.to_f64().value()))
+}
+
+/// zⁿ: see [`crate::fractal::power`]. The rotor's power is taken of x + iy and its length divided
+/// out at the end, which these numbers' exponents have room for.
+fn raised([x, y, z]: &[Big; 3], n: u32) -> [Big; 3] {
+    let a = x * x + y * y;
+    let rho = a.sqrt();
+    let [across, up] = complex_power([rho.clone(), z.clone()], n);
+    if rho == Big::ZERO {
+        return [across, Big::ZERO, up];
+    }
+    let [cosine, sine] = complex_power([x / &rho, y / &rho], n);
+    [&across * cosine, &across * sine, up]
+}
+
+/// By squaring, from the exponent's highest bit down.
+fn complex_power(base: [Big; 2], n: u32) -> [Big; 2] {
+    let [re, im] = &base;
+    let (mut x, mut y) = (re.clone(), im.clone());
+    for bit in (0..n.ilog2()).rev() {
+        let both = &x * &y;
+        (x, y) = ((&x - &y) * (&x + &y), &both + &both);
+        if n >> bit & 1 == 1 {
+            (x, y) = (&x * re - &y * im, &x * im + &y * re);
+        }
+    }
+    [x, y]
+}

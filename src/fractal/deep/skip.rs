@@ -1,0 +1,163 @@
+//! The first steps of all orbits near an anchor at once: as long as a difference is small, it is a
+//! polynomial of the offset from the anchor.
+//!
+//! With offsets q in units of the scale s, `δ_m ≈ (s·J) q + ½ (s²·H)(q, q)`, the Jacobian and the
+//! Hessian of m steps at the anchor, and the estimate's derivative likewise. How many steps may be
+//! skipped is tried, not foretold: the polynomials are compared with orbits that take every step.
+
+use glam::{DMat3, DVec3};
+
+use super::{difference, jet::Jet, orbit::Place};
+use crate::fractal::power::TriplexPower;
+
+/// How far a skipped difference may be off, as a part of it: about what f32 steps lose.
+const DIFFERENCE_ERROR: f64 = 3e-6;
+/// Rounds of a power iteration: a tenth of the way to twice the second largest is near enough.
+const NORM_ROUNDS: u32 = 12;
+/// The same of the derivative.
+const DERIVATIVE_ERROR: f64 = 2e-4;
+
+/// What m steps of the orbits about an anchor make of their offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Skip {
+    /// How many steps.
+    pub steps: u32,
+    /// The difference to the anchor's orbit, by the offset in units of the scale.
+    pub difference: [Jet; 3],
+    /// dr, in units of one over the scale.
+    pub derivative: Jet,
+    /// The most that the steps stretch a length at the anchor, over dr there, and at least 1: what dg
+    /// stands for ([`crate::fractal::estimator`]), which grows past it with every step.
+    pub careful: f64,
+    /// Squares of the least distances of the skipped places, after the first, from the origin, the
+    /// z axis and the plane z = 0.
+    pub traps_squared: DVec3,
+}
+
+/// An orbit that goes every step, beside the anchor's.
+struct Probe {
+    offset: DVec3,
+    difference: DVec3,
+    derivative: f64,
+}
+
+/// The set, the reference and the view that steps are skipped for.
+pub struct Skipping<'a> {
+    /// zⁿ.
+    pub power: TriplexPower,
+    /// The exponent n.
+    pub whole_power: u32,
+    /// The sine's sign.
+    pub sine_sign: f64,
+    /// The constant moves with the point.
+    pub is_mandelbulb: bool,
+    /// The anchor's orbit.
+    pub places: &'a [Place],
+    /// Scene units of an offset of one.
+    pub scale: f64,
+}
+
+impl Skipping<'_> {
+    /// As many steps as all offsets up to `radius` can skip.
+    pub fn within(&self, radius: f64) -> Skip {
+        let added = if self.is_mandelbulb { self.scale } else { 0.0 };
+        let start = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| Jet::linear(0.0, axis * self.scale));
+        let mut skip = Skip {
+            steps: 0,
+            difference: start,
+            derivative: Jet::constant(self.scale),
+            careful: 1.0,
+            traps_squared: DVec3::splat(4.0),
+        };
+        let mut probes: Vec<Probe> = directions()
+            .map(|direction| Probe {
+                offset: direction * radius,
+                difference: direction * (radius * self.scale),
+                derivative: self.scale,
+            })
+            .collect();
+        // The last place has no step.
+        for (place, next) in self.places.iter().zip(&self.places[1..]) {
+            let (raised, growth) = self.jets(place, &skip.difference);
+            for probe in &mut probes {
+                let z = place.z + probe.difference;
+                probe.derivative = self.power.growth(z.length()) * probe.derivative + added;
+                probe.difference =
+                    difference::raised(place, probe.difference, self.whole_power, self.sine_sign)
+                        + probe.offset * added;
+            }
+            let difference = [0, 1, 2].map(|i| {
+                let moved = Jet { value: 0.0, ..raised[i] };
+                if self.is_mandelbulb { moved + start[i] } else { moved }
+            });
+            let derivative = growth * skip.derivative + Jet::constant(added);
+            if !probes.iter().all(|probe| probe.agrees(&difference, &derivative)) {
+                break;
+            }
+            let z = next.z;
+            let seen = DVec3::new(z.length_squared(), next.rho * next.rho, z.z * z.z);
+            skip = Skip {
+                steps: skip.steps + 1,
+                difference,
+                derivative,
+                careful: (norm(&difference) / derivative.value).max(1.0),
+                traps_squared: skip.traps_squared.min(seen),
+            };
+        }
+        skip
+    }
+
+    /// zⁿ and n·r^(n−1) about a place, whose coordinates change by `difference`.
+    fn jets(&self, place: &Place, difference: &[Jet; 3]) -> ([Jet; 3], Jet) {
+        let [x, y, z] = [0, 1, 2].map(|i| difference[i] + Jet::constant(place.z[i]));
+        let n = self.whole_power as i32;
+        let a = x * x + y * y;
+        let rho = a.sqrt();
+        let inverse = rho.recip();
+        let w = complex_power([rho, z], self.whole_power);
+        let u = complex_power([x * inverse, y * inverse], self.whole_power);
+        let growth = (a + z * z).sqrt().powi(n - 1) * f64::from(n);
+        ([w[0] * u[0], w[0] * u[1], w[1] * self.sine_sign], growth)
+    }
+}
+
+impl Probe {
+    /// Not where anything is no number, as about an anchor on the axis.
+    fn agrees(&self, difference: &[Jet; 3], derivative: &Jet) -> bool {
+        let foretold = DVec3::from_array(difference.map(|jet| jet.change(self.offset)));
+        let error = (foretold - self.difference).length();
+        let slope = derivative.value + derivative.gradient.dot(self.offset);
+        error <= DIFFERENCE_ERROR * self.difference.length()
+            && (slope - self.derivative).abs() <= DERIVATIVE_ERROR * self.derivative
+    }
+}
+
+/// The largest singular value of the Jacobian, by power iteration.
+fn norm(difference: &[Jet; 3]) -> f64 {
+    let rows = DMat3::from_cols_array_2d(&difference.map(|jet| jet.gradient.to_array()));
+    let squared = rows * rows.transpose();
+    let grown = (0..NORM_ROUNDS).fold(DVec3::ONE, |v, _| (squared * v).normalize_or(v));
+    (squared * grown).length().sqrt()
+}
+
+/// To the faces' centres and the corners of a cube, unit vectors.
+fn directions() -> impl Iterator<Item = DVec3> {
+    let axes = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+    let corners = (0..8).map(|i| {
+        let sign = |bit: i32| if i >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        DVec3::new(sign(0), sign(1), sign(2)).normalize()
+    });
+    axes.chain(corners)
+}
+
+/// By squaring, from the exponent's highest bit down.
+fn complex_power([re, im]: [Jet; 2], n: u32) -> [Jet; 2] {
+    let (mut x, mut y) = (re, im);
+    for bit in (0..n.ilog2()).rev() {
+        (x, y) = ((x - y) * (x + y), x * y * 2.0);
+        if n >> bit & 1 == 1 {
+            (x, y) = (x * re - y * im, x * im + y * re);
+        }
+    }
+    [x, y]
+}

@@ -1,0 +1,103 @@
+//! The anchors of a view that moves: one at hand, and the next on its way.
+//!
+//! In: scenes as they come. Out: the [`Datum`] of each. A search is made in pieces beside the
+//! frames, and begins before it is needed: an anchor serves views some hundred times as fine as the
+//! one that it was found for, and is replaced long before.
+
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::{
+    Region,
+    datum::{Datum, plain_footprint, wants_anchor},
+    schedule::Pace,
+};
+use crate::{
+    fractal::{
+        Reference,
+        deep::{self, Search},
+    },
+    scene::{PrecisePoint, Scene},
+};
+
+/// The time that a frame has for a search, milliseconds.
+const BUDGET_MS: f64 = 2.0;
+/// A search begins once the eye has moved by so much of the depth that the anchor was found at.
+const RENEWED_AFTER: f64 = 0.5;
+/// The anchor is no good any more where it is so many times as far from the eye as what is seen.
+const MOST_AWAY: f64 = 300.0;
+/// Plain views have an anchor ready whose pixels are so many times as large as those that want one.
+const AHEAD: f64 = 30.0;
+
+/// The anchors of one view.
+#[derive(Default)]
+pub struct Anchors {
+    at_hand: Option<Found>,
+    search: Option<(Search, PrecisePoint)>,
+}
+
+/// An anchor, and where it was looked for.
+struct Found {
+    reference: Arc<Reference>,
+    eye: PrecisePoint,
+}
+
+impl Found {
+    /// How far the eye is from where the anchor was found, in depths of the anchor then.
+    fn moved(&self, scene: &Scene) -> f64 {
+        let depth = (&self.eye - self.reference.anchor()).length();
+        (&scene.camera.position - &self.eye).length() / depth.max(f64::MIN_POSITIVE)
+    }
+
+    fn serves(&self, scene: &Scene) -> bool {
+        if !self.reference.is_of(&scene.fractal) {
+            return false;
+        }
+        let datum = Datum::about(self.reference.clone(), scene);
+        let nearest = datum.nearest(scene);
+        self.moved(scene) <= RENEWED_AFTER || datum.scale() <= MOST_AWAY * nearest
+    }
+}
+
+impl Anchors {
+    /// Where the coordinates of a scene begin; none yet where it has to wait for an anchor, which
+    /// further calls bring nearer. What a still has depends on nothing but itself.
+    pub fn datum(&mut self, scene: &Scene, region: Region, pace: Pace) -> Option<Datum> {
+        if pace == Pace::Still {
+            return Some(Datum::of(scene, region));
+        }
+        if !wants_anchor(scene, region) {
+            if deep::has_depth(&scene.fractal)
+                && plain_footprint(scene, region) < AHEAD * deep::COARSEST_FOOTPRINT
+            {
+                self.renew(scene, region);
+            } else {
+                *self = Self::default();
+            }
+            return Some(Datum::plain());
+        }
+        self.renew(scene, region);
+        let found = self.at_hand.as_ref().filter(|found| found.serves(scene))?;
+        Some(Datum::about(found.reference.clone(), scene))
+    }
+
+    /// Goes on with a search, for as long as a frame has time for it.
+    fn renew(&mut self, scene: &Scene, region: Region) {
+        let at_hand = self.at_hand.as_ref().filter(|found| found.reference.is_of(&scene.fractal));
+        if self.search.is_none() && at_hand.is_none_or(|found| found.moved(scene) > RENEWED_AFTER) {
+            let older = at_hand.map(|found| &found.reference);
+            let search = Search::new(&scene.fractal, &scene.camera, region.aspect(), older);
+            self.search = search.map(|search| (search, scene.camera.position.clone()));
+        }
+        let began = Instant::now();
+        while let Some((search, eye)) = &mut self.search {
+            if let Some(reference) = search.step() {
+                self.at_hand = Some(Found { reference, eye: eye.clone() });
+                self.search = None;
+            } else if began.elapsed().as_secs_f64() * 1e3 > BUDGET_MS {
+                break;
+            }
+        }
+    }
+}
