@@ -134,6 +134,7 @@ fn host_constants_match_their_wgsl_twins() {
         ("BLOCK_THREADS", lists::BLOCK_THREADS as usize),
         ("BLOCKS", (lattice::WORKGROUP_THREADS / lists::BLOCK_THREADS) as usize),
         ("RAY_LISTS", lists::RAY_LISTS),
+        ("SKIPS", uniforms::SKIPS),
     ];
     for (name, value) in host {
         let mut seen = 0;

@@ -22,13 +22,16 @@ struct Walk {
     place: u32,
 }
 
-// Its first steps at once where the point is near enough to the anchor.
-fn is_skipped(point: vec3f) -> bool {
-    return DEEP && dot(point, point) <= picture.skip.radius * picture.skip.radius;
+// Which of the skips is for a point; `SKIPS` where it has to take every step.
+fn skip_of(point: vec3f) -> u32 {
+    if (!DEEP) { return SKIPS; }
+    // In units of the first radius; 8 is 2^3.
+    let distance_squared = dot(point, point) / 9.0;
+    return u32(clamp(ceil(log2(distance_squared) / 6.0), 0.0, f32(SKIPS)));
 }
 
-fn skipped_walk(point: vec3f) -> Walk {
-    let skip = picture.skip;
+// Behind the steps that are skipped.
+fn skipped_walk(skip: Skip, point: vec3f) -> Walk {
     let squares = point * point;
     let products = point * point.yzx;
     let along = mat3x3f(skip.along_x, skip.along_y, skip.along_z) * point;
@@ -39,8 +42,8 @@ fn skipped_walk(point: vec3f) -> Walk {
 }
 
 // The derivative after those steps.
-fn skipped_derivative(point: vec3f) -> f32 {
-    return picture.skip.derivative + dot(picture.skip.derivative_gradient, point);
+fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
+    return skip.derivative + dot(skip.derivative_gradient, point);
 }
 
 // Whether the next step is one of the difference.
@@ -135,9 +138,8 @@ fn step_anew(walk: ptr<function, Walk>, power: vec3f, orbit: Orbit) {
 }
 
 // The tangent behind the steps that are skipped.
-fn skipped_tangent(orbit: Orbit, point: vec3f) -> Tangent {
-    let skip = picture.skip;
-    let inverse = 1.0 / skipped_derivative(point);
+fn skipped_tangent(skip: Skip, orbit: Orbit, point: vec3f) -> Tangent {
+    let inverse = 1.0 / skipped_derivative(skip, point);
     let jacobian = mat3x3f(
         skip.along_x + point.x * skip.along_xx + point.y * skip.along_xy + point.z * skip.along_zx,
         skip.along_y + point.y * skip.along_yy + point.z * skip.along_yz + point.x * skip.along_xy,

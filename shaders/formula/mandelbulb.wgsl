@@ -142,9 +142,8 @@ fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
     );
 }
 
-// The orbit at its beginning, or where its first steps are skipped, behind those.
+// The orbit at its beginning.
 fn walk_from(orbit: Orbit, point: vec3f) -> Walk {
-    if (is_skipped(point)) { return skipped_walk(point); }
     return Walk(orbit.start, 0u, orbit.start_derivative * point, 0u);
 }
 
@@ -205,9 +204,12 @@ fn reach(fractal: Fractal, point: vec3f) -> Reach {
     let unit = 1.0 / step_factor(fractal);
     var walk = walk_from(orbit, point);
     var growth = Growth(orbit.start_derivative, unit * orbit.start_derivative);
-    if (is_skipped(point)) {
-        let dr = skipped_derivative(point);
-        growth = Growth(dr, unit * picture.skip.careful * dr);
+    let which = skip_of(point);
+    if (which < SKIPS) {
+        let skip = given.skips[which];
+        walk = skipped_walk(skip, point);
+        let dr = skipped_derivative(skip, point);
+        growth = Growth(dr, unit * skip.careful * dr);
     }
     var q = squares(walk.z);
     for (; ; ) {
@@ -295,7 +297,11 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
         vec3f(0.0),
         orbit.constant_derivative / orbit.start_derivative,
     );
-    if (is_skipped(point)) { tangent = skipped_tangent(orbit, point); }
+    let which = skip_of(point);
+    if (which < SKIPS) {
+        walk = skipped_walk(given.skips[which], point);
+        tangent = skipped_tangent(given.skips[which], orbit, point);
+    }
     var q = squares(walk.z);
     for (; ; ) {
         for (; DEEP; ) {
@@ -330,10 +336,14 @@ struct OrbitColors {
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
-    var q = squares(walk.z);
     // Squared until the end.
     var traps = vec3f(4.0);
-    if (is_skipped(point)) { traps = picture.skip.traps_squared; }
+    let which = skip_of(point);
+    if (which < SKIPS) {
+        walk = skipped_walk(given.skips[which], point);
+        traps = given.skips[which].traps_squared;
+    }
+    var q = squares(walk.z);
     for (; ; ) {
         for (; DEEP; ) {
             if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }

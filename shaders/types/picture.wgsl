@@ -55,34 +55,37 @@ struct Fractal {
 struct Skip {
     // First derivatives of the difference, then second ones.
     along_x: vec3f,
-    // How far from the anchor points may be; below 0 nothing is skipped.
-    radius: f32,
-    along_y: vec3f,
     // How many steps.
     steps: u32,
-    along_z: vec3f,
+    along_y: vec3f,
     // dr at the anchor, in units of 1 / scale.
     derivative: f32,
-    along_xx: vec3f,
-    // dg over dr there.
+    along_z: vec3f,
+    // The most that the steps stretch a length there over dr, at least 1.
     careful: f32,
-    along_yy: vec3f,
+    along_xx: vec3f,
     unused_a: u32,
-    along_zz: vec3f,
+    along_yy: vec3f,
     unused_b: u32,
-    along_xy: vec3f,
+    along_zz: vec3f,
     unused_c: u32,
-    along_yz: vec3f,
+    along_xy: vec3f,
     unused_d: u32,
-    along_zx: vec3f,
+    along_yz: vec3f,
     unused_e: u32,
-    derivative_gradient: vec3f,
+    along_zx: vec3f,
     unused_f: u32,
+    derivative_gradient: vec3f,
+    unused_g: u32,
     // Squares of the least distances of the skipped places, after the first, from the origin, the z
     // axis and the plane z = 0.
     traps_squared: vec3f,
-    unused_g: u32,
+    unused_h: u32,
 }
+
+// How many there are, for points within radii of which each is 8 times the last one, the first
+// 3 scales.
+const SKIPS = 8u;
 
 // A place of the anchor's orbit.
 struct Place {
@@ -201,7 +204,6 @@ struct Picture {
     camera: Camera,
     eyes: Eyes,
     fractal: Fractal,
-    skip: Skip,
     surface: Surface,
     indirect: Indirect,
     background: Background,
@@ -219,6 +221,7 @@ struct Picture {
 
 struct Given {
     picture: Picture,
+    skips: array<Skip, SKIPS>,
     // The anchor's orbit; for the Julia form that of its constant behind it.
     places: array<Place>,
 }

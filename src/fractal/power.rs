@@ -5,7 +5,7 @@
 //! `ρ = √(x² + y²)`, the rotor `u = (x + iy)/ρ` and `w = ρ + iz`,
 //! `zⁿ = (Re wⁿ · Re uⁿ, Re wⁿ · Im uⁿ, Im wⁿ)`.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::scene::{Fractal, Variant};
 
@@ -68,6 +68,34 @@ impl TriplexPower {
     pub fn sideways_growth(&self, z: DVec3, raised: DVec3) -> f64 {
         let rho = z.x.hypot(z.y);
         if rho > 0.0 { self.exponent() * raised.x.hypot(raised.y) / rho } else { f64::INFINITY }
+    }
+
+    /// The Jacobian of zⁿ at a place off the axis: n·r^(n−1) times a turn of the meridian's plane and
+    /// one of the parallels, with [`Self::sideways_growth`] along these in the other's place.
+    pub fn jacobian(&self, z: DVec3) -> DMat3 {
+        let (rho, r) = (z.x.hypot(z.y), z.length());
+        let raised = self.apply(z);
+        let rotor = DVec2::new(z.x, z.y) / rho;
+        // Of the plane in which the meridian lies, raised: which way it points may be negative.
+        let turned = match self.exponent {
+            Exponent::Whole(n) => complex_power(rotor, n),
+            Exponent::Real(n) => DVec2::from_angle(n * rotor.to_angle()),
+        };
+        let across = raised.truncate().dot(turned);
+        let growth = self.growth(r);
+        let length = across.hypot(raised.z) * r;
+        // w^(n-1) by its length.
+        let unit = DVec2::new(across, raised.z * self.sine_sign).rotate(DVec2::new(rho, -z.z));
+        let meridian = growth * unit / length;
+        let parallel = self.exponent() * across / rho * DVec2::new(-turned.y, turned.x);
+        let of_radius = (meridian.x * turned).extend(self.sine_sign * meridian.y);
+        let of_height = (-meridian.y * turned).extend(self.sine_sign * meridian.x);
+        let of_angle = parallel.extend(0.0);
+        DMat3::from_cols(
+            rotor.x * of_radius - rotor.y * of_angle,
+            rotor.y * of_radius + rotor.x * of_angle,
+            of_height,
+        )
     }
 }
 
@@ -162,6 +190,25 @@ mod tests {
                 let stretch = (map.apply(z + along) - map.apply(z - along)).length() / 2e-6;
                 let found = map.sideways_growth(z, map.apply(z));
                 assert!((found / stretch - 1.0).abs() < 1e-6, "{power} at {z}: {found}, {stretch}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_jacobian_is_what_differences_say() {
+        for power in [2.0, 3.0, 3.3, 8.0] {
+            for variant in [Variant::PositiveSine, Variant::NegativeSine] {
+                let map = map(power, variant);
+                for z in [DVec3::new(0.3, -0.7, 0.2), DVec3::new(-0.1, 0.5, -1.1)] {
+                    let slope = |axis: DVec3| {
+                        (map.apply(z + axis * 1e-6) - map.apply(z - axis * 1e-6)) / 2e-6
+                    };
+                    let found = map.jacobian(z);
+                    let exact = DMat3::from_cols(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
+                    let error = (found - exact).to_cols_array().map(f64::abs);
+                    let largest = error.into_iter().fold(0.0, f64::max);
+                    assert!(largest < 1e-6, "{power} {variant:?} at {z}: {found} {exact}");
+                }
             }
         }
     }

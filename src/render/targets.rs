@@ -16,7 +16,7 @@ use super::{
     pass,
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
-    uniforms::{self, GRADIENT_ENTRIES, Light, PLACES_BYTES, Picture, Slice},
+    uniforms::{self, GRADIENT_ENTRIES, Light, PLACES_BYTES, Picture, Skips, Slice},
 };
 use crate::scene::MAX_LIGHTS;
 
@@ -79,6 +79,9 @@ pub struct Targets {
     pub texture: wgpu::Texture,
 }
 
+/// What every pass knows of a picture.
+const GIVEN_BYTES: u64 = (size_of::<Picture>() + size_of::<Skips>()) as u64 + PLACES_BYTES;
+
 impl Targets {
     /// Allocates what a region needs.
     pub fn new(kernels: &Kernels, region: Region) -> Self {
@@ -91,7 +94,7 @@ impl Targets {
         let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
-        let picture = storage(device, "picture", size_of::<Picture>() as u64 + PLACES_BYTES);
+        let picture = storage(device, "picture", GIVEN_BYTES);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
         let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
         let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
@@ -184,9 +187,7 @@ impl Targets {
 
     /// Uploads a picture's uniforms.
     pub fn upload(&self, queue: &wgpu::Queue, inputs: &uniforms::Inputs) {
-        queue.write_buffer(&self.picture, 0, bytemuck::bytes_of(&inputs.picture));
-        let places = bytemuck::cast_slice(&inputs.places);
-        queue.write_buffer(&self.picture, size_of::<Picture>() as u64, places);
+        queue.write_buffer(&self.picture, 0, &inputs.given());
         queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(&inputs.lights));
         queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));
     }

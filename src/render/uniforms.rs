@@ -13,7 +13,7 @@ use std::sync::Arc;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use depth::PLACES_BYTES;
+pub use depth::{PLACES_BYTES, SKIPS, Skips};
 pub use lights::lights;
 pub use shared::*;
 
@@ -67,7 +67,6 @@ impl Picture {
             },
             eyes: eyes(camera, region, datum),
             fractal: fractal(scene, region, datum),
-            skip: depth::skip(datum),
             surface: surface(scene),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
@@ -234,6 +233,8 @@ pub struct Inputs {
     pub lights: [Light; MAX_LIGHTS],
     /// The surface's gradient: linear Rec. 709, closed on itself.
     pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
+    /// What orbits near the anchor skip.
+    pub skips: Skips,
     /// The anchor's orbit; one place that means nothing where there is none.
     pub places: Arc<[Place]>,
     /// The [`Panorama::id`] of the picture of the surroundings, where it is shown.
@@ -252,9 +253,20 @@ impl Inputs {
             picture: Picture::about(scene, region, datum),
             lights: lights(scene, datum),
             gradient: color::gradient_lut(&scene.surface.gradient),
+            skips: depth::skips(datum),
             places: depth::places(datum),
             panorama: None,
         }
+    }
+
+    /// All of the shaders' `given`.
+    pub fn given(&self) -> Vec<u8> {
+        let parts = [
+            bytemuck::bytes_of(&self.picture),
+            bytemuck::bytes_of(&self.skips),
+            bytemuck::cast_slice(&self.places),
+        ];
+        parts.concat()
     }
 
     /// The same with the picture of the surroundings that is at hand, where `scene` shows it.

@@ -33,7 +33,7 @@ use crate::scene::Fractal;
 /// an anchor where that can be: coarser ones f32 draws as well.
 pub const COARSEST_FOOTPRINT: f64 = 2e-6;
 /// The finest pixel at the nearest surface, in scene units: below, f32 has no exponents left.
-pub const FINEST_FOOTPRINT: f64 = 1e-30;
+pub use crate::fractal::march::DEEP_FOOTPRINT as FINEST_FOOTPRINT;
 
 /// A footprint whose view needs no more iterations than the scene says, in scene units.
 const WHOLE_FOOTPRINT: f64 = 1e-3;
@@ -47,9 +47,12 @@ pub fn has_depth(fractal: &Fractal) -> bool {
 /// scene's own number, and as many more as orbits take to tell such points apart.
 pub fn iterations_for(fractal: &Fractal, footprint: f64) -> u32 {
     let finer = (WHOLE_FOOTPRINT / footprint.max(0.1 * FINEST_FOOTPRINT)).max(1.0).ln();
-    let more = (STEPS_PER_POWER * finer / fractal.power.ln()).ceil();
+    let more = (steps_per_power(fractal.power) * finer / fractal.power.ln()).ceil();
     fractal.iterations + more as u32
 }
 
-/// Steps in which an orbit near the surface tells points apart by the power's own factor.
-const STEPS_PER_POWER: f64 = 1.2;
+/// In how many steps points of this power's set are told apart by the power as a factor: where r < 1
+/// by less than it in one. The most of 99 of 100 points of lines toward the surface, measured to 10⁻³².
+fn steps_per_power(power: f64) -> f64 {
+    1.2 + 3.0 / power
+}

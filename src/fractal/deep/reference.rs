@@ -106,8 +106,9 @@ impl Reference {
         same == self.fractal
     }
 
-    /// What all orbits can skip whose points are within `radius` of the anchor, in units of `scale`.
-    pub fn skip(&self, scale: f64, radius: f64) -> Skip {
+    /// For each radius, what all orbits can skip whose points are as near to the anchor, in units of
+    /// `scale`.
+    pub fn skips(&self, scale: f64, radii: &[f64]) -> Vec<Skip> {
         Skipping {
             power: TriplexPower::new(&self.fractal),
             whole_power: self.power,
@@ -116,7 +117,7 @@ impl Reference {
             places: &self.places[..self.own_places],
             scale,
         }
-        .within(radius)
+        .within(radii)
     }
 
     fn sine_sign(&self) -> f64 {

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::{FINEST_FOOTPRINT, reference::DeepField, reference::Making, reference::Reference};
 use crate::{
-    fractal::DistanceField,
+    fractal::{DistanceField, camera_ray},
     scene::{Camera, Fractal},
 };
 
@@ -130,10 +130,10 @@ impl Looking {
 
     /// Goes a few steps on; false after the last ray.
     fn step(&mut self, camera: &Camera, aspect: f64) -> bool {
-        let eye = &camera.position - &self.field.origin();
-        let direction = direction(camera, aspect, self.ray);
+        let ray = camera_ray(camera, &self.field.origin(), ndc(self.ray), aspect);
+        let direction = ray.direction;
         for _ in 0..STEPS_AT_ONCE {
-            let point = eye + direction * self.depth;
+            let point = ray.at(self.depth);
             let reach = self.field.reach(point);
             let is_hit = reach.distance <= NEARNESS * self.depth;
             if is_hit && self.depth > 0.0 {
@@ -154,12 +154,9 @@ impl Looking {
     }
 }
 
-/// Unit directions through the picture, the first through its middle, the others on a spiral.
-fn direction(camera: &Camera, aspect: f64, ray: u32) -> DVec3 {
+/// Where in the picture a ray goes through: the first through its middle, the others on a spiral.
+fn ndc(ray: u32) -> DVec2 {
     const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
     let turn = DVec2::from_angle(f64::from(ray) * GOLDEN_ANGLE_RAD);
-    let ndc = 0.85 * (f64::from(ray) / f64::from(RAYS - 1)).sqrt() * turn;
-    let half_height = camera.half_height(aspect);
-    let seen = DVec3::new(ndc.x * aspect * half_height, ndc.y * half_height, -1.0);
-    camera.rotation() * seen.normalize()
+    0.85 * (f64::from(ray) / f64::from(RAYS - 1)).sqrt() * turn
 }

@@ -57,54 +57,79 @@ pub struct Skipping<'a> {
     pub scale: f64,
 }
 
+/// A skip under way, for offsets up to a radius.
+struct Rung {
+    skip: Skip,
+    probes: Vec<Probe>,
+    is_over: bool,
+}
+
 impl Skipping<'_> {
-    /// As many steps as all offsets up to `radius` can skip.
-    pub fn within(&self, radius: f64) -> Skip {
-        let added = if self.is_mandelbulb { self.scale } else { 0.0 };
+    /// For each of these radii as many steps as all offsets up to it can skip.
+    pub fn within(&self, radii: &[f64]) -> Vec<Skip> {
         let start = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| Jet::linear(0.0, axis * self.scale));
-        let mut skip = Skip {
+        let mut next = Skip {
             steps: 0,
             difference: start,
             derivative: Jet::constant(self.scale),
             careful: 1.0,
             traps_squared: DVec3::splat(4.0),
         };
-        let mut probes: Vec<Probe> = directions()
-            .map(|direction| Probe {
-                offset: direction * radius,
-                difference: direction * (radius * self.scale),
-                derivative: self.scale,
-            })
-            .collect();
+        let rung = |radius: &f64| Rung {
+            skip: next,
+            probes: directions().map(|way| Probe::new(way * *radius, self.scale)).collect(),
+            is_over: false,
+        };
+        let mut rungs: Vec<_> = radii.iter().map(rung).collect();
         // The last place has no step.
-        for (place, next) in self.places.iter().zip(&self.places[1..]) {
-            let (raised, growth) = self.jets(place, &skip.difference);
-            for probe in &mut probes {
-                let z = place.z + probe.difference;
-                probe.derivative = self.power.growth(z.length()) * probe.derivative + added;
-                probe.difference =
-                    difference::raised(place, probe.difference, self.whole_power, self.sine_sign)
-                        + probe.offset * added;
+        for (place, reached) in self.places.iter().zip(&self.places[1..]) {
+            next = self.step(&next, place, reached);
+            for rung in rungs.iter_mut().filter(|rung| !rung.is_over) {
+                for probe in &mut rung.probes {
+                    self.step_probe(probe, place);
+                }
+                rung.is_over = !rung.probes.iter().all(|probe| probe.agrees(&next));
+                if !rung.is_over {
+                    rung.skip = next;
+                }
             }
-            let difference = [0, 1, 2].map(|i| {
-                let moved = Jet { value: 0.0, ..raised[i] };
-                if self.is_mandelbulb { moved + start[i] } else { moved }
-            });
-            let derivative = growth * skip.derivative + Jet::constant(added);
-            if !probes.iter().all(|probe| probe.agrees(&difference, &derivative)) {
+            if rungs.iter().all(|rung| rung.is_over) {
                 break;
             }
-            let z = next.z;
-            let seen = DVec3::new(z.length_squared(), next.rho * next.rho, z.z * z.z);
-            skip = Skip {
-                steps: skip.steps + 1,
-                difference,
-                derivative,
-                careful: (norm(&difference) / derivative.value).max(1.0),
-                traps_squared: skip.traps_squared.min(seen),
-            };
         }
-        skip
+        rungs.into_iter().map(|rung| rung.skip).collect()
+    }
+
+    /// What a constant's offset adds, as a part of it.
+    fn added(&self) -> f64 {
+        if self.is_mandelbulb { self.scale } else { 0.0 }
+    }
+
+    /// One more step, from `place` to `reached`.
+    fn step(&self, skip: &Skip, place: &Place, reached: &Place) -> Skip {
+        let (raised, growth) = self.jets(place, &skip.difference);
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let difference = [0, 1, 2].map(|i| {
+            Jet { value: 0.0, ..raised[i] } + Jet::linear(0.0, axes[i] * self.added())
+        });
+        let derivative = growth * skip.derivative + Jet::constant(self.added());
+        let z = reached.z;
+        let seen = DVec3::new(z.length_squared(), reached.rho * reached.rho, z.z * z.z);
+        Skip {
+            steps: skip.steps + 1,
+            careful: (norm(&difference) / derivative.value).max(1.0),
+            difference,
+            derivative,
+            traps_squared: skip.traps_squared.min(seen),
+        }
+    }
+
+    fn step_probe(&self, probe: &mut Probe, place: &Place) {
+        let z = place.z + probe.difference;
+        probe.derivative = self.power.growth(z.length()) * probe.derivative + self.added();
+        probe.difference =
+            difference::raised(place, probe.difference, self.whole_power, self.sine_sign)
+                + probe.offset * self.added();
     }
 
     /// zⁿ and n·r^(n−1) about a place, whose coordinates change by `difference`.
@@ -122,11 +147,16 @@ impl Skipping<'_> {
 }
 
 impl Probe {
-    /// Not where anything is no number, as about an anchor on the axis.
-    fn agrees(&self, difference: &[Jet; 3], derivative: &Jet) -> bool {
-        let foretold = DVec3::from_array(difference.map(|jet| jet.change(self.offset)));
+    fn new(offset: DVec3, scale: f64) -> Self {
+        Self { offset, difference: offset * scale, derivative: scale }
+    }
+
+    /// Whether a skip comes to the same: not where anything is no number, as about an anchor on the
+    /// axis.
+    fn agrees(&self, skip: &Skip) -> bool {
+        let foretold = DVec3::from_array(skip.difference.map(|jet| jet.change(self.offset)));
         let error = (foretold - self.difference).length();
-        let slope = derivative.value + derivative.gradient.dot(self.offset);
+        let slope = skip.derivative.value + skip.derivative.gradient.dot(self.offset);
         error <= DIFFERENCE_ERROR * self.difference.length()
             && (slope - self.derivative).abs() <= DERIVATIVE_ERROR * self.derivative
     }

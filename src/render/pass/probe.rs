@@ -93,8 +93,7 @@ fn ask_form(
     });
     let questions: Vec<[f32; 4]> =
         points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
-    let given = [bytemuck::bytes_of(&inputs.picture), bytemuck::cast_slice(&inputs.places)];
-    let picture = filled(gpu, wgpu::BufferUsages::STORAGE, &given.concat());
+    let picture = filled(gpu, wgpu::BufferUsages::STORAGE, &inputs.given());
     let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&questions));
     let answers = filled(
         gpu,

@@ -7,19 +7,24 @@ use glam::DVec3;
 
 use super::{Place, Skip};
 use crate::{
-    fractal::{
-        Reference,
-        deep::{self, reference::MOST_PLACES},
-    },
+    fractal::deep::{self, reference::MOST_PLACES},
     render::datum::Datum,
 };
+
+/// How many skips there are.
+pub const SKIPS: usize = 8;
 
 /// Bytes that all places of an orbit may take.
 pub const PLACES_BYTES: u64 = (MOST_PLACES * size_of::<Place>()) as u64;
 
-/// Points up to so many scales from the anchor skip steps: what is in view, and the reach of its
-/// shadows.
-const SKIP_RADIUS: f64 = 3.0;
+/// How far from the anchor points may be that skip the most steps, in scales: what is in view, and
+/// the reach of its shadows.
+const FIRST_RADIUS: f64 = 3.0;
+/// From each radius to the next.
+const RADII_RATIO: f64 = 8.0;
+
+/// Skips, nearest to the anchor first.
+pub type Skips = [Skip; SKIPS];
 
 /// The places of an anchor's orbit; one that means nothing where there is none.
 pub fn places(datum: &Datum) -> Arc<[Place]> {
@@ -38,28 +43,31 @@ fn place(place: &deep::Place) -> Place {
 }
 
 /// What orbits near the anchor skip; nothing where there is none.
-pub fn skip(datum: &Datum) -> Skip {
-    match datum.reference() {
-        Some(reference) => skip_about(reference, datum.scale()),
-        None => Skip { radius: -1.0, ..Skip::zeroed() },
+pub fn skips(datum: &Datum) -> Skips {
+    let Some(reference) = datum.reference() else { return [Skip::zeroed(); SKIPS] };
+    let radii: [f64; SKIPS] =
+        std::array::from_fn(|i| FIRST_RADIUS * RADII_RATIO.powi(i as i32));
+    let mut skips = [Skip::zeroed(); SKIPS];
+    for (skip, found) in skips.iter_mut().zip(reference.skips(datum.scale(), &radii)) {
+        *skip = packed(&found);
     }
+    skips
 }
 
-fn skip_about(reference: &Reference, scale: f64) -> Skip {
-    let skip = reference.skip(scale, SKIP_RADIUS);
+fn packed(skip: &deep::Skip) -> Skip {
     let [x, y, z] = skip.difference;
     let vector = |part: DVec3| part.as_vec3().to_array();
-    let of_each =
-        |part: fn(&deep::jet::Jet) -> f64| vector(DVec3::new(part(&x), part(&y), part(&z)));
+    let of_each = |part: fn(&deep::jet::Jet) -> f64| {
+        vector(DVec3::new(part(&x), part(&y), part(&z)))
+    };
     Skip {
         along_x: of_each(|jet| jet.gradient.x),
-        radius: SKIP_RADIUS as f32,
-        along_y: of_each(|jet| jet.gradient.y),
         steps: skip.steps,
-        along_z: of_each(|jet| jet.gradient.z),
+        along_y: of_each(|jet| jet.gradient.y),
         derivative: skip.derivative.value as f32,
-        along_xx: of_each(|jet| jet.pure.x),
+        along_z: of_each(|jet| jet.gradient.z),
         careful: skip.careful as f32,
+        along_xx: of_each(|jet| jet.pure.x),
         along_yy: of_each(|jet| jet.pure.y),
         along_zz: of_each(|jet| jet.pure.z),
         along_xy: of_each(|jet| jet.mixed.x),

@@ -135,49 +135,49 @@ host_shared! {
     Skip {
         /// First derivatives of the difference by the offset.
         along_x: [f32; 3],
-        /// How far from the anchor points may be; below 0 nothing is skipped.
-        radius: f32,
-        /// As above.
-        along_y: [f32; 3],
         /// How many steps.
         steps: u32,
         /// As above.
-        along_z: [f32; 3],
+        along_y: [f32; 3],
         /// dr at the anchor, one over the scale.
         derivative: f32,
+        /// As above.
+        along_z: [f32; 3],
+        /// The most that the steps stretch a length there over dr.
+        careful: f32,
         /// Second derivatives.
         along_xx: [f32; 3],
-        /// dg over dr at the anchor.
-        careful: f32,
-        /// As above.
-        along_yy: [f32; 3],
         /// A vector's alignment is 16 bytes.
         unused_a: u32,
         /// As above.
-        along_zz: [f32; 3],
+        along_yy: [f32; 3],
         /// The same.
         unused_b: u32,
         /// As above.
-        along_xy: [f32; 3],
+        along_zz: [f32; 3],
         /// The same.
         unused_c: u32,
         /// As above.
-        along_yz: [f32; 3],
+        along_xy: [f32; 3],
         /// The same.
         unused_d: u32,
         /// As above.
-        along_zx: [f32; 3],
+        along_yz: [f32; 3],
         /// The same.
         unused_e: u32,
+        /// As above.
+        along_zx: [f32; 3],
+        /// The same.
+        unused_f: u32,
         /// First derivatives of dr.
         derivative_gradient: [f32; 3],
         /// The same.
-        unused_f: u32,
+        unused_g: u32,
         /// Squares of the least distances of the skipped places from the origin, the z axis and
         /// the plane z = 0.
         traps_squared: [f32; 3],
         /// The same.
-        unused_g: u32,
+        unused_h: u32,
     }
     /// A place of the anchor's orbit.
     Place {
@@ -274,8 +274,6 @@ host_shared! {
         eyes: Eyes,
         /// The set.
         fractal: Fractal,
-        /// What orbits near the anchor skip.
-        skip: Skip,
         /// The surface.
         surface: Surface,
         /// Indirect light.
