@@ -46,6 +46,10 @@ fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
     return skip.derivative + dot(skip.derivative_gradient, point);
 }
 
+fn skipped_growth(skip: Skip, point: vec3f) -> Growth {
+    return Growth(skipped_derivative(skip, point), 0.0, skipped_jacobian(skip, point));
+}
+
 // Whether the next step is one of the difference.
 fn is_close(walk: Walk, q: Squares) -> bool {
     let next = walk.place + 1u;
@@ -140,14 +144,18 @@ fn step_anew(walk: ptr<function, Walk>, power: vec3f, orbit: Orbit) {
 // The tangent behind the steps that are skipped.
 fn skipped_tangent(skip: Skip, orbit: Orbit, point: vec3f) -> Tangent {
     let inverse = 1.0 / skipped_derivative(skip, point);
-    let jacobian = mat3x3f(
+    return Tangent(
+        inverse * skipped_jacobian(skip, point),
+        (inverse * inverse) * skip.derivative_gradient,
+        inverse * orbit.constant_derivative,
+    );
+}
+
+// The Jacobian behind them.
+fn skipped_jacobian(skip: Skip, point: vec3f) -> mat3x3f {
+    return mat3x3f(
         skip.along_x + point.x * skip.along_xx + point.y * skip.along_xy + point.z * skip.along_zx,
         skip.along_y + point.y * skip.along_yy + point.z * skip.along_yz + point.x * skip.along_xy,
         skip.along_z + point.z * skip.along_zz + point.x * skip.along_zx + point.y * skip.along_yz,
-    );
-    return Tangent(
-        inverse * jacobian,
-        (inverse * inverse) * skip.derivative_gradient,
-        inverse * orbit.constant_derivative,
     );
 }

@@ -184,16 +184,36 @@ fn dips(fractal: Fractal) -> bool {
 // An orbit's derivatives.
 struct Growth {
     dr: f32,
-    // In units of the step factor, so that a step is this over the larger of dr and dg.
+    // What steps follow: dg, in units of the step factor, so that a step is the height over the larger
+    // of dr and dg. Over the many steps of a deep view it would grow far past what it stands for, and
+    // rays would creep: there it is the Jacobian itself.
     dg: f32,
+    jacobian: mat3x3f,
 }
 
-fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, unit: f32) -> Growth {
+fn first_growth(fractal: Fractal, orbit: Orbit) -> Growth {
+    let one = orbit.start_derivative;
+    return Growth(one, one / step_factor(fractal), scaled_identity(one));
+}
+
+fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f, q: Squares) -> Growth {
+    let dr = min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max);
+    if (DEEP) {
+        let turn = raised_jacobian(fractal, step, z, sqrt(q.a), 1.0 / max(sqrt(q.s), 1e-9));
+        let added = scaled_identity(orbit.constant_derivative);
+        return Growth(dr, 0.0, (step.stretch * turn) * before.jacobian + added);
+    }
     let widest = clamp(abs(step.sideways), step.stretch, SIDEWAYS_MAX * step.stretch);
-    return Growth(
-        min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max),
-        min(widest * before.dg + unit * orbit.constant_derivative, fractal.derivative_max),
-    );
+    let added = orbit.constant_derivative / step_factor(fractal);
+    return Growth(dr, min(widest * before.dg + added, fractal.derivative_max), before.jacobian);
+}
+
+// How far a ray may go where an orbit has got so high.
+fn safe_step(growth: Growth, height: f32) -> f32 {
+    if (!DEEP) { return height / max(max(growth.dg, growth.dr), 1e-37); }
+    let j = growth.jacobian;
+    let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
+    return height / max(max(norm, growth.dr), 1e-37);
 }
 
 // Each of an orbit's loops goes through steps of the difference first, where there are any, and
@@ -201,29 +221,26 @@ fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, unit: f32
 // loop.
 fn reach(fractal: Fractal, point: vec3f) -> Reach {
     let orbit = orbit_of(fractal, point);
-    let unit = 1.0 / step_factor(fractal);
     var walk = walk_from(orbit, point);
-    var growth = Growth(orbit.start_derivative, unit * orbit.start_derivative);
+    var growth = first_growth(fractal, orbit);
     let which = skip_of(point);
     if (which < SKIPS) {
-        let skip = given.skips[which];
-        walk = skipped_walk(skip, point);
-        let dr = skipped_derivative(skip, point);
-        growth = Growth(dr, unit * skip.careful * dr);
+        walk = skipped_walk(given.skips[which], point);
+        growth = skipped_growth(given.skips[which], point);
     }
     var q = squares(walk.z);
     for (; ; ) {
         for (; DEEP; ) {
             if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
             let step = raised_close(fractal, walk, q);
-            growth = grown(fractal, orbit, growth, step, unit);
+            growth = grown(fractal, orbit, growth, step, walk.z, q);
             step_close(&walk, step, orbit);
             q = squares(walk.z);
         }
         for (; ; ) {
             if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
             let step = raised(fractal, walk.z, q);
-            growth = grown(fractal, orbit, growth, step, unit);
+            growth = grown(fractal, orbit, growth, step, walk.z, q);
             step_on(&walk, step.power, orbit);
             q = squares(walk.z);
         }
@@ -233,12 +250,15 @@ fn reach(fractal: Fractal, point: vec3f) -> Reach {
     // 0.5 ln(r) r.
     let height = 0.25 * log(q.s) * sqrt(q.s);
     let distance = height / max(growth.dr, 1e-37);
-    let step = height / max(max(growth.dg, growth.dr), 1e-37);
-    return Reach(distance, min(step, fractal.max_step));
+    return Reach(distance, min(safe_step(growth, height), fractal.max_step));
 }
 
 fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
     return reach(fractal, point).distance;
+}
+
+fn scaled_identity(scale: f32) -> mat3x3f {
+    return mat3x3f(scale, 0.0, 0.0, 0.0, scale, 0.0, 0.0, 0.0, scale);
 }
 
 // The Jacobian of z^n over `stretch`: a turn of the meridian's plane by n - 1 latitudes, of the
@@ -275,11 +295,9 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
     let kept = step.stretch * shrink;
     let inverse_r = 1.0 / max(sqrt(q.s), 1e-9);
     let added = before.added * shrink;
+    let turn = raised_jacobian(fractal, step, z, sqrt(q.a), inverse_r);
     let along = (fractal.power - 1.0) * inverse_r * inverse_r * (z * before.jacobian);
-    var jacobian = kept * (raised_jacobian(fractal, step, z, sqrt(q.a), inverse_r) * before.jacobian);
-    jacobian[0].x += added;
-    jacobian[1].y += added;
-    jacobian[2].z += added;
+    let jacobian = kept * (turn * before.jacobian) + scaled_identity(added);
     return Tangent(jacobian, (kept * shrink) * (along + before.slope), added);
 }
 
@@ -291,12 +309,8 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
-    // J / dr, grad dr / dr^2, and the constant's own derivative over dr.
-    var tangent = Tangent(
-        mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
-        vec3f(0.0),
-        orbit.constant_derivative / orbit.start_derivative,
-    );
+    let added = orbit.constant_derivative / orbit.start_derivative;
+    var tangent = Tangent(scaled_identity(1.0), vec3f(0.0), added);
     let which = skip_of(point);
     if (which < SKIPS) {
         walk = skipped_walk(given.skips[which], point);

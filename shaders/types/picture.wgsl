@@ -61,8 +61,7 @@ struct Skip {
     // dr at the anchor, in units of 1 / scale.
     derivative: f32,
     along_z: vec3f,
-    // The most that the steps stretch a length there over dr, at least 1.
-    careful: f32,
+    unused: u32,
     along_xx: vec3f,
     unused_a: u32,
     along_yy: vec3f,

@@ -5,15 +5,13 @@
 //! Hessian of m steps at the anchor, and the estimate's derivative likewise. How many steps may be
 //! skipped is tried, not foretold: the polynomials are compared with orbits that take every step.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::{difference, jet::Jet, orbit::Place};
 use crate::fractal::power::TriplexPower;
 
 /// How far a skipped difference may be off, as a part of it: about what f32 steps lose.
 const DIFFERENCE_ERROR: f64 = 3e-6;
-/// Rounds of a power iteration: a tenth of the way to twice the second largest is near enough.
-const NORM_ROUNDS: u32 = 12;
 /// The same of the derivative.
 const DERIVATIVE_ERROR: f64 = 2e-4;
 
@@ -26,9 +24,6 @@ pub struct Skip {
     pub difference: [Jet; 3],
     /// dr, in units of one over the scale.
     pub derivative: Jet,
-    /// The most that the steps stretch a length at the anchor, over dr there, and at least 1: what dg
-    /// stands for ([`crate::fractal::estimator`]), which grows past it with every step.
-    pub careful: f64,
     /// Squares of the least distances of the skipped places, after the first, from the origin, the
     /// z axis and the plane z = 0.
     pub traps_squared: DVec3,
@@ -72,7 +67,6 @@ impl Skipping<'_> {
             steps: 0,
             difference: start,
             derivative: Jet::constant(self.scale),
-            careful: 1.0,
             traps_squared: DVec3::splat(4.0),
         };
         let rung = |radius: &f64| Rung {
@@ -109,15 +103,13 @@ impl Skipping<'_> {
     fn step(&self, skip: &Skip, place: &Place, reached: &Place) -> Skip {
         let (raised, growth) = self.jets(place, &skip.difference);
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let difference = [0, 1, 2].map(|i| {
-            Jet { value: 0.0, ..raised[i] } + Jet::linear(0.0, axes[i] * self.added())
-        });
+        let difference = [0, 1, 2]
+            .map(|i| Jet { value: 0.0, ..raised[i] } + Jet::linear(0.0, axes[i] * self.added()));
         let derivative = growth * skip.derivative + Jet::constant(self.added());
         let z = reached.z;
         let seen = DVec3::new(z.length_squared(), reached.rho * reached.rho, z.z * z.z);
         Skip {
             steps: skip.steps + 1,
-            careful: (norm(&difference) / derivative.value).max(1.0),
             difference,
             derivative,
             traps_squared: skip.traps_squared.min(seen),
@@ -160,14 +152,6 @@ impl Probe {
         error <= DIFFERENCE_ERROR * self.difference.length()
             && (slope - self.derivative).abs() <= DERIVATIVE_ERROR * self.derivative
     }
-}
-
-/// The largest singular value of the Jacobian, by power iteration.
-fn norm(difference: &[Jet; 3]) -> f64 {
-    let rows = DMat3::from_cols_array_2d(&difference.map(|jet| jet.gradient.to_array()));
-    let squared = rows * rows.transpose();
-    let grown = (0..NORM_ROUNDS).fold(DVec3::ONE, |v, _| (squared * v).normalize_or(v));
-    (squared * grown).length().sqrt()
 }
 
 /// To the faces' centres and the corners of a cube, unit vectors.

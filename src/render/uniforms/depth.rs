@@ -45,8 +45,7 @@ fn place(place: &deep::Place) -> Place {
 /// What orbits near the anchor skip; nothing where there is none.
 pub fn skips(datum: &Datum) -> Skips {
     let Some(reference) = datum.reference() else { return [Skip::zeroed(); SKIPS] };
-    let radii: [f64; SKIPS] =
-        std::array::from_fn(|i| FIRST_RADIUS * RADII_RATIO.powi(i as i32));
+    let radii: [f64; SKIPS] = std::array::from_fn(|i| FIRST_RADIUS * RADII_RATIO.powi(i as i32));
     let mut skips = [Skip::zeroed(); SKIPS];
     for (skip, found) in skips.iter_mut().zip(reference.skips(datum.scale(), &radii)) {
         *skip = packed(&found);
@@ -57,16 +56,14 @@ pub fn skips(datum: &Datum) -> Skips {
 fn packed(skip: &deep::Skip) -> Skip {
     let [x, y, z] = skip.difference;
     let vector = |part: DVec3| part.as_vec3().to_array();
-    let of_each = |part: fn(&deep::jet::Jet) -> f64| {
-        vector(DVec3::new(part(&x), part(&y), part(&z)))
-    };
+    let of_each =
+        |part: fn(&deep::jet::Jet) -> f64| vector(DVec3::new(part(&x), part(&y), part(&z)));
     Skip {
         along_x: of_each(|jet| jet.gradient.x),
         steps: skip.steps,
         along_y: of_each(|jet| jet.gradient.y),
         derivative: skip.derivative.value as f32,
         along_z: of_each(|jet| jet.gradient.z),
-        careful: skip.careful as f32,
         along_xx: of_each(|jet| jet.pure.x),
         along_yy: of_each(|jet| jet.pure.y),
         along_zz: of_each(|jet| jet.pure.z),

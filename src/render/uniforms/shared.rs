@@ -143,8 +143,8 @@ host_shared! {
         derivative: f32,
         /// As above.
         along_z: [f32; 3],
-        /// The most that the steps stretch a length there over dr.
-        careful: f32,
+        /// A vector's alignment is 16 bytes.
+        unused: u32,
         /// Second derivatives.
         along_xx: [f32; 3],
         /// A vector's alignment is 16 bytes.
