@@ -40,6 +40,12 @@ fn squares(z: vec3f) -> Squares {
     return Squares(vec2f(xx - yy, (z.x + z.x) * z.y), a, zz, a + zz);
 }
 
+// rho: of a deep view's points its square may be too small for an f32.
+fn rho_of(z: vec3f, q: Squares) -> f32 {
+    if (DEEP) { return max(length_of(z.xy), 1e-37); }
+    return sqrt(q.a);
+}
+
 // z^n and what its derivatives are made of. What a caller leaves unused is not computed.
 struct Raised {
     power: vec3f,
@@ -199,7 +205,8 @@ fn first_growth(fractal: Fractal, orbit: Orbit) -> Growth {
 fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f, q: Squares) -> Growth {
     let dr = min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max);
     if (DEEP) {
-        let turn = raised_jacobian(fractal, step, z, sqrt(q.a), 1.0 / max(sqrt(q.s), 1e-9));
+        let inverse_r = 1.0 / max(sqrt(q.s), 1e-9);
+        let turn = raised_jacobian(fractal, step, z, rho_of(z, q), inverse_r, SIDEWAYS_MAX);
         let added = scaled_identity(orbit.constant_derivative);
         return Growth(dr, 0.0, (step.stretch * turn) * before.jacobian + added);
     }
@@ -263,12 +270,14 @@ fn scaled_identity(scale: f32) -> mat3x3f {
 
 // The Jacobian of z^n over `stretch`: a turn of the meridian's plane by n - 1 latitudes, of the
 // parallels by n - 1 longitudes, and a further stretch along these.
-fn raised_jacobian(fractal: Fractal, t: Raised, z: vec3f, rho: f32, inverse_r: f32) -> mat3x3f {
+fn raised_jacobian(
+    fractal: Fractal, t: Raised, z: vec3f, rho: f32, inverse_r: f32, sideways_max: f32,
+) -> mat3x3f {
     let u = z.xy / rho;
     // w^(n - 1) over its length.
     let unit = inverse_r / max(length(t.wn), 1e-20);
     let m = unit * complex_product(t.wn, vec2f(rho, -z.z));
-    let sideways = clamp(t.sideways / max(t.stretch, 1e-30), -1e6, 1e6);
+    let sideways = clamp(t.sideways / max(t.stretch, 1e-30), -sideways_max, sideways_max);
     let parallel = sideways * vec2f(-t.un.y, t.un.x);
     let sign = fractal.z_sign;
     return mat3x3f(
@@ -295,7 +304,7 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
     let kept = step.stretch * shrink;
     let inverse_r = 1.0 / max(sqrt(q.s), 1e-9);
     let added = before.added * shrink;
-    let turn = raised_jacobian(fractal, step, z, sqrt(q.a), inverse_r);
+    let turn = raised_jacobian(fractal, step, z, rho_of(z, q), inverse_r, 1e6);
     let along = (fractal.power - 1.0) * inverse_r * inverse_r * (z * before.jacobian);
     let jacobian = kept * (turn * before.jacobian) + scaled_identity(added);
     return Tangent(jacobian, (kept * shrink) * (along + before.slope), added);

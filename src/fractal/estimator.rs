@@ -108,8 +108,8 @@ impl Estimator {
             }
             let z = orbit.z();
             if z.x != 0.0 || z.y != 0.0 {
-                jacobian =
-                    self.power.jacobian(z) * jacobian + DMat3::from_diagonal(DVec3::splat(added));
+                jacobian = self.power.jacobian(z, SIDEWAYS_MAX) * jacobian
+                    + DMat3::from_diagonal(DVec3::splat(added));
             }
             dr = self.power.growth(r) * dr + added;
             orbit.step(self.power.apply(z));

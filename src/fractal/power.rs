@@ -71,8 +71,9 @@ impl TriplexPower {
     }
 
     /// The Jacobian of zⁿ at a place off the axis: n·r^(n−1) times a turn of the meridian's plane and
-    /// one of the parallels, with [`Self::sideways_growth`] along these in the other's place.
-    pub fn jacobian(&self, z: DVec3) -> DMat3 {
+    /// one of the parallels, with [`Self::sideways_growth`] along these in the other's place, and with
+    /// no more than `sideways_max` times the first.
+    pub fn jacobian(&self, z: DVec3, sideways_max: f64) -> DMat3 {
         let (rho, r) = (z.x.hypot(z.y), z.length());
         let raised = self.apply(z);
         let rotor = DVec2::new(z.x, z.y) / rho;
@@ -87,7 +88,9 @@ impl TriplexPower {
         // w^(n-1) by its length.
         let unit = DVec2::new(across, raised.z * self.sine_sign).rotate(DVec2::new(rho, -z.z));
         let meridian = growth * unit / length;
-        let parallel = self.exponent() * across / rho * DVec2::new(-turned.y, turned.x);
+        let most = sideways_max * growth;
+        let sideways = (self.exponent() * across / rho).clamp(-most, most);
+        let parallel = sideways * DVec2::new(-turned.y, turned.x);
         let of_radius = (meridian.x * turned).extend(self.sine_sign * meridian.y);
         let of_height = (-meridian.y * turned).extend(self.sine_sign * meridian.x);
         let of_angle = parallel.extend(0.0);
@@ -203,7 +206,7 @@ mod tests {
                     let slope = |axis: DVec3| {
                         (map.apply(z + axis * 1e-6) - map.apply(z - axis * 1e-6)) / 2e-6
                     };
-                    let found = map.jacobian(z);
+                    let found = map.jacobian(z, f64::INFINITY);
                     let exact = DMat3::from_cols(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
                     let error = (found - exact).to_cols_array().map(f64::abs);
                     let largest = error.into_iter().fold(0.0, f64::max);

@@ -82,6 +82,11 @@ impl Anchors {
         Some(Datum::about(found.reference.clone(), scene))
     }
 
+    /// The newest anchor's orbit.
+    pub fn reference(&self) -> Option<Arc<Reference>> {
+        Some(self.at_hand.as_ref()?.reference.clone())
+    }
+
     /// Goes on with a search, for as long as a frame has time for it.
     fn renew(&mut self, scene: &Scene, region: Region) {
         let at_hand = self.at_hand.as_ref().filter(|found| found.reference.is_of(&scene.fractal));

@@ -441,6 +441,7 @@ impl View {
             frame_ms: self.frame_ms,
             histogram: self.watch.histogram().cloned(),
             memory: self.memory(),
+            reference: self.anchors.reference(),
             pictures: self.pictures,
         }
     }

@@ -9,7 +9,9 @@ use glam::DVec3;
 
 use super::navigation::Viewport;
 use crate::{
-    fractal::{DEEP_FOOTPRINT, DistanceField, Estimator, PLAIN_FOOTPRINT, pixel_cone},
+    fractal::{
+        DEEP_FOOTPRINT, DeepField, DistanceField, Estimator, PLAIN_FOOTPRINT, Reference, pixel_cone,
+    },
     scene::{Fractal, PrecisePoint, Scene},
 };
 
@@ -25,9 +27,8 @@ pub fn goes_deep(fractal: &Fractal) -> bool {
 /// Finds the field, and keeps what takes time to make.
 #[derive(Default)]
 pub struct Fields {
-    /// The field about the deep place in view, where there is one; it has to be of the scene's
-    /// fractal.
-    pub deep: Option<Arc<dyn DistanceField>>,
+    /// The field about the deep place in view, where there is one, and the set that it is of.
+    deep: Option<(Fractal, Arc<DeepField>)>,
     plain: Option<(Fractal, Arc<Estimator>)>,
 }
 
@@ -38,11 +39,25 @@ impl fmt::Debug for Fields {
 }
 
 impl Fields {
+    /// Takes a deep place, where it is one of this set.
+    pub fn set_reference(&mut self, reference: Option<&Arc<Reference>>, fractal: &Fractal) {
+        let reference = reference.filter(|reference| reference.is_of(fractal));
+        let is_known = |(known, deep): &(Fractal, Arc<DeepField>)| {
+            known == fractal && reference.is_some_and(|new| Arc::ptr_eq(new, deep.reference()))
+        };
+        if !self.deep.as_ref().is_some_and(is_known) {
+            self.deep = reference.map(|reference| {
+                let field = DeepField::new(reference.clone(), fractal, DEEP_FOOTPRINT);
+                (fractal.clone(), Arc::new(field))
+            });
+        }
+    }
+
     /// The field for movements in `scene`: the deep one where there is one, otherwise the plain
     /// one. Where a view is deeper than that holds and the deep one is yet to come, the pivot
     /// stands for the surface: movements keep their scale.
     pub fn choose(&mut self, scene: &Scene, viewport: Viewport) -> Arc<dyn DistanceField> {
-        if let Some(deep) = &self.deep {
+        if let Some((_, deep)) = &self.deep {
             return deep.clone();
         }
         let plain = self.plain(&scene.fractal);
@@ -145,10 +160,15 @@ mod tests {
 
     #[test]
     fn the_deep_field_comes_first() {
-        let deep: Arc<dyn DistanceField> =
-            Arc::new(Unknown { pivot: PrecisePoint::ORIGIN, bounding_radius: 1.0 });
-        let mut fields = Fields { deep: Some(deep.clone()), ..Default::default() };
-        let chosen = fields.choose(&Scene::default(), VIEWPORT);
-        assert!(Arc::ptr_eq(&chosen, &deep));
+        let scene = deep_scene(8.0);
+        let anchor = scene.camera.pivot.clone();
+        let reference = Arc::new(Reference::new(&scene.fractal, anchor.clone()).expect("a power"));
+        let mut fields = Fields::default();
+        fields.set_reference(Some(&reference), &scene.fractal);
+        assert_eq!(fields.choose(&scene, VIEWPORT).origin(), anchor);
+        // It is of no other set.
+        let other = deep_scene(7.0);
+        fields.set_reference(Some(&reference), &other.fractal);
+        assert!(fields.deep.is_none());
     }
 }

@@ -264,8 +264,7 @@ impl Interface {
         // A drag stays with the eye's picture that it began in.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
-        // All pictures are plain as yet: none reports a deep place.
-        self.pilot.measure_by(None);
+        self.pilot.measure_by(inputs.report.reference.as_ref(), &scene.fractal);
         self.pilot.steer(ui, &response, frame, scene, &self.home, commands);
         if !self.pilot.is_flying()
             && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)

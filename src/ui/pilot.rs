@@ -14,8 +14,8 @@ use super::{
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
-    fractal::DistanceField,
-    scene::{Camera, Scene, StereoLayout},
+    fractal::Reference,
+    scene::{Camera, Fractal, Scene, StereoLayout},
 };
 
 /// Natural logarithm of the approach per point of wheel travel; a notch is about 100 points.
@@ -124,10 +124,10 @@ impl Pilot {
         self.run_until_secs = now_secs + RUN_SECS;
     }
 
-    /// Measures movements by `deep` from now on, the field about the deep place in view; none where
-    /// there is none. It has to be of the scene's fractal.
-    pub fn measure_by(&mut self, deep: Option<Arc<dyn DistanceField>>) {
-        self.fields.deep = deep;
+    /// Measures movements in `fractal` about this reference's anchor from now on, where it is one of
+    /// that set; none where there is none.
+    pub fn measure_by(&mut self, reference: Option<&Arc<Reference>>, fractal: &Fractal) {
+        self.fields.set_reference(reference, fractal);
     }
 
     /// Where the camera stands, for the camera panel.

@@ -23,7 +23,7 @@ pub const MOST_PLACES: usize = 2048;
 
 /// An anchor's orbit. The Julia form's has that of its constant behind it, which differences start
 /// anew from; those of the Mandelbulb start anew from the anchor's own.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     anchor: PrecisePoint,
     fractal: Fractal,
