@@ -10,7 +10,8 @@ use glam::DVec3;
 use super::navigation::Viewport;
 use crate::{
     fractal::{
-        DEEP_FOOTPRINT, DeepField, DistanceField, Estimator, PLAIN_FOOTPRINT, Reference, pixel_cone,
+        DEEP_FOOTPRINT, DeepField, DistanceField, Estimator, PLAIN_FOOTPRINT, Reference,
+        deep::has_depth, pixel_cone,
     },
     scene::{Fractal, PrecisePoint, Scene},
 };
@@ -18,11 +19,6 @@ use crate::{
 /// The part of [`PLAIN_FOOTPRINT`] below which no plain field brings a camera: such a view came
 /// from elsewhere.
 const FROM_ELSEWHERE: f64 = 0.1;
-
-/// Whether views of a fractal go on where plain f32 pictures end.
-pub fn goes_deep(fractal: &Fractal) -> bool {
-    fractal.integer_power().is_some()
-}
 
 /// Finds the field, and keeps what takes time to make.
 #[derive(Default)]
@@ -64,7 +60,7 @@ impl Fields {
         let camera = &scene.camera;
         let footprint =
             camera.view_unit() * pixel_cone(camera, viewport.aspect, viewport.height_px);
-        if goes_deep(&scene.fractal) && footprint < FROM_ELSEWHERE * PLAIN_FOOTPRINT {
+        if has_depth(&scene.fractal) && footprint < FROM_ELSEWHERE * PLAIN_FOOTPRINT {
             let pivot = camera.pivot.clone();
             return Arc::new(Unknown { pivot, bounding_radius: plain.bounding_radius() });
         }

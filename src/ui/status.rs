@@ -4,8 +4,9 @@
 
 use egui::{Rect, RichText, Sense, Ui, pos2};
 
-use super::{field::goes_deep, navigation::Standing, theme};
+use super::{navigation::Standing, theme};
 use crate::{
+    fractal::deep::has_depth,
     render::report::{Activity, Report},
     scene::{Camera, Scene},
 };
@@ -131,7 +132,7 @@ fn right_text(status: &Status<'_>, width: f32) -> String {
     let zoom = zoom_text(zoom(&status.scene.camera));
     let mut parts = Vec::new();
     if is_at_limit(status) {
-        parts.push(limit_text(goes_deep(&status.scene.fractal), width).to_owned());
+        parts.push(limit_text(has_depth(&status.scene.fractal), width).to_owned());
     }
     parts.push(zoom);
     if width_px > 0 {
@@ -157,7 +158,7 @@ fn limit_text(deep: bool, width: f32) -> &'static str {
 
 /// The same in full.
 fn limit_help(scene: &Scene) -> &'static str {
-    if goes_deep(&scene.fractal) {
+    if has_depth(&scene.fractal) {
         "The dive ends here: nearer by, the numbers that pictures are made of run out of exponents."
     } else {
         "Single precision ends here: nearer by, rounding would show instead of detail. Whole powers go deeper."

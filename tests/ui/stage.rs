@@ -36,6 +36,7 @@ pub fn stage(
         pixels_per_sample: 1,
         elapsed_secs: 1.5,
         frame_ms: 7.0,
+        reference: None,
         pictures: 9,
         memory: Default::default(),
         histogram: None,
