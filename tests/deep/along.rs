@@ -1,45 +1,67 @@
 //! The kernels' distance estimates along rays, from the eye to the surface, against the march's.
 
 use glam::DVec3;
-use mandelight::{gpu::Gpu, render::pass::probe};
+use mandelight::{
+    gpu::Gpu,
+    render::{Region, datum::Datum, pass::probe},
+    scene::Scene,
+};
 
 use super::{
     agree::gpu,
-    arithmetic::Real,
+    arithmetic::{Point, Real},
     parallel::in_parallel,
     rays::Looking,
     views::{self, ANCHORS},
 };
 
-/// The scales of the views that are asked about: those whose points an f32 tells apart.
-const ASKED: &[f64] = &[1.0, 1e-3];
 /// Parts of the way to the surface at which estimates are compared.
 const PLACES: [f64; 6] = [0.1, 0.4, 0.7, 0.85, 0.95, 1.0];
 /// One ray of so many pixels.
 const EVERY: usize = 5;
 
+/// A view's points as the kernels get them and as the march does: the very same ones.
+struct Asked {
+    /// From where the datum's coordinates begin, in its units, each as exact as an f32.
+    offset: DVec3,
+    point: Point,
+}
+
+/// Some points along the rays that hit.
+fn asked(scene: &Scene, looking: &Looking<'_>, datum: &Datum) -> Vec<Asked> {
+    let begins = match datum.reference() {
+        Some(reference) => reference.anchor().0.each_ref().map(|v| Real::parse(&v.to_string())),
+        None => [0.0; 3].map(Real::from_f64),
+    };
+    let eye = datum.point(&scene.camera.position);
+    let scale = Real::from_f64(datum.scale());
+    let pixels: Vec<_> = (0..looking.size[1])
+        .flat_map(|y| (0..looking.size[0]).map(move |x| [x, y]))
+        .step_by(EVERY)
+        .collect();
+    let found = in_parallel(&pixels, |&pixel| {
+        let direction = looking.direction(super::rays::centre(pixel));
+        let depth = looking.depth(pixel)? / datum.scale();
+        Some(PLACES.map(|part| {
+            let offset = (eye + part * depth * direction).as_vec3().as_dvec3();
+            let way = offset.to_array().map(|v| &Real::from_f64(v) * &scale);
+            Asked { offset, point: [0, 1, 2].map(|i| &begins[i] + &way[i]) }
+        }))
+    });
+    found.into_iter().flatten().flatten().collect()
+}
+
 fn estimates_agree(gpu: &Gpu, power: f64) {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
-        for &scale in ASKED.iter().filter(|&&scale| scale >= anchor.deepest) {
+        for scale in anchor.scales() {
             let (scene, size) = (anchor.scene(scale), views::SMALL);
             let looking = Looking::new(&scene, size, views::plenty(&scene));
-            let pixels: Vec<_> = (0..size[1])
-                .flat_map(|y| (0..size[0]).map(move |x| [x, y]))
-                .step_by(EVERY)
-                .collect();
-            let points: Vec<_> = in_parallel(&pixels, |&pixel| {
-                let direction = looking.direction(super::rays::centre(pixel));
-                let depth = looking.depth(pixel)?;
-                // Points that an f32 holds exactly: the march gets the very same ones.
-                let at = |part| looking.at(direction, part * depth);
-                let rounded =
-                    |part| at(part).each_ref().map(Real::to_f64).map(|v| f64::from(v as f32));
-                Some(PLACES.map(|part| DVec3::from_array(rounded(part))))
-            });
-            let points: Vec<_> = points.into_iter().flatten().flatten().collect();
-            let answers = probe::ask(gpu, &scene, &points, true).expect("the answers");
-            let expected = in_parallel(&points, |point| {
-                looking.set.estimate(&point.to_array().map(Real::from_f64), scale).distance
+            let datum = Datum::of(&scene, Region::whole(views::size(scale)));
+            let asked = asked(&scene, &looking, &datum);
+            let offsets: Vec<_> = asked.iter().map(|asked| asked.offset).collect();
+            let answers = probe::ask_about(gpu, &scene, &datum, &offsets).expect("the answers");
+            let expected = in_parallel(&asked, |Asked { point, .. }| {
+                looking.set.estimate(point, scale).distance / datum.scale()
             });
             let off = answers.iter().zip(&expected);
             let mut off: Vec<_> =

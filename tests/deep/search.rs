@@ -29,8 +29,9 @@ struct Way {
 fn approach(set: &Set, start: DVec3, direction: DVec3) -> Option<Way> {
     let mut point = start.to_array().map(Real::from_f64);
     let mut orbits = vec![];
-    // Along the axis the estimate is as smooth as that of a plane set.
-    let is_axis = [start.x, start.y, direction.x, direction.y] == [0.0; 4];
+    // Along the axis the estimate is as smooth as that of a plane set, and steps are short where the
+    // parallels are.
+    let is_axis = [direction.x, direction.y] == [0.0; 2];
     let (mut gone, mut part, mut here) = (0.0, 1.0, set.estimate(&point, 1e-2));
     for _ in 0..if is_axis { 10_000 } else { 1500 } {
         orbits.push((here.distance, here.steps));
@@ -54,12 +55,22 @@ fn approach(set: &Set, start: DVec3, direction: DVec3) -> Option<Way> {
     None
 }
 
-/// Where lines start and lead: anywhere, in the plane of the equator, or along the axis.
+/// Where lines start and lead: anywhere, in the plane of the equator, along the axis, or so far
+/// beside it.
 fn line(kind: &str, random: &mut Random) -> (DVec3, DVec3) {
     let (mut from, mut to) = (2.0 * random.in_ball(1.0).normalize(), random.in_ball(0.6));
     match kind {
         "axis" => return (DVec3::Z * 2.0, DVec3::NEG_Z),
         "equator" => (from.z, to.z) = (0.0, 0.0),
+        "beside the axis" => {
+            let radius = 10.0_f64.powi(-2 - (random.unit() * 2.0) as i32);
+            let (sin, cos) = (random.unit() * 6.3).sin_cos();
+            return (DVec3::new(radius * cos, radius * sin, 2.0), DVec3::NEG_Z);
+        }
+        "hard by the axis" => {
+            let (sin, cos) = (random.unit() * 6.3).sin_cos();
+            return (DVec3::new(1e-10 * cos, 1e-10 * sin, 2.0), DVec3::NEG_Z);
+        }
         _ => (),
     }
     // As few digits as the source of the views has.
@@ -112,6 +123,13 @@ fn find_views() {
         (3.0, false, "anywhere", 16),
         (8.0, false, "anywhere", 16),
         (8.0, false, "axis", 1),
+        (3.0, false, "beside the axis", 12),
+        (8.0, false, "beside the axis", 12),
+        (8.0, false, "hard by the axis", 4),
+        (2.0, false, "beside the axis", 12),
+        (2.0, false, "hard by the axis", 4),
+        (3.0, false, "hard by the axis", 4),
+        (16.0, false, "beside the axis", 12),
         (8.0, true, "anywhere", 16),
     ] {
         let fractal = Fractal { power, julia, ..Fractal::default() };
@@ -132,7 +150,7 @@ fn find_views() {
 #[ignore = "a tool: prints what the views are like"]
 fn judge_views() {
     for anchor in ANCHORS {
-        for scale in SCALES.into_iter().filter(|&scale| scale >= anchor.deepest) {
+        for scale in anchor.scales() {
             let Look { hit, differ, depth } = look(&anchor.scene(scale), views::SMALL);
             println!(
                 "power {} {} at {scale:e}: {hit:.3} hit, {differ:.4} differ, at {depth:.2}",
