@@ -1,0 +1,14 @@
+//! What has to hold of deep views whatever is seen in them. That it is the right thing, `tests/deep`
+//! says, which has another arithmetic to compare with.
+//!
+//! | file | what lives there |
+//! |---|---|
+//! | `places` | where the views are, and their passes in coordinates of one's choice |
+//! | `anchors` | another anchor makes no other picture, and none at all the same |
+
+mod anchors;
+mod places;
+
+#[expect(dead_code, reason = "of pictures at hand")]
+#[path = "../gpu/harness.rs"]
+mod harness;

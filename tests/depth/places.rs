@@ -1,0 +1,145 @@
+//! Where the views are, and their passes in coordinates of one's choice.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use mandelight::{
+    fractal::{DeepField, DistanceField, Reference, camera_ray, deep::Search},
+    gpu::readback::Readback,
+    render::{
+        Region,
+        datum::Datum,
+        frame::{Dispatches, Recorder, record},
+        gbuffer::Samples,
+        schedule::{Points, Stage, Trace, Work},
+        targets::Targets,
+        uniforms::Inputs,
+    },
+    scene::{Camera, Fractal, PrecisePoint, Scene},
+};
+
+use crate::harness::kernels;
+
+/// A point of the surface of power 8 to less than 1e-30, and the direction it is looked at along.
+const POWER_8: ([&str; 3], [f64; 3]) = (
+    [
+        "-0.29601176724531189050911006306022274230736161",
+        "-0.84328481599099249352515910401335034767521926",
+        "0.37077988123915841580698601171728158967365266",
+    ],
+    [0.373, 0.8337, -0.4073],
+);
+
+/// The same of power 3.
+const POWER_3: ([&str; 3], [f64; 3]) = (
+    [
+        "-0.61984950289083675921081670677882479678813811",
+        "0.05914404510058610768248565359616913277999471",
+        "0.21621421310774659890823180171396924110898232",
+    ],
+    [0.9133, -0.3815, -0.1425],
+);
+
+/// The same of the Julia form of power 8.
+const JULIA: ([&str; 3], [f64; 3]) = (
+    [
+        "-0.30888984218751890347855344843486610538809678",
+        "0.98597146898507521586390400044472522307089860",
+        "-0.18819905768768892099979488397141155059571933",
+    ],
+    [-0.0731, -0.7977, 0.5986],
+);
+
+/// The scene that looks at such a point of `fractal`, of power 8 or 3, from `scale` away.
+pub fn at(fractal: Fractal, scale: f64) -> Scene {
+    let (point, toward) = match (fractal.power == 3.0, fractal.julia) {
+        (true, _) => POWER_3,
+        (_, true) => JULIA,
+        _ => POWER_8,
+    };
+    let anchor = PrecisePoint(point.map(|text| text.parse().expect("a decimal number")));
+    let toward = DVec3::from_array(toward).normalize();
+    let mut camera = Camera::looking_at(-toward, DVec3::ZERO, toward.any_orthonormal_vector());
+    camera.position = anchor.moved_by(-toward * scale, 1e-6 * scale);
+    camera.pivot = anchor;
+    Scene { fractal, camera, ..Scene::default() }
+}
+
+/// The scene of power 8.
+pub fn scene(scale: f64) -> Scene {
+    at(Fractal::default(), scale)
+}
+
+/// The anchor that a view of `scene` finds.
+pub fn found(scene: &Scene, size: [u32; 2]) -> Arc<Reference> {
+    let aspect = Region::whole(size).aspect();
+    Search::new(&scene.fractal, &scene.camera, aspect, None).expect("a whole power").finish()
+}
+
+/// An anchor on the surface at another place of the picture.
+pub fn anchor_at(scene: &Scene, size: [u32; 2], ndc: DVec2) -> Option<Arc<Reference>> {
+    let field = field(scene, size);
+    let ray = camera_ray(&scene.camera, &field.origin(), ndc, Region::whole(size).aspect());
+    let depth = field.march(ray, 1e-4, 100.0 * scene.camera.view_unit())?;
+    let anchor = scene.camera.position.moved_by(ray.direction * depth, 1e-12 * depth);
+    Reference::new(&scene.fractal, anchor).map(Arc::new)
+}
+
+/// The set in f64 about the anchor that a view of `scene` finds.
+pub fn field(scene: &Scene, size: [u32; 2]) -> DeepField {
+    let region = Region::whole(size);
+    let reference = found(scene, size);
+    let footprint = Datum::about(reference.clone(), scene).footprint(scene, region);
+    DeepField::new(reference, &scene.fractal, footprint)
+}
+
+/// What the passes over centre samples leave.
+pub struct Drawn {
+    pub samples: Samples,
+    /// Radiance of each pixel.
+    pub film: Vec<[f32; 3]>,
+}
+
+/// Draws the centre samples of `scene` in the coordinates of `datum`.
+pub fn drawn(scene: &Scene, size: [u32; 2], datum: &Datum) -> Drawn {
+    let kernels = kernels();
+    let gpu = &kernels.gpu;
+    let region = Region::whole(size);
+    let inputs = Inputs::about(scene, region, datum);
+    let mut targets = Targets::new(kernels, region);
+    targets.fit_direct(kernels, inputs.gathers());
+    targets.upload(&gpu.queue, &inputs);
+    for extra in mandelight::render::kernels::Extra::special(&inputs.picture) {
+        kernels.prepare(extra);
+    }
+    let passes = kernels.passes(&inputs.picture);
+    let mut stages = vec![(Points::Level(0), Stage::March)];
+    if inputs.gathers() {
+        stages.push((Points::Around(0), Stage::Gather));
+    }
+    let mut dispatches = Dispatches::default();
+    for (points, from) in stages {
+        let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
+        let workgroups = points.grid(size).workgroups();
+        let lights = inputs.shining();
+        let trace = Trace { points, from, lights, first_workgroup: 0, workgroups };
+        record(&mut recorder, Work::Trace(trace));
+        gpu.queue.submit([recorder.finish()]);
+        gpu.wait();
+    }
+    assert_eq!(gpu.faults(), 0);
+    let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("bytes");
+    let center = &targets.center;
+    let samples = Samples::decode(&read(&center.surface), &read(&center.visibility), datum.scale());
+    let pairs = |buffer| -> Vec<[f32; 2]> {
+        read(buffer).as_chunks::<8>().0.iter().map(|pair| bytemuck::cast(*pair)).collect()
+    };
+    let film = pairs(&targets.film_rg).into_iter().zip(pairs(&targets.film_bw));
+    let film = film.map(|([r, g], [b, weight])| [r, g, b].map(|sum| sum / weight.max(1.0)));
+    Drawn { samples, film: film.collect() }
+}
+
+/// Radius of a pixel's cone at depth one.
+pub fn cone(scene: &Scene, size: [u32; 2]) -> f64 {
+    mandelight::fractal::pixel_cone(&scene.camera, Region::whole(size).aspect(), size[1].into())
+}
