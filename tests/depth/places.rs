@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use mandelight::{
-    fractal::{DeepField, DistanceField, Reference, camera_ray, deep::Search},
+    fractal::{DeepField, DistanceField, Ray, Reference, camera_ray, deep::Search},
     gpu::readback::Readback,
     render::{
         Region,
@@ -137,6 +137,13 @@ pub fn drawn(scene: &Scene, size: [u32; 2], datum: &Datum) -> Drawn {
     let film = pairs(&targets.film_rg).into_iter().zip(pairs(&targets.film_bw));
     let film = film.map(|([r, g], [b, weight])| [r, g, b].map(|sum| sum / weight.max(1.0)));
     Drawn { samples, film: film.collect() }
+}
+
+/// The ray through the centre of a pixel, counted row by row, in coordinates relative to `origin`.
+pub fn ray(scene: &Scene, [width, height]: [u32; 2], index: usize, origin: &PrecisePoint) -> Ray {
+    let [x, y] = [index as u32 % width, index as u32 / width].map(|v| f64::from(v) + 0.5);
+    let ndc = DVec2::new(2.0 * x / f64::from(width) - 1.0, 1.0 - 2.0 * y / f64::from(height));
+    camera_ray(&scene.camera, origin, ndc, Region::whole([width, height]).aspect())
 }
 
 /// Radius of a pixel's cone at depth one.
