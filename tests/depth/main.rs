@@ -6,14 +6,15 @@
 //! | `places` | where the views are, and their passes in coordinates of one's choice |
 //! | `anchors` | another anchor makes no other picture, and none at all the same |
 //! | `light` | normals of every kind and shadows of every light, against the field in f64 |
+//! | `files` | stills in tiles, OpenEXR, sequences, links and documents, two eyes |
 //! | `moving` | a dive from the whole scene to 1e-20 in a view that moves |
 
 mod anchors;
+mod files;
 mod light;
 mod moving;
 mod places;
 
-#[expect(dead_code, reason = "of pictures at hand")]
 #[path = "../gpu/harness.rs"]
 mod harness;
 #[path = "../oracle/parallel.rs"]
