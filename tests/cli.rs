@@ -8,7 +8,7 @@ use std::{
     process::{Child, Command, Output, Stdio},
 };
 
-use mandelight::scene::document;
+use mandelight::scene::{document, presets};
 use serde_json::{Value, json};
 
 /// The program, with nothing on its standard streams and no desktop about it.
@@ -214,7 +214,7 @@ fn the_scene_command_prints_documents() {
     let list = String::from_utf8(run(&["scene", "--list-presets"]).stdout).unwrap();
     let names: Vec<&str> =
         list.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
-    assert_eq!(names.len(), 8, "{list}");
+    assert_eq!(names.len(), presets::every().len(), "{list}");
     let documents: Vec<Vec<u8>> = names
         .iter()
         .map(|name| {
@@ -224,7 +224,7 @@ fn the_scene_command_prints_documents() {
         })
         .collect();
     assert_eq!(documents[0], run(&["scene"]).stdout);
-    assert!((1..8).all(|i| documents[i] != documents[i - 1]));
+    assert!((1..names.len()).all(|i| documents[i] != documents[i - 1]));
 
     let changed =
         run(&["scene", "--set", "fractal.power=3", "--set", "camera.position[0]=-1.5"]).stdout;

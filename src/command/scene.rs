@@ -11,10 +11,10 @@ use super::{
 /// What `mandelight scene` takes.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Print this opening scene instead of the first one
+    /// Print this opening scene or dive instead of the first scene
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// List the opening scenes
+    /// List the opening scenes and the dives
     #[arg(long, conflicts_with_all = ["preset", "set"])]
     list_presets: bool,
     /// Change a field, such as fractal.power=3 or lights.environment[0].intensity=2
@@ -25,19 +25,18 @@ pub struct Arguments {
 /// Prints what was asked for.
 pub fn run(arguments: Arguments) -> Result<(), Failure> {
     if arguments.list_presets {
-        let names: Vec<String> = presets::all().iter().map(|preset| name_of(preset.name)).collect();
+        let names: Vec<String> = presets::every().map(|preset| name_of(preset.name)).collect();
         let width = names.iter().map(String::len).max().unwrap_or(0);
-        let lines = names.iter().zip(presets::all());
+        let lines = names.iter().zip(presets::every());
         let list: String =
             lines.map(|(name, preset)| format!("{name:width$}  {}\n", preset.blurb)).collect();
         return print(&list);
     }
     let wanted = arguments.preset.as_deref().map(name_of);
-    let preset = presets::all()
-        .iter()
+    let preset = presets::every()
         .find(|preset| wanted.as_ref().is_none_or(|wanted| name_of(preset.name) == *wanted))
         .ok_or_else(|| {
-            let names: Vec<String> = presets::all().iter().map(|p| name_of(p.name)).collect();
+            let names: Vec<String> = presets::every().map(|p| name_of(p.name)).collect();
             let wanted = wanted.unwrap_or_default();
             Failure::usage(format!("--preset: no \"{wanted}\"; there are {}", names.join(", ")))
         })?;

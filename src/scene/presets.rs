@@ -1,7 +1,9 @@
-//! The opening scenes.
+//! The opening scenes, and the dives.
 //!
 //! In: nothing. Out: eight scenes to start from, each valid, the eye outside of the set and
-//! the pivot on or near what it shows. The first is the default scene.
+//! the pivot on or near what it shows, the first the default scene; and as many places at depth.
+
+mod dives;
 
 use glam::DVec3;
 
@@ -9,6 +11,8 @@ use super::{
     Background, Camera, ColorSource, Coloring, EnvironmentLight, Fractal, GradientStop, LightFrame,
     Lights, PointLight, Scene, Surface, Tone,
 };
+
+pub use dives::dives;
 
 /// A scene to start from.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +69,12 @@ pub fn all() -> &'static [Preset] {
             scene: lantern,
         },
     ]
+}
+
+/// The opening scenes, and behind them the dives.
+pub fn every() -> impl ExactSizeIterator<Item = &'static Preset> + Clone {
+    let count = all().len();
+    (0..count + dives().len()).map(move |i| if i < count { &all()[i] } else { &dives()[i - count] })
 }
 
 /// The camera at `eye`, looking at `pivot`, the world's z upward.

@@ -381,7 +381,7 @@ impl Interface {
     /// Opens a preset. How much work pictures get stays as this machine's owner chose it, and so
     /// does the path: a preset can become one of its keys.
     fn choose_preset(&mut self, index: usize) {
-        if let Some(preset) = presets::all().get(index) {
+        if let Some(preset) = presets::every().nth(index) {
             let mut scene = (preset.scene)();
             scene.quality = self.scene().quality.clone();
             let path = self.project().path.clone();

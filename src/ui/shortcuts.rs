@@ -23,7 +23,7 @@ pub enum Command {
     LoadScene,
     /// Copy the address that shares this view.
     CopyLink,
-    /// The opening scene of this index.
+    /// The scene of this index among the opening scenes and the dives.
     Preset(usize),
     /// The camera of a new scene.
     Home,

@@ -1,30 +1,65 @@
-//! The opening scenes.
+//! The opening scenes, and the dives.
 
-use egui::{Button, Ui, vec2};
+use egui::{Button, Id, RichText, Ui, vec2};
 
 use super::Context;
 use crate::{
-    scene::presets,
-    ui::{shortcuts::Command, widgets::caption},
+    scene::presets::{self, Preset},
+    ui::shortcuts::Command,
 };
 
-/// A button for each: two in a row, or four where rows are as high as fingers.
+/// A button for each scene of a list, under the lists' headings, of which one is chosen.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    caption(ui, "Scenes");
+    let lists = [("Scenes", presets::all(), 0), ("Dives", presets::dives(), presets::all().len())];
+    let id = Id::unique("list of scenes");
+    let mut chosen = ui.data(|data| data.get_temp(id)).unwrap_or(0_usize);
+    ui.horizontal(|ui| {
+        for (index, (heading, ..)) in lists.iter().enumerate() {
+            let text = RichText::new(*heading).small();
+            let response = ui.add(Button::selectable(index == chosen, text));
+            if index == 1 {
+                cx.rects.note("dives", &response);
+            }
+            if response.clicked() {
+                chosen = index;
+                ui.data_mut(|data| data.insert_temp(id, chosen));
+            }
+        }
+    });
+    if let Some(&(heading, presets, first)) = lists.get(chosen) {
+        buttons(ui, cx, heading, presets, first);
+    }
+}
+
+/// Two in a row, or four where rows are as high as fingers. `first` is the first one's number among
+/// all.
+fn buttons(
+    ui: &mut Ui,
+    cx: &mut Context<'_>,
+    heading: &str,
+    presets: &'static [Preset],
+    first: usize,
+) {
     let gap = 6.0;
     let height = ui.spacing().interact_size.y.max(28.0);
     let columns = if height > 40.0 { 4 } else { 2 };
     let size = vec2((ui.available_width() - gap * (columns - 1) as f32) / columns as f32, height);
     ui.spacing_mut().button_padding.x = 2.0;
-    egui::Grid::new("scenes").spacing([gap, 5.0]).min_col_width(size.x).show(ui, |ui| {
-        for (index, preset) in presets::all().iter().enumerate() {
+    egui::Grid::new(heading).spacing([gap, 5.0]).min_col_width(size.x).show(ui, |ui| {
+        for (index, preset) in presets.iter().enumerate() {
             let button = ui.add_sized(size, Button::new(preset.name).truncate());
-            let response = button.on_hover_text(format!("{} ({})", preset.blurb, index + 1));
+            // The first list has keys.
+            let hover = match first {
+                0 => format!("{} ({})", preset.blurb, index + 1),
+                _ => preset.blurb.to_owned(),
+            };
+            let response = button.on_hover_text(hover);
             if index == 0 {
-                cx.rects.note("first scene", &response);
+                let name = if first == 0 { "first scene" } else { "first dive" };
+                cx.rects.note(name, &response);
             }
             if response.clicked() {
-                cx.commands.push(Command::Preset(index));
+                cx.commands.push(Command::Preset(first + index));
             }
             if index % columns == columns - 1 {
                 ui.end_row();

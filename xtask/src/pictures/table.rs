@@ -233,6 +233,20 @@ pub fn pictures() -> Vec<Picture> {
             ]),
         ),
         picture(
+            "depth",
+            2,
+            "One fall into the power-16 bulb: at 2.4, 1e-5, 1e-10 and 1e-20",
+            [fall(0), fall(6), fall(12), fall(24)],
+        ),
+        single("vine", "Bunches on twisted stems, at 1e-8 in a Julia form", of("Vine")),
+        single("garland", "Spirals of balls, at 4e-12 in power 6", of("Garland")),
+        single("thistle", "Heads of flowers, at 3e-13 in power 12", of("Thistle")),
+        single("sunflower", "Arms of seeds, at 2e-14 in power 16", of("Sunflower")),
+        single("ice-flower", "Pale petals, at 5e-17 in power 10", of("Ice flower")),
+        single("cove", "A shore that curls, at 8e-20 in power 3", of("Cove")),
+        single("dahlia", "Petals about petals, at 1e-20 in power 16", of("Dahlia")),
+        single("rosette", "A wreath, at 2e-26 in power 8", of("Rosette")),
+        picture(
             "scenes",
             4,
             "The eight opening scenes",
@@ -311,6 +325,10 @@ fn marble(change: &'static str) -> Panel {
 
 fn flight(frame: u32) -> Panel {
     of("examples/flight.json").frame(frame)
+}
+
+fn fall(frame: u32) -> Panel {
+    of("examples/fall.json").frame(frame)
 }
 
 fn of(scene: &'static str) -> Panel {

@@ -1,0 +1,60 @@
+//! Places far below the surface, to start from.
+//!
+//! In: nothing. Out: eight scenes, each a document that stays as it is to the last digit. All
+//! look at points of the plane z = 0, where a step of an orbit stretches what is near it alike in all
+//! directions: elsewhere it stretches it more in one than in others, and after many steps streaks are
+//! left. `docs/dives.md` shows them.
+
+use super::Preset;
+use crate::scene::{Scene, document};
+
+/// A dive whose document is the file of this name.
+macro_rules! dive {
+    ($name:literal, $file:literal, $blurb:literal) => {
+        Preset {
+            name: $name,
+            blurb: $blurb,
+            scene: || frozen(include_str!(concat!("dives/", $file, ".json"))),
+        }
+    };
+}
+
+/// The dives, the deepest last.
+pub fn dives() -> &'static [Preset] {
+    const DIVES: &[Preset] = &[
+        dive!("Vine", "vine", "At 10⁻⁸ in a Julia form of power 4: bunches on twisted stems."),
+        dive!(
+            "Garland",
+            "garland",
+            "At 4 · 10⁻¹², power 6: spirals of balls, each a spiral again."
+        ),
+        dive!(
+            "Thistle",
+            "thistle",
+            "At 3 · 10⁻¹³, power 12: heads of flowers, and heads of those."
+        ),
+        dive!(
+            "Sunflower",
+            "sunflower",
+            "At 2 · 10⁻¹⁴, power 16: arms of seeds, each with arms of its own."
+        ),
+        dive!(
+            "Ice flower",
+            "ice-flower",
+            "At 5 · 10⁻¹⁷, power 10: petals in the cold light of a pale gradient."
+        ),
+        dive!("Cove", "cove", "At 8 · 10⁻²⁰, power 3: a shore that curls into itself."),
+        dive!("Dahlia", "dahlia", "At 10⁻²⁰, power 16: petals about petals."),
+        dive!(
+            "Rosette",
+            "rosette",
+            "At 2 · 10⁻²⁶, power 8: a wreath that comes back at every scale."
+        ),
+    ];
+    DIVES
+}
+
+/// The scene of a document that is part of the program: a test reads every one.
+fn frozen(text: &str) -> Scene {
+    document::from_json(text).expect("a document that a test has read")
+}
