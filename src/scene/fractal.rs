@@ -21,7 +21,7 @@ pub enum Variant {
 pub struct Fractal {
     /// Exponent n, any real in [`param::POWER`].
     pub power: f64,
-    /// Most orbit steps, in [`param::ITERATIONS`].
+    /// Most orbit steps in a view of the whole, in [`param::ITERATIONS`]; finer views add what they need.
     pub iterations: u32,
     /// Escape radius in scene units, in [`param::BAILOUT`] and at most [`Fractal::max_bailout`].
     pub bailout: f64,

@@ -155,7 +155,7 @@ params! {
     POWER = "fractal.power", "Power", None, 2.0, 16.0, default 8.0, Linear by 0.1,
         "The exponent n of z → zⁿ + c. Whole numbers are fastest; higher gives more and smaller lobes.";
     ITERATIONS = "fractal.iterations", "Iterations", Count, 2.0, 100.0, default 16.0, Integer by 1.0,
-        "The most steps an orbit is followed. More shows finer detail and costs time near the surface.";
+        "The most steps an orbit is followed in a view of the whole; finer views add what they need. More shows finer detail and costs time near the surface.";
     BAILOUT = "fractal.bailout", "Bailout", SceneUnits, 2.0, 256.0, default 4.0, Logarithmic by 0.1,
         "The radius past which an orbit counts as escaped. Larger makes distances and colours smoother. At most (1.8e19)^(1/power).";
     JULIA_CONSTANT = "fractal.julia_constant[]", "Julia constant", SceneUnits, -2.0, 2.0, default 0.0, Linear by 0.01,

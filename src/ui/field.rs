@@ -11,7 +11,8 @@ use super::navigation::Viewport;
 use crate::{
     fractal::{
         DEEP_FOOTPRINT, DeepField, DistanceField, Estimator, PLAIN_FOOTPRINT, Reference,
-        deep::has_depth, pixel_cone,
+        deep::{has_depth, iterations_for},
+        pixel_cone,
     },
     scene::{Fractal, PrecisePoint, Scene},
 };
@@ -56,10 +57,10 @@ impl Fields {
         if let Some((_, deep)) = &self.deep {
             return deep.clone();
         }
-        let plain = self.plain(&scene.fractal);
         let camera = &scene.camera;
-        let footprint =
-            camera.view_unit() * pixel_cone(camera, viewport.aspect, viewport.height_px);
+        let cone = pixel_cone(camera, viewport.aspect, viewport.height_px);
+        let plain = self.plain(&scene.fractal, camera.position.to_dvec3(), cone);
+        let footprint = camera.view_unit() * cone;
         if has_depth(&scene.fractal) && footprint < FROM_ELSEWHERE * PLAIN_FOOTPRINT {
             let pivot = camera.pivot.clone();
             return Arc::new(Unknown { pivot, bounding_radius: plain.bounding_radius() });
@@ -67,12 +68,16 @@ impl Fields {
         plain
     }
 
-    fn plain(&mut self, fractal: &Fractal) -> Arc<Estimator> {
+    /// The field with the iterations that the view from `eye` is drawn with.
+    fn plain(&mut self, fractal: &Fractal, eye: DVec3, cone: f64) -> Arc<Estimator> {
+        let nearest = Estimator::new(fractal).clear_distance(eye);
+        let iterations = iterations_for(fractal, (nearest * cone).max(PLAIN_FOOTPRINT));
+        let drawn = Fractal { iterations, ..fractal.clone() };
         match &self.plain {
-            Some((known, estimator)) if known == fractal => estimator.clone(),
+            Some((known, estimator)) if *known == drawn => estimator.clone(),
             _ => {
-                let estimator = Arc::new(Estimator::new(fractal));
-                self.plain = Some((fractal.clone(), estimator.clone()));
+                let estimator = Arc::new(Estimator::new(&drawn));
+                self.plain = Some((drawn, estimator.clone()));
                 estimator
             }
         }
@@ -152,6 +157,28 @@ mod tests {
         assert!(!is_plain(&deep_scene(8.0)));
         // No pictures go that deep: movements keep to what they show.
         assert!(is_plain(&deep_scene(8.5)));
+    }
+
+    #[test]
+    fn a_plain_field_has_the_iterations_that_its_view_is_drawn_with() {
+        let fractal = Fractal { iterations: 6, ..Default::default() };
+        let whole = Estimator::new(&fractal);
+        let finer = iterations_for(&fractal, PLAIN_FOOTPRINT);
+        let finer = Estimator::new(&Fractal { iterations: finer, ..fractal.clone() });
+        let mut fields = Fields::default();
+        let mut told = |eye: DVec3| {
+            let camera = Camera::looking_at(eye, DVec3::ZERO, DVec3::Z);
+            let scene = Scene { camera, fractal: fractal.clone(), ..Default::default() };
+            fields.choose(&scene, VIEWPORT).distance(eye)
+        };
+        let far = DVec3::new(2.0, -2.0, 1.0);
+        assert_eq!(told(far), whole.distance(far));
+        // Where six steps take a point for one of the set that more tell from it.
+        let near = (0..100_000)
+            .map(|i| DVec3::new(0.5, -0.6, 0.4) * (1.5 - 1e-5 * f64::from(i)))
+            .find(|&eye| whole.distance(eye) == 0.0 && finer.distance(eye) > 0.0)
+            .expect("there is such a place");
+        assert_eq!(told(near), finer.distance(near));
     }
 
     #[test]
