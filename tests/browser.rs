@@ -221,3 +221,33 @@ fn only_changes(visit: &Visit, before: &str, after: &str, parts: &[&str]) {
         assert_eq!(changed, parts.contains(&part.as_str()), "{part}, from {before} to {after}");
     }
 }
+
+#[test]
+fn a_dive_by_the_wheel_goes_on_below_single_precision_and_comes_home() {
+    let dive = presets::dives().iter().find(|dive| dive.name == "Dahlia").expect("a dive").scene;
+    let fragment = link::to_fragment(&dive()).unwrap();
+    let visit = Visit::run_with("dive", [("MANDELIGHT_LINK", fragment)]);
+
+    let (zoom, deep) = (visit.number("/zoom"), visit.scene("deep"));
+    assert!(zoom >= 1e8, "{zoom:e} after {} notches", visit.number("/notches"));
+    assert!(deep.camera.view_unit() < 1e-7, "{:e}", deep.camera.view_unit());
+    assert!(visit.pixels("deep").contrast() > 5.0, "the picture at the end of the dive is empty");
+
+    // Anchors take no more than 4 ms of a frame. The cores are shared with a software GPU, so now and
+    // then a frame waits for something else.
+    let times: Vec<f64> =
+        visit.seen["anchor_ms"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+    let long = times.iter().filter(|&&ms| ms > 4.0).count();
+    println!(
+        "anchors: {} frames, {long} above 4 ms, at most {:?}",
+        times.len(),
+        times.iter().copied().reduce(f64::max)
+    );
+    assert!(times.iter().any(|&ms| ms > 0.0), "no frame looked for an anchor");
+    assert!(long * 10 <= times.len(), "{long} of {} frames", times.len());
+
+    assert_eq!(visit.scene("linked"), dive());
+    assert!(visit.number("/linked_zoom") > 1e19);
+    assert!(visit.pixels("linked").contrast() > 5.0, "the linked picture is empty");
+    assert_eq!(visit.scene("home").camera, Camera::default());
+}

@@ -35,6 +35,7 @@ const AHEAD: f64 = 30.0;
 pub struct Anchors {
     at_hand: Option<Found>,
     search: Option<(Search, PrecisePoint)>,
+    took_ms: f64,
 }
 
 /// An anchor, and where it was looked for.
@@ -67,6 +68,18 @@ impl Anchors {
         if pace == Pace::Still {
             return Some(Datum::of(scene, region));
         }
+        let began = Instant::now();
+        let datum = self.datum_of_frame(scene, region);
+        self.took_ms = began.elapsed().as_secs_f64() * 1e3;
+        datum
+    }
+
+    /// CPU milliseconds that the last scene took.
+    pub fn took_ms(&self) -> f64 {
+        self.took_ms
+    }
+
+    fn datum_of_frame(&mut self, scene: &Scene, region: Region) -> Option<Datum> {
         if !wants_anchor(scene, region) {
             if deep::has_depth(&scene.fractal)
                 && plain_footprint(scene, region) < AHEAD * deep::COARSEST_FOOTPRINT

@@ -439,6 +439,7 @@ impl View {
             pixels_per_sample: 1 << status.shown_level,
             elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),
             frame_ms: self.frame_ms,
+            anchor_ms: self.anchors.took_ms(),
             histogram: self.watch.histogram().cloned(),
             memory: self.memory(),
             reference: self.anchors.reference(),

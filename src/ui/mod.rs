@@ -37,6 +37,7 @@ pub mod theme;
 pub use interface::Interface;
 pub use panel::export::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use panel::{Sections, Settings};
+pub use status::zoom;
 
 use crate::render::report::Report;
 

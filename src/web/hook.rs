@@ -15,6 +15,7 @@ use crate::{
     gpu::{Gpu, readback::Readback},
     render::Activity,
     scene::document,
+    ui::zoom,
 };
 
 /// Between two looks for pixels that are on their way, milliseconds.
@@ -63,6 +64,8 @@ impl Hook {
         set(&object, "pixelsPerSample", report.pixels_per_sample);
         set(&object, "elapsedSecs", report.elapsed_secs);
         set(&object, "frameMs", report.frame_ms);
+        set(&object, "anchorMs", report.anchor_ms);
+        set(&object, "zoom", zoom(&session.interface.scene().camera));
         set(&object, "dispatches", status.dispatches.total() as f64);
         set(&object, "frames", status.frames as f64);
         set(&object, "exporting", status.is_exporting);

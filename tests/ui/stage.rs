@@ -35,6 +35,7 @@ pub fn stage(
         samples_wanted: 16,
         pixels_per_sample: 1,
         elapsed_secs: 1.5,
+        anchor_ms: 0.0,
         frame_ms: 7.0,
         reference: None,
         pictures: 9,
