@@ -10,13 +10,16 @@ use crate::{
 
 /// A button for each scene of a list, under the lists' headings, of which one is chosen.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    let lists = [("Scenes", presets::all(), 0), ("Dives", presets::dives(), presets::all().len())];
+    let lists = [
+        ("Scenes", "Whole sets and views close to them", presets::all(), 0),
+        ("Dives", "Places far below the surface", presets::dives(), presets::all().len()),
+    ];
     let id = Id::unique("list of scenes");
     let mut chosen = ui.data(|data| data.get_temp(id)).unwrap_or(0_usize);
     ui.horizontal(|ui| {
-        for (index, (heading, ..)) in lists.iter().enumerate() {
+        for (index, (heading, help, ..)) in lists.iter().enumerate() {
             let text = RichText::new(*heading).small();
-            let response = ui.add(Button::selectable(index == chosen, text));
+            let response = ui.add(Button::selectable(index == chosen, text)).on_hover_text(*help);
             if index == 1 {
                 cx.rects.note("dives", &response);
             }
@@ -26,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             }
         }
     });
-    if let Some(&(heading, presets, first)) = lists.get(chosen) {
+    if let Some(&(heading, _, presets, first)) = lists.get(chosen) {
         buttons(ui, cx, heading, presets, first);
     }
 }
