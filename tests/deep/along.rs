@@ -1,15 +1,21 @@
-//! The kernels' distance estimates along rays, from the eye to the surface, against the march's.
+//! The kernels' distance estimates and colour data along rays, from the eye to the surface, against
+//! the march's.
 
 use glam::DVec3;
 use mandelight::{
     gpu::Gpu,
-    render::{Region, datum::Datum, pass::probe},
+    render::{
+        Region,
+        datum::Datum,
+        pass::probe::{self, Answer},
+    },
     scene::Scene,
 };
 
 use super::{
     agree::gpu,
     arithmetic::{Point, Real},
+    orbit::Estimate,
     parallel::in_parallel,
     rays::Looking,
     views::{self, ANCHORS},
@@ -60,20 +66,42 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
             let asked = asked(&scene, &looking, &datum);
             let offsets: Vec<_> = asked.iter().map(|asked| asked.offset).collect();
             let answers = probe::ask_about(gpu, &scene, &datum, &offsets).expect("the answers");
-            let expected = in_parallel(&asked, |Asked { point, .. }| {
-                looking.set.estimate(point, scale).distance / datum.scale()
-            });
-            let off = answers.iter().zip(&expected);
-            let mut off: Vec<_> =
-                off.map(|(a, &e)| (f64::from(a.distance) - e).abs() / e.max(1e-300)).collect();
-            off.sort_by(f64::total_cmp);
-            let quantile = |part: f64| off[((off.len() - 1) as f64 * part) as usize];
-            let (median, most) = (quantile(0.5), quantile(0.99));
+            let expected =
+                in_parallel(&asked, |Asked { point, .. }| looking.set.estimate(point, scale));
+            let pairs: Vec<_> = answers.iter().zip(&expected).collect();
             let view = format!("power {power} {} at {scale:e}", anchor.name);
-            println!("{view}: {} estimates off by {median:.1e}, {most:.1e}", off.len());
-            assert!(off.len() >= 60, "{view}: {} estimates", off.len());
+            assert!(pairs.len() >= 60, "{view}: {} estimates", pairs.len());
+            let quantiles = |off: &dyn Fn(&Answer, &Estimate) -> f64| {
+                let mut off: Vec<_> = pairs.iter().map(|(a, e)| off(a, e)).collect();
+                off.sort_by(f64::total_cmp);
+                [0.5, 0.99].map(|part| off[((off.len() - 1) as f64 * part) as usize])
+            };
+            let of_distance = quantiles(&|answer, expected| {
+                let expected = expected.distance / datum.scale();
+                (f64::from(answer.distance) - expected).abs() / expected.max(1e-300)
+            });
+            let of_count = quantiles(&|answer, expected| {
+                (f64::from(answer.smooth_iterations) - expected.smooth_iterations).abs()
+            });
+            let of_traps = quantiles(&|answer, expected| {
+                let traps = [answer.origin_trap, answer.axis_trap].map(f64::from);
+                let off = [0, 1].map(|i| (traps[i] - expected.traps[i].min(2.0)).abs());
+                f64::max(off[0], off[1])
+            });
+            let text = |[median, most]: [f64; 2]| format!("{median:.1e}, {most:.1e}");
+            println!(
+                "{view}: estimates off by {}, counts by {}, traps by {}",
+                text(of_distance),
+                text(of_count),
+                text(of_traps),
+            );
+            let [median, most] = of_distance;
             assert!(median < 1e-3, "{view}: half of the estimates are off by {median}");
             assert!(most < 1e-2, "{view}: the last percent is off by {most}");
+            // A display shows 255 steps of them.
+            let [median, most] = [0, 1].map(|i| f64::max(of_count[i], of_traps[i]));
+            assert!(median < 1e-3, "{view}: half of the colours are off by {median}");
+            assert!(most < 1e-2, "{view}: the last percent of the colours is off by {most}");
         }
     }
 }

@@ -40,6 +40,10 @@ pub struct Estimate {
     pub step: f64,
     /// Steps done.
     pub steps: u32,
+    /// N − ln(ln r / ln b) / ln n of an orbit that leaves.
+    pub smooth_iterations: f64,
+    /// Least distances of the orbit, after its start, from the origin and the z axis.
+    pub traps: [f64; 2],
 }
 
 impl Set {
@@ -57,15 +61,21 @@ impl Set {
 
     /// What the orbit of `point` says. Steps need not care for what is smaller than `grain`.
     pub fn estimate(&self, point: &Point, grain: f64) -> Estimate {
-        let End { z, dr, spread, steps } = self.follow(point, grain);
+        let End { z, dr, spread, steps, traps } = self.follow(point, grain);
         let r = z.length();
+        let mut smooth_iterations = f64::from(steps);
+        if r > self.bailout {
+            let past = (r.ln() / self.bailout.ln()).ln();
+            smooth_iterations -= past / f64::from(self.power).ln();
+        }
         if r <= 1.0 {
-            return Estimate { distance: 0.0, step: 0.0, steps };
+            return Estimate { distance: 0.0, step: 0.0, steps, smooth_iterations, traps };
         }
         let height = 0.5 * r.ln() * r;
         let distance = height / dr;
         let norm = norm(spread.derivative).min(norm(spread.unturned));
-        Estimate { distance, step: (STEP_PART * height / norm).min(distance), steps }
+        let step = (STEP_PART * height / norm).min(distance);
+        Estimate { distance, step, steps, smooth_iterations, traps }
     }
 
     /// Follows the orbit of `point`.
@@ -73,8 +83,13 @@ impl Set {
         let n = f64::from(self.power);
         let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
         let mut z = point.clone();
-        let mut end =
-            End { z: rounded(&z), dr: 1.0, spread: Spread::new(rounded(added), grain), steps: 0 };
+        let mut end = End {
+            z: rounded(&z),
+            dr: 1.0,
+            spread: Spread::new(rounded(added), grain),
+            steps: 0,
+            traps: [f64::INFINITY; 2],
+        };
         while end.z.length() <= self.bailout && end.steps < self.iterations {
             end.steps += 1;
             end.dr = n * end.z.length().powf(n - 1.0) * end.dr + one;
@@ -82,6 +97,8 @@ impl Set {
             end.spread.advance(n, one, &raised);
             z = [0, 1, 2].map(|i| &raised.point[i] + &added[i]);
             end.z = rounded(&z);
+            let seen = [end.z.length(), end.z.truncate().length()];
+            end.traps = [0, 1].map(|i| end.traps[i].min(seen[i]));
         }
         end
     }
@@ -131,6 +148,7 @@ struct End {
     dr: f64,
     spread: Spread,
     steps: u32,
+    traps: [f64; 2],
 }
 
 /// What becomes of small displacements of an orbit's point, told in two ways.
@@ -244,6 +262,12 @@ fn estimates_are_those_of_the_printed_algorithm() {
                 let found = set.estimate(&point.to_array().map(Real::from_f64), 1e-3);
                 let off = (found.distance - expected).abs() / expected;
                 assert!(off < 1e-9, "{fractal:?} at {point}: {found:?} for {expected}");
+                let colors = estimate::smooth_iterations(&fractal, point);
+                assert!((found.smooth_iterations - colors).abs() < 1e-9);
+                let traps = estimate::orbit(&fractal, point).traps;
+                for (trap, expected) in found.traps.into_iter().zip(traps) {
+                    assert!((trap.min(2.0) - expected).abs() < 1e-9);
+                }
             }
         }
         assert!(away > 200, "{away} points away from the surface");

@@ -1,7 +1,7 @@
 //! The views: anchors on the surface, and from where they are looked at.
 
 use glam::DVec3;
-use mandelight::scene::{Camera, Fractal, PrecisePoint, Scene};
+use mandelight::scene::{Camera, Fractal, PrecisePoint, Scene, Variant};
 
 use super::{
     arithmetic::Real,
@@ -33,10 +33,14 @@ pub struct Anchor {
     pub deepest: f64,
 }
 
-/// Views that the renderer does not hold up in: (power, name, scale). At the one of power 8 the
-/// derivative along the parallels is far past what the kernels' steps allow for, and 2.4 % of the rays go
-/// past something.
-const LEFT_OUT: [(f64, &str, f64); 1] = [(8.0, "from the other side", 1e-13)];
+/// Views that the renderer does not hold up in: power, name, scale.
+const LEFT_OUT: [(f64, &str, f64); 2] = [
+    // The derivative along the parallels is far past what the kernels' steps allow for, and 2.4 %
+    // of the rays go past something.
+    (8.0, "from the other side", 1e-13),
+    // Rays that creep along the surface run out of steps, which counts as a hit, on 7 %.
+    (8.0, "close to the axis", 1e-9),
+];
 
 /// Where `search` arrived, of which these are views that the march itself agrees about: rays through
 /// 1e-5 of a pixel beside the centres, in steps of 0.6 times the length, arrive within a footprint on
@@ -188,6 +192,18 @@ pub const ANCHORS: &[Anchor] = &[
         deepest: 1e-3,
     },
     Anchor {
+        power: 8.0,
+        julia: false,
+        name: "close to the axis",
+        position: [
+            "0.01187447257128977349473928380880852990524560312973",
+            "0.005235336956054976847028614792948660805016828192169",
+            "0.8713092010212460586089938682053779530564081076244",
+        ],
+        toward: [0.0131, -0.1987, -0.98],
+        deepest: 1e-13,
+    },
+    Anchor {
         power: 16.0,
         julia: false,
         name: "from aside",
@@ -198,6 +214,18 @@ pub const ANCHORS: &[Anchor] = &[
         ],
         toward: [-0.3534, -0.5249, 0.7744],
         deepest: 1e-27,
+    },
+    Anchor {
+        power: 16.0,
+        julia: false,
+        name: "close to the axis",
+        position: [
+            "-0.0213348698564440615876327720696526597135990229232",
+            "0.01128697698656810306571543392513515550253110627932",
+            "0.9926452897308988161369792563279648215237858325267",
+        ],
+        toward: [0.0588, -0.4714, -0.8799],
+        deepest: 1e-13,
     },
     Anchor {
         power: 16.0,
@@ -225,6 +253,20 @@ pub const ANCHORS: &[Anchor] = &[
     },
 ];
 
+/// A point of the set of the other sine's sign.
+pub const MIRRORED: Anchor = Anchor {
+    power: 8.0,
+    julia: false,
+    name: "mirrored",
+    position: [
+        "0.5846277494469027471001698415507818682994294250683",
+        "-0.141806346272903213608641017683349159085809175062",
+        "0.5812452039083863572130616727636149804387334769615",
+    ],
+    toward: [-0.9903, 0.1292, -0.0506],
+    deepest: 1e-27,
+};
+
 impl Anchor {
     /// On the axis of an even power the gradient has no limit: each step of the orbit turns longitudes
     /// n-fold, and dr grows by less, so that ever finer ripples of the estimate grow steeper the lower
@@ -245,7 +287,10 @@ impl Anchor {
     pub fn scene(&self, scale: f64) -> Scene {
         let parse = |text: &str| text.parse().expect("a decimal number");
         let point = PrecisePoint(self.position.map(parse));
-        let fractal = Fractal { power: self.power, julia: self.julia, ..Fractal::default() };
+        let variant =
+            if self.name == MIRRORED.name { Variant::NegativeSine } else { Variant::PositiveSine };
+        let fractal =
+            Fractal { power: self.power, julia: self.julia, variant, ..Fractal::default() };
         scene(fractal, &point, self.toward.into(), scale)
     }
 }
