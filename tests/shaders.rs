@@ -135,6 +135,7 @@ fn host_constants_match_their_wgsl_twins() {
         ("BLOCKS", (lattice::WORKGROUP_THREADS / lists::BLOCK_THREADS) as usize),
         ("RAY_LISTS", lists::RAY_LISTS),
         ("SKIPS", uniforms::SKIPS),
+        ("NEAR_PLACES", uniforms::NEAR_PLACES),
     ];
     for (name, value) in host {
         let mut seen = 0;

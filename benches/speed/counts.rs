@@ -8,7 +8,12 @@ use mandelight::{
         readback::{Readback, ReadbackError},
         shader::Module,
     },
-    render::{Kernels, kernels::Passes, pass, uniforms::Inputs},
+    render::{
+        Kernels,
+        kernels::{Form, Passes},
+        pass,
+        uniforms::Inputs,
+    },
     scene::Scene,
 };
 use serde::Serialize;
@@ -100,8 +105,8 @@ pub fn ours(
     scene: &Scene,
     size_px: [u32; 2],
 ) -> Result<Vec<(&'static str, Counts)>, Failure> {
-    let power = f64::from(scene.fractal.integer_power().unwrap_or(0));
     let split = ours::Split::new(kernels, scene, size_px);
+    let constants = Form::of(split.picture()).constants();
     let gpu = &kernels.gpu;
     let [listing, listed] = [&kernels.layouts.listing, &kernels.layouts.listed]
         .map(|layout| split.counting_layout(layout));
@@ -114,7 +119,7 @@ pub fn ours(
                 module: &shader,
                 entry_point: Some("main"),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &[("POWER", power)],
+                    constants: &constants,
                     ..Default::default()
                 },
                 cache: None,

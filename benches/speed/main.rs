@@ -18,6 +18,7 @@
 //! | `instrument` | shaders that count what they do |
 //! | `peak` | the adapter's multiply-adds |
 //! | `powers` | what an orbit step costs, power by power |
+//! | `deep` | what depth costs |
 //! | `scaling` | how time grows with what is asked for |
 //! | `start` | how long it takes until there is a picture |
 //! | `feel` | a recorded session against the clock |
@@ -29,6 +30,7 @@
 pub mod arguments;
 pub mod compare;
 pub mod counts;
+pub mod deep;
 pub mod errors;
 pub mod feel;
 pub mod instrument;
@@ -99,10 +101,9 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
             report.views.push(comparison);
         }
     }
-    if arguments.views.iter().any(|name| name == views::DEEP) {
-        println!(
-            "\ndeep: no view yet: single precision ends at some ten-thousandths above the surface"
-        );
+    if arguments.wants(deep::NAME) {
+        report.deep = deep::measure(&kernels, arguments.rounds, arguments.size)?;
+        deep::print(&report.deep);
     }
     if arguments.wants(powers::NAME) {
         let table = powers::measure(&gpu, 3 * arguments.rounds)?;
@@ -144,7 +145,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
 /// The views that were asked for, in the size that was asked for.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
-    let tables = [views::DEEP, powers::NAME, scaling::NAME, start::NAME, feel::NAME];
+    let tables = [deep::NAME, powers::NAME, scaling::NAME, start::NAME, feel::NAME];
     let names: Vec<_> = views.iter().map(|view| view.name).chain(tables).collect();
     if let Some(name) = arguments.views.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());

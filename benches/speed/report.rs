@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{counts::Counts, errors::Errors, feel, powers, scaling, start};
+use super::{counts::Counts, deep, errors::Errors, feel, powers, scaling, start};
 
 /// Everything that one run measured.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -13,6 +13,8 @@ pub struct Report {
     pub views: Vec<Comparison>,
     /// What an orbit step costs, power by power.
     pub powers: Option<powers::Table>,
+    /// What depth costs.
+    pub deep: Vec<deep::Row>,
     /// How time grows with what is asked for.
     pub scaling: Vec<scaling::Row>,
     /// How long it takes until there is a picture.

@@ -26,9 +26,6 @@ pub struct View {
 /// Width and height of most views: what the prototype's figures were measured at.
 pub const SIZE_PX: [u32; 2] = [960, 540];
 
-/// The views below what single precision can show: there are none.
-pub const DEEP: &str = "deep";
-
 /// Every view, in the order in which they are measured.
 pub fn all() -> Vec<View> {
     let lit = |lights: Vec<EnvironmentLight>| with_lights(filled(), lights);

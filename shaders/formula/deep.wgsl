@@ -17,14 +17,26 @@ struct Walk {
     z: vec3f,
     // How many steps it has gone.
     count: u32,
-    // Its difference to a place of the reference, and which place that is. Of deep views only.
+    // Its difference to a place of the reference, that place and its index. Of deep views only.
     difference: vec3f,
-    place: u32,
+    index: u32,
+    place: Place,
+}
+
+// A place of the reference. Those that come next where steps have been skipped are in the picture,
+// which costs nothing to read: a loop that no thread enters costs as little.
+fn place_at(index: u32) -> Place {
+    let near = index - picture.near_index;
+    var place = picture.near[min(near, NEAR_PLACES - 1u)];
+    for (; near >= NEAR_PLACES; ) {
+        place = given.places[index];
+        break;
+    }
+    return place;
 }
 
 // Which of the skips is for a point; `SKIPS` where it has to take every step.
 fn skip_of(point: vec3f) -> u32 {
-    if (!DEEP) { return SKIPS; }
     // In units of the first radius; 8 is 2^3.
     let distance_squared = dot(point, point) / 9.0;
     return u32(clamp(ceil(log2(distance_squared) / 6.0), 0.0, f32(SKIPS)));
@@ -38,7 +50,8 @@ fn skipped_walk(skip: Skip, point: vec3f) -> Walk {
     let pure = mat3x3f(skip.along_xx, skip.along_yy, skip.along_zz) * squares;
     let mixed = mat3x3f(skip.along_xy, skip.along_yz, skip.along_zx) * products;
     let difference = along + (0.5 * pure + mixed);
-    return Walk(given.places[skip.steps].z + difference, skip.steps, difference, skip.steps);
+    let place = place_at(skip.steps);
+    return Walk(place.z + difference, skip.steps, difference, skip.steps, place);
 }
 
 // The derivative after those steps.
@@ -52,7 +65,7 @@ fn skipped_growth(skip: Skip, point: vec3f) -> Growth {
 
 // Whether the next step is one of the difference.
 fn is_close(walk: Walk, q: Squares) -> bool {
-    let next = walk.place + 1u;
+    let next = walk.index + 1u;
     let goes_on = (next != picture.fractal.own_places) & (next < picture.fractal.places);
     // Squares of tiny differences are 0, which is what they are meant to be here.
     return goes_on & (dot(walk.difference, walk.difference) < CLOSE * CLOSE * q.s);
@@ -105,7 +118,7 @@ fn length_of(v: vec2f) -> f32 {
 // One step of the difference; what derivatives are made of comes with it, and `power` is the
 // difference of z^n.
 fn raised_close(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
-    let place = given.places[walk.place];
+    let place = walk.place;
     let aside = walk.difference.xy;
     let rho = length_of(walk.z.xy);
     let inverse_rho = 1.0 / max(rho, 1e-37);
@@ -126,19 +139,17 @@ fn raised_close(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
 }
 
 // Goes on by such a step.
-fn step_close(walk: ptr<function, Walk>, step: Raised, orbit: Orbit) {
-    (*walk).place += 1u;
-    (*walk).count += 1u;
-    (*walk).difference = step.power + orbit.added;
-    (*walk).z = given.places[(*walk).place].z + (*walk).difference;
+fn step_close(walk: Walk, step: Raised, orbit: Orbit) -> Walk {
+    let place = place_at(walk.index + 1u);
+    let difference = step.power + orbit.added;
+    return Walk(place.z + difference, walk.count + 1u, difference, walk.index + 1u, place);
 }
 
 // Goes on from z^n: its difference to where orbits start anew (rebasing).
-fn step_anew(walk: ptr<function, Walk>, power: vec3f, orbit: Orbit) {
-    (*walk).place = picture.fractal.restart;
-    (*walk).count += 1u;
-    (*walk).difference = power + orbit.added;
-    (*walk).z = orbit.constant + (*walk).difference;
+fn step_anew(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
+    let difference = power + orbit.added;
+    let z = orbit.constant + difference;
+    return Walk(z, walk.count + 1u, difference, picture.fractal.restart, picture.restart);
 }
 
 // The tangent behind the steps that are skipped.

@@ -150,7 +150,9 @@ fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
 
 // The orbit at its beginning.
 fn walk_from(orbit: Orbit, point: vec3f) -> Walk {
-    return Walk(orbit.start, 0u, orbit.start_derivative * point, 0u);
+    var place: Place;
+    if (DEEP) { place = given.places[0]; }
+    return Walk(orbit.start, 0u, orbit.start_derivative * point, 0u, place);
 }
 
 fn has_ended(fractal: Fractal, orbit: Orbit, walk: Walk, q: Squares) -> bool {
@@ -158,13 +160,9 @@ fn has_ended(fractal: Fractal, orbit: Orbit, walk: Walk, q: Squares) -> bool {
 }
 
 // Goes on from z^n.
-fn step_on(walk: ptr<function, Walk>, power: vec3f, orbit: Orbit) {
-    if (DEEP) {
-        step_anew(walk, power, orbit);
-        return;
-    }
-    (*walk).count += 1u;
-    (*walk).z = power + orbit.constant;
+fn step_on(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
+    if (DEEP) { return step_anew(walk, power, orbit); }
+    return Walk(power + orbit.constant, walk.count + 1u, walk.difference, walk.index, walk.place);
 }
 
 struct Reach {
@@ -230,10 +228,17 @@ fn reach(fractal: Fractal, point: vec3f) -> Reach {
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     var growth = first_growth(fractal, orbit);
-    let which = skip_of(point);
-    if (which < SKIPS) {
-        walk = skipped_walk(given.skips[which], point);
-        growth = skipped_growth(given.skips[which], point);
+    if (DEEP) {
+        let which = skip_of(point);
+        if (which == 0u) {
+            walk = skipped_walk(picture.skip, point);
+            growth = skipped_growth(picture.skip, point);
+        }
+        for (; which > 0u && which < SKIPS; ) {
+            walk = skipped_walk(given.skips[which], point);
+            growth = skipped_growth(given.skips[which], point);
+            break;
+        }
     }
     var q = squares(walk.z);
     for (; ; ) {
@@ -241,14 +246,14 @@ fn reach(fractal: Fractal, point: vec3f) -> Reach {
             if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
             let step = raised_close(fractal, walk, q);
             growth = grown(fractal, orbit, growth, step, walk.z, q);
-            step_close(&walk, step, orbit);
+            walk = step_close(walk, step, orbit);
             q = squares(walk.z);
         }
         for (; ; ) {
             if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
             let step = raised(fractal, walk.z, q);
             growth = grown(fractal, orbit, growth, step, walk.z, q);
-            step_on(&walk, step.power, orbit);
+            walk = step_on(walk, step.power, orbit);
             q = squares(walk.z);
         }
         if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
@@ -320,10 +325,13 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     var walk = walk_from(orbit, point);
     let added = orbit.constant_derivative / orbit.start_derivative;
     var tangent = Tangent(scaled_identity(1.0), vec3f(0.0), added);
-    let which = skip_of(point);
-    if (which < SKIPS) {
-        walk = skipped_walk(given.skips[which], point);
-        tangent = skipped_tangent(given.skips[which], orbit, point);
+    if (DEEP) {
+        let which = skip_of(point);
+        for (; which < SKIPS; ) {
+            walk = skipped_walk(given.skips[which], point);
+            tangent = skipped_tangent(given.skips[which], orbit, point);
+            break;
+        }
     }
     var q = squares(walk.z);
     for (; ; ) {
@@ -331,14 +339,14 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
             if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
             let step = raised_close(fractal, walk, q);
             tangent = turned(fractal, tangent, step, walk.z, q);
-            step_close(&walk, step, orbit);
+            walk = step_close(walk, step, orbit);
             q = squares(walk.z);
         }
         for (; ; ) {
             if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
             let step = raised(fractal, walk.z, q);
             tangent = turned(fractal, tangent, step, walk.z, q);
-            step_on(&walk, step.power, orbit);
+            walk = step_on(walk, step.power, orbit);
             q = squares(walk.z);
         }
         if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
@@ -361,22 +369,25 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     var walk = walk_from(orbit, point);
     // Squared until the end.
     var traps = vec3f(4.0);
-    let which = skip_of(point);
-    if (which < SKIPS) {
-        walk = skipped_walk(given.skips[which], point);
-        traps = given.skips[which].traps_squared;
+    if (DEEP) {
+        let which = skip_of(point);
+        for (; which < SKIPS; ) {
+            walk = skipped_walk(given.skips[which], point);
+            traps = given.skips[which].traps_squared;
+            break;
+        }
     }
     var q = squares(walk.z);
     for (; ; ) {
         for (; DEEP; ) {
             if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
-            step_close(&walk, raised_close(fractal, walk, q), orbit);
+            walk = step_close(walk, raised_close(fractal, walk, q), orbit);
             q = squares(walk.z);
             traps = min(traps, vec3f(q.s, q.a, q.zz));
         }
         for (; ; ) {
             if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
-            step_on(&walk, raised(fractal, walk.z, q).power, orbit);
+            walk = step_on(walk, raised(fractal, walk.z, q).power, orbit);
             q = squares(walk.z);
             traps = min(traps, vec3f(q.s, q.a, q.zz));
         }

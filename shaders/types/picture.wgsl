@@ -199,6 +199,9 @@ struct Eyes {
     unused: vec2u,
 }
 
+// Places in the picture itself.
+const NEAR_PLACES = 5u;
+
 struct Picture {
     camera: Camera,
     eyes: Eyes,
@@ -215,7 +218,13 @@ struct Picture {
     size_px: vec2u,
     // How normals are found.
     normals: u32,
-    unused: u32,
+    // Which place of the reference is the first one below.
+    near_index: u32,
+    // The skip of points near the anchor, and the places that orbits pass behind it.
+    skip: Skip,
+    near: array<Place, NEAR_PLACES>,
+    // The place that orbits start anew from.
+    restart: Place,
 }
 
 struct Given {

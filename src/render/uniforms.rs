@@ -83,7 +83,10 @@ impl Picture {
                 Normals::TwentySix => 4,
                 Normals::Analytic => 5,
             },
-            unused: 0,
+            near_index: 0,
+            skip: Skip::zeroed(),
+            near: [Place::zeroed(); NEAR_PLACES],
+            restart: Place::zeroed(),
         }
     }
 }
@@ -249,12 +252,15 @@ impl Inputs {
 
     /// The same in coordinates that are at hand.
     pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
+        let (skips, places) = (depth::skips(datum), depth::places(datum));
+        let mut picture = Picture::about(scene, region, datum);
+        depth::put_near(&mut picture, &skips, &places);
         Self {
-            picture: Picture::about(scene, region, datum),
+            picture,
             lights: lights(scene, datum),
             gradient: color::gradient_lut(&scene.surface.gradient),
-            skips: depth::skips(datum),
-            places: depth::places(datum),
+            skips,
+            places,
             panorama: None,
         }
     }

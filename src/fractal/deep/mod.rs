@@ -31,7 +31,7 @@ use crate::scene::Fractal;
 
 /// Views whose pixels are smaller than this at the nearest surface, in scene units, are drawn from
 /// an anchor where that can be: coarser ones f32 draws as well.
-pub const COARSEST_FOOTPRINT: f64 = 2e-6;
+pub const COARSEST_FOOTPRINT: f64 = 4e-7;
 /// The finest pixel at the nearest surface, in scene units: below, f32 has no exponents left.
 pub use crate::fractal::march::DEEP_FOOTPRINT as FINEST_FOOTPRINT;
 

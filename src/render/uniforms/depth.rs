@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-use super::{Place, Skip};
+use super::{Picture, Place, Skip};
 use crate::{
     fractal::deep::{self, reference::MOST_PLACES},
     render::datum::Datum,
@@ -73,5 +73,15 @@ fn packed(skip: &deep::Skip) -> Skip {
         derivative_gradient: vector(skip.derivative.gradient),
         traps_squared: vector(skip.traps_squared),
         ..Skip::zeroed()
+    }
+}
+
+/// Puts what most orbits read into the picture itself.
+pub fn put_near(picture: &mut Picture, skips: &Skips, places: &[Place]) {
+    picture.skip = skips[0];
+    picture.near_index = skips[0].steps;
+    picture.restart = places[picture.fractal.restart as usize];
+    for (near, place) in picture.near.iter_mut().zip(&places[skips[0].steps as usize..]) {
+        *near = *place;
     }
 }

@@ -5,6 +5,9 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::render::report::HISTOGRAM_BINS;
 
+/// Places of the reference that a picture itself holds.
+pub const NEAR_PLACES: usize = 5;
+
 /// One field of a host-shared struct: name, byte offset, size in bytes.
 pub type FieldLayout = (&'static str, usize, usize);
 
@@ -292,8 +295,14 @@ host_shared! {
         size_px: [u32; 2],
         /// How normals are found: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
         normals: u32,
-        /// Keeps the size a multiple of 16 bytes.
-        unused: u32,
+        /// Which place of the reference is the first of `near`.
+        near_index: u32,
+        /// The skip of points near the anchor.
+        skip: Skip,
+        /// The places that orbits pass behind it.
+        near: [Place; NEAR_PLACES],
+        /// The place that orbits start anew from.
+        restart: Place,
     }
     /// The part of a picture that one dispatch computes.
     Slice {

@@ -1,0 +1,141 @@
+//! What depth costs: views of one place from ever closer by.
+//!
+//! The first is drawn in plain f32, the others from an anchor. What a distance estimate takes is a
+//! still's time over the estimates that counting kernels find in it; every view is drawn in turn, in
+//! every round.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use mandelight::{
+    render::{Kernels, Region, datum::wants_anchor},
+    scene::{Camera, EnvironmentLight, Precise, PrecisePoint, Scene},
+};
+use serde::Serialize;
+
+use super::{
+    Failure,
+    counts::{self, Counts},
+    ours,
+    statistics::median,
+    views::{sampled, sky, with_lights},
+};
+
+/// What `--views` calls the table.
+pub const NAME: &str = "deep";
+/// The picture, unless another size is asked for.
+const SIZE_PX: [u32; 2] = [640, 360];
+
+/// A point of the power-8 bulb, in a crevice at every scale, and from where it is looked at.
+const ANCHOR: [&str; 3] = [
+    "0.15379861659292883236866770985698080436629960",
+    "-0.84801966252866654201816769898541895762149767",
+    "0.59761228259006374734788457605399937869280647",
+];
+const TOWARD: DVec3 = DVec3::new(0.2891, 0.8866, -0.3611);
+
+/// How far away the eye is, scene units, and what scripts call it.
+const DISTANCES: [(&str, f64); 7] = [
+    ("deep-1e-3", 1e-3),
+    ("deep-1e-5", 1e-5),
+    ("deep-1e-6", 1e-6),
+    ("deep-1e-9", 1e-9),
+    ("deep-1e-13", 1e-13),
+    ("deep-1e-20", 1e-20),
+    ("deep-1e-27", 1e-27),
+];
+
+/// One view.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// What scripts call it.
+    pub name: &'static str,
+    /// Whether it is drawn from an anchor.
+    pub is_deep: bool,
+    /// Median time, milliseconds.
+    pub ms: f64,
+    /// What a pixel takes.
+    pub counts: Counts,
+    /// Nanoseconds a distance estimate.
+    pub estimate_ns: f64,
+    /// That over the plain view's.
+    pub cost: f64,
+}
+
+fn scene(distance: f64) -> Result<Scene, Failure> {
+    let [x, y, z] = ANCHOR.map(str::parse::<Precise>);
+    let anchor = PrecisePoint([x?, y?, z?]);
+    let toward = TOWARD.normalize();
+    let camera = Camera::looking_at(-toward, DVec3::ZERO, DVec3::Z);
+    let reaching = |light| EnvironmentLight { shadow_reach: Some(1.0), ..light };
+    let scene = Scene {
+        camera: Camera {
+            position: anchor.moved_by(-toward * distance, 1e-6 * distance),
+            pivot: anchor,
+            ..camera
+        },
+        ..Default::default()
+    };
+    Ok(sampled(with_lights(scene, sky().into_iter().map(reaching).collect()), 1))
+}
+
+/// Measures them in turn, so many rounds.
+///
+/// # Errors
+/// Where the device is lost, or a kernel can't be counted.
+pub fn measure(
+    kernels: &Arc<Kernels>,
+    rounds: u32,
+    size_px: Option<[u32; 2]>,
+) -> Result<Vec<Row>, Failure> {
+    let size_px = size_px.unwrap_or(SIZE_PX);
+    let pixels: f64 = size_px.into_iter().map(f64::from).product();
+    let scenes = DISTANCES.map(|(_, distance)| scene(distance));
+    let scenes: Vec<_> = scenes.into_iter().collect::<Result<_, _>>()?;
+    let mut times = vec![Vec::new(); scenes.len()];
+    for round in 0..=rounds {
+        for (scene, times) in scenes.iter().zip(&mut times) {
+            let (ms, _) = ours::draw_ms(kernels, scene, size_px);
+            // The first round warms up.
+            if round > 0 {
+                times.push(ms);
+            }
+        }
+    }
+    let mut rows: Vec<Row> = Vec::new();
+    for ((scene, times), (name, _)) in scenes.iter().zip(&times).zip(DISTANCES) {
+        let mut counts = Counts::default();
+        for (_, counted) in counts::ours(kernels, scene, size_px)? {
+            counts += counted.per(pixels);
+        }
+        let ms = median(times);
+        let estimate_ns = ms * 1e6 / (counts.estimates * pixels);
+        let plain_ns = rows.first().map_or(estimate_ns, |plain| plain.estimate_ns);
+        let is_deep = wants_anchor(scene, Region::whole(size_px));
+        rows.push(Row { name, is_deep, ms, counts, estimate_ns, cost: estimate_ns / plain_ns });
+    }
+    Ok(rows)
+}
+
+/// Tells them to people, and what they cost to scripts.
+pub fn print(rows: &[Row]) {
+    println!("\ndeep: one place from closer and closer by");
+    println!(
+        "  {:<12}{:>8}{:>10}{:>12}{:>10}{:>12}{:>12}",
+        "", "anchor", "ms", "estimates", "steps", "steps each", "ns each"
+    );
+    for row in rows {
+        let Counts { estimates, steps } = row.counts;
+        println!(
+            "  {:<12}{:>8}{:>10.1}{estimates:>12.1}{steps:>10.1}{:>12.2}{:>12.1}",
+            row.name,
+            if row.is_deep { "yes" } else { "no" },
+            row.ms,
+            steps / estimates,
+            row.estimate_ns
+        );
+    }
+    for row in rows.iter().skip(1) {
+        println!("cost {} {:.2}", row.name, row.cost);
+    }
+}
