@@ -9,7 +9,7 @@ override DEEP: bool = false;
 
 // A difference is followed by itself while it is smaller than this part of the place:
 // `fractal::deep::CLOSE`.
-const CLOSE = 0.03;
+const CLOSE = 0.01;
 
 // An orbit under way.
 struct Walk {

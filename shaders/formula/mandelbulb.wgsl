@@ -203,10 +203,9 @@ fn first_growth(fractal: Fractal, orbit: Orbit) -> Growth {
 fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f, q: Squares) -> Growth {
     let dr = min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max);
     if (DEEP) {
-        let inverse_r = 1.0 / max(sqrt(q.s), 1e-9);
-        let turn = raised_jacobian(fractal, step, z, rho_of(z, q), inverse_r, SIDEWAYS_MAX);
         let added = scaled_identity(orbit.constant_derivative);
-        return Growth(dr, 0.0, (step.stretch * turn) * before.jacobian + added);
+        let jacobian = raised_jacobian(fractal, step, z, q, SIDEWAYS_MAX) * before.jacobian + added;
+        return Growth(dr, 0.0, jacobian);
     }
     let widest = clamp(abs(step.sideways), step.stretch, SIDEWAYS_MAX * step.stretch);
     let added = orbit.constant_derivative / step_factor(fractal);
@@ -273,22 +272,22 @@ fn scaled_identity(scale: f32) -> mat3x3f {
     return mat3x3f(scale, 0.0, 0.0, 0.0, scale, 0.0, 0.0, 0.0, scale);
 }
 
-// The Jacobian of z^n over `stretch`: a turn of the meridian's plane by n - 1 latitudes, of the
-// parallels by n - 1 longitudes, and a further stretch along these.
+// The Jacobian of z^n: n |z|^(n - 1) times a turn of the meridian's plane by n - 1 latitudes, of the
+// parallels by n - 1 longitudes, and another stretch along these, at most so many times the first.
+// n |z|^(n - 1) w^(n - 1) over its length is n w^n conj(w) / |z|^2.
 fn raised_jacobian(
-    fractal: Fractal, t: Raised, z: vec3f, rho: f32, inverse_r: f32, sideways_max: f32,
+    fractal: Fractal, step: Raised, z: vec3f, q: Squares, sideways_max: f32,
 ) -> mat3x3f {
+    let rho = rho_of(z, q);
     let u = z.xy / rho;
-    // w^(n - 1) over its length.
-    let unit = inverse_r / max(length(t.wn), 1e-20);
-    let m = unit * complex_product(t.wn, vec2f(rho, -z.z));
-    let sideways = clamp(t.sideways / max(t.stretch, 1e-30), -sideways_max, sideways_max);
-    let parallel = sideways * vec2f(-t.un.y, t.un.x);
+    let m = (fractal.power / max(q.s, 1e-18)) * complex_product(step.wn, vec2f(rho, -z.z));
+    let most = sideways_max * step.stretch;
+    let parallel = clamp(step.sideways, -most, most) * vec2f(-step.un.y, step.un.x);
     let sign = fractal.z_sign;
     return mat3x3f(
-        vec3f(m.x * u.x * t.un - u.y * parallel, sign * m.y * u.x),
-        vec3f(m.x * u.y * t.un + u.x * parallel, sign * m.y * u.y),
-        vec3f(-m.y * t.un, sign * m.x),
+        vec3f(m.x * u.x * step.un - u.y * parallel, sign * m.y * u.x),
+        vec3f(m.x * u.y * step.un + u.x * parallel, sign * m.y * u.y),
+        vec3f(-m.y * step.un, sign * m.x),
     );
 }
 
@@ -307,11 +306,10 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
     // This dr over the next: infinite where a Julia orbit meets the origin.
     let shrink = 1.0 / max(step.stretch + before.added, 1e-9);
     let kept = step.stretch * shrink;
-    let inverse_r = 1.0 / max(sqrt(q.s), 1e-9);
     let added = before.added * shrink;
-    let turn = raised_jacobian(fractal, step, z, rho_of(z, q), inverse_r, 1e6);
-    let along = (fractal.power - 1.0) * inverse_r * inverse_r * (z * before.jacobian);
-    let jacobian = kept * (turn * before.jacobian) + scaled_identity(added);
+    let along = (fractal.power - 1.0) / max(q.s, 1e-18) * (z * before.jacobian);
+    let turn = raised_jacobian(fractal, step, z, q, 1e6);
+    let jacobian = shrink * (turn * before.jacobian) + scaled_identity(added);
     return Tangent(jacobian, (kept * shrink) * (along + before.slope), added);
 }
 
