@@ -20,6 +20,9 @@ const BESIDE_AXIS = vec3f(1e-9, 1e-16, 0.0);
 // How much more than n |z|^(n - 1) a step may be taken to stretch along the parallels: at the
 // poles it would stop every ray.
 const SIDEWAYS_MAX = 10.0;
+// The same of the Jacobian in deep views, most of which are nowhere near the poles: with 10, rays passed
+// lips that they should meet.
+const DEEP_SIDEWAYS_MAX = 100.0;
 
 // The squares that a step begins with.
 struct Squares {
@@ -204,7 +207,7 @@ fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f,
     let dr = min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max);
     if (DEEP) {
         let added = scaled_identity(orbit.constant_derivative);
-        let jacobian = raised_jacobian(fractal, step, z, q, SIDEWAYS_MAX) * before.jacobian + added;
+        let jacobian = raised_jacobian(fractal, step, z, q, DEEP_SIDEWAYS_MAX) * before.jacobian + added;
         return Growth(dr, 0.0, jacobian);
     }
     let widest = clamp(abs(step.sideways), step.stretch, SIDEWAYS_MAX * step.stretch);

@@ -34,6 +34,8 @@ pub const SIDEWAYS_MAX: f64 = 10.0;
 /// A step over the estimate by the Jacobian's norm (Frobenius): half of it reaches the surface from
 /// 10³² times as far in about a hundred steps.
 const JACOBIAN_STEP_FACTOR: f64 = 0.5;
+/// The same as [`SIDEWAYS_MAX`], of the Jacobian that deep rays step by.
+const DEEP_SIDEWAYS_MAX: f64 = 100.0;
 /// The estimate of lower powers dips; see the module's head.
 const DIPS_BELOW: f64 = 4.0;
 /// Keeps the estimate finite where a Julia orbit passes the origin and dr vanishes.
@@ -108,7 +110,7 @@ impl Estimator {
             }
             let z = orbit.z();
             if z.x != 0.0 || z.y != 0.0 {
-                jacobian = self.power.jacobian(z, SIDEWAYS_MAX) * jacobian
+                jacobian = self.power.jacobian(z, DEEP_SIDEWAYS_MAX) * jacobian
                     + DMat3::from_diagonal(DVec3::splat(added));
             }
             dr = self.power.growth(r) * dr + added;

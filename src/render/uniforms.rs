@@ -192,7 +192,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         max_step: (estimator.max_step() / datum.scale()).min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
         march_steps: MARCH_STEPS.min(LOOP_TURNS / (iterations + 1)),
-        shadow_steps: shadow_steps(iterations),
+        shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
         log2_bailout: set.bailout.log2() as f32,
         anchor: anchor.as_vec3().to_array(),
@@ -204,8 +204,10 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
     }
 }
 
-fn shadow_steps(iterations: u32) -> u32 {
-    SHADOW_STEPS.min(LOOP_TURNS / (iterations + 1))
+fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
+    // From a light outside of the set, depth takes steps of its own.
+    let most = if is_deep { MARCH_STEPS } else { SHADOW_STEPS };
+    most.min(LOOP_TURNS / (iterations + 1))
 }
 
 fn surface(scene: &Scene) -> Surface {
