@@ -218,8 +218,11 @@ fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f,
 // How far a ray may go where an orbit has got so high.
 fn safe_step(growth: Growth, height: f32) -> f32 {
     if (!DEEP) { return height / max(max(growth.dg, growth.dr), 1e-37); }
-    let j = growth.jacobian;
-    let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
+    // With a large bailout its square may be past what an f32 holds.
+    let far = abs(growth.jacobian[0]) + abs(growth.jacobian[1]) + abs(growth.jacobian[2]);
+    let largest = max(max(max(far.x, far.y), far.z), 1e-37);
+    let j = (1.0 / largest) * growth.jacobian;
+    let norm = largest * sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
     return height / max(max(norm, growth.dr), 1e-37);
 }
 

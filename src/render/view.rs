@@ -15,21 +15,18 @@ use super::{
     preparation::Preparation,
     region::Region,
     report::{Activity, Report},
-    samples::{self, SamplesReadback},
     schedule::{Arithmetic, Pace, Schedule, Stale, Work},
     targets::{Targets, texture_bytes},
     uniforms::Inputs,
     watch::Watch,
 };
 use crate::{
-    gpu::{
-        readback::{Readback, ReadbackError},
-        timing::Stopwatch,
-    },
+    gpu::timing::Stopwatch,
     scene::{IndirectKind, Panorama, Quality, Scene},
 };
 
 mod prepare;
+mod read;
 
 /// What is known of the film as it is.
 #[derive(Clone, Copy, Debug, Default)]
@@ -471,32 +468,6 @@ impl View {
     /// Changes whenever [`Self::texture`] is another texture than before.
     pub fn texture_generation(&self) -> u64 {
         self.texture_generation
-    }
-
-    /// Reads the film back, waiting for it: each pixel's mean radiance, linear Rec. 709, rows from
-    /// the upper edge. Natively.
-    pub fn film(&self) -> Result<Vec<[f32; 3]>, ReadbackError> {
-        let gpu = &self.kernels.gpu;
-        let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
-        let (rg, bw) = (read(&self.targets.film_rg)?, read(&self.targets.film_bw)?);
-        Ok(samples::means(&rg, &bw).collect())
-    }
-
-    /// Starts to read back every pixel's radiance, depth and normal. The view may be drawn over
-    /// at once.
-    pub fn read_samples(&self) -> SamplesReadback {
-        let Targets { film_rg, film_bw, center, .. } = &self.targets;
-        let film = [film_rg, film_bw];
-        SamplesReadback::new(&self.kernels.gpu, film, &center.surface, self.datum.scale())
-    }
-
-    /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.
-    pub fn gbuffer(&self) -> Result<super::gbuffer::Samples, ReadbackError> {
-        let gpu = &self.kernels.gpu;
-        let center = &self.targets.center;
-        let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
-        let (surface, visibility) = (read(&center.surface)?, read(&center.visibility)?);
-        Ok(super::gbuffer::Samples::decode(&surface, &visibility, self.datum.scale()))
     }
 }
 
