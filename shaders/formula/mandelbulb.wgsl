@@ -22,7 +22,7 @@ const BESIDE_AXIS = vec3f(1e-9, 1e-16, 0.0);
 const SIDEWAYS_MAX = 10.0;
 // The same of the Jacobian in deep views, most of which are nowhere near the poles: with 10, rays passed
 // lips that they should meet.
-const DEEP_SIDEWAYS_MAX = 100.0;
+const DEEP_SIDEWAYS_MAX = 30.0;
 
 // The squares that a step begins with.
 struct Squares {

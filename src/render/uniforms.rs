@@ -33,6 +33,9 @@ pub const GRADIENT_ENTRIES: usize = 256;
 /// watchdogs. No dispatch may need more.
 const LOOP_TURNS: u32 = 60_000;
 
+/// Turns of its loops that an orbit takes beside those of its steps.
+const LOOPS_OF_AN_ORBIT: u32 = 4;
+
 /// Most steps of a camera ray: the longest silhouette rays need about 300.
 const MARCH_STEPS: u32 = 1024;
 
@@ -191,7 +194,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         },
         max_step: (estimator.max_step() / datum.scale()).min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
-        march_steps: MARCH_STEPS.min(LOOP_TURNS / (iterations + 1)),
+        march_steps: march_steps(iterations, reference.is_some()),
         shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
         log2_bailout: set.bailout.log2() as f32,
@@ -204,10 +207,19 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
     }
 }
 
+/// As many as there may be, in a deep view: near the axis rays creep, and from a light outside of the
+/// set depth takes steps of its own.
+fn march_steps(iterations: u32, is_deep: bool) -> u32 {
+    let most = if is_deep { LOOP_TURNS } else { MARCH_STEPS };
+    most.min(LOOP_TURNS / (iterations + LOOPS_OF_AN_ORBIT))
+}
+
 fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
-    // From a light outside of the set, depth takes steps of its own.
-    let most = if is_deep { MARCH_STEPS } else { SHADOW_STEPS };
-    most.min(LOOP_TURNS / (iterations + 1))
+    if is_deep {
+        march_steps(iterations, true)
+    } else {
+        SHADOW_STEPS.min(march_steps(iterations, false))
+    }
 }
 
 fn surface(scene: &Scene) -> Surface {

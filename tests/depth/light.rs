@@ -127,11 +127,9 @@ fn lit(fractal: Fractal, scale: f64) -> Scene {
         |position| PointLight { position, intensity: scale * scale, ..PointLight::default() };
     scene.lights.point =
         vec![point(place(DVec3::new(0.5, 0.4, 0.1))), point(place(DVec3::new(-0.6, 0.2, -0.1)))];
-    // Far behind the eye. From there to 1e-27 a ray takes more steps than the kernels have.
-    if scale > 1e-20 {
-        let position = (outward * 3.0).into();
-        scene.lights.point.push(PointLight { position, ..PointLight::default() });
-    }
+    // Far behind the eye.
+    let position = (outward * 3.0).into();
+    scene.lights.point.push(PointLight { position, ..PointLight::default() });
     scene
 }
 

@@ -11,7 +11,7 @@ use super::{difference, jet::Jet, orbit::Place};
 use crate::fractal::power::TriplexPower;
 
 /// How far a skipped difference may be off, as a part of it: about what f32 steps lose.
-const DIFFERENCE_ERROR: f64 = 2e-5;
+const DIFFERENCE_ERROR: f64 = 3e-6;
 /// The same of the derivative.
 const DERIVATIVE_ERROR: f64 = 2e-4;
 
