@@ -15,12 +15,8 @@ use glam::DVec3;
 use mandelight::{
     fractal::{Estimator, Ray},
     gpu::Gpu,
-    render::{
-        Region,
-        pass::probe,
-        uniforms::{Inputs, Picture},
-    },
-    scene::{Fractal, Scene},
+    render::{Region, pass::probe, uniforms::Inputs},
+    scene::Fractal,
 };
 
 /// Width and height of the pictures.
@@ -209,9 +205,13 @@ fn counters_count_orbits() {
         let points: Vec<_> = (0..21 * 21 * 21_u32)
             .map(|i| DVec3::new(side(i % 21), side(i / 21 % 21), side(i / 441)) * 0.9375)
             .collect();
-        let expected: u32 = points.iter().map(|p| estimate::orbit(&scene.fractal, *p).steps).sum();
+        // As many iterations as the view's pixels need.
+        let inputs = Inputs::new(&scene, Region::whole([64, 64]));
+        let followed =
+            Fractal { iterations: inputs.picture.fractal.iterations, ..scene.fractal.clone() };
+        let expected: u32 = points.iter().map(|p| estimate::orbit(&followed, *p).steps).sum();
         for power in [0, scene.fractal.integer_power().unwrap_or(0)] {
-            let found = counted(&gpu, &scene, &points, power);
+            let found = counted(&gpu, &inputs, &points, power);
             assert_eq!(found.estimates, points.len() as f64, "{:?}", scene.fractal);
             let off = found.steps / (3.0 * f64::from(expected)) - 1.0;
             assert!(off.abs() < 2e-3, "{:?}: {found:?} for {expected}", scene.fractal);
@@ -241,7 +241,7 @@ fn what_cannot_be_counted_is_said() {
 }
 
 /// Counts the program's probe at `points`.
-fn counted(gpu: &Gpu, scene: &Scene, points: &[DVec3], power: u32) -> counts::Counts {
+fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::Counts {
     let device = &gpu.device;
     let marks = counts::marks(&["reach"], [2, 0]);
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -255,7 +255,6 @@ fn counted(gpu: &Gpu, scene: &Scene, points: &[DVec3], power: u32) -> counts::Co
         },
         cache: None,
     });
-    let picture = Picture::new(scene, Region::whole([64, 64]));
     let points: Vec<_> = points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
     let filled = |bytes: &[u8]| {
         let usage = wgpu::BufferUsages::STORAGE
@@ -270,7 +269,7 @@ fn counted(gpu: &Gpu, scene: &Scene, points: &[DVec3], power: u32) -> counts::Co
         gpu.queue.write_buffer(&buffer, 0, bytes);
         buffer
     };
-    let picture = filled(bytemuck::bytes_of(&picture));
+    let picture = filled(&inputs.given());
     let questions = filled(bytemuck::cast_slice(&points));
     let answers = filled(&vec![0; 32 * points.len()]);
     let sums = filled(&[0; 8]);

@@ -11,7 +11,7 @@ use mandelight::{
         readback::ReadbackError,
         shader::{File, Module},
     },
-    render::{Region, pass::probe, uniforms::Picture},
+    render::{Region, pass::probe, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
 use serde::Serialize;
@@ -165,7 +165,7 @@ impl Kernel {
         });
         let fractal = Fractal { power: power.into(), iterations: ITERATIONS, ..Fractal::default() };
         let scene = Scene { fractal, ..Scene::default() };
-        let picture = Picture::new(&scene, Region::whole([64, 64]));
+        let given = Inputs::new(&scene, Region::whole([64, 64])).given();
         let buffer = |size: usize| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("orbits"),
@@ -176,9 +176,8 @@ impl Kernel {
                 mapped_at_creation: false,
             })
         };
-        let [uniforms, sums, counts] =
-            [size_of::<Picture>(), 4 * 64 * WORKGROUPS as usize, 8].map(buffer);
-        gpu.queue.write_buffer(&uniforms, 0, bytemuck::bytes_of(&picture));
+        let [uniforms, sums, counts] = [given.len(), 4 * 64 * WORKGROUPS as usize, 8].map(buffer);
+        gpu.queue.write_buffer(&uniforms, 0, &given);
         let group = |index: u32, buffer: &wgpu::Buffer| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("orbits"),
