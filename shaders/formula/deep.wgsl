@@ -7,9 +7,9 @@
 // Whether this pipeline is for views that are drawn from an anchor.
 override DEEP: bool = false;
 
-// A difference is followed by itself while the next one, about n times as large a part of its place, is
-// smaller than this part: `fractal::deep::CLOSE`.
-const CLOSE = 0.03;
+// A difference is followed by itself while it is smaller than this part of the place:
+// `fractal::deep::CLOSE`.
+const CLOSE = 0.01;
 
 // An orbit under way.
 struct Walk {
@@ -67,9 +67,8 @@ fn skipped_growth(skip: Skip, point: vec3f) -> Growth {
 fn is_close(walk: Walk, q: Squares) -> bool {
     let next = walk.index + 1u;
     let goes_on = (next != picture.fractal.own_places) & (next < picture.fractal.places);
-    let close = CLOSE / picture.fractal.power;
     // Squares of tiny differences are 0, which is what they are meant to be here.
-    return goes_on & (dot(walk.difference, walk.difference) < close * close * q.s);
+    return goes_on & (dot(walk.difference, walk.difference) < CLOSE * CLOSE * q.s);
 }
 
 // A complex number and how another differs from it.

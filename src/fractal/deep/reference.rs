@@ -14,9 +14,10 @@ use crate::{
     scene::{Fractal, PrecisePoint, Variant},
 };
 
-/// A difference is followed by itself while the next one, about n times as large a part of its place,
-/// is smaller than this part; a larger one f32 knows well enough from the place itself.
-pub const CLOSE: f64 = 0.03;
+/// A difference is followed by itself while it is smaller than this part of the place; a larger one
+/// f32 knows well enough from the place itself. With a third of it normals from samples a footprint
+/// apart turn by 0.07 degrees in the mean.
+pub const CLOSE: f64 = 0.01;
 
 /// Most places of a reference, of both its orbits together.
 pub const MOST_PLACES: usize = 2048;
@@ -216,8 +217,7 @@ impl Orbit for DeepOrbit<'_> {
 
     fn step(&mut self, raised: DVec3) {
         let z = self.z();
-        let close = CLOSE / f64::from(self.reference.power);
-        let is_close = self.difference.length() < close * z.length();
+        let is_close = self.difference.length() < CLOSE * z.length();
         if is_close && self.reference.goes_on(self.place) {
             let place = &self.reference.places[self.place];
             self.difference =
