@@ -18,6 +18,8 @@
 //! the polar axis among them, most of it where the set is far away. So such rays go on unless they stay
 //! near ([`DistanceField::has_dips`]).
 
+use std::cell::RefCell;
+
 use glam::{DMat3, DVec3};
 
 use super::{
@@ -41,7 +43,16 @@ const DIPS_BELOW: f64 = 4.0;
 /// Keeps the estimate finite where a Julia orbit passes the origin and dr vanishes.
 const LEAST_DERIVATIVE: f64 = 1e-30;
 
-/// One fractal, ready to be measured. Cheap to copy; make a new one when the fractal changes.
+/// Sets whose bounding radius is remembered: views and movements ask for two or three at a time.
+const RADII_KEPT: usize = 4;
+
+thread_local! {
+    /// The bounding radii that were found last, newest first.
+    static RADII: RefCell<Vec<(Fractal, f64)>> = const { RefCell::new(Vec::new()) };
+}
+
+/// One fractal, ready to be measured. Cheap to copy; make a new one when the fractal changes, as
+/// often as one is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimator {
     power: TriplexPower,
@@ -59,7 +70,7 @@ impl Estimator {
     /// Prepares `fractal`, which must be within its ranges.
     pub fn new(fractal: &Fractal) -> Self {
         let julia_constant = fractal.julia.then(|| DVec3::from_array(fractal.julia_constant));
-        let bounding_radius = bounding_radius(fractal);
+        let bounding_radius = remembered_radius(fractal);
         Self {
             power: TriplexPower::new(fractal),
             iterations: fractal.iterations,
@@ -186,6 +197,19 @@ pub fn max_step(fractal: &Fractal, bounding_radius: f64) -> f64 {
     if fractal.julia { 0.05 * bounding_radius } else { f64::INFINITY }
 }
 
+/// [`bounding_radius`], which takes thousands of powers, or the same as it was found before.
+fn remembered_radius(fractal: &Fractal) -> f64 {
+    RADII.with_borrow_mut(|radii| {
+        if let Some((_, radius)) = radii.iter().find(|(known, _)| known == fractal) {
+            return *radius;
+        }
+        let radius = bounding_radius(fractal);
+        radii.truncate(RADII_KEPT - 1);
+        radii.insert(0, (fractal.clone(), radius));
+        radius
+    })
+}
+
 /// The radius of the sphere about the origin outside of which every orbit passes the bailout
 /// within the fractal's iterations, with a margin of one percent; in scene units.
 ///
@@ -220,4 +244,25 @@ pub fn bounding_radius(fractal: &Fractal) -> f64 {
         }
     }
     outside * (1.0 + BOUNDING_MARGIN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn remembered_radii_are_those_of_their_sets() {
+        let set = |i: usize| Fractal {
+            power: 2.0 + i as f64,
+            iterations: 20,
+            bailout: 2.0,
+            julia: i.is_multiple_of(2),
+            ..Default::default()
+        };
+        // More sets than are remembered, some of them twice in a row.
+        for i in (0..3 * RADII_KEPT).map(|i| i / 2 % (RADII_KEPT + 1)) {
+            let fractal = set(i);
+            assert_eq!(Estimator::new(&fractal).bounding_radius(), bounding_radius(&fractal));
+        }
+    }
 }
