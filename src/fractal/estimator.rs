@@ -37,7 +37,7 @@ pub const SIDEWAYS_MAX: f64 = 10.0;
 /// 10³² times as far in about a hundred steps.
 const JACOBIAN_STEP_FACTOR: f64 = 0.5;
 /// The same as [`SIDEWAYS_MAX`], of the Jacobian that deep rays step by.
-const DEEP_SIDEWAYS_MAX: f64 = 30.0;
+pub const DEEP_SIDEWAYS_MAX: f64 = 30.0;
 /// The estimate of lower powers dips; see the module's head.
 const DIPS_BELOW: f64 = 4.0;
 /// Keeps the estimate finite where a Julia orbit passes the origin and dr vanishes.

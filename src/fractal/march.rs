@@ -28,12 +28,13 @@ pub const MAX_MARCH_STEPS: u32 = 4096;
 /// No step of a ray is shorter than this part of the hit distance; what is thinner may be passed.
 pub const LEAST_STEP: f64 = 0.25;
 /// The same where a hit has to last ([`DistanceField::has_dips`]).
-const LEAST_STEP_OVER_DIPS: f64 = 0.4;
-/// How long it has to, in hit distances, and at how many places that is asked.
-const THICK: f64 = 0.5;
-const THICK_PLACES: u32 = 6;
+pub const LEAST_STEP_OVER_DIPS: f64 = 0.4;
+/// How long it has to, in hit distances.
+pub const THICK: f64 = 0.5;
+/// At how many places that is asked.
+pub const THICK_PLACES: u32 = 6;
 /// Halvings of the step that crossed the hit distance, so that these places lie where they should.
-const HALVINGS: u32 = 5;
+pub const HALVINGS: u32 = 5;
 
 /// What a field says of a point, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
