@@ -20,7 +20,7 @@
 
 use std::cell::RefCell;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::{
     march::{DistanceField, Reach},
@@ -113,23 +113,21 @@ impl Estimator {
     /// The same of an orbit beside a reference, whose Jacobian is carried along: over the many
     /// steps of a deep view dg grows far past it, and a ray would creep.
     pub(super) fn reach_along(&self, mut orbit: impl Orbit) -> Reach {
-        let added = if self.julia_constant.is_some() { 0.0 } else { 1.0 };
-        let (mut r, mut dr, mut jacobian) = (orbit.z().length(), 1.0, DMat3::IDENTITY);
+        let (mut r, mut dr) = (orbit.z().length(), 1.0);
         for _ in 0..self.iterations {
             if r > self.bailout {
                 break;
             }
-            let z = orbit.z();
-            if z.x != 0.0 || z.y != 0.0 {
-                jacobian = self.power.jacobian(z, DEEP_SIDEWAYS_MAX) * jacobian
-                    + DMat3::from_diagonal(DVec3::splat(added));
-            }
-            dr = self.power.growth(r) * dr + added;
-            orbit.step(self.power.apply(z));
+            dr = self.power.growth(r) * dr + self.constant_derivative();
+            orbit.step(&self.power);
             r = orbit.z().length();
         }
-        let norm = jacobian.to_cols_array().into_iter().map(|part| part * part).sum::<f64>().sqrt();
-        self.reach_from(r, dr, JACOBIAN_STEP_FACTOR / norm.max(LEAST_DERIVATIVE))
+        self.reach_from(r, dr, JACOBIAN_STEP_FACTOR / orbit.norm().max(LEAST_DERIVATIVE))
+    }
+
+    /// How the constant moves with the point.
+    pub(super) fn constant_derivative(&self) -> f64 {
+        if self.julia_constant.is_some() { 0.0 } else { 1.0 }
     }
 
     /// At the end of an orbit: `careful` is the step over the height.
@@ -158,8 +156,11 @@ pub(super) trait Orbit {
     /// Where it is.
     fn z(&self) -> DVec3;
 
-    /// Goes on from there; `raised` is zⁿ.
-    fn step(&mut self, raised: DVec3);
+    /// Goes on from there.
+    fn step(&mut self, power: &TriplexPower);
+
+    /// The Jacobian's norm: how far the place moves with the point.
+    fn norm(&self) -> f64;
 }
 
 impl DistanceField for Estimator {

@@ -9,11 +9,13 @@
 //! | `views` | anchors on the surface, and from where they are looked at |
 //! | `agree` | the renderer's pictures against the march |
 //! | `along` | the kernels' estimates along rays against the march's |
+//! | `axis` | the field in f64 hard by the polar axis against the march's estimates |
 //! | `search` | how the views were found |
 
 mod agree;
 mod along;
 mod arithmetic;
+mod axis;
 mod orbit;
 mod rays;
 mod search;

@@ -11,20 +11,46 @@ use glam::{DVec2, DVec3};
 
 use super::orbit::Place;
 
+/// How a point lies beside a place, about the polar axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Aside {
+    /// dρ.
+    pub rho: f64,
+    /// du.
+    pub rotor: DVec2,
+}
+
+impl Aside {
+    /// Of the point that is `delta` away from `place`.
+    pub fn new(place: &Place, delta: DVec3) -> Self {
+        let (at, aside) = (place.z.truncate(), delta.truncate());
+        let rho = (at + aside).length();
+        let d_rho = (2.0 * at.dot(aside) + aside.length_squared()) / (rho + place.rho).max(1e-300);
+        let rotor = if rho > 0.0 {
+            (aside - place.rotor * d_rho) / rho
+        } else {
+            // On the axis the rotor is 1.
+            DVec2::X - place.rotor
+        };
+        Self { rho: d_rho, rotor }
+    }
+}
+
 /// The difference of the n-th powers of `place` and of the point that is `delta` away from it, for
 /// the variant with sine sign `sine_sign`.
 pub fn raised(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
-    let (at, aside) = (place.z.truncate(), delta.truncate());
-    let rho = (at + aside).length();
-    let d_rho = (2.0 * at.dot(aside) + aside.length_squared()) / (rho + place.rho).max(1e-300);
-    let d_rotor = if rho > 0.0 {
-        (aside - place.rotor * d_rho) / rho
-    } else {
-        // On the axis the rotor is 1.
-        DVec2::X - place.rotor
-    };
-    let w = complex_power(DVec2::new(place.rho, place.z.z), DVec2::new(d_rho, delta.z), n);
-    let u = complex_power(place.rotor, d_rotor, n);
+    raised_aside(place, Aside::new(place, delta), delta.z, n, sine_sign)
+}
+
+/// The same of a point on the place's own meridian.
+pub fn raised_on_meridian(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
+    let aside = Aside { rotor: DVec2::ZERO, ..Aside::new(place, delta) };
+    raised_aside(place, aside, delta.z, n, sine_sign)
+}
+
+fn raised_aside(place: &Place, aside: Aside, up: f64, n: u32, sine_sign: f64) -> DVec3 {
+    let w = complex_power(DVec2::new(place.rho, place.z.z), DVec2::new(aside.rho, up), n);
+    let u = complex_power(place.rotor, aside.rotor, n);
     let across = u.difference * w.value.x + (u.value + u.difference) * w.difference.x;
     DVec3::new(across.x, across.y, sine_sign * w.difference.y)
 }

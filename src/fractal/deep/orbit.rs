@@ -27,7 +27,8 @@ pub struct Place {
 }
 
 impl Place {
-    fn new(z: DVec3) -> Self {
+    /// A place of its own.
+    pub(super) fn new(z: DVec3) -> Self {
         let rho = z.x.hypot(z.y);
         let rotor = if rho > 0.0 { z.truncate() / rho } else { DVec2::X };
         Self { z, rho, rotor }

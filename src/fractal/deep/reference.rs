@@ -1,23 +1,20 @@
-//! An anchor with its orbit, and the distance field about it.
-
-use std::sync::Arc;
+//! An anchor with its orbit.
 
 use glam::DVec3;
 
 use super::{
-    FINEST_FOOTPRINT, difference, iterations_for,
+    FINEST_FOOTPRINT, iterations_for,
     orbit::{Place, Tracer},
     skip::{Skip, Skipping},
 };
 use crate::{
-    fractal::{DistanceField, Estimator, Reach, estimator::Orbit, power::TriplexPower},
+    fractal::power::TriplexPower,
     scene::{Fractal, PrecisePoint},
 };
 
-/// A difference is followed by itself while it is smaller than this part of the place; a larger one
-/// f32 knows well enough from the place itself. With a third of it normals from samples a footprint
-/// apart turn by 0.07 degrees in the mean.
-pub const CLOSE: f64 = 0.01;
+/// Orbits of even powers about an anchor that is as near to the polar axis as this, in scene units,
+/// are followed in frames that turn with their points' longitudes ([`super::turn`]).
+pub const BESIDE_AXIS: f64 = 0.03;
 
 /// Most places of a reference, of both its orbits together.
 pub const MOST_PLACES: usize = 2048;
@@ -91,6 +88,16 @@ impl Reference {
         &self.places
     }
 
+    /// The power.
+    pub fn power(&self) -> u32 {
+        self.power
+    }
+
+    /// Whether it is of the Julia form.
+    pub fn is_julia(&self) -> bool {
+        self.fractal.julia
+    }
+
     /// How many of the places are the anchor's.
     pub fn own_places(&self) -> usize {
         self.own_places
@@ -99,6 +106,24 @@ impl Reference {
     /// Where differences start anew: a place's index.
     pub fn restart(&self) -> usize {
         if self.fractal.julia { self.own_places } else { 0 }
+    }
+
+    /// The anchor's own first place: itself.
+    pub(super) fn first(&self) -> &Place {
+        &self.places[0]
+    }
+
+    /// What the steps of its orbit add.
+    pub(super) fn constant(&self) -> DVec3 {
+        self.places[self.restart()].z
+    }
+
+    /// Whether orbits about it are followed in frames that turn with their points' longitudes. The
+    /// Julia form's constant turns in such a frame by as much as its orbits would without; only one
+    /// that is near the axis itself does not matter.
+    pub fn turns(&self) -> bool {
+        let constant = &self.places[self.restart()];
+        self.power.is_multiple_of(2) && self.first().rho.max(constant.rho) < BESIDE_AXIS
     }
 
     /// Whether it is one of this set, however many iterations that has.
@@ -121,104 +146,13 @@ impl Reference {
         .within(radii)
     }
 
-    fn sine_sign(&self) -> f64 {
+    /// What the sine of the latitude is multiplied by.
+    pub(super) fn sine_sign(&self) -> f64 {
         self.fractal.variant.sine_sign()
     }
 
     /// Whether the reference has another place after this one.
-    fn goes_on(&self, place: usize) -> bool {
+    pub(super) fn goes_on(&self, place: usize) -> bool {
         place + 1 != self.own_places && place + 1 < self.places.len()
-    }
-}
-
-/// The set about an anchor. Points are offsets from it, in scene units.
-#[derive(Clone, Debug)]
-pub struct DeepField {
-    reference: Arc<Reference>,
-    estimator: Estimator,
-    center: DVec3,
-}
-
-impl DeepField {
-    /// The set about `reference`'s anchor, with the iterations that pixels of this radius at the
-    /// surface need, in scene units.
-    pub fn new(reference: Arc<Reference>, fractal: &Fractal, footprint: f64) -> Self {
-        let iterations = iterations_for(fractal, footprint);
-        let fractal = Fractal { iterations, ..fractal.clone() };
-        let center = -reference.anchor.to_dvec3();
-        Self { estimator: Estimator::new(&fractal), center, reference }
-    }
-
-    /// Its anchor and orbit.
-    pub fn reference(&self) -> &Arc<Reference> {
-        &self.reference
-    }
-}
-
-impl DistanceField for DeepField {
-    fn distance(&self, point: DVec3) -> f64 {
-        self.reach(point).distance
-    }
-
-    fn reach(&self, point: DVec3) -> Reach {
-        self.estimator.reach_along(DeepOrbit {
-            reference: &self.reference,
-            sine_sign: self.reference.sine_sign(),
-            added: if self.reference.fractal.julia { DVec3::ZERO } else { point },
-            place: 0,
-            difference: point,
-        })
-    }
-
-    fn has_dips(&self) -> bool {
-        self.estimator.has_dips()
-    }
-
-    fn bounding_radius(&self) -> f64 {
-        self.estimator.bounding_radius()
-    }
-
-    fn origin(&self) -> PrecisePoint {
-        self.reference.anchor.clone()
-    }
-
-    fn center(&self) -> DVec3 {
-        self.center
-    }
-
-    fn finest_footprint(&self) -> f64 {
-        FINEST_FOOTPRINT
-    }
-}
-
-/// A point's orbit, by its difference to the reference.
-struct DeepOrbit<'a> {
-    reference: &'a Reference,
-    sine_sign: f64,
-    /// What each step adds to the difference.
-    added: DVec3,
-    /// Which place it is the difference to.
-    place: usize,
-    difference: DVec3,
-}
-
-impl Orbit for DeepOrbit<'_> {
-    fn z(&self) -> DVec3 {
-        self.reference.places[self.place].z + self.difference
-    }
-
-    fn step(&mut self, raised: DVec3) {
-        let z = self.z();
-        let is_close = self.difference.length() < CLOSE * z.length();
-        if is_close && self.reference.goes_on(self.place) {
-            let place = &self.reference.places[self.place];
-            self.difference =
-                difference::raised(place, self.difference, self.reference.power, self.sine_sign)
-                    + self.added;
-            self.place += 1;
-        } else {
-            self.difference = raised + self.added;
-            self.place = self.reference.restart();
-        }
     }
 }

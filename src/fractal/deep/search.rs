@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::{FINEST_FOOTPRINT, reference::DeepField, reference::Making, reference::Reference};
+use super::{FINEST_FOOTPRINT, field::DeepField, reference::Making, reference::Reference};
 use crate::{
     fractal::{DistanceField, camera_ray},
     scene::{Camera, Fractal},
@@ -29,6 +29,9 @@ const STEPS_AT_ONCE: u32 = 16;
 const NEAR_ENOUGH: f64 = 1e6;
 /// How exactly an anchor is placed along its ray, as a part of its depth: any point will do.
 const GRAIN: f64 = 1e-12;
+
+/// What rays need not know about the surface: parts of the eye's distance to it.
+const GRAIN_SEEN: f64 = 1e-4;
 
 /// A search under way.
 pub struct Search {
@@ -73,7 +76,7 @@ impl Search {
             (eye.length() < NEAR_ENOUGH * field.distance(eye)).then_some(field)
         });
         let stage = match helpful {
-            Some(field) => Stage::Looking(Looking::new(field)),
+            Some(field) => Stage::Looking(Looking::new(field, camera)),
             None => Stage::Eye(Box::new(Making::new(fractal, camera.position.clone())?)),
         };
         Some(Self { fractal: fractal.clone(), camera: camera.clone(), aspect, stage })
@@ -87,7 +90,10 @@ impl Search {
                     return None;
                 }
                 let eye = Arc::new(making.as_ref().clone().finish());
-                Stage::Looking(Looking::new(DeepField::new(eye, &self.fractal, FINEST_FOOTPRINT)))
+                Stage::Looking(Looking::new(
+                    DeepField::new(eye, &self.fractal, FINEST_FOOTPRINT),
+                    &self.camera,
+                ))
             }
             Stage::Looking(looking) => {
                 if looking.step(&self.camera, self.aspect) {
@@ -124,7 +130,9 @@ impl Search {
 }
 
 impl Looking {
-    fn new(field: DeepField) -> Self {
+    fn new(field: DeepField, camera: &Camera) -> Self {
+        let away = field.distance(&camera.position - &field.origin());
+        let field = field.with_grain(GRAIN_SEEN * away);
         Self { field, ray: 0, steps: 0, depth: 0.0, nearest: None }
     }
 
