@@ -19,12 +19,13 @@ pub struct Finished<T> {
     pub busy_ms: f64,
 }
 
-/// Watches submits: at most a few are in flight, each with a mark of the caller's.
+/// Watches submits: at most a few are in flight, each with a mark of the caller's. Those of others
+/// that go unnoticed count as part of the next one.
 ///
 /// Browsers report the end of work through a promise, Chrome at once, Firefox on a 100 ms
 /// poll; the time is then an upper bound.
 pub struct Stopwatch<T> {
-    in_flight: VecDeque<(T, Instant, wgpu::SubmissionIndex)>,
+    in_flight: VecDeque<(T, Instant, Option<wgpu::SubmissionIndex>)>,
     ends: Arc<Mutex<VecDeque<Instant>>>,
     last_end: Option<Instant>,
 }
@@ -49,6 +50,15 @@ impl<T> Stopwatch<T> {
     /// Submits one command buffer, remembered by `mark`.
     pub fn submit(&mut self, gpu: &Gpu, commands: wgpu::CommandBuffer, mark: T) {
         let index = gpu.queue.submit([commands]);
+        self.watch(gpu, mark, Some(index));
+    }
+
+    /// Notes that somebody else has just submitted something, remembered by `mark`.
+    pub fn note(&mut self, gpu: &Gpu, mark: T) {
+        self.watch(gpu, mark, None);
+    }
+
+    fn watch(&mut self, gpu: &Gpu, mark: T, index: Option<wgpu::SubmissionIndex>) {
         self.in_flight.push_back((mark, Instant::now(), index));
         let ends = self.ends.clone();
         gpu.queue.on_submitted_work_done(move || locked(&ends).push_back(Instant::now()));
@@ -59,8 +69,8 @@ impl<T> Stopwatch<T> {
     /// returns at once.
     pub fn wait(&self, gpu: &Gpu) {
         match self.in_flight.front() {
-            Some((.., index)) => gpu.wait_for(index),
-            None => gpu.wait(),
+            Some((.., Some(index))) => gpu.wait_for(index),
+            _ => gpu.wait(),
         }
     }
 

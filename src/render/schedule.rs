@@ -52,6 +52,9 @@ const SHOW_INTERVAL_SECS: f64 = 0.25;
 /// Most of the GPU's time that displays of a refining picture may take.
 const SHOW_SHARE: f64 = 0.05;
 
+/// Most of the GPU's time that frames of the interface may take which only tell of progress.
+const FRAME_SHARE: f64 = 0.1;
+
 /// A movement counts as over when nothing has changed for this long, seconds.
 const QUIET_SECS: f64 = 0.12;
 
@@ -263,6 +266,11 @@ impl Schedule {
         }
     }
 
+    /// The interface's drawing of a frame has finished, after `busy_ms` of the GPU's time.
+    pub fn interface_drawn(&mut self, busy_ms: f64) {
+        self.cost.interface_drawn(busy_ms);
+    }
+
     /// The next piece of work at `now_secs`; none where enough is in flight, where a movement
     /// is being followed and has been shown, or where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
@@ -328,14 +336,21 @@ impl Schedule {
         self.opening || complete || finished || waited_secs >= self.show_interval_secs()
     }
 
-    /// Least time between two displays of what refines.
+    /// Least time between two displays of what refines. Each comes with a frame of the interface.
     fn show_interval_secs(&self) -> f64 {
-        SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE)
+        let interval_secs = SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
+        interval_secs.max(self.frame_interval_secs())
+    }
+
+    /// Least time between two frames of the interface that only tell of progress, seconds.
+    pub fn frame_interval_secs(&self) -> f64 {
+        self.cost.interface_ms() * 1e-3 / FRAME_SHARE
     }
 
     /// Whether exposure is on its way and another step of it is due.
     fn adapt_now(&self, now_secs: f64) -> bool {
-        let interval_secs = ADAPT_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / ADAPT_SHARE);
+        let frame_ms = self.cost.show_ms() + self.cost.interface_ms();
+        let interval_secs = ADAPT_INTERVAL_SECS.max(frame_ms * 1e-3 / ADAPT_SHARE);
         self.adaptation.is_under_way()
             && self.filmed().is_some()
             && !self.opening

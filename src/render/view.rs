@@ -47,7 +47,8 @@ pub struct View {
     is_datum_current: bool,
     targets: Targets,
     schedule: Schedule,
-    stopwatch: Stopwatch<Work>,
+    /// Of the view's own work, and of frames of the interface: those are none.
+    stopwatch: Stopwatch<Option<Work>>,
     scene: Option<Scene>,
     /// The picture of the surroundings that is at hand.
     panorama: Option<Arc<Panorama>>,
@@ -167,6 +168,12 @@ impl View {
         }
     }
 
+    /// Says that the interface has just submitted its drawing of a frame: that is no part of what
+    /// pictures take, and how often they are shown on their way hangs on it.
+    pub fn time_frame(&mut self) {
+        self.stopwatch.note(&self.kernels.gpu, None);
+    }
+
     /// Gives the view the picture of the surroundings that is at hand: a scene that names it and
     /// has it as background shows it.
     pub fn set_panorama(&mut self, panorama: Option<&Arc<Panorama>>) {
@@ -228,9 +235,13 @@ impl View {
     fn collect(&mut self) {
         self.kernels.gpu.poll();
         while let Some(finished) = self.stopwatch.next_finished() {
-            self.schedule.finished(finished.mark, finished.busy_ms);
+            let Some(work) = finished.mark else {
+                self.schedule.interface_drawn(finished.busy_ms);
+                continue;
+            };
+            self.schedule.finished(work, finished.busy_ms);
             self.busy_ms += finished.busy_ms;
-            if matches!(finished.mark, Work::Show { .. }) {
+            if matches!(work, Work::Show { .. }) {
                 self.frame_ms = std::mem::take(&mut self.busy_ms);
                 self.pictures += 1;
             }
@@ -334,6 +345,7 @@ impl View {
     /// What powers are raised by.
     fn arithmetic(&self) -> Arithmetic {
         match self.inputs.as_ref().map(|inputs| Form::of(&inputs.picture)) {
+            Some(Form { is_deep: true, .. }) => Arithmetic::Deep,
             None | Some(Form { power: 0, .. }) => Arithmetic::Real,
             Some(form) if self.kernels.has_own(form) => Arithmetic::Special,
             Some(_) => Arithmetic::Whole,
@@ -367,7 +379,7 @@ impl View {
         }
         frame::record(&mut recorder, work);
         let commands = recorder.finish();
-        self.stopwatch.submit(&self.kernels.gpu, commands, work);
+        self.stopwatch.submit(&self.kernels.gpu, commands, Some(work));
         if matches!(work, Work::Show { .. }) && self.shown.as_ref() != Some(&self.targets.texture) {
             self.shown = Some(self.targets.texture.clone());
             self.texture_generation += 1;
@@ -436,6 +448,7 @@ impl View {
             pixels_per_sample: 1 << status.shown_level,
             elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),
             frame_ms: self.frame_ms,
+            frame_interval_secs: self.schedule.frame_interval_secs(),
             anchor_ms: self.anchors.took_ms(),
             histogram: self.watch.histogram().cloned(),
             memory: self.memory(),

@@ -32,8 +32,12 @@ use crate::{
 /// Between two looks at what the GPU has finished, milliseconds: the least that browsers allow.
 const TICK_MS: i32 = 4;
 
-/// Numbers in the interface that change all the time are shown this often, seconds.
+/// Numbers in the interface that change all the time are shown this often, seconds; less often where
+/// that would take much of the GPU's time.
 const TELL_EVERY_SECS: f64 = 0.2;
+
+/// Frames after which a word is on the screen: what will be compiled waits for that.
+const FRAMES_TO_TELL: u32 = 2;
 
 thread_local! {
     /// The engine at work. Callbacks of the GPU must be `Send`, so they cannot carry it.
@@ -74,6 +78,12 @@ pub struct Engine {
     context: egui::Context,
     /// Whether a tick is on its way.
     is_ticking: bool,
+    /// Whether the interface has drawn a frame since the last tick.
+    has_drawn: bool,
+    /// What the interface was last told to say that the view does.
+    told: Activity,
+    /// How many frames it is still to be drawn in at once.
+    frames_due: u32,
     told_at_secs: f64,
     /// Errors of the device that the person at the page was told of.
     faults_told: u64,
@@ -98,6 +108,9 @@ impl Engine {
             progress: None,
             context,
             is_ticking: false,
+            has_drawn: false,
+            told: Activity::Idle,
+            frames_due: 0,
             told_at_secs: 0.0,
             faults_told: 0,
             session,
@@ -194,6 +207,8 @@ impl Engine {
         if self.step(session, now_secs) {
             self.tick_later();
         }
+        self.has_drawn = true;
+        self.frames_due = self.frames_due.saturating_sub(1);
         settling
     }
 
@@ -274,10 +289,13 @@ impl Engine {
     /// Asks for a frame where there is something new to show.
     fn show(&mut self, pictures_before: u64, busy: bool, report: &Report) {
         let now_secs = page::now_secs();
-        // What will be compiled waits until it could be read.
-        let is_compiling = matches!(report.activity, Activity::Compiling(_));
-        let is_new = report.pictures != pictures_before || is_compiling || !busy;
-        if is_new || now_secs - self.told_at_secs > TELL_EVERY_SECS {
+        if report.activity != self.told {
+            self.told = report.activity.clone();
+            self.frames_due = FRAMES_TO_TELL;
+        }
+        let is_new = report.pictures != pictures_before || self.frames_due > 0 || !busy;
+        let tell_every_secs = TELL_EVERY_SECS.max(report.frame_interval_secs);
+        if is_new || now_secs - self.told_at_secs > tell_every_secs {
             self.told_at_secs = now_secs;
             self.context.request_repaint();
         }
@@ -292,6 +310,10 @@ fn tick() {
     let session = engine.session.clone();
     let Ok(mut session) = session.try_borrow_mut() else { return };
     engine.is_ticking = false;
+    // What that frame submitted comes before anything that is submitted now.
+    if std::mem::take(&mut engine.has_drawn) {
+        engine.picture.time_frame();
+    }
     let pictures_before = session.status.report.pictures;
     let busy = engine.step(&mut session, page::now_secs());
     engine.show(pictures_before, busy, &session.status.report);

@@ -109,6 +109,13 @@ impl Picture {
         }
     }
 
+    /// Says that the interface has just submitted its drawing of a frame.
+    pub fn time_frame(&mut self) {
+        if let Some(view) = &mut self.view {
+            view.time_frame();
+        }
+    }
+
     /// Says whether the interface shows the film's histogram.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if let Some(view) = &mut self.view {

@@ -5,7 +5,7 @@ use mandelight::{
     scene::Scene,
 };
 
-use crate::harness::{difference, finished, kernels, pixels, sampled, settle, still};
+use crate::harness::{assert_same, difference, finished, kernels, pixels, sampled, settle, still};
 
 /// A scene whose motion budget is so small that only the sparsest of lattices fit, or so many
 /// more as `generosity` says.
@@ -91,4 +91,22 @@ fn an_unfilled_film_gives_way_to_what_needs_it_whole() {
     let (mean, _) =
         difference(&pixels(&view), &pixels(&finished(&turned, [96, 64], Pace::Interactive)));
     assert!(mean < 0.5, "mean difference {mean}");
+}
+
+/// Frames of the interface come between pieces of work, and are told apart from them.
+#[test]
+fn frames_of_the_interface_change_nothing() {
+    let scene = sampled(Scene::default(), 3);
+    let size = [96, 64];
+    let mut view = View::new(kernels(), Region::whole(size), Pace::Interactive);
+    view.set_scene(&scene, false);
+    let start = std::time::Instant::now();
+    while view.pump(start.elapsed().as_secs_f64()) {
+        view.time_frame();
+        view.wait();
+        assert!(start.elapsed().as_secs() < 300, "the view never rests: {:?}", view.report());
+    }
+    let usual = finished(&scene, size, Pace::Interactive);
+    assert_same(&pixels(&view), &pixels(&usual), "the picture");
+    assert_eq!(view.report().samples_done, 3);
 }

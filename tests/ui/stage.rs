@@ -36,6 +36,7 @@ pub fn stage(
         pixels_per_sample: 1,
         elapsed_secs: 1.5,
         anchor_ms: 0.0,
+        frame_interval_secs: 0.2,
         frame_ms: 7.0,
         reference: None,
         pictures: 9,

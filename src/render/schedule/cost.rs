@@ -34,6 +34,9 @@ const FEWEST_WORKGROUPS: f64 = 2.0;
 /// How many times as many rays as those before it an opening may have: two lattice levels.
 const FINER: f64 = 5.0;
 
+/// The most that drawing the interface may count as, milliseconds: what takes longer was held up.
+const MOST_INTERFACE_MS: f64 = 200.0;
+
 /// Part of a budget that is planned for: one frame takes a little more than the one before it.
 const AIM: f64 = 0.9;
 
@@ -48,10 +51,12 @@ pub enum Arithmetic {
     Whole,
     /// By series, for real powers.
     Real,
+    /// By differences to an anchor's orbit.
+    Deep,
 }
 
 impl Arithmetic {
-    const ALL: [Self; 3] = [Self::Special, Self::Whole, Self::Real];
+    const ALL: [Self; 4] = [Self::Special, Self::Whole, Self::Real, Self::Deep];
 
     /// What an orbit step usually costs, in parts of the first one's. It only has to do until the
     /// first picture of another kind has been measured.
@@ -59,7 +64,7 @@ impl Arithmetic {
         match self {
             Self::Special => 1.0,
             Self::Whole => 2.0,
-            Self::Real => 6.0,
+            Self::Real | Self::Deep => 6.0,
         }
     }
 }
@@ -72,6 +77,7 @@ pub struct Cost {
     /// What is traced by from now on.
     pub arithmetic: Arithmetic,
     show_ms: f64,
+    interface_ms: f64,
     /// The visibility bits of the lights that have shadow rays.
     casting: u64,
 }
@@ -80,7 +86,13 @@ impl Default for Cost {
     /// No experience yet.
     fn default() -> Self {
         let rates = [[[Rate::UNKNOWN; 5]; Arithmetic::ALL.len()]; 2];
-        Self { rates, arithmetic: Arithmetic::default(), show_ms: 0.0, casting: u64::MAX }
+        Self {
+            rates,
+            arithmetic: Arithmetic::default(),
+            show_ms: 0.0,
+            interface_ms: 0.0,
+            casting: u64::MAX,
+        }
     }
 }
 
@@ -134,12 +146,24 @@ impl Cost {
 
     /// A show took so long.
     pub fn shown(&mut self, busy_ms: f64) {
-        self.show_ms += 0.5 * (busy_ms - self.show_ms);
+        // All displays are much alike: what the last one took more was none of its own.
+        let before_ms = self.show_ms.min(2.0 * busy_ms);
+        self.show_ms = 0.5 * (before_ms + busy_ms);
     }
 
     /// What a show takes, milliseconds.
     pub fn show_ms(&self) -> f64 {
         self.show_ms
+    }
+
+    /// The interface's drawing of a frame took so long.
+    pub fn interface_drawn(&mut self, busy_ms: f64) {
+        self.interface_ms += 0.5 * (busy_ms.min(MOST_INTERFACE_MS) - self.interface_ms);
+    }
+
+    /// What the interface's drawing of a frame takes, milliseconds.
+    pub fn interface_ms(&self) -> f64 {
+        self.interface_ms
     }
 
     fn rate(&self, aim: Aim, from: Stage) -> Rate {

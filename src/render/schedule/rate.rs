@@ -11,6 +11,10 @@ const ASSUMED_MS: f64 = 0.001;
 /// A measurement so many times above what was expected is a surprise.
 const SURPRISE: f64 = 2.0;
 
+/// A measurement so many times above what was expected, and the next one as far below what that makes
+/// expected: the first had something done for it that is done once, and tells nothing.
+const HELD_UP: f64 = 10.0;
+
 /// How many times as large as the largest one lately a slice may be: it is measured before the
 /// line is trusted any further.
 pub const GROWTH: f64 = 3.0;
@@ -108,6 +112,8 @@ pub struct Rate {
     /// What each ray adds.
     pub ray_ms: f64,
     sums: Sums,
+    /// The measurements before one that took so long that it may have been held up.
+    before: Option<Sums>,
     /// Rays of the largest slice lately that did not take surprisingly long.
     pub largest: f64,
     /// Measurements in a row that took surprisingly long.
@@ -120,6 +126,7 @@ impl Rate {
         fixed_ms: 0.0,
         ray_ms: ASSUMED_MS,
         sums: Sums { weight: 0.0, rays: 0.0, ms: 0.0, rays_squared: 0.0, rays_ms: 0.0 },
+        before: None,
         largest: FIRST_RAYS / GROWTH,
         surprises: 0,
     };
@@ -132,6 +139,15 @@ impl Rate {
     /// Takes note of a measurement. `fixed_ms`: what is known of the fixed part from elsewhere;
     /// found out by the line unless told.
     pub fn learn(&mut self, aim: Aim, fixed_ms: Option<f64>, rays: f64, ms: f64) {
+        if let Some(before) = self.before.take()
+            && ms * HELD_UP < self.expected_ms(rays)
+        {
+            self.sums = before;
+            (self.fixed_ms, self.ray_ms) = (0.0, ms / rays);
+            if self.is_measured() {
+                self.fit(fixed_ms);
+            }
+        }
         let expected_ms = self.expected_ms(rays);
         let dearer = ms / expected_ms;
         self.surprises = if dearer > SURPRISE { self.surprises + 1 } else { 0 };
@@ -139,21 +155,27 @@ impl Rate {
         // and the next slices would take many times as long as they should.
         let mut ms = ms;
         if self.surprises >= aim.patience().min(self.sums.weight as u32) {
+            self.before = (dearer > HELD_UP).then_some(self.sums);
             self.sums.scale(dearer.powf(aim.belief()));
         } else if self.surprises > 0 {
             ms = SURPRISE * expected_ms;
         }
         self.sums.add(aim.memory(), rays, ms);
-        let mean_ms = self.sums.ms / self.sums.weight;
-        let fixed_ms = fixed_ms.or_else(|| self.sums.fixed_ms()).unwrap_or(self.fixed_ms);
-        self.fixed_ms = fixed_ms.clamp(0.0, MOST_FIXED * mean_ms);
-        self.ray_ms = (mean_ms - self.fixed_ms) / (self.sums.rays / self.sums.weight);
+        self.fit(fixed_ms);
         // What follows a surprise is no larger than it was.
         self.largest = if self.surprises > 0 {
             self.largest.min(rays / GROWTH)
         } else {
             rays.max(aim.memory() * self.largest)
         };
+    }
+
+    /// Lays the line through the measurements.
+    fn fit(&mut self, fixed_ms: Option<f64>) {
+        let mean_ms = self.sums.ms / self.sums.weight;
+        let fixed_ms = fixed_ms.or_else(|| self.sums.fixed_ms()).unwrap_or(self.fixed_ms);
+        self.fixed_ms = fixed_ms.clamp(0.0, MOST_FIXED * mean_ms);
+        self.ray_ms = (mean_ms - self.fixed_ms) / (self.sums.rays / self.sums.weight);
     }
 
     /// What a slice of so many rays is going to take, milliseconds.
@@ -165,6 +187,9 @@ impl Rate {
     pub fn raise_to(&mut self, ray_ms: f64) {
         let dearer = ray_ms / self.ray_ms;
         if self.is_measured() && dearer > 1.0 {
+            if dearer > HELD_UP {
+                self.before = Some(self.sums);
+            }
             self.sums.scale(dearer);
             self.fixed_ms *= dearer;
             self.ray_ms *= dearer;

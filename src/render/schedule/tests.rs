@@ -4,6 +4,7 @@ use super::*;
 
 mod arithmetic;
 mod hand;
+mod held_up;
 mod light;
 
 const SIZE: [u32; 2] = [1280, 720];

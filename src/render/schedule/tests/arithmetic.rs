@@ -3,7 +3,8 @@
 use super::*;
 
 /// A power that is dragged leaves its own pipelines for those of real powers from one picture to the
-/// next: that one is late already if what it costs is only known afterwards.
+/// next, and a dive those of plain views: that picture is late already if what it costs is only known
+/// afterwards.
 #[test]
 fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
     let (mut device, mut now) = (Device::new(20.0, 0.0), 0.0);
@@ -11,8 +12,13 @@ fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
     schedule.aim(16.0, 1);
     schedule.change(Stale::Geometry, false, now);
     settle(&mut schedule, &mut device, &mut now);
-    let pictures =
-        [(Arithmetic::Special, 1.0), (Arithmetic::Real, 4.0), (Arithmetic::Special, 1.0)];
+    let pictures = [
+        (Arithmetic::Special, 1.0),
+        (Arithmetic::Real, 4.0),
+        (Arithmetic::Special, 1.0),
+        (Arithmetic::Deep, 5.0),
+        (Arithmetic::Special, 1.0),
+    ];
     for (arithmetic, dearer) in pictures {
         schedule.set_arithmetic(arithmetic);
         schedule.change(Stale::Geometry, true, now);
