@@ -234,13 +234,14 @@ impl View {
     /// Takes note of what the GPU has finished.
     fn collect(&mut self) {
         self.kernels.gpu.poll();
+        let mut ended = Vec::new();
         while let Some(finished) = self.stopwatch.next_finished() {
-            let Some(work) = finished.mark else {
-                self.schedule.interface_drawn(finished.busy_ms);
-                continue;
-            };
-            self.schedule.finished(work, finished.busy_ms);
-            self.busy_ms += finished.busy_ms;
+            ended.push((finished.mark, finished.busy_ms));
+        }
+        self.schedule.collect(&ended);
+        for (work, busy_ms) in ended {
+            let Some(work) = work else { continue };
+            self.busy_ms += busy_ms;
             if matches!(work, Work::Show { .. }) {
                 self.frame_ms = std::mem::take(&mut self.busy_ms);
                 self.pictures += 1;
