@@ -12,6 +12,7 @@ use super::lattice::{COARSEST, WORKGROUP_THREADS};
 mod adaptation;
 mod choice;
 mod cost;
+mod ended;
 mod known;
 mod rate;
 mod terms;
@@ -64,11 +65,6 @@ const ADAPT_INTERVAL_SECS: f64 = 0.03;
 /// Most of the GPU's time that they may take.
 const ADAPT_SHARE: f64 = 0.2;
 
-/// What ends so soon after the one before it, milliseconds, and took so small a part of the time that
-/// it was expected to take, is taken to have shared the time of both.
-const TOGETHER_MS: f64 = 2.0;
-const TOGETHER: f64 = 0.05;
-
 /// What is known of a piece of work that has not ended.
 #[derive(Clone, Copy, Debug)]
 struct InFlight {
@@ -113,6 +109,8 @@ pub struct Schedule {
     in_flight: VecDeque<InFlight>,
     /// Slices so far.
     slices: u32,
+    /// Ends of several pieces were told together.
+    is_told_late: bool,
     cost: Cost,
 }
 
@@ -141,6 +139,7 @@ impl Schedule {
             adaptation: Adaptation::default(),
             in_flight: VecDeque::new(),
             slices: 0,
+            is_told_late: false,
             cost: Cost::default(),
         }
     }
@@ -256,50 +255,6 @@ impl Schedule {
         self.is_filled = false;
         self.show_due = false;
         self.opening = true;
-    }
-
-    /// Pieces of work that [`Self::next`] gave, and frames of the interface (none), have been found
-    /// finished, in their order: each with the GPU's time from the end of the one before it. Some
-    /// browsers tell of several at once when the last one ends, as if that had taken no time.
-    pub fn collect(&mut self, ended: &[(Option<Work>, f64)]) {
-        let mut in_flight = self.in_flight.iter();
-        let expected_ms = |work: &Option<Work>| match work {
-            Some(_) => in_flight.next().map_or(0.0, |piece| piece.expected_ms),
-            None => self.cost.interface_ms(),
-        };
-        let expected_ms: Vec<_> = ended.iter().map(|(work, _)| work).map(expected_ms).collect();
-        let mut first = 0;
-        while first < ended.len() {
-            let is_told_late = |&at: &usize| {
-                let (_, busy_ms) = ended[at];
-                busy_ms < TOGETHER_MS && busy_ms < TOGETHER * expected_ms[at]
-            };
-            let end = first + 1 + (first + 1..ended.len()).take_while(is_told_late).count();
-            let busy_ms: f64 = ended[first..end].iter().map(|(_, ms)| ms).sum();
-            let whole_ms: f64 = expected_ms[first..end].iter().sum();
-            for at in first..end {
-                // Each has the part of their time that it was expected to take.
-                let share = if end > first + 1 { expected_ms[at] / whole_ms } else { 1.0 };
-                match ended[at].0 {
-                    Some(work) => self.finished(work, share * busy_ms),
-                    None => self.cost.interface_drawn(share * busy_ms),
-                }
-            }
-            first = end;
-        }
-    }
-
-    /// A piece of work that [`Self::next`] gave has finished, after `busy_ms` of the GPU's time.
-    fn finished(&mut self, work: Work, busy_ms: f64) {
-        let of = self.in_flight.pop_front();
-        match (work, of) {
-            (Work::Trace(trace), Some(InFlight { aim, arithmetic, .. })) => {
-                let pixels = trace.workgroups * WORKGROUP_THREADS;
-                self.cost.traced(trace.job(), aim, arithmetic, pixels, busy_ms);
-            }
-            (Work::Trace(_), None) => {}
-            (Work::Show { .. }, _) => self.cost.shown(busy_ms),
-        }
     }
 
     /// The next piece of work at `now_secs`; none where enough is in flight, where a movement
@@ -419,9 +374,11 @@ impl Schedule {
             _ => MOST_WORKGROUPS,
         };
         let largest = self.cost.slice_workgroups(aim_ms, job, self.aim_now()).min(most);
-        // Slices of two sizes tell the cost of a slice from that of its pixels.
+        // Slices of two sizes tell the cost of a slice from that of its pixels, and so have pairs to
+        // be, where those are all that is told of.
         self.slices = self.slices.wrapping_add(1);
-        let smaller = !opening && self.slices.is_multiple_of(2);
+        let every = if self.is_told_late { 3 } else { 2 };
+        let smaller = !opening && self.slices.is_multiple_of(every);
         let wanted = if smaller { largest.div_ceil(2) } else { largest };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;

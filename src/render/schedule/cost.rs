@@ -119,16 +119,16 @@ impl Cost {
         job: Job,
         aim: Aim,
         arithmetic: Arithmetic,
-        pixels: u32,
+        pixels: f64,
         busy_ms: f64,
     ) {
-        if pixels > 0 {
+        if pixels > 0.0 {
             let (stage, rays) = self.price(job);
             let refining = self.rate_for(Aim::Refining, arithmetic, stage).fixed_ms;
             // Openings are of too many views to tell.
             let fixed_ms = (aim == Aim::Opening).then_some(refining);
             let rate = &mut self.rates[aim as usize][arithmetic as usize][stage as usize];
-            rate.learn(aim, fixed_ms, f64::from(pixels) * rays, busy_ms.max(1e-3));
+            rate.learn(aim, fixed_ms, pixels * rays, busy_ms.max(1e-3));
             if aim == Aim::Opening {
                 // It has seen a view that what refines has not.
                 let ray_ms = rate.ray_ms / SPARSEST;

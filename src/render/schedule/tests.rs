@@ -106,7 +106,7 @@ impl Device {
         let mut shows = 0;
         while self.queue.first().is_some_and(|(_, end, _)| *end <= now) {
             let (work, _, ms) = self.queue.remove(0);
-            schedule.finished(work, ms);
+            schedule.collect(&[(Some(work), ms)]);
             shows += usize::from(matches!(work, Work::Show { .. }));
         }
         shows
