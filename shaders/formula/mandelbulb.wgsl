@@ -230,6 +230,7 @@ fn safe_step(growth: Growth, height: f32) -> f32 {
 // then through plain ones: where lanes disagree both sides of a branch are computed, but not of a
 // loop.
 fn reach(fractal: Fractal, point: vec3f) -> Reach {
+    if (TURNS) { return turning_reach(fractal, point); }
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     var growth = first_growth(fractal, orbit);
@@ -325,6 +326,7 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
 // J grows as dr does and grad dr as its square, past what an f32 holds: both are kept in units
 // of dr, which leaves the direction alone.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
+    if (TURNS) { return turning_gradient(fractal, point); }
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     let added = orbit.constant_derivative / orbit.start_derivative;
@@ -369,6 +371,10 @@ struct OrbitColors {
 }
 
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
+    if (TURNS) {
+        let end = turning_end(fractal, point);
+        return colors_of(fractal, end.q, end.count, end.traps);
+    }
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     // Squared until the end.
@@ -397,8 +403,13 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
         }
         if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
     }
-    var smooth_iterations = f32(walk.count);
-    if (q.s > orbit.limit) {
+    return colors_of(fractal, q, walk.count, traps);
+}
+
+// Of an orbit's end after so many steps, and its squared traps.
+fn colors_of(fractal: Fractal, q: Squares, count: u32, traps: vec3f) -> OrbitColors {
+    var smooth_iterations = f32(count);
+    if (q.s > fractal.bailout * fractal.bailout) {
         smooth_iterations -= log2(max(0.5 * log2(q.s) / fractal.log2_bailout, 1.0)) / log2(fractal.power);
     }
     return OrbitColors(smooth_iterations, sqrt(traps));

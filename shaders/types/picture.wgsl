@@ -47,7 +47,8 @@ struct Fractal {
     places: u32,
     own_places: u32,
     restart: u32,
-    unused: u32,
+    // 1 where orbits are followed in frames that turn with their points' longitudes.
+    turns: u32,
 }
 
 // The first steps of all orbits near the anchor at once, by the point's offset: second-order

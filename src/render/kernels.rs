@@ -5,8 +5,11 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, atomic::AtomicBool},
 };
 
-pub use super::layouts::Layouts;
 use super::{Region, layouts::pipeline_layout, pass, uniforms::Picture};
+pub use super::{
+    form::{Depth, Form},
+    layouts::Layouts,
+};
 use crate::{
     gpu::{Gpu, shader::Module},
     scene::Scene,
@@ -91,28 +94,6 @@ pub struct Passes {
     pub sparse_tone: wgpu::ComputePipeline,
 }
 
-/// What rays and normals are specialised for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Form {
-    /// A whole power; 0 for others.
-    pub power: u32,
-    /// Whether they are for views that are drawn from an anchor.
-    pub is_deep: bool,
-}
-
-impl Form {
-    /// A picture's.
-    pub fn of(picture: &Picture) -> Self {
-        Self { power: picture.fractal.integer_power, is_deep: picture.fractal.places > 0 }
-    }
-
-    /// The overrides that make it.
-    pub fn constants(self) -> Constants {
-        let deep = self.is_deep.then_some(("DEEP", 1.0));
-        [("POWER", f64::from(self.power))].into_iter().chain(deep).collect()
-    }
-}
-
 /// What tone mapping is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ToneForm {
@@ -162,8 +143,9 @@ impl Extra {
     /// What they are for, in words that follow "Preparing".
     pub fn name(self) -> String {
         match self {
-            Self::Rays(Form { is_deep: true, .. })
-            | Self::Normals(Form { is_deep: true, .. }, _) => "the deep zoom".to_owned(),
+            Self::Rays(form) | Self::Normals(form, _) if form.is_deep() => {
+                "the deep zoom".to_owned()
+            }
             Self::Rays(form) | Self::Normals(form, _) => format!("power {}", form.power),
             Self::Shade(_) => "light".to_owned(),
             Self::Tone(_) => "tone mapping".to_owned(),
@@ -365,7 +347,7 @@ impl Kernels {
     /// Whether these can be used without delay.
     pub fn is_ready(&self, extra: Extra) -> bool {
         // Other powers have the general forms only.
-        let general = Form { power: 0, is_deep: false };
+        let general = Form { power: 0, depth: Depth::Plain };
         matches!(extra, Extra::Rays(form) | Extra::Normals(form, _) if form == general)
             || locked(&self.ready).contains(&extra)
     }

@@ -10,6 +10,7 @@
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`backdrop`] | the picture of the surroundings |
 //! | [`kernels`] | pipelines and bind group layouts |
+//! | [`form`] | what rays and normals have pipelines of their own for |
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
@@ -28,6 +29,7 @@ pub mod around;
 pub mod backdrop;
 pub mod datum;
 mod filling;
+pub mod form;
 pub mod frame;
 pub mod gbuffer;
 pub mod glow;

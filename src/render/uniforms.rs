@@ -200,7 +200,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         places: reference.map_or(0, |reference| reference.places().len() as u32),
         own_places: reference.map_or(0, |reference| reference.own_places() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
-        unused: 0,
+        turns: reference.is_some_and(|reference| reference.turns()).into(),
     }
 }
 

@@ -346,7 +346,7 @@ impl View {
     /// What powers are raised by.
     fn arithmetic(&self) -> Arithmetic {
         match self.inputs.as_ref().map(|inputs| Form::of(&inputs.picture)) {
-            Some(Form { is_deep: true, .. }) => Arithmetic::Deep,
+            Some(form) if form.is_deep() => Arithmetic::Deep,
             None | Some(Form { power: 0, .. }) => Arithmetic::Real,
             Some(form) if self.kernels.has_own(form) => Arithmetic::Special,
             Some(_) => Arithmetic::Whole,

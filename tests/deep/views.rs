@@ -33,12 +33,6 @@ pub struct Anchor {
     pub deepest: f64,
 }
 
-/// Views that the renderer does not hold up in: power, name, scale.
-const LEFT_OUT: [(f64, &str, f64); 1] = [
-    // 0.6 % of the pixels are hit by one alone, and 1.2 % of the depths are apart.
-    (8.0, "close to the axis", 1e-9),
-];
-
 /// Where `search` arrived, of which these are views that the march itself agrees about: rays through
 /// 1e-5 of a pixel beside the centres, in steps of 0.6 times the length, arrive within a footprint on
 /// all but one of 96 pixels at most (`judge_views`).
@@ -47,8 +41,9 @@ const LEFT_OUT: [(f64, &str, f64); 1] = [
 /// elsewhere it has sheets thinner than their distance estimate by a factor that grows with depth,
 /// 1e6 at 1e-18. So have even powers beside the axis, at scales far below the distance from it; on
 /// the axis itself they do not. At power 3 the axis meets the surface where orbits are neutral: 6000
-/// steps at an estimate of 1e-11, so that it is seen from afar alone. At power 2 too, and there
-/// pixels that change with the length of steps are too many even from afar.
+/// steps at an estimate of 1e-11, so that it is seen from afar alone; 0.01 and 0.05 beside it a third
+/// of the pixels change with the length of steps from 1e-6 on. At power 2 orbits by the axis stay for
+/// hundreds of steps, and pixels that change are too many even from afar.
 pub const ANCHORS: &[Anchor] = &[
     Anchor {
         power: 2.0,
@@ -184,9 +179,7 @@ pub const ANCHORS: &[Anchor] = &[
         name: "on the axis",
         position: ["0", "0", "0.85233484699660038752894531303915344489909108"],
         toward: [0.0, 0.0, -1.0],
-        // Differences from an anchor there are of order one after a step, along the parallel, and in an
-        // f32 nothing is left of their height.
-        deepest: 1e-3,
+        deepest: 1e-27,
     },
     Anchor {
         power: 8.0,
@@ -210,6 +203,14 @@ pub const ANCHORS: &[Anchor] = &[
             "-0.64341116302527966515022116291847312759450612",
         ],
         toward: [-0.3534, -0.5249, 0.7744],
+        deepest: 1e-27,
+    },
+    Anchor {
+        power: 16.0,
+        julia: false,
+        name: "on the axis",
+        position: ["0", "0", "0.89540110303005466853046739308247810111145368687613"],
+        toward: [0.0, 0.0, -1.0],
         deepest: 1e-27,
     },
     Anchor {
@@ -274,9 +275,7 @@ impl Anchor {
 
     /// How far away it is looked at from.
     pub fn scales(&self) -> impl Iterator<Item = f64> {
-        let is_in = |&scale: &f64| {
-            scale >= self.deepest && !LEFT_OUT.contains(&(self.power, self.name, scale))
-        };
+        let is_in = |&scale: &f64| scale >= self.deepest;
         SCALES.into_iter().filter(is_in)
     }
 

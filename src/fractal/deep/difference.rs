@@ -44,7 +44,7 @@ pub fn raised(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
 
 /// The same of a point on the place's own meridian.
 pub fn raised_on_meridian(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
-    let aside = Aside { rotor: DVec2::ZERO, ..Aside::new(place, delta) };
+    let aside = Aside { rho: place.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
     raised_aside(place, aside, delta.z, n, sine_sign)
 }
 

@@ -95,8 +95,8 @@ struct DeepOrbit<'a> {
 /// What an orbit is followed in, and how it moves with its point.
 enum Frame {
     Fixed(Spread),
-    /// It turns with the point's longitude; so far it has been followed for so many steps.
-    Turning(Turn, TurningSpread, u32),
+    /// It turns with the orbit's longitude.
+    Turning(Turn, TurningSpread),
 }
 
 impl<'a> DeepOrbit<'a> {
@@ -107,25 +107,17 @@ impl<'a> DeepOrbit<'a> {
         let offset = if is_julia { DVec3::ZERO } else { point };
         let constant_derivative = if is_julia { 0.0 } else { 1.0 };
         let (frame, difference) = if reference.turns() {
-            let (turn, difference) = Turn::of(reference.first(), point, reference.power());
+            let mut turn = Turn::none(reference.power());
+            let (difference, _) = turn.settle(&reference.places()[0], point);
             let constant = reference.constant() + offset;
             let spread =
-                TurningSpread::new(constant, constant_derivative, turn.rotor(), field.grain);
-            (Frame::Turning(turn, spread, 0), difference)
+                TurningSpread::new(constant, constant_derivative, turn.back(), field.grain);
+            (Frame::Turning(turn, spread), difference)
         } else {
             (Frame::Fixed(Spread::new(constant_derivative)), point)
         };
         let sine_sign = reference.sine_sign();
         Self { reference, sine_sign, offset, place: 0, difference, frame }
-    }
-
-    /// The next power's difference to the place's.
-    fn raised(&self) -> DVec3 {
-        let begins_turned = matches!(self.frame, Frame::Turning(.., 0));
-        let raised =
-            if begins_turned { difference::raised_on_meridian } else { difference::raised };
-        let place = &self.reference.places()[self.place];
-        raised(place, self.difference, self.reference.power(), self.sine_sign)
     }
 }
 
@@ -136,29 +128,40 @@ impl Orbit for DeepOrbit<'_> {
 
     fn step(&mut self, power: &TriplexPower) {
         let z = self.z();
+        let Self { reference, sine_sign, offset, .. } = *self;
+        let place = &reference.places()[self.place];
         let is_close = self.difference.length() < CLOSE * z.length();
-        let goes_on = is_close && self.reference.goes_on(self.place);
-        let raised = if goes_on { self.raised() } else { power.apply(z) };
-        let added = match &mut self.frame {
-            Frame::Fixed(spread) => {
-                spread.step(power, z);
-                self.offset
+        let goes_on = is_close && reference.goes_on(self.place);
+        let raised = match self.frame {
+            _ if !goes_on => power.apply(z),
+            Frame::Fixed(_) => {
+                difference::raised(place, self.difference, reference.power(), sine_sign)
             }
-            Frame::Turning(turn, spread, steps) => {
-                *turn = turn.next();
-                *steps += 1;
-                spread.step(power, z, turn.rotor());
-                turn.added(self.reference.constant(), self.offset)
+            Frame::Turning(..) => {
+                difference::raised_on_meridian(place, self.difference, reference.power(), sine_sign)
             }
         };
-        self.difference = raised + added;
-        self.place = if goes_on { self.place + 1 } else { self.reference.restart() };
+        self.place = if goes_on { self.place + 1 } else { reference.restart() };
+        self.difference = match &mut self.frame {
+            Frame::Fixed(spread) => {
+                spread.step(power, z);
+                raised + offset
+            }
+            Frame::Turning(turn, spread) => {
+                *turn = turn.raised();
+                spread.step(power, z, turn.back());
+                let difference = raised + turn.added(reference.constant(), offset);
+                let (difference, rotor) = turn.settle(&reference.places()[self.place], difference);
+                spread.settle(rotor);
+                difference
+            }
+        };
     }
 
     fn norm(&self) -> f64 {
         match &self.frame {
             Frame::Fixed(spread) => spread.norm(),
-            Frame::Turning(_, spread, _) => spread.norm(),
+            Frame::Turning(_, spread) => spread.norm(),
         }
     }
 }

@@ -108,11 +108,6 @@ impl Reference {
         if self.fractal.julia { self.own_places } else { 0 }
     }
 
-    /// The anchor's own first place: itself.
-    pub(super) fn first(&self) -> &Place {
-        &self.places[0]
-    }
-
     /// What the steps of its orbit add.
     pub(super) fn constant(&self) -> DVec3 {
         self.places[self.restart()].z
@@ -123,7 +118,7 @@ impl Reference {
     /// that is near the axis itself does not matter.
     pub fn turns(&self) -> bool {
         let constant = &self.places[self.restart()];
-        self.power.is_multiple_of(2) && self.first().rho.max(constant.rho) < BESIDE_AXIS
+        self.power.is_multiple_of(2) && self.places[0].rho.max(constant.rho) < BESIDE_AXIS
     }
 
     /// Whether it is one of this set, however many iterations that has.
@@ -133,14 +128,16 @@ impl Reference {
     }
 
     /// For each radius, what all orbits can skip whose points are as near to the anchor, in units of
-    /// `scale`.
+    /// `scale`. Where frames turn, what is added to orbits hard by the axis is no smooth function of
+    /// their point: nothing is skipped.
     pub fn skips(&self, scale: f64, radii: &[f64]) -> Vec<Skip> {
+        let places = if self.turns() { 1 } else { self.own_places };
         Skipping {
             power: TriplexPower::new(&self.fractal),
             whole_power: self.power,
             sine_sign: self.sine_sign(),
             is_mandelbulb: !self.fractal.julia,
-            places: &self.places[..self.own_places],
+            places: &self.places[..places],
             scale,
         }
         .within(radii)

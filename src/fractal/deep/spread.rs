@@ -50,15 +50,15 @@ pub struct TurningSpread {
 }
 
 impl TurningSpread {
-    /// Of an orbit's start, seen from a frame in which fixed directions are turned by `rotor`; what
+    /// Of an orbit's start, seen from a frame in which fixed directions are turned by `back`; what
     /// ripples at a length below `grain`, in scene units, need not be known.
-    pub fn new(constant: DVec3, constant_derivative: f64, rotor: DVec2, grain: f64) -> Self {
-        let (jacobian, turn) = (about_axis(rotor), DVec3::ZERO);
+    pub fn new(constant: DVec3, constant_derivative: f64, back: DVec2, grain: f64) -> Self {
+        let (jacobian, turn) = (about_axis(back), DVec3::ZERO);
         Self { jacobian, turn, constant_derivative, constant, most: 2.0 / grain }
     }
 
-    /// Goes on from the place `z`, to a frame in which fixed directions are turned by `rotor`.
-    pub fn step(&mut self, power: &TriplexPower, z: DVec3, rotor: DVec2) {
+    /// Goes on from the place `z`, to a frame in which fixed directions are turned by `back`.
+    pub fn step(&mut self, power: &TriplexPower, z: DVec3, back: DVec2) {
         let z = off_axis(z);
         let aside = z.truncate();
         let rho = aside.length().max(LEAST_RADIUS);
@@ -69,7 +69,12 @@ impl TurningSpread {
         let around = self.constant.truncate().perp().extend(0.0);
         let added = DMat3::from_diagonal(DVec3::splat(self.constant_derivative))
             - DMat3::from_cols(around * self.turn.x, around * self.turn.y, around * self.turn.z);
-        self.jacobian = power.jacobian(z, 0.0) * self.jacobian + about_axis(rotor) * added;
+        self.jacobian = power.jacobian(z, 0.0) * self.jacobian + about_axis(back) * added;
+    }
+
+    /// Goes on to a frame that is turned by another `rotor`.
+    pub fn settle(&mut self, rotor: DVec2) {
+        self.jacobian = about_axis(rotor).transpose() * self.jacobian;
     }
 
     /// As of [`Spread`].

@@ -1,22 +1,23 @@
-//! Orbits in a frame that turns with their point's longitude: what even powers need hard by the
-//! polar axis.
+//! Orbits in a frame that turns with their longitude: what even powers need hard by the polar axis.
 //!
 //! An even power takes the axis to the plane of the equator, and a small circle around the axis to a
 //! wide one. So a difference in longitude, however small in length, is one of order s/ρ after a
 //! step, along the parallel, and rounding it takes digits from what matters, which is of order s:
-//! with ρ → 0 all of them. But |z| does not care for longitudes, and the power turns as its
-//! argument does, n times as far. So an orbit is followed as it looks from a frame that has been
-//! turned by D₁, the point's longitude less the anchor's, and n times as far after each step:
-//! `yₖ = R(−nᵏ⁻¹D₁) zₖ` begins at the anchor's longitude, and
+//! with ρ → 0 all of them. From then on longitudes differ n times as much with every step, where
+//! radii and heights grow by less. But |z| does not care for longitudes, and the power turns as its
+//! argument does, n times as far. So an orbit is followed as it looks from a frame that is turned,
+//! after every step, until the place has the longitude of the reference's. With E the rotor that it
+//! has been turned by altogether, y = Ē z (across the axis) steps as
 //!
-//! `yₖ₊₁ = yₖⁿ + R(−nᵏD₁) c`,
+//! `y ← yⁿ + Ēⁿ c,  E ← Eⁿ·e^(iφ),  y ← e^(−iφ)·y`,
 //!
-//! with the reference as it is. Its difference steps as any other does; only what is added turns:
-//! with `e = e^(inᵏD₁) − 1`, kept as a small number, and a constant that is `o` away from the
-//! reference's C, that is `(1 + ē)·o + ē·C` across the axis.
+//! φ being how far y is ahead of the reference's longitude by then. Its difference to the reference,
+//! which is as it is, lies on that one's meridian before a step; what is added to it is
+//! `(1 + ē)·o + ē·C` across the axis, for a constant that is `o` away from the reference's C and with
+//! `e = Eⁿ − 1`, kept as a small number.
 //!
-//! After some steps nᵏD₁ is noise, in f64 as in f32. What is added then is a ripple of a height of
-//! about n⁻ᵏ of the whole: as much as rounding.
+//! After some steps E is noise, in f64 as in f32. What is added then is a ripple of a height of about
+//! n⁻ᵏ of the whole: as much as rounding.
 
 use glam::{DVec2, DVec3};
 
@@ -31,17 +32,22 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// The frame in which the point that is `offset` away from an orbit's first place has that
-    /// place's longitude, and its difference to the place there, for the power `n`.
-    pub fn of(first: &Place, offset: DVec3, n: u32) -> (Self, DVec3) {
-        let aside = Aside::new(first, offset);
-        let conjugate = DVec2::new(first.rotor.x, -first.rotor.y);
-        let turn = Self { ahead: aside.rotor.rotate(conjugate), power: n };
-        (turn.normalized(), (first.rotor * aside.rho).extend(offset.z))
+    /// None.
+    pub fn none(power: u32) -> Self {
+        Self { ahead: DVec2::ZERO, power }
     }
 
-    /// The frame a step later.
-    pub fn next(self) -> Self {
+    /// Turns on until what is `difference` away from `place` has the place's longitude. Returns the
+    /// difference as it is then, and the rotor of that turn.
+    pub fn settle(&mut self, place: &Place, difference: DVec3) -> (DVec3, DVec2) {
+        let aside = Aside::new(place, difference);
+        let by = Self { ahead: aside.rotor.rotate(conjugate(place.rotor)), ..*self }.normalized();
+        *self = Self { ahead: product(self.ahead, by.ahead), ..*self }.normalized();
+        ((place.rotor * aside.rho).extend(difference.z), DVec2::X + by.ahead)
+    }
+
+    /// The frame that turns as the power does.
+    pub fn raised(self) -> Self {
         let mut ahead = DVec2::ZERO;
         for bit in (0..u32::BITS - self.power.leading_zeros()).rev() {
             ahead = product(ahead, ahead);
@@ -52,20 +58,16 @@ impl Turn {
         Self { ahead, ..self }.normalized()
     }
 
-    /// How a fixed direction turns in it.
-    pub fn rotor(self) -> DVec2 {
-        DVec2::X + self.back()
+    /// How a fixed direction is turned in it.
+    pub fn back(self) -> DVec2 {
+        DVec2::X + conjugate(self.ahead)
     }
 
     /// What a constant adds to the difference that is `offset` away from the reference's.
     pub fn added(self, constant: DVec3, offset: DVec3) -> DVec3 {
-        let aside =
-            offset.truncate().rotate(self.rotor()) + constant.truncate().rotate(self.back());
+        let turned = constant.truncate().rotate(conjugate(self.ahead));
+        let aside = offset.truncate().rotate(self.back()) + turned;
         aside.extend(offset.z)
-    }
-
-    fn back(self) -> DVec2 {
-        DVec2::new(self.ahead.x, -self.ahead.y)
     }
 
     /// Rounding makes the rotor longer or shorter, and each step n times as much.
@@ -75,6 +77,11 @@ impl Turn {
         let longer = excess / (1.0 + length);
         Self { ahead: (self.ahead - DVec2::X * longer) / length, ..self }
     }
+}
+
+/// How far the other way.
+fn conjugate(rotor: DVec2) -> DVec2 {
+    DVec2::new(rotor.x, -rotor.y)
 }
 
 /// (1 + a)(1 + b) − 1.
@@ -91,7 +98,8 @@ mod tests {
         for power in [2, 7, 8, 16] {
             let first = Place::new(DVec3::new(3e-5, -4e-5, 0.9));
             let offset = DVec3::new(4e-18, 3e-18, 1e-17);
-            let (mut turn, difference) = Turn::of(&first, offset, power);
+            let mut turn = Turn::none(power);
+            let (difference, _) = turn.settle(&first, offset);
             assert!(difference.x.abs() < 1e-21 && difference.y.abs() < 1e-21, "{difference}");
             assert_eq!(difference.z, offset.z);
             let mut angle: f64 = 5e-18 / 5e-5;
@@ -99,7 +107,7 @@ mod tests {
                 let expected = DVec2::new((0.5 * angle).sin().powi(2) * -2.0, angle.sin());
                 let error = (turn.ahead - expected).length();
                 assert!(error < 1e-12 * angle, "{power}: {} for {expected}", turn.ahead);
-                turn = turn.next();
+                turn = turn.raised();
                 angle *= f64::from(power);
             }
         }
@@ -108,11 +116,12 @@ mod tests {
     #[test]
     fn rotors_stay_rotors() {
         let first = Place::new(DVec3::new(0.0, 0.0, 0.9));
-        let (mut turn, _) = Turn::of(&first, DVec3::new(3e-20, -1e-20, 0.0), 8);
+        let mut turn = Turn::none(8);
+        turn.settle(&first, DVec3::new(3e-20, -1e-20, 0.0));
         for step in 0..200 {
-            let length = turn.rotor().length();
+            let length = turn.back().length();
             assert!((length - 1.0).abs() < 1e-13, "{length} at {step}");
-            turn = turn.next();
+            turn = turn.raised();
         }
     }
 }

@@ -21,6 +21,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("formula/deep.wgsl"),
+        shader_file!("formula/turning.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("pass/normal.wgsl"),
     ],

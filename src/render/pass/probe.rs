@@ -9,7 +9,12 @@ use crate::{
         readback::{Readback, ReadbackError},
         shader::Module,
     },
-    render::{Eyes, Region, datum::Datum, kernels::Form, uniforms::Inputs},
+    render::{
+        Eyes, Region,
+        datum::Datum,
+        kernels::{Depth, Form},
+        uniforms::Inputs,
+    },
     scene::Scene,
     shader_file,
 };
@@ -22,6 +27,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("formula/deep.wgsl"),
+        shader_file!("formula/turning.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("pass/probe.wgsl"),
     ],
@@ -54,7 +60,7 @@ pub fn ask(
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, &Datum::plain());
     let power = if specialised { inputs.picture.fractal.integer_power } else { 0 };
-    ask_form(gpu, &inputs, points, Form { power, is_deep: false })
+    ask_form(gpu, &inputs, points, Form { power, depth: Depth::Plain })
 }
 
 /// The same about points that are given by their offsets from the anchor of `datum`, in its units,

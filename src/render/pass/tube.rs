@@ -20,6 +20,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("lib/sphere.wgsl"),
         shader_file!("formula/deep.wgsl"),
+        shader_file!("formula/turning.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("lib/bundle.wgsl"),
         shader_file!("lib/shadow.wgsl"),

@@ -131,8 +131,9 @@ host_shared! {
         own_places: u32,
         /// The one that orbits start anew from.
         restart: u32,
-        /// Keeps the size a multiple of 16 bytes.
-        unused: u32,
+        /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
+        /// see [`crate::fractal::deep::turn`].
+        turns: u32,
     }
     /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::skip`].
     Skip {
