@@ -141,7 +141,6 @@ fn host_constants_match_their_wgsl_twins() {
         ("CLOSE", deep::CLOSE),
         ("SIDEWAYS_MAX", estimator::SIDEWAYS_MAX),
         ("DEEP_SIDEWAYS_MAX", estimator::DEEP_SIDEWAYS_MAX),
-        ("TURNING_STEP_FACTOR", estimator::JACOBIAN_STEP_FACTOR),
         ("LEAST_STEP", march::LEAST_STEP),
         ("LEAST_STEP_OVER_DIPS", march::LEAST_STEP_OVER_DIPS),
         ("THICK", march::THICK),

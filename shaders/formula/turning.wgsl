@@ -4,9 +4,6 @@
 // Whether this pipeline is for deep views about an anchor that is hard by the axis.
 override TURNS: bool = false;
 
-// A step over the estimate by the Jacobian's norm: `fractal::estimator::JACOBIAN_STEP_FACTOR`.
-const TURNING_STEP_FACTOR = 0.5;
-
 // (1 + v)(1 + w) - 1.
 fn ahead_product(v: vec2f, w: vec2f) -> vec2f {
     return v + w + complex_product(v, w);
@@ -84,8 +81,8 @@ fn moved_on(
     // How the longitude moves with the point.
     let by_rho = before.dr * min(1.0 / max(rho, 1e-37), 1e6 / fractal.scale);
     let turn = fractal.power * (before.turn + by_rho * (vec3f(-u.y, u.x, 0.0) * j));
-    // Ripples that are finer than pixels are lower, where the axis is in view.
-    let finest = 2.0 / picture.camera.hit_cone;
+    // Ripples that are finer than some pixels are lower than one, where the axis is in view.
+    let finest = 0.5 / picture.camera.hit_cone;
     let most = finest * clamp(given.places[0].rho / fractal.scale, 1.0, 1e9);
     let capped = turn * min(1.0, most / max(length(turn), 1e-37));
     let constant = orbit.constant + orbit.added;
@@ -204,7 +201,7 @@ fn turning_reach(fractal: Fractal, point: vec3f) -> Reach {
     let distance = 0.25 * log(end.q.s) * sqrt(end.q.s) / max(end.motion.dr, 1e-37);
     let j = end.motion.jacobian;
     let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
-    return Reach(distance, min(distance * min(TURNING_STEP_FACTOR / norm, 1.0), fractal.max_step));
+    return Reach(distance, min(distance / max(norm, 1.0), fractal.max_step));
 }
 
 fn turning_gradient(fractal: Fractal, point: vec3f) -> vec3f {

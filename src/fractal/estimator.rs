@@ -35,7 +35,7 @@ const BOUNDING_MARGIN: f64 = 0.01;
 pub const SIDEWAYS_MAX: f64 = 10.0;
 /// A step over the estimate by the Jacobian's norm (Frobenius): half of it reaches the surface from
 /// 10³² times as far in about a hundred steps.
-pub const JACOBIAN_STEP_FACTOR: f64 = 0.5;
+const JACOBIAN_STEP_FACTOR: f64 = 0.5;
 /// The same as [`SIDEWAYS_MAX`], of the Jacobian that deep rays step by.
 pub const DEEP_SIDEWAYS_MAX: f64 = 30.0;
 /// The estimate of lower powers dips; see the module's head.
