@@ -131,11 +131,12 @@ pub trait DistanceField {
         let far = far.min(max_depth);
         let least_step = if self.has_dips() { LEAST_STEP_OVER_DIPS } else { LEAST_STEP };
         let (mut before, mut depth) = (near, near);
-        for _ in 0..max_steps {
+        for i in 0..max_steps {
             if depth > far {
                 return Ok(None);
             }
             let (reach, hit) = (self.reach(ray.at(depth)), cone * depth);
+            let hasty_step = haste(f64::from(i) / f64::from(max_steps)) * reach.distance;
             if reach.distance <= hit {
                 if !self.has_dips() {
                     return Ok(Some(depth));
@@ -145,7 +146,7 @@ pub trait DistanceField {
                 }
             }
             before = depth;
-            depth += reach.step.max(least_step * hit);
+            depth += reach.step.max(hasty_step).max(least_step * hit);
         }
         Err(depth)
     }
@@ -198,6 +199,15 @@ pub trait DistanceField {
             .try_normalize()
             .unwrap_or_else(|| (point - self.center()).normalize_or(DVec3::Z))
     }
+}
+
+/// What part of the estimate a step covers at least where this part of a ray's steps is spent.
+///
+/// At power 3 orbits that come by the axis again and again have safe steps hundreds of times shorter
+/// than their estimates, and rays that went by these alone ended in the air when their steps were spent.
+/// The fourth power leaves rays that take a third of their steps as they are.
+fn haste(spent: f64) -> f64 {
+    spent.powi(4)
 }
 
 /// A half-line in a field's coordinates.

@@ -11,7 +11,7 @@ use mandelight::{
 use super::{
     parallel::in_parallel,
     rays::{FARTHEST, Looking, Size, centre},
-    views::{self, ANCHORS, size},
+    views::{self, ANCHORS, Anchor, size},
 };
 
 /// One of so many pixels is compared; of pictures 24 high, still 173. Where these do not agree well
@@ -146,6 +146,27 @@ fn views_of_power_16() {
 #[test]
 fn views_of_the_julia_form() {
     views_agree(8.0, true);
+}
+
+/// Where orbits come by the axis again and again, safe steps are hundreds of times shorter than
+/// estimates: rays that go by these alone have none left before they arrive.
+#[test]
+fn views_of_creeping_rays() {
+    let kernels = Kernels::new(&gpu());
+    let anchor = Anchor {
+        power: 3.0,
+        julia: false,
+        name: "beside the axis",
+        position: [
+            "7.648421872844884776e-3",
+            "6.442176872376910272e-3",
+            "1.131353706377499888890596",
+        ],
+        toward: [0.1, -0.2, -0.97],
+        deepest: 1e-3,
+    };
+    let view = format!("power 3 {}", anchor.name);
+    view_agrees(&kernels, &anchor.scene(anchor.deepest), size(anchor.deepest), false, &view);
 }
 
 /// The set with the other sign of the sine.
