@@ -126,11 +126,11 @@ pub fn ours(
             }))
         };
     let passes = Passes {
-        cone: made(&listing, &pass::cone::MODULE, "reach")?,
-        march: made(&listed, &pass::march::MODULE, "reach")?,
+        cone: made(&listing, &pass::cone::MODULE, "reach_at")?,
+        march: made(&listed, &pass::march::MODULE, "reach_at")?,
         normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
-        tube: made(&listing, &pass::tube::MODULE, "reach")?,
-        shadow: made(&listed, &pass::shadow::MODULE, "reach")?,
+        tube: made(&listing, &pass::tube::MODULE, "reach_at")?,
+        shadow: made(&listed, &pass::shadow::MODULE, "reach_at")?,
         ..kernels.passes(split.picture())
     };
     let mut counts = split.count(&passes)?;

@@ -11,47 +11,42 @@ override DEEP: bool = false;
 // `fractal::deep::CLOSE`.
 const CLOSE = 0.01;
 
+// How far from the anchor points may be that skip the most steps, in scales, and from each radius to
+// the next: `render::uniforms::depth`.
+const FIRST_RADIUS = 12.0;
+const RADII_RATIO = 8.0;
+
 // An orbit under way.
 struct Walk {
     // Where it is.
     z: vec3f,
     // How many steps it has gone.
     count: u32,
-    // Its difference to a place of the reference, that place and its index. Of deep views only.
+    // Its difference to a place of the reference, and that place's index. Of deep views only.
     difference: vec3f,
     index: u32,
-    place: Place,
-}
-
-// A place of the reference. Those that come next where steps have been skipped are in the picture,
-// which costs nothing to read: a loop that no thread enters costs as little.
-fn place_at(index: u32) -> Place {
-    let near = index - picture.near_index;
-    var place = picture.near[min(near, NEAR_PLACES - 1u)];
-    for (; near >= NEAR_PLACES; ) {
-        place = given.places[index];
-        break;
-    }
-    return place;
 }
 
 // Which of the skips is for a point; `SKIPS` where it has to take every step.
 fn skip_of(point: vec3f) -> u32 {
-    // In units of the first radius; 8 is 2^3.
-    let distance_squared = dot(point, point) / 9.0;
-    return u32(clamp(ceil(log2(distance_squared) / 6.0), 0.0, f32(SKIPS)));
+    let radii = log2(dot(point, point) / (FIRST_RADIUS * FIRST_RADIUS)) / (2.0 * log2(RADII_RATIO));
+    return u32(clamp(ceil(radii), 0.0, f32(SKIPS)));
+}
+
+// Whether a point's orbit takes the steps that the picture itself holds.
+fn is_near(point: vec3f) -> bool {
+    return dot(point, point) < picture.near_radius_squared;
 }
 
 // Behind the steps that are skipped.
-fn skipped_walk(skip: Skip, point: vec3f) -> Walk {
+fn skipped_walk(skip: Skip, place: vec3f, point: vec3f) -> Walk {
     let squares = point * point;
     let products = point * point.yzx;
     let along = mat3x3f(skip.along_x, skip.along_y, skip.along_z) * point;
     let pure = mat3x3f(skip.along_xx, skip.along_yy, skip.along_zz) * squares;
     let mixed = mat3x3f(skip.along_xy, skip.along_yz, skip.along_zx) * products;
     let difference = along + (0.5 * pure + mixed);
-    let place = place_at(skip.steps);
-    return Walk(place.z + difference, skip.steps, difference, skip.steps, place);
+    return Walk(place + difference, skip.steps, difference, skip.steps);
 }
 
 // The derivative after those steps.
@@ -59,8 +54,13 @@ fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
     return skip.derivative + dot(skip.derivative_gradient, point);
 }
 
-fn skipped_growth(skip: Skip, point: vec3f) -> Growth {
-    return Growth(skipped_derivative(skip, point), 0.0, skipped_jacobian(skip, point));
+fn skipped_growth(fractal: Fractal, skip: Skip, point: vec3f, which: u32) -> Growth {
+    let dr = skipped_derivative(skip, point);
+    if (POWER < 4u) { return Growth(dr, 0.0, skipped_jacobian(skip, point), 0.0); }
+    // From farther away it would be followed over too many steps.
+    let dg = select(0.0, skip.rest / step_factor(fractal), which < 2u);
+    let stretched = mat3x3f(skip.stretched, vec3f(0.0), vec3f(0.0));
+    return Growth(dr, dg, stretched, skip.rest / skip.derivative);
 }
 
 // Whether the next step is one of the difference.
@@ -91,19 +91,13 @@ fn pair_product(v: Pair, w: Pair) -> Pair {
     );
 }
 
-fn pair_power_bit(v: Pair, w: Pair, bit: u32) -> Pair {
-    let squared = pair_square(v);
-    if (bit != 0u) { return pair_product(squared, w); }
-    return squared;
-}
-
 // w^n for n from 1 to 16.
 fn pair_power(w: Pair, n: u32) -> Pair {
     var v = w;
     if (n >= 16u) { v = pair_square(v); }
-    if (n >= 8u) { v = pair_power_bit(v, w, n & 4u); }
-    if (n >= 4u) { v = pair_power_bit(v, w, n & 2u); }
-    if (n >= 2u) { v = pair_power_bit(v, w, n & 1u); }
+    if (n >= 8u) { v = pair_square(v); if ((n & 4u) != 0u) { v = pair_product(v, w); } }
+    if (n >= 4u) { v = pair_square(v); if ((n & 2u) != 0u) { v = pair_product(v, w); } }
+    if (n >= 2u) { v = pair_square(v); if ((n & 1u) != 0u) { v = pair_product(v, w); } }
     return v;
 }
 
@@ -115,12 +109,17 @@ fn length_of(v: vec2f) -> f32 {
     return length(up * v) * down;
 }
 
-// One step of the difference; what derivatives are made of comes with it, and `power` is the
-// difference of z^n.
-fn raised_close(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
-    let place = walk.place;
+// How an orbit's radius beside the axis and its rotor differ from a place's.
+struct Deviation {
+    rho: f32,
+    rotor: vec2f,
+    // One over the orbit's own.
+    inverse_rho: f32,
+}
+
+// `rho`: the orbit's own.
+fn deviation(walk: Walk, place: Place, rho: f32) -> Deviation {
     let aside = walk.difference.xy;
-    let rho = length_of(walk.z.xy);
     let inverse_rho = 1.0 / max(rho, 1e-37);
     let inverse_sum = 1.0 / max(rho + place.rho, 1e-37);
     let along = dot(place.rotor, aside);
@@ -128,28 +127,41 @@ fn raised_close(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
     // On the axis the rotor is 1.
     let turned = inverse_rho * (aside - d_rho * place.rotor);
     let d_rotor = select(vec2f(1.0, 0.0) - place.rotor, turned, rho > 0.0);
-    let w = pair_power(Pair(vec2f(place.rho, place.z.z), vec2f(d_rho, walk.difference.z)), POWER);
-    let u = pair_power(Pair(place.rotor, d_rotor), POWER);
+    return Deviation(d_rho, d_rotor, inverse_rho);
+}
+
+// One step of the difference to `place`, where the orbit itself is `rho` from the axis.
+fn raised_close(fractal: Fractal, walk: Walk, place: Place, rho: f32, q: Squares) -> Raised {
+    let d = deviation(walk, place, rho);
+    let w = pair_power(Pair(vec2f(place.rho, place.z.z), vec2f(d.rho, walk.difference.z)), POWER);
+    let u = pair_power(Pair(place.rotor, d.rotor), POWER);
     let wn = w.value + w.difference;
     let un = u.value + u.difference;
     let across = w.value.x * u.difference + w.difference.x * un;
     let power = vec3f(across, fractal.z_sign * w.difference.y);
-    let stretch = stretch_whole(fractal, q);
-    return Raised(power, stretch, fractal.power * inverse_rho * wn.x, un, wn);
+    return Raised(power, stretch_whole(fractal, q), d.inverse_rho, un, wn);
+}
+
+// The same to a place of the reference, which also holds where the square of rho is too small for an f32.
+fn raised_next(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
+    return raised_close(fractal, walk, given.places[walk.index], length_of(walk.z.xy), q);
 }
 
 // Goes on by such a step.
 fn step_close(walk: Walk, step: Raised, orbit: Orbit) -> Walk {
-    let place = place_at(walk.index + 1u);
+    return step_to(walk, given.places[walk.index + 1u].z, step, orbit);
+}
+
+fn step_to(walk: Walk, place: vec3f, step: Raised, orbit: Orbit) -> Walk {
     let difference = step.power + orbit.added;
-    return Walk(place.z + difference, walk.count + 1u, difference, walk.index + 1u, place);
+    return Walk(place + difference, walk.count + 1u, difference, walk.index + 1u);
 }
 
 // Goes on from z^n: its difference to where orbits start anew (rebasing).
 fn step_anew(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
     let difference = power + orbit.added;
     let z = orbit.constant + difference;
-    return Walk(z, walk.count + 1u, difference, picture.fractal.restart, picture.restart);
+    return Walk(z, walk.count + 1u, difference, picture.fractal.restart);
 }
 
 // The tangent behind the steps that are skipped.

@@ -23,34 +23,51 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let has_dips = dips(fractal);
     let least_step = select(LEAST_STEP, LEAST_STEP_OVER_DIPS, has_dips);
     var crossing = Crossing(0.0, 0.0, 0u);
-    for (var i = 0u; i < fractal.march_steps; i++) {
-        let is_looking = has_dips && crossing.looks > 0u;
-        let is_inside = t <= interval.y || is_looking;
-        var ahead = Reach(0.0, 0.0);
-        if (is_inside) { ahead = reach(fractal, ray.origin + t * ray.direction); }
-        ahead.step = max(ahead.step, haste(f32(i) / f32(fractal.march_steps)) * ahead.distance);
-        if (!is_looking) {
-            let back = step_back(&pace, ahead.step);
-            if (back > 0.0) {
-                t -= back;
-                continue;
+    var i = 0u;
+    // The reach from the point ahead where `quick_reach` can't tell it, and from a ray's first one.
+    var known = Reach(0.0, 0.0);
+    var is_known = false;
+    for (; ; ) {
+        if (DEEP && !TURNS) {
+            known = reach(fractal, ray.origin + t * ray.direction);
+            is_known = true;
+        }
+        for (; i < fractal.march_steps; i++) {
+            let is_looking = has_dips && crossing.looks > 0u;
+            let is_inside = t <= interval.y || is_looking;
+            var ahead = Reach(0.0, 0.0);
+            if (is_inside && !is_known) { ahead = quick_reach(fractal, ray.origin + t * ray.direction); }
+            if (is_known) { ahead = known; }
+            is_known = false;
+            if (ahead.step < 0.0) {
+                is_known = true;
+                break;
             }
-            if (!is_inside) { return 0.0; }
+            ahead.step = max(ahead.step, haste(f32(i) / f32(fractal.march_steps)) * ahead.distance);
+            if (!is_looking) {
+                let back = step_back(&pace, ahead.step);
+                if (back > 0.0) {
+                    t -= back;
+                    continue;
+                }
+                if (!is_inside) { return 0.0; }
+            }
+            let hit = hit_distance(camera, fractal, t);
+            if (has_dips && (is_looking || ahead.distance < hit)) {
+                t = next_look(&crossing, before, t, hit, ahead.distance < hit);
+                if (crossing.looks > LOOKS) { return max(t, 1e-30); }
+                if (crossing.looks > 0u) { continue; }
+            }
+            if (ahead.distance < hit) {
+                // Where on the last step the hit was, about: wherever its two ends were.
+                let past = hit - ahead.distance;
+                return max(mix(before, t, left / max(left + past, 1e-30)), 1e-30);
+            }
+            before = t;
+            left = ahead.distance - hit;
+            t += next_step(&pace, max(ahead.step, least_step * hit));
         }
-        let hit = hit_distance(camera, fractal, t);
-        if (has_dips && (is_looking || ahead.distance < hit)) {
-            t = next_look(&crossing, before, t, hit, ahead.distance < hit);
-            if (crossing.looks > LOOKS) { return max(t, 1e-30); }
-            if (crossing.looks > 0u) { continue; }
-        }
-        if (ahead.distance < hit) {
-            // Where on the last step the hit was, about: wherever its two ends were.
-            let past = hit - ahead.distance;
-            return max(mix(before, t, left / max(left + past, 1e-30)), 1e-30);
-        }
-        before = t;
-        left = ahead.distance - hit;
-        t += next_step(&pace, max(ahead.step, least_step * hit));
+        if (!is_known) { break; }
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

@@ -24,27 +24,45 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
     var pace = paced(fractal.power);
     let has_dips = dips(fractal);
     var looks = 0u;
-    for (var i = 0u; i < fractal.shadow_steps; i++) {
-        var ahead = Reach(0.0, 0.0);
-        let is_looking = has_dips && looks > 0u;
-        if (s > surface_distance || is_looking) { ahead = reach(fractal, point + s * direction); }
-        if (!is_looking) {
-            let back = step_back(&pace, ahead.step);
-            s += back;
-            // Where a step too long is taken back, what is left may be known to be empty.
-            if (s <= surface_distance) { return true; }
-            if (back > 0.0) { continue; }
+    var i = 0u;
+    // The reach from the point ahead where `quick_reach` can't tell it, and from a ray's first one.
+    var known = Reach(0.0, 0.0);
+    var is_known = false;
+    for (; ; ) {
+        if (DEEP && !TURNS) {
+            known = reach(fractal, point + s * direction);
+            is_known = true;
         }
-        let blocks = blocking_distance(fractal, s, surface_distance);
-        if (ahead.distance < blocks) {
-            // A dip has to last, as for a camera ray.
-            if (!has_dips || looks == THICK_PLACES) { return false; }
-            looks++;
-            s -= THICK / f32(THICK_PLACES) * surface_distance;
-            continue;
+        for (; i < fractal.shadow_steps; i++) {
+            var ahead = Reach(0.0, 0.0);
+            let is_looking = has_dips && looks > 0u;
+            let is_asking = (s > surface_distance || is_looking) && !is_known;
+            if (is_asking) { ahead = quick_reach(fractal, point + s * direction); }
+            if (is_known) { ahead = known; }
+            is_known = false;
+            if (ahead.step < 0.0) {
+                is_known = true;
+                break;
+            }
+            if (!is_looking) {
+                let back = step_back(&pace, ahead.step);
+                s += back;
+                // Where a step too long is taken back, what is left may be known to be empty.
+                if (s <= surface_distance) { return true; }
+                if (back > 0.0) { continue; }
+            }
+            let blocks = blocking_distance(fractal, s, surface_distance);
+            if (ahead.distance < blocks) {
+                // A dip has to last, as for a camera ray.
+                if (!has_dips || looks == THICK_PLACES) { return false; }
+                looks++;
+                s -= THICK / f32(THICK_PLACES) * surface_distance;
+                continue;
+            }
+            looks = 0u;
+            s -= next_step(&pace, max(ahead.step, least_step(fractal, blocks, surface_distance)));
         }
-        looks = 0u;
-        s -= next_step(&pace, max(ahead.step, least_step(fractal, blocks, surface_distance)));
+        if (!is_known) { break; }
     }
     return true;
 }

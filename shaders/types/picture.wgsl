@@ -49,6 +49,11 @@ struct Fractal {
     restart: u32,
     // 1 where orbits are followed in frames that turn with their points' longitudes.
     turns: u32,
+    // An orbit that comes this close to the origin, squared, starts anew close to that place.
+    close_below: f32,
+    unused_a: u32,
+    unused_b: u32,
+    unused_c: u32,
 }
 
 // The first steps of all orbits near the anchor at once, by the point's offset: second-order
@@ -81,6 +86,13 @@ struct Skip {
     // axis and the plane z = 0.
     traps_squared: vec3f,
     unused_h: u32,
+    // The direction that those steps stretch most, a unit vector.
+    widest: vec3f,
+    unused_i: u32,
+    // What they make of it, and how far they stretch whatever is across it: the rest of the
+    // Jacobian's norm.
+    stretched: vec3f,
+    rest: f32,
 }
 
 // How many there are, for points within radii of which each is 8 times the last one, the first
@@ -200,8 +212,10 @@ struct Eyes {
     unused: vec2u,
 }
 
-// Places in the picture itself.
-const NEAR_PLACES = 5u;
+// Steps behind a skip that all orbits near the anchor take together.
+const NEAR_STEPS = 3u;
+const NEAR_PLACES = 4u;
+
 
 struct Picture {
     camera: Camera,
@@ -219,13 +233,11 @@ struct Picture {
     size_px: vec2u,
     // How normals are found.
     normals: u32,
-    // Which place of the reference is the first one below.
-    near_index: u32,
-    // The skip of points near the anchor, and the places that orbits pass behind it.
+    // Within which radius of the anchor, squared, orbits take the near steps together; 0 where none do.
+    near_radius_squared: f32,
+    // The skip before those (else the first one), and the places between which they are.
     skip: Skip,
     near: array<Place, NEAR_PLACES>,
-    // The place that orbits start anew from.
-    restart: Place,
 }
 
 struct Given {

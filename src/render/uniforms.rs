@@ -13,13 +13,18 @@ use std::sync::Arc;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use depth::{PLACES_BYTES, SKIPS, Skips};
+pub use depth::{FIRST_RADIUS, PLACES_BYTES, RADII_RATIO, SKIPS, Skips};
 pub use lights::lights;
 pub use shared::*;
 
 use super::{Region, datum::Datum, region::Eyes as RegionEyes, schedule::Stale};
 use crate::{
-    fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
+    fractal::{
+        Estimator,
+        deep::{self, CLOSE},
+        estimator::SIDEWAYS_MAX,
+        pixel_cone,
+    },
     scene::{
         self, BloomOrder, ColorSource, IndirectKind, MAX_LIGHTS, Normals, Panorama, Scene,
         ToneChannels, ToneCurve, ToneMean, color,
@@ -34,7 +39,7 @@ pub const GRADIENT_ENTRIES: usize = 256;
 const LOOP_TURNS: u32 = 60_000;
 
 /// Turns of its loops that an orbit takes beside those of its steps.
-const LOOPS_OF_AN_ORBIT: u32 = 4;
+const LOOPS_OF_AN_ORBIT: u32 = 8;
 
 /// Most steps of a camera ray: the longest silhouette rays need about 300.
 const MARCH_STEPS: u32 = 1024;
@@ -86,10 +91,9 @@ impl Picture {
                 Normals::TwentySix => 4,
                 Normals::Analytic => 5,
             },
-            near_index: 0,
+            near_radius_squared: 0.0,
             skip: Skip::zeroed(),
             near: [Place::zeroed(); NEAR_PLACES],
-            restart: Place::zeroed(),
         }
     }
 }
@@ -201,6 +205,14 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         own_places: reference.map_or(0, |reference| reference.own_places() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         turns: reference.is_some_and(|reference| reference.turns()).into(),
+        close_below: reference.map_or(0.0, |reference| {
+            let constant = reference.places()[reference.restart()].z.length();
+            // |z|ⁿ is what is added to the constant.
+            (CLOSE * constant).powf(2.0 / set.power) as f32
+        }),
+        unused_a: 0,
+        unused_b: 0,
+        unused_c: 0,
     }
 }
 
@@ -265,7 +277,7 @@ impl Inputs {
     pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
         let (skips, places) = (depth::skips(datum), depth::places(datum));
         let mut picture = Picture::about(scene, region, datum);
-        depth::put_near(&mut picture, &skips, &places);
+        depth::put_near(&mut picture, datum, &skips, &places);
         Self {
             picture,
             lights: lights(scene, datum),

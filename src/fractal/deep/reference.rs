@@ -131,6 +131,22 @@ impl Reference {
     /// `scale`. Where frames turn, what is added to orbits hard by the axis is no smooth function of
     /// their point: nothing is skipped.
     pub fn skips(&self, scale: f64, radii: &[f64]) -> Vec<Skip> {
+        self.skipping(scale).within(radii)
+    }
+
+    /// What orbits skip, no more than `most` steps, that then take `behind` steps together, and within
+    /// which of the radii: see [`Skipping::before`].
+    pub fn near_skip(
+        &self,
+        scale: f64,
+        behind: usize,
+        most: usize,
+        radii: &[f64],
+    ) -> Option<(f64, Skip)> {
+        self.skipping(scale).before(behind, most, radii)
+    }
+
+    fn skipping(&self, scale: f64) -> Skipping<'_> {
         let places = if self.turns() { 1 } else { self.own_places };
         Skipping {
             power: TriplexPower::new(&self.fractal),
@@ -140,7 +156,6 @@ impl Reference {
             places: &self.places[..places],
             scale,
         }
-        .within(radii)
     }
 
     /// What the sine of the latitude is multiplied by.

@@ -11,9 +11,12 @@ use super::{difference, jet::Jet, orbit::Place};
 use crate::fractal::power::TriplexPower;
 
 /// How far a skipped difference may be off, as a part of it: about what f32 steps lose.
-const DIFFERENCE_ERROR: f64 = 3e-6;
+const DIFFERENCE_ERROR: f64 = 5e-5;
 /// The same of the derivative.
 const DERIVATIVE_ERROR: f64 = 2e-4;
+
+/// A difference that takes no orbit from where the anchor's is to beyond the least bailout.
+const SMALL: f64 = 0.5;
 
 /// What m steps of the orbits about an anchor make of their offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,13 +65,7 @@ struct Rung {
 impl Skipping<'_> {
     /// For each of these radii as many steps as all offsets up to it can skip.
     pub fn within(&self, radii: &[f64]) -> Vec<Skip> {
-        let start = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| Jet::linear(0.0, axis * self.scale));
-        let mut next = Skip {
-            steps: 0,
-            difference: start,
-            derivative: Jet::constant(self.scale),
-            traps_squared: DVec3::splat(4.0),
-        };
+        let mut next = self.start();
         let rung = |radius: &f64| Rung {
             skip: next,
             probes: directions().map(|way| Probe::new(way * *radius, self.scale)).collect(),
@@ -92,6 +89,40 @@ impl Skipping<'_> {
             }
         }
         rungs.into_iter().map(|rung| rung.skip).collect()
+    }
+
+    /// What orbits skip that then take `behind` steps together, and within which of the radii: the
+    /// widest one up to which differences stay [`SMALL`] for so long, and no more steps than `most`.
+    pub fn before(&self, behind: usize, most: usize, radii: &[f64]) -> Option<(f64, Skip)> {
+        let fits = |radius: &f64| Some((*radius, self.small_for(*radius).checked_sub(behind)?));
+        let (radius, steps) = radii.iter().find_map(fits)?;
+        let places = self.places.iter().zip(&self.places[1..]).take(steps.min(most));
+        let skip = places.fold(self.start(), |skip, (place, next)| self.step(&skip, place, next));
+        Some((radius, skip))
+    }
+
+    /// For how many steps all differences of offsets up to a radius are [`SMALL`].
+    fn small_for(&self, radius: f64) -> usize {
+        let mut probes: Vec<_> =
+            directions().map(|way| Probe::new(way * radius, self.scale)).collect();
+        let is_small = |place: &&Place| {
+            for probe in &mut probes {
+                self.step_probe(probe, place);
+            }
+            probes.iter().all(|probe| probe.difference.length() < SMALL)
+        };
+        self.places[..self.places.len() - 1].iter().take_while(is_small).count()
+    }
+
+    /// No steps at all.
+    fn start(&self) -> Skip {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        Skip {
+            steps: 0,
+            difference: axes.map(|axis| Jet::linear(0.0, axis * self.scale)),
+            derivative: Jet::constant(self.scale),
+            traps_squared: DVec3::splat(4.0),
+        }
     }
 
     /// What a constant's offset adds, as a part of it.

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use bytemuck::Zeroable;
-use glam::DVec3;
+use glam::{DMat3, DVec3, Vec3};
 
-use super::{Picture, Place, Skip};
+use super::{NEAR_STEPS, Picture, Place, Skip};
 use crate::{
     fractal::deep::{self, reference::MOST_PLACES},
     render::datum::Datum,
@@ -17,11 +17,19 @@ pub const SKIPS: usize = 8;
 /// Bytes that all places of an orbit may take.
 pub const PLACES_BYTES: u64 = (MOST_PLACES * size_of::<Place>()) as u64;
 
-/// How far from the anchor points may be that skip the most steps, in scales: what is in view, and
-/// the reach of its shadows.
-const FIRST_RADIUS: f64 = 3.0;
+/// How far from the anchor points may be that skip the most steps, in scales: what is in view, the
+/// reach of its shadows, and what a crevice shows of the walls behind it.
+pub const FIRST_RADIUS: f64 = 12.0;
 /// From each radius to the next.
-const RADII_RATIO: f64 = 8.0;
+pub const RADII_RATIO: f64 = 8.0;
+
+/// How far from the anchor orbits may take the near steps together, in scales: the widest that can be.
+const NEAR_RADII: [f64; 4] = [FIRST_RADIUS, 6.0, 3.0, 1.5];
+
+/// Behind the near steps an f32 knows places to 3e-8, and points to that over dr. It should be no more than a
+/// tenth of the hit distance: where dr, in units of one over the scale, is less than this over the hit cone,
+/// orbits follow the difference itself for longer.
+const LEAST_DERIVATIVE: f32 = 3e-7;
 
 /// Skips, nearest to the anchor first.
 pub type Skips = [Skip; SKIPS];
@@ -58,7 +66,14 @@ fn packed(skip: &deep::Skip) -> Skip {
     let vector = |part: DVec3| part.as_vec3().to_array();
     let of_each =
         |part: fn(&deep::jet::Jet) -> f64| vector(DVec3::new(part(&x), part(&y), part(&z)));
+    let jacobian = DMat3::from_cols(x.gradient, y.gradient, z.gradient).transpose();
+    let widest = widest_direction(jacobian);
+    let stretched = jacobian * widest;
+    let rest = frobenius_squared(jacobian) - stretched.length_squared();
     Skip {
+        widest: vector(widest),
+        stretched: vector(stretched),
+        rest: rest.max(0.0).sqrt() as f32,
         along_x: of_each(|jet| jet.gradient.x),
         steps: skip.steps,
         along_y: of_each(|jet| jet.gradient.y),
@@ -76,12 +91,42 @@ fn packed(skip: &deep::Skip) -> Skip {
     }
 }
 
-/// Puts what most orbits read into the picture itself.
-pub fn put_near(picture: &mut Picture, skips: &Skips, places: &[Place]) {
+/// The direction that a map stretches most, a unit vector; any where it stretches nothing.
+fn widest_direction(map: DMat3) -> DVec3 {
+    // Powers of its square, each the last one's square, tend to the projection onto that direction.
+    let mut power = map.transpose() * map;
+    for _ in 0..16 {
+        power *= power.to_cols_array().into_iter().fold(0.0, f64::max).recip();
+        power *= power;
+    }
+    let columns = [power.x_axis, power.y_axis, power.z_axis];
+    let longest = columns.into_iter().max_by(|u, v| u.length().total_cmp(&v.length()));
+    longest.and_then(DVec3::try_normalize).unwrap_or(DVec3::X)
+}
+
+fn frobenius_squared(map: DMat3) -> f64 {
+    map.to_cols_array().into_iter().map(|part| part * part).sum()
+}
+
+/// Puts what most orbits read into the picture itself, whose camera and fractal are there already;
+/// only the first skip where orbits, or the reference, are too short for more.
+pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[Place]) {
     picture.skip = skips[0];
-    picture.near_index = skips[0].steps;
-    picture.restart = places[picture.fractal.restart as usize];
-    for (near, place) in picture.near.iter_mut().zip(&places[skips[0].steps as usize..]) {
-        *near = *place;
+    let most = skips[0].steps as usize;
+    let near = |reference: &Arc<deep::Reference>| {
+        reference.near_skip(datum.scale(), NEAR_STEPS, most, &NEAR_RADII)
+    };
+    let Some((radius, skip)) = datum.reference().and_then(near) else { return };
+    let first = skip.steps as usize;
+    let Some(near) = places.get(first..=first + NEAR_STEPS) else { return };
+    let power = picture.fractal.power;
+    let stretch = |place: &Place| power * Vec3::from_array(place.z).length().powf(power - 1.0);
+    let derivative =
+        near[..NEAR_STEPS].iter().map(stretch).product::<f32>() * skip.derivative.value as f32;
+    let ends = picture.fractal.own_places.min(picture.fractal.iterations + 1) as usize;
+    if first + NEAR_STEPS < ends && derivative * picture.camera.hit_cone >= LEAST_DERIVATIVE {
+        picture.skip = packed(&skip);
+        picture.near.copy_from_slice(near);
+        picture.near_radius_squared = (radius * radius) as f32;
     }
 }

@@ -5,8 +5,10 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::render::report::HISTOGRAM_BINS;
 
-/// Places of the reference that a picture itself holds.
-pub const NEAR_PLACES: usize = 5;
+/// Steps behind the first skip that all orbits near the anchor take together.
+pub const NEAR_STEPS: usize = 3;
+/// The places that they pass.
+pub const NEAR_PLACES: usize = NEAR_STEPS + 1;
 
 /// One field of a host-shared struct: name, byte offset, size in bytes.
 pub type FieldLayout = (&'static str, usize, usize);
@@ -134,6 +136,14 @@ host_shared! {
         /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
         /// see [`crate::fractal::deep::turn`].
         turns: u32,
+        /// An orbit that comes this close to the origin, squared, starts anew close to that place.
+        close_below: f32,
+        /// Keeps the size a multiple of 16 bytes.
+        unused_a: u32,
+        /// The same.
+        unused_b: u32,
+        /// The same.
+        unused_c: u32,
     }
     /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::skip`].
     Skip {
@@ -182,6 +192,14 @@ host_shared! {
         traps_squared: [f32; 3],
         /// The same.
         unused_h: u32,
+        /// The direction that those steps stretch most, a unit vector.
+        widest: [f32; 3],
+        /// The same.
+        unused_i: u32,
+        /// What they make of it.
+        stretched: [f32; 3],
+        /// The norm of the Jacobian across it.
+        rest: f32,
     }
     /// A place of the anchor's orbit.
     Place {
@@ -296,14 +314,12 @@ host_shared! {
         size_px: [u32; 2],
         /// How normals are found: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
         normals: u32,
-        /// Which place of the reference is the first of `near`.
-        near_index: u32,
-        /// The skip of points near the anchor.
+        /// Within which radius of the anchor, squared, orbits take the near steps together; 0 where none do.
+        near_radius_squared: f32,
+        /// The skip before those; else the first one.
         skip: Skip,
-        /// The places that orbits pass behind it.
+        /// The places between which those steps are.
         near: [Place; NEAR_PLACES],
-        /// The place that orbits start anew from.
-        restart: Place,
     }
     /// The part of a picture that one dispatch computes.
     Slice {
