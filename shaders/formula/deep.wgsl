@@ -91,13 +91,19 @@ fn pair_product(v: Pair, w: Pair) -> Pair {
     );
 }
 
+fn pair_power_bit(v: Pair, w: Pair, bit: u32) -> Pair {
+    let squared = pair_square(v);
+    if (bit != 0u) { return pair_product(squared, w); }
+    return squared;
+}
+
 // w^n for n from 1 to 16.
 fn pair_power(w: Pair, n: u32) -> Pair {
     var v = w;
     if (n >= 16u) { v = pair_square(v); }
-    if (n >= 8u) { v = pair_square(v); if ((n & 4u) != 0u) { v = pair_product(v, w); } }
-    if (n >= 4u) { v = pair_square(v); if ((n & 2u) != 0u) { v = pair_product(v, w); } }
-    if (n >= 2u) { v = pair_square(v); if ((n & 1u) != 0u) { v = pair_product(v, w); } }
+    if (n >= 8u) { v = pair_power_bit(v, w, n & 4u); }
+    if (n >= 4u) { v = pair_power_bit(v, w, n & 2u); }
+    if (n >= 2u) { v = pair_power_bit(v, w, n & 1u); }
     return v;
 }
 
@@ -142,7 +148,7 @@ fn raised_close(fractal: Fractal, walk: Walk, place: Place, rho: f32, q: Squares
     return Raised(power, stretch_whole(fractal, q), d.inverse_rho, un, wn);
 }
 
-// The same to a place of the reference, which also holds where the square of rho is too small for an f32.
+// The same to a place of the reference. It also holds where the square of rho is too small for an f32.
 fn raised_next(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
     return raised_close(fractal, walk, given.places[walk.index], length_of(walk.z.xy), q);
 }
@@ -152,6 +158,7 @@ fn step_close(walk: Walk, step: Raised, orbit: Orbit) -> Walk {
     return step_to(walk, given.places[walk.index + 1u].z, step, orbit);
 }
 
+// The same to a place that is known.
 fn step_to(walk: Walk, place: vec3f, step: Raised, orbit: Orbit) -> Walk {
     let difference = step.power + orbit.added;
     return Walk(place + difference, walk.count + 1u, difference, walk.index + 1u);

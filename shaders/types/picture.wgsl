@@ -95,8 +95,8 @@ struct Skip {
     rest: f32,
 }
 
-// How many there are, for points within radii of which each is 8 times the last one, the first
-// 3 scales.
+// How many there are, for points within radii of which each is `RADII_RATIO` times the last one, the
+// first `FIRST_RADIUS` scales.
 const SKIPS = 8u;
 
 // A place of the anchor's orbit.

@@ -10,7 +10,8 @@ use glam::DVec3;
 use super::{difference, jet::Jet, orbit::Place};
 use crate::fractal::power::TriplexPower;
 
-/// How far a skipped difference may be off, as a part of it: about what f32 steps lose.
+/// How far a skipped difference may be off, as a part of it, at the farthest of the points that it is for.
+/// It falls as the square of the distance from the anchor: nearer points lose what f32 steps lose.
 const DIFFERENCE_ERROR: f64 = 5e-5;
 /// The same of the derivative.
 const DERIVATIVE_ERROR: f64 = 2e-4;

@@ -26,9 +26,9 @@ pub const RADII_RATIO: f64 = 8.0;
 /// How far from the anchor orbits may take the near steps together, in scales: the widest that can be.
 const NEAR_RADII: [f64; 4] = [FIRST_RADIUS, 6.0, 3.0, 1.5];
 
-/// Behind the near steps an f32 knows places to 3e-8, and points to that over dr. It should be no more than a
-/// tenth of the hit distance: where dr, in units of one over the scale, is less than this over the hit cone,
-/// orbits follow the difference itself for longer.
+/// Behind the near steps an f32 knows places to 3e-8, and points to that over dr. It should be no more
+/// than a tenth of the hit distance: where dr, in units of one over the scale, is less than this over the
+/// hit cone, orbits follow the difference itself for longer.
 const LEAST_DERIVATIVE: f32 = 3e-7;
 
 /// Skips, nearest to the anchor first.
