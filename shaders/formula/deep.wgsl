@@ -123,9 +123,8 @@ struct Deviation {
     inverse_rho: f32,
 }
 
-// `rho`: the orbit's own.
-fn deviation(walk: Walk, place: Place, rho: f32) -> Deviation {
-    let aside = walk.difference.xy;
+// `aside`: the difference across the axis; `rho`: the orbit's own.
+fn deviation(place: Place, aside: vec2f, rho: f32) -> Deviation {
     let inverse_rho = 1.0 / max(rho, 1e-37);
     let inverse_sum = 1.0 / max(rho + place.rho, 1e-37);
     let along = dot(place.rotor, aside);
@@ -138,7 +137,7 @@ fn deviation(walk: Walk, place: Place, rho: f32) -> Deviation {
 
 // One step of the difference to `place`, where the orbit itself is `rho` from the axis.
 fn raised_close(fractal: Fractal, walk: Walk, place: Place, rho: f32, q: Squares) -> Raised {
-    let d = deviation(walk, place, rho);
+    let d = deviation(place, walk.difference.xy, rho);
     let w = pair_power(Pair(vec2f(place.rho, place.z.z), vec2f(d.rho, walk.difference.z)), POWER);
     let u = pair_power(Pair(place.rotor, d.rotor), POWER);
     let wn = w.value + w.difference;

@@ -173,16 +173,9 @@ struct Settled {
 }
 
 fn settled(place: Place, difference: vec3f) -> Settled {
-    let aside = difference.xy;
-    let rho = length_of(place.z.xy + aside);
-    let inverse_sum = 1.0 / max(rho + place.rho, 1e-37);
-    let along = dot(place.rotor, aside);
-    let d_rho = 2.0 * (place.rho * inverse_sum) * along + dot(aside, inverse_sum * aside);
-    let turned = (aside - d_rho * place.rotor) / max(rho, 1e-37);
-    // On the axis the rotor is 1.
-    let d_rotor = select(vec2f(1.0, 0.0) - place.rotor, turned, rho > 0.0);
-    let by = complex_product(d_rotor, vec2f(place.rotor.x, -place.rotor.y));
-    return Settled(vec3f(d_rho * place.rotor, difference.z), ahead_normalized(by));
+    let d = deviation(place, difference.xy, length_of(place.z.xy + difference.xy));
+    let by = complex_product(d.rotor, vec2f(place.rotor.x, -place.rotor.y));
+    return Settled(vec3f(d.rho * place.rotor, difference.z), ahead_normalized(by));
 }
 
 // A step of a difference on its place's meridian.

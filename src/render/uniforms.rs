@@ -206,9 +206,8 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         turns: reference.is_some_and(|reference| reference.turns()).into(),
         close_below: reference.map_or(0.0, |reference| {
-            let constant = reference.places()[reference.restart()].z.length();
             // |z|ⁿ is what is added to the constant.
-            (CLOSE * constant).powf(2.0 / set.power) as f32
+            (CLOSE * reference.constant().length()).powf(2.0 / set.power) as f32
         }),
         unused_a: 0,
         unused_b: 0,

@@ -109,7 +109,7 @@ impl Reference {
     }
 
     /// What the steps of its orbit add.
-    pub(super) fn constant(&self) -> DVec3 {
+    pub fn constant(&self) -> DVec3 {
         self.places[self.restart()].z
     }
 
