@@ -93,6 +93,7 @@ fn about_axis(rotor: DVec2) -> DMat3 {
     DMat3::from_cols(rotor.extend(0.0), rotor.perp().extend(0.0), DVec3::Z)
 }
 
-fn norm(matrix: &DMat3) -> f64 {
+/// A matrix's Frobenius norm.
+pub fn norm(matrix: &DMat3) -> f64 {
     matrix.to_cols_array().into_iter().map(|part| part * part).sum::<f64>().sqrt()
 }

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::{NEAR_STEPS, Picture, Place, Skip};
 use crate::{
-    fractal::deep::{self, reference::MOST_PLACES},
+    fractal::deep::{self, reference::MOST_PLACES, spread::norm},
     render::datum::Datum,
 };
 
@@ -69,7 +69,7 @@ fn packed(skip: &deep::Skip) -> Skip {
     let jacobian = DMat3::from_cols(x.gradient, y.gradient, z.gradient).transpose();
     let widest = widest_direction(jacobian);
     let stretched = jacobian * widest;
-    let rest = frobenius_squared(jacobian) - stretched.length_squared();
+    let rest = norm(&jacobian).powi(2) - stretched.length_squared();
     Skip {
         widest: vector(widest),
         stretched: vector(stretched),
@@ -102,10 +102,6 @@ fn widest_direction(map: DMat3) -> DVec3 {
     let columns = [power.x_axis, power.y_axis, power.z_axis];
     let longest = columns.into_iter().max_by(|u, v| u.length().total_cmp(&v.length()));
     longest.and_then(DVec3::try_normalize).unwrap_or(DVec3::X)
-}
-
-fn frobenius_squared(map: DMat3) -> f64 {
-    map.to_cols_array().into_iter().map(|part| part * part).sum()
 }
 
 /// Puts what most orbits read into the picture itself, whose camera and fractal are there already;
