@@ -332,14 +332,14 @@ fn quick_reach(fractal: Fractal, point: vec3f) -> Reach {
     let is_quick = is_near(point);
     let constant = orbit.constant + orbit.added;
     for (; ; ) {
-        if (!is_quick || has_ended(fractal, orbit, walk, q) || q.s < fractal.close_below) { break; }
+        if (!is_quick || has_ended(fractal, orbit, walk, q) || growth.dr < fractal.least_derivative) { break; }
         let step = raised(fractal, walk.z, q);
         growth = grown(fractal, orbit, growth, step, walk.z, q);
         walk.z = step.power + constant;
         walk.count += 1u;
         q = squares(walk.z);
     }
-    if (!is_quick || q.s < fractal.close_below) { return Reach(0.0, -1.0); }
+    if (!is_quick || growth.dr < fractal.least_derivative) { return Reach(0.0, -1.0); }
     return reach_at(fractal, growth, q);
 }
 

@@ -23,17 +23,31 @@ fn clear_cone(
 ) -> f32 {
     let part = ball_part(fractal.power);
     var t = start;
-    for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        let ball = min(part * reach(fractal, origin + t * axis).step, MOST_BALL) - hit_cone * t;
-        let width = t * spread;
-        if (ball <= width) { break; }
-        // Points of the cone as far from the origin as t + advance are in the ball:
-        //     advance^2 + t (t + advance) spread^2 <= ball^2
-        let lag = 0.5 * width * spread;
-        let advance = sqrt(max(lag * lag + ball * ball - width * width, 0.0)) - lag;
-        // Single rays are quicker from here on.
-        if (advance <= width) { break; }
-        t += advance;
+    var i = 0u;
+    var known = Reach(0.0, 0.0);
+    var is_known = false;
+    for (; ; ) {
+        if (DEEP && !TURNS) {
+            known = reach(fractal, origin + t * axis);
+            is_known = true;
+        }
+        for (; i < BUNDLE_STEPS; i++) {
+            var ahead = known;
+            if (!is_known) { ahead = quick_reach(fractal, origin + t * axis); }
+            is_known = ahead.step < 0.0;
+            if (is_known) { break; }
+            let ball = min(part * ahead.step, MOST_BALL) - hit_cone * t;
+            let width = t * spread;
+            if (ball <= width) { break; }
+            // Points of the cone as far from the origin as t + advance are in the ball:
+            //     advance^2 + t (t + advance) spread^2 <= ball^2
+            let lag = 0.5 * width * spread;
+            let advance = sqrt(max(lag * lag + ball * ball - width * width, 0.0)) - lag;
+            // Single rays are quicker from here on.
+            if (advance <= width) { break; }
+            t += advance;
+        }
+        if (!is_known) { break; }
     }
     return t;
 }

@@ -31,13 +31,27 @@ fn clear_plane(fractal: Fractal) -> f32 {
     let leaves = bounding_exit(center, direction, width);
     let part = ball_part(fractal.power);
     var s = min(leaves, slice.light_reach + extent);
-    for (var i = 0u; i < BUNDLE_STEPS; i++) {
-        // No point is farther than this from the plane through `s`.
-        let blocks = blocking_distance(fractal, s + extent, surface_distance);
-        let ball = min(part * reach(fractal, center + s * direction).step, MOST_BALL) - blocks;
-        let advance = sqrt(max(ball * ball - width * width, 0.0));
-        if (ball <= width || advance <= width) { break; }
-        s -= advance;
+    var i = 0u;
+    var known = Reach(0.0, 0.0);
+    var is_known = false;
+    for (; ; ) {
+        if (DEEP && !TURNS) {
+            known = reach(fractal, center + s * direction);
+            is_known = true;
+        }
+        for (; i < BUNDLE_STEPS; i++) {
+            var ahead = known;
+            if (!is_known) { ahead = quick_reach(fractal, center + s * direction); }
+            is_known = ahead.step < 0.0;
+            if (is_known) { break; }
+            // No point is farther than this from the plane through `s`.
+            let blocks = blocking_distance(fractal, s + extent, surface_distance);
+            let ball = min(part * ahead.step, MOST_BALL) - blocks;
+            let advance = sqrt(max(ball * ball - width * width, 0.0));
+            if (ball <= width || advance <= width) { break; }
+            s -= advance;
+        }
+        if (!is_known) { break; }
     }
     return height + s;
 }

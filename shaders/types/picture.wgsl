@@ -50,7 +50,7 @@ struct Fractal {
     // 1 where orbits are followed in frames that turn with their points' longitudes.
     turns: u32,
     // An orbit that comes this close to the origin, squared, starts anew close to that place.
-    close_below: f32,
+    least_derivative: f32,
     unused_a: u32,
     unused_b: u32,
     unused_c: u32,

@@ -205,10 +205,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         own_places: reference.map_or(0, |reference| reference.own_places() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         turns: reference.is_some_and(|reference| reference.turns()).into(),
-        close_below: reference.map_or(0.0, |reference| {
-            // |z|ⁿ is what is added to the constant.
-            (CLOSE * reference.constant().length()).powf(2.0 / set.power) as f32
-        }),
+        least_derivative: 0.0,
         unused_a: 0,
         unused_b: 0,
         unused_c: 0,

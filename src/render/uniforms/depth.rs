@@ -120,7 +120,9 @@ pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[P
     let derivative =
         near[..NEAR_STEPS].iter().map(stretch).product::<f32>() * skip.derivative.value as f32;
     let ends = picture.fractal.own_places.min(picture.fractal.iterations + 1) as usize;
-    if first + NEAR_STEPS < ends && derivative * picture.camera.hit_cone >= LEAST_DERIVATIVE {
+    let least = LEAST_DERIVATIVE / picture.camera.hit_cone;
+    if first + NEAR_STEPS < ends && derivative >= least {
+        picture.fractal.least_derivative = least;
         picture.skip = packed(&skip);
         picture.near.copy_from_slice(near);
         picture.near_radius_squared = (radius * radius) as f32;

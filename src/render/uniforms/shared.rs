@@ -136,8 +136,9 @@ host_shared! {
         /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
         /// see [`crate::fractal::deep::turn`].
         turns: u32,
-        /// An orbit that comes this close to the origin, squared, starts anew close to that place.
-        close_below: f32,
+        /// An orbit whose derivative falls below this, in units of one over the scale, is followed by its
+        /// difference: see [`super::depth`].
+        least_derivative: f32,
         /// Keeps the size a multiple of 16 bytes.
         unused_a: u32,
         /// The same.
