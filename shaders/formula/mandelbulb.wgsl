@@ -313,9 +313,7 @@ fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
 
 // The same where it is quick to tell, which is almost everywhere: near the anchor, on orbits that do not
 // start anew from close by; and in all views that are not deep or have frames that turn. Elsewhere the
-// step is negative, and only `reach` can tell. Marches ask it and leave `reach` to their outer loops: some
-// drivers execute a loop's body once even if no thread enters it, and a march that asks `reach` alone
-// takes twice as long on lavapipe.
+// step is negative, and only `reach` can tell.
 // Behind the near steps f32 leaves a millionth of the scale of a difference: a thousandth of a pixel.
 fn quick_reach(fractal: Fractal, point: vec3f) -> Reach {
     if (!DEEP || TURNS) { return reach(fractal, point); }

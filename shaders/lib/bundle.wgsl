@@ -24,18 +24,11 @@ fn clear_cone(
     let part = ball_part(fractal.power);
     var t = start;
     var i = 0u;
-    var known = Reach(0.0, 0.0);
-    var is_known = false;
+    var known = Known(Reach(0.0, 0.0), false);
     for (; ; ) {
-        if (DEEP && !TURNS) {
-            known = reach(fractal, origin + t * axis);
-            is_known = true;
-        }
         for (; i < BUNDLE_STEPS; i++) {
-            var ahead = known;
-            if (!is_known) { ahead = quick_reach(fractal, origin + t * axis); }
-            is_known = ahead.step < 0.0;
-            if (is_known) { break; }
+            let ahead = reach_ahead(&known, fractal, origin + t * axis);
+            if (known.is_needed) { break; }
             let ball = min(part * ahead.step, MOST_BALL) - hit_cone * t;
             let width = t * spread;
             if (ball <= width) { break; }
@@ -47,7 +40,8 @@ fn clear_cone(
             if (advance <= width) { break; }
             t += advance;
         }
-        if (!is_known) { break; }
+        if (!known.is_needed) { break; }
+        known.reach = careful_reach(fractal, origin + t * axis);
     }
     return t;
 }

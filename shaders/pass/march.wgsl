@@ -24,25 +24,14 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let least_step = select(LEAST_STEP, LEAST_STEP_OVER_DIPS, has_dips);
     var crossing = Crossing(0.0, 0.0, 0u);
     var i = 0u;
-    // The reach from the point ahead where `quick_reach` can't tell it, and from a ray's first one.
-    var known = Reach(0.0, 0.0);
-    var is_known = false;
+    var known = Known(Reach(0.0, 0.0), false);
     for (; ; ) {
-        if (DEEP && !TURNS) {
-            known = reach(fractal, ray.origin + t * ray.direction);
-            is_known = true;
-        }
         for (; i < fractal.march_steps; i++) {
             let is_looking = has_dips && crossing.looks > 0u;
             let is_inside = t <= interval.y || is_looking;
             var ahead = Reach(0.0, 0.0);
-            if (is_inside && !is_known) { ahead = quick_reach(fractal, ray.origin + t * ray.direction); }
-            if (is_known) { ahead = known; }
-            is_known = false;
-            if (ahead.step < 0.0) {
-                is_known = true;
-                break;
-            }
+            if (is_inside) { ahead = reach_ahead(&known, fractal, ray.origin + t * ray.direction); }
+            if (known.is_needed) { break; }
             ahead.step = max(ahead.step, haste(f32(i) / f32(fractal.march_steps)) * ahead.distance);
             if (!is_looking) {
                 let back = step_back(&pace, ahead.step);
@@ -67,7 +56,8 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
             left = ahead.distance - hit;
             t += next_step(&pace, max(ahead.step, least_step * hit));
         }
-        if (!is_known) { break; }
+        if (!known.is_needed) { break; }
+        known.reach = careful_reach(fractal, ray.origin + t * ray.direction);
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

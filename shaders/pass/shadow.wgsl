@@ -25,25 +25,15 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
     let has_dips = dips(fractal);
     var looks = 0u;
     var i = 0u;
-    // The reach from the point ahead where `quick_reach` can't tell it, and from a ray's first one.
-    var known = Reach(0.0, 0.0);
-    var is_known = false;
+    var known = Known(Reach(0.0, 0.0), false);
     for (; ; ) {
-        if (DEEP && !TURNS) {
-            known = reach(fractal, point + s * direction);
-            is_known = true;
-        }
         for (; i < fractal.shadow_steps; i++) {
             var ahead = Reach(0.0, 0.0);
             let is_looking = has_dips && looks > 0u;
-            let is_asking = (s > surface_distance || is_looking) && !is_known;
-            if (is_asking) { ahead = quick_reach(fractal, point + s * direction); }
-            if (is_known) { ahead = known; }
-            is_known = false;
-            if (ahead.step < 0.0) {
-                is_known = true;
-                break;
+            if (s > surface_distance || is_looking) {
+                ahead = reach_ahead(&known, fractal, point + s * direction);
             }
+            if (known.is_needed) { break; }
             if (!is_looking) {
                 let back = step_back(&pace, ahead.step);
                 s += back;
@@ -62,7 +52,8 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
             looks = 0u;
             s -= next_step(&pace, max(ahead.step, least_step(fractal, blocks, surface_distance)));
         }
-        if (!is_known) { break; }
+        if (!known.is_needed) { break; }
+        known.reach = careful_reach(fractal, point + s * direction);
     }
     return true;
 }

@@ -32,18 +32,11 @@ fn clear_plane(fractal: Fractal) -> f32 {
     let part = ball_part(fractal.power);
     var s = min(leaves, slice.light_reach + extent);
     var i = 0u;
-    var known = Reach(0.0, 0.0);
-    var is_known = false;
+    var known = Known(Reach(0.0, 0.0), false);
     for (; ; ) {
-        if (DEEP && !TURNS) {
-            known = reach(fractal, center + s * direction);
-            is_known = true;
-        }
         for (; i < BUNDLE_STEPS; i++) {
-            var ahead = known;
-            if (!is_known) { ahead = quick_reach(fractal, center + s * direction); }
-            is_known = ahead.step < 0.0;
-            if (is_known) { break; }
+            let ahead = reach_ahead(&known, fractal, center + s * direction);
+            if (known.is_needed) { break; }
             // No point is farther than this from the plane through `s`.
             let blocks = blocking_distance(fractal, s + extent, surface_distance);
             let ball = min(part * ahead.step, MOST_BALL) - blocks;
@@ -51,7 +44,8 @@ fn clear_plane(fractal: Fractal) -> f32 {
             if (ball <= width || advance <= width) { break; }
             s -= advance;
         }
-        if (!is_known) { break; }
+        if (!known.is_needed) { break; }
+        known.reach = careful_reach(fractal, center + s * direction);
     }
     return height + s;
 }

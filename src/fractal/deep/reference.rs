@@ -134,16 +134,10 @@ impl Reference {
         self.skipping(scale).within(radii)
     }
 
-    /// What orbits skip, no more than `most` steps, that then take `behind` steps together, and within
-    /// which of the radii: see [`Skipping::before`].
-    pub fn near_skip(
-        &self,
-        scale: f64,
-        behind: usize,
-        most: usize,
-        radii: &[f64],
-    ) -> Option<(f64, Skip)> {
-        self.skipping(scale).before(behind, most, radii)
+    /// What orbits up to each of these distances from the anchor, in scales, skip that then take `behind`
+    /// steps together: see [`Skipping::before`].
+    pub fn near_skips(&self, scale: f64, behind: usize, radii: &[f64]) -> Vec<Option<Skip>> {
+        self.skipping(scale).before(behind, radii)
     }
 
     fn skipping(&self, scale: f64) -> Skipping<'_> {

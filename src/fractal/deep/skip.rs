@@ -92,14 +92,21 @@ impl Skipping<'_> {
         rungs.into_iter().map(|rung| rung.skip).collect()
     }
 
-    /// What orbits skip that then take `behind` steps together, and within which of the radii: the
-    /// widest one up to which differences stay [`SMALL`] for so long, and no more steps than `most`.
-    pub fn before(&self, behind: usize, most: usize, radii: &[f64]) -> Option<(f64, Skip)> {
-        let fits = |radius: &f64| Some((*radius, self.small_for(*radius).checked_sub(behind)?));
-        let (radius, steps) = radii.iter().find_map(fits)?;
-        let places = self.places.iter().zip(&self.places[1..]).take(steps.min(most));
-        let skip = places.fold(self.start(), |skip, (place, next)| self.step(&skip, place, next));
-        Some((radius, skip))
+    /// What orbits skip that then take `behind` steps together, for which differences have to stay
+    /// [`SMALL`]; for each of these radii, as far as there is any.
+    pub fn before(&self, behind: usize, radii: &[f64]) -> Vec<Option<Skip>> {
+        let radii_and_skips = radii.iter().zip(self.within(radii));
+        let before = |(radius, skip): (&f64, Skip)| {
+            let most = self.small_for(*radius).checked_sub(behind)?;
+            Some(if skip.steps as usize > most { self.of(most) } else { skip })
+        };
+        radii_and_skips.map(before).collect()
+    }
+
+    /// So many steps.
+    fn of(&self, steps: usize) -> Skip {
+        let places = self.places.iter().zip(&self.places[1..]).take(steps);
+        places.fold(self.start(), |skip, (place, next)| self.step(&skip, place, next))
     }
 
     /// For how many steps all differences of offsets up to a radius are [`SMALL`].

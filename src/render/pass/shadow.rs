@@ -29,6 +29,7 @@ pub const MODULE: Module = Module {
         shader_file!("formula/deep.wgsl"),
         shader_file!("formula/turning.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
+        shader_file!("lib/ahead.wgsl"),
         shader_file!("lib/pace.wgsl"),
         shader_file!("lib/shadow.wgsl"),
         shader_file!("pass/shadow.wgsl"),

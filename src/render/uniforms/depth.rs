@@ -23,8 +23,9 @@ pub const FIRST_RADIUS: f64 = 12.0;
 /// From each radius to the next.
 pub const RADII_RATIO: f64 = 8.0;
 
-/// How far from the anchor orbits may take the near steps together, in scales: the widest that can be.
-const NEAR_RADII: [f64; 4] = [FIRST_RADIUS, 6.0, 3.0, 1.5];
+/// How far from the anchor orbits may take the near steps together, in scales: the last that costs no
+/// step beside [`FIRST_RADIUS`], and a nearer one only where that is too far.
+const NEAR_RADII: [f64; 7] = [1.5, 3.0, 6.0, FIRST_RADIUS, 24.0, 48.0, 96.0];
 
 /// Behind the near steps an f32 knows places to 3e-8, and points to that over dr. It should be no more
 /// than a tenth of the hit distance: where dr, in units of one over the scale, is less than this over the
@@ -108,11 +109,10 @@ fn widest_direction(map: DMat3) -> DVec3 {
 /// only the first skip where orbits, or the reference, are too short for more.
 pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[Place]) {
     picture.skip = skips[0];
-    let most = skips[0].steps as usize;
-    let near = |reference: &Arc<deep::Reference>| {
-        reference.near_skip(datum.scale(), NEAR_STEPS, most, &NEAR_RADII)
+    let Some((radius, skip)) = datum.reference().and_then(|reference| near_skip(reference, datum.scale()))
+    else {
+        return;
     };
-    let Some((radius, skip)) = datum.reference().and_then(near) else { return };
     let first = skip.steps as usize;
     let Some(near) = places.get(first..=first + NEAR_STEPS) else { return };
     let power = picture.fractal.power;
@@ -127,4 +127,13 @@ pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[P
         picture.near.copy_from_slice(near);
         picture.near_radius_squared = (radius * radius) as f32;
     }
+}
+
+/// What orbits near the anchor skip before the near steps, and how far from it they may be.
+fn near_skip(reference: &deep::Reference, scale: f64) -> Option<(f64, deep::Skip)> {
+    let skips = reference.near_skips(scale, NEAR_STEPS, &NEAR_RADII);
+    let found: Vec<_> =
+        NEAR_RADII.into_iter().zip(skips).filter_map(|(radius, skip)| Some((radius, skip?))).collect();
+    let wanted = found.iter().rfind(|(radius, _)| *radius <= FIRST_RADIUS)?.1.steps;
+    found.into_iter().rfind(|(_, skip)| skip.steps >= wanted)
 }
