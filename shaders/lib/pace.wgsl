@@ -38,6 +38,13 @@ fn next_step(pace: ptr<function, Pace>, ball: f32) -> f32 {
     return step;
 }
 
+// What part of the estimate a step covers at least where so many of a ray's steps are spent:
+// `fractal::march::haste`.
+fn haste(spent: u32, most: u32) -> f32 {
+    let part = f32(spent) / f32(most);
+    return part * part * part * part;
+}
+
 // Where the estimate dips, a hit counts if it lasts: `THICK` hit distances on, and at the other places
 // on the way there, the ray is still as near. What makes the others is far thinner than a pixel, and
 // which of them a ray meets is chance.

@@ -5,12 +5,6 @@ const LEAST_STEP = 0.25;
 // The same where a hit has to last anyway.
 const LEAST_STEP_OVER_DIPS = 0.4;
 
-// What part of the estimate a step covers at least where this part of a ray's steps is spent:
-// `fractal::march::haste`.
-fn haste(spent: f32) -> f32 {
-    return spent * spent * spent * spent;
-}
-
 // Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone, from a depth that
 // is known to be clear. 0 on a miss.
 fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
@@ -32,7 +26,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
             var ahead = Reach(0.0, 0.0);
             if (is_inside) { ahead = reach_ahead(&known, fractal, ray.origin + t * ray.direction); }
             if (known.is_needed) { break; }
-            ahead.step = max(ahead.step, haste(f32(i) / f32(fractal.march_steps)) * ahead.distance);
+            ahead.step = max(ahead.step, haste(i, fractal.march_steps) * ahead.distance);
             if (!is_looking) {
                 let back = step_back(&pace, ahead.step);
                 if (back > 0.0) {

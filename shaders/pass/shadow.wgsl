@@ -34,6 +34,7 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
                 ahead = reach_ahead(&known, fractal, point + s * direction);
             }
             if (known.is_needed) { break; }
+            ahead.step = max(ahead.step, haste(i, fractal.shadow_steps) * ahead.distance);
             if (!is_looking) {
                 let back = step_back(&pace, ahead.step);
                 s += back;

@@ -49,7 +49,7 @@ struct Fractal {
     restart: u32,
     // 1 where orbits are followed in frames that turn with their points' longitudes.
     turns: u32,
-    // An orbit that comes this close to the origin, squared, starts anew close to that place.
+    // Orbits whose derivative falls below this, in units of one over the scale, need `reach`.
     least_derivative: f32,
     unused_a: u32,
     unused_b: u32,

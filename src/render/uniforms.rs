@@ -19,12 +19,7 @@ pub use shared::*;
 
 use super::{Region, datum::Datum, region::Eyes as RegionEyes, schedule::Stale};
 use crate::{
-    fractal::{
-        Estimator,
-        deep::{self, CLOSE},
-        estimator::SIDEWAYS_MAX,
-        pixel_cone,
-    },
+    fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
         self, BloomOrder, ColorSource, IndirectKind, MAX_LIGHTS, Normals, Panorama, Scene,
         ToneChannels, ToneCurve, ToneMean, color,

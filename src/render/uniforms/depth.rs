@@ -28,8 +28,8 @@ pub const RADII_RATIO: f64 = 8.0;
 const NEAR_RADII: [f64; 7] = [1.5, 3.0, 6.0, FIRST_RADIUS, 24.0, 48.0, 96.0];
 
 /// Behind the near steps an f32 knows places to 3e-8, and points to that over dr. It should be no more
-/// than a tenth of the hit distance: where dr, in units of one over the scale, is less than this over the
-/// hit cone, orbits follow the difference itself for longer.
+/// than a tenth of the hit distance: orbits whose dr, in units of one over the scale, falls below this
+/// over the hit cone, as where they come by the origin, follow the difference itself for longer.
 const LEAST_DERIVATIVE: f32 = 3e-7;
 
 /// Skips, nearest to the anchor first.
@@ -109,7 +109,8 @@ fn widest_direction(map: DMat3) -> DVec3 {
 /// only the first skip where orbits, or the reference, are too short for more.
 pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[Place]) {
     picture.skip = skips[0];
-    let Some((radius, skip)) = datum.reference().and_then(|reference| near_skip(reference, datum.scale()))
+    let Some((radius, skip)) =
+        datum.reference().and_then(|reference| near_skip(reference, datum.scale()))
     else {
         return;
     };
@@ -132,8 +133,11 @@ pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[P
 /// What orbits near the anchor skip before the near steps, and how far from it they may be.
 fn near_skip(reference: &deep::Reference, scale: f64) -> Option<(f64, deep::Skip)> {
     let skips = reference.near_skips(scale, NEAR_STEPS, &NEAR_RADII);
-    let found: Vec<_> =
-        NEAR_RADII.into_iter().zip(skips).filter_map(|(radius, skip)| Some((radius, skip?))).collect();
+    let found: Vec<_> = NEAR_RADII
+        .into_iter()
+        .zip(skips)
+        .filter_map(|(radius, skip)| Some((radius, skip?)))
+        .collect();
     let wanted = found.iter().rfind(|(radius, _)| *radius <= FIRST_RADIUS)?.1.steps;
     found.into_iter().rfind(|(_, skip)| skip.steps >= wanted)
 }
