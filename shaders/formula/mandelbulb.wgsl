@@ -225,13 +225,14 @@ fn first_growth(fractal: Fractal, orbit: Orbit) -> Growth {
 }
 
 fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f, q: Squares) -> Growth {
-    let dr = min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max);
+    // Cut off before the step, so that the last one of an orbit, which may be by a factor of 1e19, is whole.
+    let dr = step.stretch * min(before.dr, fractal.derivative_max) + orbit.constant_derivative;
     let widest = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
+    let dg = widest * min(before.dg, fractal.derivative_max);
     if (!DEEP) {
         let added = orbit.constant_derivative / step_factor(fractal);
-        return Growth(dr, min(widest * before.dg + added, fractal.derivative_max), before.stretched, 0.0);
+        return Growth(dr, dg + added, before.stretched, 0.0);
     }
-    let dg = min(widest * before.dg, fractal.derivative_max);
     let stretched = pushed_on(fractal, step, z, q, before.stretched) + orbit.stretched;
     return Growth(dr, dg, stretched, before.rest);
 }

@@ -74,12 +74,13 @@ fn moved_on(
     fractal: Fractal, orbit: Orbit, before: Motion, step: Raised, z: vec3f, q: Squares,
     rho: f32, u: vec2f, rotor: vec2f,
 ) -> Motion {
-    let dr = min(step.stretch * before.dr + orbit.constant_derivative, fractal.derivative_max);
+    let dr_before = min(before.dr, fractal.derivative_max);
+    let dr = step.stretch * dr_before + orbit.constant_derivative;
     let inverse = 1.0 / max(dr, 1e-37);
-    let shrink = before.dr * inverse;
+    let shrink = dr_before * inverse;
     let j = before.jacobian;
     // How the longitude moves with the point.
-    let by_rho = before.dr * min(1.0 / max(rho, 1e-37), 1e6 / fractal.scale);
+    let by_rho = dr_before * min(1.0 / max(rho, 1e-37), 1e6 / fractal.scale);
     let turn = fractal.power * (before.turn + by_rho * (vec3f(-u.y, u.x, 0.0) * j));
     // Ripples that are finer than some pixels are lower than one, where the axis is in view.
     let finest = 0.5 / picture.camera.hit_cone;

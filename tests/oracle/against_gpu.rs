@@ -72,6 +72,9 @@ fn estimates_at_random_points() {
     fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
     fractals.push(Fractal { julia: true, ..bulb(8.0) });
     fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
+    // As far as an f32 goes.
+    let widest = |power: f64| Fractal { bailout: bulb(power).max_bailout(), ..bulb(power) };
+    fractals.extend([2.0, 3.0, 8.0, 16.0, 5.5].map(widest));
     for fractal in fractals {
         let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
         let estimator = Estimator::new(&fractal);
