@@ -48,6 +48,9 @@ pub struct Report {
     pub size_px: [u32; 2],
     /// Whole samples that each pixel holds; 0 while the lattice is incomplete.
     pub samples_done: u32,
+    /// The same with what there is of those under way, as a share of the pixels; below 1 while the
+    /// lattice is incomplete.
+    pub samples_so_far: f32,
     /// Samples that each pixel will hold.
     pub samples_wanted: u32,
     /// One pixel of this many has been computed in the picture shown; 1 once the lattice is complete.

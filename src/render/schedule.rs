@@ -426,6 +426,7 @@ impl Schedule {
     pub fn status(&self, now_secs: f64) -> Status {
         Status {
             samples_done: self.samples_done,
+            samples_so_far: self.samples_so_far(),
             shown_level: self.shown_level,
             shown: !self.opening,
             moving: self.follows(now_secs),

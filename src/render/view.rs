@@ -445,6 +445,7 @@ impl View {
             activity,
             size_px: self.region.display_px(),
             samples_done: status.samples_done,
+            samples_so_far: status.samples_so_far,
             samples_wanted: self.scene.as_ref().map_or(1, |scene| scene.quality.samples),
             pixels_per_sample: 1 << status.shown_level,
             elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),

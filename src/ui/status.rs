@@ -85,7 +85,7 @@ pub fn status_line(ui: &mut Ui, status: &Status<'_>) {
 fn progress(painter: &egui::Painter, rect: Rect, report: &Report) {
     painter.hline(rect.x_range(), rect.top() + 0.5, egui::Stroke::new(1.0, theme::LINE));
     if report.activity == Activity::Refining && report.samples_wanted > 0 {
-        let done = (report.samples_done as f32 / report.samples_wanted as f32).clamp(0.0, 1.0);
+        let done = (report.samples_so_far / report.samples_wanted as f32).clamp(0.0, 1.0);
         let to = rect.left() + rect.width() * done;
         painter.hline(rect.left()..=to, rect.top() + 0.5, egui::Stroke::new(1.0, theme::ACCENT));
     }
@@ -105,10 +105,12 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         Activity::Moving if short => format!("Moving, 1/{}", report.pixels_per_sample),
         Activity::Moving => format!("Moving: one pixel of {}", report.pixels_per_sample),
         Activity::Refining if report.samples_done == 0 => {
+            // All is never said of what is still under way.
+            let percent = (report.samples_so_far * 100.0).clamp(0.0, 99.0).floor();
             if short {
-                "Sharpening".to_owned()
+                format!("Sharpening, {percent} %")
             } else {
-                "Sharpening: first sample".to_owned()
+                format!("Sharpening: {percent} % of the first sample")
             }
         }
         Activity::Refining => {
@@ -258,6 +260,11 @@ mod tests {
         };
         assert_eq!(activity_text(&report, false), "Refining: sample 5 of 16, 2.0 s");
         assert_eq!(activity_text(&report, true), "Refining 5/16");
+        report.samples_done = 0;
+        report.samples_so_far = 0.378;
+        assert_eq!(activity_text(&report, false), "Sharpening: 37 % of the first sample");
+        report.samples_so_far = 1.0;
+        assert_eq!(activity_text(&report, true), "Sharpening, 99 %");
         report.activity = Activity::Compiling("power 5".into());
         assert_eq!(activity_text(&report, false), "Preparing power 5…");
     }

@@ -32,6 +32,7 @@ pub fn stage(
         activity: Activity::Refining,
         size_px: [size[0] as u32, size[1] as u32],
         samples_done: 4,
+        samples_so_far: 4.5,
         samples_wanted: 16,
         pixels_per_sample: 1,
         elapsed_secs: 1.5,

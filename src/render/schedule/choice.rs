@@ -84,6 +84,27 @@ impl Schedule {
         self.finest_within_budget(shaded, |level| self.job(Points::Around(level)), false)
     }
 
+    /// Samples so far with what has been submitted of those under way.
+    pub(super) fn samples_so_far(&self) -> f32 {
+        let pixels_at = |level: u32| 1.0 / (1_u64 << level) as f32;
+        let share = self.under_way.map_or(0.0, |(points, next)| {
+            next as f32 / points.grid(self.size_px).workgroups().max(1) as f32
+        });
+        let there = match self.samples_done {
+            0 => self.shaded.map_or(0.0, pixels_at),
+            done => done as f32,
+        };
+        match self.under_way {
+            Some((Points::Samples { count, .. }, _)) => there + count as f32 * share,
+            Some((Points::Level(level) | Points::Added(level), _)) => {
+                there + (pixels_at(level) - there).max(0.0) * share
+            }
+            // These go over the pixels that the lattice has once more.
+            Some((Points::All, _)) => there.max(share),
+            Some((Points::Around(_), _)) | None => there,
+        }
+    }
+
     /// What samples need: the stage they have to start with, and the lights they have to be
     /// marched toward.
     pub(super) fn job(&self, points: Points) -> Job {

@@ -30,6 +30,8 @@ pub enum Stale {
 pub struct Status {
     /// Whole samples on the film; 0 while the lattice is incomplete.
     pub samples_done: u32,
+    /// The same with what has been submitted of those under way.
+    pub samples_so_far: f32,
     /// Level of the lattice in the picture shown last.
     pub shown_level: u32,
     /// True once something of the last change has been shown.

@@ -159,6 +159,29 @@ fn every_device_finishes_and_then_rests() {
 }
 
 #[test]
+fn what_is_told_of_progress_only_grows() {
+    for gathers in [false, true] {
+        let mut device = Device::new(200.0, 0.0);
+        let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+        schedule.set_gathering(gathers);
+        schedule.aim(16.0, 3);
+        let (mut now, mut told, mut steps_of_first) = (0.0, 0.0, 0);
+        run(&mut schedule, &mut device, &mut now, 400_000, |s, now, _| {
+            let status = s.status(now);
+            let so_far = status.samples_so_far;
+            assert!(so_far >= told, "{told} became {so_far}");
+            let done = status.samples_done as f32;
+            assert!(so_far >= done && so_far <= 3.0, "{so_far} with {done} done");
+            steps_of_first += u32::from(so_far > told && so_far < 1.0);
+            told = so_far;
+            status.idle
+        });
+        assert_eq!(told, 3.0);
+        assert!(steps_of_first >= 10, "{steps_of_first} steps of the first sample");
+    }
+}
+
+#[test]
 fn slices_stay_short() {
     let of_16_ms = [0.05, 1.0, 20.0, 200.0].map(|slowness| (slowness, 16.0));
     for (slowness, budget_ms) in
