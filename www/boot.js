@@ -78,6 +78,29 @@ async function fetched(url) {
   });
 }
 
+/**
+ * Sees to it that the canvas gets the pixels that it is shown in. Where a browser emulates another
+ * screen, as for a phone in its developer tools, it may tell sizes in pixels of its own screen;
+ * then those are left out, and the module goes by CSS pixels and their ratio.
+ * @param {HTMLCanvasElement} canvas
+ */
+async function countPixels(canvas) {
+  const entry = await new Promise((resolve) => {
+    const observer = new ResizeObserver(([first]) => {
+      observer.disconnect();
+      resolve(first);
+    });
+    observer.observe(canvas);
+    // A page in the background is told nothing.
+    setTimeout(resolve, 500);
+  });
+  const told = entry?.devicePixelContentBoxSize?.[0]?.inlineSize;
+  const expected = entry?.contentRect.width * window.devicePixelRatio;
+  if (told > 0 && Math.abs(told / expected - 1) > 0.05) {
+    delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
+  }
+}
+
 async function boot() {
   loading("Loading…", NaN);
   const lack = await missing();
@@ -97,6 +120,7 @@ async function boot() {
   }
   try {
     loading("Starting…", NaN);
+    await countPixels(part("mandelight"));
     await mandelight.start(part("mandelight"));
     notice("");
   } catch (error) {

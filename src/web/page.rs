@@ -19,6 +19,11 @@ pub fn window() -> Option<Window> {
     web_sys::window()
 }
 
+/// The window's width in CSS pixels.
+pub fn width_px() -> Option<f64> {
+    window()?.inner_width().ok()?.as_f64()
+}
+
 /// The window's document.
 pub fn document() -> Option<Document> {
     window()?.document()

@@ -19,7 +19,7 @@ use crate::{
     gpu::Gpu,
     render::{Report, frame::Dispatches},
     scene::{BackgroundKind, Project, Scene, document, link, panorama},
-    ui::{Interface, Notice, Settings},
+    ui::{Interface, Notice, Settings, theme},
 };
 
 /// How long a notice of something that went well stays, seconds.
@@ -70,8 +70,9 @@ impl Session {
     /// of the opening scenes.
     pub fn open() -> Self {
         let address = Address::default();
-        let settings = stored_settings();
         let (project, complaint) = known_project(&address);
+        let comes_by_link = project.is_some() && address.read_foreign().is_some();
+        let settings = stored_settings().unwrap_or_else(|| first_settings(comes_by_link));
         let interface = Interface::new(project.unwrap_or_default(), settings);
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
@@ -278,16 +279,22 @@ fn known_project(address: &Address) -> (Option<Project>, Option<String>) {
     (stored, complaint)
 }
 
-fn stored_settings() -> Settings {
+/// How the interface is laid out on a first visit. In a narrow window the panel covers most of the
+/// picture, and who follows a link comes for that.
+fn first_settings(comes_by_link: bool) -> Settings {
+    let is_narrow = page::width_px().is_some_and(|width| width < f64::from(theme::WIDE_FROM));
+    Settings { panel_open: !(comes_by_link && is_narrow), ..Settings::default() }
+}
+
+fn stored_settings() -> Option<Settings> {
     let text = storage::SETTINGS.read();
-    let settings = text.and_then(|text| {
+    text.and_then(|text| {
         serde_json::from_str(&text)
             .inspect_err(|error| {
                 log::warn!("the settings of the last visit cannot be read: {error}")
             })
             .ok()
-    });
-    settings.unwrap_or_default()
+    })
 }
 
 /// The scene in a file: a document, or a picture that carries one.
