@@ -28,6 +28,9 @@ const KEY_ORBIT: f64 = 1.0 / 18.0;
 const KEY_PAN: f64 = 0.1;
 /// Notches closer together than this belong to one step of the history.
 const RUN_SECS: f64 = 0.5;
+/// The same in frames, where those come more slowly, and the most that it comes to, in seconds.
+const RUN_FRAMES: f64 = 2.5;
+const MOST_RUN_SECS: f64 = 3.0;
 
 /// Who moves the camera.
 #[derive(Debug, Default)]
@@ -119,9 +122,11 @@ impl Pilot {
         self.navigator.is_active() || now_secs < self.run_until_secs
     }
 
-    /// Lets further changes join the present step of the history for a while.
-    pub fn extend_run(&mut self, now_secs: f64) {
-        self.run_until_secs = now_secs + RUN_SECS;
+    /// Lets further changes join the present step of the history for a while: for some frames at
+    /// least, where those take long.
+    pub fn extend_run(&mut self, ctx: &Context) {
+        let (now_secs, frame_secs) = ctx.input(|i| (i.time, f64::from(i.stable_dt)));
+        self.run_until_secs = now_secs + RUN_SECS.max(RUN_FRAMES * frame_secs).min(MOST_RUN_SECS);
     }
 
     /// Measures movements in `fractal` about this reference's anchor from now on, where it is one of
@@ -176,7 +181,6 @@ impl Pilot {
         home: &Camera,
         ctx: &Context,
     ) {
-        let now_secs = ctx.input(|i| i.time);
         let wide = DVec2::new(1.0 / world.viewport.aspect, 1.0);
         let steps = |right: i8, up: i8| DVec2::new(f64::from(right), f64::from(up)) * wide;
         match command {
@@ -186,17 +190,17 @@ impl Pilot {
                 self.navigator.begin_orbit(camera, world, DVec2::ZERO);
                 self.navigator.drag(camera, world, -steps(right, up) * KEY_ORBIT);
                 self.navigator.end();
-                self.extend_run(now_secs);
+                self.extend_run(ctx);
             }
             Command::Pan(right, up) => {
                 self.navigator.begin_pan(camera, world, DVec2::ZERO);
                 self.navigator.drag(camera, world, -steps(right, up) * KEY_PAN);
                 self.navigator.end();
-                self.extend_run(now_secs);
+                self.extend_run(ctx);
             }
             Command::Dolly(steps) => {
                 self.navigator.dolly(camera, world, DVec2::ZERO, f64::from(steps) * KEY_DOLLY);
-                self.extend_run(now_secs);
+                self.extend_run(ctx);
             }
             _ => {}
         }
@@ -243,7 +247,8 @@ impl Pilot {
                 self.navigator.begin_orbit(camera, world, ndc);
             }
         }
-        if view.dragged()
+        // Where frames take long, the last of a drag comes together with its end.
+        if (view.dragged() || view.drag_stopped())
             && !self.looking
             && let Some(at) = view.interact_pointer_pos()
         {
@@ -267,12 +272,11 @@ impl Pilot {
         else {
             return;
         };
-        let (scrolled, zoomed, now_secs) =
-            ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta(), i.time));
+        let (scrolled, zoomed) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
         let amount = f64::from(scrolled) * WHEEL_PER_POINT + f64::from(zoomed.max(1e-3)).ln();
         if amount != 0.0 {
             self.navigator.dolly(camera, world, frame.ndc(at), amount);
-            self.extend_run(now_secs);
+            self.extend_run(ui.ctx());
         }
     }
 
@@ -290,14 +294,13 @@ impl Pilot {
         } else {
             DVec2::ZERO
         };
-        let (faster, dt_secs, now_secs) =
-            ui.input(|i| (i.modifiers.shift, f64::from(i.stable_dt), i.time));
+        let (faster, dt_secs) = ui.input(|i| (i.modifiers.shift, f64::from(i.stable_dt)));
         let travel = DVec3::from_array(self.keys.direction());
         let input = FlyInput { travel, roll: 0.0, look_rad, faster };
         // A call without any wish lets the speed come to rest.
         self.navigator.fly(camera, world, input, dt_secs);
         if travel != DVec3::ZERO {
-            self.extend_run(now_secs);
+            self.extend_run(ui.ctx());
             ui.ctx().request_repaint();
         }
     }

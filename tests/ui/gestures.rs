@@ -71,7 +71,7 @@ fn a_right_drag_and_a_drag_with_shift_pan() {
         for i in 1..10 {
             harness.event(Event::PointerMoved(center + vec2(8.0 * i as f32, 0.0)));
         }
-        pointer(&harness, center, mouse, false, modifiers);
+        pointer(&harness, center + vec2(72.0, 0.0), mouse, false, modifiers);
         harness.run();
         let start = Scene::default().camera;
         let camera = &scene(&harness).camera;
@@ -100,6 +100,34 @@ fn the_wheel_comes_nearer_and_a_run_of_notches_is_one_step() {
     harness.run_steps(60);
     let after = scene(&harness).camera.view_unit();
     assert!(after < 0.8 * before, "{before} became {after}");
+    assert_eq!(undo_all(&mut harness), 1);
+}
+
+#[test]
+fn a_run_of_notches_is_one_step_where_frames_take_long_too() {
+    let mut harness = window();
+    let center = view_center(&harness);
+    harness.event(Event::PointerMoved(center));
+    harness.step();
+    let before = scene(&harness).camera.view_unit();
+    let mut now_secs = 10.0;
+    for frame in 0..12 {
+        now_secs += 0.7;
+        let input = harness.input_mut();
+        input.time = Some(now_secs);
+        if frame < 8 {
+            input.events.push(Event::MouseWheel {
+                unit: MouseWheelUnit::Point,
+                delta: vec2(0.0, 60.0),
+                phase: TouchPhase::Move,
+                source: egui::MouseWheelSource::Unknown,
+                modifiers: Modifiers::NONE,
+            });
+        }
+        harness.step();
+    }
+    assert!(scene(&harness).camera.view_unit() < 0.5 * before);
+    harness.input_mut().time = None;
     assert_eq!(undo_all(&mut harness), 1);
 }
 
@@ -201,6 +229,38 @@ fn home_returns_to_the_opening_view() {
     harness.key_press(Key::H);
     harness.run_steps(200);
     assert!((&scene(&harness).camera.position - &home.position).length() < 1e-9);
+}
+
+#[test]
+fn a_drag_goes_all_the_way_where_its_end_comes_in_the_same_frame() {
+    let ends = [false, true].map(|at_once| {
+        let mut harness = window();
+        let center = view_center(&harness);
+        harness.event(Event::PointerMoved(center));
+        harness.step();
+        pointer(&harness, center, PointerButton::Secondary, true, Modifiers::NONE);
+        harness.step();
+        harness.event(Event::PointerMoved(center + vec2(40.0, 10.0)));
+        harness.step();
+        let to = center + vec2(120.0, 60.0);
+        let moved = Event::PointerMoved(to);
+        let released = Event::PointerButton {
+            pos: to,
+            button: PointerButton::Secondary,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        };
+        // The harness gives each event of its own a frame.
+        harness.input_mut().events.push(moved);
+        if !at_once {
+            harness.step();
+        }
+        harness.input_mut().events.push(released);
+        harness.run();
+        scene(&harness).camera.clone()
+    });
+    assert_eq!(ends[0], ends[1]);
+    assert_ne!(ends[0], Scene::default().camera);
 }
 
 #[test]
