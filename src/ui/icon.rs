@@ -33,6 +33,10 @@ pub enum Icon {
     Next,
     /// Diamonds on a line: the timeline.
     Timeline,
+    /// A house.
+    Home,
+    /// A ball in a frame: all of the fractal.
+    Whole,
 }
 
 /// A square button with an icon, named for those who cannot see it.
@@ -119,10 +123,17 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
                 fill(&[(x, -4.0), (x + 4.0, 0.0), (x, 4.0), (x - 4.0, 0.0)]);
             }
         }
-        Icon::Fullscreen => {
+        Icon::Fullscreen | Icon::Whole => {
             for (sx, sy) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
                 line(&[(6.0 * sx, 2.5 * sy), (6.0 * sx, 6.0 * sy), (2.5 * sx, 6.0 * sy)]);
             }
+            if icon == Icon::Whole {
+                painter.circle_filled(center, 3.2 * size / 16.0, color);
+            }
+        }
+        Icon::Home => {
+            line(&[(-7.0, 0.0), (0.0, -6.5), (7.0, 0.0)]);
+            line(&[(-4.5, -1.5), (-4.5, 6.0), (4.5, 6.0), (4.5, -1.5)]);
         }
     }
 }

@@ -8,6 +8,7 @@ use super::{
     Action, Inputs, Notice,
     editor::Editor,
     handles,
+    home::Way,
     icon::{Icon, icon_button},
     navigation::Standing,
     panel::{self, Context, Selection, Settings},
@@ -261,6 +262,16 @@ impl Interface {
         let scene = self.editor.scene_mut();
         let response = view::show(ui, frame, inputs.picture);
         self.rects.note("view", &response);
+        // The pilot takes this frame's commands below.
+        if let Some(way) = Way::of(&scene.camera, &self.home) {
+            let beside = if self.settings.timeline_open { 10.0 } else { 54.0 };
+            let (icon, hover) = way.button();
+            let button = floating_button(ui, rect.left_bottom() + vec2(beside, -44.0), icon, hover);
+            self.rects.note("home", &button);
+            if button.clicked() {
+                commands.push(Command::Home);
+            }
+        }
         // A drag stays with the eye's picture that it began in.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
@@ -306,7 +317,7 @@ impl Interface {
     fn note_changes(&mut self, ui: &Ui, before: &Project, now_secs: f64, held: bool) {
         let changed = before != self.project();
         if changed && ui.input(stepped_by_key) {
-            self.pilot.extend_run(now_secs);
+            self.pilot.extend_run(ui.ctx());
         }
         let still_down = ui.input(|i| i.pointer.any_down() || i.any_touches());
         let gesture = (held && still_down) || self.pilot.is_moving(now_secs);

@@ -11,6 +11,7 @@
 //! | `widgets/` | sliders of the parameter table, the light ball, the gradient |
 //! | `view`, `pilot`, `handles` | the picture, what moves its camera, its point lights |
 //! | `field` | the distance field that the camera moves in |
+//! | `home` | where Home leads |
 //! | [`navigation`] | the camera's movements themselves, free of egui |
 //! | [`shortcuts`] | the one table of keys, dispatched and listed in help |
 //! | [`editor`] | the scene and the path under edit, and their history |
@@ -19,6 +20,7 @@
 
 mod field;
 mod handles;
+mod home;
 mod icon;
 mod interface;
 mod panel;

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     field::Fields,
+    home::Way,
     navigation::{FlyInput, Navigator, Standing, Viewport, World},
     shortcuts::{Command, HeldKeys},
 };
@@ -184,7 +185,10 @@ impl Pilot {
         let wide = DVec2::new(1.0 / world.viewport.aspect, 1.0);
         let steps = |right: i8, up: i8| DVec2::new(f64::from(right), f64::from(up)) * wide;
         match command {
-            Command::Home => self.navigator.fly_to(camera, world, home),
+            Command::Home => match Way::of(camera, home) {
+                Some(Way::Whole) => self.navigator.frame_all(camera, world),
+                Some(Way::Opening) | None => self.navigator.fly_to(camera, world, home),
+            },
             Command::FrameAll => self.navigator.frame_all(camera, world),
             Command::Orbit(right, up) => {
                 self.navigator.begin_orbit(camera, world, DVec2::ZERO);

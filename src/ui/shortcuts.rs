@@ -116,7 +116,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     also(SHIFT, Key::Plus, Command::Dolly(1)),
     also(NONE, Key::Equals, Command::Dolly(1)),
     also(NONE, Key::Minus, Command::Dolly(-1)),
-    line(NONE, Key::H, Command::Home, "H", "Home: the scene's opening view"),
+    line(NONE, Key::H, Command::Home, "H", "Home: the opening view, or out of a deep one"),
     line(NONE, Key::A, Command::FrameAll, "A", "Frame all of the fractal"),
     line(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
     line(NONE, Key::Escape, Command::Leave, "Esc", "Leave fly mode, close help"),

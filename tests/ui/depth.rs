@@ -95,3 +95,36 @@ fn the_way_home_from_depth_is_one_step_of_the_history() {
     assert_eq!(undo_all(&mut harness), 1);
     assert_eq!(*scene(&harness), deep_scene());
 }
+
+#[test]
+fn home_leads_out_of_a_deep_opening_view_and_back_again() {
+    let mut harness = stage(deep_scene(), Settings::default(), [1280.0, 720.0]);
+    harness.run();
+    button(&harness, "Out").click();
+    harness.run_steps(60);
+    let unit = scene(&harness).camera.view_unit();
+    assert!((1e-19..0.1).contains(&unit), "a second away: {unit:e}");
+    harness.run_steps(400);
+    let unit = scene(&harness).camera.view_unit();
+    assert!(unit > 1.0, "{unit:e}");
+    button(&harness, "Home").click();
+    harness.run_steps(400);
+    assert_eq!(scene(&harness).camera, deep_scene().camera);
+    assert_eq!(undo_all(&mut harness), 2);
+}
+
+#[test]
+fn who_comes_by_a_link_to_a_dive_finds_the_others() {
+    for (scene, listed, other) in
+        [(deep_scene(), "Dahlia", "Coral reef"), (Scene::default(), "Coral reef", "Dahlia")]
+    {
+        let mut harness = stage(scene, Settings::default(), [1280.0, 720.0]);
+        harness.run();
+        harness.get_by_label(listed);
+        assert!(harness.query_by_label(other).is_none());
+        // It stays as it is while the view goes elsewhere.
+        harness.key_press(Key::A);
+        harness.run_steps(400);
+        harness.get_by_label(listed);
+    }
+}

@@ -232,6 +232,25 @@ fn home_returns_to_the_opening_view() {
 }
 
 #[test]
+fn the_button_home_is_there_away_from_home() {
+    let mut harness = window();
+    harness.run();
+    let home = scene(&harness).camera.clone();
+    let is_shown = |harness: &egui_kittest::Harness<'_, Stage>| {
+        harness.state().interface.rects().get("home").is_some()
+    };
+    assert!(!is_shown(&harness));
+    let center = view_center(&harness);
+    drag(&mut harness, center, center + vec2(100.0, 20.0), 6);
+    assert!(is_shown(&harness));
+    press(&mut harness, "Home");
+    harness.run_steps(200);
+    assert_eq!(scene(&harness).camera, home);
+    assert!(!is_shown(&harness));
+    assert_eq!(undo_all(&mut harness), 2);
+}
+
+#[test]
 fn a_drag_goes_all_the_way_where_its_end_comes_in_the_same_frame() {
     let ends = [false, true].map(|at_once| {
         let mut harness = window();

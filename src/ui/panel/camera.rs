@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
                 cx.commands.push(command);
             }
         };
-        button(0, "Home", "Back to the scene's opening view (H)", Command::Home);
+        button(0, "Home", "Back to the scene's opening view; from a deep one, out to all of the fractal (H)", Command::Home);
         button(1, "Frame all", "Show the whole fractal from this side (A)", Command::FrameAll);
         button(2, "Fly", "Fly with W A S D and E Q by their place on the keyboard; Shift is faster, a drag looks around (F)", Command::ToggleFlight);
     });

@@ -5,8 +5,11 @@ use egui::{Button, Id, RichText, Ui, vec2};
 use super::Context;
 use crate::{
     scene::presets::{self, Preset},
-    ui::shortcuts::Command,
+    ui::{shortcuts::Command, status::zoom, theme},
 };
+
+/// A scene that opens this much larger than a new one is taken for a dive.
+const DEEP_ZOOM: f64 = 1e4;
 
 /// A button for each scene of a list, under the lists' headings, of which one is chosen.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
@@ -15,7 +18,9 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ("Dives", "Places far below the surface", presets::dives(), presets::all().len()),
     ];
     let id = Id::unique("list of scenes");
-    let mut chosen = ui.data(|data| data.get_temp(id)).unwrap_or(0_usize);
+    // Who comes by a link to a dive finds the others beside it.
+    let opening = usize::from(zoom(&cx.scene.camera) >= DEEP_ZOOM);
+    let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
     ui.horizontal(|ui| {
         for (index, (heading, help, ..)) in lists.iter().enumerate() {
             let text = RichText::new(*heading).small();
@@ -31,6 +36,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     });
     if let Some(&(heading, _, presets, first)) = lists.get(chosen) {
         buttons(ui, cx, heading, presets, first);
+    }
+    if chosen == 1 {
+        let hint = "Scroll or pinch over any spot of the picture to dive there.";
+        ui.add(egui::Label::new(RichText::new(hint).small().color(theme::TEXT_DIM)).wrap());
     }
 }
 
