@@ -264,9 +264,11 @@ impl Interface {
         self.rects.note("view", &response);
         // The pilot takes this frame's commands below.
         if let Some(way) = Way::of(&scene.camera, &self.home) {
-            let beside = if self.settings.timeline_open { 10.0 } else { 54.0 };
+            let side = button_side(ui);
+            let beside = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
+            let at = rect.left_bottom() + vec2(beside, -10.0 - side);
             let (icon, hover) = way.button();
-            let button = floating_button(ui, rect.left_bottom() + vec2(beside, -44.0), icon, hover);
+            let button = floating_button(ui, at, icon, hover);
             self.rects.note("home", &button);
             if button.clicked() {
                 commands.push(Command::Home);
@@ -284,7 +286,7 @@ impl Interface {
         }
         self.standing = Some(self.pilot.standing(scene, frame));
         if wide && !self.settings.panel_open {
-            let at = rect.right_top() + vec2(-44.0, 10.0);
+            let at = rect.right_top() + vec2(-10.0 - button_side(ui), 10.0);
             let hover = ("Show panel", "Show the panel (P)");
             let button = floating_button(ui, at, Icon::Controls, hover);
             self.rects.note("panel toggle", &button);
@@ -293,7 +295,7 @@ impl Interface {
             }
         }
         if !self.settings.timeline_open {
-            let at = rect.left_bottom() + vec2(10.0, -44.0);
+            let at = rect.left_bottom() + vec2(10.0, -10.0 - button_side(ui));
             let hover = ("Show timeline", "Key frames: a path for the camera and all else (T)");
             let button = floating_button(ui, at, Icon::Timeline, hover);
             self.rects.note("timeline toggle", &button);
@@ -402,6 +404,11 @@ impl Interface {
     }
 }
 
+/// Width and height of a button over the picture, in points.
+fn button_side(ui: &Ui) -> f32 {
+    ui.spacing().interact_size.y.max(34.0)
+}
+
 /// An icon over the picture: what is left of something hidden.
 fn floating_button(
     ui: &mut Ui,
@@ -409,7 +416,7 @@ fn floating_button(
     icon: Icon,
     (name, hover): (&str, &str),
 ) -> egui::Response {
-    let at = Rect::from_min_size(at, vec2(34.0, 34.0));
+    let at = Rect::from_min_size(at, vec2(1.0, 1.0) * button_side(ui));
     ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
     ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
 }

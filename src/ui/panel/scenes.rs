@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         buttons(ui, cx, heading, presets, first);
     }
     if chosen == 1 {
-        let hint = "Scroll or pinch over any spot of the picture to dive there.";
+        let hint = "Scroll or pinch on the picture to dive elsewhere.";
         ui.add(egui::Label::new(RichText::new(hint).small().color(theme::TEXT_DIM)).wrap());
     }
 }
