@@ -7,9 +7,8 @@ fn srgb_from_linear(linear: vec3f) -> vec3f {
     return select(high, low, linear <= vec3f(0.0031308));
 }
 
-// Interleaved gradient noise (Jimenez 2014), -1/2 to 1/2: one dither step keeps dark
-// gradients free of bands. A function of the whole picture's pixel, so that tiles join.
+// Noise from -1/2 to 1/2: one dither step keeps dark gradients free of bands. A function of the
+// whole picture's pixel, so that tiles join.
 fn dither(pixel: vec2u) -> f32 {
-    let p = vec2f(pixel);
-    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715)))) - 0.5;
+    return fract(interleaved(vec2f(pixel))) - 0.5;
 }

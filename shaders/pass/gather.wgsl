@@ -46,11 +46,11 @@ fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
     return Neighbour(weight, offset, octahedral_unpack(seen.y), shared_exponent_unpack(direct[index]));
 }
 
-// Interleaved gradient noise (Jimenez 2014), 0 to 1, other for each sample of a pixel.
+// Noise from 0 to 1, other for each sample of a pixel.
 fn noise(site: Site, salt: f32) -> f32 {
-    let p = vec2f(picture.origin_px + eye_pixel(site.pixel)) + salt;
+    let place = vec2f(picture.origin_px + eye_pixel(site.pixel)) + salt;
     let shift = dot(place_in_pixel(site.sample), vec2f(1.0));
-    return fract(52.9829189 * fract(dot(p, vec2f(0.06711056, 0.00583715))) + shift);
+    return fract(interleaved(place) + shift);
 }
 
 // Eq. 4.1 over a square of half width `radius`: the mean of the neighbours' light, each by the

@@ -17,6 +17,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/luminance.wgsl"),
         shader_file!("lib/curve.wgsl"),
+        shader_file!("lib/noise.wgsl"),
         shader_file!("lib/srgb.wgsl"),
         shader_file!("pass/develop.wgsl"),
     ],

@@ -14,6 +14,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/slice.wgsl"),
         shader_file!("types/develop.wgsl"),
         shader_file!("lib/lattice.wgsl"),
+        shader_file!("lib/noise.wgsl"),
         shader_file!("lib/srgb.wgsl"),
         shader_file!("pass/spread.wgsl"),
     ],

@@ -20,6 +20,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/mip.wgsl"),
         shader_file!("lib/curve.wgsl"),
         shader_file!("lib/exposure.wgsl"),
+        shader_file!("lib/noise.wgsl"),
         shader_file!("lib/srgb.wgsl"),
         shader_file!("pass/tone.wgsl"),
     ],
