@@ -170,6 +170,37 @@ fn step_anew(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
     return Walk(z, walk.count + 1u, difference, picture.fractal.restart);
 }
 
+// What a step makes of directions, but for those along parallels: turns the meridian's plane, which
+// is toward u, by m, to the one toward un.
+struct Meridian {
+    u: vec2f,
+    m: vec2f,
+    un: vec2f,
+    z_sign: f32,
+}
+
+fn raised_along(meridian: Meridian, v: vec3f) -> vec3f {
+    let raised = complex_product(meridian.m, vec2f(dot(meridian.u, v.xy), v.z));
+    return vec3f(raised.x * meridian.un, meridian.z_sign * raised.y);
+}
+
+// What a step makes of a direction: its Jacobian times that, with sideways stretching clamped.
+fn pushed(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: vec3f) -> vec3f {
+    let u = step.inverse_rho * z.xy;
+    let w = vec2f(step.inverse_rho * q.a, -z.z);
+    let m = (fractal.power / q.s) * complex_product(step.wn, w);
+    let along = raised_along(Meridian(u, m, step.un, fractal.z_sign), v);
+    let parallel = sideways(fractal, step, DEEP_SIDEWAYS_MAX) * (u.x * v.y - u.y * v.x);
+    return vec3f(along.xy + parallel * vec2f(-step.un.y, step.un.x), along.z);
+}
+
+// The same of those directions that are followed.
+fn pushed_on(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: mat3x3f) -> mat3x3f {
+    let first = pushed(fractal, step, z, q, v[0]);
+    if (POWER >= 4u) { return mat3x3f(first, vec3f(0.0), vec3f(0.0)); }
+    return mat3x3f(first, pushed(fractal, step, z, q, v[1]), pushed(fractal, step, z, q, v[2]));
+}
+
 // The tangent behind the steps that are skipped.
 fn skipped_tangent(skip: Skip, orbit: Orbit, point: vec3f) -> Tangent {
     let inverse = 1.0 / skipped_derivative(skip, point);

@@ -237,23 +237,6 @@ fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f,
     return Growth(dr, dg, stretched, before.rest);
 }
 
-// What a step makes of a direction: its Jacobian times that, with sideways stretching clamped.
-fn pushed(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: vec3f) -> vec3f {
-    let u = step.inverse_rho * z.xy;
-    let w = vec2f(step.inverse_rho * q.a, -z.z);
-    let m = (fractal.power / q.s) * complex_product(step.wn, w);
-    let turned = complex_product(m, vec2f(dot(u, v.xy), v.z));
-    let parallel = sideways(fractal, step, DEEP_SIDEWAYS_MAX) * (u.x * v.y - u.y * v.x);
-    return vec3f(complex_product(step.un, vec2f(turned.x, parallel)), fractal.z_sign * turned.y);
-}
-
-// The same of those directions that are followed.
-fn pushed_on(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: mat3x3f) -> mat3x3f {
-    let first = pushed(fractal, step, z, q, v[0]);
-    if (POWER >= 4u) { return mat3x3f(first, vec3f(0.0), vec3f(0.0)); }
-    return mat3x3f(first, pushed(fractal, step, z, q, v[1]), pushed(fractal, step, z, q, v[2]));
-}
-
 // How far a ray may go where an orbit has got so high.
 fn safe_step(growth: Growth, height: f32) -> f32 {
     if (!DEEP) { return height / max(max(growth.dg, growth.dr), 1e-37); }
@@ -303,11 +286,15 @@ fn reach(fractal: Fractal, point: vec3f) -> Reach {
     return reach_at(fractal, growth, q);
 }
 
+// 0.5 ln(r) r: the distance estimate times dr.
+fn height_of(q: Squares) -> f32 {
+    return 0.25 * log(q.s) * sqrt(q.s);
+}
+
 // The reach at an orbit's end.
 fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
     if (q.s <= 1.0) { return Reach(0.0, 0.0); }
-    // 0.5 ln(r) r.
-    let height = 0.25 * log(q.s) * sqrt(q.s);
+    let height = height_of(q);
     let distance = height / max(growth.dr, 1e-37);
     return Reach(distance, min(safe_step(growth, height), fractal.max_step));
 }
@@ -428,9 +415,14 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
         if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
     }
     if (q.s <= 1.0) { return vec3f(0.0); }
+    return gradient_at(walk.z, q, tangent.jacobian, tangent.slope);
+}
+
+// The same at an orbit's end, by its Jacobian over dr and the gradient of dr over dr^2.
+fn gradient_at(z: vec3f, q: Squares, jacobian: mat3x3f, slope: vec3f) -> vec3f {
     let r = sqrt(q.s);
     let log_r = log(r);
-    return (log_r + 1.0) / r * (walk.z * tangent.jacobian) - r * log_r * tangent.slope;
+    return (log_r + 1.0) / r * (z * jacobian) - r * log_r * slope;
 }
 
 struct OrbitColors {

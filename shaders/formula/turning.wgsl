@@ -54,20 +54,6 @@ struct TurningEnd {
     traps: vec3f,
 }
 
-// What a step makes of directions, but for those along parallels: turns the meridian's plane, which
-// is toward u, by m, to the one toward un.
-struct Meridian {
-    u: vec2f,
-    m: vec2f,
-    un: vec2f,
-    z_sign: f32,
-}
-
-fn raised_along(meridian: Meridian, v: vec3f) -> vec3f {
-    let raised = complex_product(meridian.m, vec2f(dot(meridian.u, v.xy), v.z));
-    return vec3f(raised.x * meridian.un, meridian.z_sign * raised.y);
-}
-
 // The motion after another step, from `z` that is `rho` beside the axis toward `u`, to a frame in
 // which fixed directions are turned by `rotor`.
 fn moved_on(
@@ -192,7 +178,7 @@ fn raised_on_meridian(fractal: Fractal, place: Place, difference: vec3f, q: Squa
 fn turning_reach(fractal: Fractal, point: vec3f) -> Reach {
     let end = turning_end(fractal, point);
     if (end.q.s <= 1.0) { return Reach(0.0, 0.0); }
-    let distance = 0.25 * log(end.q.s) * sqrt(end.q.s) / max(end.motion.dr, 1e-37);
+    let distance = height_of(end.q) / max(end.motion.dr, 1e-37);
     let j = end.motion.jacobian;
     let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
     return Reach(distance, min(distance / max(norm, 1.0), fractal.max_step));
@@ -201,7 +187,5 @@ fn turning_reach(fractal: Fractal, point: vec3f) -> Reach {
 fn turning_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     let end = turning_end(fractal, point);
     if (end.q.s <= 1.0) { return vec3f(0.0); }
-    let r = sqrt(end.q.s);
-    let log_r = log(r);
-    return (log_r + 1.0) / r * (end.z * end.motion.jacobian) - r * log_r * end.motion.slope;
+    return gradient_at(end.z, end.q, end.motion.jacobian, end.motion.slope);
 }
