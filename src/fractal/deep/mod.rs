@@ -30,7 +30,7 @@ pub mod turn;
 
 pub use field::{CLOSE, DeepField};
 pub use orbit::Place;
-pub use reference::{BESIDE_AXIS, Reference};
+pub use reference::Reference;
 
 pub use search::Search;
 pub use skip::Skip;

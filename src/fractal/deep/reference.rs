@@ -14,7 +14,7 @@ use crate::{
 
 /// Orbits of even powers about an anchor that is as near to the polar axis as this, in scene units,
 /// are followed in frames that turn with their points' longitudes ([`super::turn`]).
-pub const BESIDE_AXIS: f64 = 0.03;
+const HARD_BY_AXIS: f64 = 0.03;
 
 /// Most places of a reference, of both its orbits together.
 pub const MOST_PLACES: usize = 2048;
@@ -118,7 +118,7 @@ impl Reference {
     /// that is near the axis itself does not matter.
     pub fn turns(&self) -> bool {
         let constant = &self.places[self.restart()];
-        self.power.is_multiple_of(2) && self.places[0].rho.max(constant.rho) < BESIDE_AXIS
+        self.power.is_multiple_of(2) && self.places[0].rho.max(constant.rho) < HARD_BY_AXIS
     }
 
     /// Whether it is one of this set, however many iterations that has.
