@@ -19,8 +19,6 @@ struct Camera {
 struct Fractal {
     julia_constant: vec3f,
     power: f32,
-    // The power as a whole number, 0 where it is none.
-    integer_power: u32,
     iterations: u32,
     bailout: f32,
     // Nothing of the set lies outside this sphere about the origin.
@@ -39,6 +37,8 @@ struct Fractal {
     // Hit distances never go below this: f32 resolves no finer.
     finest_hit: f32,
     log2_bailout: f32,
+    // Orbits whose derivative falls below this, in units of one over the scale, need `reach`.
+    least_derivative: f32,
     // Where the coordinates of all points begin, in scene units, and their unit in those.
     anchor: vec3f,
     scale: f32,
@@ -49,11 +49,6 @@ struct Fractal {
     restart: u32,
     // 1 where orbits are followed in frames that turn with their points' longitudes.
     turns: u32,
-    // Orbits whose derivative falls below this, in units of one over the scale, need `reach`.
-    least_derivative: f32,
-    unused_a: u32,
-    unused_b: u32,
-    unused_c: u32,
 }
 
 // The first steps of all orbits near the anchor at once, by the point's offset: second-order

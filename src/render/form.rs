@@ -33,10 +33,15 @@ impl Depth {
     }
 }
 
+/// A power where it is whole; 0 for others.
+fn whole(power: f32) -> u32 {
+    if power.fract() == 0.0 { power as u32 } else { 0 }
+}
+
 impl Form {
     /// A picture's.
     pub fn of(picture: &Picture) -> Self {
-        Self { power: picture.fractal.integer_power, depth: Depth::of(picture) }
+        Self { power: whole(picture.fractal.power), depth: Depth::of(picture) }
     }
 
     /// Whether its views are drawn from an anchor.

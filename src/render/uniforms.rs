@@ -182,7 +182,6 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
     Fractal {
         julia_constant: set.julia_constant.map(|v| v as f32),
         power: set.power as f32,
-        integer_power: set.integer_power().unwrap_or(0),
         iterations,
         bailout: set.bailout as f32,
         bounding_radius: estimator.bounding_radius() as f32,
@@ -194,16 +193,13 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
         log2_bailout: set.bailout.log2() as f32,
+        least_derivative: 0.0,
         anchor: anchor.as_vec3().to_array(),
         scale: datum.scale() as f32,
         places: reference.map_or(0, |reference| reference.places().len() as u32),
         own_places: reference.map_or(0, |reference| reference.own_places() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         turns: reference.is_some_and(|reference| reference.turns()).into(),
-        least_derivative: 0.0,
-        unused_a: 0,
-        unused_b: 0,
-        unused_c: 0,
     }
 }
 
@@ -329,6 +325,7 @@ impl Inputs {
         lights::moved(self.lights_in_use(), old.lights_in_use())
     }
 
+    /// The lights of the scene, shining or not.
     pub fn lights_in_use(&self) -> &[Light] {
         let count = self.picture.surface.light_count as usize;
         &self.lights[..count.min(MAX_LIGHTS)]

@@ -6,7 +6,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER` specialises it.
+/// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
 pub const MODULE: Module = Module {
     label: "cone",
     files: &[

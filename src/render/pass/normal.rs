@@ -6,7 +6,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER` and `NORMALS` specialise it.
+/// The pass's shader; `POWER`, `DEEP`, `TURNS` and `NORMALS` specialise it.
 pub const MODULE: Module = Module {
     label: "normal",
     files: &[

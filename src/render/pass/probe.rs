@@ -19,7 +19,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER` specialises it.
+/// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
 pub const MODULE: Module = Module {
     label: "probe",
     files: &[
@@ -38,7 +38,7 @@ pub const MODULE: Module = Module {
 pub struct Answer {
     /// The estimate's gradient, of any length; 0 inside.
     pub gradient: Vec3,
-    /// Distance estimate, scene units.
+    /// Distance estimate, in the unit of the points.
     pub distance: f32,
     /// Smooth iteration count.
     pub smooth_iterations: f32,
@@ -46,7 +46,7 @@ pub struct Answer {
     pub origin_trap: f32,
     /// The same from the z axis.
     pub axis_trap: f32,
-    /// How far a ray may go, scene units.
+    /// How far a ray may go, in the same.
     pub step: f32,
 }
 
@@ -59,7 +59,7 @@ pub fn ask(
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, &Datum::plain());
-    let power = if specialised { inputs.picture.fractal.integer_power } else { 0 };
+    let power = if specialised { Form::of(&inputs.picture).power } else { 0 };
     ask_form(gpu, &inputs, points, Form { power, depth: Depth::Plain })
 }
 

@@ -3,7 +3,7 @@
 
 use crate::{gpu::shader::Module, shader_file};
 
-/// The pass's shader; `POWER` specialises it.
+/// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
 pub const MODULE: Module = Module {
     label: "tube",
     files: &[

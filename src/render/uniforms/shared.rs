@@ -99,8 +99,6 @@ host_shared! {
         julia_constant: [f32; 3],
         /// Exponent n.
         power: f32,
-        /// The exponent where it is whole, else 0.
-        integer_power: u32,
         /// Most orbit steps.
         iterations: u32,
         /// Escape radius, scene units.
@@ -123,6 +121,9 @@ host_shared! {
         finest_hit: f32,
         /// Binary logarithm of the bailout.
         log2_bailout: f32,
+        /// An orbit whose derivative falls below this, in units of one over the scale, is followed by its
+        /// difference: see [`super::depth`].
+        least_derivative: f32,
         /// Where coordinates begin, scene units.
         anchor: [f32; 3],
         /// Their unit, scene units.
@@ -136,15 +137,6 @@ host_shared! {
         /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
         /// see [`crate::fractal::deep::turn`].
         turns: u32,
-        /// An orbit whose derivative falls below this, in units of one over the scale, is followed by its
-        /// difference: see [`super::depth`].
-        least_derivative: f32,
-        /// Keeps the size a multiple of 16 bytes.
-        unused_a: u32,
-        /// The same.
-        unused_b: u32,
-        /// The same.
-        unused_c: u32,
     }
     /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::skip`].
     Skip {
