@@ -8,6 +8,8 @@ struct Answer {
     // Smooth iteration count, origin trap, axis trap.
     colors: vec3f,
     step: f32,
+    // The distance by `quick_reach`; negative where that cannot tell.
+    quick_distance: f32,
 }
 
 // xyz: the point. w: unused.
@@ -22,10 +24,12 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let fractal = picture.fractal;
     let colors = orbit_colors(fractal, point);
     let ahead = reach(fractal, point);
+    let quick = quick_reach(fractal, point);
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,
         vec3f(colors.smooth_iterations, colors.traps.xy),
         ahead.step,
+        select(quick.distance, -1.0, quick.step < 0.0),
     );
 }

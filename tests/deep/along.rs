@@ -59,6 +59,7 @@ fn asked(scene: &Scene, looking: &Looking<'_>, datum: &Datum) -> Vec<Asked> {
 }
 
 fn estimates_agree(gpu: &Gpu, power: f64) {
+    let (mut told_quickly, mut told) = (0, 0);
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
         for scale in anchor.scales() {
             let (scene, size) = (anchor.scene(scale), views::SMALL);
@@ -76,10 +77,22 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
                 let off: Vec<_> = pairs.iter().map(|(a, e)| off(a, e)).collect();
                 [0.5, 0.99].map(|part| quantile(off.clone(), part).expect("an estimate"))
             };
-            let of_distance = quantiles(&|answer, expected| {
+            let off = |found: f32, expected: &Estimate| {
                 let expected = expected.distance / datum.scale();
-                (f64::from(answer.distance) - expected).abs() / expected.max(1e-300)
+                (f64::from(found) - expected).abs() / expected.max(1e-300)
+            };
+            let of_distance = quantiles(&|answer, expected| off(answer.distance, expected));
+            // As rays ask, and careful only where they have to be.
+            let of_rays = quantiles(&|answer, expected| {
+                off(answer.quick_distance.unwrap_or(answer.distance), expected)
             });
+            let quick = answers.iter().filter(|answer| answer.quick_distance.is_some()).count();
+            let quick_part = quick as f64 / answers.len() as f64;
+            // Elsewhere the two ways are one.
+            if datum.reference().is_some_and(|reference| !reference.turns()) {
+                told_quickly += quick;
+                told += answers.len();
+            }
             let of_count = quantiles(&|answer, expected| {
                 (f64::from(answer.smooth_iterations) - expected.smooth_iterations).abs()
             });
@@ -90,20 +103,26 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
             });
             let text = |[median, most]: [f64; 2]| format!("{median:.1e}, {most:.1e}");
             println!(
-                "{view}: estimates off by {}, counts by {}, traps by {}",
+                "{view}: estimates off by {}, those of rays by {} ({quick_part:.2} quick), \
+                 counts by {}, traps by {}",
                 text(of_distance),
+                text(of_rays),
                 text(of_count),
                 text(of_traps),
             );
-            let [median, most] = of_distance;
-            assert!(median < 1e-3, "{view}: half of the estimates are off by {median}");
-            assert!(most < 1e-2, "{view}: the last percent is off by {most}");
-            // A display shows 255 steps of them.
-            let [median, most] = [0, 1].map(|i| f64::max(of_count[i], of_traps[i]));
-            assert!(median < 1e-3, "{view}: half of the colours are off by {median}");
-            assert!(most < 1e-2, "{view}: the last percent of the colours is off by {most}");
+            // Of the colours a display shows 255 steps.
+            for (what, [median, most]) in [
+                ("estimates", of_distance),
+                ("estimates of rays", of_rays),
+                ("counts", of_count),
+                ("traps", of_traps),
+            ] {
+                assert!(median < 1e-3, "{view}: half of the {what} are off by {median}");
+                assert!(most < 1e-2, "{view}: the last percent of the {what} is off by {most}");
+            }
         }
     }
+    assert!(told_quickly * 5 > told * 4, "power {power}: {told_quickly} of {told} are quick");
 }
 
 #[test]

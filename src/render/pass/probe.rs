@@ -48,6 +48,8 @@ pub struct Answer {
     pub axis_trap: f32,
     /// How far a ray may go, in the same.
     pub step: f32,
+    /// Distance estimate as rays ask for it first; none where that way cannot tell.
+    pub quick_distance: Option<f32>,
 }
 
 /// Asks the formula's kernel about `points` of the scene's set and waits: natively only.
@@ -74,6 +76,9 @@ pub fn ask_about(
     let inputs = Inputs::about(scene, REGION, datum);
     ask_form(gpu, &inputs, offsets, Form::of(&inputs.picture))
 }
+
+/// Of the kernel's answer to one point.
+const ANSWER_BYTES: usize = 48;
 
 /// Any will do.
 const REGION: Region =
@@ -104,7 +109,7 @@ fn ask_form(
     let answers = filled(
         gpu,
         wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-        &vec![0; 32 * points.len()],
+        &vec![0; ANSWER_BYTES * points.len()],
     );
     let group = |index: u32, buffers: &[&wgpu::Buffer]| {
         let entries: Vec<_> = (0..)
@@ -131,14 +136,24 @@ fn ask_form(
     gpu.queue.submit([encoder.finish()]);
     let bytes = Readback::buffer(gpu, &answers).wait(gpu)?;
     Ok(bytes
-        .as_chunks::<32>()
+        .as_chunks::<ANSWER_BYTES>()
         .0
         .iter()
         .map(|chunk| {
-            let [x, y, z, distance, smooth_iterations, origin_trap, axis_trap, step]: [f32; 8] =
-                bytemuck::cast(*chunk);
+            let numbers: [f32; ANSWER_BYTES / 4] = bytemuck::cast(*chunk);
+            let [x, y, z, distance, smooth_iterations, origin_trap, axis_trap, step, quick, ..] =
+                numbers;
             let gradient = Vec3::new(x, y, z);
-            Answer { gradient, distance, smooth_iterations, origin_trap, axis_trap, step }
+            let quick_distance = (quick >= 0.0).then_some(quick);
+            Answer {
+                gradient,
+                distance,
+                smooth_iterations,
+                origin_trap,
+                axis_trap,
+                step,
+                quick_distance,
+            }
         })
         .collect())
 }
