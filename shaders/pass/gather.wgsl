@@ -5,7 +5,7 @@
 struct Neighbour {
     // 0 where there is none, less than 1 where it lies far before or behind.
     weight: f32,
-    // From the sample to it, scene units.
+    // From the sample to it.
     offset: vec3f,
     normal: vec3f,
     // Its direct light.
@@ -25,8 +25,8 @@ fn on_lattice(at: vec2i) -> vec2i {
 }
 
 // What is seen `aside` of a pixel's sample, in parts of the picture's height. `reach` is how far
-// the operator looks, at the sample's own depth in scene units: what is farther away than that
-// belongs to something else, and counts less and less.
+// the operator looks, at the sample's own depth: what is farther away than that belongs to something
+// else, and counts less and less.
 fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
     let eye_px = picture.indirect.around_px;
     let middle = eye_position(site.pixel, place_in_pixel(site.sample)) * vec2f(eye_px);

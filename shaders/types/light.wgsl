@@ -9,7 +9,7 @@ struct Light {
     color: vec3f,
     // 1 where surfaces block it.
     casts_shadows: u32,
-    // How far a blocker may be, in scene units.
+    // How far a blocker may be, in the view's unit.
     shadow_reach: f32,
     // Which visibility bit is its own.
     bit: u32,

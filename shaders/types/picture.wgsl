@@ -1,7 +1,8 @@
 // What every pass knows of the picture. Host twin: `render::uniforms`.
 
 struct Camera {
-    // The eye, in scene units.
+    // The eye, in the view's unit, as all points and lengths are that say nothing else: the scene's
+    // own, or `Fractal.scale` of those.
     origin: vec3f,
     // Half the picture's height at depth one.
     half_height: f32,
@@ -20,8 +21,9 @@ struct Fractal {
     julia_constant: vec3f,
     power: f32,
     iterations: u32,
+    // In scene units, and so is the next.
     bailout: f32,
-    // Nothing of the set lies outside this sphere about the origin.
+    // Nothing of the set lies outside this sphere about the scene's origin.
     bounding_radius: f32,
     // 1 for the Julia form.
     julia: u32,
@@ -194,7 +196,7 @@ struct Eyes {
     count: u32,
     // -1: the first is a left eye; 1: a right one; 0: there is only the camera.
     first_side: f32,
-    // From the camera to either eye, in scene units.
+    // From the camera to either eye.
     half_separation: f32,
     // The same at depth one, by which an eye's picture is moved back.
     half_shift: f32,

@@ -34,7 +34,7 @@ pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 5;
 
 /// One element a sample point in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
-    /// f32 depth along the ray in scene units, 0 on a miss; u32 octahedral normal.
+    /// f32 depth along the ray in the view's unit, 0 on a miss; u32 octahedral normal.
     pub surface: wgpu::Buffer,
     /// 2 × u32: smooth iterations and traps.
     pub color_data: wgpu::Buffer,

@@ -42,7 +42,7 @@ const MARCH_STEPS: u32 = 1024;
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
 
-/// Below this hit distance, in scene units, f32 positions near the surface run together.
+/// Below this hit distance, in the view's unit, f32 positions near the surface run together.
 const FINEST_HIT: f32 = 4e-7;
 
 impl Picture {

@@ -1,5 +1,8 @@
 //! The structs that are shared with WGSL, their fields in the order of their twins in
 //! `shaders/types/`, which `tests/shaders.rs` compares with them.
+//!
+//! Lengths are in the view's unit: that of its [`Datum`](crate::render::datum::Datum), the scene's own
+//! but in deep views.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -38,7 +41,7 @@ macro_rules! host_shared {
 host_shared! {
     /// The pinhole camera, axes in world space.
     Camera {
-        /// The eye, scene units.
+        /// The eye, in the view's unit.
         origin: [f32; 3],
         /// Half the picture's height at depth one.
         half_height: f32,
@@ -80,7 +83,7 @@ host_shared! {
         count: u32,
         /// -1: the first is a left eye; 1: a right one; 0: there is only the camera.
         first_side: f32,
-        /// From the camera to either eye, scene units.
+        /// From the camera to either eye, in the view's unit.
         half_separation: f32,
         /// The same at depth one.
         half_shift: f32,
@@ -109,7 +112,7 @@ host_shared! {
         julia: u32,
         /// Sign of the sine term.
         z_sign: f32,
-        /// Longest step, scene units.
+        /// Longest step, in the view's unit.
         max_step: f32,
         /// Where the derivative is cut off.
         derivative_max: f32,
@@ -117,7 +120,7 @@ host_shared! {
         march_steps: u32,
         /// Most steps of a shadow ray.
         shadow_steps: u32,
-        /// Least hit distance, scene units.
+        /// Least hit distance, in the view's unit.
         finest_hit: f32,
         /// Binary logarithm of the bailout.
         log2_bailout: f32,
@@ -340,7 +343,7 @@ host_shared! {
         accumulate: u32,
         /// The visibility bit of a shadow dispatch's light, 0 to 63.
         light_bit: u32,
-        /// How far a blocker may be, scene units.
+        /// How far a blocker may be, in the view's unit.
         light_reach: f32,
         /// Spacing of the lattice on the film, pixels; 0 where it is complete.
         spacing: u32,
@@ -404,7 +407,7 @@ host_shared! {
         color: [f32; 3],
         /// 1 where surfaces block it.
         casts_shadows: u32,
-        /// How far a blocker may be, scene units.
+        /// How far a blocker may be, in the view's unit.
         shadow_reach: f32,
         /// Which visibility bit is its own, 0 to 63.
         bit: u32,
