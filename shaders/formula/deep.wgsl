@@ -54,13 +54,11 @@ fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
     return skip.derivative + dot(skip.derivative_gradient, point);
 }
 
-fn skipped_growth(fractal: Fractal, skip: Skip, point: vec3f, which: u32) -> Growth {
-    let dr = skipped_derivative(skip, point);
-    if (POWER < 4u) { return Growth(dr, 0.0, skipped_jacobian(skip, point), 0.0); }
+fn skipped_growth(fractal: Fractal, skip: Skip, point: vec3f, along: vec3f, which: u32) -> Growth {
     // From farther away it would be followed over too many steps.
     let dg = select(0.0, skip.rest / step_factor(fractal), which < 2u);
-    let stretched = mat3x3f(skip.stretched, vec3f(0.0), vec3f(0.0));
-    return Growth(dr, dg, stretched, skip.rest / skip.derivative);
+    let stretched = skipped_jacobian(skip, point) * along;
+    return Growth(skipped_derivative(skip, point), dg, stretched, skip.rest / skip.derivative);
 }
 
 // Whether the next step is one of the difference.
@@ -192,13 +190,6 @@ fn pushed(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: vec3f) -> vec
     let along = raised_along(Meridian(u, m, step.un, fractal.z_sign), v);
     let parallel = sideways(fractal, step, DEEP_SIDEWAYS_MAX) * (u.x * v.y - u.y * v.x);
     return vec3f(along.xy + parallel * vec2f(-step.un.y, step.un.x), along.z);
-}
-
-// The same of those directions that are followed.
-fn pushed_on(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: mat3x3f) -> mat3x3f {
-    let first = pushed(fractal, step, z, q, v[0]);
-    if (POWER >= 4u) { return mat3x3f(first, vec3f(0.0), vec3f(0.0)); }
-    return mat3x3f(first, pushed(fractal, step, z, q, v[1]), pushed(fractal, step, z, q, v[2]));
 }
 
 // The tangent behind the steps that are skipped.

@@ -127,15 +127,16 @@ struct Orbit {
     added: vec3f,
     // The constant's own derivative: the Julia form's does not move with the point.
     constant_derivative: f32,
-    // How the constant changes along the directions that deep views follow.
-    stretched: mat3x3f,
+    // How the constant changes along the direction that deep views follow.
+    stretched: vec3f,
     // The point's own.
     start_derivative: f32,
     // The bailout's square.
     limit: f32,
 }
 
-fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
+// `along`: the direction that deep views follow.
+fn orbit_of(fractal: Fractal, point: vec3f, along: vec3f) -> Orbit {
     let julia = fractal.julia != 0u;
     let limit = fractal.bailout * fractal.bailout;
     if (DEEP) {
@@ -145,7 +146,7 @@ fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
             select(fractal.anchor, fractal.julia_constant, julia),
             select(offset, vec3f(0.0), julia),
             select(fractal.scale, 0.0, julia),
-            followed(picture.skip.widest, select(fractal.scale, 0.0, julia)),
+            select(fractal.scale * along, vec3f(0.0), julia),
             fractal.scale,
             limit,
         );
@@ -155,7 +156,7 @@ fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
         select(point, fractal.julia_constant, julia) + BESIDE_AXIS,
         vec3f(0.0),
         select(1.0, 0.0, julia),
-        mat3x3f(),
+        vec3f(0.0),
         1.0,
         limit,
     );
@@ -201,27 +202,20 @@ struct Growth {
     dr: f32,
     // What steps of plain views follow: dg, in units of the step factor, so that a step is the height
     // over the larger of dr and dg. Over the many steps of a deep view it would grow far past what it
-    // stands for, and rays would creep. They follow the Jacobian's norm, which the next two make up,
-    // and of this only what directions but the widest can have come to since the steps were skipped.
+    // stands for, and rays would creep. They follow what becomes of the direction in which they go, and of
+    // dg only what other directions can have come to since the steps were skipped.
     dg: f32,
-    // What has become of the directions that are followed: `followed`.
-    stretched: mat3x3f,
-    // How far all others were stretched, over dr.
+    // What has become of the direction that is followed.
+    stretched: vec3f,
+    // How far directions were stretched where the skipped steps ended, but for the one that they stretch
+    // most, over dr: with depth that one leaves the others ever farther behind (by 3 to 100 at 1e-20).
     rest: f32,
 }
 
-// Of three directions those that deep views follow. From power 4 on it is the first alone, the one that the
-// skipped steps stretch most: with depth it leaves the others ever farther behind (by 3 to 100 at 1e-20).
-// At lower powers there often is none, and all three are the axes, which make up the Jacobian.
-fn followed(first: vec3f, scale: f32) -> mat3x3f {
-    if (POWER < 4u) { return scaled_identity(scale); }
-    return mat3x3f(scale * first, vec3f(0.0), vec3f(0.0));
-}
-
-fn first_growth(fractal: Fractal, orbit: Orbit) -> Growth {
+fn first_growth(fractal: Fractal, orbit: Orbit, along: vec3f) -> Growth {
     let one = orbit.start_derivative;
     let dg = select(one / step_factor(fractal), 0.0, DEEP);
-    return Growth(one, dg, followed(picture.skip.widest, one), select(sqrt(2.0), 0.0, POWER < 4u));
+    return Growth(one, dg, one * along, sqrt(2.0));
 }
 
 fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f, q: Squares) -> Growth {
@@ -233,7 +227,7 @@ fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f,
         let added = orbit.constant_derivative / step_factor(fractal);
         return Growth(dr, dg + added, before.stretched, 0.0);
     }
-    let stretched = pushed_on(fractal, step, z, q, before.stretched) + orbit.stretched;
+    let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.stretched;
     return Growth(dr, dg, stretched, before.rest);
 }
 
@@ -242,26 +236,26 @@ fn safe_step(growth: Growth, height: f32) -> f32 {
     if (!DEEP) { return height / max(max(growth.dg, growth.dr), 1e-37); }
     // With a large bailout its square may be past what an f32 holds.
     let inverse = 1.0 / max(growth.dr, 1e-37);
-    let j = inverse * growth.stretched;
-    let followed = dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]);
+    let followed = inverse * growth.stretched;
     let rest = max(growth.rest, inverse * growth.dg);
-    let norm = sqrt(max(followed + rest * rest, 1.0));
+    let norm = sqrt(max(dot(followed, followed) + rest * rest, 1.0));
     return inverse * height / norm;
 }
 
 // Each of an orbit's loops goes through steps of the difference first, where there are any, and
 // then through plain ones: where lanes disagree both sides of a branch are computed, but not of a
 // loop.
-fn reach(fractal: Fractal, point: vec3f) -> Reach {
+// `along`: the direction, a unit vector, in which the ray goes whose step this is for.
+fn reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     if (TURNS) { return turning_reach(fractal, point); }
-    let orbit = orbit_of(fractal, point);
+    let orbit = orbit_of(fractal, point, along);
     var walk = walk_from(orbit, point);
-    var growth = first_growth(fractal, orbit);
+    var growth = first_growth(fractal, orbit, along);
     if (DEEP) {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
             walk = skipped_walk(given.skips[which], given.places[given.skips[which].steps].z, point);
-            growth = skipped_growth(fractal, given.skips[which], point, which);
+            growth = skipped_growth(fractal, given.skips[which], point, along, which);
             break;
         }
     }
@@ -303,11 +297,11 @@ fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
 // start anew from close by; and in all views that are not deep or have frames that turn. Elsewhere the
 // step is negative, and only `reach` can tell.
 // Behind the near steps f32 leaves a millionth of the scale of a difference: a thousandth of a pixel.
-fn quick_reach(fractal: Fractal, point: vec3f) -> Reach {
-    if (!DEEP || TURNS) { return reach(fractal, point); }
-    let orbit = orbit_of(fractal, point);
+fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
+    if (!DEEP || TURNS) { return reach(fractal, point, along); }
+    let orbit = orbit_of(fractal, point, along);
     var walk = skipped_walk(picture.skip, picture.near[0].z, point);
-    var growth = skipped_growth(fractal, picture.skip, point, 0u);
+    var growth = skipped_growth(fractal, picture.skip, point, along, 0u);
     var q = squares(walk.z);
     for (var i = 0u; i < NEAR_STEPS; i++) {
         let step = raised_close(fractal, walk, picture.near[i], sqrt(q.a), q);
@@ -330,7 +324,7 @@ fn quick_reach(fractal: Fractal, point: vec3f) -> Reach {
 }
 
 fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
-    return reach(fractal, point).distance;
+    return reach(fractal, point, vec3f(0.0)).distance;
 }
 
 fn scaled_identity(scale: f32) -> mat3x3f {
@@ -384,7 +378,7 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
 // of dr, which leaves the direction alone.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     if (TURNS) { return turning_gradient(fractal, point); }
-    let orbit = orbit_of(fractal, point);
+    let orbit = orbit_of(fractal, point, vec3f(0.0));
     var walk = walk_from(orbit, point);
     let added = orbit.constant_derivative / orbit.start_derivative;
     var tangent = Tangent(scaled_identity(1.0), vec3f(0.0), added);
@@ -437,7 +431,7 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
         let end = turning_end(fractal, point);
         return colors_of(fractal, end.q, end.count, end.traps);
     }
-    let orbit = orbit_of(fractal, point);
+    let orbit = orbit_of(fractal, point, vec3f(0.0));
     var walk = walk_from(orbit, point);
     // Squared until the end.
     var traps = vec3f(4.0);

@@ -13,14 +13,14 @@ struct Known {
 
 // The reach at the point ahead. Where `known` needs it afterwards, it means nothing, and `careful_reach`
 // of the same point has to be put there.
-fn reach_ahead(known: ptr<function, Known>, fractal: Fractal, point: vec3f) -> Reach {
+fn reach_ahead(known: ptr<function, Known>, fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     var ahead = (*known).reach;
-    if (!(*known).is_needed) { ahead = quick_reach(fractal, point); }
+    if (!(*known).is_needed) { ahead = quick_reach(fractal, point, along); }
     (*known).is_needed = ahead.step < 0.0;
     return ahead;
 }
 
-fn careful_reach(fractal: Fractal, point: vec3f) -> Reach {
-    if (DEEP && !TURNS) { return reach(fractal, point); }
+fn careful_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
+    if (DEEP && !TURNS) { return reach(fractal, point, along); }
     return Reach(0.0, 0.0);
 }

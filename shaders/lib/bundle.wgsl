@@ -27,7 +27,7 @@ fn clear_cone(
     var known = Known(Reach(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = reach_ahead(&known, fractal, origin + t * axis);
+            let ahead = reach_ahead(&known, fractal, origin + t * axis, picture.skip.widest);
             if (known.is_needed) { break; }
             let ball = min(part * ahead.step, MOST_BALL) - hit_cone * t;
             let width = t * spread;
@@ -41,7 +41,7 @@ fn clear_cone(
             t += advance;
         }
         if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, origin + t * axis);
+        known.reach = careful_reach(fractal, origin + t * axis, picture.skip.widest);
     }
     return t;
 }

@@ -24,7 +24,9 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
             let is_looking = has_dips && crossing.looks > 0u;
             let is_inside = t <= interval.y || is_looking;
             var ahead = Reach(0.0, 0.0);
-            if (is_inside) { ahead = reach_ahead(&known, fractal, ray.origin + t * ray.direction); }
+            if (is_inside) {
+                ahead = reach_ahead(&known, fractal, ray.origin + t * ray.direction, ray.direction);
+            }
             if (known.is_needed) { break; }
             ahead.step = max(ahead.step, haste(i, fractal.march_steps) * ahead.distance);
             if (!is_looking) {
@@ -51,7 +53,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
             t += next_step(&pace, max(ahead.step, least_step * hit));
         }
         if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, ray.origin + t * ray.direction);
+        known.reach = careful_reach(fractal, ray.origin + t * ray.direction, ray.direction);
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

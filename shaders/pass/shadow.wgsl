@@ -31,7 +31,7 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
             var ahead = Reach(0.0, 0.0);
             let is_looking = has_dips && looks > 0u;
             if (s > surface_distance || is_looking) {
-                ahead = reach_ahead(&known, fractal, point + s * direction);
+                ahead = reach_ahead(&known, fractal, point + s * direction, direction);
             }
             if (known.is_needed) { break; }
             ahead.step = max(ahead.step, haste(i, fractal.shadow_steps) * ahead.distance);
@@ -54,7 +54,7 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
             s -= next_step(&pace, max(ahead.step, least_step(fractal, blocks, surface_distance)));
         }
         if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, point + s * direction);
+        known.reach = careful_reach(fractal, point + s * direction, direction);
     }
     return true;
 }

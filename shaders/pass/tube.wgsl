@@ -35,7 +35,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
     var known = Known(Reach(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = reach_ahead(&known, fractal, center + s * direction);
+            let ahead = reach_ahead(&known, fractal, center + s * direction, picture.skip.widest);
             if (known.is_needed) { break; }
             // No point is farther than this from the plane through `s`.
             let blocks = blocking_distance(fractal, s + extent, surface_distance);
@@ -45,7 +45,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
             s -= advance;
         }
         if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, center + s * direction);
+        known.reach = careful_reach(fractal, center + s * direction, picture.skip.widest);
     }
     return height + s;
 }

@@ -85,10 +85,7 @@ struct Skip {
     unused_h: u32,
     // The direction that those steps stretch most, a unit vector.
     widest: vec3f,
-    unused_i: u32,
-    // What they make of it, and how far they stretch whatever is across it: the rest of the
-    // Jacobian's norm.
-    stretched: vec3f,
+    // How far they stretch whatever is across it: the rest of the Jacobian's norm.
     rest: f32,
 }
 

@@ -76,8 +76,8 @@ fn another_anchor_moves_nothing() {
                 println!("power {} at {scale:e} about {ndc:?}: {moved:?}", fractal.power);
                 let Moved { moved, turned_deg, relit } = moved;
                 assert!(moved <= 0.01, "{scale:e}: {moved} of the pixels move");
-                // Steps follow what the anchor knows of the Jacobian, so that a hit may lie some
-                // hundredths of a pixel beside the other, where the surface is turned otherwise.
+                // Steps reckon with what the anchor knows of directions across the ray's, so that a hit may
+                // lie some hundredths of a pixel beside the other, where the surface is turned otherwise.
                 assert!(turned_deg < 1.0, "{scale:e}: normals turn by {turned_deg}");
                 assert!(relit < 0.02, "{scale:e}: light changes by {relit}");
             }

@@ -73,7 +73,6 @@ fn packed(skip: &deep::Skip) -> Skip {
     let rest = norm(&jacobian).powi(2) - stretched.length_squared();
     Skip {
         widest: vector(widest),
-        stretched: vector(stretched),
         rest: rest.max(0.0).sqrt() as f32,
         along_x: of_each(|jet| jet.gradient.x),
         steps: skip.steps,

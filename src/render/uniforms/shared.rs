@@ -190,10 +190,6 @@ host_shared! {
         unused_h: u32,
         /// The direction that those steps stretch most, a unit vector.
         widest: [f32; 3],
-        /// The same.
-        unused_i: u32,
-        /// What they make of it.
-        stretched: [f32; 3],
         /// The norm of the Jacobian across it.
         rest: f32,
     }
