@@ -293,10 +293,9 @@ fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
     return Reach(distance, min(safe_step(growth, height), fractal.max_step));
 }
 
-// The same where it is quick to tell, which is almost everywhere: near the anchor, on orbits that do not
-// start anew from close by; and in all views that are not deep or have frames that turn. Elsewhere the
-// step is negative, and only `reach` can tell.
-// Behind the near steps f32 leaves a millionth of the scale of a difference: a thousandth of a pixel.
+// The same where it is quick to tell, which is almost everywhere: near the anchor, on orbits whose
+// derivative stays above what f32 needs to tell pixels apart behind the near steps; and in all views that
+// are not deep or have frames that turn. Elsewhere the step is negative, and only `reach` can tell.
 fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     if (!DEEP || TURNS) { return reach(fractal, point, along); }
     let orbit = orbit_of(fractal, point, along);
