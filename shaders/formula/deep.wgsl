@@ -49,6 +49,11 @@ fn skipped_walk(skip: Skip, place: vec3f, point: vec3f) -> Walk {
     return Walk(place + difference, skip.steps, difference, skip.steps);
 }
 
+// The same of a skip that the picture does not hold.
+fn far_walk(which: u32, point: vec3f) -> Walk {
+    return skipped_walk(given.skips[which], given.places[given.skips[which].steps].z, point);
+}
+
 // The derivative after those steps.
 fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
     return skip.derivative + dot(skip.derivative_gradient, point);

@@ -127,16 +127,13 @@ struct Orbit {
     added: vec3f,
     // The constant's own derivative: the Julia form's does not move with the point.
     constant_derivative: f32,
-    // How the constant changes along the direction that deep views follow.
-    stretched: vec3f,
     // The point's own.
     start_derivative: f32,
     // The bailout's square.
     limit: f32,
 }
 
-// `along`: the direction that deep views follow.
-fn orbit_of(fractal: Fractal, point: vec3f, along: vec3f) -> Orbit {
+fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
     let julia = fractal.julia != 0u;
     let limit = fractal.bailout * fractal.bailout;
     if (DEEP) {
@@ -146,7 +143,6 @@ fn orbit_of(fractal: Fractal, point: vec3f, along: vec3f) -> Orbit {
             select(fractal.anchor, fractal.julia_constant, julia),
             select(offset, vec3f(0.0), julia),
             select(fractal.scale, 0.0, julia),
-            select(fractal.scale * along, vec3f(0.0), julia),
             fractal.scale,
             limit,
         );
@@ -156,7 +152,6 @@ fn orbit_of(fractal: Fractal, point: vec3f, along: vec3f) -> Orbit {
         select(point, fractal.julia_constant, julia) + BESIDE_AXIS,
         vec3f(0.0),
         select(1.0, 0.0, julia),
-        vec3f(0.0),
         1.0,
         limit,
     );
@@ -218,7 +213,10 @@ fn first_growth(fractal: Fractal, orbit: Orbit, along: vec3f) -> Growth {
     return Growth(one, dg, one * along, sqrt(2.0));
 }
 
-fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f, q: Squares) -> Growth {
+// `along`: the direction that deep views follow.
+fn grown(
+    fractal: Fractal, orbit: Orbit, along: vec3f, before: Growth, step: Raised, z: vec3f, q: Squares,
+) -> Growth {
     // Cut off before the step, so that the last one of an orbit, which may be by a factor of 1e19, is whole.
     let dr = step.stretch * min(before.dr, fractal.derivative_max) + orbit.constant_derivative;
     let widest = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
@@ -227,7 +225,7 @@ fn grown(fractal: Fractal, orbit: Orbit, before: Growth, step: Raised, z: vec3f,
         let added = orbit.constant_derivative / step_factor(fractal);
         return Growth(dr, dg + added, before.stretched, 0.0);
     }
-    let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.stretched;
+    let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.constant_derivative * along;
     return Growth(dr, dg, stretched, before.rest);
 }
 
@@ -248,13 +246,13 @@ fn safe_step(growth: Growth, height: f32) -> f32 {
 // `along`: the direction, a unit vector, in which the ray goes whose step this is for.
 fn reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     if (TURNS) { return turning_reach(fractal, point); }
-    let orbit = orbit_of(fractal, point, along);
+    let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     var growth = first_growth(fractal, orbit, along);
     if (DEEP) {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
-            walk = skipped_walk(given.skips[which], given.places[given.skips[which].steps].z, point);
+            walk = far_walk(which, point);
             growth = skipped_growth(fractal, given.skips[which], point, along, which);
             break;
         }
@@ -264,14 +262,14 @@ fn reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
         for (; DEEP; ) {
             if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
             let step = raised_next(fractal, walk, q);
-            growth = grown(fractal, orbit, growth, step, walk.z, q);
+            growth = grown(fractal, orbit, along, growth, step, walk.z, q);
             walk = step_close(walk, step, orbit);
             q = squares(walk.z);
         }
         for (; ; ) {
             if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
             let step = raised(fractal, walk.z, q);
-            growth = grown(fractal, orbit, growth, step, walk.z, q);
+            growth = grown(fractal, orbit, along, growth, step, walk.z, q);
             walk = step_on(walk, step.power, orbit);
             q = squares(walk.z);
         }
@@ -298,13 +296,13 @@ fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
 // are not deep or have frames that turn. Elsewhere the step is negative, and only `reach` can tell.
 fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     if (!DEEP || TURNS) { return reach(fractal, point, along); }
-    let orbit = orbit_of(fractal, point, along);
+    let orbit = orbit_of(fractal, point);
     var walk = skipped_walk(picture.skip, picture.near[0].z, point);
     var growth = skipped_growth(fractal, picture.skip, point, along, 0u);
     var q = squares(walk.z);
     for (var i = 0u; i < NEAR_STEPS; i++) {
         let step = raised_close(fractal, walk, picture.near[i], sqrt(q.a), q);
-        growth = grown(fractal, orbit, growth, step, walk.z, q);
+        growth = grown(fractal, orbit, along, growth, step, walk.z, q);
         walk = step_to(walk, picture.near[i + 1u].z, step, orbit);
         q = squares(walk.z);
     }
@@ -313,7 +311,7 @@ fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     for (; ; ) {
         if (!is_quick || has_ended(fractal, orbit, walk, q) || growth.dr < fractal.least_derivative) { break; }
         let step = raised(fractal, walk.z, q);
-        growth = grown(fractal, orbit, growth, step, walk.z, q);
+        growth = grown(fractal, orbit, along, growth, step, walk.z, q);
         walk.z = step.power + constant;
         walk.count += 1u;
         q = squares(walk.z);
@@ -377,14 +375,14 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
 // of dr, which leaves the direction alone.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     if (TURNS) { return turning_gradient(fractal, point); }
-    let orbit = orbit_of(fractal, point, vec3f(0.0));
+    let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     let added = orbit.constant_derivative / orbit.start_derivative;
     var tangent = Tangent(scaled_identity(1.0), vec3f(0.0), added);
     if (DEEP) {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
-            walk = skipped_walk(given.skips[which], given.places[given.skips[which].steps].z, point);
+            walk = far_walk(which, point);
             tangent = skipped_tangent(given.skips[which], orbit, point);
             break;
         }
@@ -430,14 +428,14 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
         let end = turning_end(fractal, point);
         return colors_of(fractal, end.q, end.count, end.traps);
     }
-    let orbit = orbit_of(fractal, point, vec3f(0.0));
+    let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     // Squared until the end.
     var traps = vec3f(4.0);
     if (DEEP) {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
-            walk = skipped_walk(given.skips[which], given.places[given.skips[which].steps].z, point);
+            walk = far_walk(which, point);
             traps = given.skips[which].traps_squared;
             break;
         }

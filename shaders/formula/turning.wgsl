@@ -93,7 +93,7 @@ fn moved_on(
 
 // Where an orbit gets to.
 fn turning_end(fractal: Fractal, point: vec3f) -> TurningEnd {
-    let orbit = orbit_of(fractal, point, vec3f(0.0));
+    let orbit = orbit_of(fractal, point);
     var place = given.places[0];
     let start = settled(place, orbit.start_derivative * point);
     var index = 0u;

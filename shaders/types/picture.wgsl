@@ -210,7 +210,6 @@ struct Eyes {
 const NEAR_STEPS = 3u;
 const NEAR_PLACES = 4u;
 
-
 struct Picture {
     camera: Camera,
     eyes: Eyes,
