@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// A scene that opens this much larger than a new one is taken for a dive.
-const DEEP_ZOOM: f64 = 1e4;
+const DIVE_ZOOM: f64 = 1e4;
 
 /// A button for each scene of a list, under the lists' headings, of which one is chosen.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
@@ -19,7 +19,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     ];
     let id = Id::unique("list of scenes");
     // Who comes by a link to a dive finds the others beside it.
-    let opening = usize::from(zoom(&cx.scene.camera) >= DEEP_ZOOM);
+    let opening = usize::from(zoom(&cx.scene.camera) >= DIVE_ZOOM);
     let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
     ui.horizontal(|ui| {
         for (index, (heading, help, ..)) in lists.iter().enumerate() {
