@@ -108,6 +108,8 @@ async function boot() {
     notice(lack.text, lack.detail);
     return;
   }
+  // Meanwhile.
+  const counted = countPixels(part("mandelight"));
   let mandelight;
   try {
     mandelight = await import("./mandelight.js");
@@ -120,7 +122,7 @@ async function boot() {
   }
   try {
     loading("Starting…", NaN);
-    await countPixels(part("mandelight"));
+    await counted;
     await mandelight.start(part("mandelight"));
     notice("");
   } catch (error) {
