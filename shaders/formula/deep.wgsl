@@ -7,6 +7,13 @@
 // Whether this pipeline is for views that are drawn from an anchor.
 override DEEP: bool = false;
 
+// How many steps of the difference all orbits near the anchor take together, 1 to `MOST_NEAR_STEPS`, and
+// whether a polynomial stands for the steps before them: else they are the orbit's first.
+override NEAR_STEPS: u32 = 3u;
+override HAS_SKIP: bool = true;
+// Whether rays step by what becomes of their own direction, rather than by a product of bounds.
+override FOLLOWS_DIRECTION: bool = DEEP && HAS_SKIP;
+
 // A difference is followed by itself while it is smaller than this part of the place:
 // `fractal::deep::CLOSE`.
 const CLOSE = 0.01;
@@ -35,17 +42,19 @@ fn skip_of(point: vec3f) -> u32 {
 
 // Whether a point's orbit takes the steps that the picture itself holds.
 fn is_near(point: vec3f) -> bool {
-    return dot(point, point) < picture.near_radius_squared;
+    return dot(point, point) < picture.fractal.near_radius_squared;
+}
+
+// Whether plain f32 tells a point from its neighbours: its pixel is wide enough.
+fn is_far(point: vec3f) -> bool {
+    return dot(point, point) > picture.fractal.far_radius_squared;
 }
 
 // Behind the steps that are skipped.
 fn skipped_walk(skip: Skip, place: vec3f, point: vec3f) -> Walk {
-    let squares = point * point;
-    let products = point * point.yzx;
-    let along = mat3x3f(skip.along_x, skip.along_y, skip.along_z) * point;
-    let pure = mat3x3f(skip.along_xx, skip.along_yy, skip.along_zz) * squares;
-    let mixed = mat3x3f(skip.along_xy, skip.along_yz, skip.along_zx) * products;
-    let difference = along + (0.5 * pure + mixed);
+    // The mean of the Jacobians at the anchor and at the point: of a second-order polynomial.
+    let at_anchor = mat3x3f(skip.along_x, skip.along_y, skip.along_z);
+    let difference = 0.5 * ((at_anchor + skipped_jacobian(skip, point)) * point);
     return Walk(place + difference, skip.steps, difference, skip.steps);
 }
 

@@ -195,22 +195,22 @@ fn dips(fractal: Fractal) -> bool {
 // An orbit's derivatives.
 struct Growth {
     dr: f32,
-    // What steps of plain views follow: dg, in units of the step factor, so that a step is the height
-    // over the larger of dr and dg. Over the many steps of a deep view it would grow far past what it
-    // stands for, and rays would creep. They follow what becomes of the direction in which they go, and of
-    // dg only what other directions can have come to since the steps were skipped.
+    // The product of bounds by which rays step where orbits are short, in units of the step factor: a step
+    // is the height over the larger of dr and dg. Over the many steps of a deep view it grows far past the
+    // Jacobian's norm, and rays would creep. There it bounds what became of other directions than the
+    // ray's own since the skipped steps.
     dg: f32,
-    // What has become of the direction that is followed.
+    // The ray's own direction times the Jacobian, where rays step by it.
     stretched: vec3f,
-    // How far directions were stretched where the skipped steps ended, but for the one that they stretch
-    // most, over dr: with depth that one leaves the others ever farther behind (by 3 to 100 at 1e-20).
+    // How far the skipped steps stretch other directions than the one that they stretch most, over dr:
+    // with depth that one leaves the others ever farther behind (by 3 to 100 at 1e-20).
     rest: f32,
 }
 
 fn first_growth(fractal: Fractal, orbit: Orbit, along: vec3f) -> Growth {
     let one = orbit.start_derivative;
-    let dg = select(one / step_factor(fractal), 0.0, DEEP);
-    return Growth(one, dg, one * along, sqrt(2.0));
+    let dg = select(one / step_factor(fractal), 0.0, FOLLOWS_DIRECTION);
+    return Growth(one, dg, one * along, 1.0);
 }
 
 // `along`: the direction that deep views follow.
@@ -221,7 +221,7 @@ fn grown(
     let dr = step.stretch * min(before.dr, fractal.derivative_max) + orbit.constant_derivative;
     let widest = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
     let dg = widest * min(before.dg, fractal.derivative_max);
-    if (!DEEP) {
+    if (!FOLLOWS_DIRECTION) {
         let added = orbit.constant_derivative / step_factor(fractal);
         return Growth(dr, dg + added, before.stretched, 0.0);
     }
@@ -231,12 +231,12 @@ fn grown(
 
 // How far a ray may go where an orbit has got so high.
 fn safe_step(growth: Growth, height: f32) -> f32 {
-    if (!DEEP) { return height / max(max(growth.dg, growth.dr), 1e-37); }
+    if (!FOLLOWS_DIRECTION) { return height / max(max(growth.dg, growth.dr), 1e-37); }
     // With a large bailout its square may be past what an f32 holds.
     let inverse = 1.0 / max(growth.dr, 1e-37);
     let followed = inverse * growth.stretched;
     let rest = max(growth.rest, inverse * growth.dg);
-    let norm = sqrt(max(dot(followed, followed) + rest * rest, 1.0));
+    let norm = max(max(length(followed), rest), 1.0);
     return inverse * height / norm;
 }
 
@@ -291,32 +291,62 @@ fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
     return Reach(distance, min(safe_step(growth, height), fractal.max_step));
 }
 
+// One of the near steps, from the place that the picture holds at `index`, unless the orbit has escaped.
+fn near_step(
+    index: u32, walk: ptr<function, Walk>, growth: ptr<function, Growth>, fractal: Fractal, orbit: Orbit,
+    along: vec3f,
+) {
+    let q = squares((*walk).z);
+    // No orbit escapes in the first: it comes from inside of the bounding sphere, or from behind a skip.
+    if (index > 0u && q.s > orbit.limit) { return; }
+    let step = raised_close(fractal, *walk, picture.near[index], sqrt(q.a), q);
+    *growth = grown(fractal, orbit, along, *growth, step, (*walk).z, q);
+    *walk = step_to(*walk, picture.near[index + 1u].z, step, orbit);
+}
+
 // The same where it is quick to tell, which is almost everywhere: near the anchor, on orbits whose
-// derivative stays above what f32 needs to tell pixels apart behind the near steps; and in all views that
-// are not deep or have frames that turn. Elsewhere the step is negative, and only `reach` can tell.
+// derivative stays above what f32 needs to tell pixels apart behind the near steps; so far from it that
+// plain f32 tells them apart; and in all views that are not deep or have frames that turn. Elsewhere the
+// step is negative, and only `reach` can tell.
 fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
     if (!DEEP || TURNS) { return reach(fractal, point, along); }
     let orbit = orbit_of(fractal, point);
-    var walk = skipped_walk(picture.skip, picture.near[0].z, point);
-    var growth = skipped_growth(fractal, picture.skip, point, along, 0u);
+    var walk = walk_from(orbit, point);
+    var growth = first_growth(fractal, orbit, along);
+    if (HAS_SKIP) {
+        walk = skipped_walk(picture.skip, picture.near[0].z, point);
+        growth = skipped_growth(fractal, picture.skip, point, along, 0u);
+    }
+    // No loop: drivers leave one of more than three such steps as it is, which takes twice as long.
+    near_step(0u, &walk, &growth, fractal, orbit, along);
+    if (NEAR_STEPS > 1u) { near_step(1u, &walk, &growth, fractal, orbit, along); }
+    if (NEAR_STEPS > 2u) { near_step(2u, &walk, &growth, fractal, orbit, along); }
+    if (NEAR_STEPS > 3u) { near_step(3u, &walk, &growth, fractal, orbit, along); }
+    if (NEAR_STEPS > 4u) { near_step(4u, &walk, &growth, fractal, orbit, along); }
+    if (NEAR_STEPS > 5u) { near_step(5u, &walk, &growth, fractal, orbit, along); }
+    if (NEAR_STEPS > 6u) { near_step(6u, &walk, &growth, fractal, orbit, along); }
+    if (NEAR_STEPS > 7u) { near_step(7u, &walk, &growth, fractal, orbit, along); }
     var q = squares(walk.z);
-    for (var i = 0u; i < NEAR_STEPS; i++) {
-        let step = raised_close(fractal, walk, picture.near[i], sqrt(q.a), q);
-        growth = grown(fractal, orbit, along, growth, step, walk.z, q);
-        walk = step_to(walk, picture.near[i + 1u].z, step, orbit);
+    var is_quick = is_near(point);
+    var least = fractal.least_derivative / max(0.5 * length(point), 1.0);
+    if (HAS_SKIP && is_far(point)) {
+        is_quick = true;
+        least = 0.0;
+        walk.z = orbit.start + BESIDE_AXIS;
+        walk.count = 0u;
+        growth = first_growth(fractal, orbit, along);
         q = squares(walk.z);
     }
-    let is_quick = is_near(point);
     let constant = orbit.constant + orbit.added;
     for (; ; ) {
-        if (!is_quick || has_ended(fractal, orbit, walk, q) || growth.dr < fractal.least_derivative) { break; }
+        if (!is_quick || has_ended(fractal, orbit, walk, q) || growth.dr < least) { break; }
         let step = raised(fractal, walk.z, q);
         growth = grown(fractal, orbit, along, growth, step, walk.z, q);
         walk.z = step.power + constant;
         walk.count += 1u;
         q = squares(walk.z);
     }
-    if (!is_quick || growth.dr < fractal.least_derivative) { return Reach(0.0, -1.0); }
+    if (!is_quick || growth.dr < least) { return Reach(0.0, -1.0); }
     return reach_at(fractal, growth, q);
 }
 

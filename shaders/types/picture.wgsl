@@ -51,6 +51,13 @@ struct Fractal {
     restart: u32,
     // 1 where orbits are followed in frames that turn with their points' longitudes.
     turns: u32,
+    // Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
+    near_radius_squared: f32,
+    // Beyond which radius of the anchor, squared, plain f32 tells points apart.
+    far_radius_squared: f32,
+    // How many near steps there are, and 1 where `Picture.skip` stands for the steps before those.
+    near_steps: u32,
+    has_skip: u32,
 }
 
 // The first steps of all orbits near the anchor at once, by the point's offset: second-order
@@ -85,7 +92,7 @@ struct Skip {
     unused_h: u32,
     // The direction that those steps stretch most, a unit vector.
     widest: vec3f,
-    // How far they stretch whatever is across it: the rest of the Jacobian's norm.
+    // How far they stretch what is across it: the root of the mean square.
     rest: f32,
 }
 
@@ -206,9 +213,9 @@ struct Eyes {
     unused: vec2u,
 }
 
-// Steps behind a skip that all orbits near the anchor take together.
-const NEAR_STEPS = 3u;
-const NEAR_PLACES = 4u;
+// Most steps that all orbits near the anchor take together, and the places that they pass.
+const MOST_NEAR_STEPS = 8u;
+const NEAR_PLACES = 9u;
 
 struct Picture {
     camera: Camera,
@@ -226,8 +233,7 @@ struct Picture {
     size_px: vec2u,
     // How normals are found.
     normals: u32,
-    // Within which radius of the anchor, squared, orbits take the near steps together; 0 where none do.
-    near_radius_squared: f32,
+    unused: u32,
     // The skip before those (else the first one), and the places between which they are.
     skip: Skip,
     near: array<Place, NEAR_PLACES>,

@@ -1,5 +1,7 @@
 //! What rays and normals have pipelines of their own for.
 
+use std::fmt;
+
 use super::{kernels::Constants, uniforms::Picture};
 
 /// What rays and normals are specialised for.
@@ -7,28 +9,59 @@ use super::{kernels::Constants, uniforms::Picture};
 pub struct Form {
     /// A whole power; 0 for others.
     pub power: u32,
-    /// How far their views go down.
+    /// How their orbits are followed.
     pub depth: Depth,
 }
 
-/// Which views kernels are for.
+/// How kernels follow orbits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Depth {
-    /// Those about the scene's origin.
+    /// In plain f32 about the scene's origin.
     Plain,
-    /// Those that are drawn from an anchor.
-    Deep,
-    /// Those of even powers about an anchor hard by the polar axis.
+    /// By the difference to the anchor's orbit, as far as f32 needs that.
+    Near(NearSteps),
+    /// In frames that turn: even powers about an anchor hard by the polar axis.
     Turning,
 }
 
+/// The steps that all orbits near the anchor take together before they go on in plain f32.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct NearSteps {
+    /// How many steps follow the difference: 1 to [`MOST_NEAR_STEPS`](super::uniforms::MOST_NEAR_STEPS).
+    pub count: u32,
+    /// Whether a polynomial stands for the steps before them; else they are the orbit's first.
+    pub has_skip: bool,
+}
+
 impl Depth {
+    /// Those that a dive passes, from the top down.
+    pub const ON_THE_WAY_DOWN: [Self; 3] = [
+        Self::Near(NearSteps { count: 1, has_skip: false }),
+        Self::Near(NearSteps { count: 2, has_skip: false }),
+        Self::Near(NearSteps { count: 3, has_skip: true }),
+    ];
+
     /// A picture's.
     fn of(picture: &Picture) -> Self {
-        match (picture.fractal.places, picture.fractal.turns) {
+        let fractal = &picture.fractal;
+        match (fractal.places, fractal.turns) {
             (0, _) => Self::Plain,
-            (_, 0) => Self::Deep,
+            (_, 0) => {
+                Self::Near(NearSteps { count: fractal.near_steps, has_skip: fractal.has_skip != 0 })
+            }
             _ => Self::Turning,
+        }
+    }
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "power {}, ", self.power)?;
+        match self.depth {
+            Depth::Plain => write!(f, "plain"),
+            Depth::Near(NearSteps { count, has_skip: false }) => write!(f, "{count} near"),
+            Depth::Near(NearSteps { count, has_skip: true }) => write!(f, "skip, {count} near"),
+            Depth::Turning => write!(f, "turning"),
         }
     }
 }
@@ -51,8 +84,18 @@ impl Form {
 
     /// The overrides that make it.
     pub fn constants(self) -> Constants {
-        let deep = self.is_deep().then_some(("DEEP", 1.0));
-        let turns = (self.depth == Depth::Turning).then_some(("TURNS", 1.0));
-        [("POWER", f64::from(self.power))].into_iter().chain(deep).chain(turns).collect()
+        let mut constants = vec![("POWER", f64::from(self.power))];
+        if self.is_deep() {
+            constants.push(("DEEP", 1.0));
+        }
+        match self.depth {
+            Depth::Plain => (),
+            Depth::Near(NearSteps { count, has_skip }) => {
+                constants.push(("NEAR_STEPS", f64::from(count)));
+                constants.push(("HAS_SKIP", f64::from(has_skip)));
+            }
+            Depth::Turning => constants.push(("TURNS", 1.0)),
+        }
+        constants
     }
 }

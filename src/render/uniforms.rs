@@ -86,7 +86,7 @@ impl Picture {
                 Normals::TwentySix => 4,
                 Normals::Analytic => 5,
             },
-            near_radius_squared: 0.0,
+            unused: 0,
             skip: Skip::zeroed(),
             near: [Place::zeroed(); NEAR_PLACES],
         }
@@ -200,6 +200,10 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         own_places: reference.map_or(0, |reference| reference.own_places() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         turns: reference.is_some_and(|reference| reference.turns()).into(),
+        near_radius_squared: 0.0,
+        far_radius_squared: f32::MAX,
+        near_steps: 0,
+        has_skip: 0,
     }
 }
 

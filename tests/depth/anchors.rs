@@ -1,10 +1,10 @@
 //! Another anchor makes no other picture, and none at all the same, where f32 can do without.
 
-use std::sync::Arc;
+use std::{collections::HashSet, sync::Arc};
 
 use mandelight::{
     fractal::Reference,
-    render::{Region, datum::Datum},
+    render::{Region, datum::Datum, kernels::Form, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
 
@@ -128,4 +128,42 @@ fn a_dive_hands_over_without_a_jump() {
     let (before, after) = (&steps[..4], &steps[5..]);
     let most = before.iter().chain(after).fold(0.0, |a, b| f64::max(a, *b));
     assert!(steps[4] <= 1.05 * most, "a step of {} between others of {most}", steps[4]);
+}
+
+/// On the way down orbits are followed in ever more steps of the difference, then behind a skip. Where
+/// one way gives way to the next, both draw the same.
+#[test]
+fn every_hand_over_draws_the_same() {
+    for fractal in &sets() {
+        let form = |scale: f64| {
+            let scene = places::at(fractal.clone(), scale);
+            let datum = Datum::about(found(&scene, SIZE), &scene);
+            Form::of(&Inputs::about(&scene, Region::whole(SIZE), &datum).picture)
+        };
+        let scales: Vec<_> = (0..26).map(|i| 1e-2 * 0.5_f64.powi(i)).collect();
+        let mut forms = HashSet::new();
+        for pair in scales.windows(2) {
+            let (mut above, mut below) = (pair[0], pair[1]);
+            forms.insert(form(above));
+            if form(above) == form(below) {
+                continue;
+            }
+            for _ in 0..20 {
+                let middle = (above * below).sqrt();
+                *(if form(middle) == form(above) { &mut above } else { &mut below }) = middle;
+            }
+            let [a, b] = [above, below].map(|scale| {
+                let scene = places::at(fractal.clone(), scale);
+                drawn(&scene, SIZE, &Datum::about(found(&scene, SIZE), &scene))
+            });
+            let moved = moved(&places::at(fractal.clone(), below), &a, &b, 0.2);
+            let (old, new) = (form(above), form(below));
+            println!("{old} to {new} at {below:e}: {moved:?}");
+            assert!(moved.moved <= 0.01, "{old} to {new} at {below:e}: {moved:?}");
+            // Other skips, other steps: a hit may lie some hundredths of a pixel beside the other.
+            assert!(moved.turned_deg < 1.5, "{old} to {new} at {below:e}: {moved:?}");
+            assert!(moved.relit < 0.02, "{old} to {new} at {below:e}: {moved:?}");
+        }
+        assert!(forms.len() >= 3, "power {}: {forms:?}", fractal.power);
+    }
 }

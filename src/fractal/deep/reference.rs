@@ -134,10 +134,24 @@ impl Reference {
         self.skipping(scale).within(radii)
     }
 
-    /// What orbits up to each of these distances from the anchor, in scales, skip that then take `behind`
-    /// steps together: see [`Skipping::before`].
-    pub fn near_skips(&self, scale: f64, behind: usize, radii: &[f64]) -> Vec<Option<Skip>> {
-        self.skipping(scale).before(behind, radii)
+    /// A skip of no steps.
+    pub fn no_skip(&self, scale: f64) -> Skip {
+        self.skipping(scale).start()
+    }
+
+    /// dr along the anchor's orbit, from its start on, at so many of its places at most; in units of one
+    /// over the scale.
+    pub fn derivatives(&self, scale: f64, places: usize) -> Vec<f64> {
+        let power = TriplexPower::new(&self.fractal);
+        let added = if self.fractal.julia { 0.0 } else { scale };
+        let mut dr = scale;
+        let places = &self.places[..places.min(self.own_places)];
+        let step = |place: &Place| {
+            let here = dr;
+            dr = power.growth(place.z.length()) * dr + added;
+            here
+        };
+        places.iter().map(step).collect()
     }
 
     fn skipping(&self, scale: f64) -> Skipping<'_> {

@@ -16,9 +16,6 @@ const DIFFERENCE_ERROR: f64 = 5e-5;
 /// The same of the derivative.
 const DERIVATIVE_ERROR: f64 = 2e-4;
 
-/// A difference that takes no orbit from where the anchor's is to beyond the least bailout.
-const SMALL: f64 = 0.5;
-
 /// What m steps of the orbits about an anchor make of their offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Skip {
@@ -92,38 +89,8 @@ impl Skipping<'_> {
         rungs.into_iter().map(|rung| rung.skip).collect()
     }
 
-    /// What orbits skip that then take `behind` steps together, for which differences have to stay
-    /// [`SMALL`]; for each of these radii, as far as there is any.
-    pub fn before(&self, behind: usize, radii: &[f64]) -> Vec<Option<Skip>> {
-        let radii_and_skips = radii.iter().zip(self.within(radii));
-        let before = |(radius, skip): (&f64, Skip)| {
-            let most = self.small_for(*radius).checked_sub(behind)?;
-            Some(if skip.steps as usize > most { self.of(most) } else { skip })
-        };
-        radii_and_skips.map(before).collect()
-    }
-
-    /// So many steps.
-    fn of(&self, steps: usize) -> Skip {
-        let places = self.places.iter().zip(&self.places[1..]).take(steps);
-        places.fold(self.start(), |skip, (place, next)| self.step(&skip, place, next))
-    }
-
-    /// For how many steps all differences of offsets up to a radius are [`SMALL`].
-    fn small_for(&self, radius: f64) -> usize {
-        let mut probes: Vec<_> =
-            directions().map(|way| Probe::new(way * radius, self.scale)).collect();
-        let is_small = |place: &&Place| {
-            for probe in &mut probes {
-                self.step_probe(probe, place);
-            }
-            probes.iter().all(|probe| probe.difference.length() < SMALL)
-        };
-        self.places[..self.places.len() - 1].iter().take_while(is_small).count()
-    }
-
     /// No steps at all.
-    fn start(&self) -> Skip {
+    pub fn start(&self) -> Skip {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         Skip {
             steps: 0,

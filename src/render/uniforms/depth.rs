@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use bytemuck::Zeroable;
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3};
 
-use super::{NEAR_STEPS, Picture, Place, Skip};
+use super::{MOST_NEAR_STEPS, Picture, Place, Skip};
 use crate::{
     fractal::deep::{self, reference::MOST_PLACES, spread::norm},
-    render::datum::Datum,
+    render::{datum::Datum, form::NearSteps},
 };
 
 /// How many skips there are.
@@ -23,14 +23,29 @@ pub const FIRST_RADIUS: f64 = 12.0;
 /// From each radius to the next.
 pub const RADII_RATIO: f64 = 8.0;
 
-/// How far from the anchor orbits may take the near steps together, in scales: the last that costs no
-/// step beside [`FIRST_RADIUS`], and a nearer one only where that is too far.
-const NEAR_RADII: [f64; 7] = [1.5, 3.0, 6.0, FIRST_RADIUS, 24.0, 48.0, 96.0];
-
 /// Behind the near steps an f32 knows places to 3e-8, and points to that over dr. It should be no more
 /// than a tenth of the hit distance: orbits whose dr, in units of one over the scale, falls below this
 /// over the hit cone, as where they come by the origin, follow the difference itself for longer.
-const LEAST_DERIVATIVE: f32 = 3e-7;
+const LEAST_DERIVATIVE: f64 = 3e-7;
+/// Pictures of wider pixels are as exact as those of such a hit cone.
+const WIDEST_CONE: f64 = 7e-4;
+
+/// How many steps of the difference from the anchor's start may do: views of which an f32 falls short by
+/// one or two digits need no more.
+const FIRST_STEPS: [u32; 2] = [1, 2];
+/// How many times [`LEAST_DERIVATIVE`] the anchor's dr is behind those.
+const FIRST_ROOM: f64 = 5.0;
+
+/// How many steps of the difference come behind a skip: three nearly everywhere, more where orbits come by
+/// the origin soon after it.
+const STEPS_AFTER_SKIP: [u32; 3] = [3, 5, MOST_NEAR_STEPS as u32];
+/// The same as [`FIRST_ROOM`] behind those.
+const ROOM_AFTER_SKIP: f64 = 4.0;
+/// Radii about the anchor, in scales, within which orbits may skip steps together: two of a power, 1.5 to
+/// 4e5. Hardly any ray of most views goes farther.
+const NEAR_RADII: usize = 37;
+/// A radius that is enough for fewer steps to do.
+const WIDE_RADIUS: f64 = 12.0;
 
 /// Skips, nearest to the anchor first.
 pub type Skips = [Skip; SKIPS];
@@ -70,10 +85,11 @@ fn packed(skip: &deep::Skip) -> Skip {
     let jacobian = DMat3::from_cols(x.gradient, y.gradient, z.gradient).transpose();
     let widest = widest_direction(jacobian);
     let stretched = jacobian * widest;
-    let rest = norm(&jacobian).powi(2) - stretched.length_squared();
+    // Of two directions across it.
+    let rest_squared = 0.5 * (norm(&jacobian).powi(2) - stretched.length_squared());
     Skip {
         widest: vector(widest),
-        rest: rest.max(0.0).sqrt() as f32,
+        rest: rest_squared.max(0.0).sqrt() as f32,
         along_x: of_each(|jet| jet.gradient.x),
         steps: skip.steps,
         along_y: of_each(|jet| jet.gradient.y),
@@ -108,35 +124,65 @@ fn widest_direction(map: DMat3) -> DVec3 {
 /// only the first skip where orbits, or the reference, are too short for more.
 pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[Place]) {
     picture.skip = skips[0];
-    let Some((radius, skip)) =
-        datum.reference().and_then(|reference| near_skip(reference, datum.scale()))
-    else {
-        return;
-    };
-    let first = skip.steps as usize;
-    let Some(near) = places.get(first..=first + NEAR_STEPS) else { return };
-    let power = picture.fractal.power;
-    let stretch = |place: &Place| power * Vec3::from_array(place.z).length().powf(power - 1.0);
-    let derivative =
-        near[..NEAR_STEPS].iter().map(stretch).product::<f32>() * skip.derivative.value as f32;
-    let ends = picture.fractal.own_places.min(picture.fractal.iterations + 1) as usize;
-    let least = LEAST_DERIVATIVE / picture.camera.hit_cone;
-    if first + NEAR_STEPS < ends && derivative >= least {
-        picture.fractal.least_derivative = least;
-        picture.skip = packed(&skip);
-        picture.near.copy_from_slice(near);
-        picture.near_radius_squared = (radius * radius) as f32;
-    }
+    let Some(reference) = datum.reference().filter(|reference| !reference.turns()) else { return };
+    let hit_cone = f64::from(picture.camera.hit_cone);
+    let least = LEAST_DERIVATIVE / hit_cone.min(WIDEST_CONE);
+    let fractal = &mut picture.fractal;
+    let own_places = fractal.own_places.min(fractal.iterations + 1) as usize;
+    let Some(near) = Near::find(reference, datum.scale(), own_places, least) else { return };
+    fractal.near_steps = near.steps.count;
+    fractal.has_skip = near.steps.has_skip.into();
+    fractal.near_radius_squared = near.radius.powi(2).min(1e37) as f32;
+    fractal.least_derivative = least as f32;
+    // The eye is one scale from the anchor.
+    let far_radius = 1.0 + deep::COARSEST_FOOTPRINT / (hit_cone * datum.scale());
+    fractal.far_radius_squared = far_radius.powi(2).min(1e37) as f32;
+    picture.skip = packed(&near.skip);
+    let passed = &places[near.skip.steps as usize..][..=near.steps.count as usize];
+    picture.near[..passed.len()].copy_from_slice(passed);
 }
 
-/// What orbits near the anchor skip before the near steps, and how far from it they may be.
-fn near_skip(reference: &deep::Reference, scale: f64) -> Option<(f64, deep::Skip)> {
-    let skips = reference.near_skips(scale, NEAR_STEPS, &NEAR_RADII);
-    let found: Vec<_> = NEAR_RADII
-        .into_iter()
-        .zip(skips)
-        .filter_map(|(radius, skip)| Some((radius, skip?)))
-        .collect();
-    let wanted = found.iter().rfind(|(radius, _)| *radius <= FIRST_RADIUS)?.1.steps;
-    found.into_iter().rfind(|(_, skip)| skip.steps >= wanted)
+/// What orbits near the anchor do together before they go on in plain f32.
+struct Near {
+    steps: NearSteps,
+    /// Of no steps where there is none.
+    skip: deep::Skip,
+    /// How far from the anchor their points may be, in scales.
+    radius: f64,
+}
+
+impl Near {
+    /// The least that leaves orbits room: so far above `least` dr is behind it.
+    fn find(
+        reference: &deep::Reference,
+        scale: f64,
+        own_places: usize,
+        least: f64,
+    ) -> Option<Self> {
+        let derivatives = reference.derivatives(scale, own_places);
+        // One step on as well: other orbits come by the origin where the anchor's does.
+        let room = |behind: u32| {
+            let pair = derivatives.get(behind as usize..)?.first_chunk::<2>()?;
+            Some(pair[0].min(pair[1]) / least)
+        };
+        let first = FIRST_STEPS
+            .into_iter()
+            .find(|&count| room(count).is_some_and(|room| room >= FIRST_ROOM));
+        if let Some(count) = first {
+            let steps = NearSteps { count, has_skip: false };
+            return Some(Self { steps, skip: reference.no_skip(scale), radius: f64::INFINITY });
+        }
+        let radii: [f64; NEAR_RADII] = std::array::from_fn(|i| 1.5 * 2_f64.sqrt().powi(i as i32));
+        let skips = reference.skips(scale, &radii);
+        let widest = |count: u32| {
+            let found = skips.iter().zip(radii).rfind(|(skip, _)| {
+                room(skip.steps + count).is_some_and(|room| room >= ROOM_AFTER_SKIP)
+            });
+            let (skip, radius) = found?;
+            Some(Self { steps: NearSteps { count, has_skip: true }, skip: *skip, radius })
+        };
+        let found: Vec<_> = STEPS_AFTER_SKIP.into_iter().filter_map(widest).collect();
+        let most = found.iter().map(|near| near.radius).fold(0.0, f64::max);
+        found.into_iter().find(|near| near.radius >= most.min(WIDE_RADIUS))
+    }
 }

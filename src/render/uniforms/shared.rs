@@ -8,10 +8,10 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::render::report::HISTOGRAM_BINS;
 
-/// Steps behind the first skip that all orbits near the anchor take together.
-pub const NEAR_STEPS: usize = 3;
+/// Most steps that all orbits near the anchor take together.
+pub const MOST_NEAR_STEPS: usize = 8;
 /// The places that they pass.
-pub const NEAR_PLACES: usize = NEAR_STEPS + 1;
+pub const NEAR_PLACES: usize = MOST_NEAR_STEPS + 1;
 
 /// One field of a host-shared struct: name, byte offset, size in bytes.
 pub type FieldLayout = (&'static str, usize, usize);
@@ -140,6 +140,14 @@ host_shared! {
         /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
         /// see [`crate::fractal::deep::turn`].
         turns: u32,
+        /// Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
+        near_radius_squared: f32,
+        /// Beyond which radius of the anchor, squared, plain f32 tells points apart.
+        far_radius_squared: f32,
+        /// How many near steps there are.
+        near_steps: u32,
+        /// 1 where the picture's skip stands for the steps before those.
+        has_skip: u32,
     }
     /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::skip`].
     Skip {
@@ -306,8 +314,8 @@ host_shared! {
         size_px: [u32; 2],
         /// How normals are found: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
         normals: u32,
-        /// Within which radius of the anchor, squared, orbits take the near steps together; 0 where none do.
-        near_radius_squared: f32,
+        /// Keeps the offset of what follows a multiple of 16 bytes.
+        unused: u32,
         /// The skip before those; else the first one.
         skip: Skip,
         /// The places between which those steps are.
