@@ -136,7 +136,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         folder: &folder,
         options: StillOptions { panorama, ..options },
         eyes,
-        kernels: Kernels::new(&gpu),
+        kernels: Kernels::for_stills(&gpu),
         health: Health::of(&gpu),
         interrupted,
         progress: progress_bar(quiet),

@@ -101,7 +101,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let outputs = files.iter().map(File::create).collect::<Result<Vec<_>, _>>()?;
 
     let gpu = arguments.adapter.open()?;
-    let kernels = Kernels::new(&gpu);
+    let kernels = Kernels::for_stills(&gpu);
     let health = Health::of(&gpu);
     let progress = progress_bar(arguments.quiet);
     let count = files.len() as u32;

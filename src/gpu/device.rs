@@ -151,3 +151,31 @@ fn adapter_name(adapter: &wgpu::Adapter) -> String {
     // Browsers may keep the name to themselves.
     format!("{} · {}", if info.name.is_empty() { "GPU" } else { &info.name }, info.backend)
 }
+
+/// `f` of every item, in order: on as many threads as there are processors, where the platform has any.
+pub fn in_parallel<T: Sync, R: Send + Sync>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    #[cfg(target_arch = "wasm32")]
+    return items.iter().map(f).collect();
+    #[cfg(not(target_arch = "wasm32"))]
+    {
+        let next = std::sync::atomic::AtomicUsize::new(0);
+        let found: Vec<_> = items.iter().map(|_| std::sync::OnceLock::new()).collect();
+        let work = || {
+            while let Some((item, found)) = {
+                let index = next.fetch_add(1, Ordering::Relaxed);
+                items.get(index).zip(found.get(index))
+            } {
+                // Each index is handed out once.
+                let _ = found.set(f(item));
+            }
+        };
+        let threads = std::thread::available_parallelism().map_or(1, |count| count.get());
+        std::thread::scope(|scope| {
+            for _ in 1..threads.min(items.len()) {
+                scope.spawn(work);
+            }
+            work();
+        });
+        found.into_iter().filter_map(std::sync::OnceLock::into_inner).collect()
+    }
+}

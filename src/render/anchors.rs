@@ -95,6 +95,11 @@ impl Anchors {
         Some(Datum::about(found.reference.clone(), scene))
     }
 
+    /// Whether views want an anchor, or are about to.
+    pub fn are_near(&self) -> bool {
+        self.at_hand.is_some() || self.search.is_some()
+    }
+
     /// The newest anchor's orbit.
     pub fn reference(&self) -> Option<Arc<Reference>> {
         Some(self.at_hand.as_ref()?.reference.clone())

@@ -8,10 +8,11 @@ use std::{
 use super::{Region, layouts::pipeline_layout, pass, uniforms::Picture};
 pub use super::{
     form::{Depth, Form},
+    glow_kernels::GlowKernels,
     layouts::Layouts,
 };
 use crate::{
-    gpu::{Gpu, shader::Module},
+    gpu::{Gpu, device::in_parallel, shader::Module},
     scene::Scene,
 };
 
@@ -37,33 +38,54 @@ fn pipeline(
     })
 }
 
+/// A pass in its general form, compiled when it is first asked for.
+struct Plain {
+    module: &'static Module,
+    layout: wgpu::PipelineLayout,
+    shader: OnceLock<wgpu::ShaderModule>,
+    pipeline: OnceLock<wgpu::ComputePipeline>,
+}
+
+impl Plain {
+    fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
+        let (shader, pipeline) = (OnceLock::new(), OnceLock::new());
+        Self { module, layout: layout.clone(), shader, pipeline }
+    }
+
+    fn shader(&self, device: &wgpu::Device) -> &wgpu::ShaderModule {
+        self.shader.get_or_init(|| self.module.create(device))
+    }
+
+    fn pipeline(&self, kernels: &Kernels) -> wgpu::ComputePipeline {
+        let make = || {
+            let (device, label) = (&kernels.gpu.device, self.module.label);
+            locked(&kernels.made).push(label.to_owned());
+            pipeline(device, &self.layout, self.shader(device), label, &Constants::new())
+        };
+        self.pipeline.get_or_init(make).clone()
+    }
+}
+
 /// A pass that any picture can have in its general form, and that is faster with some of the
 /// picture's values compiled in: then there is nothing left to decide. (Where lanes disagree, and
 /// always on lavapipe, all sides of a decision are computed.)
 struct Special {
-    label: &'static str,
-    module: wgpu::ShaderModule,
-    layout: wgpu::PipelineLayout,
-    general: wgpu::ComputePipeline,
+    general: Plain,
     /// By what they are for, and which of its parts they are.
     made: Mutex<HashMap<(Extra, usize), wgpu::ComputePipeline>>,
 }
 
 impl Special {
-    fn new(device: &wgpu::Device, layout: &wgpu::PipelineLayout, module: &Module) -> Self {
-        let shader = module.create(device);
-        Self {
-            label: module.label,
-            general: pipeline(device, layout, &shader, module.label, &Constants::new()),
-            module: shader,
-            layout: layout.clone(),
-            made: Mutex::default(),
-        }
+    fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
+        Self { general: Plain::new(layout, module), made: Mutex::default() }
     }
 
     /// Its form for `extra`, or the general one until that is kept.
-    fn of(&self, extra: Extra, part: usize) -> wgpu::ComputePipeline {
-        locked(&self.made).get(&(extra, part)).unwrap_or(&self.general).clone()
+    fn of(&self, extra: Extra, part: usize, kernels: &Kernels) -> wgpu::ComputePipeline {
+        if let Some(made) = locked(&self.made).get(&(extra, part)) {
+            return made.clone();
+        }
+        self.general.pipeline(kernels)
     }
 
     fn keep(&self, extra: Extra, part: usize, pipeline: wgpu::ComputePipeline) {
@@ -186,46 +208,6 @@ impl Extra {
     }
 }
 
-/// The passes that see the film as a whole.
-pub struct GlowKernels {
-    /// Film to the finest mip level.
-    pub mean: wgpu::ComputePipeline,
-    /// A mip level to the next.
-    pub reduce: wgpu::ComputePipeline,
-    /// Mean to exposure.
-    pub expose: wgpu::ComputePipeline,
-    /// Film to histogram.
-    pub histogram: wgpu::ComputePipeline,
-    /// What blooms, to the finest mip level.
-    pub bloom: wgpu::ComputePipeline,
-    /// One direction of a blur.
-    pub blur: wgpu::ComputePipeline,
-}
-
-impl GlowKernels {
-    /// Their names and modules, in the order of the fields.
-    const PARTS: [&Module; 6] = [
-        &pass::mean::MODULE,
-        &pass::reduce::MODULE,
-        &pass::expose::MODULE,
-        &pass::histogram::MODULE,
-        &pass::bloom::MODULE,
-        &pass::blur::MODULE,
-    ];
-
-    /// All of them, made by `part` from their places in [`Self::PARTS`].
-    fn from_parts(mut part: impl FnMut(usize) -> wgpu::ComputePipeline) -> Self {
-        Self {
-            mean: part(0),
-            reduce: part(1),
-            expose: part(2),
-            histogram: part(3),
-            bloom: part(4),
-            blur: part(5),
-        }
-    }
-}
-
 /// The pipelines that every picture needs, and the [extra](Extra) ones made so far.
 pub struct Kernels {
     /// The device.
@@ -234,22 +216,18 @@ pub struct Kernels {
     pub layouts: Layouts,
     cone: Special,
     march: Special,
-    /// G-buffer to a list of its surface points.
-    pub hits: wgpu::ComputePipeline,
+    hits: Plain,
     normal: Special,
     tube: Special,
     shadow: Special,
     shade: Special,
     tone: Special,
     gather: OnceLock<wgpu::ComputePipeline>,
-    /// Pixels between those of a sparse lattice.
-    pub fill: wgpu::ComputePipeline,
+    fill: Plain,
     glow: OnceLock<GlowKernels>,
     glow_layout: wgpu::PipelineLayout,
-    /// Samples of a sparse lattice to display values.
-    pub develop: wgpu::ComputePipeline,
-    /// Those to the display.
-    pub spread: wgpu::ComputePipeline,
+    develop: Plain,
+    spread: Plain,
     /// Those that can be used without delay.
     ready: Mutex<HashSet<Extra>>,
     /// The labels of all pipelines so far.
@@ -257,8 +235,22 @@ pub struct Kernels {
 }
 
 impl Kernels {
-    /// Makes the pipelines that every picture needs.
+    /// Makes the general forms of all passes, which draw whatever comes.
     pub fn new(gpu: &Gpu) -> Arc<Self> {
+        let kernels = Self::for_stills(gpu);
+        let Self { cone, march, normal, tube, shadow, shade, tone, .. } = &*kernels;
+        let specials =
+            [cone, march, normal, tube, shadow, shade, tone].map(|special| &special.general);
+        let Self { hits, fill, develop, spread, .. } = &*kernels;
+        for plain in specials.into_iter().chain([hits, fill, develop, spread]) {
+            plain.pipeline(&kernels);
+        }
+        kernels
+    }
+
+    /// Makes nothing yet: stills have the special forms of their passes compiled before they begin, and
+    /// need no others.
+    pub fn for_stills(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
         let Layouts { picture, gbuffer, listed, listing, film, glow, backdrop, .. } = &layouts;
@@ -268,27 +260,17 @@ impl Kernels {
         let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
         let glow_layout =
             pipeline_layout(device, "passes over the film as a whole", &[picture, glow, film]);
-        let mut labels = Vec::new();
-        let mut special = |layout: &wgpu::PipelineLayout, module: &Module| {
-            labels.push(module.label.to_owned());
-            Special::new(device, layout, module)
-        };
-        let cone = special(&listing_layout, &pass::cone::MODULE);
-        let march = special(&listed_layout, &pass::march::MODULE);
-        let normal = special(&listed_layout, &pass::normal::MODULE);
-        let tube = special(&listing_layout, &pass::tube::MODULE);
-        let shadow = special(&listed_layout, &pass::shadow::MODULE);
-        let shade = special(&shade_layout, &pass::shade::MODULE);
-        let tone = special(&glow_layout, &pass::tone::MODULE);
-        let mut plain = |layout: &wgpu::PipelineLayout, module: &Module| {
-            labels.push(module.label.to_owned());
-            let shader = module.create(device);
-            pipeline(device, layout, &shader, module.label, &Constants::new())
-        };
-        let hits = plain(&listing_layout, &pass::hits::MODULE);
-        let fill = plain(&layout, &pass::fill::MODULE);
-        let develop = plain(&layout, &pass::develop::MODULE);
-        let spread = plain(&layout, &pass::spread::MODULE);
+        let cone = Special::new(&listing_layout, &pass::cone::MODULE);
+        let march = Special::new(&listed_layout, &pass::march::MODULE);
+        let normal = Special::new(&listed_layout, &pass::normal::MODULE);
+        let tube = Special::new(&listing_layout, &pass::tube::MODULE);
+        let shadow = Special::new(&listed_layout, &pass::shadow::MODULE);
+        let shade = Special::new(&shade_layout, &pass::shade::MODULE);
+        let tone = Special::new(&glow_layout, &pass::tone::MODULE);
+        let hits = Plain::new(&listing_layout, &pass::hits::MODULE);
+        let fill = Plain::new(&layout, &pass::fill::MODULE);
+        let develop = Plain::new(&layout, &pass::develop::MODULE);
+        let spread = Plain::new(&layout, &pass::spread::MODULE);
         Arc::new(Self {
             gpu: gpu.clone(),
             cone,
@@ -307,7 +289,7 @@ impl Kernels {
             glow_layout,
             layouts,
             ready: Mutex::default(),
-            made: Mutex::new(labels),
+            made: Mutex::default(),
         })
     }
 
@@ -327,16 +309,36 @@ impl Kernels {
     pub fn passes(&self, picture: &Picture) -> Passes {
         let [rays, normals, light, tone] = Extra::special(picture);
         Passes {
-            cone: self.cone.of(rays, 0),
-            march: self.march.of(rays, 1),
-            tube: self.tube.of(rays, 2),
-            shadow: self.shadow.of(rays, 3),
-            normal: self.normal.of(normals, 0),
-            shade: self.shade.of(light, 0),
-            shade_together: self.shade.of(light, 1),
-            tone: self.tone.of(tone, 0),
-            sparse_tone: self.tone.of(tone, 1),
+            cone: self.cone.of(rays, 0, self),
+            march: self.march.of(rays, 1, self),
+            tube: self.tube.of(rays, 2, self),
+            shadow: self.shadow.of(rays, 3, self),
+            normal: self.normal.of(normals, 0, self),
+            shade: self.shade.of(light, 0, self),
+            shade_together: self.shade.of(light, 1, self),
+            tone: self.tone.of(tone, 0, self),
+            sparse_tone: self.tone.of(tone, 1, self),
         }
+    }
+
+    /// G-buffer to a list of its surface points.
+    pub fn hits(&self) -> wgpu::ComputePipeline {
+        self.hits.pipeline(self)
+    }
+
+    /// Pixels between those of a sparse lattice.
+    pub fn fill(&self) -> wgpu::ComputePipeline {
+        self.fill.pipeline(self)
+    }
+
+    /// Samples of a sparse lattice to display values.
+    pub fn develop(&self) -> wgpu::ComputePipeline {
+        self.develop.pipeline(self)
+    }
+
+    /// Those to the display.
+    pub fn spread(&self) -> wgpu::ComputePipeline {
+        self.spread.pipeline(self)
     }
 
     /// Whether [`Self::passes`] has rays of this form alone.
@@ -360,11 +362,27 @@ impl Kernels {
         }
     }
 
+    /// The same of several at once, on as many threads as the platform has for that.
+    pub fn prepare_together(&self, extras: &[Extra]) {
+        let parts: Vec<_> = extras
+            .iter()
+            .filter(|extra| !self.is_ready(**extra))
+            .flat_map(|&extra| (0..extra.parts()).map(move |part| (extra, part)))
+            .collect();
+        let mut made = HashMap::<Extra, Vec<_>>::new();
+        let pipelines = in_parallel(&parts, |&(extra, part)| self.make(extra, part));
+        for ((extra, _), pipeline) in parts.into_iter().zip(pipelines) {
+            made.entry(extra).or_default().push(pipeline);
+        }
+        for (extra, pipelines) in made {
+            self.keep(extra, pipelines);
+            self.set_ready(extra);
+        }
+    }
+
     /// Compiles all special forms of a scene's passes. This may take a second and blocks.
     pub fn specialise(&self, scene: &Scene) {
-        for extra in Extra::special(&Picture::new(scene, Region::whole([64, 64]))) {
-            self.prepare(extra);
-        }
+        self.prepare_together(&Extra::special(&Picture::new(scene, Region::whole([64, 64]))));
     }
 
     /// The passes that an extra has special forms of, in the order of its parts.
@@ -413,11 +431,13 @@ impl Kernels {
             }
             Extra::Glow => plain(&self.glow_layout, GlowKernels::PARTS[part]),
             _ => {
-                let Special { label, module, layout, .. } = self.special(extra)[part];
+                let Plain { module, layout, .. } = &self.special(extra)[part].general;
+                let shader = self.special(extra)[part].general.shader(device);
+                let label = module.label;
                 let constants = extra.constants(part);
                 let values = constants.iter().map(|(name, value)| format!(", {name} {value}"));
                 let label = format!("{label}{}", values.collect::<String>());
-                let pipeline = pipeline(device, layout, module, &label, &constants);
+                let pipeline = pipeline(device, layout, shader, &label, &constants);
                 (label, pipeline)
             }
         }

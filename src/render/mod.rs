@@ -14,6 +14,7 @@
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
+//! | `glow_kernels` | the pipelines of those passes |
 //! | `anchors` | the anchors of a view that moves |
 //! | [`datum`] | where coordinates begin, and their unit |
 //! | [`lists`] | which threads a pass has work for |
@@ -33,6 +34,7 @@ pub mod form;
 pub mod frame;
 pub mod gbuffer;
 pub mod glow;
+mod glow_kernels;
 pub mod kernels;
 pub mod lattice;
 mod layouts;

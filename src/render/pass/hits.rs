@@ -22,7 +22,7 @@ pub const MODULE: Module = Module {
 
 /// Lists the surface points of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.kernels.hits.clone();
+    let pipeline = recorder.kernels.hits();
     let slice = recorder.slice(trace, grid);
     let lists = &recorder.targets.lists;
     lists.clear_hits(&recorder.kernels.gpu.queue);

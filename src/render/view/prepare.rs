@@ -5,7 +5,7 @@ use crate::{
     render::{
         Pace,
         glow::Need,
-        kernels::Extra,
+        kernels::{Depth, Extra, Form},
         preparation::{Preparation, Progress},
     },
     scene::{IndirectKind, Scene},
@@ -18,11 +18,11 @@ impl View {
     /// Sees to it that pipelines are there before anything needs them: for a still at once,
     /// otherwise after saying so. True while nothing else should start.
     pub(super) fn prepare(&mut self) -> bool {
+        if self.pace == Pace::Still {
+            self.kernels.prepare_together(&self.of_still());
+            return false;
+        }
         while let Some((extra, is_awaited)) = self.missing() {
-            if self.pace == Pace::Still {
-                self.kernels.prepare(extra);
-                continue;
-            }
             let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return false };
             let inputs = self.inputs_of(scene);
             let preparation = match self.preparation.take() {
@@ -38,6 +38,22 @@ impl View {
         }
         self.preparation = None;
         false
+    }
+
+    /// All pipelines beside the general forms that a still needs.
+    fn of_still(&self) -> Vec<Extra> {
+        let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return Vec::new() };
+        let special = match &self.inputs {
+            Some(inputs) if self.pending.is_none() => Extra::special(&inputs.picture),
+            _ => Extra::special(&self.inputs_of(scene).picture),
+        };
+        let gathers = scene.indirect.kind != IndirectKind::Off;
+        let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
+        let others = [
+            gathers.then_some(Extra::Gather),
+            (glows || self.watch.is_wanted()).then_some(Extra::Glow),
+        ];
+        special.into_iter().chain(others.into_iter().flatten()).collect()
     }
 
     /// The pipelines that are to be prepared now, if any, and whether the scene cannot be drawn
@@ -69,10 +85,25 @@ impl View {
             is_free.then_some(Extra::Gather),
             is_free.then_some(Extra::Glow),
         ];
+        let others = others.into_iter().chain(self.of_dive().into_iter().map(Some));
         let awaited = awaited.into_iter().map(|extra| (extra, true));
-        let all = awaited.chain(others.into_iter().map(|extra| (extra, false)));
+        let all = awaited.chain(others.map(|extra| (extra, false)));
         all.filter_map(|(extra, is_awaited)| Some((extra?, is_awaited)))
             .find(|(extra, _)| !self.kernels.is_ready(*extra))
+    }
+
+    /// What a dive is going to need, once there may be one and where compiling holds nothing up.
+    fn of_dive(&self) -> Vec<Extra> {
+        let can = self.kernels.gpu.aside.is_some() && self.pace == Pace::Interactive;
+        let Some(inputs) = self.inputs.as_ref().filter(|_| can && self.anchors.are_near()) else {
+            return Vec::new();
+        };
+        let power = Form::of(&inputs.picture).power;
+        let of = |depth| {
+            let form = Form { power, depth };
+            [Extra::Rays(form), Extra::Normals(form, inputs.picture.normals)]
+        };
+        Depth::ON_THE_WAY_DOWN.into_iter().flat_map(of).collect()
     }
 
     /// The special forms of passes that are due: for a still at once, otherwise at rest, for a
