@@ -8,7 +8,10 @@ mod bench;
 mod estimate;
 
 use bench::{
-    arguments::Arguments, counts, instrument, kindness, literal, powers, statistics, views,
+    arguments::Arguments,
+    counts, descent, instrument, kindness,
+    limits::{Limits, Measure, Measured},
+    literal, powers, statistics, views,
 };
 use clap::Parser as _;
 use glam::DVec3;
@@ -308,4 +311,75 @@ fn a_cost_of_so_much_a_product_is_found() {
     assert!((table.fixed_ns - 1.5).abs() < 0.15, "{table:?}");
     assert!((table.product_ns - 0.25).abs() < 0.05, "{table:?}");
     assert!((1.3..1.5).contains(&table.worst) && !table.is_good(), "{table:?}");
+}
+
+fn measured(measure: Measure, view: &str, value: f64) -> Measured {
+    Measured { measure, view: view.to_owned(), value }
+}
+
+#[test]
+fn what_falls_is_named() {
+    let limits = Limits::parse("# why\nratio whole 2\ncost deep-1e-5 1.5 # a reason\n\n");
+    let limits = limits.expect("limits");
+    let good = [measured(Measure::Ratio, "whole", 2.1), measured(Measure::Cost, "deep-1e-5", 1.4)];
+    assert_eq!(limits.complaints(&good), [""; 0]);
+    let bad = [
+        measured(Measure::Ratio, "whole", 1.9),
+        measured(Measure::Cost, "deep-1e-5", 1.6),
+        measured(Measure::Steps, "whole", 1.0),
+    ];
+    let complaints = limits.complaints(&bad);
+    assert_eq!(complaints.len(), 3);
+    assert!(complaints[0].contains("ratio whole 1.900 breaks its limit of 2.000"));
+    assert!(complaints[2].contains("has no limit"));
+}
+
+#[test]
+fn limits_only_tighten() {
+    let text = "estimates whole 10 # a reason\nratio whole 2\n";
+    let run = [
+        measured(Measure::Estimates, "whole", 8.0),
+        measured(Measure::Ratio, "whole", 1.0),
+        measured(Measure::Cost, "deep-1e-5", 2.0),
+    ];
+    let tightened = Limits::tightened(text, &run).expect("limits");
+    let expected = "estimates whole 8.080 # a reason\nratio whole 2\ncost deep-1e-5 3.000\n";
+    assert_eq!(tightened, expected);
+}
+
+#[test]
+fn nonsense_is_named() {
+    for (text, part) in [
+        ("ratio whole", "line 1"),
+        ("\nspeed whole 2", "line 2"),
+        ("ratio whole much", "no number"),
+        ("ratio whole 1\nratio whole 2", "already"),
+    ] {
+        assert!(Limits::parse(text).expect_err(text).contains(part), "{text:?}");
+    }
+}
+
+#[test]
+fn the_file_has_limits() {
+    let limits = Limits::parse(include_str!("../benches/speed/limits.txt")).expect("limits");
+    assert_ne!(limits, Limits::default());
+}
+
+/// Each place is a point of the surface, seen along a line that is free of the set: from every distance
+/// the estimate is far above that of the point itself.
+#[test]
+fn descents_lead_to_the_surface() {
+    for place in descent::PLACES {
+        for (_, distance) in descent::distances().into_iter().filter(|(_, d)| *d > 1e-8) {
+            let scene = place.scene(distance).expect("a scene");
+            let fractal = Fractal { iterations: 60, ..scene.fractal.clone() };
+            let field = Estimator::new(&fractal);
+            let [eye, point] =
+                [&scene.camera.position, &scene.camera.pivot].map(|point| point.to_dvec3());
+            let [from_eye, from_point] = [eye, point].map(|point| field.distance(point));
+            let name = format!("{} {} at {distance:e}", place.name, place.set());
+            assert!(from_point < 1e-3 * distance, "{name}: {from_point} at the point");
+            assert!(from_eye > 1e-4 * distance, "{name}: {from_eye} at the eye");
+        }
+    }
 }

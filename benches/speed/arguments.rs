@@ -18,6 +18,9 @@ pub struct Arguments {
     /// Rounds of one picture by either side; medians are told
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
+    /// Of the descent, only places whose names contain one of these, such as streaky-8
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    pub places: Vec<String>,
     /// Also time the program's passes one by one, each a dispatch over the whole picture
     #[arg(long)]
     pub passes: bool,
@@ -33,9 +36,13 @@ pub struct Arguments {
     /// Also put the tables into this file, docs/benchmark.md, in place of its own
     #[arg(long, value_name = "FILE")]
     pub tables: Option<PathBuf>,
-    /// Fail where a picture is not good enough for its ratio to count
+    /// Fail where a picture is not good enough for its ratio to count, or, in the views' own sizes,
+    /// where a limit is broken
     #[arg(long)]
     pub check: bool,
+    /// Also tighten the limits in this file, benches/speed/limits.txt, to what was measured
+    #[arg(long, value_name = "FILE", conflicts_with = "size")]
+    pub tighten: Option<PathBuf>,
     /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,

@@ -106,6 +106,19 @@ pub fn ours(
     size_px: [u32; 2],
 ) -> Result<Vec<(&'static str, Counts)>, Failure> {
     let split = ours::Split::new(kernels, scene, size_px);
+    let passes = counting_passes(kernels, &split)?;
+    let mut counts = split.count(&passes)?;
+    if scene.quality.samples > 1 {
+        counts.push((LATER, split.count_later(&passes)?));
+    }
+    Ok(counts)
+}
+
+/// Copies of the passes that march, for pictures of one form, that count.
+///
+/// # Errors
+/// Where a kernel can't be counted.
+pub fn counting_passes(kernels: &Kernels, split: &ours::Split<'_>) -> Result<Passes, Failure> {
     let constants = Form::of(split.picture()).constants();
     let gpu = &kernels.gpu;
     let [listing, listed] = [&kernels.layouts.listing, &kernels.layouts.listed]
@@ -125,17 +138,12 @@ pub fn ours(
                 cache: None,
             }))
         };
-    let passes = Passes {
+    Ok(Passes {
         cone: made(&listing, &pass::cone::MODULE, "reach_at")?,
         march: made(&listed, &pass::march::MODULE, "reach_at")?,
         normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
         tube: made(&listing, &pass::tube::MODULE, "reach_at")?,
         shadow: made(&listed, &pass::shadow::MODULE, "reach_at")?,
         ..kernels.passes(split.picture())
-    };
-    let mut counts = split.count(&passes)?;
-    if scene.quality.samples > 1 {
-        counts.push((LATER, split.count_later(&passes)?));
-    }
-    Ok(counts)
+    })
 }

@@ -6,34 +6,23 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use mandelight::{
     render::{Kernels, Region, datum::wants_anchor},
-    scene::{Camera, EnvironmentLight, Precise, PrecisePoint, Scene},
+    scene::Scene,
 };
 use serde::Serialize;
 
 use super::{
     Failure,
     counts::{self, Counts},
+    descent::PLACES,
     ours,
     statistics::median,
-    views::{sampled, sky, with_lights},
+    views::SIZE_PX,
 };
 
 /// What `--views` calls the table.
 pub const NAME: &str = "deep";
-/// The picture, unless another size is asked for.
-const SIZE_PX: [u32; 2] = [640, 360];
-
-/// A point of the power-8 bulb, in a crevice at every scale, and from where it is looked at.
-const ANCHOR: [&str; 3] = [
-    "0.15379861659292883236866770985698080436629960",
-    "-0.84801966252866654201816769898541895762149767",
-    "0.59761228259006374734788457605399937869280647",
-];
-const TOWARD: DVec3 = DVec3::new(0.2891, 0.8866, -0.3611);
-
 /// How far away the eye is, scene units, and what scripts call it.
 const DISTANCES: [(&str, f64); 7] = [
     ("deep-1e-3", 1e-3),
@@ -62,21 +51,10 @@ pub struct Row {
     pub cost: f64,
 }
 
+/// The place of the power-8 bulb that lies in a crevice at every scale.
 fn scene(distance: f64) -> Result<Scene, Failure> {
-    let [x, y, z] = ANCHOR.map(str::parse::<Precise>);
-    let anchor = PrecisePoint([x?, y?, z?]);
-    let toward = TOWARD.normalize();
-    let camera = Camera::looking_at(-toward, DVec3::ZERO, DVec3::Z);
-    let reaching = |light| EnvironmentLight { shadow_reach: Some(1.0), ..light };
-    let scene = Scene {
-        camera: Camera {
-            position: anchor.moved_by(-toward * distance, 1e-6 * distance),
-            pivot: anchor,
-            ..camera
-        },
-        ..Default::default()
-    };
-    Ok(sampled(with_lights(scene, sky().into_iter().map(reaching).collect()), 1))
+    let place = PLACES.iter().find(|place| place.name == "streaky" && place.set() == "8");
+    place.ok_or("there is no such place")?.scene(distance)
 }
 
 /// Measures them in turn, so many rounds.

@@ -9,6 +9,7 @@
 //! | `arguments` | the command line |
 //! | `views` | what is drawn |
 //! | `compare` | one view by both sides |
+//! | `limits` | what a run is held to |
 //! | `literal` | the thesis's algorithm on the GPU |
 //! | `kindness` | its kindest honest settings |
 //! | `ours` | the program's stills, and its passes one by one |
@@ -19,6 +20,7 @@
 //! | `peak` | the adapter's multiply-adds |
 //! | `powers` | what an orbit step costs, power by power |
 //! | `deep` | what depth costs |
+//! | `descent` | what every half decade on the way down costs |
 //! | `scaling` | how time grows with what is asked for |
 //! | `start` | how long it takes until there is a picture |
 //! | `feel` | a recorded session against the clock |
@@ -31,10 +33,12 @@ pub mod arguments;
 pub mod compare;
 pub mod counts;
 pub mod deep;
+pub mod descent;
 pub mod errors;
 pub mod feel;
 pub mod instrument;
 pub mod kindness;
+pub mod limits;
 pub mod literal;
 pub mod ours;
 pub mod peak;
@@ -52,9 +56,13 @@ use std::process::ExitCode;
 
 use arguments::Arguments;
 use clap::Parser as _;
+use limits::Limits;
 use mandelight::{gpu::Gpu, render::Kernels};
 use report::Report;
 use views::View;
+
+/// The limits of views in their own sizes.
+const LIMITS: &str = include_str!("limits.txt");
 
 pub type Failure = Box<dyn std::error::Error>;
 
@@ -64,7 +72,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) if !arguments.check => ExitCode::SUCCESS,
         Ok(false) => {
-            eprintln!("bench: something is not as good as it has to be");
+            eprintln!("bench: a picture, a power or a limit is not as good as it has to be");
             ExitCode::FAILURE
         }
         Err(failure) => {
@@ -74,8 +82,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Measures what the arguments ask for and tells it; true where every picture is good enough, and
-/// every power as cheap as its products.
+/// Measures what the arguments ask for and tells it; true where every picture is good enough, every
+/// power as cheap as its products, and nothing breaks its limit.
 ///
 /// # Errors
 /// Where a view has no such name, there is no such adapter, its device is lost or reports errors,
@@ -104,6 +112,14 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     if arguments.wants(deep::NAME) {
         report.deep = deep::measure(&kernels, arguments.rounds, arguments.size)?;
         deep::print(&report.deep);
+    }
+    if arguments.wants(descent::NAME) {
+        report.descent = descent::measure(
+            &kernels,
+            arguments.rounds.div_ceil(2),
+            arguments.size,
+            &arguments.places,
+        )?;
     }
     if arguments.wants(powers::NAME) {
         let table = powers::measure(&gpu, 3 * arguments.rounds)?;
@@ -136,8 +152,17 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         let text = tables::updated(std::fs::read_to_string(file)?, &report)?;
         std::fs::write(file, text)?;
     }
+    let run_in_own_sizes = if arguments.size.is_none() { report.measured() } else { Vec::new() };
+    if let Some(file) = &arguments.tighten {
+        let text = Limits::tightened(&std::fs::read_to_string(file)?, &run_in_own_sizes)?;
+        std::fs::write(file, text)?;
+    }
+    let complaints = Limits::parse(LIMITS)?.complaints(&run_in_own_sizes);
+    for complaint in complaints.iter().filter(|_| arguments.check) {
+        println!("FAIL: {complaint}");
+    }
     match gpu.faults() {
-        0 => Ok(report.is_good()),
+        0 => Ok(report.is_good() && complaints.is_empty()),
         faults => Err(format!("the device reported {faults} errors").into()),
     }
 }
@@ -145,7 +170,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
 /// The views that were asked for, in the size that was asked for.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
-    let tables = [deep::NAME, powers::NAME, scaling::NAME, start::NAME, feel::NAME];
+    let tables = [deep::NAME, descent::NAME, powers::NAME, scaling::NAME, start::NAME, feel::NAME];
     let names: Vec<_> = views.iter().map(|view| view.name).chain(tables).collect();
     if let Some(name) = arguments.views.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());

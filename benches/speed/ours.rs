@@ -65,6 +65,8 @@ pub struct Split<'a> {
     kernels: &'a Kernels,
     inputs: Inputs,
     targets: Targets,
+    /// One workgroup of the picture in so many is drawn.
+    spread: u32,
     counts: wgpu::Buffer,
     counts_layout: wgpu::BindGroupLayout,
     counts_group: wgpu::BindGroup,
@@ -76,7 +78,12 @@ impl<'a> Split<'a> {
 
     /// Allocates the buffers. The power's own pipelines are there already.
     pub fn new(kernels: &'a Kernels, scene: &Scene, size_px: [u32; 2]) -> Self {
-        let region = Region::whole(size_px);
+        Self::spread(kernels, scene, Region::whole(size_px), 1)
+    }
+
+    /// The same of one workgroup in `spread`: work goes through a region in a scattered order, so
+    /// that its first part shows a bit of everything.
+    pub fn spread(kernels: &'a Kernels, scene: &Scene, region: Region, spread: u32) -> Self {
         let inputs = Inputs::new(scene, region);
         let targets = Targets::new(kernels, region);
         targets.upload(&kernels.gpu.queue, &inputs);
@@ -110,12 +117,20 @@ impl<'a> Split<'a> {
                 resource: counts.as_entire_binding(),
             }],
         });
-        Self { kernels, inputs, targets, counts, counts_layout, counts_group }
+        Self { kernels, inputs, targets, spread, counts, counts_layout, counts_group }
     }
 
     /// What the passes know of the scene.
     pub fn picture(&self) -> &Picture {
         &self.inputs.picture
+    }
+
+    /// About how many pixels are drawn: those of workgroups that reach past the region count whole.
+    pub fn pixels(&self) -> f64 {
+        let grid = Points::Level(0).grid(self.inputs.picture.size_px);
+        let pixels: f64 = self.inputs.picture.size_px.into_iter().map(f64::from).product();
+        let workgroups = f64::from(grid.workgroups());
+        pixels * f64::from(grid.workgroups().div_ceil(self.spread)) / workgroups
     }
 
     /// What counting copies bind that either `listed` or `listing` passes are of.
@@ -195,7 +210,7 @@ impl<'a> Split<'a> {
     /// These points of the whole picture, in pieces of `most` workgroups.
     fn traces(&self, points: Points, most: u32) -> impl Iterator<Item = Trace> {
         let lights = u64::MAX >> (64 - self.inputs.picture.surface.light_count.clamp(1, 64));
-        let all = points.grid(self.inputs.picture.size_px).workgroups();
+        let all = points.grid(self.inputs.picture.size_px).workgroups().div_ceil(self.spread);
         (0..all).step_by(most as usize).map(move |first_workgroup| Trace {
             points,
             from: Stage::March,

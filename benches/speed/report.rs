@@ -2,7 +2,14 @@
 
 use serde::Serialize;
 
-use super::{counts::Counts, deep, errors::Errors, feel, powers, scaling, start};
+use super::{
+    counts::Counts,
+    deep, descent,
+    errors::Errors,
+    feel,
+    limits::{Measure, Measured},
+    powers, scaling, start,
+};
 
 /// Everything that one run measured.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -15,6 +22,8 @@ pub struct Report {
     pub powers: Option<powers::Table>,
     /// What depth costs.
     pub deep: Vec<deep::Row>,
+    /// What every half decade on the way down costs.
+    pub descent: Vec<descent::Row>,
     /// How time grows with what is asked for.
     pub scaling: Vec<scaling::Row>,
     /// How long it takes until there is a picture.
@@ -24,6 +33,34 @@ pub struct Report {
 }
 
 impl Report {
+    /// All that has a limit.
+    pub fn measured(&self) -> Vec<Measured> {
+        let mut all = Vec::new();
+        let mut add = |measure, view: &str, value| {
+            all.push(Measured { measure, view: view.to_owned(), value });
+        };
+        let mut add_counts = |view: &str, counts: Counts, times: &[(Measure, f64)]| {
+            add(Measure::Estimates, view, counts.estimates);
+            add(Measure::Steps, view, counts.steps);
+            for &(measure, value) in times {
+                add(measure, view, value);
+            }
+        };
+        for view in &self.views {
+            add_counts(view.view, view.ours.counts, &[(Measure::Ratio, view.ratio)]);
+        }
+        for row in &self.deep {
+            add_counts(row.name, row.counts, &[(Measure::Cost, row.cost)]);
+        }
+        for row in &self.descent {
+            add_counts(&row.name, row.counts, &[(Measure::Cost, row.cost)]);
+        }
+        if let Some(worst) = descent::worst(&self.descent) {
+            add(Measure::Cost, &format!("{}-worst", descent::NAME), worst);
+        }
+        all
+    }
+
     /// True where every picture is good enough for its ratio to count, and every power costs no
     /// more than its products.
     pub fn is_good(&self) -> bool {

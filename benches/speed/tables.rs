@@ -4,7 +4,11 @@
 
 use std::fmt::Write as _;
 
-use super::report::{Comparison, Report};
+use super::{
+    counts::Counts,
+    descent::Row,
+    report::{Comparison, Report},
+};
 
 /// `text` with the tables that `report` has.
 ///
@@ -32,6 +36,12 @@ pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
             "\nFit: {fixed:.2} ns and {product:.2} ns a product; no power is further off than {worst:.2} times."
         );
         tables.push(("powers", table));
+    }
+    if !report.deep.is_empty() {
+        tables.push(("deep", deep(report)));
+    }
+    if !report.descent.is_empty() {
+        tables.push(("descent", descent(report)));
     }
     if !report.scaling.is_empty() {
         let mut table = head(&["asked for", "beside", "times as much", "times as long"]);
@@ -84,6 +94,44 @@ fn times(report: &Report) -> String {
             format!("{:.1}{counts}", view.ratio),
         ];
         line(&mut table, cells.into_iter());
+    }
+    table
+}
+
+fn deep(report: &Report) -> String {
+    let columns =
+        ["view", "drawn", "ms", "estimates a pixel", "orbit steps an estimate", "ns an estimate"];
+    let mut table = head(&[columns.as_slice(), &["cost"]].concat());
+    for row in &report.deep {
+        let Counts { estimates, steps } = row.counts;
+        let drawn = if row.is_deep { "from an anchor" } else { "plain" };
+        let numbers = [
+            format!("{:.0}", row.ms),
+            format!("{estimates:.1}"),
+            format!("{:.1}", steps / estimates),
+            format!("{:.1}", row.estimate_ns),
+            format!("{:.1}", row.cost),
+        ];
+        line(&mut table, [format!("`{}`", row.name), drawn.to_owned()].into_iter().chain(numbers));
+    }
+    table
+}
+
+/// A line a place: of some scales the cost of an estimate and that of a picture, and the worst of all.
+fn descent(report: &Report) -> String {
+    const SCALES: [&str; 8] = ["3e-3", "1e-3", "1e-4", "1e-5", "1e-9", "1e-13", "1e-20", "1e-27"];
+    let mut table = head(&[["place"].as_slice(), &SCALES, &["worst", "largest change"]].concat());
+    for rows in report.descent.chunk_by(|a, b| a.place == b.place) {
+        let at = |scale: &str| rows.iter().find(|row| row.scale == scale);
+        let cells = SCALES.map(|scale| {
+            at(scale).map_or("–".into(), |row| format!("{:.1} / {:.1}", row.cost, row.picture))
+        });
+        let most = |value: fn(&Row) -> f64| rows.iter().map(value).fold(0.0, f64::max);
+        let worst = format!("{:.1} / {:.1}", most(|row| row.cost), most(|row| row.picture));
+        let changes = [most(|row| row.changes[0]), most(|row| row.changes[1])];
+        let changes = format!("{:.2} / {:.2}", changes[0], changes[1]);
+        let place = rows.first().map_or(String::new(), |row| row.place.clone());
+        line(&mut table, [place].into_iter().chain(cells).chain([worst, changes]));
     }
     table
 }
