@@ -138,7 +138,6 @@ fn host_constants_match_their_wgsl_twins() {
         ("RAY_LISTS", lists::RAY_LISTS as f64),
         ("SKIPS", uniforms::SKIPS as f64),
         ("MOST_NEAR_STEPS", uniforms::MOST_NEAR_STEPS as f64),
-        ("NEAR_PLACES", uniforms::NEAR_PLACES as f64),
         ("FIRST_RADIUS", uniforms::FIRST_RADIUS),
         ("RADII_RATIO", uniforms::RADII_RATIO),
         ("CLOSE", deep::CLOSE),

@@ -228,16 +228,18 @@ fn what_cannot_be_counted_is_said() {
     let marks = |estimates| instrument::Marks {
         orbits_in: "formula/",
         other_loops: &[],
+        steps: &["step"],
         estimates,
         entries: &["main"],
         buffer: [0, 0],
     };
-    let orbit = "fn far(n: u32) {\n    for (var i = 0u; i < n; i++) {\n    }\n}\n";
+    let orbit = "fn step() {\n    return;\n}\nfn far(n: u32) {\n    for (var i = 0u; i < n; i++) {\n    }\n}\n";
     let entry = "@compute @workgroup_size(1)\nfn main(@builtin(workgroup_id) id: vec3u) {\n}\n";
     let files = [("formula/a.wgsl", orbit), ("pass/b.wgsl", entry)];
     let text = instrument::counting(&files, &marks(&["far"])).expect("all is there");
     assert!(text.contains("fn counted_main(id: vec3u) {"), "{text}");
     assert!(text.contains("fn far(n: u32) { counted_estimates += 1u;"), "{text}");
+    assert!(text.contains("return;\ncounted_steps += 1u;\n}\nfn far"), "{text}");
     assert!(instrument::counting(&files, &marks(&["near"])).unwrap_err().contains("near"));
     assert!(instrument::counting(&files[..1], &marks(&["far"])).unwrap_err().contains("main"));
     assert!(instrument::counting(&files[1..], &marks(&[])).unwrap_err().contains("formula/"));

@@ -41,7 +41,7 @@ pub struct Arguments {
     #[arg(long)]
     pub check: bool,
     /// Also tighten the limits in this file, benches/speed/limits.txt, to what was measured
-    #[arg(long, value_name = "FILE", conflicts_with = "size")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["size", "places"])]
     pub tighten: Option<PathBuf>,
     /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
     #[arg(long, value_name = "NAME")]

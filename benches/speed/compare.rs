@@ -11,6 +11,7 @@ use super::{
     errors::{Shown, Truths},
     kindness,
     literal::{Kindness, Literal, Picture},
+    load::Load,
     ours,
     peak::{self, Peak},
     picture,
@@ -52,10 +53,11 @@ pub fn compare(
     drop(shown);
 
     let (mut literal_ms, mut ours_ms, mut gflops) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut literal_busy, mut ours_busy) = (Vec::new(), Vec::new());
     let rounds = if view.is_long { arguments.rounds.div_ceil(2) } else { arguments.rounds };
     for _ in 0..rounds {
-        literal_ms.push(repeated_ms(|| theirs.draw_ms()));
-        ours_ms.push(repeated_ms(|| ours::draw_ms(kernels, scene, size_px).0));
+        literal_ms.push(repeated_ms(&mut literal_busy, || theirs.draw_ms()));
+        ours_ms.push(repeated_ms(&mut ours_busy, || ours::draw_ms(kernels, scene, size_px).0));
         gflops.push(peak.gflops());
     }
     if let Some(folder) = &arguments.pictures {
@@ -79,15 +81,17 @@ pub fn compare(
         let part = if *name == counts::LATER { samples - 1 } else { 1 };
         our_sum += counts.per(f64::from(samples) / f64::from(part));
     }
-    let side = |rounds_ms: Vec<f64>, iterations, errors, counts| Side {
+    let side = |rounds_ms: Vec<f64>, busy: Vec<f64>, iterations, errors, counts| Side {
         ms: median(&rounds_ms),
         rounds_ms,
+        busy: median(&busy),
         iterations,
         errors,
         counts,
     };
-    let literal = side(literal_ms, kindness.iterations, literal_errors, literal_counts);
-    let ours = side(ours_ms, scene.fractal.iterations, our_errors, our_sum);
+    let literal =
+        side(literal_ms, literal_busy, kindness.iterations, literal_errors, literal_counts);
+    let ours = side(ours_ms, ours_busy, scene.fractal.iterations, our_errors, our_sum);
     let peak_gflops = median(&gflops);
     let flop = scene.fractal.integer_power().map(peak::flop_a_step);
     let steps = ours.counts.steps * pixels * f64::from(samples);
@@ -116,14 +120,16 @@ pub fn compare(
 }
 
 /// The mean of as many pictures as take [`TURN_SECS`]: where others use the machine too, a side
-/// with short pictures is held up as much as one with long ones.
-fn repeated_ms(mut draw_ms: impl FnMut() -> f64) -> f64 {
-    let start = Instant::now();
+/// with short pictures is held up as much as one with long ones. Adds how busy that kept the
+/// processors, where the machine tells.
+fn repeated_ms(busy: &mut Vec<f64>, mut draw_ms: impl FnMut() -> f64) -> f64 {
+    let (start, before) = (Instant::now(), Load::now());
     let (mut sum_ms, mut pictures) = (0.0, 0.0);
     while pictures == 0.0 || start.elapsed().as_secs_f64() < TURN_SECS {
         sum_ms += draw_ms();
         pictures += 1.0;
     }
+    busy.extend(before.zip(Load::now()).map(|(before, now)| now.of_own_since(&before)));
     sum_ms / pictures
 }
 

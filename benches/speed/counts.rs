@@ -63,7 +63,14 @@ impl Counts {
 
 /// The program's modules, whose formula files hold the orbits.
 pub fn marks<'a>(estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
-    Marks { orbits_in: "formula/", other_loops: &[], estimates, entries: &["main"], buffer }
+    Marks {
+        orbits_in: "formula/",
+        other_loops: &[],
+        steps: &["near_step"],
+        estimates,
+        entries: &["main"],
+        buffer,
+    }
 }
 
 /// A counting copy of one of the program's modules.

@@ -1,6 +1,6 @@
 //! What depth costs: views of one place from ever closer by.
 //!
-//! The first is drawn in plain f32, the others from an anchor. What a distance estimate takes is a
+//! The first needs hardly more than plain f32, the others skip steps. What a distance estimate takes is a
 //! still's time over the estimates that counting kernels find in it; every view is drawn in turn, in
 //! every round.
 

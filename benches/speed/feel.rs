@@ -7,7 +7,6 @@
 
 mod edits;
 mod error;
-mod load;
 mod picture;
 mod replay;
 mod report;

@@ -14,6 +14,8 @@ pub struct Marks<'a> {
     pub orbits_in: &'a str,
     /// In those files, functions whose loops are something else.
     pub other_loops: &'a [&'a str],
+    /// Functions of which each call is an orbit step, where it comes to its end.
+    pub steps: &'a [&'a str],
     /// Functions of which each call is a distance estimate.
     pub estimates: &'a [&'a str],
     /// Entry points.
@@ -50,6 +52,11 @@ pub fn counting(files: &[File<'_>], marks: &Marks<'_>) -> Result<String, String>
         let start = function(&text, name)?;
         let brace = start + text[start..].find('{').ok_or_else(|| missing(name))?;
         text.insert_str(brace + 1, " counted_estimates += 1u;");
+    }
+    for name in marks.steps {
+        let start = function(&text, name)?;
+        let end = start + text[start..].find("\n}").ok_or_else(|| missing(name))?;
+        text.insert_str(end + 1, "counted_steps += 1u;\n");
     }
     for name in marks.entries {
         wrap(&mut text, name)?;

@@ -1,8 +1,8 @@
 //! What measurements must not fall behind: `limits.txt`, and how a run is held to it.
 //!
 //! A limit is a line that begins as the benchmark's own: a measure, a view, a number. `ratio` has a
-//! floor, all others a ceiling. Counts are the same on every machine, so their limits leave a hundredth
-//! to spare; times are not.
+//! floor, all others a ceiling. Counts hardly depend on the machine, so their limits leave a hundredth to
+//! spare; times do.
 
 use std::{collections::BTreeMap, fmt};
 
@@ -124,7 +124,10 @@ impl Limits {
                 None => lines.push(format!("{words}{limit:.3}")),
                 // It keeps to the old one with room to spare.
                 Some(old) if measure.is_within(limit, *old) => {
-                    for line in lines.iter_mut().filter(|line| line.starts_with(&words)) {
+                    let is_of = |line: &&mut String| {
+                        line.split_whitespace().take(2).eq(words.split_whitespace())
+                    };
+                    for line in lines.iter_mut().filter(is_of) {
                         let comment = line.find('#').map_or("", |at| &line[at..]);
                         *line = format!("{words}{limit:.3} {comment}").trim_end().to_owned();
                     }

@@ -168,6 +168,7 @@ impl Literal {
         let marks = instrument::Marks {
             orbits_in: "literal",
             other_loops: &["march", "six_sample_normal", "is_lit", "shadow", "shade"],
+            steps: &[],
             estimates: &["distance_to_set"],
             entries: &["see", "shadow"],
             // The film, which these do not touch.

@@ -17,6 +17,7 @@
 //! | `errors` | how far pictures are from that |
 //! | `counts` | distance estimates and orbit steps of both sides |
 //! | `instrument` | shaders that count what they do |
+//! | `load` | how busy the processors are |
 //! | `peak` | the adapter's multiply-adds |
 //! | `powers` | what an orbit step costs, power by power |
 //! | `deep` | what depth costs |
@@ -40,6 +41,7 @@ pub mod instrument;
 pub mod kindness;
 pub mod limits;
 pub mod literal;
+pub mod load;
 pub mod ours;
 pub mod peak;
 pub mod picture;
@@ -152,7 +154,8 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         let text = tables::updated(std::fs::read_to_string(file)?, &report)?;
         std::fs::write(file, text)?;
     }
-    let run_in_own_sizes = if arguments.size.is_none() { report.measured() } else { Vec::new() };
+    let has_limits = arguments.size.is_none() && arguments.places.is_empty();
+    let run_in_own_sizes = if has_limits { report.measured() } else { Vec::new() };
     if let Some(file) = &arguments.tighten {
         let text = Limits::tightened(&std::fs::read_to_string(file)?, &run_in_own_sizes)?;
         std::fs::write(file, text)?;

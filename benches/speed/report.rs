@@ -112,6 +112,8 @@ pub struct Side {
     pub ms: f64,
     /// Each round's.
     pub rounds_ms: Vec<f64>,
+    /// The part of the machine's processors that drawing kept busy, 0 to 1; 0 where it does not tell.
+    pub busy: f64,
     /// Most iterations of an orbit.
     pub iterations: u32,
     /// One sample's errors.
@@ -136,6 +138,11 @@ impl Comparison {
         };
         let (literal, ours) = (&self.literal, &self.ours);
         row("ms", format!("{:.1}", literal.ms), format!("{:.1}", ours.ms));
+        row(
+            "processors busy, %",
+            format!("{:.0}", 100.0 * literal.busy),
+            format!("{:.0}", 100.0 * ours.busy),
+        );
         row("iterations", literal.iterations.to_string(), ours.iterations.to_string());
         row(
             "estimates a pixel",

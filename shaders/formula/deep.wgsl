@@ -7,12 +7,13 @@
 // Whether this pipeline is for views that are drawn from an anchor.
 override DEEP: bool = false;
 
-// How many steps of the difference all orbits near the anchor take together, 1 to `MOST_NEAR_STEPS`, and
-// whether a polynomial stands for the steps before them: else they are the orbit's first.
+// How many steps of the difference all orbits near the anchor take together, up to `MOST_NEAR_STEPS`; 0
+// where each orbit is followed by itself.
 override NEAR_STEPS: u32 = 3u;
+// Whether a polynomial stands for the steps before those. Else they are the orbit's first.
 override HAS_SKIP: bool = true;
-// Whether rays step by what becomes of their own direction, rather than by a product of bounds.
-override FOLLOWS_DIRECTION: bool = DEEP && HAS_SKIP;
+// Whether a ray steps by the stretch of its own direction, rather than by a product of bounds.
+override FOLLOWS_DIRECTION: bool = DEEP && (HAS_SKIP || NEAR_STEPS == 0u);
 
 // A difference is followed by itself while it is smaller than this part of the place:
 // `fractal::deep::CLOSE`.
@@ -47,7 +48,8 @@ fn is_near(point: vec3f) -> bool {
 
 // Whether plain f32 tells a point from its neighbours: its pixel is wide enough.
 fn is_far(point: vec3f) -> bool {
-    return dot(point, point) > picture.fractal.far_radius_squared;
+    // Its square may be past what an f32 holds.
+    return max(max(abs(point.x), abs(point.y)), abs(point.z)) > picture.fractal.far_radius;
 }
 
 // Behind the steps that are skipped.
@@ -69,9 +71,12 @@ fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
 }
 
 fn skipped_growth(fractal: Fractal, skip: Skip, point: vec3f, along: vec3f, which: u32) -> Growth {
-    // From farther away it would be followed over too many steps.
-    let dg = select(0.0, skip.rest / step_factor(fractal), which < 2u);
-    let stretched = skipped_jacobian(skip, point) * along;
+    let jacobian = skipped_jacobian(skip, point);
+    let stretched = jacobian * along;
+    // Of directions across the widest; from farther away it would be followed over too many steps.
+    var bound = select(0.0, skip.rest, which < 2u);
+    if (!FOLLOWS_DIRECTION) { bound = length(jacobian * skip.widest); }
+    let dg = bound / step_factor(fractal);
     return Growth(skipped_derivative(skip, point), dg, stretched, skip.rest / skip.derivative);
 }
 

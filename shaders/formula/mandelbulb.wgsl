@@ -317,7 +317,7 @@ fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
         walk = skipped_walk(picture.skip, picture.near[0].z, point);
         growth = skipped_growth(fractal, picture.skip, point, along, 0u);
     }
-    // No loop: drivers leave one of more than three such steps as it is, which takes twice as long.
+    // Unrolled by hand: llvmpipe leaves a loop of more than three such steps, which takes twice as long.
     near_step(0u, &walk, &growth, fractal, orbit, along);
     if (NEAR_STEPS > 1u) { near_step(1u, &walk, &growth, fractal, orbit, along); }
     if (NEAR_STEPS > 2u) { near_step(2u, &walk, &growth, fractal, orbit, along); }

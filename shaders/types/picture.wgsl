@@ -53,8 +53,8 @@ struct Fractal {
     turns: u32,
     // Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
     near_radius_squared: f32,
-    // Beyond which radius of the anchor, squared, plain f32 tells points apart.
-    far_radius_squared: f32,
+    // Beyond which distance from the anchor plain f32 tells points apart.
+    far_radius: f32,
     // How many near steps there are, and 1 where `Picture.skip` stands for the steps before those.
     near_steps: u32,
     has_skip: u32,
@@ -215,7 +215,7 @@ struct Eyes {
 
 // Most steps that all orbits near the anchor take together, and the places that they pass.
 const MOST_NEAR_STEPS = 8u;
-const NEAR_PLACES = 9u;
+const NEAR_PLACES = MOST_NEAR_STEPS + 1u;
 
 struct Picture {
     camera: Camera,

@@ -27,7 +27,8 @@ pub enum Depth {
 /// The steps that all orbits near the anchor take together before they go on in plain f32.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct NearSteps {
-    /// How many steps follow the difference: 1 to [`MOST_NEAR_STEPS`](super::uniforms::MOST_NEAR_STEPS).
+    /// How many steps follow the difference: up to [`MOST_NEAR_STEPS`](super::uniforms::MOST_NEAR_STEPS),
+    /// 0 where each orbit is followed by itself.
     pub count: u32,
     /// Whether a polynomial stands for the steps before them; else they are the orbit's first.
     pub has_skip: bool,
@@ -35,10 +36,11 @@ pub struct NearSteps {
 
 impl Depth {
     /// Those that a dive passes, from the top down.
-    pub const ON_THE_WAY_DOWN: [Self; 3] = [
+    pub const DIVE: [Self; 4] = [
         Self::Near(NearSteps { count: 1, has_skip: false }),
         Self::Near(NearSteps { count: 2, has_skip: false }),
         Self::Near(NearSteps { count: 3, has_skip: true }),
+        Self::Near(NearSteps { count: 5, has_skip: true }),
     ];
 
     /// A picture's.
@@ -75,6 +77,17 @@ impl Form {
     /// A picture's.
     pub fn of(picture: &Picture) -> Self {
         Self { power: whole(picture.fractal.power), depth: Depth::of(picture) }
+    }
+
+    /// Makes a picture one of this form, as far as that is what passes are chosen by.
+    pub(super) fn put_into(self, picture: &mut Picture) {
+        let fractal = &mut picture.fractal;
+        fractal.power = self.power as f32;
+        fractal.places = self.is_deep().into();
+        fractal.turns = (self.depth == Depth::Turning).into();
+        if let Depth::Near(NearSteps { count, has_skip }) = self.depth {
+            (fractal.near_steps, fractal.has_skip) = (count, has_skip.into());
+        }
     }
 
     /// Whether its views are drawn from an anchor.

@@ -5,7 +5,12 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, atomic::AtomicBool},
 };
 
-use super::{Region, layouts::pipeline_layout, pass, uniforms::Picture};
+use super::{
+    Region,
+    layouts::pipeline_layout,
+    pass,
+    uniforms::{Inputs, Picture},
+};
 pub use super::{
     form::{Depth, Form},
     glow_kernels::GlowKernels,
@@ -39,14 +44,14 @@ fn pipeline(
 }
 
 /// A pass in its general form, compiled when it is first asked for.
-struct Plain {
+struct LazyPipeline {
     module: &'static Module,
     layout: wgpu::PipelineLayout,
     shader: OnceLock<wgpu::ShaderModule>,
     pipeline: OnceLock<wgpu::ComputePipeline>,
 }
 
-impl Plain {
+impl LazyPipeline {
     fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
         let (shader, pipeline) = (OnceLock::new(), OnceLock::new());
         Self { module, layout: layout.clone(), shader, pipeline }
@@ -70,14 +75,14 @@ impl Plain {
 /// picture's values compiled in: then there is nothing left to decide. (Where lanes disagree, and
 /// always on lavapipe, all sides of a decision are computed.)
 struct Special {
-    general: Plain,
+    general: LazyPipeline,
     /// By what they are for, and which of its parts they are.
     made: Mutex<HashMap<(Extra, usize), wgpu::ComputePipeline>>,
 }
 
 impl Special {
     fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
-        Self { general: Plain::new(layout, module), made: Mutex::default() }
+        Self { general: LazyPipeline::new(layout, module), made: Mutex::default() }
     }
 
     /// Its form for `extra`, or the general one until that is kept.
@@ -216,18 +221,18 @@ pub struct Kernels {
     pub layouts: Layouts,
     cone: Special,
     march: Special,
-    hits: Plain,
+    hits: LazyPipeline,
     normal: Special,
     tube: Special,
     shadow: Special,
     shade: Special,
     tone: Special,
     gather: OnceLock<wgpu::ComputePipeline>,
-    fill: Plain,
+    fill: LazyPipeline,
     glow: OnceLock<GlowKernels>,
     glow_layout: wgpu::PipelineLayout,
-    develop: Plain,
-    spread: Plain,
+    develop: LazyPipeline,
+    spread: LazyPipeline,
     /// Those that can be used without delay.
     ready: Mutex<HashSet<Extra>>,
     /// The labels of all pipelines so far.
@@ -267,10 +272,10 @@ impl Kernels {
         let shadow = Special::new(&listed_layout, &pass::shadow::MODULE);
         let shade = Special::new(&shade_layout, &pass::shade::MODULE);
         let tone = Special::new(&glow_layout, &pass::tone::MODULE);
-        let hits = Plain::new(&listing_layout, &pass::hits::MODULE);
-        let fill = Plain::new(&layout, &pass::fill::MODULE);
-        let develop = Plain::new(&layout, &pass::develop::MODULE);
-        let spread = Plain::new(&layout, &pass::spread::MODULE);
+        let hits = LazyPipeline::new(&listing_layout, &pass::hits::MODULE);
+        let fill = LazyPipeline::new(&layout, &pass::fill::MODULE);
+        let develop = LazyPipeline::new(&layout, &pass::develop::MODULE);
+        let spread = LazyPipeline::new(&layout, &pass::spread::MODULE);
         Arc::new(Self {
             gpu: gpu.clone(),
             cone,
@@ -382,7 +387,8 @@ impl Kernels {
 
     /// Compiles all special forms of a scene's passes. This may take a second and blocks.
     pub fn specialise(&self, scene: &Scene) {
-        self.prepare_together(&Extra::special(&Picture::new(scene, Region::whole([64, 64]))));
+        let inputs = Inputs::new(scene, Region::whole([64, 64]));
+        self.prepare_together(&Extra::special(&inputs.picture));
     }
 
     /// The passes that an extra has special forms of, in the order of its parts.
@@ -431,7 +437,7 @@ impl Kernels {
             }
             Extra::Glow => plain(&self.glow_layout, GlowKernels::PARTS[part]),
             _ => {
-                let Plain { module, layout, .. } = &self.special(extra)[part].general;
+                let LazyPipeline { module, layout, .. } = &self.special(extra)[part].general;
                 let shader = self.special(extra)[part].general.shader(device);
                 let label = module.label;
                 let constants = extra.constants(part);

@@ -126,7 +126,11 @@ fn rehearse(
     targets: &Targets,
     inputs: &Inputs,
 ) -> Arc<AtomicBool> {
-    let passes = kernels.passes(&inputs.picture);
+    let mut picture = inputs.picture;
+    if let Extra::Rays(form) | Extra::Normals(form, _) = extra {
+        form.put_into(&mut picture);
+    }
+    let passes = kernels.passes(&picture);
     let mut uncounted = Dispatches::default();
     let mut recorder = Recorder::new(kernels, &passes, targets, inputs, &mut uncounted);
     // A count in a buffer: browsers warn of a plain zero.

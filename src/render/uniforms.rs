@@ -201,7 +201,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         restart: reference.map_or(0, |reference| reference.restart() as u32),
         turns: reference.is_some_and(|reference| reference.turns()).into(),
         near_radius_squared: 0.0,
-        far_radius_squared: f32::MAX,
+        far_radius: f32::MAX,
         near_steps: 0,
         has_skip: 0,
     }

@@ -18,7 +18,7 @@ use mandelight::{
     scene::Scene,
 };
 
-use super::{SIZE_PX, load::Load, session::Session};
+use super::{super::load::Load, SIZE_PX, session::Session};
 
 /// Between two pumps, as in the page, seconds.
 pub const PUMP_SECS: f64 = 0.004;

@@ -33,19 +33,17 @@ const WIDEST_CONE: f64 = 7e-4;
 /// How many steps of the difference from the anchor's start may do: views of which an f32 falls short by
 /// one or two digits need no more.
 const FIRST_STEPS: [u32; 2] = [1, 2];
-/// How many times [`LEAST_DERIVATIVE`] the anchor's dr is behind those.
+/// The anchor's dr behind those is so many times what is needed there.
 const FIRST_ROOM: f64 = 5.0;
 
 /// How many steps of the difference come behind a skip: three nearly everywhere, more where orbits come by
 /// the origin soon after it.
 const STEPS_AFTER_SKIP: [u32; 3] = [3, 5, MOST_NEAR_STEPS as u32];
-/// The same as [`FIRST_ROOM`] behind those.
+/// The anchor's dr behind those is so many times what is needed there.
 const ROOM_AFTER_SKIP: f64 = 4.0;
-/// Radii about the anchor, in scales, within which orbits may skip steps together: two of a power, 1.5 to
-/// 4e5. Hardly any ray of most views goes farther.
-const NEAR_RADII: usize = 37;
-/// A radius that is enough for fewer steps to do.
-const WIDE_RADIUS: f64 = 12.0;
+/// Radii about the anchor, in scales, within which orbits may skip steps together: 1.5 and each four times
+/// the last, up to 4e5. Hardly any ray of most views goes farther.
+const NEAR_RADII: usize = 10;
 
 /// Skips, nearest to the anchor first.
 pub type Skips = [Skip; SKIPS];
@@ -136,7 +134,7 @@ pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[P
     fractal.least_derivative = least as f32;
     // The eye is one scale from the anchor.
     let far_radius = 1.0 + deep::COARSEST_FOOTPRINT / (hit_cone * datum.scale());
-    fractal.far_radius_squared = far_radius.powi(2).min(1e37) as f32;
+    fractal.far_radius = far_radius.min(1e37) as f32;
     picture.skip = packed(&near.skip);
     let passed = &places[near.skip.steps as usize..][..=near.steps.count as usize];
     picture.near[..passed.len()].copy_from_slice(passed);
@@ -152,7 +150,8 @@ struct Near {
 }
 
 impl Near {
-    /// The least that leaves orbits room: so far above `least` dr is behind it.
+    /// The fewest steps behind which the anchor's dr is far enough above `least`; behind a skip, those
+    /// that reach as far as [`FIRST_RADIUS`] where any do.
     fn find(
         reference: &deep::Reference,
         scale: f64,
@@ -172,7 +171,7 @@ impl Near {
             let steps = NearSteps { count, has_skip: false };
             return Some(Self { steps, skip: reference.no_skip(scale), radius: f64::INFINITY });
         }
-        let radii: [f64; NEAR_RADII] = std::array::from_fn(|i| 1.5 * 2_f64.sqrt().powi(i as i32));
+        let radii: [f64; NEAR_RADII] = std::array::from_fn(|i| 1.5 * 4_f64.powi(i as i32));
         let skips = reference.skips(scale, &radii);
         let widest = |count: u32| {
             let found = skips.iter().zip(radii).rfind(|(skip, _)| {
@@ -183,6 +182,6 @@ impl Near {
         };
         let found: Vec<_> = STEPS_AFTER_SKIP.into_iter().filter_map(widest).collect();
         let most = found.iter().map(|near| near.radius).fold(0.0, f64::max);
-        found.into_iter().find(|near| near.radius >= most.min(WIDE_RADIUS))
+        found.into_iter().find(|near| near.radius >= most.min(FIRST_RADIUS))
     }
 }

@@ -142,8 +142,8 @@ host_shared! {
         turns: u32,
         /// Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
         near_radius_squared: f32,
-        /// Beyond which radius of the anchor, squared, plain f32 tells points apart.
-        far_radius_squared: f32,
+        /// Beyond which distance from the anchor, in scales, plain f32 tells points apart.
+        far_radius: f32,
         /// How many near steps there are.
         near_steps: u32,
         /// 1 where the picture's skip stands for the steps before those.

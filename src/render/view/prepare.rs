@@ -95,7 +95,8 @@ impl View {
     /// What a dive is going to need, once there may be one and where compiling holds nothing up.
     fn of_dive(&self) -> Vec<Extra> {
         let can = self.kernels.gpu.aside.is_some() && self.pace == Pace::Interactive;
-        let Some(inputs) = self.inputs.as_ref().filter(|_| can && self.anchors.are_near()) else {
+        let inputs = self.inputs.as_ref().filter(|_| can && self.anchors.are_near());
+        let Some(inputs) = inputs.filter(|inputs| inputs.picture.fractal.turns == 0) else {
             return Vec::new();
         };
         let power = Form::of(&inputs.picture).power;
@@ -103,15 +104,15 @@ impl View {
             let form = Form { power, depth };
             [Extra::Rays(form), Extra::Normals(form, inputs.picture.normals)]
         };
-        Depth::ON_THE_WAY_DOWN.into_iter().flat_map(of).collect()
+        Depth::DIVE.into_iter().flat_map(of).collect()
     }
 
-    /// The special forms of passes that are due: for a still at once, otherwise at rest, for a
-    /// drag passes through many. What has begun is finished.
+    /// The special forms of passes that are due: at rest, for a drag passes through many. What has
+    /// begun is finished.
     fn special_to_prepare(&self, scene: &Scene) -> Option<Extra> {
         let begun = self.preparation.as_ref().filter(|preparation| preparation.has_begun());
         let begun = begun.map(Preparation::extra);
-        let is_due = self.pace == Pace::Still || self.is_at_rest();
+        let is_due = self.is_at_rest();
         if !is_due && begun.is_none() {
             return None;
         }

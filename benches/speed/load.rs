@@ -1,4 +1,4 @@
-//! How busy a machine is with other programs, where it tells (Linux).
+//! How busy a machine's processors are, with this program and with others, where it tells (Linux).
 
 /// Processor time since the machine started, in the system's own ticks.
 #[derive(Clone, Copy, Debug)]
@@ -31,5 +31,10 @@ impl Load {
     pub fn of_others_since(&self, before: &Self) -> f64 {
         let all = (self.all - before.all).max(1.0);
         ((all - (self.idle - before.idle) - (self.own - before.own)) / all).clamp(0.0, 1.0)
+    }
+
+    /// The part that this program had, 0 to 1.
+    pub fn of_own_since(&self, before: &Self) -> f64 {
+        ((self.own - before.own) / (self.all - before.all).max(1.0)).clamp(0.0, 1.0)
     }
 }
