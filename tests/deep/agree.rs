@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mandelight::{
     gpu::Gpu,
-    render::{Kernels, Pace, Region, View, gbuffer::Samples},
+    render::{Kernels, Pace, Region, View, datum::Datum, gbuffer::Samples},
     scene::Scene,
 };
 
@@ -20,6 +20,9 @@ const EVERY: usize = 5;
 
 /// The scales of sets that are only looked at here and there.
 const OTHERS: [f64; 2] = [1e-6, 1e-13];
+
+/// Less than a decade below the last plain views.
+const SHALLOW: f64 = 3e-5;
 
 /// How much shorter the march's steps are where it and a picture are apart.
 const FINER: f64 = 0.25;
@@ -119,6 +122,20 @@ fn views_agree(power: f64, julia: bool) {
             let view = format!("power {power} {} at {scale:e}", anchor.name);
             let scene = anchor.scene(scale);
             view_agrees(&kernels, &scene, size(scale), anchor.is_rough(), &view);
+        }
+    }
+}
+
+/// Where an f32 falls short by a digit or two. Frames that turn about the axis are for deeper views.
+#[test]
+fn views_just_below_plain_ones() {
+    let kernels = Kernels::new(&gpu());
+    for anchor in ANCHORS.iter().filter(|anchor| anchor.deepest < SHALLOW) {
+        let scene = anchor.scene(SHALLOW);
+        let datum = Datum::of(&scene, Region::whole(size(SHALLOW)));
+        if datum.reference().is_some_and(|reference| !reference.turns()) {
+            let view = format!("power {} {} at {SHALLOW:e}", anchor.power, anchor.name);
+            view_agrees(&kernels, &scene, size(SHALLOW), false, &view);
         }
     }
 }

@@ -19,7 +19,7 @@ pub fn size(scale: f64) -> Size {
 pub const SMALL: Size = [12, 8];
 
 /// How far away the eye is from the anchor, scene units.
-pub const SCALES: [f64; 8] = [1.0, 1e-3, 3e-5, 1e-6, 1e-9, 1e-13, 1e-20, 1e-27];
+pub const SCALES: [f64; 7] = [1.0, 1e-3, 1e-6, 1e-9, 1e-13, 1e-20, 1e-27];
 
 /// A point of the surface, to less than 1e-30, and the direction it is looked at along.
 pub struct Anchor {

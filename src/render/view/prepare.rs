@@ -85,17 +85,17 @@ impl View {
             is_free.then_some(Extra::Gather),
             is_free.then_some(Extra::Glow),
         ];
-        let others = others.into_iter().chain(self.of_dive().into_iter().map(Some));
+        let dive = if is_free { self.of_dive() } else { Vec::new() };
+        let others = others.into_iter().chain(dive.into_iter().map(Some));
         let awaited = awaited.into_iter().map(|extra| (extra, true));
         let all = awaited.chain(others.map(|extra| (extra, false)));
         all.filter_map(|(extra, is_awaited)| Some((extra?, is_awaited)))
             .find(|(extra, _)| !self.kernels.is_ready(*extra))
     }
 
-    /// What a dive is going to need, once there may be one and where compiling holds nothing up.
+    /// What a dive is going to need, once there may be one.
     fn of_dive(&self) -> Vec<Extra> {
-        let can = self.kernels.gpu.aside.is_some() && self.pace == Pace::Interactive;
-        let inputs = self.inputs.as_ref().filter(|_| can && self.anchors.are_near());
+        let inputs = self.inputs.as_ref().filter(|_| self.anchors.are_near());
         let Some(inputs) = inputs.filter(|inputs| inputs.picture.fractal.turns == 0) else {
             return Vec::new();
         };
