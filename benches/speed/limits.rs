@@ -97,12 +97,17 @@ impl Limits {
         Ok(Self(limits))
     }
 
-    /// What of a run breaks a limit, or has none.
+    /// How much of a run has no limit yet.
+    pub fn missing(&self, run: &[Measured]) -> usize {
+        let has_limit =
+            |measured: &&Measured| self.0.contains_key(&(measured.measure, measured.view.clone()));
+        run.iter().filter(|measured| !has_limit(measured)).count()
+    }
+
+    /// What of a run breaks a limit.
     pub fn complaints(&self, run: &[Measured]) -> Vec<String> {
         let complaint = |Measured { measure, view, value }: &Measured| {
-            let Some(limit) = self.0.get(&(*measure, view.clone())) else {
-                return Some(format!("{measure} {view} {value:.3} has no limit: see --tighten"));
-            };
+            let limit = self.0.get(&(*measure, view.clone()))?;
             let falls = !measure.is_within(*value, *limit);
             falls.then(|| format!("{measure} {view} {value:.3} breaks its limit of {limit:.3}"))
         };
