@@ -36,7 +36,7 @@ impl Measure {
     /// differs by less.
     fn limit(self, value: f64) -> f64 {
         match self {
-            Self::Ratio => value / 1.8,
+            Self::Ratio => value / 2.0,
             Self::Cost => value * 1.5,
             Self::Estimates | Self::Steps => value * 1.01,
         }
