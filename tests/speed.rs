@@ -274,11 +274,11 @@ fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::
         gpu.queue.write_buffer(&buffer, 0, bytes);
         buffer
     };
-    let picture = filled(&inputs.given());
+    let [picture, anchor_orbit] = probe::bindings(gpu, inputs);
     let questions = filled(bytemuck::cast_slice(&points));
     let answers = filled(&vec![0; 32 * points.len()]);
     let sums = filled(&[0; 8]);
-    let groups = [vec![&picture], vec![&questions, &answers], vec![&sums]];
+    let groups = [vec![&picture, &anchor_orbit], vec![&questions, &answers], vec![&sums]];
     let mut encoder = device.create_command_encoder(&Default::default());
     let mut pass = encoder.begin_compute_pass(&Default::default());
     pass.set_pipeline(&pipeline);

@@ -165,7 +165,8 @@ impl Kernel {
         });
         let fractal = Fractal { power: power.into(), iterations: ITERATIONS, ..Fractal::default() };
         let scene = Scene { fractal, ..Scene::default() };
-        let given = Inputs::new(&scene, Region::whole([64, 64])).given();
+        let inputs = Inputs::new(&scene, Region::whole([64, 64]));
+        let given = bytemuck::bytes_of(&inputs.picture);
         let buffer = |size: usize| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("orbits"),
@@ -177,7 +178,7 @@ impl Kernel {
             })
         };
         let [uniforms, sums, counts] = [given.len(), 4 * 64 * WORKGROUPS as usize, 8].map(buffer);
-        gpu.queue.write_buffer(&uniforms, 0, &given);
+        gpu.queue.write_buffer(&uniforms, 0, given);
         let group = |index: u32, buffer: &wgpu::Buffer| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("orbits"),

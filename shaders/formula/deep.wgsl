@@ -62,7 +62,7 @@ fn skipped_walk(skip: Skip, place: vec3f, point: vec3f) -> Walk {
 
 // The same of a skip that the picture does not hold.
 fn far_walk(which: u32, point: vec3f) -> Walk {
-    return skipped_walk(given.skips[which], given.places[given.skips[which].steps].z, point);
+    return skipped_walk(anchor_orbit.skips[which], anchor_orbit.places[anchor_orbit.skips[which].steps].z, point);
 }
 
 // The derivative after those steps.
@@ -166,12 +166,12 @@ fn raised_close(fractal: Fractal, walk: Walk, place: Place, rho: f32, q: Squares
 
 // The same to a place of the reference. It also holds where the square of rho is too small for an f32.
 fn raised_next(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
-    return raised_close(fractal, walk, given.places[walk.index], length_of(walk.z.xy), q);
+    return raised_close(fractal, walk, anchor_orbit.places[walk.index], length_of(walk.z.xy), q);
 }
 
 // Goes on by such a step.
 fn step_close(walk: Walk, step: Raised, orbit: Orbit) -> Walk {
-    return step_to(walk, given.places[walk.index + 1u].z, step, orbit);
+    return step_to(walk, anchor_orbit.places[walk.index + 1u].z, step, orbit);
 }
 
 // The same to a place that is known.

@@ -253,7 +253,7 @@ fn reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
             walk = far_walk(which, point);
-            growth = skipped_growth(fractal, given.skips[which], point, along, which);
+            growth = skipped_growth(fractal, anchor_orbit.skips[which], point, along, which);
             break;
         }
     }
@@ -413,7 +413,7 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
             walk = far_walk(which, point);
-            tangent = skipped_tangent(given.skips[which], orbit, point);
+            tangent = skipped_tangent(anchor_orbit.skips[which], orbit, point);
             break;
         }
     }
@@ -466,7 +466,7 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
         let which = skip_of(point);
         for (; which < SKIPS; ) {
             walk = far_walk(which, point);
-            traps = given.skips[which].traps_squared;
+            traps = anchor_orbit.skips[which].traps_squared;
             break;
         }
     }

@@ -70,7 +70,7 @@ fn moved_on(
     let turn = fractal.power * (before.turn + by_rho * (vec3f(-u.y, u.x, 0.0) * j));
     // Ripples that are finer than some pixels are lower than one, where the axis is in view.
     let finest = 0.5 / picture.camera.hit_cone;
-    let most = finest * clamp(given.places[0].rho / fractal.scale, 1.0, 1e9);
+    let most = finest * clamp(anchor_orbit.places[0].rho / fractal.scale, 1.0, 1e9);
     let capped = turn * min(1.0, most / max(length(turn), 1e-37));
     let constant = orbit.constant + orbit.added;
     let around = complex_product(vec2f(-constant.y, constant.x), rotor);
@@ -94,7 +94,7 @@ fn moved_on(
 // Where an orbit gets to.
 fn turning_end(fractal: Fractal, point: vec3f) -> TurningEnd {
     let orbit = orbit_of(fractal, point);
-    var place = given.places[0];
+    var place = anchor_orbit.places[0];
     let start = settled(place, orbit.start_derivative * point);
     var index = 0u;
     var count = 0u;
@@ -124,7 +124,7 @@ fn turning_end(fractal: Fractal, point: vec3f) -> TurningEnd {
             index = fractal.restart;
         }
         motion = moved_on(fractal, orbit, motion, step, z, q, rho, u, rotor);
-        place = given.places[index];
+        place = anchor_orbit.places[index];
         let next = settled(place, step.power + vec3f(aside, orbit.added.z));
         ahead = ahead_normalized(ahead_product(ahead, next.by));
         motion.jacobian = turned_back(motion.jacobian, next.by);

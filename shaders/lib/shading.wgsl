@@ -14,7 +14,7 @@ const SOURCE_AXIS_TRAP = 2u;
 
 const GRADIENT_ENTRIES = 256u;
 // The surface's colour gradient, linear Rec. 709, closed on itself.
-@group(0) @binding(3) var<uniform> gradient: array<vec4f, GRADIENT_ENTRIES>;
+@group(0) @binding(4) var<uniform> gradient: array<vec4f, GRADIENT_ENTRIES>;
 
 fn gradient_color(u: f32) -> vec3f {
     let x = fract(u) * f32(GRADIENT_ENTRIES);

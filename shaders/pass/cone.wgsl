@@ -20,7 +20,7 @@ fn clear_block(fractal: Fractal, block: Block) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given.picture;
+    picture = given;
     if (thread.x >= slice.blocks) { return; }
     let block = block_at(thread.x);
     let clear = clear_block(picture.fractal, block);

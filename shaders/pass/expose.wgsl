@@ -6,7 +6,7 @@ const MOST_STOPS = 20.0;
 
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) local_index: u32) {
-    picture = given.picture;
+    picture = given;
     if (local_index != 0u) { return; }
     if (slice.mip_level != 0u) {
         // One element for each eye.

@@ -124,7 +124,7 @@ fn radiance_of(site: Site) -> vec3f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given.picture;
+    picture = given;
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);

@@ -18,7 +18,7 @@ struct Answer {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    picture = given.picture;
+    picture = given;
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
     let fractal = picture.fractal;

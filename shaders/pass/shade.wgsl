@@ -5,7 +5,7 @@ override SINGLE: bool = false;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given.picture;
+    picture = given;
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);

@@ -61,7 +61,7 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given.picture;
+    picture = given;
     let listed = listed_ray(thread.x);
     let site = listed.site;
     if (!site.is_there) { return; }

@@ -77,7 +77,7 @@ fn shown(pixel: vec2u) -> vec3f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given.picture;
+    picture = given;
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     var encoded = shown(pixel);

@@ -52,7 +52,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given.picture;
+    picture = given;
     if (thread.x >= atomicLoad(&lists.hits)) { return; }
     let block = block_at(lists.entries[thread.x]);
     var any_faces = false;

@@ -19,7 +19,7 @@ struct Light {
 
 const MAX_LIGHTS = 64u;
 
-@group(0) @binding(2) var<uniform> lights: array<Light, MAX_LIGHTS>;
+@group(0) @binding(3) var<uniform> lights: array<Light, MAX_LIGHTS>;
 
 // Whether a light's bit is among these.
 fn has_light(bits: vec2u, light: Light) -> bool {

@@ -100,6 +100,9 @@ struct Skip {
 // first `FIRST_RADIUS` scales.
 const SKIPS = 8u;
 
+// How many places of an orbit there may be: with the skips they fit into a uniform buffer.
+const MOST_PLACES = 1984u;
+
 // A place of the anchor's orbit.
 struct Place {
     z: vec3f,
@@ -239,16 +242,19 @@ struct Picture {
     near: array<Place, NEAR_PLACES>,
 }
 
-struct Given {
-    picture: Picture,
+// What of the anchor's orbit the picture itself does not hold.
+struct AnchorOrbit {
     skips: array<Skip, SKIPS>,
-    // The anchor's orbit; for the Julia form that of its constant behind it.
-    places: array<Place>,
+    // For the Julia form the orbit of its constant is behind the anchor's.
+    places: array<Place, MOST_PLACES>,
 }
 
-@group(0) @binding(0) var<storage, read> given: Given;
+@group(0) @binding(0) var<storage, read> given: Picture;
+// Lanes that read places of their own gather them from a uniform buffer several times as fast on lavapipe:
+// of a storage buffer it reads each lane's words one by one, in a loop.
+@group(0) @binding(1) var<uniform> anchor_orbit: AnchorOrbit;
 
-// Every entry point begins with `picture = given.picture`. Where all threads are still together,
+// Every entry point begins with `picture = given`. Where all threads are still together,
 // lavapipe reads a value once for all of them; past any branch, once for each, and again for each
 // use in a loop.
 var<private> picture: Picture;

@@ -52,4 +52,4 @@ struct Slice {
 
 const LIGHT_POINT = 1u;
 
-@group(0) @binding(1) var<uniform> slice: Slice;
+@group(0) @binding(2) var<uniform> slice: Slice;

@@ -2,7 +2,8 @@
 
 /// The bind group layouts that all passes of a picture share.
 pub struct Layouts {
-    /// Group 0: picture, slice (dynamic offset), lights, gradient; uniform but for the picture.
+    /// Group 0: picture, the anchor's orbit, slice (dynamic offset), lights, gradient; uniform but for the
+    /// picture.
     pub picture: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
@@ -39,7 +40,10 @@ impl Layouts {
         };
         let [backdrop_texture, backdrop_sampler] = super::backdrop::BINDINGS;
         Self {
-            picture: group("picture", &[READ_ONLY, uniform(true), uniform(false), uniform(false)]),
+            picture: group(
+                "picture",
+                &[READ_ONLY, uniform(false), uniform(true), uniform(false), uniform(false)],
+            ),
             gbuffer: group("gbuffer", &[STORAGE; 3]),
             samples: group("samples", &[READ_ONLY; 3]),
             glow: group("glow", &[STORAGE; 3]),

@@ -16,7 +16,7 @@ use super::{
     pass,
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
-    uniforms::{self, GRADIENT_ENTRIES, Light, PLACES_BYTES, Picture, Skips, Slice},
+    uniforms::{self, ANCHOR_ORBIT_BYTES, GRADIENT_ENTRIES, Light, Picture, Slice},
 };
 use crate::scene::MAX_LIGHTS;
 
@@ -48,13 +48,15 @@ pub struct GBuffer {
 pub struct Targets {
     /// [`Picture`].
     pub picture: wgpu::Buffer,
+    /// The anchor's orbit, as far as the picture does not hold it.
+    pub anchor_orbit: wgpu::Buffer,
     /// [`MOST_SLICES`] of [`Slice`], [`SLICE_STRIDE_BYTES`] apart.
     pub slices: wgpu::Buffer,
     /// [`MAX_LIGHTS`] of [`Light`].
     pub lights: wgpu::Buffer,
     /// [`GRADIENT_ENTRIES`] colours.
     pub gradient: wgpu::Buffer,
-    /// All four.
+    /// All five.
     pub picture_group: wgpu::BindGroup,
     /// Every pixel's centre sample, kept.
     pub center: GBuffer,
@@ -79,9 +81,6 @@ pub struct Targets {
     pub texture: wgpu::Texture,
 }
 
-/// What every pass knows of a picture.
-const GIVEN_BYTES: u64 = (size_of::<Picture>() + size_of::<Skips>()) as u64 + PLACES_BYTES;
-
 impl Targets {
     /// Allocates what a region needs.
     pub fn new(kernels: &Kernels, region: Region) -> Self {
@@ -94,7 +93,8 @@ impl Targets {
         let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
-        let picture = storage(device, "picture", GIVEN_BYTES);
+        let picture = storage(device, "picture", size_of::<Picture>() as u64);
+        let anchor_orbit = uniform("anchor's orbit", ANCHOR_ORBIT_BYTES);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
         let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
         let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
@@ -109,6 +109,7 @@ impl Targets {
             "picture",
             [
                 picture.as_entire_binding(),
+                anchor_orbit.as_entire_binding(),
                 one_slice,
                 lights.as_entire_binding(),
                 gradient.as_entire_binding(),
@@ -121,6 +122,7 @@ impl Targets {
         let film_group = film_group(kernels, [&film_rg, &film_bw, &direct], &texture);
         Self {
             picture,
+            anchor_orbit,
             slices,
             lights,
             gradient,
@@ -159,7 +161,8 @@ impl Targets {
     /// What all of it takes.
     pub fn memory(&self) -> Memory {
         let [mip_levels, blur] = self.glow.bytes();
-        let uniforms = [&self.picture, &self.slices, &self.lights, &self.gradient];
+        let uniforms =
+            [&self.picture, &self.anchor_orbit, &self.slices, &self.lights, &self.gradient];
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
@@ -187,7 +190,8 @@ impl Targets {
 
     /// Uploads a picture's uniforms.
     pub fn upload(&self, queue: &wgpu::Queue, inputs: &uniforms::Inputs) {
-        queue.write_buffer(&self.picture, 0, &inputs.given());
+        queue.write_buffer(&self.picture, 0, bytemuck::bytes_of(&inputs.picture));
+        queue.write_buffer(&self.anchor_orbit, 0, &inputs.anchor_orbit());
         queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(&inputs.lights));
         queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));
     }

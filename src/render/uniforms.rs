@@ -13,7 +13,7 @@ use std::sync::Arc;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use depth::{FIRST_RADIUS, PLACES_BYTES, RADII_RATIO, SKIPS, Skips};
+pub use depth::{ANCHOR_ORBIT_BYTES, FIRST_RADIUS, RADII_RATIO, SKIPS, Skips};
 pub use lights::lights;
 pub use shared::*;
 
@@ -279,14 +279,9 @@ impl Inputs {
         }
     }
 
-    /// All of the shaders' `given`.
-    pub fn given(&self) -> Vec<u8> {
-        let parts = [
-            bytemuck::bytes_of(&self.picture),
-            bytemuck::bytes_of(&self.skips),
-            bytemuck::cast_slice(&self.places),
-        ];
-        parts.concat()
+    /// The shaders' `anchor_orbit`, as far as it means anything.
+    pub fn anchor_orbit(&self) -> Vec<u8> {
+        [bytemuck::bytes_of(&self.skips), bytemuck::cast_slice(&self.places)].concat()
     }
 
     /// The same with the picture of the surroundings that is at hand, where `scene` shows it.

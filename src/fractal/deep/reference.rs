@@ -16,8 +16,8 @@ use crate::{
 /// are followed in frames that turn with their points' longitudes ([`super::turn`]).
 const HARD_BY_AXIS: f64 = 0.03;
 
-/// Most places of a reference, of both its orbits together.
-pub const MOST_PLACES: usize = 2048;
+/// Most places of a reference, of both its orbits together: what the shaders' uniform buffer has room for.
+pub const MOST_PLACES: usize = 1984;
 
 /// An anchor's orbit. The Julia form's has that of its constant behind it, which differences start
 /// anew from; those of the Mandelbulb start anew from the anchor's own.

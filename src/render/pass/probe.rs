@@ -13,7 +13,7 @@ use crate::{
         Eyes, Region,
         datum::Datum,
         kernels::{Depth, Form},
-        uniforms::Inputs,
+        uniforms::{ANCHOR_ORBIT_BYTES, Inputs},
     },
     scene::Scene,
     shader_file,
@@ -104,7 +104,7 @@ fn ask_form(
     });
     let questions: Vec<[f32; 4]> =
         points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
-    let picture = filled(gpu, wgpu::BufferUsages::STORAGE, &inputs.given());
+    let [picture, anchor_orbit] = bindings(gpu, inputs);
     let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&questions));
     let answers = filled(
         gpu,
@@ -129,7 +129,7 @@ fn ask_form(
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group(0, &[&picture]), &[]);
+        pass.set_bind_group(0, &group(0, &[&picture, &anchor_orbit]), &[]);
         pass.set_bind_group(1, &group(1, &[&questions, &answers]), &[]);
         pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
     }
@@ -156,6 +156,16 @@ fn ask_form(
             }
         })
         .collect())
+}
+
+/// What kernels know of a picture: the first two bindings of group 0.
+pub fn bindings(gpu: &Gpu, inputs: &Inputs) -> [wgpu::Buffer; 2] {
+    let mut anchor_orbit = inputs.anchor_orbit();
+    anchor_orbit.resize(ANCHOR_ORBIT_BYTES as usize, 0);
+    [
+        filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::bytes_of(&inputs.picture)),
+        filled(gpu, wgpu::BufferUsages::UNIFORM, &anchor_orbit),
+    ]
 }
 
 fn filled(gpu: &Gpu, usage: wgpu::BufferUsages, bytes: &[u8]) -> wgpu::Buffer {

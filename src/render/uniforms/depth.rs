@@ -14,8 +14,8 @@ use crate::{
 /// How many skips there are.
 pub const SKIPS: usize = 8;
 
-/// Bytes that all places of an orbit may take.
-pub const PLACES_BYTES: u64 = (MOST_PLACES * size_of::<Place>()) as u64;
+/// Bytes of the shaders' `anchor_orbit`.
+pub const ANCHOR_ORBIT_BYTES: u64 = (size_of::<Skips>() + MOST_PLACES * size_of::<Place>()) as u64;
 
 /// How far from the anchor points may be that skip the most steps, in scales: what is in view, the
 /// reach of its shadows, and what a crevice shows of the walls behind it.
