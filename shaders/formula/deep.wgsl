@@ -9,7 +9,7 @@ override DEEP: bool = false;
 
 // How many steps of the difference all orbits near the anchor take together, up to `MOST_NEAR_STEPS`; 0
 // where each orbit is followed by itself.
-override NEAR_STEPS: u32 = 3u;
+override NEAR_STEPS: u32 = 2u;
 // Whether a polynomial stands for the steps before those. Else they are the orbit's first.
 override HAS_SKIP: bool = true;
 // Whether a ray steps by the stretch of its own direction, rather than by a product of bounds.

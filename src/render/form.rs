@@ -39,8 +39,8 @@ impl Depth {
     pub const DIVE: [Self; 4] = [
         Self::Near(NearSteps { count: 1, has_skip: false }),
         Self::Near(NearSteps { count: 2, has_skip: false }),
-        Self::Near(NearSteps { count: 3, has_skip: true }),
-        Self::Near(NearSteps { count: 5, has_skip: true }),
+        Self::Near(NearSteps { count: 2, has_skip: true }),
+        Self::Near(NearSteps { count: 4, has_skip: true }),
     ];
 
     /// A picture's.

@@ -266,9 +266,9 @@ impl Inputs {
 
     /// The same in coordinates that are at hand.
     pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
-        let (skips, places) = (depth::skips(datum), depth::places(datum));
+        let ((skips, near), places) = (depth::skips(datum), depth::places(datum));
         let mut picture = Picture::about(scene, region, datum);
-        depth::put_near(&mut picture, datum, &skips, &places);
+        depth::put_near(&mut picture, datum, (&skips, &near), &places);
         Self {
             picture,
             lights: lights(scene, datum),

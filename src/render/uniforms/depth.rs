@@ -36,11 +36,13 @@ const FIRST_STEPS: [u32; 2] = [1, 2];
 /// The anchor's dr behind those is so many times what is needed there.
 const FIRST_ROOM: f64 = 5.0;
 
-/// How many steps of the difference come behind a skip: three nearly everywhere, more where orbits come by
-/// the origin soon after it.
-const STEPS_AFTER_SKIP: [u32; 3] = [3, 5, MOST_NEAR_STEPS as u32];
+/// How many steps of the difference come behind a skip: two nearly everywhere, more where orbits come by
+/// the origin soon after it. Each has pipelines of its own.
+const STEPS_AFTER_SKIP: [u32; 3] = [2, 4, MOST_NEAR_STEPS as u32];
 /// The anchor's dr behind those is so many times what is needed there.
 const ROOM_AFTER_SKIP: f64 = 4.0;
+/// At so many places; behind those most orbits in view have escaped.
+const ROOM_PLACES: usize = 3;
 /// Radii about the anchor, in scales, within which orbits may skip steps together: 1.5 and each four times
 /// the last, up to 4e5. Hardly any ray of most views goes farther.
 const NEAR_RADII: usize = 10;
@@ -64,15 +66,18 @@ fn place(place: &deep::Place) -> Place {
     }
 }
 
-/// What orbits near the anchor skip; nothing where there is none.
-pub fn skips(datum: &Datum) -> Skips {
-    let Some(reference) = datum.reference() else { return [Skip::zeroed(); SKIPS] };
+/// What orbits skip within each of the radii of the shaders' `skips`, and within [`near_radii`]; nothing
+/// where there is no anchor.
+pub fn skips(datum: &Datum) -> (Skips, Vec<deep::Skip>) {
+    let Some(reference) = datum.reference() else { return ([Skip::zeroed(); SKIPS], Vec::new()) };
     let radii: [f64; SKIPS] = std::array::from_fn(|i| FIRST_RADIUS * RADII_RATIO.powi(i as i32));
-    let mut skips = [Skip::zeroed(); SKIPS];
-    for (skip, found) in skips.iter_mut().zip(reference.skips(datum.scale(), &radii)) {
-        *skip = packed(&found);
-    }
-    skips
+    let mut found = reference.skips(datum.scale(), &[&radii[..], &near_radii()].concat());
+    let near = found.split_off(SKIPS);
+    (std::array::from_fn(|i| packed(&found[i])), near)
+}
+
+fn near_radii() -> [f64; NEAR_RADII] {
+    std::array::from_fn(|i| 1.5 * 4_f64.powi(i as i32))
 }
 
 fn packed(skip: &deep::Skip) -> Skip {
@@ -119,15 +124,20 @@ fn widest_direction(map: DMat3) -> DVec3 {
 }
 
 /// Puts what most orbits read into the picture itself, whose camera and fractal are there already;
-/// only the first skip where orbits, or the reference, are too short for more.
-pub fn put_near(picture: &mut Picture, datum: &Datum, skips: &Skips, places: &[Place]) {
+/// only the first skip where orbits, or the reference, are too short for more. `near`: of [`skips`].
+pub fn put_near(
+    picture: &mut Picture,
+    datum: &Datum,
+    (skips, near): (&Skips, &[deep::Skip]),
+    places: &[Place],
+) {
     picture.skip = skips[0];
     let Some(reference) = datum.reference().filter(|reference| !reference.turns()) else { return };
     let hit_cone = f64::from(picture.camera.hit_cone);
     let least = LEAST_DERIVATIVE / hit_cone.min(WIDEST_CONE);
     let fractal = &mut picture.fractal;
     let own_places = fractal.own_places.min(fractal.iterations + 1) as usize;
-    let Some(near) = Near::find(reference, datum.scale(), own_places, least) else { return };
+    let Some(near) = Near::find(reference, datum.scale(), near, own_places, least) else { return };
     fractal.near_steps = near.steps.count;
     fractal.has_skip = near.steps.has_skip.into();
     fractal.near_radius_squared = near.radius.powi(2).min(1e37) as f32;
@@ -155,14 +165,15 @@ impl Near {
     fn find(
         reference: &deep::Reference,
         scale: f64,
+        skips: &[deep::Skip],
         own_places: usize,
         least: f64,
     ) -> Option<Self> {
         let derivatives = reference.derivatives(scale, own_places);
-        // One step on as well: other orbits come by the origin where the anchor's does.
+        // Some steps on as well: other orbits come by the origin where the anchor's does.
         let room = |behind: u32| {
-            let pair = derivatives.get(behind as usize..)?.first_chunk::<2>()?;
-            Some(pair[0].min(pair[1]) / least)
+            let followed = derivatives.get(behind as usize..)?.first_chunk::<ROOM_PLACES>()?;
+            Some(followed.iter().copied().fold(f64::INFINITY, f64::min) / least)
         };
         let first = FIRST_STEPS
             .into_iter()
@@ -171,10 +182,8 @@ impl Near {
             let steps = NearSteps { count, has_skip: false };
             return Some(Self { steps, skip: reference.no_skip(scale), radius: f64::INFINITY });
         }
-        let radii: [f64; NEAR_RADII] = std::array::from_fn(|i| 1.5 * 4_f64.powi(i as i32));
-        let skips = reference.skips(scale, &radii);
         let widest = |count: u32| {
-            let found = skips.iter().zip(radii).rfind(|(skip, _)| {
+            let found = skips.iter().zip(near_radii()).rfind(|(skip, _)| {
                 room(skip.steps + count).is_some_and(|room| room >= ROOM_AFTER_SKIP)
             });
             let (skip, radius) = found?;
