@@ -1,8 +1,8 @@
 //! The way down: views of several places, from the whole set to the last depth, in half decades.
 //!
-//! A view's time is that of its passes over a part of its pixels, one workgroup in [`SPREAD`],
-//! spread over the whole picture. Counting kernels find the estimates of the same pixels. Each
-//! view is compared with views of the same place that are drawn in plain f32.
+//! A view's time is that of its passes over a part of its pixels, single workgroups spread over the whole
+//! picture. Counting kernels find the estimates of the same pixels. Each view is drawn in turn with a
+//! reference: a view of the same place in plain f32.
 
 mod places;
 
@@ -31,11 +31,11 @@ pub use places::{PLACES, Place};
 /// What `--views` calls the table.
 pub const NAME: &str = "descent";
 
-/// One workgroup in so many is drawn.
+/// One workgroup in so many is drawn at the default size, and at others as many pixels as there.
 const SPREAD: u32 = 16;
 
-/// The view whose time of an estimate others are compared with: its distance, scene units.
-const ESTIMATE_OF: &str = "1e-2";
+/// How far away the reference is, scene units.
+const REFERENCE: f64 = 1e-2;
 /// The view whose time of a picture others are compared with.
 const PICTURE_OF: &str = "2e-3";
 /// The deepest view: 1e-27.
@@ -58,7 +58,7 @@ pub struct Row {
     pub counts: Counts,
     /// Nanoseconds a distance estimate.
     pub estimate_ns: f64,
-    /// That over the plain view's at [`ESTIMATE_OF`].
+    /// That over the reference's.
     pub cost: f64,
     /// The time of a picture over the plain view's at [`PICTURE_OF`].
     pub picture: f64,
@@ -86,10 +86,24 @@ struct Bench<'a> {
     kernels: &'a Arc<Kernels>,
     counting: HashMap<Form, Passes>,
     size_px: [u32; 2],
+    spread: u32,
     rounds: u32,
 }
 
 impl Bench<'_> {
+    /// What the pixels of a part of a view take.
+    fn count(&mut self, split: &Split<'_>) -> Result<Counts, Failure> {
+        let form = Form::of(split.picture());
+        if !self.counting.contains_key(&form) {
+            self.counting.insert(form, counts::counting_passes(self.kernels, split)?);
+        }
+        let mut counts = Counts::default();
+        for (_, counted) in split.count(&self.counting[&form])? {
+            counts += counted;
+        }
+        Ok(counts)
+    }
+
     /// Draws a view so many rounds, each in turn with `reference`: nanoseconds a pixel, how many
     /// times those of the reference, and what a pixel takes.
     fn measure(
@@ -100,12 +114,9 @@ impl Bench<'_> {
         let (mut times, mut counts, mut pixels) = ([0.0; 2], Counts::default(), 0.0);
         let mut form = Form::of(&Picture::new(scene, Region::whole(self.size_px)));
         for region in regions(self.size_px) {
-            let split = Split::spread(self.kernels, scene, region, SPREAD);
+            let kernels = self.kernels;
+            let split = prepared(kernels, scene, region, self.spread);
             form = Form::of(split.picture());
-            for extra in Extra::special(split.picture()) {
-                self.kernels.prepare(extra);
-            }
-            split.draw_ms();
             let ns = |split: &Split<'_>| -> f64 {
                 split.draw_ms().into_iter().map(|(_, ms)| ms * 1e6).sum()
             };
@@ -120,12 +131,7 @@ impl Bench<'_> {
                 *sum += median(&rounds.iter().map(|round| round[k]).collect::<Vec<_>>());
             }
             pixels += split.pixels();
-            if !self.counting.contains_key(&form) {
-                self.counting.insert(form, counts::counting_passes(self.kernels, &split)?);
-            }
-            for (_, counted) in split.count(&self.counting[&form])? {
-                counts += counted;
-            }
+            counts += self.count(&split)?;
         }
         Ok((form, times.map(|time| time / pixels), counts.per(pixels)))
     }
@@ -133,12 +139,14 @@ impl Bench<'_> {
     /// Measures all views of a place, from the top down.
     fn descend(&mut self, place: &Place) -> Result<Vec<Row>, Failure> {
         let mut rows: Vec<Row> = Vec::new();
-        let reference =
-            Split::spread(self.kernels, &place.scene(1e-2)?, regions(self.size_px)[0], SPREAD);
-        for extra in Extra::special(reference.picture()) {
-            self.kernels.prepare(extra);
+        let whole = regions(self.size_px)[0];
+        let reference = prepared(self.kernels, &place.scene(REFERENCE)?, whole, self.spread);
+        if Form::of(reference.picture()).is_deep() {
+            return Err(
+                format!("{} {}: the reference is not plain", place.name, place.set()).into()
+            );
         }
-        reference.draw_ms();
+        let reference_estimates = self.count(&reference)?.estimates / reference.pixels();
         for (scale, distance) in distances() {
             let (form, [pixel_ns, times], counts) =
                 self.measure(&place.scene(distance)?, &reference)?;
@@ -150,7 +158,7 @@ impl Bench<'_> {
                 pixel_ns,
                 counts,
                 estimate_ns: pixel_ns / counts.estimates,
-                cost: times / counts.estimates,
+                cost: times * reference_estimates / counts.estimates,
                 picture: times,
                 changes: [1.0; 2],
             });
@@ -162,14 +170,21 @@ impl Bench<'_> {
     }
 }
 
+/// A part of a view, with its pipelines ready and drawn once.
+fn prepared<'a>(kernels: &'a Kernels, scene: &Scene, region: Region, spread: u32) -> Split<'a> {
+    let split = Split::spread(kernels, scene, region, spread);
+    for extra in Extra::special(split.picture()) {
+        kernels.prepare(extra);
+    }
+    split.draw_ms();
+    split
+}
+
 /// Fills in what is seen beside other rows.
 fn compare(rows: &mut [Row]) {
-    let find = |scale: &str| rows.iter().find(|row| row.scale == scale);
-    let estimate = find(ESTIMATE_OF).map_or(1.0, |row| row.cost);
-    let picture = find(PICTURE_OF).map_or(1.0, |row| row.picture);
+    let picture = rows.iter().find(|row| row.scale == PICTURE_OF).map_or(1.0, |row| row.picture);
     let mut above: Option<(f64, f64)> = None;
     for row in rows {
-        row.cost /= estimate;
         row.picture /= picture;
         if row.scale == PICTURE_OF {
             continue;
@@ -204,7 +219,10 @@ pub fn measure(
     only: &[String],
 ) -> Result<Vec<Row>, Failure> {
     let size_px = size_px.unwrap_or(SIZE_PX);
-    let mut bench = Bench { kernels, counting: HashMap::new(), size_px, rounds };
+    let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
+    let spread = u64::from(SPREAD) * pixels(size_px) / pixels(SIZE_PX);
+    let spread = u32::try_from(spread)?.max(1);
+    let mut bench = Bench { kernels, counting: HashMap::new(), size_px, spread, rounds };
     let mut rows = Vec::new();
     for place in PLACES {
         let name = format!("{NAME}-{}-{}", place.name, place.set());

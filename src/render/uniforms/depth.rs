@@ -38,7 +38,7 @@ const FIRST_ROOM: f64 = 5.0;
 
 /// How many steps of the difference come behind a skip: two nearly everywhere, more where orbits come by
 /// the origin soon after it. Each has pipelines of its own.
-const STEPS_AFTER_SKIP: [u32; 3] = [2, 4, MOST_NEAR_STEPS as u32];
+const STEPS_AFTER_SKIP: [u32; 4] = [2, 4, 6, MOST_NEAR_STEPS as u32];
 /// The anchor's dr behind those is so many times what is needed there.
 const ROOM_AFTER_SKIP: f64 = 4.0;
 /// At so many places; behind those most orbits in view have escaped.
