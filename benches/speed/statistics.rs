@@ -1,11 +1,9 @@
 //! Medians, quantiles, and work on all cores.
 
-#[path = "../../tests/oracle/parallel.rs"]
-mod parallel;
 #[path = "../../tests/oracle/quantile.rs"]
 mod quantile;
 
-pub use parallel::in_parallel;
+pub use mandelight::gpu::device::in_parallel;
 
 /// The value below which `part` (0 to 1) of `values` lie; 0 of none.
 pub fn quantile(values: Vec<f64>, part: f64) -> f64 {

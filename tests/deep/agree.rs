@@ -9,7 +9,7 @@ use mandelight::{
 };
 
 use super::{
-    parallel::in_parallel,
+    in_parallel,
     rays::{FARTHEST, Looking, Size, centre},
     views::{self, ANCHORS, Anchor, size},
 };

@@ -15,8 +15,8 @@ use mandelight::{
 use super::{
     agree::gpu,
     arithmetic::{Point, Real},
+    in_parallel,
     orbit::Estimate,
-    parallel::in_parallel,
     quantile::quantile,
     rays::Looking,
     views::{self, ANCHORS},

@@ -14,8 +14,8 @@ use mandelight::{
 
 use super::{
     arithmetic::{Real, moved},
+    in_parallel,
     orbit::Set,
-    parallel::in_parallel,
     quantile::quantile,
     views,
 };

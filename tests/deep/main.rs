@@ -24,8 +24,7 @@ mod views;
 #[expect(dead_code, reason = "of shallow views, which need more than distances")]
 #[path = "../oracle/estimate.rs"]
 mod estimate;
-#[path = "../oracle/parallel.rs"]
-mod parallel;
+use mandelight::gpu::device::in_parallel;
 #[path = "../oracle/quantile.rs"]
 mod quantile;
 #[path = "../oracle/random.rs"]

@@ -8,8 +8,8 @@ use mandelight::scene::{Fractal, PrecisePoint, Scene};
 use super::{
     Random,
     arithmetic::{Point, Real, moved},
+    in_parallel,
     orbit::Set,
-    parallel::in_parallel,
     rays::{self, Looking, Size},
     views::{self, ANCHORS, SCALES},
 };

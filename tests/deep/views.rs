@@ -313,7 +313,7 @@ pub fn plenty(scene: &Scene) -> u32 {
 #[test]
 fn plenty_of_steps_is_enough() {
     let views: Vec<_> = ANCHORS.iter().map(|anchor| anchor.scene(anchor.deepest)).collect();
-    super::parallel::in_parallel(&views, |scene| {
+    super::in_parallel(&views, |scene| {
         let looking = Looking::new(scene, SMALL, plenty(scene));
         for pixel in [[2, 2], [6, 4], [9, 5]] {
             let depth = looking.depth(pixel).expect("a hit");

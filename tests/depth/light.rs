@@ -10,7 +10,7 @@ use mandelight::{
 };
 
 use crate::{
-    parallel::in_parallel,
+    in_parallel,
     places::{self, Drawn, cone, drawn, found},
 };
 

@@ -17,5 +17,4 @@ mod places;
 
 #[path = "../gpu/harness.rs"]
 mod harness;
-#[path = "../oracle/parallel.rs"]
-mod parallel;
+use mandelight::gpu::device::in_parallel;

@@ -11,7 +11,6 @@
 //! | `tone` | oracle: the tone curves |
 //! | `bloom` | oracle: light that spreads |
 //! | `film` | films of any colours, given to the kernels |
-//! | `parallel` | work on all cores; the benchmark's references use it too |
 //! | `quantile` | what part of many numbers lies below; the benchmark uses it too |
 //! | `random` | numbers that come out the same each time |
 //! | `views` | the views that pictures are compared on |
@@ -28,7 +27,6 @@ mod gather;
 mod light;
 mod normals;
 mod normals_table;
-mod parallel;
 mod quantile;
 mod random;
 mod rays;
@@ -36,7 +34,7 @@ mod tone;
 mod toned;
 mod views;
 
-pub use parallel::in_parallel;
+pub use mandelight::gpu::device::in_parallel;
 pub use random::Random;
 
 /// The value below which `part` (0 to 1) of `values` lie.

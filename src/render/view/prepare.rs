@@ -43,37 +43,36 @@ impl View {
     /// All pipelines beside the general forms that a still needs.
     fn of_still(&self) -> Vec<Extra> {
         let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return Vec::new() };
-        let special = match &self.inputs {
+        let behind_shading = self.behind_shading(scene).into_iter().flatten();
+        self.special(scene).into_iter().chain(behind_shading).collect()
+    }
+
+    /// The special forms of the passes that draw a scene.
+    fn special(&self, scene: &Scene) -> [Extra; 4] {
+        match &self.inputs {
             Some(inputs) if self.pending.is_none() => Extra::special(&inputs.picture),
             _ => Extra::special(&self.inputs_of(scene).picture),
-        };
+        }
+    }
+
+    /// What a scene needs of indirect light and of the passes over the whole film.
+    fn behind_shading(&self, scene: &Scene) -> [Option<Extra>; 2] {
         let gathers = scene.indirect.kind != IndirectKind::Off;
         let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
-        let others = [
-            gathers.then_some(Extra::Gather),
-            (glows || self.watch.is_wanted()).then_some(Extra::Glow),
-        ];
-        special.into_iter().chain(others.into_iter().flatten()).collect()
+        [gathers.then_some(Extra::Gather), (glows || self.watch.is_wanted()).then_some(Extra::Glow)]
     }
 
     /// The pipelines that are to be prepared now, if any, and whether the scene cannot be drawn
     /// without them.
     fn missing(&self) -> Option<(Extra, bool)> {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
-        let gathers = scene.indirect.kind != IndirectKind::Off;
-        let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
         // There is no general form of what is drawn from an anchor.
         let deep = self.inputs.as_ref().filter(|inputs| inputs.picture.fractal.places > 0);
         let [rays, normals, ..] = match deep {
             Some(inputs) => Extra::special(&inputs.picture).map(Some),
             None => [None; 4],
         };
-        let awaited = [
-            rays,
-            normals,
-            gathers.then_some(Extra::Gather),
-            (glows || self.watch.is_wanted()).then_some(Extra::Glow),
-        ];
+        let awaited = [rays, normals].into_iter().chain(self.behind_shading(scene));
         // General forms do as well until there are special ones. A finished picture leaves time
         // for what may come, where that holds nothing up.
         let is_free = self.kernels.gpu.aside.is_some()
@@ -87,7 +86,7 @@ impl View {
         ];
         let dive = if is_free { self.of_dive() } else { Vec::new() };
         let others = others.into_iter().chain(dive.into_iter().map(Some));
-        let awaited = awaited.into_iter().map(|extra| (extra, true));
+        let awaited = awaited.map(|extra| (extra, true));
         let all = awaited.chain(others.map(|extra| (extra, false)));
         all.filter_map(|(extra, is_awaited)| Some((extra?, is_awaited)))
             .find(|(extra, _)| !self.kernels.is_ready(*extra))
@@ -116,12 +115,10 @@ impl View {
         if !is_due && begun.is_none() {
             return None;
         }
-        let special = match &self.inputs {
-            Some(inputs) if self.pending.is_none() => Extra::special(&inputs.picture),
-            _ => Extra::special(&self.inputs_of(scene).picture),
-        };
         let is_wanted = |extra: &Extra| is_due || begun == Some(*extra);
-        special.into_iter().find(|extra| is_wanted(extra) && !self.kernels.is_ready(*extra))
+        self.special(scene)
+            .into_iter()
+            .find(|extra| is_wanted(extra) && !self.kernels.is_ready(*extra))
     }
 
     /// Whether a picture has been shown, and nothing has changed for a while.
