@@ -16,7 +16,7 @@
 //!    geometry, normals, light, indirect light, tone. Of what lights the picture, only what moved
 //!    has its rays marched again: a light by itself, a colour or a material not at all.
 //!    A view deeper than an f32 can tell counts from an anchor on the surface in view
-//!    ([`render::datum::Datum`]), which is looked for beside the frames.
+//!    ([`render::space::RenderSpace`]), which is looked for beside the frames.
 //!    Where the scene needs pipelines that nobody made yet, the report says so, the picture stays,
 //!    and they are compiled before anything asks for them.
 //! 3. [`render::schedule::Schedule`] says what to compute next, a piece at a time: a lattice of

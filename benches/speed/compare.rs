@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, sync::Arc, time::Instant};
 
-use mandelight::render::{self, Kernels, Region, datum::Datum, uniforms::Inputs};
+use mandelight::render::{self, Kernels, Region, space::RenderSpace, uniforms::Inputs};
 
 use super::{
     Failure,
@@ -38,7 +38,7 @@ pub fn compare(
     let samples = scene.quality.samples;
     let kindness = kindness::find(scene, size_px);
     // The literal kernel knows no anchors.
-    let inputs = Inputs::about(scene, Region::whole(size_px), &Datum::plain());
+    let inputs = Inputs::about(scene, Region::whole(size_px), &RenderSpace::plain());
     let theirs = Picture::new(literal, &inputs, samples, kindness, stride);
 
     // Errors are those of one sample. Its pictures warm up: pipelines are compiled, and drivers

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use mandelight::{
-    render::{Kernels, Region, datum::wants_anchor},
+    render::{Kernels, Region, space::wants_anchor},
     scene::Scene,
 };
 use serde::Serialize;

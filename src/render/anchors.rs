@@ -1,6 +1,6 @@
 //! The anchors of a view that moves: one at hand, and the next on its way.
 //!
-//! In: scenes as they come. Out: the [`Datum`] of each. A search is made in pieces beside the
+//! In: scenes as they come. Out: the [`RenderSpace`] of each. A search is made in pieces beside the
 //! frames, and begins before it is needed: an anchor serves views some hundred times as fine as the
 //! one that it was found for, and is replaced long before.
 
@@ -10,8 +10,8 @@ use web_time::Instant;
 
 use super::{
     Region,
-    datum::{Datum, plain_footprint, wants_anchor},
     schedule::Pace,
+    space::{RenderSpace, plain_footprint, wants_anchor},
 };
 use crate::{
     fractal::{
@@ -55,23 +55,23 @@ impl Found {
         if !self.reference.is_of(&scene.fractal) {
             return false;
         }
-        let datum = Datum::about(self.reference.clone(), scene);
-        let nearest = datum.nearest(scene);
-        self.moved(scene) <= RENEWED_AFTER || datum.scale() <= MOST_AWAY * nearest
+        let space = RenderSpace::about(self.reference.clone(), scene);
+        let nearest = space.nearest(scene);
+        self.moved(scene) <= RENEWED_AFTER || space.scale() <= MOST_AWAY * nearest
     }
 }
 
 impl Anchors {
     /// Where the coordinates of a scene begin; none yet where it has to wait for an anchor, which
     /// further calls bring nearer. What a still has depends on nothing but itself.
-    pub fn datum(&mut self, scene: &Scene, region: Region, pace: Pace) -> Option<Datum> {
+    pub fn space(&mut self, scene: &Scene, region: Region, pace: Pace) -> Option<RenderSpace> {
         if pace == Pace::Still {
-            return Some(Datum::of(scene, region));
+            return Some(RenderSpace::of(scene, region));
         }
         let began = Instant::now();
-        let datum = self.datum_of_frame(scene, region);
+        let space = self.space_of_frame(scene, region);
         self.took_ms = began.elapsed().as_secs_f64() * 1e3;
-        datum
+        space
     }
 
     /// CPU milliseconds that the last scene took.
@@ -79,7 +79,7 @@ impl Anchors {
         self.took_ms
     }
 
-    fn datum_of_frame(&mut self, scene: &Scene, region: Region) -> Option<Datum> {
+    fn space_of_frame(&mut self, scene: &Scene, region: Region) -> Option<RenderSpace> {
         if !wants_anchor(scene, region) {
             if deep::has_depth(&scene.fractal)
                 && plain_footprint(scene, region) < AHEAD * deep::COARSEST_FOOTPRINT
@@ -88,11 +88,11 @@ impl Anchors {
             } else {
                 *self = Self::default();
             }
-            return Some(Datum::plain());
+            return Some(RenderSpace::plain());
         }
         self.renew(scene, region);
         let found = self.at_hand.as_ref().filter(|found| found.serves(scene))?;
-        Some(Datum::about(found.reference.clone(), scene))
+        Some(RenderSpace::about(found.reference.clone(), scene))
     }
 
     /// Whether views want an anchor, or are about to.

@@ -16,7 +16,7 @@
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
 //! | `glow_kernels` | the pipelines of those passes |
 //! | `anchors` | the anchors of a view that moves |
-//! | [`datum`] | where coordinates begin, and their unit |
+//! | [`space`] | render space: origin and unit of coordinates |
 //! | [`lists`] | which threads a pass has work for |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
@@ -28,7 +28,6 @@
 mod anchors;
 pub mod around;
 pub mod backdrop;
-pub mod datum;
 mod filling;
 pub mod form;
 pub mod frame;
@@ -46,6 +45,7 @@ mod region;
 pub mod report;
 pub mod samples;
 pub mod schedule;
+pub mod space;
 pub mod targets;
 pub mod uniforms;
 pub mod view;

@@ -17,7 +17,7 @@ pub use depth::{ANCHOR_ORBIT_BYTES, FIRST_RADIUS, RADII_RATIO, SKIPS, Skips};
 pub use lights::lights;
 pub use shared::*;
 
-use super::{Region, datum::Datum, region::Eyes as RegionEyes, schedule::Stale};
+use super::{Region, region::Eyes as RegionEyes, schedule::Stale, space::RenderSpace};
 use crate::{
     fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
@@ -48,18 +48,18 @@ const FINEST_HIT: f32 = 4e-7;
 impl Picture {
     /// The scene as it is seen in `region`, in coordinates that are found for it.
     pub fn new(scene: &Scene, region: Region) -> Self {
-        Self::about(scene, region, &Datum::of(scene, region))
+        Self::about(scene, region, &RenderSpace::of(scene, region))
     }
 
     /// The same in coordinates that are at hand.
-    pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
+    pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
         let height = f64::from(region.picture_px[1]);
         let camera = &scene.camera;
         let rotation = camera.rotation();
         let aspect = region.aspect();
         Self {
             camera: Camera {
-                origin: datum.point(&camera.position).as_vec3().to_array(),
+                origin: space.point(&camera.position).as_vec3().to_array(),
                 half_height: camera.half_height(aspect) as f32,
                 right: (rotation * DVec3::X).as_vec3().to_array(),
                 aspect: aspect as f32,
@@ -68,8 +68,8 @@ impl Picture {
                 forward: camera.forward().as_vec3().to_array(),
                 unused: 0,
             },
-            eyes: eyes(camera, region, datum),
-            fractal: fractal(scene, region, datum),
+            eyes: eyes(camera, region, space),
+            fractal: fractal(scene, region, space),
             surface: surface(scene),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
@@ -140,7 +140,7 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
 }
 
 /// Which eyes a region shows.
-fn eyes(camera: &scene::Camera, region: Region, datum: &Datum) -> Eyes {
+fn eyes(camera: &scene::Camera, region: Region, space: &RenderSpace) -> Eyes {
     let stereo = &camera.stereo;
     // Where the eyes change places, the left one's picture comes from the right.
     let left = if stereo.swap_eyes { 1.0 } else { -1.0 };
@@ -162,7 +162,7 @@ fn eyes(camera: &scene::Camera, region: Region, datum: &Datum) -> Eyes {
             | RegionEyes::Anaglyph
             | RegionEyes::WideAnaglyph => left,
         },
-        half_separation: (half_shift * camera.view_unit() / datum.scale()) as f32,
+        half_separation: (half_shift * camera.view_unit() / space.scale()) as f32,
         half_shift: half_shift as f32,
         share: region.eyes.on_sheet().map(|eyes| 1.0 / eyes as f32),
         first_place: if region.eyes == RegionEyes::Right { 1.0 } else { 0.0 },
@@ -171,10 +171,10 @@ fn eyes(camera: &scene::Camera, region: Region, datum: &Datum) -> Eyes {
     }
 }
 
-fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
+fn fractal(scene: &Scene, region: Region, space: &RenderSpace) -> Fractal {
     let set = &scene.fractal;
-    let iterations = deep::iterations_for(set, datum.footprint(scene, region));
-    let reference = datum.reference();
+    let iterations = deep::iterations_for(set, space.footprint(scene, region));
+    let reference = space.reference();
     let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
     let estimator = Estimator::new(set);
     // The next derivative is at most so many times this one, plus one.
@@ -187,7 +187,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         bounding_radius: estimator.bounding_radius() as f32,
         julia: u32::from(set.julia),
         z_sign: set.variant.sine_sign() as f32,
-        max_step: (estimator.max_step() / datum.scale()).min(1e30) as f32,
+        max_step: (estimator.max_step() / space.scale()).min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
         march_steps: march_steps(iterations, reference.is_some()),
         shadow_steps: shadow_steps(iterations, reference.is_some()),
@@ -195,7 +195,7 @@ fn fractal(scene: &Scene, region: Region, datum: &Datum) -> Fractal {
         log2_bailout: set.bailout.log2() as f32,
         least_derivative: 0.0,
         anchor: anchor.as_vec3().to_array(),
-        scale: datum.scale() as f32,
+        scale: space.scale() as f32,
         places: reference.map_or(0, |reference| reference.places().len() as u32),
         own_places: reference.map_or(0, |reference| reference.own_places() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
@@ -261,17 +261,17 @@ pub struct Inputs {
 impl Inputs {
     /// The scene as it is seen in `region`, in coordinates that are found for it.
     pub fn new(scene: &Scene, region: Region) -> Self {
-        Self::about(scene, region, &Datum::of(scene, region))
+        Self::about(scene, region, &RenderSpace::of(scene, region))
     }
 
     /// The same in coordinates that are at hand.
-    pub fn about(scene: &Scene, region: Region, datum: &Datum) -> Self {
-        let ((skips, near), places) = (depth::skips(datum), depth::places(datum));
-        let mut picture = Picture::about(scene, region, datum);
-        depth::put_near(&mut picture, datum, (&skips, &near), &places);
+    pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
+        let ((skips, near), places) = (depth::skips(space), depth::places(space));
+        let mut picture = Picture::about(scene, region, space);
+        depth::put_near(&mut picture, space, (&skips, &near), &places);
         Self {
             picture,
-            lights: lights(scene, datum),
+            lights: lights(scene, space),
             gradient: color::gradient_lut(&scene.surface.gradient),
             skips,
             places,

@@ -6,7 +6,6 @@ use super::{
     anchors::Anchors,
     around::Neighbours,
     backdrop::Backdrop,
-    datum::{self, Datum},
     filling::Filling,
     frame::{self, Dispatches, Recorder},
     glow::{Glow, Need, Tasks},
@@ -16,6 +15,7 @@ use super::{
     region::Region,
     report::{Activity, Report},
     schedule::{Arithmetic, Pace, Schedule, Stale, Work},
+    space::{self, RenderSpace},
     targets::{Targets, texture_bytes},
     uniforms::Inputs,
     watch::Watch,
@@ -42,9 +42,9 @@ pub struct View {
     pace: Pace,
     anchors: Anchors,
     /// Where the coordinates of the scene begin.
-    datum: Datum,
+    space: RenderSpace,
     /// It was found for this region.
-    is_datum_current: bool,
+    is_space_current: bool,
     targets: Targets,
     schedule: Schedule,
     /// Of the view's own work, and of frames of the interface: those are none.
@@ -88,8 +88,8 @@ impl View {
             region,
             pace,
             anchors: Anchors::default(),
-            datum: Datum::plain(),
-            is_datum_current: false,
+            space: RenderSpace::plain(),
+            is_space_current: false,
             targets: Targets::new(kernels, region),
             schedule: Schedule::new(pace, region.film_px()),
             stopwatch: Stopwatch::default(),
@@ -141,11 +141,11 @@ impl View {
         self.region = region;
         self.schedule.resize(region.film_px());
         let Some(scene) = &self.scene else { return };
-        if datum::wants_anchor(scene, region) == self.datum.reference().is_some() {
+        if space::wants_anchor(scene, region) == self.space.reference().is_some() {
             self.upload(self.inputs_of(scene));
         } else {
             // Other pixels want other coordinates.
-            self.is_datum_current = false;
+            self.is_space_current = false;
             self.pending = self.pending.take().or_else(|| self.scene.clone());
             self.inputs = None;
         }
@@ -254,15 +254,15 @@ impl View {
         let Some(scene) = self.pending.take() else { return false };
         // What no ray sees changes no coordinates either: an anchor found since can wait.
         let is_same_view = self.scene.as_ref().is_some_and(|old| {
-            old.camera == scene.camera && old.fractal == scene.fractal && self.is_datum_current
+            old.camera == scene.camera && old.fractal == scene.fractal && self.is_space_current
         });
         if !is_same_view {
-            let Some(datum) = self.anchors.datum(&scene, self.region, self.pace) else {
+            let Some(space) = self.anchors.space(&scene, self.region, self.pace) else {
                 self.pending = Some(scene);
                 return false;
             };
-            self.datum = datum;
-            self.is_datum_current = true;
+            self.space = space;
+            self.is_space_current = true;
         }
         self.apply(scene);
         true
@@ -290,7 +290,7 @@ impl View {
 
     /// The scene as this view's passes read it.
     fn inputs_of(&self, scene: &Scene) -> Inputs {
-        Inputs::about(scene, self.region, &self.datum)
+        Inputs::about(scene, self.region, &self.space)
             .with_panorama(scene, self.panorama.as_deref())
             .with_neighbours(self.lent_neighbours.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mandelight::{
     gpu::Gpu,
-    render::{Kernels, Pace, Region, View, datum::Datum, gbuffer::Samples},
+    render::{Kernels, Pace, Region, View, gbuffer::Samples, space::RenderSpace},
     scene::Scene,
 };
 
@@ -132,8 +132,8 @@ fn views_just_below_plain_ones() {
     let kernels = Kernels::new(&gpu());
     for anchor in ANCHORS.iter().filter(|anchor| anchor.deepest < SHALLOW) {
         let scene = anchor.scene(SHALLOW);
-        let datum = Datum::of(&scene, Region::whole(size(SHALLOW)));
-        if datum.reference().is_some_and(|reference| !reference.turns()) {
+        let space = RenderSpace::of(&scene, Region::whole(size(SHALLOW)));
+        if space.reference().is_some_and(|reference| !reference.turns()) {
             let view = format!("power {} {} at {SHALLOW:e}", anchor.power, anchor.name);
             view_agrees(&kernels, &scene, size(SHALLOW), false, &view);
         }

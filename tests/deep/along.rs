@@ -6,8 +6,8 @@ use mandelight::{
     gpu::Gpu,
     render::{
         Region,
-        datum::Datum,
         pass::probe::{self, Answer},
+        space::RenderSpace,
     },
     scene::Scene,
 };
@@ -29,26 +29,26 @@ const EVERY: usize = 5;
 
 /// A view's points as the kernels get them and as the march does: the very same ones.
 struct Asked {
-    /// From where the datum's coordinates begin, in its units, each as exact as an f32.
+    /// From where the space's coordinates begin, in its units, each as exact as an f32.
     offset: DVec3,
     point: Point,
 }
 
 /// Some points along the rays that hit.
-fn asked(scene: &Scene, looking: &Looking<'_>, datum: &Datum) -> Vec<Asked> {
-    let begins = match datum.reference() {
+fn asked(scene: &Scene, looking: &Looking<'_>, space: &RenderSpace) -> Vec<Asked> {
+    let begins = match space.reference() {
         Some(reference) => reference.anchor().0.each_ref().map(|v| Real::parse(&v.to_string())),
         None => [0.0; 3].map(Real::from_f64),
     };
-    let eye = datum.point(&scene.camera.position);
-    let scale = Real::from_f64(datum.scale());
+    let eye = space.point(&scene.camera.position);
+    let scale = Real::from_f64(space.scale());
     let pixels: Vec<_> = (0..looking.size[1])
         .flat_map(|y| (0..looking.size[0]).map(move |x| [x, y]))
         .step_by(EVERY)
         .collect();
     let found = in_parallel(&pixels, |&pixel| {
         let direction = looking.direction(super::rays::centre(pixel));
-        let depth = looking.depth(pixel)? / datum.scale();
+        let depth = looking.depth(pixel)? / space.scale();
         Some(PLACES.map(|part| {
             let offset = (eye + part * depth * direction).as_vec3().as_dvec3();
             let way = offset.to_array().map(|v| &Real::from_f64(v) * &scale);
@@ -64,10 +64,10 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
         for scale in anchor.scales() {
             let (scene, size) = (anchor.scene(scale), views::SMALL);
             let looking = Looking::new(&scene, size, views::plenty(&scene));
-            let datum = Datum::of(&scene, Region::whole(views::size(scale)));
-            let asked = asked(&scene, &looking, &datum);
+            let space = RenderSpace::of(&scene, Region::whole(views::size(scale)));
+            let asked = asked(&scene, &looking, &space);
             let offsets: Vec<_> = asked.iter().map(|asked| asked.offset).collect();
-            let answers = probe::ask_about(gpu, &scene, &datum, &offsets).expect("the answers");
+            let answers = probe::ask_about(gpu, &scene, &space, &offsets).expect("the answers");
             let expected =
                 in_parallel(&asked, |Asked { point, .. }| looking.set.estimate(point, scale));
             let pairs: Vec<_> = answers.iter().zip(&expected).collect();
@@ -78,7 +78,7 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
                 [0.5, 0.99].map(|part| quantile(off.clone(), part).expect("an estimate"))
             };
             let off = |found: f32, expected: &Estimate| {
-                let expected = expected.distance / datum.scale();
+                let expected = expected.distance / space.scale();
                 (f64::from(found) - expected).abs() / expected.max(1e-300)
             };
             let of_distance = quantiles(&|answer, expected| off(answer.distance, expected));
@@ -89,7 +89,7 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
             let quick = answers.iter().filter(|answer| answer.quick_distance.is_some()).count();
             let quick_part = quick as f64 / answers.len() as f64;
             // Elsewhere the two ways are one.
-            if datum.reference().is_some_and(|reference| !reference.turns()) {
+            if space.reference().is_some_and(|reference| !reference.turns()) {
                 told_quickly += quick;
                 told += answers.len();
             }

@@ -4,7 +4,7 @@ use std::{collections::HashSet, sync::Arc};
 
 use mandelight::{
     fractal::Reference,
-    render::{Region, datum::Datum, kernels::Form, uniforms::Inputs},
+    render::{Region, kernels::Form, space::RenderSpace, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
 
@@ -67,10 +67,10 @@ fn another_anchor_moves_nothing() {
             let other = |ndc: [f64; 2]| -> Arc<Reference> {
                 places::anchor_at(&scene, SIZE, ndc.into()).expect("a surface there")
             };
-            let first = drawn(&scene, SIZE, &Datum::about(found(&scene, SIZE), &scene));
+            let first = drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene));
             for ndc in [[0.7, 0.6], [-0.6, -0.8]] {
                 let reference = other(ndc);
-                let again = drawn(&scene, SIZE, &Datum::about(reference, &scene));
+                let again = drawn(&scene, SIZE, &RenderSpace::about(reference, &scene));
                 // A tenth of a pixel, which is two footprints wide.
                 let moved = moved(&scene, &first, &again, 0.2);
                 println!("power {} at {scale:e} about {ndc:?}: {moved:?}", fractal.power);
@@ -91,8 +91,8 @@ fn an_anchor_changes_nothing_where_none_is_needed() {
     for fractal in &sets() {
         for scale in [1e-3, 3e-3] {
             let scene = places::at(fractal.clone(), scale);
-            let plain = drawn(&scene, SIZE, &Datum::plain());
-            let deep = drawn(&scene, SIZE, &Datum::about(found(&scene, SIZE), &scene));
+            let plain = drawn(&scene, SIZE, &RenderSpace::plain());
+            let deep = drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene));
             let moved = moved(&scene, &plain, &deep, 0.2);
             println!("power {} julia {} at {scale:e}: {moved:?}", fractal.power, fractal.julia);
             assert!(moved.moved <= 0.01, "{scale:e}: {moved:?}");
@@ -110,7 +110,7 @@ fn a_dive_hands_over_without_a_jump() {
     const NEARER: f64 = 0.99;
     let is_deep = |scale: f64| {
         let scene = places::scene(scale);
-        Datum::of(&scene, Region::whole(SIZE)).reference().is_some()
+        RenderSpace::of(&scene, Region::whole(SIZE)).reference().is_some()
     };
     let mut scale = 3e-3;
     while !is_deep(NEARER * scale) {
@@ -137,8 +137,8 @@ fn every_hand_over_draws_the_same() {
     for fractal in &sets() {
         let form = |scale: f64| {
             let scene = places::at(fractal.clone(), scale);
-            let datum = Datum::about(found(&scene, SIZE), &scene);
-            Form::of(&Inputs::about(&scene, Region::whole(SIZE), &datum).picture)
+            let space = RenderSpace::about(found(&scene, SIZE), &scene);
+            Form::of(&Inputs::about(&scene, Region::whole(SIZE), &space).picture)
         };
         let scales: Vec<_> = (0..26).map(|i| 1e-2 * 0.5_f64.powi(i)).collect();
         let mut forms = HashSet::new();
@@ -155,7 +155,7 @@ fn every_hand_over_draws_the_same() {
                 }
                 let [a, b] = [above, below].map(|scale| {
                     let scene = places::at(fractal.clone(), scale);
-                    drawn(&scene, SIZE, &Datum::about(found(&scene, SIZE), &scene))
+                    drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene))
                 });
                 let moved = moved(&places::at(fractal.clone(), below), &a, &b, 0.2);
                 let what = format!("{old} to {} at {below:e}: {moved:?}", form(below));

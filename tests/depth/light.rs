@@ -3,7 +3,7 @@
 use glam::DVec3;
 use mandelight::{
     fractal::{DeepField, DistanceField},
-    render::datum::Datum,
+    render::space::RenderSpace,
     scene::{
         EnvironmentLight, Fractal, Indirect, IndirectKind, LightFrame, Normals, PointLight, Scene,
     },
@@ -80,7 +80,7 @@ fn normals_of_every_kind() {
     for scale in SCALES {
         let mut scene = places::scene(scale);
         let field = places::field(&scene, SIZE);
-        let datum = Datum::about(field.reference().clone(), &scene);
+        let space = RenderSpace::about(field.reference().clone(), &scene);
         for kind in [
             Normals::None,
             Normals::Three,
@@ -90,7 +90,7 @@ fn normals_of_every_kind() {
             Normals::Analytic,
         ] {
             scene.quality.normals = kind;
-            let drawn = drawn(&scene, SIZE, &datum);
+            let drawn = drawn(&scene, SIZE, &space);
             let seen = seen(&scene, &field, &drawn);
             let mut angles = in_parallel(&seen, |seen| {
                 normal(&field, kind, seen).angle_between(seen.normal).to_degrees()
@@ -179,7 +179,7 @@ fn shadows_of_every_light() {
     for scale in SCALES {
         let scene = lit(Fractal::default(), scale);
         let field = places::field(&scene, SIZE);
-        let drawn = drawn(&scene, SIZE, &Datum::about(field.reference().clone(), &scene));
+        let drawn = drawn(&scene, SIZE, &RenderSpace::about(field.reference().clone(), &scene));
         let seen = seen(&scene, &field, &drawn);
         let lights = scene.lights.len();
         let some: Vec<_> = seen.into_iter().step_by(2).collect();
@@ -220,8 +220,8 @@ fn light_is_the_same_with_and_without_an_anchor() {
     for kind in [IndirectKind::Off, IndirectKind::Uniform, IndirectKind::Horizon] {
         let mut scene = lit(Fractal::default(), 2e-3);
         scene.indirect = Indirect { kind, ..Indirect::default() };
-        let plain = drawn(&scene, SIZE, &Datum::plain());
-        let deep = drawn(&scene, SIZE, &Datum::about(found(&scene, SIZE), &scene));
+        let plain = drawn(&scene, SIZE, &RenderSpace::plain());
+        let deep = drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene));
         let mean = |film: &[[f32; 3]]| film.iter().flatten().sum::<f32>() / film.len() as f32;
         let pairs = plain.film.iter().flatten().zip(deep.film.iter().flatten());
         let mut off: Vec<_> = pairs.map(|(a, b)| (a - b).abs() / mean(&plain.film)).collect();

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use mandelight::{
     fractal::deep::Search,
-    render::{Pace, Region, View, datum::Datum, uniforms::Inputs},
+    render::{Pace, Region, View, space::RenderSpace, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
 
@@ -121,9 +121,9 @@ fn times_of_anchors() {
                 let start = Instant::now();
                 drop(Search::new(&scene.fractal, &scene.camera, 1.5, None));
                 begin = begin.min(ms(start));
-                let datum = Datum::about(found.clone(), &scene);
+                let space = RenderSpace::about(found.clone(), &scene);
                 let start = Instant::now();
-                drop(Inputs::about(&scene, Region::whole([1920, 1080]), &datum));
+                drop(Inputs::about(&scene, Region::whole([1920, 1080]), &space));
                 upload = upload.min(ms(start));
             }
             println!(

@@ -8,10 +8,10 @@ use mandelight::{
     gpu::readback::Readback,
     render::{
         Region,
-        datum::Datum,
         frame::{Dispatches, Recorder, record},
         gbuffer::Samples,
         schedule::{Points, Stage, Trace, Work},
+        space::RenderSpace,
         targets::Targets,
         uniforms::Inputs,
     },
@@ -89,7 +89,7 @@ pub fn anchor_at(scene: &Scene, size: [u32; 2], ndc: DVec2) -> Option<Arc<Refere
 pub fn field(scene: &Scene, size: [u32; 2]) -> DeepField {
     let region = Region::whole(size);
     let reference = found(scene, size);
-    let footprint = Datum::about(reference.clone(), scene).footprint(scene, region);
+    let footprint = RenderSpace::about(reference.clone(), scene).footprint(scene, region);
     DeepField::new(reference, &scene.fractal, footprint)
 }
 
@@ -100,12 +100,12 @@ pub struct Drawn {
     pub film: Vec<[f32; 3]>,
 }
 
-/// Draws the centre samples of `scene` in the coordinates of `datum`.
-pub fn drawn(scene: &Scene, size: [u32; 2], datum: &Datum) -> Drawn {
+/// Draws the centre samples of `scene` in the coordinates of `space`.
+pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
     let kernels = kernels();
     let gpu = &kernels.gpu;
     let region = Region::whole(size);
-    let inputs = Inputs::about(scene, region, datum);
+    let inputs = Inputs::about(scene, region, space);
     let mut targets = Targets::new(kernels, region);
     targets.fit_direct(kernels, inputs.gathers());
     targets.upload(&gpu.queue, &inputs);
@@ -130,7 +130,7 @@ pub fn drawn(scene: &Scene, size: [u32; 2], datum: &Datum) -> Drawn {
     assert_eq!(gpu.faults(), 0);
     let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("bytes");
     let center = &targets.center;
-    let samples = Samples::decode(&read(&center.surface), &read(&center.visibility), datum.scale());
+    let samples = Samples::decode(&read(&center.surface), &read(&center.visibility), space.scale());
     let pairs = |buffer| -> Vec<[f32; 2]> {
         read(buffer).as_chunks::<8>().0.iter().map(|pair| bytemuck::cast(*pair)).collect()
     };

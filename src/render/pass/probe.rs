@@ -11,8 +11,8 @@ use crate::{
     },
     render::{
         Eyes, Region,
-        datum::Datum,
         kernels::{Depth, Form},
+        space::RenderSpace,
         uniforms::{ANCHOR_ORBIT_BYTES, Inputs},
     },
     scene::Scene,
@@ -60,20 +60,20 @@ pub fn ask(
     points: &[DVec3],
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
-    let inputs = Inputs::about(scene, REGION, &Datum::plain());
+    let inputs = Inputs::about(scene, REGION, &RenderSpace::plain());
     let power = if specialised { Form::of(&inputs.picture).power } else { 0 };
     ask_form(gpu, &inputs, points, Form { power, depth: Depth::Plain })
 }
 
-/// The same about points that are given by their offsets from the anchor of `datum`, in its units,
+/// The same about points that are given by their offsets from the anchor of `space`, in its units,
 /// as the answers are.
 pub fn ask_about(
     gpu: &Gpu,
     scene: &Scene,
-    datum: &Datum,
+    space: &RenderSpace,
     offsets: &[DVec3],
 ) -> Result<Vec<Answer>, ReadbackError> {
-    let inputs = Inputs::about(scene, REGION, datum);
+    let inputs = Inputs::about(scene, REGION, space);
     ask_form(gpu, &inputs, offsets, Form::of(&inputs.picture))
 }
 

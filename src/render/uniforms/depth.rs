@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use super::{MOST_NEAR_STEPS, Picture, Place, Skip};
 use crate::{
     fractal::deep::{self, reference::MOST_PLACES, spread::norm},
-    render::{datum::Datum, form::NearSteps},
+    render::{form::NearSteps, space::RenderSpace},
 };
 
 /// How many skips there are.
@@ -51,9 +51,9 @@ const NEAR_RADII: usize = 10;
 pub type Skips = [Skip; SKIPS];
 
 /// The places of an anchor's orbit; one that means nothing where there is none.
-pub fn places(datum: &Datum) -> Arc<[Place]> {
+pub fn places(space: &RenderSpace) -> Arc<[Place]> {
     let nothing = [Place::zeroed()];
-    let Some(reference) = datum.reference() else { return Arc::new(nothing) };
+    let Some(reference) = space.reference() else { return Arc::new(nothing) };
     reference.places().iter().map(place).collect()
 }
 
@@ -68,10 +68,10 @@ fn place(place: &deep::Place) -> Place {
 
 /// What orbits skip within each of the radii of the shaders' `skips`, and within [`near_radii`]; nothing
 /// where there is no anchor.
-pub fn skips(datum: &Datum) -> (Skips, Vec<deep::Skip>) {
-    let Some(reference) = datum.reference() else { return ([Skip::zeroed(); SKIPS], Vec::new()) };
+pub fn skips(space: &RenderSpace) -> (Skips, Vec<deep::Skip>) {
+    let Some(reference) = space.reference() else { return ([Skip::zeroed(); SKIPS], Vec::new()) };
     let radii: [f64; SKIPS] = std::array::from_fn(|i| FIRST_RADIUS * RADII_RATIO.powi(i as i32));
-    let mut found = reference.skips(datum.scale(), &[&radii[..], &near_radii()].concat());
+    let mut found = reference.skips(space.scale(), &[&radii[..], &near_radii()].concat());
     let near = found.split_off(SKIPS);
     (std::array::from_fn(|i| packed(&found[i])), near)
 }
@@ -127,23 +127,23 @@ fn widest_direction(map: DMat3) -> DVec3 {
 /// only the first skip where orbits, or the reference, are too short for more. `near`: of [`skips`].
 pub fn put_near(
     picture: &mut Picture,
-    datum: &Datum,
+    space: &RenderSpace,
     (skips, near): (&Skips, &[deep::Skip]),
     places: &[Place],
 ) {
     picture.skip = skips[0];
-    let Some(reference) = datum.reference().filter(|reference| !reference.turns()) else { return };
+    let Some(reference) = space.reference().filter(|reference| !reference.turns()) else { return };
     let hit_cone = f64::from(picture.camera.hit_cone);
     let least = LEAST_DERIVATIVE / hit_cone.min(WIDEST_CONE);
     let fractal = &mut picture.fractal;
     let own_places = fractal.own_places.min(fractal.iterations + 1) as usize;
-    let Some(near) = Near::find(reference, datum.scale(), near, own_places, least) else { return };
+    let Some(near) = Near::find(reference, space.scale(), near, own_places, least) else { return };
     fractal.near_steps = near.steps.count;
     fractal.has_skip = near.steps.has_skip.into();
     fractal.near_radius_squared = near.radius.powi(2).min(1e37) as f32;
     fractal.least_derivative = least as f32;
     // The eye is one scale from the anchor.
-    let far_radius = 1.0 + deep::COARSEST_FOOTPRINT / (hit_cone * datum.scale());
+    let far_radius = 1.0 + deep::COARSEST_FOOTPRINT / (hit_cone * space.scale());
     fractal.far_radius = far_radius.min(1e37) as f32;
     picture.skip = packed(&near.skip);
     let passed = &places[near.skip.steps as usize..][..=near.steps.count as usize];

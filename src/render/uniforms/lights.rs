@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 
 use super::Light;
 use crate::{
-    render::datum::Datum,
+    render::space::RenderSpace,
     scene::{LightFrame, MAX_LIGHTS, Scene},
 };
 
@@ -15,7 +15,7 @@ const FAR_VIEWS: f64 = 1e6;
 
 /// The scene's lights: environment, then point lights, then the rig's, each with the visibility bit
 /// of its place. Muted ones stay, in black.
-pub fn lights(scene: &Scene, datum: &Datum) -> [Light; MAX_LIGHTS] {
+pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     let any_solo = scene.lights.any_solo();
     let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
         let shines = !muted && (solo || !any_solo);
@@ -23,7 +23,7 @@ pub fn lights(scene: &Scene, datum: &Datum) -> [Light; MAX_LIGHTS] {
         [r * strength, g * strength, b * strength]
     };
     let casts = |wanted: bool| u32::from(wanted && scene.quality.shadows);
-    let view_unit = scene.camera.view_unit() / datum.scale();
+    let view_unit = scene.camera.view_unit() / space.scale();
     let in_world = |frame: LightFrame, direction: DVec3| {
         let direction = match frame {
             LightFrame::Scene => direction,
@@ -44,8 +44,8 @@ pub fn lights(scene: &Scene, datum: &Datum) -> [Light; MAX_LIGHTS] {
         }
     });
     let point = scene.lights.point.iter().map(|light| {
-        let place = datum.point(&light.position);
-        let way = place - datum.point(&scene.camera.position);
+        let place = space.point(&light.position);
+        let way = place - space.point(&scene.camera.position);
         let casts_shadows = casts(light.casts_shadows);
         // In scene units the square of a distance may be past what an f32 holds.
         let (vector, kind, falls) = if way.length() > FAR_VIEWS {
@@ -53,7 +53,7 @@ pub fn lights(scene: &Scene, datum: &Datum) -> [Light; MAX_LIGHTS] {
         } else {
             (place, 1, 1.0)
         };
-        let strength = light.intensity / (datum.scale() * datum.scale()) / falls;
+        let strength = light.intensity / (space.scale() * space.scale()) / falls;
         Light {
             vector: vector.as_vec3().to_array(),
             kind,

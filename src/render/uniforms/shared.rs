@@ -1,7 +1,7 @@
 //! The structs that are shared with WGSL, their fields in the order of their twins in
 //! `shaders/types/`, which `tests/shaders.rs` compares with them.
 //!
-//! Lengths are in the view's unit: that of its [`Datum`](crate::render::datum::Datum), the scene's own
+//! Lengths are in the view's unit: that of its [`RenderSpace`](crate::render::space::RenderSpace), the scene's own
 //! but in deep views.
 
 use bytemuck::{Pod, Zeroable};

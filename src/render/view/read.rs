@@ -25,7 +25,7 @@ impl View {
     pub fn read_samples(&self) -> SamplesReadback {
         let Targets { film_rg, film_bw, center, .. } = &self.targets;
         let film = [film_rg, film_bw];
-        SamplesReadback::new(&self.kernels.gpu, film, &center.surface, self.datum.scale())
+        SamplesReadback::new(&self.kernels.gpu, film, &center.surface, self.space.scale())
     }
 
     /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.
@@ -34,6 +34,6 @@ impl View {
         let center = &self.targets.center;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
         let (surface, visibility) = (read(&center.surface)?, read(&center.visibility)?);
-        Ok(Samples::decode(&surface, &visibility, self.datum.scale()))
+        Ok(Samples::decode(&surface, &visibility, self.space.scale()))
     }
 }

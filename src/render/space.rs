@@ -1,5 +1,7 @@
-//! Where a view's coordinates begin, and in what unit it counts: the scene's own as far as f32 is
-//! fine enough for it, else an anchor on the surface, and how far that is from the eye.
+//! Render space: the floating origin and the unit of a view's coordinates.
+//!
+//! While f32 is fine enough they are the scene's own. Deeper, the origin is an anchor on the surface and
+//! the unit the distance from the eye to the anchor.
 
 use std::sync::Arc;
 
@@ -15,19 +17,19 @@ use crate::{
     scene::{PrecisePoint, Scene},
 };
 
-/// The origin and the unit of a view's coordinates.
+/// Origin and unit of a view's coordinates.
 #[derive(Clone, Debug, Default)]
-pub struct Datum {
-    about: Option<About>,
+pub struct RenderSpace {
+    anchored: Option<Anchored>,
 }
 
 #[derive(Clone, Debug)]
-struct About {
+struct Anchored {
     reference: Arc<Reference>,
     scale: f64,
 }
 
-impl Datum {
+impl RenderSpace {
     /// The scene's own origin and unit.
     pub fn plain() -> Self {
         Self::default()
@@ -38,7 +40,7 @@ impl Datum {
         let way = (&scene.camera.position - reference.anchor()).length();
         // An eye that is the anchor itself, for want of a surface, has its view for a unit.
         let scale = if way > 0.0 { way } else { scene.camera.view_unit() };
-        Self { about: Some(About { reference, scale }) }
+        Self { anchored: Some(Anchored { reference, scale }) }
     }
 
     /// The one that `scene` needs in `region`, searched for at once where that is an anchor: for
@@ -55,27 +57,27 @@ impl Datum {
 
     /// The anchor's orbit, where there is an anchor.
     pub fn reference(&self) -> Option<&Arc<Reference>> {
-        Some(&self.about.as_ref()?.reference)
+        Some(&self.anchored.as_ref()?.reference)
     }
 
     /// Scene units of a length of one.
     pub fn scale(&self) -> f64 {
-        self.about.as_ref().map_or(1.0, |about| about.scale)
+        self.anchored.as_ref().map_or(1.0, |anchored| anchored.scale)
     }
 
     /// A point of the scene in these coordinates.
     pub fn point(&self, point: &PrecisePoint) -> DVec3 {
-        match &self.about {
+        match &self.anchored {
             None => point.to_dvec3(),
-            Some(About { reference, scale }) => (point - reference.anchor()) / *scale,
+            Some(Anchored { reference, scale }) => (point - reference.anchor()) / *scale,
         }
     }
 
     /// The distance from the eye to the nearest surface, in these units.
     pub fn nearest(&self, scene: &Scene) -> f64 {
-        match &self.about {
+        match &self.anchored {
             None => Estimator::new(&scene.fractal).clear_distance(scene.camera.position.to_dvec3()),
-            Some(About { reference, scale }) => {
+            Some(Anchored { reference, scale }) => {
                 let field =
                     DeepField::new(reference.clone(), &scene.fractal, deep::FINEST_FOOTPRINT);
                 field.clear_distance(&scene.camera.position - reference.anchor()) / scale
