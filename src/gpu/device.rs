@@ -6,7 +6,7 @@ use std::sync::{
     atomic::{AtomicU64, Ordering},
 };
 
-use super::Aside;
+use super::AsyncCompile;
 
 /// Why there is no usable GPU.
 #[derive(Debug, thiserror::Error)]
@@ -42,8 +42,8 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// How pipelines are compiled aside, where whoever opened the device knows a way.
-    pub aside: Option<Aside>,
+    /// Asynchronous pipeline compilation, where the platform has it.
+    pub async_compile: Option<AsyncCompile>,
     faults: Arc<AtomicU64>,
 }
 
@@ -86,7 +86,7 @@ impl Gpu {
             counted.fetch_add(1, Ordering::Relaxed);
             log::error!("GPU error: {error}");
         }));
-        Ok(Self { instance, adapter, device, queue, aside: None, faults })
+        Ok(Self { instance, adapter, device, queue, async_compile: None, faults })
     }
 
     /// The adapter's name and backend, for people: `llvmpipe (LLVM 15.0.6) · Vulkan`.

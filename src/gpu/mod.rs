@@ -1,10 +1,10 @@
-//! wgpu helpers: device and limits, shader source, pipelines made aside, readback, timing. Knows no fractals.
+//! wgpu helpers: device and limits, shader source, asynchronous compilation, readback, timing. Knows no fractals.
 
-pub mod aside;
+pub mod async_compile;
 pub mod device;
 pub mod readback;
 pub mod shader;
 pub mod timing;
 
-pub use aside::Aside;
+pub use async_compile::AsyncCompile;
 pub use device::{Gpu, GpuError};

@@ -402,20 +402,20 @@ impl Kernels {
         }
     }
 
-    /// Starts to compile one pipeline aside, `part` of as many as there are
+    /// Starts to compile one pipeline asynchronously, `part` of as many as there are
     /// [parts](Extra::parts), for [`Self::make`] to have it at once when the flag is true; none
-    /// where pipelines cannot be compiled aside.
+    /// where pipelines cannot be compiled asynchronously.
     pub(super) fn begin(&self, extra: Extra, part: usize) -> Option<Arc<AtomicBool>> {
-        let aside = self.gpu.aside?;
-        Some((aside.begin)(&self.gpu.device, &mut || drop(self.ask(extra, part))))
+        let compile = self.gpu.async_compile?;
+        Some((compile.begin)(&self.gpu.device, &mut || drop(self.ask(extra, part))))
     }
 
     /// Makes one pipeline, `part` of as many as there are [parts](Extra::parts). For
     /// [`Self::keep`].
     pub(super) fn make(&self, extra: Extra, part: usize) -> wgpu::ComputePipeline {
         let mut made = None;
-        if let Some(aside) = self.gpu.aside {
-            (aside.take)(&self.gpu.device, &mut || made = Some(self.ask(extra, part)));
+        if let Some(compile) = self.gpu.async_compile {
+            (compile.take)(&self.gpu.device, &mut || made = Some(self.ask(extra, part)));
         }
         let (label, pipeline) = made.unwrap_or_else(|| self.ask(extra, part));
         locked(&self.made).push(label);

@@ -1,4 +1,4 @@
-//! Pipelines on their way: announced, compiled aside or one at a time, and used once before they
+//! Pipelines on their way: announced, compiled asynchronously or one at a time, and used once before they
 //! count.
 //!
 //! In: what a view lacks, the time. Out: the same pipelines, [kept](Kernels) and ready. A view
@@ -33,8 +33,8 @@ pub struct Preparation {
     extra: Extra,
     announced_secs: f64,
     frames: u32,
-    /// Whether each part has been compiled aside; empty before that began, and where it cannot.
-    aside: Vec<Arc<AtomicBool>>,
+    /// Whether each part has been compiled asynchronously; empty before that began, and where it cannot.
+    compiled: Vec<Arc<AtomicBool>>,
     made: Vec<wgpu::ComputePipeline>,
     /// Whether the rehearsal is over; none before it.
     rehearsed: Option<Arc<AtomicBool>>,
@@ -44,9 +44,9 @@ pub struct Preparation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
     /// Other work can go on.
-    Aside,
+    Background,
     /// Other work should wait.
-    Alone,
+    Foreground,
     /// All are ready.
     Ready,
 }
@@ -58,7 +58,7 @@ impl Preparation {
             extra,
             announced_secs: now_secs,
             frames: 0,
-            aside: Vec::new(),
+            compiled: Vec::new(),
             made: Vec::new(),
             rehearsed: None,
         }
@@ -71,7 +71,7 @@ impl Preparation {
 
     /// Whether more than the word is out.
     pub fn has_begun(&self) -> bool {
-        !self.made.is_empty() || !self.aside.is_empty() || self.rehearsed.is_some()
+        !self.made.is_empty() || !self.compiled.is_empty() || self.rehearsed.is_some()
     }
 
     /// The interface has drawn a frame.
@@ -90,23 +90,23 @@ impl Preparation {
         let is_true = |flag: &Arc<AtomicBool>| flag.load(Ordering::Acquire);
         if let Some(rehearsed) = &self.rehearsed {
             if !is_true(rehearsed) {
-                return Progress::Alone;
+                return Progress::Foreground;
             }
             kernels.set_ready(self.extra);
             return Progress::Ready;
         }
         let is_seen = self.frames >= FRAMES_TO_SEE || now_secs - self.announced_secs >= UNSEEN_SECS;
         if !is_seen {
-            return Progress::Aside;
+            return Progress::Background;
         }
         let parts = self.extra.parts();
         if !self.has_begun() {
-            self.aside = (0..parts).filter_map(|part| kernels.begin(self.extra, part)).collect();
+            self.compiled = (0..parts).filter_map(|part| kernels.begin(self.extra, part)).collect();
         }
-        if !self.aside.iter().all(is_true) {
-            return Progress::Aside;
+        if !self.compiled.iter().all(is_true) {
+            return Progress::Background;
         }
-        let at_once = if self.aside.is_empty() { 1 } else { parts };
+        let at_once = if self.compiled.is_empty() { 1 } else { parts };
         for part in (self.made.len()..parts).take(at_once) {
             self.made.push(kernels.make(self.extra, part));
         }
@@ -114,7 +114,7 @@ impl Preparation {
             kernels.keep(self.extra, std::mem::take(&mut self.made));
             self.rehearsed = Some(rehearse(self.extra, kernels, targets, inputs));
         }
-        Progress::Alone
+        Progress::Foreground
     }
 }
 

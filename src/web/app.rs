@@ -66,7 +66,7 @@ impl eframe::App for App {
 
         let settling = engine.follow(session);
         let moving = session.interface.is_moving();
-        let kept = session.keeper.watch(session.interface.project(), moving, now_secs);
+        let kept = session.autosave.watch(session.interface.project(), moving, now_secs);
         session.status.frames += 1;
         for secs in [expiring, settling, kept].into_iter().flatten() {
             ui.ctx().request_repaint_after_secs(secs as f32);

@@ -15,7 +15,7 @@ use std::{
 use eframe::egui_wgpu::RenderState;
 
 use super::{
-    loss::Caution,
+    device_loss::Caution,
     page,
     picture::Picture,
     sequence::{Sequence, Sink},

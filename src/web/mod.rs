@@ -7,29 +7,28 @@
 //! |---|---|
 //! | [`start`] | opening the GPU, and again when it is lost |
 //! | `session` | what outlives the GPU: the interface, its scene, where they are kept |
-//! | `aside` | pipelines that are compiled while everything else goes on |
+//! | `async_compile` | pipelines that are compiled while everything else goes on |
 //! | `app` | one frame of the interface |
 //! | `engine` | the GPU's work between frames |
 //! | `picture` | the view in the window and its texture in egui |
 //! | `still`, `sequence` | a picture, or the frames of a path, on their way to a download |
-//! | `disk` | a file that is written while it is made, where the browser can |
+//! | `file_access` | a file that is written while it is made, where the browser can |
 //! | `files`, `address`, `storage` | what the browser takes and gives |
-//! | `keeper` | writes the scene to storage and address at rest |
-//! | `loss` | how often, and how carefully, to start again |
+//! | `autosave` | writes the scene to storage and address at rest |
+//! | `device_loss` | how often, and how carefully, to start again |
 //! | `mailbox` | what callbacks leave for the next frame |
-//! | `faults`, `hook` | what went wrong, and the handle that browser tests have |
+//! | `faults`, `test_hook` | what went wrong, and the handle that browser tests have |
 //! | `page` | the window: clocks, timers, listeners |
 
 mod address;
 mod app;
-mod aside;
-mod disk;
+mod async_compile;
+mod autosave;
+mod device_loss;
 mod engine;
 mod faults;
+mod file_access;
 mod files;
-mod hook;
-mod keeper;
-mod loss;
 mod mailbox;
 mod page;
 mod picture;
@@ -38,3 +37,4 @@ mod session;
 pub mod start;
 mod still;
 mod storage;
+mod test_hook;

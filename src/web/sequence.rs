@@ -13,7 +13,7 @@ use std::{
 use wasm_bindgen_futures::spawn_local;
 
 use super::{
-    disk::{self, DiskFile, NoFile},
+    file_access::{self, DiskFile, NoFile},
     files::Download,
     mailbox::{Mailbox, Message},
     still::Progress,
@@ -42,7 +42,7 @@ impl Sink {
     /// Asks for a file where the browser writes while it goes, and posts where the zip goes.
     pub fn choose(name: String, mailbox: &Mailbox) {
         let mailbox = mailbox.clone();
-        if !disk::is_there() {
+        if !file_access::is_there() {
             mailbox.post(Message::Sink(Some(Self { name, goal: Goal::Download })));
             return;
         }

@@ -6,9 +6,9 @@ use std::{cell::RefCell, io::Cursor, rc::Rc, sync::Arc};
 
 use super::{
     address::Address,
+    autosave::Autosave,
+    device_loss::{self, Caution},
     files::{self, Picker},
-    keeper::Keeper,
-    loss::{self, Caution},
     mailbox::{Mailbox, Message},
     page,
     sequence::Sink,
@@ -32,7 +32,7 @@ pub struct Session {
     /// Where callbacks leave word.
     pub mailbox: Mailbox,
     /// Writes the scene to storage and address.
-    pub keeper: Keeper,
+    pub autosave: Autosave,
     /// The file dialogue.
     pub picker: Picker,
     /// The device, while there is one.
@@ -77,7 +77,7 @@ impl Session {
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
         let mut session = Self {
-            keeper: Keeper::new(address),
+            autosave: Autosave::new(address),
             picker: Picker::new(&mailbox),
             interface,
             mailbox,
@@ -89,7 +89,7 @@ impl Session {
             caution: Caution::None,
             paused_at: None,
         };
-        session.be_cautious(loss::caution_at_start(session.fragment().as_deref()));
+        session.be_cautious(device_loss::caution_at_start(session.fragment().as_deref()));
         session.miss_panorama();
         if let Some(complaint) = complaint {
             session.complain(complaint);
@@ -145,7 +145,7 @@ impl Session {
     pub fn note_finished(&mut self) {
         if self.caution == Caution::Smaller {
             self.caution = Caution::None;
-            loss::note_finished();
+            device_loss::note_finished();
             self.mailbox.wake();
         }
     }
@@ -253,7 +253,7 @@ impl Session {
 
     /// Keeps the scene and the interface's layout, without waiting for rest.
     pub fn write_down(&mut self) {
-        self.keeper.flush();
+        self.autosave.flush();
         match serde_json::to_string(self.interface.settings()) {
             Ok(text) => storage::SETTINGS.write(&text),
             Err(error) => log::warn!("the settings are not kept: {error}"),

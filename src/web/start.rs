@@ -14,7 +14,9 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::HtmlCanvasElement;
 
-use super::{app::App, aside, faults, hook::Hook, loss, page, session::Session};
+use super::{
+    app::App, async_compile, device_loss, faults, page, session::Session, test_hook::TestHook,
+};
 use crate::{gpu::Gpu, render::MAX_REGION_PX};
 
 thread_local! {
@@ -54,7 +56,7 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     // So that keys work before the first click; a page that may not take the focus does without.
     let _ = stage.canvas.focus();
     if page::is_test() {
-        Hook::install(&stage.session);
+        TestHook::install(&stage.session);
     }
     Ok(())
 }
@@ -62,7 +64,7 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
 /// Opens a device and runs an app on it.
 async fn raise(stage: &Rc<Stage>) -> Result<(), String> {
     let mut gpu = Gpu::open(None).await.map_err(|error| error.to_string())?;
-    gpu.aside = aside::aside(&gpu.device);
+    gpu.async_compile = async_compile::async_compile(&gpu.device);
     let generation = stage.generation.get() + 1;
     stage.generation.set(generation);
     watch_device(&gpu.device, generation);
@@ -113,7 +115,7 @@ async fn recover(stage: &Rc<Stage>, message: &str) {
     stage.runner.destroy();
     let (was_exporting, caution) = {
         let mut session = stage.session.borrow_mut();
-        (session.lose_gpu(), loss::note_loss(session.fragment()))
+        (session.lose_gpu(), device_loss::note_loss(session.fragment()))
     };
     let Some(caution) = caution else {
         give_up(message);

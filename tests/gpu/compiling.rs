@@ -6,7 +6,7 @@ use std::{
 };
 
 use mandelight::{
-    gpu::{Aside, Gpu},
+    gpu::{AsyncCompile, Gpu},
     render::{Activity, Kernels, Pace, Region, View},
     scene::{IndirectKind, Scene},
 };
@@ -15,8 +15,8 @@ use crate::harness::{kernels, sampled};
 
 const SIZE: [u32; 2] = [48, 32];
 
-/// A platform that compiles aside, as slowly as a test likes.
-mod aside {
+/// A platform whose asynchronous compilation takes as long as a test wants.
+mod async_compile {
     use std::sync::{
         Arc, Mutex,
         atomic::{AtomicBool, Ordering},
@@ -73,13 +73,13 @@ impl Watched {
     /// that holds others up, one at most, while the picture stays.
     fn pump(&mut self) -> bool {
         let activity = self.view.report().activity;
-        let is_aside = self.kernels.gpu.aside.is_some();
+        let is_async = self.kernels.gpu.async_compile.is_some();
         let dispatches = self.view.dispatches();
         let made = self.kernels.made();
         let is_busy = self.view.pump(self.start.elapsed().as_secs_f64());
         let new = self.kernels.made().split_off(made.len());
         match &activity {
-            Activity::Compiling(_) => assert!(new.len() <= 1 || is_aside, "{new:?} at once"),
+            Activity::Compiling(_) => assert!(new.len() <= 1 || is_async, "{new:?} at once"),
             other => assert!(new.is_empty(), "{new:?} compiled while {other:?}"),
         }
         if let Activity::Compiling(what) = self.view.report().activity {
@@ -196,18 +196,19 @@ fn a_drag_of_the_power_compiles_nothing() {
     assert_eq!(watched.kernels.made().len(), made.len() + 5);
 }
 
-/// Where pipelines are compiled aside, the view goes on meanwhile, and is ready for all that may
+/// Where pipelines are compiled asynchronously, the view goes on meanwhile, and is ready for all that may
 /// come once it has nothing else to do.
 #[test]
-fn what_is_compiled_aside_holds_nothing_up() {
+fn asynchronous_compilation_blocks_no_frame() {
     let mut gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-    gpu.aside = Some(Aside { begin: aside::begin, take: aside::take });
+    gpu.async_compile =
+        Some(AsyncCompile { begin: async_compile::begin, take: async_compile::take });
     let mut watched = Watched::with(Kernels::new(&gpu));
     let made = watched.kernels.made();
     let mut scene = sampled(Scene::default(), 1);
     let pump_until = |watched: &mut Watched, what: &str, parts: usize| {
         let start = Instant::now();
-        while aside::UNDER_WAY.lock().expect("flags").len() < parts {
+        while async_compile::UNDER_WAY.lock().expect("flags").len() < parts {
             watched.pump();
             assert!(start.elapsed().as_secs() < 60, "{what}: {:?}", watched.view.report());
         }
@@ -223,17 +224,17 @@ fn what_is_compiled_aside_holds_nothing_up() {
         watched.pump();
     }
     assert_eq!(watched.kernels.made(), made);
-    assert_eq!(aside::finish(), 4);
+    assert_eq!(async_compile::finish(), 4);
     // Its normals are a matter of their own.
     for (what, parts) in [("power 8", 1), ("light", 2), ("tone mapping", 2)] {
         pump_until(&mut watched, what, parts);
-        assert_eq!(aside::finish(), parts);
+        assert_eq!(async_compile::finish(), parts);
     }
     pump_until(&mut watched, "indirect light", 1);
     assert_eq!(watched.kernels.made().len(), made.len() + 9);
-    assert_eq!(aside::finish(), 1);
+    assert_eq!(async_compile::finish(), 1);
     pump_until(&mut watched, "exposure and bloom", 6);
-    assert_eq!(aside::finish(), 6);
+    assert_eq!(async_compile::finish(), 6);
     watched.settle();
     assert_eq!(watched.kernels.made().len(), made.len() + 16);
     watched.announced.clear();

@@ -13,14 +13,14 @@ use super::orbit::Place;
 
 /// How a point lies beside a place, about the polar axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Aside {
+pub struct Deviation {
     /// dρ.
     pub rho: f64,
     /// du.
     pub rotor: DVec2,
 }
 
-impl Aside {
+impl Deviation {
     /// Of the point that is `delta` away from `place`.
     pub fn new(place: &Place, delta: DVec3) -> Self {
         let (at, aside) = (place.z.truncate(), delta.truncate());
@@ -39,16 +39,16 @@ impl Aside {
 /// The difference of the n-th powers of `place` and of the point that is `delta` away from it, for
 /// the variant with sine sign `sine_sign`.
 pub fn raised(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
-    raised_aside(place, Aside::new(place, delta), delta.z, n, sine_sign)
+    raised_by(place, Deviation::new(place, delta), delta.z, n, sine_sign)
 }
 
 /// The same of a point on the place's own meridian.
 pub fn raised_on_meridian(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
-    let aside = Aside { rho: place.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
-    raised_aside(place, aside, delta.z, n, sine_sign)
+    let aside = Deviation { rho: place.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
+    raised_by(place, aside, delta.z, n, sine_sign)
 }
 
-fn raised_aside(place: &Place, aside: Aside, up: f64, n: u32, sine_sign: f64) -> DVec3 {
+fn raised_by(place: &Place, aside: Deviation, up: f64, n: u32, sine_sign: f64) -> DVec3 {
     let w = complex_power(DVec2::new(place.rho, place.z.z), DVec2::new(aside.rho, up), n);
     let u = complex_power(place.rotor, aside.rotor, n);
     let across = u.difference * w.value.x + (u.value + u.difference) * w.difference.x;

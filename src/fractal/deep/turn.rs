@@ -21,7 +21,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{difference::Aside, orbit::Place};
+use super::{difference::Deviation, orbit::Place};
 
 /// How far a frame has been turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl Turn {
     /// Turns on until what is `difference` away from `place` has the place's longitude. Returns the
     /// difference as it is then, and the rotor of that turn.
     pub fn settle(&mut self, place: &Place, difference: DVec3) -> (DVec3, DVec2) {
-        let aside = Aside::new(place, difference);
+        let aside = Deviation::new(place, difference);
         let by = Self { ahead: aside.rotor.rotate(conjugate(place.rotor)), ..*self }.normalized();
         *self = Self { ahead: product(self.ahead, by.ahead), ..*self }.normalized();
         ((place.rotor * aside.rho).extend(difference.z), DVec2::X + by.ahead)

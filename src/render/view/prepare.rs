@@ -32,8 +32,8 @@ impl View {
             let preparation = self.preparation.insert(preparation);
             match preparation.step(&self.kernels, &self.targets, &inputs, self.now_secs) {
                 Progress::Ready => {}
-                Progress::Aside => return is_awaited,
-                Progress::Alone => return true,
+                Progress::Background => return is_awaited,
+                Progress::Foreground => return true,
             }
         }
         self.preparation = None;
@@ -75,7 +75,7 @@ impl View {
         let awaited = [rays, normals].into_iter().chain(self.behind_shading(scene));
         // General forms do as well until there are special ones. A finished picture leaves time
         // for what may come, where that holds nothing up.
-        let is_free = self.kernels.gpu.aside.is_some()
+        let is_free = self.kernels.gpu.async_compile.is_some()
             && self.pace == Pace::Interactive
             && self.is_at_rest()
             && self.schedule.status(self.now_secs).idle;

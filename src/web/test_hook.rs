@@ -23,11 +23,11 @@ const LOOK_EVERY_MS: i32 = 4;
 
 /// The test hook.
 #[wasm_bindgen]
-pub struct Hook {
+pub struct TestHook {
     session: Rc<RefCell<Session>>,
 }
 
-impl Hook {
+impl TestHook {
     /// Puts a hook on the window.
     pub fn install(session: &Rc<RefCell<Session>>) {
         let Some(window) = page::window() else { return };
@@ -37,7 +37,7 @@ impl Hook {
 }
 
 #[wasm_bindgen]
-impl Hook {
+impl TestHook {
     /// What the view is doing: counts, milliseconds and pixels.
     pub fn report(&self) -> Object {
         let session = self.session.borrow();

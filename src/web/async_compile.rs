@@ -1,4 +1,4 @@
-//! Compiling pipelines aside, by `createComputePipelineAsync`.
+//! Asynchronous pipeline compilation by `createComputePipelineAsync`.
 //!
 //! wgpu has no call for it, and takes no pipeline that others made. So the device's own
 //! `createComputePipeline` is stood in for while wgpu asks once: first by something that only
@@ -18,7 +18,7 @@ use js_sys::{Function, Object, Promise, Reflect};
 use wasm_bindgen::{JsCast, prelude::*};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
-use crate::gpu::Aside;
+use crate::gpu::AsyncCompile;
 
 const PLAIN: &str = "createComputePipeline";
 const ASIDE: &str = "createComputePipelineAsync";
@@ -34,11 +34,11 @@ thread_local! {
     static MADE: RefCell<Vec<Made>> = const { RefCell::new(Vec::new()) };
 }
 
-/// How browsers compile aside; none where this one cannot.
-pub fn aside(device: &wgpu::Device) -> Option<Aside> {
+/// The browser's asynchronous compilation; none where it has none.
+pub fn async_compile(device: &wgpu::Device) -> Option<AsyncCompile> {
     let device = device.as_webgpu()?;
     let call = Reflect::get(device.as_ref(), &ASIDE.into()).ok()?;
-    call.is_function().then_some(Aside { begin, take })
+    call.is_function().then_some(AsyncCompile { begin, take })
 }
 
 fn begin(device: &wgpu::Device, ask: &mut dyn FnMut()) -> Arc<AtomicBool> {

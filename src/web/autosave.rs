@@ -11,14 +11,14 @@ use super::{address::Address, storage};
 const REST_SECS: f64 = 0.5;
 
 /// Watches one scene for changes.
-pub struct Keeper {
+pub struct Autosave {
     address: Address,
     /// The scene of the last frame; none before the first, which fits the view to the window.
     seen: Option<Project>,
     changed_at_secs: Option<f64>,
 }
 
-impl Keeper {
+impl Autosave {
     /// Starts to watch. The first scene seen is not written: it is kept where it came from.
     pub fn new(address: Address) -> Self {
         Self { address, seen: None, changed_at_secs: None }

@@ -1,16 +1,15 @@
-//! Compiling pipelines aside, while everything else goes on: where a platform can, which wgpu
-//! itself does not ask for.
+//! Asynchronous pipeline compilation, where the platform has it: wgpu itself has no call for it.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
-/// How a platform compiles aside. Both functions are given a device and a closure that asks it
+/// The platform's asynchronous compilation. Both functions get a device and a closure that asks the device
 /// for one pipeline.
 #[derive(Clone, Copy)]
-pub struct Aside {
+pub struct AsyncCompile {
     /// Starts to compile what the closure asks for, and returns at once. What the closure gets is
     /// of no use. The flag turns true when [`Self::take`] will not have to wait.
     pub begin: fn(&wgpu::Device, &mut dyn FnMut()) -> Arc<AtomicBool>,
-    /// Has the closure get what was compiled aside for the same label; where there is nothing, or
-    /// that failed, what it asks for.
+    /// Gives the closure the pipeline that was compiled for the same label; compiles it now where there is
+    /// none or compilation failed.
     pub take: fn(&wgpu::Device, &mut dyn FnMut()),
 }
