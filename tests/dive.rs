@@ -157,7 +157,7 @@ fn a_dive_by_the_wheel_ends_at_the_limit_and_comes_back_the_same_way() {
         assert_eq!(camera_fault(&camera), None, "after {notches} notches");
         notches += 1;
     }
-    assert!(world(&field).standing(&camera).at_precision_limit);
+    assert!(world(&field).camera_status(&camera).at_precision_limit);
     // Twenty-seven orders of magnitude are 311 notches of a fifth.
     assert!((290..340).contains(&notches), "{notches} notches");
     let distance = field.distance_at(&camera.position);

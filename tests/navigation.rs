@@ -298,13 +298,13 @@ fn dolly_stops_where_f32_pictures_end() {
     for _ in 0..200 {
         navigator.dolly(&mut camera, world(&field), DVec2::ZERO, 0.3);
     }
-    let standing = world(&field).standing(&camera);
-    assert!(standing.at_precision_limit && standing.distance > 0.0, "{standing:?}");
-    assert!(standing.footprint <= PLAIN_FOOTPRINT);
-    assert!(standing.distance >= 0.9 * world(&field).clearance(&camera), "{standing:?}");
+    let camera_status = world(&field).camera_status(&camera);
+    assert!(camera_status.at_precision_limit && camera_status.distance > 0.0, "{camera_status:?}");
+    assert!(camera_status.footprint <= PLAIN_FOOTPRINT);
+    assert!(camera_status.distance >= 0.9 * world(&field).clearance(&camera), "{camera_status:?}");
     // And it comes out again.
     navigator.dolly(&mut camera, world(&field), DVec2::ZERO, -4.0);
-    assert!(!world(&field).standing(&camera).at_precision_limit);
+    assert!(!world(&field).camera_status(&camera).at_precision_limit);
 }
 
 #[test]

@@ -8,16 +8,16 @@ use crate::scene::Camera;
 /// An opening view at least this much larger than a new scene's is itself a place to come out of.
 const DEEP_ZOOM: f64 = 10.0;
 
-/// A way that Home leads.
+/// Where Home leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum HomeTarget {
     /// To the scene's opening view.
     Opening,
     /// From a deep opening view, such as a dive's, out to all of the fractal.
     Whole,
 }
 
-impl Way {
+impl HomeTarget {
     /// Where Home leads from `camera`; none from an opening view that shows the whole already.
     pub fn of(camera: &Camera, home: &Camera) -> Option<Self> {
         // Stereo is of the screen that one sits before, not of the place.

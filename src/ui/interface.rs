@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, Frame as Box, Margin, Panel, Rect, Ui, vec2};
+use egui::{Align2, Color32, Margin, Panel, Rect, Ui, vec2};
 
 use super::{
     Action, Inputs, Notice,
     editor::Editor,
     handles,
-    home::Way,
+    home::HomeTarget,
     icon::{Icon, icon_button},
-    navigation::Standing,
+    navigation::CameraStatus,
     panel::{self, Context, Selection, Settings},
     pilot::{Frame, Pilot},
     rects::Rects,
@@ -39,7 +39,7 @@ pub struct Interface {
     /// The camera that Home returns to.
     home: Camera,
     help_open: bool,
-    standing: Option<Standing>,
+    camera_status: Option<CameraStatus>,
     rects: Rects,
     view_px: [u32; 2],
     moving: bool,
@@ -60,7 +60,7 @@ impl Interface {
             pilot: Pilot::default(),
             timeline: Timeline::default(),
             help_open: false,
-            standing: None,
+            camera_status: None,
             rects: Rects::default(),
             view_px: [1, 1],
             moving: false,
@@ -202,13 +202,13 @@ impl Interface {
             actions,
             inputs,
             panorama: self.panorama.as_deref(),
-            standing: self.standing,
+            camera_status: self.camera_status,
             view_px: self.view_px,
             flying: self.pilot.is_flying(),
             can_undo,
             can_redo,
         };
-        let frame = Box::new().fill(theme::PANEL);
+        let frame = egui::Frame::new().fill(theme::PANEL);
         let shown = if !wide {
             let size =
                 if open { (height * SHEET_PART).floor().max(SHEET_HEADING) } else { SHEET_HEADING };
@@ -235,12 +235,12 @@ impl Interface {
     }
 
     fn status(&mut self, ui: &mut Ui, inputs: &Inputs<'_>) {
-        let frame = Box::new().fill(theme::PANEL);
+        let frame = egui::Frame::new().fill(theme::PANEL);
         let status = status::Status {
             report: inputs.report,
             scene: self.editor.scene(),
             adapter: inputs.adapter,
-            standing: self.standing,
+            camera_status: self.camera_status,
             flight: self.pilot.is_flying().then(|| self.pilot.speed()),
         };
         let shown = Panel::bottom("status")
@@ -263,7 +263,7 @@ impl Interface {
         let response = view::show(ui, frame, inputs.picture);
         self.rects.note("view", &response);
         // The pilot takes this frame's commands below.
-        if let Some(way) = Way::of(&scene.camera, &self.home) {
+        if let Some(way) = HomeTarget::of(&scene.camera, &self.home) {
             let side = button_side(ui);
             let beside = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
             let at = rect.left_bottom() + vec2(beside, -10.0 - side);
@@ -284,7 +284,7 @@ impl Interface {
         {
             self.selection.light = Some(light);
         }
-        self.standing = Some(self.pilot.standing(scene, frame));
+        self.camera_status = Some(self.pilot.camera_status(scene, frame));
         if wide && !self.settings.panel_open {
             let at = rect.right_top() + vec2(-10.0 - button_side(ui), 10.0);
             let hover = ("Show panel", "Show the panel (P)");
@@ -441,7 +441,7 @@ fn notice(ui: &mut Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mu
         .constrain_to(view)
         .show(ui.ctx(), |ui| {
             let edge = if notice.is_error { theme::ERROR } else { theme::ACCENT };
-            Box::new()
+            egui::Frame::new()
                 .fill(theme::PANEL)
                 .stroke(egui::Stroke::new(1.0, edge))
                 .corner_radius(8)

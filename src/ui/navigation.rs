@@ -84,9 +84,9 @@ pub struct World<'a> {
     pub viewport: Viewport,
 }
 
-/// Where a camera stands, for the status line.
+/// Distance and precision at a camera, for the status line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standing {
+pub struct CameraStatus {
     /// Estimated distance from the eye to the nearest surface, in scene units.
     pub distance: f64,
     /// Radius of a pixel's cone at that distance, in scene units.
@@ -121,13 +121,13 @@ impl World<'_> {
         CLEARANCE * self.nearest(camera)
     }
 
-    /// Where `camera` stands.
-    pub fn standing(&self, camera: &Camera) -> Standing {
+    /// Status of `camera`.
+    pub fn camera_status(&self, camera: &Camera) -> CameraStatus {
         let distance = self.field.clear_distance(self.eye(camera));
         let nearest = self.nearest(camera);
         // At low powers the estimate is often many times too large.
         let pivot_at_limit = camera.view_unit() <= nearest && distance <= FAR_OFF * nearest;
-        Standing {
+        CameraStatus {
             distance,
             footprint: distance * self.cone(camera),
             at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,

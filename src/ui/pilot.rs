@@ -10,8 +10,8 @@ use glam::{DVec2, DVec3};
 
 use super::{
     field::Fields,
-    home::Way,
-    navigation::{FlyInput, Navigator, Standing, Viewport, World},
+    home::HomeTarget,
+    navigation::{CameraStatus, FlyInput, Navigator, Viewport, World},
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
@@ -137,10 +137,10 @@ impl Pilot {
     }
 
     /// Where the camera stands, for the camera panel.
-    pub fn standing(&mut self, scene: &Scene, frame: Frame) -> Standing {
+    pub fn camera_status(&mut self, scene: &Scene, frame: Frame) -> CameraStatus {
         let viewport = viewport(scene, frame);
         let field = self.fields.choose(scene, viewport);
-        World { field: &*field, viewport }.standing(&scene.camera)
+        World { field: &*field, viewport }.camera_status(&scene.camera)
     }
 
     /// Moves the scene's camera by this frame's input.
@@ -185,9 +185,9 @@ impl Pilot {
         let wide = DVec2::new(1.0 / world.viewport.aspect, 1.0);
         let steps = |right: i8, up: i8| DVec2::new(f64::from(right), f64::from(up)) * wide;
         match command {
-            Command::Home => match Way::of(camera, home) {
-                Some(Way::Whole) => self.navigator.frame_all(camera, world),
-                Some(Way::Opening) | None => self.navigator.fly_to(camera, world, home),
+            Command::Home => match HomeTarget::of(camera, home) {
+                Some(HomeTarget::Whole) => self.navigator.frame_all(camera, world),
+                Some(HomeTarget::Opening) | None => self.navigator.fly_to(camera, world, home),
             },
             Command::FrameAll => self.navigator.frame_all(camera, world),
             Command::Orbit(right, up) => {

@@ -4,7 +4,7 @@
 
 use egui::{Rect, RichText, Sense, Ui, pos2};
 
-use super::{navigation::Standing, theme};
+use super::{navigation::CameraStatus, theme};
 use crate::{
     fractal::deep::has_depth,
     render::report::{Activity, Report},
@@ -27,7 +27,7 @@ pub struct Status<'a> {
     /// The device that draws.
     pub adapter: &'a str,
     /// Where the camera stands; none before the first frame.
-    pub standing: Option<Standing>,
+    pub camera_status: Option<CameraStatus>,
     /// In fly mode, the speed in scene units per second, zero at rest.
     pub flight: Option<f64>,
 }
@@ -144,7 +144,7 @@ fn right_text(status: &Status<'_>, width: f32) -> String {
 }
 
 fn is_at_limit(status: &Status<'_>) -> bool {
-    status.standing.is_some_and(|standing| standing.at_precision_limit)
+    status.camera_status.is_some_and(|camera_status| camera_status.at_precision_limit)
 }
 
 /// Why it goes no nearer, in a line `width` points wide.

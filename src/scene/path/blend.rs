@@ -185,7 +185,7 @@ impl Walk<'_> {
     fn number(&self, path: &str, values: Four<&Value>) -> Option<Value> {
         let param = param::find(path);
         let numbers = values.map(|value| value.and_then(Value::as_f64));
-        let line = Course::of(param, numbers);
+        let line = Interpolation::of(param, numbers);
         let numbers = numbers.map(|value| value.map(|v| line.onto(v)));
         let at = self.span.point(&Line, numbers.each_ref().map(Option::as_ref))?;
         let is_whole = |value: Option<&Value>| value.is_some_and(|v| v.is_u64() || v.is_i64());
@@ -281,8 +281,8 @@ fn unlit(mut light: Value) -> Option<Value> {
     Some(light)
 }
 
-/// How a number goes at an even pace.
-enum Course {
+/// How a number is interpolated along a path.
+enum Interpolation {
     /// By equal steps.
     Even,
     /// By equal ratios.
@@ -291,8 +291,8 @@ enum Course {
     RatiosFrom(f64),
 }
 
-impl Course {
-    /// The course that the table says. Where all numbers are above zero and some are far below the
+impl Interpolation {
+    /// The interpolation of the parameter table. Where all numbers are above zero and some are far below the
     /// parameter's step, as the intensities of lights deep in the set are, it is by ratios: they
     /// follow the zoom.
     fn of(param: Option<&Param>, numbers: Four<f64>) -> Self {

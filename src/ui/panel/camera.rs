@@ -56,10 +56,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         zoom_text(zoom(camera)),
         "How much larger things appear than from where a new scene is seen",
     );
-    if let Some(standing) = cx.standing {
+    if let Some(camera_status) = cx.camera_status {
         line(
             "To the surface",
-            format!("{} u", significant(standing.distance)),
+            format!("{} u", significant(camera_status.distance)),
             "Estimated distance from the eye to the nearest surface, in scene units; the speed of flight follows it",
         );
     }

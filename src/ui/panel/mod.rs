@@ -25,7 +25,7 @@ use super::{
     Action, Inputs,
     editor::Editor,
     icon::{Icon, icon_button},
-    navigation::Standing,
+    navigation::CameraStatus,
     rects::Rects,
     shortcuts::Command,
     theme,
@@ -118,7 +118,7 @@ pub(super) struct Context<'a> {
     /// The picture of the surroundings that is at hand.
     pub panorama: Option<&'a Panorama>,
     /// Where the camera stood in the last frame.
-    pub standing: Option<Standing>,
+    pub camera_status: Option<CameraStatus>,
     /// Size of the view in the last frame, in pixels.
     pub view_px: [u32; 2],
     pub flying: bool,
