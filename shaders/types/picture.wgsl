@@ -192,7 +192,7 @@ struct Indirect {
     directions: u32,
     samples: u32,
     // One eye's picture that the neighbours are from, in pixels.
-    around_px: vec2u,
+    source_px: vec2u,
 }
 
 // Which eyes the region shows, for a picture in stereo.

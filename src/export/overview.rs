@@ -29,7 +29,7 @@ pub(super) struct Overview {
     view: View,
     samples: u32,
     glows: bool,
-    gathers: bool,
+    has_indirect: bool,
     is_finished: bool,
 }
 
@@ -43,11 +43,11 @@ impl Overview {
         format: PictureFormat,
     ) -> Option<Self> {
         let region = region(sheet.picture_px, sheet.overview_eyes());
-        let gathers = scene.indirect.kind != IndirectKind::Off;
+        let has_indirect = scene.indirect.kind != IndirectKind::Off;
         // An EXR holds what is before exposure and bloom.
         let glows =
             format != PictureFormat::Exr && !Need::of(&Picture::new(scene, region)).is_none();
-        if !glows && !gathers {
+        if !glows && !has_indirect {
             return None;
         }
         let mut scene = scene.clone();
@@ -59,7 +59,7 @@ impl Overview {
         let mut view = View::new(kernels, region, Pace::Still);
         view.set_panorama(panorama);
         view.set_scene(&scene, false);
-        Some(Self { view, samples, glows, gathers, is_finished: false })
+        Some(Self { view, samples, glows, has_indirect, is_finished: false })
     }
 
     /// Draws on, without waiting. True once all is known.
@@ -78,8 +78,8 @@ impl Overview {
         if self.glows {
             tile.lend_glow(Some(self.view.glow()));
         }
-        if self.gathers {
-            tile.lend_neighbours(Some(self.view.neighbours()));
+        if self.has_indirect {
+            tile.lend_indirect_source(Some(self.view.indirect_source()));
         }
     }
 

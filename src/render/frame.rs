@@ -1,8 +1,8 @@
 //! The life of a frame: its passes, in the order in which they run.
 
 use super::{
-    around::{self, Neighbours},
     glow::{Glow, Tasks},
+    indirect::{self, IndirectSource},
     kernels::{Kernels, Passes},
     lattice::{Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
     lists::{BLOCK_THREADS, List},
@@ -31,13 +31,13 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
                 pass::shadow::record(recorder, &trace, &grid);
             }
             // Indirect light of centre samples waits until all of a level have their direct light.
-            let gathers =
-                recorder.inputs.gathers() && matches!(trace.points, Points::Samples { .. });
-            if trace.from <= Stage::Shade && !gathers {
+            let has_indirect =
+                recorder.inputs.has_indirect() && matches!(trace.points, Points::Samples { .. });
+            if trace.from <= Stage::Shade && !has_indirect {
                 pass::shade::record(recorder, &trace, &grid);
             }
-            if trace.from == Stage::Gather || gathers {
-                pass::gather::record(recorder, &trace, &grid);
+            if trace.from == Stage::Indirect || has_indirect {
+                pass::indirect::record(recorder, &trace, &grid);
             }
         }
         Work::Show { level, fill, .. } => {
@@ -84,7 +84,7 @@ pub struct Dispatches {
     /// Shading.
     pub shade: u64,
     /// Shading with indirect light.
-    pub gather: u64,
+    pub indirect: u64,
     /// Filling in.
     pub fill: u64,
     /// Means of the film, of all their mip levels together.
@@ -107,14 +107,14 @@ impl Dispatches {
             shadow,
             shadow_rays: _,
             shade,
-            gather,
+            indirect,
             fill,
             mean,
             histogram,
             bloom,
             tone,
         } = *self;
-        march + list + normal + shadow + shade + gather + fill + mean + histogram + bloom + tone
+        march + list + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
     }
 }
 
@@ -131,7 +131,7 @@ pub struct Recorder<'a> {
     /// What is known of the film as a whole: the targets' own unless a view puts another here.
     pub glow: &'a Glow,
     /// Where indirect light comes from: the targets' own unless a view puts another here.
-    pub neighbours: Neighbours,
+    pub indirect_source: IndirectSource,
     /// What of it a display brings up to date.
     pub tasks: Tasks,
     /// A count of workgroups, zero, that all dispatches have: drivers then compile what they left
@@ -165,7 +165,7 @@ impl<'a> Recorder<'a> {
             targets,
             inputs,
             glow: &targets.glow,
-            neighbours: targets.neighbours(inputs.picture.indirect.around_px),
+            indirect_source: targets.indirect_source(inputs.picture.indirect.source_px),
             tasks: Tasks::default(),
             rehearsal: None,
             spread: None,
@@ -203,13 +203,13 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(3, &self.targets.backdrop.group, &[]);
     }
 
-    /// Binds what indirect light is gathered from and for.
-    pub fn bind_neighbours(&mut self, trace: &Trace) {
+    /// Binds the samples that indirect light is gathered from and for.
+    pub fn bind_indirect(&mut self, trace: &Trace) {
         let samples = match trace.points {
             Points::Samples { .. } => &self.targets.jittered,
             _ => &self.targets.center,
         };
-        let groups = around::groups(self.kernels, self.targets, samples, &self.neighbours);
+        let groups = indirect::groups(self.kernels, self.targets, samples, &self.indirect_source);
         for (index, group) in (1..).zip(&groups) {
             self.compute.set_bind_group(index, group, &[]);
         }

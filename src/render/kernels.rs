@@ -145,7 +145,7 @@ pub enum Extra {
     /// Tone mapping.
     Tone(ToneForm),
     /// Indirect light.
-    Gather,
+    Indirect,
     /// Mean, histogram, bloom.
     Glow,
 }
@@ -176,7 +176,7 @@ impl Extra {
             Self::Rays(form) | Self::Normals(form, _) => format!("power {}", form.power),
             Self::Shade(_) => "light".to_owned(),
             Self::Tone(_) => "tone mapping".to_owned(),
-            Self::Gather => "indirect light".to_owned(),
+            Self::Indirect => "indirect light".to_owned(),
             Self::Glow => "exposure and bloom".to_owned(),
         }
     }
@@ -186,7 +186,7 @@ impl Extra {
         match self {
             Self::Rays(_) => 4,
             Self::Tone(_) | Self::Shade(_) => 2,
-            Self::Normals(..) | Self::Gather => 1,
+            Self::Normals(..) | Self::Indirect => 1,
             Self::Glow => GlowKernels::PARTS.len(),
         }
     }
@@ -208,7 +208,7 @@ impl Extra {
                 ("ANAGLYPH", f64::from(is_anaglyph)),
                 ("SPARSE", f64::from(part == 1)),
             ],
-            Self::Gather | Self::Glow => Vec::new(),
+            Self::Indirect | Self::Glow => Vec::new(),
         }
     }
 }
@@ -227,7 +227,7 @@ pub struct Kernels {
     shadow: Special,
     shade: Special,
     tone: Special,
-    gather: OnceLock<wgpu::ComputePipeline>,
+    indirect: OnceLock<wgpu::ComputePipeline>,
     fill: LazyPipeline,
     glow: OnceLock<GlowKernels>,
     glow_layout: wgpu::PipelineLayout,
@@ -286,7 +286,7 @@ impl Kernels {
             shadow,
             shade,
             tone,
-            gather: OnceLock::new(),
+            indirect: OnceLock::new(),
             fill,
             glow: OnceLock::new(),
             develop,
@@ -306,8 +306,8 @@ impl Kernels {
 
     /// Direct and indirect light onto the film; compiles that where nobody
     /// [prepared](Self::prepare) it.
-    pub fn gather(&self) -> &wgpu::ComputePipeline {
-        self.gather.get_or_init(|| self.make(Extra::Gather, 0))
+    pub fn indirect(&self) -> &wgpu::ComputePipeline {
+        self.indirect.get_or_init(|| self.make(Extra::Indirect, 0))
     }
 
     /// The fastest forms of a picture's passes that are ready.
@@ -398,7 +398,7 @@ impl Kernels {
             Extra::Normals(..) => vec![&self.normal],
             Extra::Shade(_) => vec![&self.shade, &self.shade],
             Extra::Tone(_) => vec![&self.tone, &self.tone],
-            Extra::Gather | Extra::Glow => Vec::new(),
+            Extra::Indirect | Extra::Glow => Vec::new(),
         }
     }
 
@@ -430,10 +430,10 @@ impl Kernels {
             (module.label.to_owned(), pipeline(device, layout, &shader, module.label, &Vec::new()))
         };
         match extra {
-            Extra::Gather => {
-                let Layouts { picture, samples, film, around, .. } = &self.layouts;
-                let groups = [picture, samples, film, around];
-                plain(&pipeline_layout(device, "gathering", &groups), &pass::gather::MODULE)
+            Extra::Indirect => {
+                let Layouts { picture, samples, film, indirect, .. } = &self.layouts;
+                let groups = [picture, samples, film, indirect];
+                plain(&pipeline_layout(device, "indirect", &groups), &pass::indirect::MODULE)
             }
             Extra::Glow => plain(&self.glow_layout, GlowKernels::PARTS[part]),
             _ => {
@@ -453,8 +453,8 @@ impl Kernels {
     pub(super) fn keep(&self, extra: Extra, parts: Vec<wgpu::ComputePipeline>) {
         let part = |index: usize| parts[index].clone();
         match extra {
-            Extra::Gather => {
-                self.gather.get_or_init(|| part(0));
+            Extra::Indirect => {
+                self.indirect.get_or_init(|| part(0));
             }
             Extra::Glow => {
                 self.glow.get_or_init(|| GlowKernels::from_parts(part));

@@ -7,7 +7,7 @@ pub struct Layouts {
     pub picture: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
-    /// Group 1 of gathering: the same, read only.
+    /// Group 1 of the indirect pass: the same, read only.
     pub samples: wgpu::BindGroupLayout,
     /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
     /// all storage.
@@ -20,8 +20,8 @@ pub struct Layouts {
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the picture of the surroundings and its sampler.
     pub backdrop: wgpu::BindGroupLayout,
-    /// Group 3 of gathering: the same, and the neighbours' surface.
-    pub around: wgpu::BindGroupLayout,
+    /// Group 3 of the indirect pass: the same, and the surface of the indirect source.
+    pub indirect: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -51,7 +51,7 @@ impl Layouts {
             listing: group("listing", &[STORAGE; 2]),
             film: group("film", &[STORAGE, STORAGE, display, STORAGE]),
             backdrop: group("surroundings", &[backdrop_texture, backdrop_sampler]),
-            around: group("neighbours", &[backdrop_texture, backdrop_sampler, READ_ONLY]),
+            indirect: group("indirect source", &[backdrop_texture, backdrop_sampler, READ_ONLY]),
         }
     }
 }

@@ -6,7 +6,7 @@
 //! | [`schedule`] | what to compute next: a pure state machine |
 //! | [`lattice`] | sparse lattices of pixels, and where samples lie in a pixel |
 //! | [`frame`] | the passes of one submit |
-//! | [`around`] | where indirect light comes from |
+//! | [`indirect`] | where indirect light comes from |
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`backdrop`] | the picture of the surroundings |
 //! | [`kernels`] | pipelines and bind group layouts |
@@ -26,7 +26,6 @@
 //! | [`report`] | what a view says of itself |
 
 mod anchors;
-pub mod around;
 pub mod backdrop;
 mod filling;
 pub mod form;
@@ -34,6 +33,7 @@ pub mod frame;
 pub mod gbuffer;
 pub mod glow;
 mod glow_kernels;
+pub mod indirect;
 pub mod kernels;
 pub mod lattice;
 mod layouts;

@@ -153,7 +153,7 @@ fn rehearse(
         Extra::Shade(_) => [Points::Level(0), Points::Samples { first: 1, count: 2 }]
             .map(|points| trace(points, Stage::Shade))
             .to_vec(),
-        Extra::Gather => vec![trace(Points::Around(0), Stage::Gather)],
+        Extra::Indirect => vec![trace(Points::Indirect(0), Stage::Indirect)],
         Extra::Glow => vec![show(0)],
         // Of a whole picture, and of a sparse lattice.
         Extra::Tone(_) => vec![show(0), show(1)],

@@ -89,8 +89,8 @@ pub struct Schedule {
     /// Finest level whose every centre sample is shaded.
     shaded: Option<u32>,
     /// Whether there is indirect light, and the finest level that has it.
-    gathers: bool,
-    gathered: Option<u32>,
+    has_indirect: bool,
+    indirect_shaded: Option<u32>,
     samples_done: u32,
     /// The points under way and the next workgroup to submit.
     under_way: Option<(Points, u32)>,
@@ -125,8 +125,8 @@ impl Schedule {
             known: Known::default(),
             shining: 0,
             shaded: None,
-            gathers: false,
-            gathered: None,
+            has_indirect: false,
+            indirect_shaded: None,
             samples_done: 0,
             under_way: None,
             is_filled: false,
@@ -166,8 +166,8 @@ impl Schedule {
     }
 
     /// Says whether there is indirect light. Follow it with the change that it is.
-    pub fn set_gathering(&mut self, gathers: bool) {
-        self.gathers = gathers;
+    pub fn set_indirect(&mut self, has_indirect: bool) {
+        self.has_indirect = has_indirect;
     }
 
     /// Says what powers are raised by from now on.
@@ -190,7 +190,7 @@ impl Schedule {
 
     /// The finest level that is on the film.
     fn filmed(&self) -> Option<u32> {
-        if self.gathers { self.gathered } else { self.shaded }
+        if self.has_indirect { self.indirect_shaded } else { self.shaded }
     }
 
     /// Has the film shown once more as it is.
@@ -249,7 +249,7 @@ impl Schedule {
         if stale >= Stale::Light {
             self.shaded = None;
         }
-        self.gathered = None;
+        self.indirect_shaded = None;
         self.samples_done = 0;
         self.under_way = None;
         self.is_filled = false;
@@ -388,8 +388,8 @@ impl Schedule {
             // its indirect light.
             let is_filmed = match points {
                 Points::All => self.is_filled,
-                Points::Level(_) | Points::Added(_) => !self.gathers,
-                Points::Around(_) | Points::Samples { .. } => true,
+                Points::Level(_) | Points::Added(_) => !self.has_indirect,
+                Points::Indirect(_) | Points::Samples { .. } => true,
             };
             self.show_due |= is_filmed && self.filmed().is_some() && self.pace == Pace::Interactive;
         } else {
@@ -406,11 +406,11 @@ impl Schedule {
                 let level = points.level();
                 self.shaded = Some(level);
                 // What waits for indirect light is not on the film yet.
-                self.show_due = !self.gathers;
+                self.show_due = !self.has_indirect;
                 self.known.complete(level, self.shining);
             }
-            Points::Around(level) => {
-                self.gathered = Some(level);
+            Points::Indirect(level) => {
+                self.indirect_shaded = Some(level);
                 self.show_due = true;
             }
             Points::Samples { first, count } => {

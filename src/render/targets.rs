@@ -6,9 +6,9 @@
 use std::sync::Arc;
 
 use super::{
-    around::Neighbours,
     backdrop::Backdrop,
     glow::{Glow, Need},
+    indirect::IndirectSource,
     kernels::Kernels,
     lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
     lists::Lists,
@@ -179,8 +179,8 @@ impl Targets {
     }
 
     /// This region's own centre samples; `eye_px` is one eye's picture.
-    pub fn neighbours(&self, eye_px: [u32; 2]) -> Neighbours {
-        Neighbours { eye_px, surface: self.center.surface.clone(), direct: self.direct.clone() }
+    pub fn indirect_source(&self, eye_px: [u32; 2]) -> IndirectSource {
+        IndirectSource { eye_px, surface: self.center.surface.clone(), direct: self.direct.clone() }
     }
 
     /// The film's group with direct light of another view.

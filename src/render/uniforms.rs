@@ -135,7 +135,7 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
         ambient: indirect.ambient as f32,
         directions: indirect.directions,
         samples: indirect.samples,
-        around_px: region.size_px,
+        source_px: region.size_px,
     }
 }
 
@@ -293,9 +293,9 @@ impl Inputs {
         self
     }
 
-    /// The same with neighbours of another view, of whose pictures one eye's has so many pixels.
-    pub fn with_neighbours(mut self, eye_px: Option<[u32; 2]>) -> Self {
-        self.picture.indirect.around_px = eye_px.unwrap_or(self.picture.indirect.around_px);
+    /// The same with the indirect source of another view, one eye of which has so many pixels.
+    pub fn with_indirect_source(mut self, eye_px: Option<[u32; 2]>) -> Self {
+        self.picture.indirect.source_px = eye_px.unwrap_or(self.picture.indirect.source_px);
         self
     }
 
@@ -339,7 +339,7 @@ impl Inputs {
     }
 
     /// Whether there is indirect light.
-    pub fn gathers(&self) -> bool {
+    pub fn has_indirect(&self) -> bool {
         self.picture.indirect.kind != 0
     }
 
@@ -360,15 +360,15 @@ impl Inputs {
             && self.panorama == old.panorama
             && self.is_lit_as(old)
             && self.gradient == old.gradient
-            && self.gathers() == old.gathers();
+            && self.has_indirect() == old.has_indirect();
         if !same_geometry {
             Some(Stale::Geometry)
         } else if new_picture.normals != old_picture.normals {
             Some(Stale::Normals)
         } else if !same_light {
             Some(Stale::Light)
-        } else if self.gathers() && new_picture.indirect != old_picture.indirect {
-            Some(Stale::Around)
+        } else if self.has_indirect() && new_picture.indirect != old_picture.indirect {
+            Some(Stale::Indirect)
         } else {
             let same_tone =
                 new_picture.tone == old_picture.tone && new_picture.bloom == old_picture.bloom;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::{
     anchors::Anchors,
-    around::Neighbours,
     backdrop::Backdrop,
     filling::Filling,
     frame::{self, Dispatches, Recorder},
     glow::{Glow, Need, Tasks},
+    indirect::IndirectSource,
     kernels::{Form, Kernels},
     memory::Memory,
     preparation::Preparation,
@@ -63,7 +63,7 @@ pub struct View {
     /// What another view knows of the whole picture, of which this one draws a part.
     lent_glow: Option<Arc<Glow>>,
     /// The same of where its indirect light comes from.
-    lent_neighbours: Option<Neighbours>,
+    lent_indirect_source: Option<IndirectSource>,
     /// Pipelines on their way.
     preparation: Option<Preparation>,
     dispatches: Dispatches,
@@ -103,7 +103,7 @@ impl View {
             filling: Filling::default(),
             watch: Watch::default(),
             lent_glow: None,
-            lent_neighbours: None,
+            lent_indirect_source: None,
             preparation: None,
             dispatches: Dispatches::default(),
             shown: None,
@@ -279,7 +279,7 @@ impl View {
         self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
         self.schedule.aim(motion_budget_ms, samples);
-        self.schedule.set_gathering(scene.indirect.kind != IndirectKind::Off);
+        self.schedule.set_indirect(scene.indirect.kind != IndirectKind::Off);
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.now_secs);
@@ -292,7 +292,7 @@ impl View {
     fn inputs_of(&self, scene: &Scene) -> Inputs {
         Inputs::about(scene, self.region, &self.space)
             .with_panorama(scene, self.panorama.as_deref())
-            .with_neighbours(self.lent_neighbours.as_ref().map(|lent| lent.eye_px))
+            .with_indirect_source(self.lent_indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
     }
 
@@ -302,7 +302,7 @@ impl View {
         self.schedule.set_casting(inputs.casting());
         self.targets.upload(&self.kernels.gpu.queue, &inputs);
         self.fit_glow(Need::of(&inputs.picture));
-        self.targets.fit_direct(&self.kernels, inputs.gathers());
+        self.targets.fit_direct(&self.kernels, inputs.has_indirect());
         if self.targets.backdrop.id != inputs.panorama {
             let shown = self.panorama.as_deref().filter(|_| inputs.panorama.is_some());
             self.targets.backdrop = Arc::new(Backdrop::new(&self.kernels, shown));
@@ -375,8 +375,8 @@ impl View {
         if let Some(lent) = &self.lent_glow {
             recorder.glow = lent;
         }
-        if let Some(lent) = &self.lent_neighbours {
-            recorder.neighbours = lent.clone();
+        if let Some(lent) = &self.lent_indirect_source {
+            recorder.indirect_source = lent.clone();
         }
         frame::record(&mut recorder, work);
         let commands = recorder.finish();
@@ -418,15 +418,15 @@ impl View {
     }
 
     /// The centre samples, where they are all of the picture: for a view that draws a part of it.
-    pub fn neighbours(&self) -> Neighbours {
-        self.targets.neighbours(self.region.size_px)
+    pub fn indirect_source(&self) -> IndirectSource {
+        self.targets.indirect_source(self.region.size_px)
     }
 
     /// Has the view gather indirect light from the samples of another view that draws all of the
     /// picture, rather than from its region's own; none takes that back. The lender's picture is
     /// finished and shows the same scene, in any size. To be called before the view has a scene.
-    pub fn lend_neighbours(&mut self, neighbours: Option<Neighbours>) {
-        self.lent_neighbours = neighbours;
+    pub fn lend_indirect_source(&mut self, source: Option<IndirectSource>) {
+        self.lent_indirect_source = source;
     }
 
     /// What the view is doing.

@@ -107,15 +107,15 @@ pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
     let region = Region::whole(size);
     let inputs = Inputs::about(scene, region, space);
     let mut targets = Targets::new(kernels, region);
-    targets.fit_direct(kernels, inputs.gathers());
+    targets.fit_direct(kernels, inputs.has_indirect());
     targets.upload(&gpu.queue, &inputs);
     for extra in mandelight::render::kernels::Extra::special(&inputs.picture) {
         kernels.prepare(extra);
     }
     let passes = kernels.passes(&inputs.picture);
     let mut stages = vec![(Points::Level(0), Stage::March)];
-    if inputs.gathers() {
-        stages.push((Points::Around(0), Stage::Gather));
+    if inputs.has_indirect() {
+        stages.push((Points::Indirect(0), Stage::Indirect));
     }
     let mut dispatches = Dispatches::default();
     for (points, from) in stages {

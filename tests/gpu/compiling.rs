@@ -159,7 +159,7 @@ fn nothing_is_compiled_unannounced() {
         all.insert(format!("tone, CURVE 1, BLOOM {bloom}, ANAGLYPH 0, SPARSE {sparse}"));
     }
     all.extend(
-        ["gather", "mean", "reduce", "expose", "histogram", "bloom", "blur"].map(str::to_owned),
+        ["indirect", "mean", "reduce", "expose", "histogram", "bloom", "blur"].map(str::to_owned),
     );
     assert_eq!(made.len(), all.len(), "each once: {made:?}");
     assert_eq!(BTreeSet::from_iter(made), all);
@@ -260,7 +260,7 @@ fn a_still_compiles_at_once() {
 /// Pipelines that one view prepared are there for all others of the device.
 #[test]
 fn what_is_ready_is_not_announced_again() {
-    kernels().prepare(mandelight::render::kernels::Extra::Gather);
+    kernels().prepare(mandelight::render::kernels::Extra::Indirect);
     let mut scene = sampled(Scene::default(), 1);
     scene.indirect.kind = IndirectKind::Uniform;
     let mut view = View::new(kernels(), Region::whole(SIZE), Pace::Interactive);

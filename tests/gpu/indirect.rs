@@ -22,7 +22,7 @@ fn cost_of(before: &Scene, after: &Scene) -> [u64; 5] {
     view.set_scene(after, false);
     settle(&mut view);
     let new = view.dispatches();
-    let of = |d: Dispatches| [d.march, d.normal, d.shadow, d.shade, d.gather];
+    let of = |d: Dispatches| [d.march, d.normal, d.shadow, d.shade, d.indirect];
     let (new, old) = (of(new), of(old));
     std::array::from_fn(|i| new[i] - old[i])
 }
@@ -39,9 +39,9 @@ fn an_edit_of_indirect_light_touches_only_itself() {
     for edit in edits {
         let mut after = before.clone();
         edit(&mut after.indirect);
-        let [march, normal, shadow, shade, gather] = cost_of(&before, &after);
+        let [march, normal, shadow, shade, indirect] = cost_of(&before, &after);
         assert_eq!([march, normal, shadow, shade], [0; 4]);
-        assert!(gather > 0);
+        assert!(indirect > 0);
     }
 }
 
@@ -52,9 +52,9 @@ fn what_is_off_costs_nothing() {
     other.indirect.radius = 0.01;
     other.indirect.ambient = 1.0;
     assert_eq!(cost_of(&off, &other), [0; 5]);
-    assert_eq!(finished(&off, SIZE, Pace::Interactive).dispatches().gather, 0);
-    let [march, .., gather] = cost_of(&lit(IndirectKind::Off, 1), &lit(IndirectKind::Uniform, 1));
-    assert!(march == 0 && gather > 0);
+    assert_eq!(finished(&off, SIZE, Pace::Interactive).dispatches().indirect, 0);
+    let [march, .., indirect] = cost_of(&lit(IndirectKind::Off, 1), &lit(IndirectKind::Uniform, 1));
+    assert!(march == 0 && indirect > 0);
 }
 
 /// However the lattice was completed, the picture is the one that a still makes at once.
@@ -86,7 +86,7 @@ fn tiles_have_no_seams() {
             eyes: Eyes::Camera,
         };
         let mut tile = View::new(kernels(), region, Pace::Still);
-        tile.lend_neighbours(Some(whole.neighbours()));
+        tile.lend_indirect_source(Some(whole.indirect_source()));
         tile.set_scene(&scene, false);
         settle(&mut tile);
         let row = |row: u32| {
@@ -112,7 +112,7 @@ fn neighbours_of_a_smaller_picture_do_nearly_as_well() {
         let own = finished(&scene, size, Pace::Still);
         let overview = finished(&scene, [225, 150], Pace::Still);
         let mut view = View::new(kernels(), Region::whole(size), Pace::Still);
-        view.lend_neighbours(Some(overview.neighbours()));
+        view.lend_indirect_source(Some(overview.indirect_source()));
         view.set_scene(&scene, false);
         settle(&mut view);
         let part = apart(&view, &own) / apart(&direct, &own);

@@ -43,7 +43,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let kernels = kernels();
     let mut targets = Targets::new(kernels, Region::whole(size));
     let inputs = Inputs::new(scene, Region::whole(size));
-    targets.fit_direct(kernels, inputs.gathers());
+    targets.fit_direct(kernels, inputs.has_indirect());
     targets.upload(&kernels.gpu.queue, &inputs);
     let passes = kernels.passes(&inputs.picture);
     let mut dispatches = Dispatches::default();
@@ -52,9 +52,9 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
         let lights = inputs.shining();
         Work::Trace(Trace { points, from, lights, first_workgroup: 0, workgroups })
     };
-    let gather = inputs.gathers().then(|| trace(Points::Around(level), Stage::Gather));
+    let indirect = inputs.has_indirect().then(|| trace(Points::Indirect(level), Stage::Indirect));
     let show = Work::Show { level, fill: level > 0, film: false, adapt: 1.0 };
-    let works = [Some(trace(Points::Level(level), Stage::March)), gather, Some(show)];
+    let works = [Some(trace(Points::Level(level), Stage::March)), indirect, Some(show)];
     for work in works.into_iter().flatten() {
         let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);

@@ -38,7 +38,7 @@ fn cost_from(
         shadow: after.shadow - before.shadow,
         shadow_rays: after.shadow_rays - before.shadow_rays,
         shade: after.shade - before.shade,
-        gather: after.gather - before.gather,
+        indirect: after.indirect - before.indirect,
         fill: after.fill - before.fill,
         mean: after.mean - before.mean,
         histogram: after.histogram - before.histogram,
@@ -74,8 +74,8 @@ fn what_moves_no_light_marches_nothing() {
         for edit in edits {
             let scene = sampled(Scene::default(), 1);
             let cost = cost_from(scene, |scene| scene.indirect.kind = indirect, edit);
-            let Dispatches { shade, gather, fill, tone, .. } = cost;
-            assert_eq!(cost, Dispatches { shade, gather, fill, tone, ..Dispatches::default() });
+            let Dispatches { shade, indirect, fill, tone, .. } = cost;
+            assert_eq!(cost, Dispatches { shade, indirect, fill, tone, ..Dispatches::default() });
             assert!(shade > 0);
         }
     }

@@ -23,7 +23,7 @@ mod against_gpu;
 mod bloom;
 mod estimate;
 mod film;
-mod gather;
+mod indirect;
 mod light;
 mod normals;
 mod normals_table;

@@ -9,9 +9,9 @@ pub mod cone;
 pub mod develop;
 pub mod expose;
 pub mod fill;
-pub mod gather;
 pub mod histogram;
 pub mod hits;
+pub mod indirect;
 pub mod march;
 pub mod mean;
 pub mod normal;
@@ -32,7 +32,7 @@ pub const MODULES: &[&Module] = &[
     &tube::MODULE,
     &shadow::MODULE,
     &shade::MODULE,
-    &gather::MODULE,
+    &indirect::MODULE,
     &fill::MODULE,
     &develop::MODULE,
     &spread::MODULE,

@@ -18,8 +18,8 @@ impl Schedule {
         match self.shaded {
             None if self.pace == Pace::Still => Some(Points::Level(0)),
             None => Some(Points::Level(self.opening_level())),
-            Some(level) if self.filmed() != Some(level) && self.gather_now(level, now_secs) => {
-                Some(Points::Around(self.gather_level(level)))
+            Some(level) if self.filmed() != Some(level) && self.indirect_now(level, now_secs) => {
+                Some(Points::Indirect(self.finest_indirect(level)))
             }
             Some(0) if self.samples_done < self.samples_wanted => {
                 let left = self.samples_wanted - self.samples_done;
@@ -35,7 +35,7 @@ impl Schedule {
         let is_short = self.whole_ms() <= STRAIGHT_MS;
         // Where it takes long, more of the picture is seen first. Then the film shows how far it
         // is, which it cannot while it waits for indirect light.
-        let is_dense_enough = level <= PREVIEW_LEVEL && !self.gathers;
+        let is_dense_enough = level <= PREVIEW_LEVEL && !self.has_indirect;
         if level >= SPARSE_LEVEL && (is_short || is_dense_enough) {
             Points::All
         } else {
@@ -53,35 +53,40 @@ impl Schedule {
     /// light is stale.
     fn opening_level(&self) -> u32 {
         let finest = self.known.marched().unwrap_or(0);
-        self.finest_within_budget(finest, |level| self.job(Points::Level(level)), self.gathers)
+        self.finest_within_budget(finest, |level| self.job(Points::Level(level)), self.has_indirect)
     }
 
-    /// The finest level, none finer than `finest`, that the budget has room for. `gathers`: with
+    /// The finest level, none finer than `finest`, that the budget has room for. `has_indirect`: with
     /// its indirect light.
-    fn finest_within_budget(&self, finest: u32, job: impl Fn(u32) -> Job, gathers: bool) -> u32 {
+    fn finest_within_budget(
+        &self,
+        finest: u32,
+        job: impl Fn(u32) -> Job,
+        has_indirect: bool,
+    ) -> u32 {
         // What refined the picture before cannot be called back.
         let refining = self.in_flight.iter().filter(|piece| piece.aim == Aim::Refining);
         let before_ms = refining.map(|piece| piece.expected_ms).sum();
         let fits = |level: &u32| {
             let pixels = Grid::level(*level, self.size_px).threads();
-            self.cost.fits(self.budget_ms, before_ms, pixels, job(*level), gathers)
+            self.cost.fits(self.budget_ms, before_ms, pixels, job(*level), has_indirect)
         };
         (finest..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 
     /// Whether a level gets its indirect light, rather than wait for a finer one: where it is the
     /// first to be seen, or the last, or where something new should be seen by now.
-    fn gather_now(&self, level: u32, now_secs: f64) -> bool {
+    fn indirect_now(&self, level: u32, now_secs: f64) -> bool {
         self.opening || level == 0 || now_secs - self.shown_at >= self.show_interval_secs()
     }
 
     /// The level whose indirect light comes next, where `shaded` has its direct light: where that
     /// is too fine for the budget, an edit opens on a coarser one.
-    fn gather_level(&self, shaded: u32) -> u32 {
+    fn finest_indirect(&self, shaded: u32) -> u32 {
         if !self.opening || self.pace == Pace::Still {
             return shaded;
         }
-        self.finest_within_budget(shaded, |level| self.job(Points::Around(level)), false)
+        self.finest_within_budget(shaded, |level| self.job(Points::Indirect(level)), false)
     }
 
     /// Samples so far with what has been submitted of those under way.
@@ -101,7 +106,7 @@ impl Schedule {
             }
             // These go over the pixels that the lattice has once more.
             Some((Points::All, _)) => there.max(share),
-            Some((Points::Around(_), _)) | None => there,
+            Some((Points::Indirect(_), _)) | None => there,
         }
     }
 
@@ -111,7 +116,7 @@ impl Schedule {
         let (from, lights) = match points {
             Points::Level(level) | Points::Added(level) => self.known.start(level, self.shining),
             Points::All => self.known.start(0, self.shining),
-            Points::Around(_) => (Stage::Gather, 0),
+            Points::Indirect(_) => (Stage::Indirect, 0),
             Points::Samples { .. } => (Stage::March, self.shining),
         };
         Job { from, lights }

@@ -109,7 +109,7 @@ impl Cost {
             Stage::March | Stage::Normal => (job.from, 1.0 + lights),
             Stage::Shadow if lights > 0.0 => (Stage::Shadow, lights),
             Stage::Shadow | Stage::Shade => (Stage::Shade, SHADING_RAYS),
-            Stage::Gather => (Stage::Gather, 1.0),
+            Stage::Indirect => (Stage::Indirect, 1.0),
         }
     }
 
@@ -199,7 +199,7 @@ impl Cost {
         match dearer {
             Some(dearer) if !own.is_measured() => {
                 // Gathering is no part of the others: what is too much of it has to be found out.
-                if from == Stage::Gather { dearer.in_slices_of(own) } else { *dearer }
+                if from == Stage::Indirect { dearer.in_slices_of(own) } else { *dearer }
             }
             _ => own,
         }
@@ -216,7 +216,7 @@ impl Cost {
     }
 
     /// Whether an opening of so many pixels fits `budget_ms` together with its display and with
-    /// what is still in flight of other work, which takes `before_ms`. `gathers`: and with its
+    /// what is still in flight of other work, which takes `before_ms`. `has_indirect`: and with its
     /// indirect light.
     pub fn fits(
         &self,
@@ -224,16 +224,16 @@ impl Cost {
         before_ms: f64,
         pixels: u32,
         job: Job,
-        gathers: bool,
+        has_indirect: bool,
     ) -> bool {
         let (stage, rays_of_pixel) = self.price(job);
         let rate = self.rate(Aim::Opening, stage);
         let mut fixed_ms = rate.fixed_ms;
         let mut pixel_ms = rate.ray_ms * rays_of_pixel;
-        if gathers {
-            let gather = self.rate(Aim::Opening, Stage::Gather);
-            fixed_ms += gather.fixed_ms;
-            pixel_ms += gather.ray_ms;
+        if has_indirect {
+            let indirect = self.rate(Aim::Opening, Stage::Indirect);
+            fixed_ms += indirect.fixed_ms;
+            pixel_ms += indirect.ray_ms;
         }
         // At least a quarter of the budget goes into the lattice's pixels, however slow the
         // display and the way to it.

@@ -40,7 +40,7 @@ impl Known {
             Stale::Geometry => *self = Self::default(),
             // Where a point faces, and where its shadow rays start, depends on the normal.
             Stale::Normals => *self = Self { marched: self.marched, ..Self::default() },
-            Stale::Light | Stale::Around | Stale::Tone => {}
+            Stale::Light | Stale::Indirect | Stale::Tone => {}
         }
     }
 

@@ -15,7 +15,7 @@ pub enum Stale {
     /// Exposure, tone curve: the film stays.
     Tone,
     /// How indirect light is gathered: the centre samples' direct light stays.
-    Around,
+    Indirect,
     /// Lights, surface, colours: the centre samples' G-buffer stays, but for the bits of lights
     /// that moved. Those are told apart by [`Schedule::set_lights`].
     Light,

@@ -35,7 +35,7 @@ fn share_of_frame(from: Stage, lights: f64) -> f64 {
         Stage::March => 0.33,
         Stage::Normal => 0.1,
         Stage::Shadow | Stage::Shade => 0.0,
-        Stage::Gather => return 0.3,
+        Stage::Indirect => return 0.3,
     };
     before + 0.22 * lights + 0.01
 }
@@ -160,10 +160,10 @@ fn every_device_finishes_and_then_rests() {
 
 #[test]
 fn what_is_told_of_progress_only_grows() {
-    for gathers in [false, true] {
+    for has_indirect in [false, true] {
         let mut device = Device::new(200.0, 0.0);
         let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
-        schedule.set_gathering(gathers);
+        schedule.set_indirect(has_indirect);
         schedule.aim(16.0, 3);
         let (mut now, mut told, mut steps_of_first) = (0.0, 0.0, 0);
         run(&mut schedule, &mut device, &mut now, 400_000, |s, now, _| {

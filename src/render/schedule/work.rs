@@ -14,7 +14,7 @@ pub enum Points {
     All,
     /// Centre samples of every pixel of a lattice level, which all have their direct light, for
     /// the indirect light among them.
-    Around(u32),
+    Indirect(u32),
     /// Jittered samples of every pixel, computed together.
     Samples {
         /// The index of the first one.
@@ -28,7 +28,7 @@ impl Points {
     /// The lattice level that is complete with them: every pixel's unless they belong to one.
     pub fn level(self) -> u32 {
         match self {
-            Self::Level(level) | Self::Added(level) | Self::Around(level) => level,
+            Self::Level(level) | Self::Added(level) | Self::Indirect(level) => level,
             Self::All | Self::Samples { .. } => 0,
         }
     }
@@ -36,7 +36,7 @@ impl Points {
     /// The grid of pixels that they lie in.
     pub fn grid(self, size_px: [u32; 2]) -> Grid {
         match self {
-            Self::Level(level) | Self::Around(level) => Grid::level(level, size_px),
+            Self::Level(level) | Self::Indirect(level) => Grid::level(level, size_px),
             Self::Added(level) => Grid::added(level, size_px),
             Self::All => Grid::level(0, size_px),
             Self::Samples { count, .. } => Grid::samples(count, size_px),
@@ -56,7 +56,7 @@ pub enum Stage {
     /// Light and colours, of visibility bits that are there.
     Shade,
     /// Indirect light, of direct light that is there.
-    Gather,
+    Indirect,
 }
 
 /// What has to be done for some sample points.

@@ -73,7 +73,7 @@ host_shared! {
         /// Samples a direction.
         samples: u32,
         /// One eye's picture that the neighbours are from, pixels.
-        around_px: [u32; 2],
+        source_px: [u32; 2],
     }
     /// Which eyes the region shows, for a picture in stereo.
     Eyes {

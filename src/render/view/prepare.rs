@@ -57,9 +57,12 @@ impl View {
 
     /// What a scene needs of indirect light and of the passes over the whole film.
     fn behind_shading(&self, scene: &Scene) -> [Option<Extra>; 2] {
-        let gathers = scene.indirect.kind != IndirectKind::Off;
+        let has_indirect = scene.indirect.kind != IndirectKind::Off;
         let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
-        [gathers.then_some(Extra::Gather), (glows || self.watch.is_wanted()).then_some(Extra::Glow)]
+        [
+            has_indirect.then_some(Extra::Indirect),
+            (glows || self.watch.is_wanted()).then_some(Extra::Glow),
+        ]
     }
 
     /// The pipelines that are to be prepared now, if any, and whether the scene cannot be drawn
@@ -81,7 +84,7 @@ impl View {
             && self.schedule.status(self.now_secs).idle;
         let others = [
             self.special_to_prepare(scene),
-            is_free.then_some(Extra::Gather),
+            is_free.then_some(Extra::Indirect),
             is_free.then_some(Extra::Glow),
         ];
         let dive = if is_free { self.of_dive() } else { Vec::new() };

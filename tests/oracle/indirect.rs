@@ -61,8 +61,8 @@ fn shared_exponent(radiance: f64) -> u32 {
     mantissa | (mantissa << 9) | (mantissa << 18) | ((exponent as u32) << 27)
 }
 
-/// What the kernels gather, red of each pixel.
-fn gathered(scene: &Scene, made: &[Made]) -> Vec<f64> {
+/// The indirect light of the kernels, red of each pixel.
+fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let kernels = kernels();
     let gpu = &kernels.gpu;
     let region = Region::whole(SIZE);
@@ -78,20 +78,20 @@ fn gathered(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let passes = kernels.passes(&inputs.picture);
     let mut dispatches = Dispatches::default();
     let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
-    let points = Points::Around(0);
+    let points = Points::Indirect(0);
     let workgroups = points.grid(SIZE).workgroups();
     record(
         &mut recorder,
         Work::Trace(Trace {
             points,
-            from: Stage::Gather,
+            from: Stage::Indirect,
             lights: 0,
             first_workgroup: 0,
             workgroups,
         }),
     );
     gpu.queue.submit([recorder.finish()]);
-    assert_eq!((dispatches.gather, dispatches.total()), (1, 1));
+    assert_eq!((dispatches.indirect, dispatches.total()), (1, 1));
     let bytes = Readback::buffer(gpu, &targets.film_rg).wait(gpu).expect("the film's bytes");
     let red = |pair: &[u8; 8]| f64::from(bytemuck::cast::<_, [f32; 2]>(*pair)[0]);
     bytes.as_chunks::<8>().0.iter().map(red).collect()
@@ -103,7 +103,7 @@ fn noise([x, y]: [u32; 2], salt: f32) -> f64 {
     f64::from((52.982_918_f32 * dot.fract()).fract())
 }
 
-/// The operators as `shaders/pass/gather.wgsl` and the thesis define them.
+/// The operators as `shaders/pass/indirect.wgsl` and the thesis define them.
 fn expected(scene: &Scene, made: &[Made], pixel: [u32; 2]) -> f64 {
     let Indirect { kind, radius, strength, ambient, directions, samples } = scene.indirect.clone();
     let camera = &scene.camera;
@@ -181,7 +181,7 @@ fn indirect_light_is_what_its_definition_says() {
     for kind in [IndirectKind::Uniform, IndirectKind::Horizon] {
         let scene = scene(Indirect { kind, radius: 0.2, strength: 1.3, ..Indirect::default() });
         let made = hills(&scene);
-        let found = gathered(&scene, &made);
+        let found = indirect_shaded(&scene, &made);
         let errors: Vec<_> = all_pixels()
             .zip(&found)
             .map(|(pixel, found)| (found - expected(&scene, &made, pixel)).abs())
@@ -207,7 +207,7 @@ fn light_does_not_leak_across_an_edge_in_depth() {
             Made { depth, normal: toward_eye, direct }
         };
         let made: Vec<_> = all_pixels().map(wall).collect();
-        for ([x, y], light) in all_pixels().zip(gathered(&scene, &made)) {
+        for ([x, y], light) in all_pixels().zip(indirect_shaded(&scene, &made)) {
             if x < 24 {
                 assert!(light > 0.5, "{kind:?}: {light} on the bright wall at {x}, {y}");
             } else {
@@ -231,7 +231,7 @@ fn the_border_of_the_picture_is_no_edge() {
         };
         let made: Vec<_> = all_pixels().map(plane).collect();
         let wanted = if kind == IndirectKind::Uniform { 0.5 } else { 0.75 };
-        for (pixel, light) in all_pixels().zip(gathered(&scene, &made)) {
+        for (pixel, light) in all_pixels().zip(indirect_shaded(&scene, &made)) {
             assert!((light - wanted).abs() < 0.01, "{kind:?}: {light} at {pixel:?}");
         }
     }

@@ -1,8 +1,8 @@
-//! Where indirect light comes from: the neighbours of a sample on the screen.
+//! The source of indirect light: centre samples of the whole picture.
 //!
 //! In: the centre samples of all of the picture, with their direct light. Out: bindings for the
-//! gather pass. A view is its own neighbourhood; one that draws a tile borrows that of a view
-//! that draws the whole picture ([`View::lend_neighbours`](super::View::lend_neighbours)), so
+//! indirect pass. A view is its own neighbourhood; one that draws a tile borrows that of a view
+//! that draws the whole picture ([`View::lend_indirect_source`](super::View::lend_indirect_source)), so
 //! that no tile ends at its border.
 
 use super::{
@@ -13,7 +13,7 @@ use super::{
 
 /// Centre samples of a whole picture. Clones share the buffers.
 #[derive(Clone)]
-pub struct Neighbours {
+pub struct IndirectSource {
     /// One eye's picture, pixels.
     pub eye_px: [u32; 2],
     /// As [`GBuffer::surface`].
@@ -22,26 +22,26 @@ pub struct Neighbours {
     pub direct: wgpu::Buffer,
 }
 
-/// Groups 1 to 3 of the gather pass.
+/// Groups 1 to 3 of the indirect pass.
 pub fn groups(
     kernels: &Kernels,
     targets: &Targets,
     samples: &GBuffer,
-    neighbours: &Neighbours,
+    source: &IndirectSource,
 ) -> [wgpu::BindGroup; 3] {
     let device = &kernels.gpu.device;
     let layouts = &kernels.layouts;
     let Backdrop { view, sampler, .. } = &*targets.backdrop;
     let samples = [&samples.surface, &samples.color_data, &samples.visibility]
         .map(wgpu::Buffer::as_entire_binding);
-    let around = [
+    let read = [
         wgpu::BindingResource::TextureView(view),
         wgpu::BindingResource::Sampler(sampler),
-        neighbours.surface.as_entire_binding(),
+        source.surface.as_entire_binding(),
     ];
     [
         targets::group(device, &layouts.samples, "samples", samples),
-        targets.film_with(kernels, &neighbours.direct),
-        targets::group(device, &layouts.around, "neighbours", around),
+        targets.film_with(kernels, &source.direct),
+        targets::group(device, &layouts.indirect, "indirect source", read),
     ]
 }

@@ -13,7 +13,7 @@ use crate::{
 
 /// The pass's shader.
 pub const MODULE: Module = Module {
-    label: "gather",
+    label: "indirect",
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
@@ -21,7 +21,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/sample.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("types/direct.wgsl"),
-        shader_file!("types/neighbours.wgsl"),
+        shader_file!("types/indirect.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/eye.wgsl"),
         shader_file!("lib/camera.wgsl"),
@@ -30,18 +30,18 @@ pub const MODULE: Module = Module {
         shader_file!("lib/noise.wgsl"),
         shader_file!("lib/surroundings.wgsl"),
         shader_file!("lib/shading.wgsl"),
-        shader_file!("pass/gather.wgsl"),
+        shader_file!("pass/indirect.wgsl"),
     ],
 };
 
 /// Gathers light for the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.kernels.gather().clone();
+    let pipeline = recorder.kernels.indirect().clone();
     let mut slice = recorder.slice(trace, grid);
-    if let Points::Around(level) = trace.points {
+    if let Points::Indirect(level) = trace.points {
         slice.neighbour_level = level;
     }
-    recorder.bind_neighbours(trace);
+    recorder.bind_indirect(trace);
     recorder.dispatch_pixels(&pipeline, slice);
-    recorder.dispatches.gather += 1;
+    recorder.dispatches.indirect += 1;
 }

@@ -28,7 +28,7 @@ fn on_lattice(at: vec2i) -> vec2i {
 // the operator looks, at the sample's own depth: what is farther away than that belongs to something
 // else, and counts less and less.
 fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
-    let eye_px = picture.indirect.around_px;
+    let eye_px = picture.indirect.source_px;
     let middle = eye_position(site.pixel, place_in_pixel(site.sample)) * vec2f(eye_px);
     // Heights to pixels, which need not be square.
     let px = vec2f(f32(eye_px.x) / picture.camera.aspect, f32(eye_px.y));
