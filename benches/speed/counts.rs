@@ -146,10 +146,10 @@ pub fn counting_passes(kernels: &Kernels, split: &ours::Split<'_>) -> Result<Pas
             }))
         };
     Ok(Passes {
-        cone: made(&listing, &pass::cone::MODULE, "reach_at")?,
+        camera_cone: made(&listing, &pass::camera_cone::MODULE, "reach_at")?,
         march: made(&listed, &pass::march::MODULE, "reach_at")?,
         normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
-        tube: made(&listing, &pass::tube::MODULE, "reach_at")?,
+        shadow_cone: made(&listing, &pass::shadow_cone::MODULE, "reach_at")?,
         shadow: made(&listed, &pass::shadow::MODULE, "reach_at")?,
         ..kernels.passes(split.picture())
     })

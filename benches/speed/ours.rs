@@ -52,9 +52,9 @@ const PASSES: [(&str, Record); 4] =
 /// Those that evaluate the formula, each after what lists its threads.
 const MARCHING: [(&str, Record); 3] = [
     ("march", |recorder, trace, grid| {
-        pass::cone::record(recorder, trace, grid);
+        pass::camera_cone::record(recorder, trace, grid);
         pass::march::record(recorder, trace, grid);
-        pass::hits::record(recorder, trace, grid);
+        pass::compact_hits::record(recorder, trace, grid);
     }),
     ("normal", pass::normal::record),
     ("shadow", pass::shadow::record),

@@ -19,7 +19,7 @@ impl Filling {
     /// The lattice level whose samples a display is spread from; none where the film is filled
     /// for it, or no display is made. `is_plain`: nothing has to know the film as a whole.
     /// `finest`: there is room for the samples of this level and sparser ones.
-    pub fn spread_level(&mut self, work: Work, is_plain: bool, finest: u32) -> Option<u32> {
+    pub fn upsample_level(&mut self, work: Work, is_plain: bool, finest: u32) -> Option<u32> {
         let (level, fill, film) = match work {
             Work::Show { level, fill, film, .. } => (level, fill, film),
             Work::Trace(trace) => {
@@ -62,14 +62,14 @@ mod tests {
     #[test]
     fn a_film_that_is_shown_while_pixels_come_is_filled_once_and_not_spread() {
         let mut filling = Filling::default();
-        let mut spread = |work| filling.spread_level(work, true, 2);
-        assert_eq!(spread(trace(Points::Level(4))), None);
-        assert_eq!(spread(show(true, false)), Some(4));
-        assert_eq!(spread(show(true, true)), None);
-        assert_eq!(spread(trace(Points::All)), None);
-        assert_eq!(spread(show(false, true)), None);
+        let mut upsample_level = |work| filling.upsample_level(work, true, 2);
+        assert_eq!(upsample_level(trace(Points::Level(4))), None);
+        assert_eq!(upsample_level(show(true, false)), Some(4));
+        assert_eq!(upsample_level(show(true, true)), None);
+        assert_eq!(upsample_level(trace(Points::All)), None);
+        assert_eq!(upsample_level(show(false, true)), None);
         // What the last scene left between the pixels of the next one is not shown.
-        assert_eq!(spread(trace(Points::Level(4))), None);
-        assert_eq!(spread(show(false, true)), Some(4));
+        assert_eq!(upsample_level(trace(Points::Level(4))), None);
+        assert_eq!(upsample_level(show(false, true)), Some(4));
     }
 }

@@ -18,11 +18,11 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
         Work::Trace(trace) => {
             let grid = trace.points.grid(recorder.inputs.picture.size_px);
             if trace.from <= Stage::March {
-                pass::cone::record(recorder, &trace, &grid);
+                pass::camera_cone::record(recorder, &trace, &grid);
                 pass::march::record(recorder, &trace, &grid);
             }
             if trace.from <= Stage::Normal || trace.lights & recorder.inputs.casting() != 0 {
-                pass::hits::record(recorder, &trace, &grid);
+                pass::compact_hits::record(recorder, &trace, &grid);
             }
             if trace.from <= Stage::Normal {
                 pass::normal::record(recorder, &trace, &grid);
@@ -41,10 +41,10 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
             }
         }
         Work::Show { level, fill, .. } => {
-            if let Some(level) = recorder.spread {
+            if let Some(level) = recorder.upsample_level {
                 recorder.begin_spread();
-                pass::develop::record(recorder, level);
-                pass::spread::record(recorder, level);
+                pass::tonemap_sparse::record(recorder, level);
+                pass::upsample::record(recorder, level);
                 return;
             }
             if fill {
@@ -138,7 +138,7 @@ pub struct Recorder<'a> {
     /// for the first use of a pipeline. None where this is no rehearsal.
     pub rehearsal: Option<wgpu::Buffer>,
     /// A display is made of the samples of this lattice level alone, and leaves the film as it is.
-    pub spread: Option<u32>,
+    pub upsample_level: Option<u32>,
     /// Counted by each pass.
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
@@ -168,7 +168,7 @@ impl<'a> Recorder<'a> {
             indirect_source: targets.indirect_source(inputs.picture.indirect.source_px),
             tasks: Tasks::default(),
             rehearsal: None,
-            spread: None,
+            upsample_level: None,
             dispatches,
             compute,
             encoder,

@@ -102,13 +102,13 @@ impl Special {
 #[derive(Clone)]
 pub struct Passes {
     /// Bundles of camera rays to a list of those that may hit.
-    pub cone: wgpu::ComputePipeline,
+    pub camera_cone: wgpu::ComputePipeline,
     /// Camera rays to the G-buffer.
     pub march: wgpu::ComputePipeline,
     /// Depths to normals.
     pub normal: wgpu::ComputePipeline,
     /// Bundles of shadow rays to a list of those that are needed.
-    pub tube: wgpu::ComputePipeline,
+    pub shadow_cone: wgpu::ComputePipeline,
     /// Shadow rays to visibility bits.
     pub shadow: wgpu::ComputePipeline,
     /// Light and colour of single samples onto the film.
@@ -219,11 +219,11 @@ pub struct Kernels {
     pub gpu: Gpu,
     /// What bind groups look like.
     pub layouts: Layouts,
-    cone: Special,
+    camera_cone: Special,
     march: Special,
-    hits: LazyPipeline,
+    compact_hits: LazyPipeline,
     normal: Special,
-    tube: Special,
+    shadow_cone: Special,
     shadow: Special,
     shade: Special,
     tone: Special,
@@ -231,8 +231,8 @@ pub struct Kernels {
     fill: LazyPipeline,
     glow: OnceLock<GlowKernels>,
     glow_layout: wgpu::PipelineLayout,
-    develop: LazyPipeline,
-    spread: LazyPipeline,
+    tonemap_sparse: LazyPipeline,
+    upsample: LazyPipeline,
     /// Those that can be used without delay.
     ready: Mutex<HashSet<Extra>>,
     /// The labels of all pipelines so far.
@@ -243,11 +243,11 @@ impl Kernels {
     /// Makes the general forms of all passes, which draw whatever comes.
     pub fn new(gpu: &Gpu) -> Arc<Self> {
         let kernels = Self::for_stills(gpu);
-        let Self { cone, march, normal, tube, shadow, shade, tone, .. } = &*kernels;
-        let specials =
-            [cone, march, normal, tube, shadow, shade, tone].map(|special| &special.general);
-        let Self { hits, fill, develop, spread, .. } = &*kernels;
-        for plain in specials.into_iter().chain([hits, fill, develop, spread]) {
+        let Self { camera_cone, march, normal, shadow_cone, shadow, shade, tone, .. } = &*kernels;
+        let specials = [camera_cone, march, normal, shadow_cone, shadow, shade, tone]
+            .map(|special| &special.general);
+        let Self { compact_hits, fill, tonemap_sparse, upsample, .. } = &*kernels;
+        for plain in specials.into_iter().chain([compact_hits, fill, tonemap_sparse, upsample]) {
             plain.pipeline(&kernels);
         }
         kernels
@@ -265,32 +265,32 @@ impl Kernels {
         let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
         let glow_layout =
             pipeline_layout(device, "passes over the film as a whole", &[picture, glow, film]);
-        let cone = Special::new(&listing_layout, &pass::cone::MODULE);
+        let camera_cone = Special::new(&listing_layout, &pass::camera_cone::MODULE);
         let march = Special::new(&listed_layout, &pass::march::MODULE);
         let normal = Special::new(&listed_layout, &pass::normal::MODULE);
-        let tube = Special::new(&listing_layout, &pass::tube::MODULE);
+        let shadow_cone = Special::new(&listing_layout, &pass::shadow_cone::MODULE);
         let shadow = Special::new(&listed_layout, &pass::shadow::MODULE);
         let shade = Special::new(&shade_layout, &pass::shade::MODULE);
         let tone = Special::new(&glow_layout, &pass::tone::MODULE);
-        let hits = LazyPipeline::new(&listing_layout, &pass::hits::MODULE);
+        let compact_hits = LazyPipeline::new(&listing_layout, &pass::compact_hits::MODULE);
         let fill = LazyPipeline::new(&layout, &pass::fill::MODULE);
-        let develop = LazyPipeline::new(&layout, &pass::develop::MODULE);
-        let spread = LazyPipeline::new(&layout, &pass::spread::MODULE);
+        let tonemap_sparse = LazyPipeline::new(&layout, &pass::tonemap_sparse::MODULE);
+        let upsample = LazyPipeline::new(&layout, &pass::upsample::MODULE);
         Arc::new(Self {
             gpu: gpu.clone(),
-            cone,
+            camera_cone,
             march,
-            hits,
+            compact_hits,
             normal,
-            tube,
+            shadow_cone,
             shadow,
             shade,
             tone,
             indirect: OnceLock::new(),
             fill,
             glow: OnceLock::new(),
-            develop,
-            spread,
+            tonemap_sparse,
+            upsample,
             glow_layout,
             layouts,
             ready: Mutex::default(),
@@ -314,9 +314,9 @@ impl Kernels {
     pub fn passes(&self, picture: &Picture) -> Passes {
         let [rays, normals, light, tone] = Extra::special(picture);
         Passes {
-            cone: self.cone.of(rays, 0, self),
+            camera_cone: self.camera_cone.of(rays, 0, self),
             march: self.march.of(rays, 1, self),
-            tube: self.tube.of(rays, 2, self),
+            shadow_cone: self.shadow_cone.of(rays, 2, self),
             shadow: self.shadow.of(rays, 3, self),
             normal: self.normal.of(normals, 0, self),
             shade: self.shade.of(light, 0, self),
@@ -327,8 +327,8 @@ impl Kernels {
     }
 
     /// G-buffer to a list of its surface points.
-    pub fn hits(&self) -> wgpu::ComputePipeline {
-        self.hits.pipeline(self)
+    pub fn compact_hits(&self) -> wgpu::ComputePipeline {
+        self.compact_hits.pipeline(self)
     }
 
     /// Pixels between those of a sparse lattice.
@@ -337,13 +337,13 @@ impl Kernels {
     }
 
     /// Samples of a sparse lattice to display values.
-    pub fn develop(&self) -> wgpu::ComputePipeline {
-        self.develop.pipeline(self)
+    pub fn tonemap_sparse(&self) -> wgpu::ComputePipeline {
+        self.tonemap_sparse.pipeline(self)
     }
 
     /// Those to the display.
-    pub fn spread(&self) -> wgpu::ComputePipeline {
-        self.spread.pipeline(self)
+    pub fn upsample(&self) -> wgpu::ComputePipeline {
+        self.upsample.pipeline(self)
     }
 
     /// Whether [`Self::passes`] has rays of this form alone.
@@ -394,7 +394,7 @@ impl Kernels {
     /// The passes that an extra has special forms of, in the order of its parts.
     fn special(&self, extra: Extra) -> Vec<&Special> {
         match extra {
-            Extra::Rays(_) => vec![&self.cone, &self.march, &self.tube, &self.shadow],
+            Extra::Rays(_) => vec![&self.camera_cone, &self.march, &self.shadow_cone, &self.shadow],
             Extra::Normals(..) => vec![&self.normal],
             Extra::Shade(_) => vec![&self.shade, &self.shade],
             Extra::Tone(_) => vec![&self.tone, &self.tone],

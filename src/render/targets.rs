@@ -154,7 +154,7 @@ impl Targets {
     /// have their visibility bits at other times: 2 or more, for it is a quarter of all pixels.
     pub fn finest_spread(&self, size_px: [u32; 2]) -> u32 {
         let room = self.jittered.visibility.size() / 4;
-        let fits = |&level: &u32| pass::develop::places(level, size_px) <= room;
+        let fits = |&level: &u32| pass::tonemap_sparse::places(level, size_px) <= room;
         (2..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 

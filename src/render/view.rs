@@ -354,24 +354,24 @@ impl View {
     }
 
     /// The lattice level whose samples a display is made of by themselves, where it is.
-    fn spread_level(&mut self, work: Work) -> Option<u32> {
+    fn upsample_level(&mut self, work: Work) -> Option<u32> {
         let picture = &self.inputs.as_ref()?.picture;
         let is_plain = picture.eyes.count == 1
             && self.lent_glow.is_none()
             && self.targets.glow.need().is_none()
             && !self.watch.is_wanted();
-        self.filling.spread_level(work, is_plain, self.targets.finest_spread(picture.size_px))
+        self.filling.upsample_level(work, is_plain, self.targets.finest_spread(picture.size_px))
     }
 
     fn submit(&mut self, work: Work) {
-        let spread = self.spread_level(work);
-        let tasks = if spread.is_some() { Tasks::default() } else { self.tasks(work) };
+        let upsample_level = self.upsample_level(work);
+        let tasks = if upsample_level.is_some() { Tasks::default() } else { self.tasks(work) };
         let Some(inputs) = &self.inputs else { return };
         let passes = self.kernels.passes(&inputs.picture);
         let mut recorder =
             Recorder::new(&self.kernels, &passes, &self.targets, inputs, &mut self.dispatches);
         recorder.tasks = tasks;
-        recorder.spread = spread;
+        recorder.upsample_level = upsample_level;
         if let Some(lent) = &self.lent_glow {
             recorder.glow = lent;
         }

@@ -118,8 +118,17 @@ fn nothing_is_compiled_unannounced() {
     let mut scene = sampled(Scene::default(), 1);
     let first = watched.kernels.made();
     let general = [
-        "cone", "march", "normal", "tube", "shadow", "shade", "tone", "hits", "fill", "develop",
-        "spread",
+        "camera_cone",
+        "march",
+        "normal",
+        "shadow_cone",
+        "shadow",
+        "shade",
+        "tone",
+        "compact_hits",
+        "fill",
+        "tonemap_sparse",
+        "upsample",
     ];
     assert_eq!(first, general);
     watched.show(&scene);
@@ -149,7 +158,7 @@ fn nothing_is_compiled_unannounced() {
     let made = watched.kernels.made();
     let mut all: BTreeSet<String> = first.into_iter().collect();
     for power in [8, 3] {
-        for pass in ["cone", "march", "tube", "shadow"] {
+        for pass in ["camera_cone", "march", "shadow_cone", "shadow"] {
             all.insert(format!("{pass}, POWER {power}"));
         }
         all.insert(format!("normal, POWER {power}, NORMALS 5"));

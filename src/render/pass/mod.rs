@@ -5,12 +5,11 @@ use crate::gpu::shader::Module;
 
 pub mod bloom;
 pub mod blur;
-pub mod cone;
-pub mod develop;
+pub mod camera_cone;
+pub mod compact_hits;
 pub mod expose;
 pub mod fill;
 pub mod histogram;
-pub mod hits;
 pub mod indirect;
 pub mod march;
 pub mod mean;
@@ -19,23 +18,24 @@ pub mod probe;
 pub mod reduce;
 pub mod shade;
 pub mod shadow;
-pub mod spread;
+pub mod shadow_cone;
 pub mod tone;
-pub mod tube;
+pub mod tonemap_sparse;
+pub mod upsample;
 
 /// Every shader module of the program.
 pub const MODULES: &[&Module] = &[
-    &cone::MODULE,
+    &camera_cone::MODULE,
     &march::MODULE,
-    &hits::MODULE,
+    &compact_hits::MODULE,
     &normal::MODULE,
-    &tube::MODULE,
+    &shadow_cone::MODULE,
     &shadow::MODULE,
     &shade::MODULE,
     &indirect::MODULE,
     &fill::MODULE,
-    &develop::MODULE,
-    &spread::MODULE,
+    &tonemap_sparse::MODULE,
+    &upsample::MODULE,
     &mean::MODULE,
     &reduce::MODULE,
     &expose::MODULE,

@@ -38,7 +38,8 @@ pub const MODULE: Module = Module {
 
 /// Marches toward the lights of `trace` that surfaces block, each with two dispatches of its own.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let [tube, shadow] = [&recorder.passes.tube, &recorder.passes.shadow].map(Clone::clone);
+    let [shadow_cone, shadow] =
+        [&recorder.passes.shadow_cone, &recorder.passes.shadow].map(Clone::clone);
     let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
     let (inputs, lists) = (recorder.inputs, &recorder.targets.lists);
     lists.clear_rays(&recorder.kernels.gpu.queue);
@@ -52,7 +53,7 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         slice.light_reach = light.shadow_reach;
         slice.light_vector = light.vector;
         slice.light_kind = light.kind;
-        recorder.dispatch_list(&tube, &lists.listing_rays, slice, List::HitBlocks);
+        recorder.dispatch_list(&shadow_cone, &lists.listing_rays, slice, List::HitBlocks);
         recorder.dispatch_list(&shadow, &lists.reading, slice, List::Rays(list));
         recorder.dispatches.list += 1;
         recorder.dispatches.shadow += 1;

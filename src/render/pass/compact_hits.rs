@@ -8,7 +8,7 @@ use crate::{
 
 /// The pass's shader.
 pub const MODULE: Module = Module {
-    label: "hits",
+    label: "compact_hits",
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
@@ -16,13 +16,13 @@ pub const MODULE: Module = Module {
         shader_file!("types/lists.wgsl"),
         shader_file!("types/listing.wgsl"),
         shader_file!("lib/lattice.wgsl"),
-        shader_file!("pass/hits.wgsl"),
+        shader_file!("pass/compact_hits.wgsl"),
     ],
 };
 
 /// Lists the surface points of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.kernels.hits();
+    let pipeline = recorder.kernels.compact_hits();
     let slice = recorder.slice(trace, grid);
     let lists = &recorder.targets.lists;
     lists.clear_hits(&recorder.kernels.gpu.queue);

@@ -8,7 +8,7 @@ use crate::{
 
 /// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
 pub const MODULE: Module = Module {
-    label: "cone",
+    label: "camera_cone",
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
@@ -26,13 +26,13 @@ pub const MODULE: Module = Module {
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("lib/ahead.wgsl"),
         shader_file!("lib/bundle.wgsl"),
-        shader_file!("pass/cone.wgsl"),
+        shader_file!("pass/camera_cone.wgsl"),
     ],
 };
 
 /// Sends out the bundles of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.passes.cone.clone();
+    let pipeline = recorder.passes.camera_cone.clone();
     let slice = recorder.slice(trace, grid);
     let lists = &recorder.targets.lists;
     lists.clear_rays(&recorder.kernels.gpu.queue);

@@ -8,18 +8,18 @@ use crate::{
 
 /// The pass's shader.
 pub const MODULE: Module = Module {
-    label: "develop",
+    label: "tonemap_sparse",
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/develop.wgsl"),
+        shader_file!("types/tonemap_sparse.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/luminance.wgsl"),
         shader_file!("lib/curve.wgsl"),
         shader_file!("lib/noise.wgsl"),
         shader_file!("lib/srgb.wgsl"),
-        shader_file!("pass/develop.wgsl"),
+        shader_file!("pass/tonemap_sparse.wgsl"),
     ],
 };
 
@@ -31,7 +31,7 @@ pub fn places(level: u32, size_px: [u32; 2]) -> u64 {
 
 /// Develops every sample of a lattice level.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.kernels.develop();
+    let pipeline = recorder.kernels.tonemap_sparse();
     let grid = Grid::level(level, recorder.inputs.picture.size_px);
     recorder.dispatch_grid(&pipeline, &grid, 1 << (level / 2));
 }

@@ -8,21 +8,21 @@ use crate::{
 
 /// The pass's shader.
 pub const MODULE: Module = Module {
-    label: "spread",
+    label: "upsample",
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/develop.wgsl"),
+        shader_file!("types/tonemap_sparse.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/noise.wgsl"),
         shader_file!("lib/srgb.wgsl"),
-        shader_file!("pass/spread.wgsl"),
+        shader_file!("pass/upsample.wgsl"),
     ],
 };
 
 /// Makes the whole region's display picture of a lattice level that has been developed.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.kernels.spread();
+    let pipeline = recorder.kernels.upsample();
     let slice = Grid::level(level, recorder.inputs.picture.size_px).slice(0);
     recorder.dispatch_plane(&pipeline, slice);
     recorder.dispatches.fill += 1;

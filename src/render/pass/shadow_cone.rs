@@ -5,7 +5,7 @@ use crate::{gpu::shader::Module, shader_file};
 
 /// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
 pub const MODULE: Module = Module {
-    label: "tube",
+    label: "shadow_cone",
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
@@ -25,6 +25,6 @@ pub const MODULE: Module = Module {
         shader_file!("lib/ahead.wgsl"),
         shader_file!("lib/bundle.wgsl"),
         shader_file!("lib/shadow.wgsl"),
-        shader_file!("pass/tube.wgsl"),
+        shader_file!("pass/shadow_cone.wgsl"),
     ],
 };
