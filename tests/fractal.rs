@@ -102,7 +102,7 @@ fn lasts(estimator: &Estimator, ray: Ray, cone: f64, depth: f64) -> bool {
         let place = depth * (1.0 + cone * f64::from(part) / 12.0);
         estimator.distance(ray.at(place)) <= cone * place
     };
-    !estimator.has_dips() || (1..=6).all(is_near)
+    !estimator.needs_hit_check() || (1..=6).all(is_near)
 }
 
 /// Counts, of `count` rays, those that pass the surface altogether, and those that are

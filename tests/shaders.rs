@@ -145,7 +145,7 @@ fn host_constants_match_their_wgsl_twins() {
         ("SIDEWAYS_MAX", estimator::SIDEWAYS_MAX),
         ("DEEP_SIDEWAYS_MAX", estimator::DEEP_SIDEWAYS_MAX),
         ("LEAST_STEP", march::LEAST_STEP),
-        ("LEAST_STEP_OVER_DIPS", march::LEAST_STEP_OVER_DIPS),
+        ("LEAST_STEP_WITH_HIT_CHECK", march::LEAST_STEP_WITH_HIT_CHECK),
         ("THICK", march::THICK),
         ("THICK_PLACES", whole(march::THICK_PLACES)),
         ("HALVINGS", whole(march::HALVINGS)),

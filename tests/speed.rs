@@ -18,7 +18,7 @@ use glam::DVec3;
 use mandelight::{
     fractal::{Estimator, Ray},
     gpu::Gpu,
-    render::{Region, pass::probe, uniforms::Inputs},
+    render::{Region, pass::probe, space, uniforms::Inputs},
     scene::Fractal,
 };
 
@@ -248,7 +248,7 @@ fn what_cannot_be_counted_is_said() {
 /// Counts the program's probe at `points`.
 fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::Counts {
     let device = &gpu.device;
-    let marks = counts::marks(&["reach"], [2, 0]);
+    let marks = counts::marks(&["estimate"], [2, 0]);
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("counting probe"),
         layout: None,
@@ -365,6 +365,16 @@ fn nonsense_is_named() {
 fn the_file_has_limits() {
     let limits = Limits::parse(include_str!("../benches/speed/limits.txt")).expect("limits");
     assert_ne!(limits, Limits::default());
+}
+
+/// A place's views are compared with one of them, which has to be plain.
+#[test]
+fn descents_have_plain_references() {
+    for place in descent::PLACES {
+        let scene = place.scene(descent::REFERENCE).expect("a scene");
+        let is_deep = space::wants_anchor(&scene, Region::whole(views::SIZE_PX));
+        assert!(!is_deep, "{} {}", place.name, place.set());
+    }
 }
 
 /// Each place is a point of the surface, seen along a line that is free of the set: from every distance

@@ -146,11 +146,11 @@ pub fn counting_passes(kernels: &Kernels, split: &ours::Split<'_>) -> Result<Pas
             }))
         };
     Ok(Passes {
-        camera_cone: made(&listing, &pass::camera_cone::MODULE, "reach_at")?,
-        march: made(&listed, &pass::march::MODULE, "reach_at")?,
+        camera_cone: made(&listing, &pass::camera_cone::MODULE, "estimate_at")?,
+        march: made(&listed, &pass::march::MODULE, "estimate_at")?,
         normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
-        shadow_cone: made(&listing, &pass::shadow_cone::MODULE, "reach_at")?,
-        shadow: made(&listed, &pass::shadow::MODULE, "reach_at")?,
+        shadow_cone: made(&listing, &pass::shadow_cone::MODULE, "estimate_at")?,
+        shadow: made(&listed, &pass::shadow::MODULE, "estimate_at")?,
         ..kernels.passes(split.picture())
     })
 }

@@ -43,7 +43,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     var sum = 0.0;
     for (var k = 0u; k < 32u; k++) {
         let part = f32(id.x * 32u + k) * 1e-7;
-        sum += reach(fractal, vec3f(0.2 + part, 0.15 - part, 0.1)).distance;
+        sum += estimate(fractal, vec3f(0.2 + part, 0.15 - part, 0.1)).distance;
     }
     sums[id.x] = sum;
 }
@@ -91,7 +91,7 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
         .flat_map(|power| [(power, power), (power, 0)])
         .map(|(power, special)| Kernel::new(gpu, &module.create(&gpu.device), power, special))
         .collect();
-    let counting = counts::counting(gpu, &module, &counts::marks(&["reach"], [2, 0]))?;
+    let counting = counts::counting(gpu, &module, &counts::marks(&["estimate"], [2, 0]))?;
     let mut steps = Vec::new();
     for power in POWERS {
         let found = Kernel::new(gpu, &counting, power, power).count()?.steps;

@@ -90,8 +90,8 @@ impl Reference {
             if depth > far {
                 return None;
             }
-            let (reach, hit) = (self.estimator.reach(ray.at(depth)), self.cone * depth);
-            let is_near = reach.distance < hit;
+            let (estimate, hit) = (self.estimator.estimate(ray.at(depth)), self.cone * depth);
+            let is_near = estimate.distance < hit;
             if is_near && !was_near {
                 let entry = self.halve(ray, before, depth);
                 let lasts = |part: &f64| self.estimator.distance(ray.at(entry + part * hit)) < hit;
@@ -100,7 +100,7 @@ impl Reference {
                 }
             }
             (before, was_near) = (depth, is_near);
-            depth += (STEP_PART * reach.step).max(LEAST_STEP * hit);
+            depth += (STEP_PART * estimate.step).max(LEAST_STEP * hit);
         }
         Some(depth)
     }
@@ -137,14 +137,14 @@ impl Reference {
             if s <= footprint {
                 return true;
             }
-            let reach = self.estimator.reach(ray.at(s));
+            let estimate = self.estimator.estimate(ray.at(s));
             let is_near = |s: f64| self.estimator.distance(ray.at(s)) < BLOCKS * footprint;
-            if reach.distance < BLOCKS * footprint
+            if estimate.distance < BLOCKS * footprint
                 && STILL.iter().all(|part| is_near(s - part * footprint))
             {
                 return false;
             }
-            s -= (STEP_PART * reach.step).max(LEAST_STEP * footprint);
+            s -= (STEP_PART * estimate.step).max(LEAST_STEP * footprint);
         }
         true
     }

@@ -172,7 +172,7 @@ fn step_on(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
     return Walk(power + orbit.constant, walk.count + 1u, walk.difference, walk.index);
 }
 
-struct Reach {
+struct Estimate {
     // Estimated distance to the set: 0.5 ln(r) r / dr. 0 where the orbit stays inside the unit
     // sphere or at the origin, where ln r < 0 says "inside".
     distance: f32,
@@ -186,8 +186,8 @@ fn step_factor(fractal: Fractal) -> f32 {
     return clamp(0.75 * fractal.power, 3.0, 6.0);
 }
 
-// Does the estimate dip for less than a thousandth of what it is around: `fractal::Estimator::has_dips`.
-fn dips(fractal: Fractal) -> bool {
+// True if the estimate has false minima thinner than a pixel: `fractal::Estimator::needs_hit_check`.
+fn needs_hit_check(fractal: Fractal) -> bool {
     if (POWER != 0u) { return POWER < 4u; }
     return fractal.power < 4.0;
 }
@@ -244,8 +244,8 @@ fn safe_step(growth: Growth, height: f32) -> f32 {
 // then through plain ones: where lanes disagree both sides of a branch are computed, but not of a
 // loop.
 // `along`: the direction, a unit vector, in which the ray goes whose step this is for.
-fn reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
-    if (TURNS) { return turning_reach(fractal, point); }
+fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+    if (TURNS) { return rotating_estimate(fractal, point); }
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     var growth = first_growth(fractal, orbit, along);
@@ -275,7 +275,7 @@ fn reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
         }
         if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
     }
-    return reach_at(fractal, growth, q);
+    return estimate_at(fractal, growth, q);
 }
 
 // 0.5 ln(r) r: the distance estimate times dr.
@@ -284,11 +284,11 @@ fn height_of(q: Squares) -> f32 {
 }
 
 // The reach at an orbit's end.
-fn reach_at(fractal: Fractal, growth: Growth, q: Squares) -> Reach {
-    if (q.s <= 1.0) { return Reach(0.0, 0.0); }
+fn estimate_at(fractal: Fractal, growth: Growth, q: Squares) -> Estimate {
+    if (q.s <= 1.0) { return Estimate(0.0, 0.0); }
     let height = height_of(q);
     let distance = height / max(growth.dr, 1e-37);
-    return Reach(distance, min(safe_step(growth, height), fractal.max_step));
+    return Estimate(distance, min(safe_step(growth, height), fractal.max_step));
 }
 
 // One of the near steps, from the place that the picture holds at `index`, unless the orbit has escaped.
@@ -307,9 +307,9 @@ fn near_step(
 // The same where it is quick to tell, which is almost everywhere: near the anchor, on orbits whose
 // derivative stays above what f32 needs to tell pixels apart behind the near steps; so far from it that
 // plain f32 tells them apart; and in all views that are not deep or have frames that turn. Elsewhere the
-// step is negative, and only `reach` can tell.
-fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
-    if (!DEEP || TURNS) { return reach(fractal, point, along); }
+// step is negative, and only `estimate` can tell.
+fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+    if (!DEEP || TURNS) { return estimate(fractal, point, along); }
     let orbit = orbit_of(fractal, point);
     var walk = walk_from(orbit, point);
     var growth = first_growth(fractal, orbit, along);
@@ -346,12 +346,12 @@ fn quick_reach(fractal: Fractal, point: vec3f, along: vec3f) -> Reach {
         walk.count += 1u;
         q = squares(walk.z);
     }
-    if (!is_quick || growth.dr < least) { return Reach(0.0, -1.0); }
-    return reach_at(fractal, growth, q);
+    if (!is_quick || growth.dr < least) { return Estimate(0.0, -1.0); }
+    return estimate_at(fractal, growth, q);
 }
 
 fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
-    return reach(fractal, point, vec3f(0.0)).distance;
+    return estimate(fractal, point, vec3f(0.0)).distance;
 }
 
 fn scaled_identity(scale: f32) -> mat3x3f {

@@ -175,13 +175,13 @@ fn raised_on_meridian(fractal: Fractal, place: Place, difference: vec3f, q: Squa
     return Raised(power, stretch_whole(fractal, q), 0.0, un, w.value + w.difference);
 }
 
-fn turning_reach(fractal: Fractal, point: vec3f) -> Reach {
+fn rotating_estimate(fractal: Fractal, point: vec3f) -> Estimate {
     let end = turning_end(fractal, point);
-    if (end.q.s <= 1.0) { return Reach(0.0, 0.0); }
+    if (end.q.s <= 1.0) { return Estimate(0.0, 0.0); }
     let distance = height_of(end.q) / max(end.motion.dr, 1e-37);
     let j = end.motion.jacobian;
     let norm = sqrt(dot(j[0], j[0]) + dot(j[1], j[1]) + dot(j[2], j[2]));
-    return Reach(distance, min(distance / max(norm, 1.0), fractal.max_step));
+    return Estimate(distance, min(distance / max(norm, 1.0), fractal.max_step));
 }
 
 fn turning_gradient(fractal: Fractal, point: vec3f) -> vec3f {

@@ -24,11 +24,11 @@ fn clear_cone(
     let part = ball_part(fractal.power);
     var t = start;
     var i = 0u;
-    var known = Known(Reach(0.0, 0.0), false);
+    var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = reach_ahead(&known, fractal, origin + t * axis, picture.skip.widest);
-            if (known.is_needed) { break; }
+            let ahead = estimate_next(&pending, fractal, origin + t * axis, picture.skip.widest);
+            if (pending.is_needed) { break; }
             let ball = min(part * ahead.step, MOST_BALL) - hit_cone * t;
             let width = t * spread;
             if (ball <= width) { break; }
@@ -40,8 +40,8 @@ fn clear_cone(
             if (advance <= width) { break; }
             t += advance;
         }
-        if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, origin + t * axis, picture.skip.widest);
+        if (!pending.is_needed) { break; }
+        pending.estimate = careful_estimate(fractal, origin + t * axis, picture.skip.widest);
     }
     return t;
 }

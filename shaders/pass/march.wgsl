@@ -3,34 +3,34 @@
 // No step is shorter than this part of the hit distance: what is thinner may be passed.
 const LEAST_STEP = 0.25;
 // The same where a hit has to last anyway.
-const LEAST_STEP_OVER_DIPS = 0.4;
+const LEAST_STEP_WITH_HIT_CHECK = 0.4;
 
 // Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone, from a depth that
 // is known to be clear. 0 on a miss.
 fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
-    var pace = paced(fractal.power);
+    var over = over_relaxation(fractal.power);
     // Depth of the last point and what was left to its hit.
     var before = t;
     var left = 0.0;
-    let has_dips = dips(fractal);
-    let least_step = select(LEAST_STEP, LEAST_STEP_OVER_DIPS, has_dips);
+    let checks_hits = needs_hit_check(fractal);
+    let least_step = select(LEAST_STEP, LEAST_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
     var i = 0u;
-    var known = Known(Reach(0.0, 0.0), false);
+    var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < fractal.march_steps; i++) {
-            let is_looking = has_dips && crossing.looks > 0u;
+            let is_looking = checks_hits && crossing.looks > 0u;
             let is_inside = t <= interval.y || is_looking;
-            var ahead = Reach(0.0, 0.0);
+            var ahead = Estimate(0.0, 0.0);
             if (is_inside) {
-                ahead = reach_ahead(&known, fractal, ray.origin + t * ray.direction, ray.direction);
+                ahead = estimate_next(&pending, fractal, ray.origin + t * ray.direction, ray.direction);
             }
-            if (known.is_needed) { break; }
-            ahead.step = max(ahead.step, haste(i, fractal.march_steps) * ahead.distance);
+            if (pending.is_needed) { break; }
+            ahead.step = max(ahead.step, step_escalation(i, fractal.march_steps) * ahead.distance);
             if (!is_looking) {
-                let back = step_back(&pace, ahead.step);
+                let back = step_back(&over, ahead.step);
                 if (back > 0.0) {
                     t -= back;
                     continue;
@@ -38,7 +38,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
                 if (!is_inside) { return 0.0; }
             }
             let hit = hit_distance(camera, fractal, t);
-            if (has_dips && (is_looking || ahead.distance < hit)) {
+            if (checks_hits && (is_looking || ahead.distance < hit)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
                 if (crossing.looks > LOOKS) { return max(t, 1e-30); }
                 if (crossing.looks > 0u) { continue; }
@@ -50,10 +50,10 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
             }
             before = t;
             left = ahead.distance - hit;
-            t += next_step(&pace, max(ahead.step, least_step * hit));
+            t += next_step(&over, max(ahead.step, least_step * hit));
         }
-        if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, ray.origin + t * ray.direction, ray.direction);
+        if (!pending.is_needed) { break; }
+        pending.estimate = careful_estimate(fractal, ray.origin + t * ray.direction, ray.direction);
     }
     // Out of steps while creeping along the surface: closer than any pixel can tell.
     return t;

@@ -8,7 +8,7 @@ struct Answer {
     // Smooth iteration count, origin trap, axis trap.
     colors: vec3f,
     step: f32,
-    // The distance by `quick_reach`; negative where that cannot tell.
+    // The distance by `quick_estimate`; negative where that cannot tell.
     quick_distance: f32,
 }
 
@@ -23,8 +23,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let point = points[id.x].xyz;
     let fractal = picture.fractal;
     let colors = orbit_colors(fractal, point);
-    let ahead = reach(fractal, point, picture.skip.widest);
-    let quick = quick_reach(fractal, point, picture.skip.widest);
+    let ahead = estimate(fractal, point, picture.skip.widest);
+    let quick = quick_estimate(fractal, point, picture.skip.widest);
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,

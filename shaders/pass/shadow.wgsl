@@ -21,22 +21,22 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
         direction = to_light / max(length(to_light), 1e-30);
     }
     var s = min(min(farthest, clear), bounding_interval(point, direction).y);
-    var pace = paced(fractal.power);
-    let has_dips = dips(fractal);
+    var over = over_relaxation(fractal.power);
+    let checks_hits = needs_hit_check(fractal);
     var looks = 0u;
     var i = 0u;
-    var known = Known(Reach(0.0, 0.0), false);
+    var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < fractal.shadow_steps; i++) {
-            var ahead = Reach(0.0, 0.0);
-            let is_looking = has_dips && looks > 0u;
+            var ahead = Estimate(0.0, 0.0);
+            let is_looking = checks_hits && looks > 0u;
             if (s > surface_distance || is_looking) {
-                ahead = reach_ahead(&known, fractal, point + s * direction, direction);
+                ahead = estimate_next(&pending, fractal, point + s * direction, direction);
             }
-            if (known.is_needed) { break; }
-            ahead.step = max(ahead.step, haste(i, fractal.shadow_steps) * ahead.distance);
+            if (pending.is_needed) { break; }
+            ahead.step = max(ahead.step, step_escalation(i, fractal.shadow_steps) * ahead.distance);
             if (!is_looking) {
-                let back = step_back(&pace, ahead.step);
+                let back = step_back(&over, ahead.step);
                 s += back;
                 // Where a step too long is taken back, what is left may be known to be empty.
                 if (s <= surface_distance) { return true; }
@@ -45,16 +45,16 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
             let blocks = blocking_distance(fractal, s, surface_distance);
             if (ahead.distance < blocks) {
                 // A dip has to last, as for a camera ray.
-                if (!has_dips || looks == THICK_PLACES) { return false; }
+                if (!checks_hits || looks == THICK_PLACES) { return false; }
                 looks++;
                 s -= THICK / f32(THICK_PLACES) * surface_distance;
                 continue;
             }
             looks = 0u;
-            s -= next_step(&pace, max(ahead.step, least_step(fractal, blocks, surface_distance)));
+            s -= next_step(&over, max(ahead.step, least_step(fractal, blocks, surface_distance)));
         }
-        if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, point + s * direction, direction);
+        if (!pending.is_needed) { break; }
+        pending.estimate = careful_estimate(fractal, point + s * direction, direction);
     }
     return true;
 }

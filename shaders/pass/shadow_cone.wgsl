@@ -32,11 +32,11 @@ fn clear_plane(fractal: Fractal) -> f32 {
     let part = ball_part(fractal.power);
     var s = min(leaves, slice.light_reach + extent);
     var i = 0u;
-    var known = Known(Reach(0.0, 0.0), false);
+    var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = reach_ahead(&known, fractal, center + s * direction, picture.skip.widest);
-            if (known.is_needed) { break; }
+            let ahead = estimate_next(&pending, fractal, center + s * direction, picture.skip.widest);
+            if (pending.is_needed) { break; }
             // No point is farther than this from the plane through `s`.
             let blocks = blocking_distance(fractal, s + extent, surface_distance);
             let ball = min(part * ahead.step, MOST_BALL) - blocks;
@@ -44,8 +44,8 @@ fn clear_plane(fractal: Fractal) -> f32 {
             if (ball <= width || advance <= width) { break; }
             s -= advance;
         }
-        if (!known.is_needed) { break; }
-        known.reach = careful_reach(fractal, center + s * direction, picture.skip.widest);
+        if (!pending.is_needed) { break; }
+        pending.estimate = careful_estimate(fractal, center + s * direction, picture.skip.widest);
     }
     return height + s;
 }

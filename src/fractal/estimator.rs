@@ -16,14 +16,14 @@
 //! estimate falls from several hit distances below one and back within thousandths of it.
 //! The Jacobian's own norm knows of them, but as an estimate it would draw them as thick as pixels,
 //! the polar axis among them, most of it where the set is far away. So such rays go on unless they stay
-//! near ([`DistanceField::has_dips`]).
+//! near ([`DistanceField::needs_hit_check`]).
 
 use std::cell::RefCell;
 
 use glam::DVec3;
 
 use super::{
-    march::{DistanceField, Reach},
+    march::{DistanceField, Estimate},
     power::TriplexPower,
 };
 use crate::scene::Fractal;
@@ -39,7 +39,7 @@ const JACOBIAN_STEP_FACTOR: f64 = 0.5;
 /// The same as [`SIDEWAYS_MAX`], of the Jacobian that deep rays step by.
 pub const DEEP_SIDEWAYS_MAX: f64 = 30.0;
 /// The estimate of lower powers dips; see the module's head.
-const DIPS_BELOW: f64 = 4.0;
+const HIT_CHECK_BELOW: f64 = 4.0;
 /// Keeps the estimate finite where a Julia orbit passes the origin and dr vanishes.
 const LEAST_DERIVATIVE: f64 = 1e-30;
 
@@ -63,7 +63,7 @@ pub struct Estimator {
     step_factor: f64,
     max_step: f64,
     bounding_radius: f64,
-    has_dips: bool,
+    needs_hit_check: bool,
 }
 
 impl Estimator {
@@ -79,18 +79,18 @@ impl Estimator {
             step_factor: step_factor(fractal),
             max_step: max_step(fractal, bounding_radius),
             bounding_radius,
-            has_dips: fractal.power < DIPS_BELOW,
+            needs_hit_check: fractal.power < HIT_CHECK_BELOW,
         }
     }
 
     /// The estimated distance from `point` to the fractal, in scene units: at least zero, and
     /// zero inside. It is no strict bound: a ray steps by [`Self::reach`].
     pub fn distance(&self, point: DVec3) -> f64 {
-        self.reach(point).distance
+        self.estimate(point).distance
     }
 
     /// The estimated distance, and the step that a ray may take; see the module's head.
-    pub fn reach(&self, point: DVec3) -> Reach {
+    pub fn estimate(&self, point: DVec3) -> Estimate {
         let (added, dr_added) = match self.julia_constant {
             Some(constant) => (constant, 0.0),
             None => (point, 1.0),
@@ -107,12 +107,12 @@ impl Estimator {
             z = raised + added;
             r = z.length();
         }
-        self.reach_from(r, dr, self.step_factor / dg.max(LEAST_DERIVATIVE))
+        self.estimate_from(r, dr, self.step_factor / dg.max(LEAST_DERIVATIVE))
     }
 
     /// The same of an orbit beside a reference, whose Jacobian is carried along: over the many
     /// steps of a deep view dg grows far past it, and a ray would creep.
-    pub(super) fn reach_along(&self, mut orbit: impl Orbit) -> Reach {
+    pub(super) fn estimate_along(&self, mut orbit: impl Orbit) -> Estimate {
         let (mut r, mut dr) = (orbit.z().length(), 1.0);
         for _ in 0..self.iterations {
             if r > self.bailout {
@@ -122,7 +122,7 @@ impl Estimator {
             orbit.step(&self.power);
             r = orbit.z().length();
         }
-        self.reach_from(r, dr, JACOBIAN_STEP_FACTOR / orbit.norm().max(LEAST_DERIVATIVE))
+        self.estimate_from(r, dr, JACOBIAN_STEP_FACTOR / orbit.norm().max(LEAST_DERIVATIVE))
     }
 
     /// How the constant moves with the point.
@@ -131,13 +131,13 @@ impl Estimator {
     }
 
     /// At the end of an orbit: `careful` is the step over the height.
-    fn reach_from(&self, r: f64, dr: f64, careful: f64) -> Reach {
+    fn estimate_from(&self, r: f64, dr: f64, careful: f64) -> Estimate {
         if r <= 1.0 {
-            return Reach { distance: 0.0, step: 0.0 };
+            return Estimate { distance: 0.0, step: 0.0 };
         }
         let height = 0.5 * r.ln() * r;
         let distance = height / dr.max(LEAST_DERIVATIVE);
-        Reach { distance, step: (careful * height).min(distance).min(self.max_step) }
+        Estimate { distance, step: (careful * height).min(distance).min(self.max_step) }
     }
 
     /// The longest step a ray may take, in scene units; see [`max_step`].
@@ -168,12 +168,12 @@ impl DistanceField for Estimator {
         Estimator::distance(self, point)
     }
 
-    fn reach(&self, point: DVec3) -> Reach {
-        Estimator::reach(self, point)
+    fn estimate(&self, point: DVec3) -> Estimate {
+        Estimator::estimate(self, point)
     }
 
-    fn has_dips(&self) -> bool {
-        self.has_dips
+    fn needs_hit_check(&self) -> bool {
+        self.needs_hit_check
     }
 
     fn bounding_radius(&self) -> f64 {

@@ -27,8 +27,8 @@ pub const MAX_MARCH_STEPS: u32 = 4096;
 
 /// No step of a ray is shorter than this part of the hit distance; what is thinner may be passed.
 pub const LEAST_STEP: f64 = 0.25;
-/// The same where a hit has to last ([`DistanceField::has_dips`]).
-pub const LEAST_STEP_OVER_DIPS: f64 = 0.4;
+/// The same where a hit has to last ([`DistanceField::needs_hit_check`]).
+pub const LEAST_STEP_WITH_HIT_CHECK: f64 = 0.4;
 /// How long it has to, in hit distances.
 pub const THICK: f64 = 0.5;
 /// At how many places that is asked.
@@ -36,9 +36,9 @@ pub const THICK_PLACES: u32 = 6;
 /// Halvings of the step that crossed the hit distance, so that these places lie where they should.
 pub const HALVINGS: u32 = 5;
 
-/// What a field says of a point, in scene units.
+/// Distance estimate at a point, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub struct Estimate {
     /// Estimated distance to the surface; zero inside.
     pub distance: f64,
     /// How far a ray may safely go, at most `distance`.
@@ -66,10 +66,10 @@ pub trait DistanceField {
     /// Estimated distance from `point` to the surface, in scene units; zero inside.
     fn distance(&self, point: DVec3) -> f64;
 
-    /// The same, and the safe step; all of the distance unless the field knows better.
-    fn reach(&self, point: DVec3) -> Reach {
+    /// [`Self::distance`] and the safe step; a step of the whole distance unless the field overrides it.
+    fn estimate(&self, point: DVec3) -> Estimate {
         let distance = self.distance(point);
-        Reach { distance, step: distance }
+        Estimate { distance, step: distance }
     }
 
     /// Centre of a sphere that holds all of the surface.
@@ -80,10 +80,9 @@ pub trait DistanceField {
     /// Radius of that sphere, in scene units.
     fn bounding_radius(&self) -> f64;
 
-    /// Does the distance dip for far less than it says? Then a ray passes what it is near to for less
-    /// than half a hit distance: which of the dips it meets is chance, and no pixel shows what is in
-    /// them.
-    fn has_dips(&self) -> bool {
+    /// True if the estimate has false minima thinner than a pixel. Hits are then checked over half a hit
+    /// distance.
+    fn needs_hit_check(&self) -> bool {
         false
     }
 
@@ -91,19 +90,19 @@ pub trait DistanceField {
     /// never less than the way to it, never more than the way to its centre. For speeds and
     /// collisions; rays need it not, since they start at the sphere.
     fn clear_distance(&self, point: DVec3) -> f64 {
-        self.clear_reach(point).distance
+        self.clear_estimate(point).distance
     }
 
     /// [`Self::reach`], mended like [`Self::clear_distance`].
-    fn clear_reach(&self, point: DVec3) -> Reach {
+    fn clear_estimate(&self, point: DVec3) -> Estimate {
         let from_centre = point.distance(self.center());
         let to_sphere = from_centre - self.bounding_radius();
-        let Reach { distance, step } = self.reach(point);
+        let Estimate { distance, step } = self.estimate(point);
         if to_sphere > 0.0 {
             let mend = |length: f64| length.clamp(to_sphere, from_centre);
-            Reach { distance: mend(distance), step: mend(step) }
+            Estimate { distance: mend(distance), step: mend(step) }
         } else {
-            Reach { distance, step }
+            Estimate { distance, step }
         }
     }
 
@@ -129,16 +128,18 @@ pub trait DistanceField {
             return Ok(None);
         };
         let far = far.min(max_depth);
-        let least_step = if self.has_dips() { LEAST_STEP_OVER_DIPS } else { LEAST_STEP };
+        let least_step =
+            if self.needs_hit_check() { LEAST_STEP_WITH_HIT_CHECK } else { LEAST_STEP };
         let (mut before, mut depth) = (near, near);
         for i in 0..max_steps {
             if depth > far {
                 return Ok(None);
             }
-            let (reach, hit) = (self.reach(ray.at(depth)), cone * depth);
-            let hasty_step = haste(f64::from(i) / f64::from(max_steps)) * reach.distance;
-            if reach.distance <= hit {
-                if !self.has_dips() {
+            let (estimate, hit) = (self.estimate(ray.at(depth)), cone * depth);
+            let escalated_step =
+                step_escalation(f64::from(i) / f64::from(max_steps)) * estimate.distance;
+            if estimate.distance <= hit {
+                if !self.needs_hit_check() {
                     return Ok(Some(depth));
                 }
                 if let Some(depth) = self.lasting_hit(ray, cone, [before, depth]) {
@@ -146,7 +147,7 @@ pub trait DistanceField {
                 }
             }
             before = depth;
-            depth += reach.step.max(hasty_step).max(least_step * hit);
+            depth += estimate.step.max(escalated_step).max(least_step * hit);
         }
         Err(depth)
     }
@@ -175,7 +176,7 @@ pub trait DistanceField {
             if depth > far {
                 break;
             }
-            let Reach { distance, step } = self.reach(ray.at(depth));
+            let Estimate { distance, step } = self.estimate(ray.at(depth));
             let ratio = distance / depth.max(f64::MIN_POSITIVE);
             if ratio < best_ratio {
                 (best, best_ratio) = (depth, ratio);
@@ -206,7 +207,7 @@ pub trait DistanceField {
 /// At power 3 orbits that come by the axis again and again have safe steps hundreds of times shorter
 /// than their estimates, and rays that went by these alone ended in the air when their steps were spent.
 /// The fourth power leaves rays that take a third of their steps as they are.
-fn haste(spent: f64) -> f64 {
+fn step_escalation(spent: f64) -> f64 {
     spent.powi(4)
 }
 

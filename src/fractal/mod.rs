@@ -19,6 +19,6 @@ pub mod power;
 pub use deep::{DeepField, Reference};
 pub use estimator::Estimator;
 pub use march::{
-    DEEP_FOOTPRINT, DistanceField, LEAST_STEP, MAX_MARCH_STEPS, PLAIN_FOOTPRINT, Ray, Reach,
+    DEEP_FOOTPRINT, DistanceField, Estimate, LEAST_STEP, MAX_MARCH_STEPS, PLAIN_FOOTPRINT, Ray,
     camera_ray, pick, pixel_cone,
 };

@@ -58,12 +58,12 @@ fn offsets(field: &DeepField, fractal: &Fractal, anchor: &PrecisePoint, scale: f
         let ray = camera_ray(&scene.camera, anchor, ndc, 1.5);
         let mut depth = 0.0;
         for _ in 0..2000 {
-            let reach = field.reach(ray.at(depth));
-            if reach.distance < 1e-3 * depth {
+            let estimate = field.estimate(ray.at(depth));
+            if estimate.distance < 1e-3 * depth {
                 offsets.extend(PLACES.map(|part| ray.at(part * depth)));
                 break;
             }
-            depth += reach.step;
+            depth += estimate.step;
         }
     }
     offsets

@@ -167,7 +167,7 @@ fn openness(field: &DeepField, power: f64, origin: DVec3, hit: f64, way: (DVec3,
     let (mut s, mut least) = (far.min(reach), f64::INFINITY);
     while s > hit && least > 0.5 {
         let blocks = (SHADOW_CONE * (1.0 - 0.5 * low) * s).max((0.5 - 0.35 * low) * hit);
-        let here = field.reach(origin + toward * s);
+        let here = field.estimate(origin + toward * s);
         least = least.min(here.distance / blocks);
         s -= here.step.max(0.1 * blocks);
     }

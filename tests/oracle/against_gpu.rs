@@ -95,7 +95,7 @@ fn estimates_at_random_points() {
                     away += 1;
                     assert!(off < 1e-4, "{fractal:?} at {point}: {answer:?}, expected {expected}");
                     // The same steps as on the CPU, whose safety is tested.
-                    let step = estimator.reach(point).step;
+                    let step = estimator.estimate(point).step;
                     let off = (f64::from(answer.step) - step).abs() / step;
                     assert!(
                         off < 2e-4,

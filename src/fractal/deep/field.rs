@@ -11,7 +11,7 @@ use super::{
     turn::Turn,
 };
 use crate::{
-    fractal::{DistanceField, Estimator, Reach, estimator::Orbit, power::TriplexPower},
+    fractal::{DistanceField, Estimate, Estimator, estimator::Orbit, power::TriplexPower},
     scene::{Fractal, PrecisePoint},
 };
 
@@ -52,15 +52,15 @@ impl DeepField {
 
 impl DistanceField for DeepField {
     fn distance(&self, point: DVec3) -> f64 {
-        self.reach(point).distance
+        self.estimate(point).distance
     }
 
-    fn reach(&self, point: DVec3) -> Reach {
-        self.estimator.reach_along(DeepOrbit::new(self, point))
+    fn estimate(&self, point: DVec3) -> Estimate {
+        self.estimator.estimate_along(DeepOrbit::new(self, point))
     }
 
-    fn has_dips(&self) -> bool {
-        self.estimator.has_dips()
+    fn needs_hit_check(&self) -> bool {
+        self.estimator.needs_hit_check()
     }
 
     fn bounding_radius(&self) -> f64 {

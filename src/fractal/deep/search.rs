@@ -142,8 +142,8 @@ impl Looking {
         let direction = ray.direction;
         for _ in 0..STEPS_AT_ONCE {
             let point = ray.at(self.depth);
-            let reach = self.field.reach(point);
-            let is_hit = reach.distance <= NEARNESS * self.depth;
+            let estimate = self.field.estimate(point);
+            let is_hit = estimate.distance <= NEARNESS * self.depth;
             if is_hit && self.depth > 0.0 {
                 self.nearest = Some(direction * self.depth);
             }
@@ -156,7 +156,7 @@ impl Looking {
                 (self.ray, self.steps, self.depth) = (self.ray + 1, 0, 0.0);
                 return self.ray < RAYS;
             }
-            self.depth += reach.step.max(0.25 * reach.distance);
+            self.depth += estimate.step.max(0.25 * estimate.distance);
         }
         true
     }

@@ -23,8 +23,8 @@ pub const MODULE: Module = Module {
         shader_file!("formula/deep.wgsl"),
         shader_file!("formula/turning.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
-        shader_file!("lib/ahead.wgsl"),
-        shader_file!("lib/pace.wgsl"),
+        shader_file!("lib/estimate_next.wgsl"),
+        shader_file!("lib/over_relaxation.wgsl"),
         shader_file!("pass/march.wgsl"),
     ],
 };

@@ -22,7 +22,7 @@ pub const MODULE: Module = Module {
         shader_file!("formula/deep.wgsl"),
         shader_file!("formula/turning.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
-        shader_file!("lib/ahead.wgsl"),
+        shader_file!("lib/estimate_next.wgsl"),
         shader_file!("lib/bundle.wgsl"),
         shader_file!("lib/shadow.wgsl"),
         shader_file!("pass/shadow_cone.wgsl"),

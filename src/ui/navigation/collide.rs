@@ -64,7 +64,7 @@ pub fn is_free(field: &dyn DistanceField, from: DVec3, to: DVec3, clearance: f64
 /// The part of `way` from `from` that keeps `clearance`: all of `way` itself where it is free.
 fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> DVec3 {
     let length = way.length();
-    let mut here = field.clear_reach(from);
+    let mut here = field.clear_estimate(from);
     if here.distance <= 0.0 || length == 0.0 || !length.is_finite() {
         return if length.is_finite() { way } else { DVec3::ZERO };
     }
@@ -80,7 +80,7 @@ fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> 
         let taken = steps.into_iter().filter(|&step| step > ARRIVED * clearance).find_map(|step| {
             let reached = (gone + step).min(length);
             // The estimate is no bound, so the place itself has the last word.
-            let next = field.clear_reach(from + direction * reached);
+            let next = field.clear_estimate(from + direction * reached);
             (next.distance > 0.0 && next.distance >= clearance.min(here.distance))
                 .then_some((reached, next))
         });

@@ -5,7 +5,7 @@
 // are plain ones: longer ones passed a fold of the surface on one ray in a hundred.
 const RELAXATION = 1.4;
 
-struct Pace {
+struct OverRelaxation {
     // How much longer than its ball a step is, where the one before was not taken back.
     relaxation: f32,
     // The same for the next step.
@@ -16,31 +16,31 @@ struct Pace {
     step: f32,
 }
 
-fn paced(power: f32) -> Pace {
+fn over_relaxation(power: f32) -> OverRelaxation {
     let relaxation = mix(1.0, RELAXATION, saturate(0.5 * power - 1.0));
-    return Pace(relaxation, relaxation, 0.0, 0.0);
+    return OverRelaxation(relaxation, relaxation, 0.0, 0.0);
 }
 
 // How far to go back where something may lie between the last ball and that of the point here:
 // to the last one's edge. 0 where the two meet.
-fn step_back(pace: ptr<function, Pace>, ball: f32) -> f32 {
-    let gap = (*pace).step - (*pace).ball;
+fn step_back(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
+    let gap = (*over).step - (*over).ball;
     if (gap <= ball) { return 0.0; }
     // From there a plain step.
-    *pace = Pace((*pace).relaxation, 1.0, 0.0, 0.0);
+    *over = OverRelaxation((*over).relaxation, 1.0, 0.0, 0.0);
     return gap;
 }
 
 // The step from a point whose ball has this radius.
-fn next_step(pace: ptr<function, Pace>, ball: f32) -> f32 {
-    let step = (*pace).next * ball;
-    *pace = Pace((*pace).relaxation, (*pace).relaxation, ball, step);
+fn next_step(over: ptr<function, OverRelaxation>, ball: f32) -> f32 {
+    let step = (*over).next * ball;
+    *over = OverRelaxation((*over).relaxation, (*over).relaxation, ball, step);
     return step;
 }
 
 // What part of the estimate a step covers at least where so many of a ray's steps are spent:
-// `fractal::march::haste`.
-fn haste(spent: u32, most: u32) -> f32 {
+// `fractal::march::step_escalation`.
+fn step_escalation(spent: u32, most: u32) -> f32 {
     let part = f32(spent) / f32(most);
     return part * part * part * part;
 }
