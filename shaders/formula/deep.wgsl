@@ -1,31 +1,29 @@
-// Orbits by their difference to the anchor's: what f32 can follow at any depth. Host twin, with the
-// equations: `fractal::deep`.
+// Perturbed orbits: the difference of an orbit to the anchor's, which f32 can follow at any depth. Host
+// twin, with the equations: `fractal::deep`.
 //
 // Points are offsets from the anchor in units of the scale s, and so are distances; derivatives are
 // in units of 1 / s, so that nothing overflows.
 
-// Whether this pipeline is for views that are drawn from an anchor.
+// True in pipelines of views that are drawn from an anchor.
 override DEEP: bool = false;
 
-// How many steps of the difference all orbits near the anchor take together, up to `MOST_NEAR_STEPS`; 0
-// where each orbit is followed by itself.
+// Near steps: perturbed steps that all orbits near the anchor take, 0 to `MOST_NEAR_STEPS`.
 override NEAR_STEPS: u32 = 2u;
-// Whether a polynomial stands for the steps before those. Else they are the orbit's first.
-override HAS_SKIP: bool = true;
-// Whether a ray steps by the stretch of its own direction, rather than by a product of bounds.
-override FOLLOWS_DIRECTION: bool = DEEP && (HAS_SKIP || NEAR_STEPS == 0u);
+// True if a series approximation precedes the near steps; else they are an orbit's first steps.
+override HAS_SERIES: bool = true;
+// True if a ray's step follows the stretch of the ray's own direction, false if a product of bounds.
+override FOLLOWS_DIRECTION: bool = DEEP && (HAS_SERIES || NEAR_STEPS == 0u);
 
-// A difference is followed by itself while it is smaller than this part of the place:
-// `fractal::deep::CLOSE`.
+// Orbits take perturbed steps while the difference is below this part of |z|: `fractal::deep::CLOSE`.
 const CLOSE = 0.01;
 
-// How far from the anchor points may be that skip the most steps, in scales, and from each radius to
-// the next: `render::uniforms::depth`.
+// Radius of the first of `anchor_orbit.series`, in scales, and the ratio of each radius to the last:
+// `render::uniforms::depth`.
 const FIRST_RADIUS = 12.0;
 const RADII_RATIO = 8.0;
 
 // An orbit under way.
-struct Walk {
+struct OrbitState {
     // Where it is.
     z: vec3f,
     // How many steps it has gone.
@@ -35,57 +33,60 @@ struct Walk {
     index: u32,
 }
 
-// Which of the skips is for a point; `SKIPS` where it has to take every step.
-fn skip_of(point: vec3f) -> u32 {
+// Index of the series approximation for a point; `SERIES` if the point is outside all radii.
+fn series_of(point: vec3f) -> u32 {
     let radii = log2(dot(point, point) / (FIRST_RADIUS * FIRST_RADIUS)) / (2.0 * log2(RADII_RATIO));
-    return u32(clamp(ceil(radii), 0.0, f32(SKIPS)));
+    return u32(clamp(ceil(radii), 0.0, f32(SERIES)));
 }
 
-// Whether a point's orbit takes the steps that the picture itself holds.
+// True if the series approximation and the near steps of the picture itself hold for a point.
 fn is_near(point: vec3f) -> bool {
     return dot(point, point) < picture.fractal.near_radius_squared;
 }
 
-// Whether plain f32 tells a point from its neighbours: its pixel is wide enough.
+// True if the pixel at a point is wide enough for plain f32.
 fn is_far(point: vec3f) -> bool {
     // Its square may be past what an f32 holds.
     return max(max(abs(point.x), abs(point.y)), abs(point.z)) > picture.fractal.far_radius;
 }
 
-// Behind the steps that are skipped.
-fn skipped_walk(skip: Skip, place: vec3f, point: vec3f) -> Walk {
+// State behind the steps of a series approximation.
+fn series_state(series: SeriesApproximation, reference: vec3f, point: vec3f) -> OrbitState {
     // The mean of the Jacobians at the anchor and at the point: of a second-order polynomial.
-    let at_anchor = mat3x3f(skip.along_x, skip.along_y, skip.along_z);
-    let difference = 0.5 * ((at_anchor + skipped_jacobian(skip, point)) * point);
-    return Walk(place + difference, skip.steps, difference, skip.steps);
+    let at_anchor = mat3x3f(series.along_x, series.along_y, series.along_z);
+    let difference = 0.5 * ((at_anchor + series_jacobian(series, point)) * point);
+    return OrbitState(reference + difference, series.steps, difference, series.steps);
 }
 
-// The same of a skip that the picture does not hold.
-fn far_walk(which: u32, point: vec3f) -> Walk {
-    return skipped_walk(anchor_orbit.skips[which], anchor_orbit.places[anchor_orbit.skips[which].steps].z, point);
+// The same of a series approximation in `anchor_orbit`.
+fn far_state(which: u32, point: vec3f) -> OrbitState {
+    let series = anchor_orbit.series[which];
+    return series_state(series, anchor_orbit.points[series.steps].z, point);
 }
 
-// The derivative after those steps.
-fn skipped_derivative(skip: Skip, point: vec3f) -> f32 {
-    return skip.derivative + dot(skip.derivative_gradient, point);
+// dr behind those steps.
+fn series_derivative(series: SeriesApproximation, point: vec3f) -> f32 {
+    return series.derivative + dot(series.derivative_gradient, point);
 }
 
-fn skipped_growth(fractal: Fractal, skip: Skip, point: vec3f, along: vec3f, which: u32) -> Growth {
-    let jacobian = skipped_jacobian(skip, point);
+fn series_derivatives(
+    fractal: Fractal, series: SeriesApproximation, point: vec3f, along: vec3f, which: u32,
+) -> Derivatives {
+    let jacobian = series_jacobian(series, point);
     let stretched = jacobian * along;
     // Of directions across the widest; from farther away it would be followed over too many steps.
-    var bound = select(0.0, skip.rest, which < 2u);
-    if (!FOLLOWS_DIRECTION) { bound = length(jacobian * skip.widest); }
+    var bound = select(0.0, series.rest, which < 2u);
+    if (!FOLLOWS_DIRECTION) { bound = length(jacobian * series.widest); }
     let dg = bound / step_factor(fractal);
-    return Growth(skipped_derivative(skip, point), dg, stretched, skip.rest / skip.derivative);
+    return Derivatives(series_derivative(series, point), dg, stretched, series.rest / series.derivative);
 }
 
 // Whether the next step is one of the difference.
-fn is_close(walk: Walk, q: Squares) -> bool {
-    let next = walk.index + 1u;
-    let goes_on = (next != picture.fractal.own_places) & (next < picture.fractal.places);
+fn is_close(state: OrbitState, q: Squares) -> bool {
+    let next = state.index + 1u;
+    let goes_on = (next != picture.fractal.own_points) & (next < picture.fractal.reference_points);
     // Squares of tiny differences are 0, which is what they are meant to be here.
-    return goes_on & (dot(walk.difference, walk.difference) < CLOSE * CLOSE * q.s);
+    return goes_on & (dot(state.difference, state.difference) < CLOSE * CLOSE * q.s);
 }
 
 // A complex number and how another differs from it.
@@ -141,22 +142,24 @@ struct Deviation {
 }
 
 // `aside`: the difference across the axis; `rho`: the orbit's own.
-fn deviation(place: Place, aside: vec2f, rho: f32) -> Deviation {
+fn deviation(reference: ReferencePoint, aside: vec2f, rho: f32) -> Deviation {
     let inverse_rho = 1.0 / max(rho, 1e-37);
-    let inverse_sum = 1.0 / max(rho + place.rho, 1e-37);
-    let along = dot(place.rotor, aside);
-    let d_rho = 2.0 * (place.rho * inverse_sum) * along + dot(aside, inverse_sum * aside);
+    let inverse_sum = 1.0 / max(rho + reference.rho, 1e-37);
+    let along = dot(reference.rotor, aside);
+    let d_rho = 2.0 * (reference.rho * inverse_sum) * along + dot(aside, inverse_sum * aside);
     // On the axis the rotor is 1.
-    let turned = inverse_rho * (aside - d_rho * place.rotor);
-    let d_rotor = select(vec2f(1.0, 0.0) - place.rotor, turned, rho > 0.0);
+    let turned = inverse_rho * (aside - d_rho * reference.rotor);
+    let d_rotor = select(vec2f(1.0, 0.0) - reference.rotor, turned, rho > 0.0);
     return Deviation(d_rho, d_rotor, inverse_rho);
 }
 
-// One step of the difference to `place`, where the orbit itself is `rho` from the axis.
-fn raised_close(fractal: Fractal, walk: Walk, place: Place, rho: f32, q: Squares) -> Raised {
-    let d = deviation(place, walk.difference.xy, rho);
-    let w = pair_power(Pair(vec2f(place.rho, place.z.z), vec2f(d.rho, walk.difference.z)), POWER);
-    let u = pair_power(Pair(place.rotor, d.rotor), POWER);
+// One step of the difference to `reference`, where the orbit itself is `rho` from the axis.
+fn raised_close(
+    fractal: Fractal, state: OrbitState, reference: ReferencePoint, rho: f32, q: Squares,
+) -> Raised {
+    let d = deviation(reference, state.difference.xy, rho);
+    let w = pair_power(Pair(vec2f(reference.rho, reference.z.z), vec2f(d.rho, state.difference.z)), POWER);
+    let u = pair_power(Pair(reference.rotor, d.rotor), POWER);
     let wn = w.value + w.difference;
     let un = u.value + u.difference;
     let across = w.value.x * u.difference + w.difference.x * un;
@@ -165,26 +168,26 @@ fn raised_close(fractal: Fractal, walk: Walk, place: Place, rho: f32, q: Squares
 }
 
 // The same to a place of the reference. It also holds where the square of rho is too small for an f32.
-fn raised_next(fractal: Fractal, walk: Walk, q: Squares) -> Raised {
-    return raised_close(fractal, walk, anchor_orbit.places[walk.index], length_of(walk.z.xy), q);
+fn raised_next(fractal: Fractal, state: OrbitState, q: Squares) -> Raised {
+    return raised_close(fractal, state, anchor_orbit.points[state.index], length_of(state.z.xy), q);
 }
 
 // Goes on by such a step.
-fn step_close(walk: Walk, step: Raised, orbit: Orbit) -> Walk {
-    return step_to(walk, anchor_orbit.places[walk.index + 1u].z, step, orbit);
+fn step_close(state: OrbitState, step: Raised, orbit: Orbit) -> OrbitState {
+    return step_to(state, anchor_orbit.points[state.index + 1u].z, step, orbit);
 }
 
 // The same to a place that is known.
-fn step_to(walk: Walk, place: vec3f, step: Raised, orbit: Orbit) -> Walk {
+fn step_to(state: OrbitState, reference: vec3f, step: Raised, orbit: Orbit) -> OrbitState {
     let difference = step.power + orbit.added;
-    return Walk(place + difference, walk.count + 1u, difference, walk.index + 1u);
+    return OrbitState(reference + difference, state.count + 1u, difference, state.index + 1u);
 }
 
 // Goes on from z^n: its difference to where orbits start anew (rebasing).
-fn step_anew(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
+fn step_anew(state: OrbitState, power: vec3f, orbit: Orbit) -> OrbitState {
     let difference = power + orbit.added;
     let z = orbit.constant + difference;
-    return Walk(z, walk.count + 1u, difference, picture.fractal.restart);
+    return OrbitState(z, state.count + 1u, difference, picture.fractal.restart);
 }
 
 // What a step makes of directions, but for those along parallels: turns the meridian's plane, which
@@ -211,21 +214,21 @@ fn pushed(fractal: Fractal, step: Raised, z: vec3f, q: Squares, v: vec3f) -> vec
     return vec3f(along.xy + parallel * vec2f(-step.un.y, step.un.x), along.z);
 }
 
-// The tangent behind the steps that are skipped.
-fn skipped_tangent(skip: Skip, orbit: Orbit, point: vec3f) -> Tangent {
-    let inverse = 1.0 / skipped_derivative(skip, point);
+// Tangent behind the steps of a series approximation.
+fn series_tangent(series: SeriesApproximation, orbit: Orbit, point: vec3f) -> Tangent {
+    let inverse = 1.0 / series_derivative(series, point);
     return Tangent(
-        inverse * skipped_jacobian(skip, point),
-        (inverse * inverse) * skip.derivative_gradient,
+        inverse * series_jacobian(series, point),
+        (inverse * inverse) * series.derivative_gradient,
         inverse * orbit.constant_derivative,
     );
 }
 
 // The Jacobian behind them.
-fn skipped_jacobian(skip: Skip, point: vec3f) -> mat3x3f {
+fn series_jacobian(series: SeriesApproximation, point: vec3f) -> mat3x3f {
     return mat3x3f(
-        skip.along_x + point.x * skip.along_xx + point.y * skip.along_xy + point.z * skip.along_zx,
-        skip.along_y + point.y * skip.along_yy + point.z * skip.along_yz + point.x * skip.along_xy,
-        skip.along_z + point.z * skip.along_zz + point.x * skip.along_zx + point.y * skip.along_yz,
+        series.along_x + point.x * series.along_xx + point.y * series.along_xy + point.z * series.along_zx,
+        series.along_y + point.y * series.along_yy + point.z * series.along_yz + point.x * series.along_xy,
+        series.along_z + point.z * series.along_zz + point.x * series.along_zx + point.y * series.along_yz,
     );
 }

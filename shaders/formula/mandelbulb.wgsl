@@ -158,18 +158,18 @@ fn orbit_of(fractal: Fractal, point: vec3f) -> Orbit {
 }
 
 // The orbit at its beginning.
-fn walk_from(orbit: Orbit, point: vec3f) -> Walk {
-    return Walk(orbit.start, 0u, orbit.start_derivative * point, 0u);
+fn initial_state(orbit: Orbit, point: vec3f) -> OrbitState {
+    return OrbitState(orbit.start, 0u, orbit.start_derivative * point, 0u);
 }
 
-fn has_ended(fractal: Fractal, orbit: Orbit, walk: Walk, q: Squares) -> bool {
-    return (q.s > orbit.limit) | (walk.count >= fractal.iterations);
+fn has_ended(fractal: Fractal, orbit: Orbit, state: OrbitState, q: Squares) -> bool {
+    return (q.s > orbit.limit) | (state.count >= fractal.iterations);
 }
 
 // Goes on from z^n.
-fn step_on(walk: Walk, power: vec3f, orbit: Orbit) -> Walk {
-    if (DEEP) { return step_anew(walk, power, orbit); }
-    return Walk(power + orbit.constant, walk.count + 1u, walk.difference, walk.index);
+fn step_on(state: OrbitState, power: vec3f, orbit: Orbit) -> OrbitState {
+    if (DEEP) { return step_anew(state, power, orbit); }
+    return OrbitState(power + orbit.constant, state.count + 1u, state.difference, state.index);
 }
 
 struct Estimate {
@@ -192,90 +192,87 @@ fn needs_hit_check(fractal: Fractal) -> bool {
     return fractal.power < 4.0;
 }
 
-// An orbit's derivatives.
-struct Growth {
+// Derivatives of an orbit by its point.
+struct Derivatives {
     dr: f32,
-    // The product of bounds by which rays step where orbits are short, in units of the step factor: a step
-    // is the height over the larger of dr and dg. Over the many steps of a deep view it grows far past the
-    // Jacobian's norm, and rays would creep. There it bounds what became of other directions than the
-    // ray's own since the skipped steps.
+    // Product of bounds on the stretch, in units of the step factor: a ray's step is the height over the
+    // larger of dr and dg. Over the many steps of a deep orbit it grows far past the Jacobian's norm; with
+    // `FOLLOWS_DIRECTION` it bounds the stretch of other directions since the series approximation.
     dg: f32,
-    // The ray's own direction times the Jacobian, where rays step by it.
+    // Jacobian times the ray's own direction, with `FOLLOWS_DIRECTION`.
     stretched: vec3f,
-    // How far the skipped steps stretch other directions than the one that they stretch most, over dr:
-    // with depth that one leaves the others ever farther behind (by 3 to 100 at 1e-20).
+    // Stretch of the series approximation across its widest direction, over dr: 1/3 to 1/100 of the
+    // widest at 1e-20.
     rest: f32,
 }
 
-fn first_growth(fractal: Fractal, orbit: Orbit, along: vec3f) -> Growth {
+fn initial_derivatives(fractal: Fractal, orbit: Orbit, along: vec3f) -> Derivatives {
     let one = orbit.start_derivative;
     let dg = select(one / step_factor(fractal), 0.0, FOLLOWS_DIRECTION);
-    return Growth(one, dg, one * along, 1.0);
+    return Derivatives(one, dg, one * along, 1.0);
 }
 
-// `along`: the direction that deep views follow.
-fn grown(
-    fractal: Fractal, orbit: Orbit, along: vec3f, before: Growth, step: Raised, z: vec3f, q: Squares,
-) -> Growth {
-    // Cut off before the step, so that the last one of an orbit, which may be by a factor of 1e19, is whole.
+// Derivatives behind a step. `along`: the ray's direction, a unit vector.
+fn next_derivatives(
+    fractal: Fractal, orbit: Orbit, along: vec3f, before: Derivatives, step: Raised, z: vec3f, q: Squares,
+) -> Derivatives {
+    // Cut off before the step: the last step of an orbit may multiply by 1e19.
     let dr = step.stretch * min(before.dr, fractal.derivative_max) + orbit.constant_derivative;
     let widest = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
     let dg = widest * min(before.dg, fractal.derivative_max);
     if (!FOLLOWS_DIRECTION) {
         let added = orbit.constant_derivative / step_factor(fractal);
-        return Growth(dr, dg + added, before.stretched, 0.0);
+        return Derivatives(dr, dg + added, before.stretched, 0.0);
     }
     let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.constant_derivative * along;
-    return Growth(dr, dg, stretched, before.rest);
+    return Derivatives(dr, dg, stretched, before.rest);
 }
 
-// How far a ray may go where an orbit has got so high.
-fn safe_step(growth: Growth, height: f32) -> f32 {
-    if (!FOLLOWS_DIRECTION) { return height / max(max(growth.dg, growth.dr), 1e-37); }
-    // With a large bailout its square may be past what an f32 holds.
-    let inverse = 1.0 / max(growth.dr, 1e-37);
-    let followed = inverse * growth.stretched;
-    let rest = max(growth.rest, inverse * growth.dg);
+// A ray's safe step. `height`: see `height_of`.
+fn safe_step(derivatives: Derivatives, height: f32) -> f32 {
+    if (!FOLLOWS_DIRECTION) { return height / max(max(derivatives.dg, derivatives.dr), 1e-37); }
+    // The square of `stretched` can overflow with a large bailout.
+    let inverse = 1.0 / max(derivatives.dr, 1e-37);
+    let followed = inverse * derivatives.stretched;
+    let rest = max(derivatives.rest, inverse * derivatives.dg);
     let norm = max(max(length(followed), rest), 1.0);
     return inverse * height / norm;
 }
 
-// Each of an orbit's loops goes through steps of the difference first, where there are any, and
-// then through plain ones: where lanes disagree both sides of a branch are computed, but not of a
-// loop.
-// `along`: the direction, a unit vector, in which the ray goes whose step this is for.
+// Estimate at a point, exact everywhere. `along`: the ray's direction, a unit vector.
+// Perturbed and plain steps have loops of their own: lanes that disagree on a branch compute both sides.
 fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
-    if (TURNS) { return rotating_estimate(fractal, point); }
+    if (ROTATING_FRAME) { return rotating_estimate(fractal, point); }
     let orbit = orbit_of(fractal, point);
-    var walk = walk_from(orbit, point);
-    var growth = first_growth(fractal, orbit, along);
+    var state = initial_state(orbit, point);
+    var derivatives = initial_derivatives(fractal, orbit, along);
     if (DEEP) {
-        let which = skip_of(point);
-        for (; which < SKIPS; ) {
-            walk = far_walk(which, point);
-            growth = skipped_growth(fractal, anchor_orbit.skips[which], point, along, which);
+        let which = series_of(point);
+        for (; which < SERIES; ) {
+            state = far_state(which, point);
+            derivatives = series_derivatives(fractal, anchor_orbit.series[which], point, along, which);
             break;
         }
     }
-    var q = squares(walk.z);
+    var q = squares(state.z);
     for (; ; ) {
         for (; DEEP; ) {
-            if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
-            let step = raised_next(fractal, walk, q);
-            growth = grown(fractal, orbit, along, growth, step, walk.z, q);
-            walk = step_close(walk, step, orbit);
-            q = squares(walk.z);
+            if (has_ended(fractal, orbit, state, q) || !is_close(state, q)) { break; }
+            let step = raised_next(fractal, state, q);
+            derivatives = next_derivatives(fractal, orbit, along, derivatives, step, state.z, q);
+            state = step_close(state, step, orbit);
+            q = squares(state.z);
         }
         for (; ; ) {
-            if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
-            let step = raised(fractal, walk.z, q);
-            growth = grown(fractal, orbit, along, growth, step, walk.z, q);
-            walk = step_on(walk, step.power, orbit);
-            q = squares(walk.z);
+            if (has_ended(fractal, orbit, state, q) || (DEEP && is_close(state, q))) { break; }
+            let step = raised(fractal, state.z, q);
+            derivatives = next_derivatives(fractal, orbit, along, derivatives, step, state.z, q);
+            state = step_on(state, step.power, orbit);
+            q = squares(state.z);
         }
-        if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
+        if (!DEEP || has_ended(fractal, orbit, state, q)) { break; }
     }
-    return estimate_at(fractal, growth, q);
+    return estimate_at(fractal, derivatives, q);
 }
 
 // 0.5 ln(r) r: the distance estimate times dr.
@@ -283,71 +280,70 @@ fn height_of(q: Squares) -> f32 {
     return 0.25 * log(q.s) * sqrt(q.s);
 }
 
-// The reach at an orbit's end.
-fn estimate_at(fractal: Fractal, growth: Growth, q: Squares) -> Estimate {
+// Estimate at an orbit's end.
+fn estimate_at(fractal: Fractal, derivatives: Derivatives, q: Squares) -> Estimate {
     if (q.s <= 1.0) { return Estimate(0.0, 0.0); }
     let height = height_of(q);
-    let distance = height / max(growth.dr, 1e-37);
-    return Estimate(distance, min(safe_step(growth, height), fractal.max_step));
+    let distance = height / max(derivatives.dr, 1e-37);
+    return Estimate(distance, min(safe_step(derivatives, height), fractal.max_step));
 }
 
-// One of the near steps, from the place that the picture holds at `index`, unless the orbit has escaped.
+// The near step from `picture.near[index]`, unless the orbit has escaped.
 fn near_step(
-    index: u32, walk: ptr<function, Walk>, growth: ptr<function, Growth>, fractal: Fractal, orbit: Orbit,
-    along: vec3f,
+    index: u32, state: ptr<function, OrbitState>, derivatives: ptr<function, Derivatives>,
+    fractal: Fractal, orbit: Orbit, along: vec3f,
 ) {
-    let q = squares((*walk).z);
-    // No orbit escapes in the first: it comes from inside of the bounding sphere, or from behind a skip.
+    let q = squares((*state).z);
+    // No orbit has escaped before the first: it starts in the bounding sphere, or behind the series.
     if (index > 0u && q.s > orbit.limit) { return; }
-    let step = raised_close(fractal, *walk, picture.near[index], sqrt(q.a), q);
-    *growth = grown(fractal, orbit, along, *growth, step, (*walk).z, q);
-    *walk = step_to(*walk, picture.near[index + 1u].z, step, orbit);
+    let step = raised_close(fractal, *state, picture.near[index], sqrt(q.a), q);
+    *derivatives = next_derivatives(fractal, orbit, along, *derivatives, step, (*state).z, q);
+    *state = step_to(*state, picture.near[index + 1u].z, step, orbit);
 }
 
-// The same where it is quick to tell, which is almost everywhere: near the anchor, on orbits whose
-// derivative stays above what f32 needs to tell pixels apart behind the near steps; so far from it that
-// plain f32 tells them apart; and in all views that are not deep or have frames that turn. Elsewhere the
-// step is negative, and only `estimate` can tell.
+// The same by the near steps, or by plain ones far from the anchor. Where neither is exact enough the step
+// is negative, and the caller needs `estimate`: outside the radius of the near steps, and on orbits whose
+// dr falls below `least_derivative` behind them.
 fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
-    if (!DEEP || TURNS) { return estimate(fractal, point, along); }
+    if (!DEEP || ROTATING_FRAME) { return estimate(fractal, point, along); }
     let orbit = orbit_of(fractal, point);
-    var walk = walk_from(orbit, point);
-    var growth = first_growth(fractal, orbit, along);
-    if (HAS_SKIP) {
-        walk = skipped_walk(picture.skip, picture.near[0].z, point);
-        growth = skipped_growth(fractal, picture.skip, point, along, 0u);
+    var state = initial_state(orbit, point);
+    var derivatives = initial_derivatives(fractal, orbit, along);
+    if (HAS_SERIES) {
+        state = series_state(picture.series, picture.near[0].z, point);
+        derivatives = series_derivatives(fractal, picture.series, point, along, 0u);
     }
-    // Unrolled by hand: llvmpipe leaves a loop of more than three such steps, which takes twice as long.
-    near_step(0u, &walk, &growth, fractal, orbit, along);
-    if (NEAR_STEPS > 1u) { near_step(1u, &walk, &growth, fractal, orbit, along); }
-    if (NEAR_STEPS > 2u) { near_step(2u, &walk, &growth, fractal, orbit, along); }
-    if (NEAR_STEPS > 3u) { near_step(3u, &walk, &growth, fractal, orbit, along); }
-    if (NEAR_STEPS > 4u) { near_step(4u, &walk, &growth, fractal, orbit, along); }
-    if (NEAR_STEPS > 5u) { near_step(5u, &walk, &growth, fractal, orbit, along); }
-    if (NEAR_STEPS > 6u) { near_step(6u, &walk, &growth, fractal, orbit, along); }
-    if (NEAR_STEPS > 7u) { near_step(7u, &walk, &growth, fractal, orbit, along); }
-    var q = squares(walk.z);
+    // Unrolled by hand: llvmpipe keeps a loop of four or more, which takes twice as long.
+    near_step(0u, &state, &derivatives, fractal, orbit, along);
+    if (NEAR_STEPS > 1u) { near_step(1u, &state, &derivatives, fractal, orbit, along); }
+    if (NEAR_STEPS > 2u) { near_step(2u, &state, &derivatives, fractal, orbit, along); }
+    if (NEAR_STEPS > 3u) { near_step(3u, &state, &derivatives, fractal, orbit, along); }
+    if (NEAR_STEPS > 4u) { near_step(4u, &state, &derivatives, fractal, orbit, along); }
+    if (NEAR_STEPS > 5u) { near_step(5u, &state, &derivatives, fractal, orbit, along); }
+    if (NEAR_STEPS > 6u) { near_step(6u, &state, &derivatives, fractal, orbit, along); }
+    if (NEAR_STEPS > 7u) { near_step(7u, &state, &derivatives, fractal, orbit, along); }
+    var q = squares(state.z);
     var is_quick = is_near(point);
     var least = fractal.least_derivative / max(0.5 * length(point), 1.0);
-    if (HAS_SKIP && is_far(point)) {
+    if (HAS_SERIES && is_far(point)) {
         is_quick = true;
         least = 0.0;
-        walk.z = orbit.start + BESIDE_AXIS;
-        walk.count = 0u;
-        growth = first_growth(fractal, orbit, along);
-        q = squares(walk.z);
+        state.z = orbit.start + BESIDE_AXIS;
+        state.count = 0u;
+        derivatives = initial_derivatives(fractal, orbit, along);
+        q = squares(state.z);
     }
     let constant = orbit.constant + orbit.added;
     for (; ; ) {
-        if (!is_quick || has_ended(fractal, orbit, walk, q) || growth.dr < least) { break; }
-        let step = raised(fractal, walk.z, q);
-        growth = grown(fractal, orbit, along, growth, step, walk.z, q);
-        walk.z = step.power + constant;
-        walk.count += 1u;
-        q = squares(walk.z);
+        if (!is_quick || has_ended(fractal, orbit, state, q) || derivatives.dr < least) { break; }
+        let step = raised(fractal, state.z, q);
+        derivatives = next_derivatives(fractal, orbit, along, derivatives, step, state.z, q);
+        state.z = step.power + constant;
+        state.count += 1u;
+        q = squares(state.z);
     }
-    if (!is_quick || growth.dr < least) { return Estimate(0.0, -1.0); }
-    return estimate_at(fractal, growth, q);
+    if (!is_quick || derivatives.dr < least) { return Estimate(0.0, -1.0); }
+    return estimate_at(fractal, derivatives, q);
 }
 
 fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
@@ -404,39 +400,39 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
 // J grows as dr does and grad dr as its square, past what an f32 holds: both are kept in units
 // of dr, which leaves the direction alone.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
-    if (TURNS) { return turning_gradient(fractal, point); }
+    if (ROTATING_FRAME) { return rotating_gradient(fractal, point); }
     let orbit = orbit_of(fractal, point);
-    var walk = walk_from(orbit, point);
+    var state = initial_state(orbit, point);
     let added = orbit.constant_derivative / orbit.start_derivative;
     var tangent = Tangent(scaled_identity(1.0), vec3f(0.0), added);
     if (DEEP) {
-        let which = skip_of(point);
-        for (; which < SKIPS; ) {
-            walk = far_walk(which, point);
-            tangent = skipped_tangent(anchor_orbit.skips[which], orbit, point);
+        let which = series_of(point);
+        for (; which < SERIES; ) {
+            state = far_state(which, point);
+            tangent = series_tangent(anchor_orbit.series[which], orbit, point);
             break;
         }
     }
-    var q = squares(walk.z);
+    var q = squares(state.z);
     for (; ; ) {
         for (; DEEP; ) {
-            if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
-            let step = raised_next(fractal, walk, q);
-            tangent = turned(fractal, tangent, step, walk.z, q);
-            walk = step_close(walk, step, orbit);
-            q = squares(walk.z);
+            if (has_ended(fractal, orbit, state, q) || !is_close(state, q)) { break; }
+            let step = raised_next(fractal, state, q);
+            tangent = turned(fractal, tangent, step, state.z, q);
+            state = step_close(state, step, orbit);
+            q = squares(state.z);
         }
         for (; ; ) {
-            if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
-            let step = raised(fractal, walk.z, q);
-            tangent = turned(fractal, tangent, step, walk.z, q);
-            walk = step_on(walk, step.power, orbit);
-            q = squares(walk.z);
+            if (has_ended(fractal, orbit, state, q) || (DEEP && is_close(state, q))) { break; }
+            let step = raised(fractal, state.z, q);
+            tangent = turned(fractal, tangent, step, state.z, q);
+            state = step_on(state, step.power, orbit);
+            q = squares(state.z);
         }
-        if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
+        if (!DEEP || has_ended(fractal, orbit, state, q)) { break; }
     }
     if (q.s <= 1.0) { return vec3f(0.0); }
-    return gradient_at(walk.z, q, tangent.jacobian, tangent.slope);
+    return gradient_at(state.z, q, tangent.jacobian, tangent.slope);
 }
 
 // The same at an orbit's end, by its Jacobian over dr and the gradient of dr over dr^2.
@@ -454,39 +450,39 @@ struct OrbitColors {
 }
 
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
-    if (TURNS) {
-        let end = turning_end(fractal, point);
+    if (ROTATING_FRAME) {
+        let end = rotating_end(fractal, point);
         return colors_of(fractal, end.q, end.count, end.traps);
     }
     let orbit = orbit_of(fractal, point);
-    var walk = walk_from(orbit, point);
+    var state = initial_state(orbit, point);
     // Squared until the end.
     var traps = vec3f(4.0);
     if (DEEP) {
-        let which = skip_of(point);
-        for (; which < SKIPS; ) {
-            walk = far_walk(which, point);
-            traps = anchor_orbit.skips[which].traps_squared;
+        let which = series_of(point);
+        for (; which < SERIES; ) {
+            state = far_state(which, point);
+            traps = anchor_orbit.series[which].traps_squared;
             break;
         }
     }
-    var q = squares(walk.z);
+    var q = squares(state.z);
     for (; ; ) {
         for (; DEEP; ) {
-            if (has_ended(fractal, orbit, walk, q) || !is_close(walk, q)) { break; }
-            walk = step_close(walk, raised_next(fractal, walk, q), orbit);
-            q = squares(walk.z);
+            if (has_ended(fractal, orbit, state, q) || !is_close(state, q)) { break; }
+            state = step_close(state, raised_next(fractal, state, q), orbit);
+            q = squares(state.z);
             traps = min(traps, vec3f(q.s, q.a, q.zz));
         }
         for (; ; ) {
-            if (has_ended(fractal, orbit, walk, q) || (DEEP && is_close(walk, q))) { break; }
-            walk = step_on(walk, raised(fractal, walk.z, q).power, orbit);
-            q = squares(walk.z);
+            if (has_ended(fractal, orbit, state, q) || (DEEP && is_close(state, q))) { break; }
+            state = step_on(state, raised(fractal, state.z, q).power, orbit);
+            q = squares(state.z);
             traps = min(traps, vec3f(q.s, q.a, q.zz));
         }
-        if (!DEEP || has_ended(fractal, orbit, walk, q)) { break; }
+        if (!DEEP || has_ended(fractal, orbit, state, q)) { break; }
     }
-    return colors_of(fractal, q, walk.count, traps);
+    return colors_of(fractal, q, state.count, traps);
 }
 
 // Of an orbit's end after so many steps, and its squared traps.

@@ -12,7 +12,9 @@ struct PendingEstimate {
 
 // The estimate at the next point; meaningless if it sets `pending.is_needed`. The caller then stores
 // `careful_estimate` of the same point in `pending` and calls again.
-fn estimate_next(pending: ptr<function, PendingEstimate>, fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+fn estimate_next(
+    pending: ptr<function, PendingEstimate>, fractal: Fractal, point: vec3f, along: vec3f,
+) -> Estimate {
     var ahead = (*pending).estimate;
     if (!(*pending).is_needed) { ahead = quick_estimate(fractal, point, along); }
     (*pending).is_needed = ahead.step < 0.0;
@@ -20,6 +22,6 @@ fn estimate_next(pending: ptr<function, PendingEstimate>, fractal: Fractal, poin
 }
 
 fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
-    if (DEEP && !TURNS) { return estimate(fractal, point, along); }
+    if (DEEP && !ROTATING_FRAME) { return estimate(fractal, point, along); }
     return Estimate(0.0, 0.0);
 }

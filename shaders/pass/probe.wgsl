@@ -23,8 +23,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let point = points[id.x].xyz;
     let fractal = picture.fractal;
     let colors = orbit_colors(fractal, point);
-    let ahead = estimate(fractal, point, picture.skip.widest);
-    let quick = quick_estimate(fractal, point, picture.skip.widest);
+    let ahead = estimate(fractal, point, picture.series.widest);
+    let quick = quick_estimate(fractal, point, picture.series.widest);
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,

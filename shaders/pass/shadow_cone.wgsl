@@ -35,7 +35,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = estimate_next(&pending, fractal, center + s * direction, picture.skip.widest);
+            let ahead = estimate_next(&pending, fractal, center + s * direction, picture.series.widest);
             if (pending.is_needed) { break; }
             // No point is farther than this from the plane through `s`.
             let blocks = blocking_distance(fractal, s + extent, surface_distance);
@@ -45,7 +45,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
             s -= advance;
         }
         if (!pending.is_needed) { break; }
-        pending.estimate = careful_estimate(fractal, center + s * direction, picture.skip.widest);
+        pending.estimate = careful_estimate(fractal, center + s * direction, picture.series.widest);
     }
     return height + s;
 }

@@ -46,23 +46,23 @@ struct Fractal {
     scale: f32,
     // Of views that are drawn from an anchor: how many places the reference has, how many of them are
     // the anchor's own orbit, and which of them orbits start anew from.
-    places: u32,
-    own_places: u32,
+    reference_points: u32,
+    own_points: u32,
     restart: u32,
     // 1 where orbits are followed in frames that turn with their points' longitudes.
-    turns: u32,
+    rotates: u32,
     // Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
     near_radius_squared: f32,
     // Beyond which distance from the anchor plain f32 tells points apart.
     far_radius: f32,
-    // How many near steps there are, and 1 where `Picture.skip` stands for the steps before those.
+    // How many near steps there are, and 1 where `Picture.series` stands for the steps before those.
     near_steps: u32,
-    has_skip: u32,
+    has_series: u32,
 }
 
-// The first steps of all orbits near the anchor at once, by the point's offset: second-order
-// polynomials. Host twin, with the equations: `fractal::deep::skip`.
-struct Skip {
+// Series approximation: the first steps of all orbits near the anchor, as second-order polynomials of
+// the point's offset. Host twin, with the equations: `fractal::deep::series`.
+struct SeriesApproximation {
     // First derivatives of the difference, then second ones.
     along_x: vec3f,
     // How many steps.
@@ -86,7 +86,7 @@ struct Skip {
     unused_f: u32,
     derivative_gradient: vec3f,
     unused_g: u32,
-    // Squares of the least distances of the skipped places, after the first, from the origin, the z
+    // Squares of the least distances of the points passed, after the first, from the origin, the z
     // axis and the plane z = 0.
     traps_squared: vec3f,
     unused_h: u32,
@@ -98,13 +98,13 @@ struct Skip {
 
 // How many there are, for points within radii of which each is `RADII_RATIO` times the last one, the
 // first `FIRST_RADIUS` scales.
-const SKIPS = 8u;
+const SERIES = 8u;
 
-// How many places of an orbit there may be: with the skips they fit into a uniform buffer.
-const MOST_PLACES = 1984u;
+// Most points of a reference orbit; with `series` they fit into a uniform buffer of 64 KiB.
+const MOST_REFERENCE_POINTS = 1984u;
 
 // A place of the anchor's orbit.
-struct Place {
+struct ReferencePoint {
     z: vec3f,
     // |x + iy|.
     rho: f32,
@@ -218,7 +218,7 @@ struct Eyes {
 
 // Most steps that all orbits near the anchor take together, and the places that they pass.
 const MOST_NEAR_STEPS = 8u;
-const NEAR_PLACES = MOST_NEAR_STEPS + 1u;
+const NEAR_POINTS = MOST_NEAR_STEPS + 1u;
 
 struct Picture {
     camera: Camera,
@@ -237,16 +237,16 @@ struct Picture {
     // How normals are found.
     normals: u32,
     unused: u32,
-    // The skip before those (else the first one), and the places between which they are.
-    skip: Skip,
-    near: array<Place, NEAR_PLACES>,
+    // The series approximation before the near steps, and the reference points of these.
+    series: SeriesApproximation,
+    near: array<ReferencePoint, NEAR_POINTS>,
 }
 
 // What of the anchor's orbit the picture itself does not hold.
 struct AnchorOrbit {
-    skips: array<Skip, SKIPS>,
+    series: array<SeriesApproximation, SERIES>,
     // For the Julia form the orbit of its constant is behind the anchor's.
-    places: array<Place, MOST_PLACES>,
+    points: array<ReferencePoint, MOST_REFERENCE_POINTS>,
 }
 
 @group(0) @binding(0) var<storage, read> given: Picture;

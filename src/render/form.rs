@@ -21,7 +21,7 @@ pub enum Depth {
     /// By the difference to the anchor's orbit, as far as f32 needs that.
     Near(NearSteps),
     /// In frames that turn: even powers about an anchor hard by the polar axis.
-    Turning,
+    RotatingFrame,
 }
 
 /// The steps that all orbits near the anchor take together before they go on in plain f32.
@@ -31,27 +31,28 @@ pub struct NearSteps {
     /// 0 where each orbit is followed by itself.
     pub count: u32,
     /// Whether a polynomial stands for the steps before them; else they are the orbit's first.
-    pub has_skip: bool,
+    pub has_series: bool,
 }
 
 impl Depth {
     /// Those that a dive passes, from the top down.
     pub const DIVE: [Self; 4] = [
-        Self::Near(NearSteps { count: 1, has_skip: false }),
-        Self::Near(NearSteps { count: 2, has_skip: false }),
-        Self::Near(NearSteps { count: 2, has_skip: true }),
-        Self::Near(NearSteps { count: 4, has_skip: true }),
+        Self::Near(NearSteps { count: 1, has_series: false }),
+        Self::Near(NearSteps { count: 2, has_series: false }),
+        Self::Near(NearSteps { count: 2, has_series: true }),
+        Self::Near(NearSteps { count: 4, has_series: true }),
     ];
 
     /// A picture's.
     fn of(picture: &Picture) -> Self {
         let fractal = &picture.fractal;
-        match (fractal.places, fractal.turns) {
+        match (fractal.reference_points, fractal.rotates) {
             (0, _) => Self::Plain,
-            (_, 0) => {
-                Self::Near(NearSteps { count: fractal.near_steps, has_skip: fractal.has_skip != 0 })
-            }
-            _ => Self::Turning,
+            (_, 0) => Self::Near(NearSteps {
+                count: fractal.near_steps,
+                has_series: fractal.has_series != 0,
+            }),
+            _ => Self::RotatingFrame,
         }
     }
 }
@@ -61,9 +62,9 @@ impl fmt::Display for Form {
         write!(f, "power {}, ", self.power)?;
         match self.depth {
             Depth::Plain => write!(f, "plain"),
-            Depth::Near(NearSteps { count, has_skip: false }) => write!(f, "{count} near"),
-            Depth::Near(NearSteps { count, has_skip: true }) => write!(f, "skip, {count} near"),
-            Depth::Turning => write!(f, "turning"),
+            Depth::Near(NearSteps { count, has_series: false }) => write!(f, "{count} near"),
+            Depth::Near(NearSteps { count, has_series: true }) => write!(f, "series, {count} near"),
+            Depth::RotatingFrame => write!(f, "rotating frame"),
         }
     }
 }
@@ -83,10 +84,10 @@ impl Form {
     pub(super) fn put_into(self, picture: &mut Picture) {
         let fractal = &mut picture.fractal;
         fractal.power = self.power as f32;
-        fractal.places = self.is_deep().into();
-        fractal.turns = (self.depth == Depth::Turning).into();
-        if let Depth::Near(NearSteps { count, has_skip }) = self.depth {
-            (fractal.near_steps, fractal.has_skip) = (count, has_skip.into());
+        fractal.reference_points = self.is_deep().into();
+        fractal.rotates = (self.depth == Depth::RotatingFrame).into();
+        if let Depth::Near(NearSteps { count, has_series }) = self.depth {
+            (fractal.near_steps, fractal.has_series) = (count, has_series.into());
         }
     }
 
@@ -103,11 +104,11 @@ impl Form {
         }
         match self.depth {
             Depth::Plain => (),
-            Depth::Near(NearSteps { count, has_skip }) => {
+            Depth::Near(NearSteps { count, has_series }) => {
                 constants.push(("NEAR_STEPS", f64::from(count)));
-                constants.push(("HAS_SKIP", f64::from(has_skip)));
+                constants.push(("HAS_SERIES", f64::from(has_series)));
             }
-            Depth::Turning => constants.push(("TURNS", 1.0)),
+            Depth::RotatingFrame => constants.push(("ROTATING_FRAME", 1.0)),
         }
         constants
     }

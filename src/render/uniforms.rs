@@ -13,7 +13,7 @@ use std::sync::Arc;
 use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use depth::{ANCHOR_ORBIT_BYTES, FIRST_RADIUS, RADII_RATIO, SKIPS, Skips};
+pub use depth::{ANCHOR_ORBIT_BYTES, FIRST_RADIUS, RADII_RATIO, SERIES, SeriesList};
 pub use lights::lights;
 pub use shared::*;
 
@@ -87,8 +87,8 @@ impl Picture {
                 Normals::Analytic => 5,
             },
             unused: 0,
-            skip: Skip::zeroed(),
-            near: [Place::zeroed(); NEAR_PLACES],
+            series: SeriesApproximation::zeroed(),
+            near: [ReferencePoint::zeroed(); NEAR_POINTS],
         }
     }
 }
@@ -196,14 +196,14 @@ fn fractal(scene: &Scene, region: Region, space: &RenderSpace) -> Fractal {
         least_derivative: 0.0,
         anchor: anchor.as_vec3().to_array(),
         scale: space.scale() as f32,
-        places: reference.map_or(0, |reference| reference.places().len() as u32),
-        own_places: reference.map_or(0, |reference| reference.own_places() as u32),
+        reference_points: reference.map_or(0, |reference| reference.points().len() as u32),
+        own_points: reference.map_or(0, |reference| reference.own_points() as u32),
         restart: reference.map_or(0, |reference| reference.restart() as u32),
-        turns: reference.is_some_and(|reference| reference.turns()).into(),
+        rotates: reference.is_some_and(|reference| reference.rotates()).into(),
         near_radius_squared: 0.0,
         far_radius: f32::MAX,
         near_steps: 0,
-        has_skip: 0,
+        has_series: 0,
     }
 }
 
@@ -250,10 +250,10 @@ pub struct Inputs {
     pub lights: [Light; MAX_LIGHTS],
     /// The surface's gradient: linear Rec. 709, closed on itself.
     pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
-    /// What orbits near the anchor skip.
-    pub skips: Skips,
+    /// Series approximations about the anchor, by radius.
+    pub series: SeriesList,
     /// The anchor's orbit; one place that means nothing where there is none.
-    pub places: Arc<[Place]>,
+    pub reference_points: Arc<[ReferencePoint]>,
     /// The [`Panorama::id`] of the picture of the surroundings, where it is shown.
     pub panorama: Option<u64>,
 }
@@ -266,22 +266,23 @@ impl Inputs {
 
     /// The same in coordinates that are at hand.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
-        let ((skips, near), places) = (depth::skips(space), depth::places(space));
+        let ((series, near), reference_points) =
+            (depth::series(space), depth::reference_points(space));
         let mut picture = Picture::about(scene, region, space);
-        depth::put_near(&mut picture, space, (&skips, &near), &places);
+        depth::put_near(&mut picture, space, (&series, &near), &reference_points);
         Self {
             picture,
             lights: lights(scene, space),
             gradient: color::gradient_lut(&scene.surface.gradient),
-            skips,
-            places,
+            series,
+            reference_points,
             panorama: None,
         }
     }
 
     /// The shaders' `anchor_orbit`, as far as it means anything.
     pub fn anchor_orbit(&self) -> Vec<u8> {
-        [bytemuck::bytes_of(&self.skips), bytemuck::cast_slice(&self.places)].concat()
+        [bytemuck::bytes_of(&self.series), bytemuck::cast_slice(&self.reference_points)].concat()
     }
 
     /// The same with the picture of the surroundings that is at hand, where `scene` shows it.
@@ -350,7 +351,7 @@ impl Inputs {
         let same_geometry = new_picture.camera == old_picture.camera
             && new_picture.eyes == old_picture.eyes
             && new_picture.fractal == old_picture.fractal
-            && self.places == old.places
+            && self.reference_points == old.reference_points
             && new_picture.picture_px == old_picture.picture_px
             && new_picture.origin_px == old_picture.origin_px
             && new_picture.size_px == old_picture.size_px;

@@ -133,7 +133,7 @@ fn views_just_below_plain_ones() {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.deepest < SHALLOW) {
         let scene = anchor.scene(SHALLOW);
         let space = RenderSpace::of(&scene, Region::whole(size(SHALLOW)));
-        if space.reference().is_some_and(|reference| !reference.turns()) {
+        if space.reference().is_some_and(|reference| !reference.rotates()) {
             let view = format!("power {} {} at {SHALLOW:e}", anchor.power, anchor.name);
             view_agrees(&kernels, &scene, size(SHALLOW), false, &view);
         }

@@ -89,7 +89,7 @@ fn estimates_agree(gpu: &Gpu, power: f64) {
             let quick = answers.iter().filter(|answer| answer.quick_distance.is_some()).count();
             let quick_part = quick as f64 / answers.len() as f64;
             // Elsewhere the two ways are one.
-            if space.reference().is_some_and(|reference| !reference.turns()) {
+            if space.reference().is_some_and(|reference| !reference.rotates()) {
                 told_quickly += quick;
                 told += answers.len();
             }

@@ -75,9 +75,9 @@ fn field_agrees(fractal: &Fractal, radii: &[f64], name: &str) {
     for (&radius, anchor) in radii.iter().zip(in_parallel(radii, |&r| anchor_under(fractal, r))) {
         let begins = anchor.0.each_ref().map(|v| Real::parse(&v.to_string()));
         let reference = Arc::new(Reference::new(fractal, anchor.clone()).expect("a whole power"));
-        assert!(reference.turns(), "{name}");
+        assert!(reference.rotates(), "{name}");
         // Of one that stays, points nearby cannot be told apart.
-        let last = reference.places().last().expect("the anchor itself");
+        let last = reference.points().last().expect("the anchor itself");
         let has_left = last.z.length() > fractal.bailout;
         for scale in SCALES {
             let field = DeepField::new(reference.clone(), fractal, FINEST_FOOTPRINT);

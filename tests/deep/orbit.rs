@@ -61,7 +61,7 @@ impl Set {
 
     /// What the orbit of `point` says. Steps need not care for what is smaller than `grain`.
     pub fn estimate(&self, point: &Point, grain: f64) -> Estimate {
-        let End { z, dr, spread, steps, traps } = self.follow(point, grain);
+        let End { z, dr, jacobian, steps, traps } = self.follow(point, grain);
         let r = z.length();
         let mut smooth_iterations = f64::from(steps);
         if r > self.bailout {
@@ -73,7 +73,7 @@ impl Set {
         }
         let height = 0.5 * r.ln() * r;
         let distance = height / dr;
-        let norm = norm(spread.derivative).min(norm(spread.unturned));
+        let norm = norm(jacobian.derivative).min(norm(jacobian.unturned));
         let step = (STEP_PART * height / norm).min(distance);
         Estimate { distance, step, steps, smooth_iterations, traps }
     }
@@ -86,7 +86,7 @@ impl Set {
         let mut end = End {
             z: rounded(&z),
             dr: 1.0,
-            spread: Spread::new(rounded(added), grain),
+            jacobian: OrbitJacobian::new(rounded(added), grain),
             steps: 0,
             traps: [f64::INFINITY; 2],
         };
@@ -94,7 +94,7 @@ impl Set {
             end.steps += 1;
             end.dr = n * end.z.length().powf(n - 1.0) * end.dr + one;
             let raised = self.raised(&z);
-            end.spread.advance(n, one, &raised);
+            end.jacobian.advance(n, one, &raised);
             z = [0, 1, 2].map(|i| &raised.point[i] + &added[i]);
             end.z = rounded(&z);
             let seen = [end.z.length(), end.z.truncate().length()];
@@ -146,13 +146,13 @@ impl Set {
 struct End {
     z: DVec3,
     dr: f64,
-    spread: Spread,
+    jacobian: OrbitJacobian,
     steps: u32,
     traps: [f64; 2],
 }
 
 /// What becomes of small displacements of an orbit's point, told in two ways.
-struct Spread {
+struct OrbitJacobian {
     derivative: DMat3,
     /// The same of the orbit turned back about the axis so far that longitudes stay, and the gradient
     /// of the angle by which it is. Turning is no change of |z|, and the constant turns with it.
@@ -163,7 +163,7 @@ struct Spread {
     grain: f64,
 }
 
-impl Spread {
+impl OrbitJacobian {
     fn new(constant: DVec3, grain: f64) -> Self {
         let around = DVec3::new(-constant.y, constant.x, 0.0);
         let around = if around == DVec3::ZERO { DVec3::Y * LEAST_RADIUS } else { around };
@@ -281,10 +281,10 @@ fn both_derivatives_say_how_the_radius_grows() {
         let set = Set::new(&Fractal { power: 5.0, julia, ..Fractal::default() }, 4);
         let follow = |p: DVec3| set.follow(&p.to_array().map(Real::from_f64), 1e-100);
         for p in [DVec3::new(0.4, -0.7, 0.5), DVec3::new(-0.1, 0.2, 0.9)] {
-            let End { z, spread, .. } = follow(p);
+            let End { z, jacobian, .. } = follow(p);
             let outward = z.normalize();
-            let slope = spread.derivative.transpose() * outward;
-            let unturned = spread.unturned.transpose() * outward;
+            let slope = jacobian.derivative.transpose() * outward;
+            let unturned = jacobian.unturned.transpose() * outward;
             assert!((slope - unturned).length() < 1e-10 * slope.length(), "{slope} {unturned}");
             let at = |way: DVec3| follow(p + way).z.length();
             let expected = DVec3::from_array(

@@ -9,7 +9,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::orbit::Place;
+use super::orbit::ReferencePoint;
 
 /// How a point lies beside a place, about the polar axis.
 #[derive(Clone, Copy, Debug)]
@@ -21,36 +21,52 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// Of the point that is `delta` away from `place`.
-    pub fn new(place: &Place, delta: DVec3) -> Self {
-        let (at, aside) = (place.z.truncate(), delta.truncate());
+    /// Of the point that is `delta` away from `reference_point`.
+    pub fn new(reference_point: &ReferencePoint, delta: DVec3) -> Self {
+        let (at, aside) = (reference_point.z.truncate(), delta.truncate());
         let rho = (at + aside).length();
-        let d_rho = (2.0 * at.dot(aside) + aside.length_squared()) / (rho + place.rho).max(1e-300);
+        let d_rho = (2.0 * at.dot(aside) + aside.length_squared())
+            / (rho + reference_point.rho).max(1e-300);
         let rotor = if rho > 0.0 {
-            (aside - place.rotor * d_rho) / rho
+            (aside - reference_point.rotor * d_rho) / rho
         } else {
             // On the axis the rotor is 1.
-            DVec2::X - place.rotor
+            DVec2::X - reference_point.rotor
         };
         Self { rho: d_rho, rotor }
     }
 }
 
-/// The difference of the n-th powers of `place` and of the point that is `delta` away from it, for
+/// The difference of the n-th powers of `reference_point` and of the point that is `delta` away from it, for
 /// the variant with sine sign `sine_sign`.
-pub fn raised(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
-    raised_by(place, Deviation::new(place, delta), delta.z, n, sine_sign)
+pub fn raised(reference_point: &ReferencePoint, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
+    raised_by(reference_point, Deviation::new(reference_point, delta), delta.z, n, sine_sign)
 }
 
 /// The same of a point on the place's own meridian.
-pub fn raised_on_meridian(place: &Place, delta: DVec3, n: u32, sine_sign: f64) -> DVec3 {
-    let aside = Deviation { rho: place.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
-    raised_by(place, aside, delta.z, n, sine_sign)
+pub fn raised_on_meridian(
+    reference_point: &ReferencePoint,
+    delta: DVec3,
+    n: u32,
+    sine_sign: f64,
+) -> DVec3 {
+    let aside = Deviation { rho: reference_point.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
+    raised_by(reference_point, aside, delta.z, n, sine_sign)
 }
 
-fn raised_by(place: &Place, aside: Deviation, up: f64, n: u32, sine_sign: f64) -> DVec3 {
-    let w = complex_power(DVec2::new(place.rho, place.z.z), DVec2::new(aside.rho, up), n);
-    let u = complex_power(place.rotor, aside.rotor, n);
+fn raised_by(
+    reference_point: &ReferencePoint,
+    aside: Deviation,
+    up: f64,
+    n: u32,
+    sine_sign: f64,
+) -> DVec3 {
+    let w = complex_power(
+        DVec2::new(reference_point.rho, reference_point.z.z),
+        DVec2::new(aside.rho, up),
+        n,
+    );
+    let u = complex_power(reference_point.rotor, aside.rotor, n);
     let across = u.difference * w.value.x + (u.value + u.difference) * w.difference.x;
     DVec3::new(across.x, across.y, sine_sign * w.difference.y)
 }

@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::{
     FINEST_FOOTPRINT, difference, iterations_for,
+    jacobian::{OrbitJacobian, RotatingJacobian},
     reference::Reference,
-    spread::{Spread, TurningSpread},
-    turn::Turn,
+    rotating_frame::RotatingFrame,
 };
 use crate::{
     fractal::{DistanceField, Estimate, Estimator, estimator::Orbit, power::TriplexPower},
@@ -87,16 +87,16 @@ struct DeepOrbit<'a> {
     /// How far the constant is from the reference's.
     offset: DVec3,
     /// Which place it is the difference to.
-    place: usize,
+    reference_point: usize,
     difference: DVec3,
     frame: Frame,
 }
 
 /// What an orbit is followed in, and how it moves with its point.
 enum Frame {
-    Fixed(Spread),
+    Fixed(OrbitJacobian),
     /// It turns with the orbit's longitude.
-    Turning(Turn, TurningSpread),
+    Rotating(RotatingFrame, RotatingJacobian),
 }
 
 impl<'a> DeepOrbit<'a> {
@@ -106,53 +106,57 @@ impl<'a> DeepOrbit<'a> {
         let is_julia = reference.is_julia();
         let offset = if is_julia { DVec3::ZERO } else { point };
         let constant_derivative = if is_julia { 0.0 } else { 1.0 };
-        let (frame, difference) = if reference.turns() {
-            let mut turn = Turn::none(reference.power());
-            let (difference, _) = turn.settle(&reference.places()[0], point);
+        let (frame, difference) = if reference.rotates() {
+            let mut frame = RotatingFrame::none(reference.power());
+            let (difference, _) = frame.settle(&reference.points()[0], point);
             let constant = reference.constant() + offset;
-            let spread =
-                TurningSpread::new(constant, constant_derivative, turn.back(), field.grain);
-            (Frame::Turning(turn, spread), difference)
+            let jacobian =
+                RotatingJacobian::new(constant, constant_derivative, frame.back(), field.grain);
+            (Frame::Rotating(frame, jacobian), difference)
         } else {
-            (Frame::Fixed(Spread::new(constant_derivative)), point)
+            (Frame::Fixed(OrbitJacobian::new(constant_derivative)), point)
         };
         let sine_sign = reference.sine_sign();
-        Self { reference, sine_sign, offset, place: 0, difference, frame }
+        Self { reference, sine_sign, offset, reference_point: 0, difference, frame }
     }
 }
 
 impl Orbit for DeepOrbit<'_> {
     fn z(&self) -> DVec3 {
-        self.reference.places()[self.place].z + self.difference
+        self.reference.points()[self.reference_point].z + self.difference
     }
 
     fn step(&mut self, power: &TriplexPower) {
         let z = self.z();
         let Self { reference, sine_sign, offset, .. } = *self;
-        let place = &reference.places()[self.place];
+        let reference_point = &reference.points()[self.reference_point];
         let is_close = self.difference.length() < CLOSE * z.length();
-        let goes_on = is_close && reference.goes_on(self.place);
+        let goes_on = is_close && reference.goes_on(self.reference_point);
         let raised = match self.frame {
             _ if !goes_on => power.apply(z),
             Frame::Fixed(_) => {
-                difference::raised(place, self.difference, reference.power(), sine_sign)
+                difference::raised(reference_point, self.difference, reference.power(), sine_sign)
             }
-            Frame::Turning(..) => {
-                difference::raised_on_meridian(place, self.difference, reference.power(), sine_sign)
-            }
+            Frame::Rotating(..) => difference::raised_on_meridian(
+                reference_point,
+                self.difference,
+                reference.power(),
+                sine_sign,
+            ),
         };
-        self.place = if goes_on { self.place + 1 } else { reference.restart() };
+        self.reference_point = if goes_on { self.reference_point + 1 } else { reference.restart() };
         self.difference = match &mut self.frame {
-            Frame::Fixed(spread) => {
-                spread.step(power, z);
+            Frame::Fixed(jacobian) => {
+                jacobian.step(power, z);
                 raised + offset
             }
-            Frame::Turning(turn, spread) => {
-                *turn = turn.raised();
-                spread.step(power, z, turn.back());
-                let difference = raised + turn.added(reference.constant(), offset);
-                let (difference, rotor) = turn.settle(&reference.places()[self.place], difference);
-                spread.settle(rotor);
+            Frame::Rotating(frame, jacobian) => {
+                *frame = frame.raised();
+                jacobian.step(power, z, frame.back());
+                let difference = raised + frame.added(reference.constant(), offset);
+                let (difference, rotor) =
+                    frame.settle(&reference.points()[self.reference_point], difference);
+                jacobian.settle(rotor);
                 difference
             }
         };
@@ -160,8 +164,8 @@ impl Orbit for DeepOrbit<'_> {
 
     fn norm(&self) -> f64 {
         match &self.frame {
-            Frame::Fixed(spread) => spread.norm(),
-            Frame::Turning(_, spread) => spread.norm(),
+            Frame::Fixed(jacobian) => jacobian.norm(),
+            Frame::Rotating(_, jacobian) => jacobian.norm(),
         }
     }
 }

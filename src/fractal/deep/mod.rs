@@ -10,30 +10,30 @@
 //! |---|---|
 //! | [`orbit`] | reference orbits, to 256 bits |
 //! | [`difference`] | one step of the difference between two orbits |
-//! | [`turn`] | frames that turn with a point's longitude, for even powers by the polar axis |
+//! | [`rotating_frame`] | frames that turn with a point's longitude, for even powers by the polar axis |
 //! | [`jet`] | numbers with first and second derivatives |
-//! | [`skip`] | the first steps of all orbits of a view at once |
-//! | [`spread`] | how orbits move with their point |
+//! | [`series`] | the first steps of all orbits of a view at once |
+//! | [`jacobian`] | how orbits move with their point |
 //! | [`reference`] | an anchor with its orbit |
 //! | [`field`] | the distance field about an anchor |
 //! | [`search`] | the anchor of a view |
 
 pub mod difference;
 pub mod field;
+pub mod jacobian;
 pub mod jet;
 pub mod orbit;
 pub mod reference;
+pub mod rotating_frame;
 pub mod search;
-pub mod skip;
-pub mod spread;
-pub mod turn;
+pub mod series;
 
 pub use field::{CLOSE, DeepField};
-pub use orbit::Place;
+pub use orbit::ReferencePoint;
 pub use reference::Reference;
 
 pub use search::Search;
-pub use skip::Skip;
+pub use series::SeriesApproximation;
 
 use crate::scene::Fractal;
 

@@ -17,7 +17,7 @@ type Big = FBig<mode::Zero, 2>;
 
 /// One place of a reference orbit, rounded, and what its powers are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct ReferencePoint {
     /// z.
     pub z: DVec3,
     /// ρ = |x + iy|.
@@ -26,7 +26,7 @@ pub struct Place {
     pub rotor: DVec2,
 }
 
-impl Place {
+impl ReferencePoint {
     /// A place of its own.
     pub(super) fn new(z: DVec3) -> Self {
         let rho = z.x.hypot(z.y);
@@ -45,7 +45,7 @@ pub struct Tracer {
     sine_sign: Big,
     limit: f64,
     most: usize,
-    places: Vec<Place>,
+    reference_points: Vec<ReferencePoint>,
     has_ended: bool,
 }
 
@@ -67,10 +67,19 @@ impl Tracer {
     fn new(fractal: &Fractal, z: [Big; 3], constant: [Big; 3], most: usize) -> Option<Self> {
         let sine_sign = big(fractal.variant.sine_sign());
         let power = fractal.integer_power()?;
-        let first = Place::new(rounded(&z));
+        let first = ReferencePoint::new(rounded(&z));
         let limit = fractal.bailout;
         let has_ended = most <= 1 || first.z.length() > limit;
-        Some(Self { z, constant, power, sine_sign, limit, most, places: vec![first], has_ended })
+        Some(Self {
+            z,
+            constant,
+            power,
+            sine_sign,
+            limit,
+            most,
+            reference_points: vec![first],
+            has_ended,
+        })
     }
 
     /// Goes one place on; false where the orbit has ended.
@@ -80,17 +89,18 @@ impl Tracer {
             let [x, y, z] = raised;
             let [cx, cy, cz] = &self.constant;
             self.z = [x + cx, y + cy, z * &self.sine_sign + cz];
-            let place = Place::new(rounded(&self.z));
-            self.places.push(place);
-            self.has_ended = self.places.len() >= self.most || place.z.length() > self.limit;
+            let reference_point = ReferencePoint::new(rounded(&self.z));
+            self.reference_points.push(reference_point);
+            self.has_ended =
+                self.reference_points.len() >= self.most || reference_point.z.length() > self.limit;
         }
         !self.has_ended
     }
 
     /// All of the orbit, once it has ended.
-    pub fn finish(mut self) -> Vec<Place> {
+    pub fn finish(mut self) -> Vec<ReferencePoint> {
         while self.step() {}
-        self.places
+        self.reference_points
     }
 }
 

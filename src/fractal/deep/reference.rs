@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::{
     FINEST_FOOTPRINT, iterations_for,
-    orbit::{Place, Tracer},
-    skip::{Skip, Skipping},
+    orbit::{ReferencePoint, Tracer},
+    series::{SeriesApproximation, SeriesBuilder},
 };
 use crate::{
     fractal::power::TriplexPower,
@@ -13,11 +13,11 @@ use crate::{
 };
 
 /// Orbits of even powers about an anchor that is as near to the polar axis as this, in scene units,
-/// are followed in frames that turn with their points' longitudes ([`super::turn`]).
+/// are followed in frames that turn with their points' longitudes ([`super::rotating_frame`]).
 const HARD_BY_AXIS: f64 = 0.03;
 
 /// Most places of a reference, of both its orbits together: what the shaders' uniform buffer has room for.
-pub const MOST_PLACES: usize = 1984;
+pub const MOST_REFERENCE_POINTS: usize = 1984;
 
 /// An anchor's orbit. The Julia form's has that of its constant behind it, which differences start
 /// anew from; those of the Mandelbulb start anew from the anchor's own.
@@ -26,8 +26,8 @@ pub struct Reference {
     anchor: PrecisePoint,
     fractal: Fractal,
     power: u32,
-    places: Vec<Place>,
-    own_places: usize,
+    reference_points: Vec<ReferencePoint>,
+    own_points: usize,
 }
 
 /// A reference on its way: [`Self::step`] costs some microseconds.
@@ -44,7 +44,7 @@ impl Making {
     /// The reference of `anchor`; none where the power is no whole number.
     pub fn new(fractal: &Fractal, anchor: PrecisePoint) -> Option<Self> {
         let most = iterations_for(fractal, FINEST_FOOTPRINT) as usize + 1;
-        let most = most.min(MOST_PLACES / 2);
+        let most = most.min(MOST_REFERENCE_POINTS / 2);
         let critical = if fractal.julia { Some(Tracer::critical(fractal, most)?) } else { None };
         Some(Self {
             own: Tracer::of_point(fractal, &anchor, most)?,
@@ -62,13 +62,13 @@ impl Making {
 
     /// The reference, whatever is left of it made at once.
     pub fn finish(self) -> Reference {
-        let mut places = self.own.finish();
-        let own_places = places.len();
+        let mut reference_points = self.own.finish();
+        let own_points = reference_points.len();
         if let Some(critical) = self.critical {
-            places.extend(critical.finish());
+            reference_points.extend(critical.finish());
         }
         let Self { anchor, fractal, power, .. } = self;
-        Reference { anchor, fractal, power, places, own_places }
+        Reference { anchor, fractal, power, reference_points, own_points }
     }
 }
 
@@ -84,8 +84,8 @@ impl Reference {
     }
 
     /// The anchor's orbit, and behind it, for the Julia form, that of the constant.
-    pub fn places(&self) -> &[Place] {
-        &self.places
+    pub fn points(&self) -> &[ReferencePoint] {
+        &self.reference_points
     }
 
     /// The power.
@@ -99,26 +99,27 @@ impl Reference {
     }
 
     /// How many of the places are the anchor's.
-    pub fn own_places(&self) -> usize {
-        self.own_places
+    pub fn own_points(&self) -> usize {
+        self.own_points
     }
 
     /// Where differences start anew: a place's index.
     pub fn restart(&self) -> usize {
-        if self.fractal.julia { self.own_places } else { 0 }
+        if self.fractal.julia { self.own_points } else { 0 }
     }
 
     /// What the steps of its orbit add.
     pub fn constant(&self) -> DVec3 {
-        self.places[self.restart()].z
+        self.reference_points[self.restart()].z
     }
 
     /// Whether orbits about it are followed in frames that turn with their points' longitudes. The
     /// Julia form's constant turns in such a frame by as much as its orbits would without; only one
     /// that is near the axis itself does not matter.
-    pub fn turns(&self) -> bool {
-        let constant = &self.places[self.restart()];
-        self.power.is_multiple_of(2) && self.places[0].rho.max(constant.rho) < HARD_BY_AXIS
+    pub fn rotates(&self) -> bool {
+        let constant = &self.reference_points[self.restart()];
+        self.power.is_multiple_of(2)
+            && self.reference_points[0].rho.max(constant.rho) < HARD_BY_AXIS
     }
 
     /// Whether it is one of this set, however many iterations that has.
@@ -130,38 +131,38 @@ impl Reference {
     /// For each radius, what all orbits can skip whose points are as near to the anchor, in units of
     /// `scale`. Where frames turn, what is added to orbits hard by the axis is no smooth function of
     /// their point: nothing is skipped.
-    pub fn skips(&self, scale: f64, radii: &[f64]) -> Vec<Skip> {
-        self.skipping(scale).within(radii)
+    pub fn series(&self, scale: f64, radii: &[f64]) -> Vec<SeriesApproximation> {
+        self.series_builder(scale).within(radii)
     }
 
-    /// A skip of no steps.
-    pub fn no_skip(&self, scale: f64) -> Skip {
-        self.skipping(scale).start()
+    /// An approximation of no steps.
+    pub fn empty_series(&self, scale: f64) -> SeriesApproximation {
+        self.series_builder(scale).start()
     }
 
     /// dr along the anchor's orbit, from its start on, at so many of its places at most; in units of one
     /// over the scale.
-    pub fn derivatives(&self, scale: f64, places: usize) -> Vec<f64> {
+    pub fn derivatives(&self, scale: f64, reference_points: usize) -> Vec<f64> {
         let power = TriplexPower::new(&self.fractal);
         let added = if self.fractal.julia { 0.0 } else { scale };
         let mut dr = scale;
-        let places = &self.places[..places.min(self.own_places)];
-        let step = |place: &Place| {
+        let reference_points = &self.reference_points[..reference_points.min(self.own_points)];
+        let step = |reference_point: &ReferencePoint| {
             let here = dr;
-            dr = power.growth(place.z.length()) * dr + added;
+            dr = power.growth(reference_point.z.length()) * dr + added;
             here
         };
-        places.iter().map(step).collect()
+        reference_points.iter().map(step).collect()
     }
 
-    fn skipping(&self, scale: f64) -> Skipping<'_> {
-        let places = if self.turns() { 1 } else { self.own_places };
-        Skipping {
+    fn series_builder(&self, scale: f64) -> SeriesBuilder<'_> {
+        let reference_points = if self.rotates() { 1 } else { self.own_points };
+        SeriesBuilder {
             power: TriplexPower::new(&self.fractal),
             whole_power: self.power,
             sine_sign: self.sine_sign(),
             is_mandelbulb: !self.fractal.julia,
-            places: &self.places[..places],
+            reference_points: &self.reference_points[..reference_points],
             scale,
         }
     }
@@ -172,7 +173,7 @@ impl Reference {
     }
 
     /// Whether the reference has another place after this one.
-    pub(super) fn goes_on(&self, place: usize) -> bool {
-        place + 1 != self.own_places && place + 1 < self.places.len()
+    pub(super) fn goes_on(&self, reference_point: usize) -> bool {
+        reference_point + 1 != self.own_points && reference_point + 1 < self.reference_points.len()
     }
 }

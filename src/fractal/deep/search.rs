@@ -165,6 +165,6 @@ impl Looking {
 /// Where in the picture a ray goes through: the first through its middle, the others on a spiral.
 fn ndc(ray: u32) -> DVec2 {
     const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
-    let turn = DVec2::from_angle(f64::from(ray) * GOLDEN_ANGLE_RAD);
-    0.85 * (f64::from(ray) / f64::from(RAYS - 1)).sqrt() * turn
+    let frame = DVec2::from_angle(f64::from(ray) * GOLDEN_ANGLE_RAD);
+    0.85 * (f64::from(ray) / f64::from(RAYS - 1)).sqrt() * frame
 }

@@ -6,7 +6,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
+/// The pass's shader; `POWER`, `DEEP` and `ROTATING_FRAME` specialise it.
 pub const MODULE: Module = Module {
     label: "camera_cone",
     files: &[
@@ -22,7 +22,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/sphere.wgsl"),
         shader_file!("formula/deep.wgsl"),
-        shader_file!("formula/turning.wgsl"),
+        shader_file!("formula/rotating_frame.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("lib/estimate_next.wgsl"),
         shader_file!("lib/bundle.wgsl"),

@@ -6,7 +6,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER`, `DEEP`, `TURNS` and `NORMALS` specialise it.
+/// The pass's shader; `POWER`, `DEEP`, `ROTATING_FRAME` and `NORMALS` specialise it.
 pub const MODULE: Module = Module {
     label: "normal",
     files: &[
@@ -21,7 +21,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("formula/deep.wgsl"),
-        shader_file!("formula/turning.wgsl"),
+        shader_file!("formula/rotating_frame.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("pass/normal.wgsl"),
     ],

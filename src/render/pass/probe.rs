@@ -19,7 +19,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
+/// The pass's shader; `POWER`, `DEEP` and `ROTATING_FRAME` specialise it.
 pub const MODULE: Module = Module {
     label: "probe",
     files: &[
@@ -27,7 +27,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("formula/deep.wgsl"),
-        shader_file!("formula/turning.wgsl"),
+        shader_file!("formula/rotating_frame.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("pass/probe.wgsl"),
     ],

@@ -3,7 +3,7 @@
 
 use crate::{gpu::shader::Module, shader_file};
 
-/// The pass's shader; `POWER`, `DEEP` and `TURNS` specialise it.
+/// The pass's shader; `POWER`, `DEEP` and `ROTATING_FRAME` specialise it.
 pub const MODULE: Module = Module {
     label: "shadow_cone",
     files: &[
@@ -20,7 +20,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("lib/sphere.wgsl"),
         shader_file!("formula/deep.wgsl"),
-        shader_file!("formula/turning.wgsl"),
+        shader_file!("formula/rotating_frame.wgsl"),
         shader_file!("formula/mandelbulb.wgsl"),
         shader_file!("lib/estimate_next.wgsl"),
         shader_file!("lib/bundle.wgsl"),

@@ -11,7 +11,7 @@ use crate::render::report::HISTOGRAM_BINS;
 /// Most steps that all orbits near the anchor take together.
 pub const MOST_NEAR_STEPS: usize = 8;
 /// The places that they pass.
-pub const NEAR_PLACES: usize = MOST_NEAR_STEPS + 1;
+pub const NEAR_POINTS: usize = MOST_NEAR_STEPS + 1;
 
 /// One field of a host-shared struct: name, byte offset, size in bytes.
 pub type FieldLayout = (&'static str, usize, usize);
@@ -132,25 +132,25 @@ host_shared! {
         /// Their unit, scene units.
         scale: f32,
         /// Places of the reference; 0 without an anchor.
-        places: u32,
+        reference_points: u32,
         /// How many of them are the anchor's own.
-        own_places: u32,
+        own_points: u32,
         /// The one that orbits start anew from.
         restart: u32,
         /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
         /// see [`crate::fractal::deep::turn`].
-        turns: u32,
+        rotates: u32,
         /// Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
         near_radius_squared: f32,
         /// Beyond which distance from the anchor, in scales, plain f32 tells points apart.
         far_radius: f32,
         /// How many near steps there are.
         near_steps: u32,
-        /// 1 where the picture's skip stands for the steps before those.
-        has_skip: u32,
+        /// 1 if the picture's series approximation precedes the near steps.
+        has_series: u32,
     }
-    /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::skip`].
-    Skip {
+    /// The first steps of all orbits near the anchor at once: see [`crate::fractal::deep::series`].
+    SeriesApproximation {
         /// First derivatives of the difference by the offset.
         along_x: [f32; 3],
         /// How many steps.
@@ -191,7 +191,7 @@ host_shared! {
         derivative_gradient: [f32; 3],
         /// The same.
         unused_g: u32,
-        /// Squares of the least distances of the skipped places from the origin, the z axis and
+        /// Squares of the least distances of the points passed from the origin, the z axis and
         /// the plane z = 0.
         traps_squared: [f32; 3],
         /// The same.
@@ -202,7 +202,7 @@ host_shared! {
         rest: f32,
     }
     /// A place of the anchor's orbit.
-    Place {
+    ReferencePoint {
         /// z.
         z: [f32; 3],
         /// |x + iy|.
@@ -316,10 +316,10 @@ host_shared! {
         normals: u32,
         /// Keeps the offset of what follows a multiple of 16 bytes.
         unused: u32,
-        /// The skip before those; else the first one.
-        skip: Skip,
+        /// The series approximation before the near steps.
+        series: SeriesApproximation,
         /// The places between which those steps are.
-        near: [Place; NEAR_PLACES],
+        near: [ReferencePoint; NEAR_POINTS],
     }
     /// The part of a picture that one dispatch computes.
     Slice {

@@ -70,7 +70,8 @@ impl View {
     fn missing(&self) -> Option<(Extra, bool)> {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
         // There is no general form of what is drawn from an anchor.
-        let deep = self.inputs.as_ref().filter(|inputs| inputs.picture.fractal.places > 0);
+        let deep =
+            self.inputs.as_ref().filter(|inputs| inputs.picture.fractal.reference_points > 0);
         let [rays, normals, ..] = match deep {
             Some(inputs) => Extra::special(&inputs.picture).map(Some),
             None => [None; 4],
@@ -98,7 +99,7 @@ impl View {
     /// What a dive is going to need, once there may be one.
     fn of_dive(&self) -> Vec<Extra> {
         let inputs = self.inputs.as_ref().filter(|_| self.anchors.are_near());
-        let Some(inputs) = inputs.filter(|inputs| inputs.picture.fractal.turns == 0) else {
+        let Some(inputs) = inputs.filter(|inputs| inputs.picture.fractal.rotates == 0) else {
             return Vec::new();
         };
         let power = Form::of(&inputs.picture).power;

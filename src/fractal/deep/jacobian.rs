@@ -1,4 +1,4 @@
-//! How orbits move with their point: what rays step by.
+//! The Jacobian of a deep orbit by its point, whose norm sets a ray's step.
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -7,15 +7,15 @@ use crate::fractal::{estimator::DEEP_SIDEWAYS_MAX, power::TriplexPower};
 /// Stands in for a distance of zero from the axis.
 const LEAST_RADIUS: f64 = 1e-100;
 
-/// The Jacobian of an orbit's place by its point.
+/// Jacobian of an orbit's current value by its starting point.
 #[derive(Clone, Copy, Debug)]
-pub struct Spread {
+pub struct OrbitJacobian {
     jacobian: DMat3,
     /// How a constant moves with the point: 1 for the Mandelbulb, 0 for the Julia form.
     constant_derivative: f64,
 }
 
-impl Spread {
+impl OrbitJacobian {
     /// Of an orbit's start.
     pub fn new(constant_derivative: f64) -> Self {
         Self { jacobian: DMat3::IDENTITY, constant_derivative }
@@ -37,11 +37,11 @@ impl Spread {
 /// The same in a frame that turns with the point's longitude. Longitudes count for nothing in it but
 /// for how the constant turns: of that alone orbits hard by the axis know about them.
 #[derive(Clone, Copy, Debug)]
-pub struct TurningSpread {
+pub struct RotatingJacobian {
     /// Of places, were it not for their longitudes.
     jacobian: DMat3,
     /// The gradient of the angle by which the constant turns back.
-    turn: DVec3,
+    frame: DVec3,
     constant_derivative: f64,
     /// The constant.
     constant: DVec3,
@@ -49,12 +49,12 @@ pub struct TurningSpread {
     most: f64,
 }
 
-impl TurningSpread {
+impl RotatingJacobian {
     /// Of an orbit's start, seen from a frame in which fixed directions are turned by `back`; what
     /// ripples at a length below `grain`, in scene units, need not be known.
     pub fn new(constant: DVec3, constant_derivative: f64, back: DVec2, grain: f64) -> Self {
-        let (jacobian, turn) = (about_axis(back), DVec3::ZERO);
-        Self { jacobian, turn, constant_derivative, constant, most: 2.0 / grain }
+        let (jacobian, frame) = (about_axis(back), DVec3::ZERO);
+        Self { jacobian, frame, constant_derivative, constant, most: 2.0 / grain }
     }
 
     /// Goes on from the place `z`, to a frame in which fixed directions are turned by `back`.
@@ -64,11 +64,11 @@ impl TurningSpread {
         let rho = aside.length().max(LEAST_RADIUS);
         // How the longitude moves with the point.
         let longitude = self.jacobian.transpose() * (aside.perp() / (rho * rho)).extend(0.0);
-        let turn = (self.turn + longitude) * power.exponent();
-        self.turn = turn.clamp_length_max(self.most);
+        let frame = (self.frame + longitude) * power.exponent();
+        self.frame = frame.clamp_length_max(self.most);
         let around = self.constant.truncate().perp().extend(0.0);
         let added = DMat3::from_diagonal(DVec3::splat(self.constant_derivative))
-            - DMat3::from_cols(around * self.turn.x, around * self.turn.y, around * self.turn.z);
+            - DMat3::from_cols(around * self.frame.x, around * self.frame.y, around * self.frame.z);
         self.jacobian = power.jacobian(z, 0.0) * self.jacobian + about_axis(back) * added;
     }
 
@@ -77,7 +77,7 @@ impl TurningSpread {
         self.jacobian = about_axis(rotor).transpose() * self.jacobian;
     }
 
-    /// As of [`Spread`].
+    /// As of [`OrbitJacobian`].
     pub fn norm(&self) -> f64 {
         norm(&self.jacobian)
     }

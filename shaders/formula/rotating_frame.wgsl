@@ -1,8 +1,8 @@
 // Orbits of even powers hard by the polar axis, in a frame that turns with their point's longitude,
-// and how they move with the point. Host twins, with the equations: `fractal::deep::{turn, spread}`.
+// and how they move with the point. Host twins, with the equations: `fractal::deep::{rotating_frame, jacobian}`.
 
-// Whether this pipeline is for deep views about an anchor that is hard by the axis.
-override TURNS: bool = false;
+// True in pipelines of deep views whose anchor is close to the polar axis.
+override ROTATING_FRAME: bool = false;
 
 // (1 + v)(1 + w) - 1.
 fn ahead_product(v: vec2f, w: vec2f) -> vec2f {
@@ -45,7 +45,7 @@ struct Motion {
 }
 
 // An orbit's end.
-struct TurningEnd {
+struct RotatingEnd {
     z: vec3f,
     q: Squares,
     count: u32,
@@ -70,7 +70,7 @@ fn moved_on(
     let turn = fractal.power * (before.turn + by_rho * (vec3f(-u.y, u.x, 0.0) * j));
     // Ripples that are finer than some pixels are lower than one, where the axis is in view.
     let finest = 0.5 / picture.camera.hit_cone;
-    let most = finest * clamp(anchor_orbit.places[0].rho / fractal.scale, 1.0, 1e9);
+    let most = finest * clamp(anchor_orbit.points[0].rho / fractal.scale, 1.0, 1e9);
     let capped = turn * min(1.0, most / max(length(turn), 1e-37));
     let constant = orbit.constant + orbit.added;
     let around = complex_product(vec2f(-constant.y, constant.x), rotor);
@@ -92,14 +92,14 @@ fn moved_on(
 }
 
 // Where an orbit gets to.
-fn turning_end(fractal: Fractal, point: vec3f) -> TurningEnd {
+fn rotating_end(fractal: Fractal, point: vec3f) -> RotatingEnd {
     let orbit = orbit_of(fractal, point);
-    var place = anchor_orbit.places[0];
-    let start = settled(place, orbit.start_derivative * point);
+    var reference = anchor_orbit.points[0];
+    let start = settled(reference, orbit.start_derivative * point);
     var index = 0u;
     var count = 0u;
     var difference = start.difference;
-    var z = place.z + difference;
+    var z = reference.z + difference;
     var q = squares(z);
     var ahead = start.by;
     var motion = first_motion(orbit, ahead);
@@ -110,11 +110,11 @@ fn turning_end(fractal: Fractal, point: vec3f) -> TurningEnd {
         let rotor = vec2f(1.0, 0.0) + back;
         let aside = complex_product(orbit.added.xy, rotor) + complex_product(orbit.constant.xy, back);
         var rho = length_of(z.xy);
-        var u = place.rotor;
+        var u = reference.rotor;
         var step: Raised;
-        let has_next = (index + 1u != fractal.own_places) & (index + 1u < fractal.places);
+        let has_next = (index + 1u != fractal.own_points) & (index + 1u < fractal.reference_points);
         if (has_next & (dot(difference, difference) < CLOSE * CLOSE * q.s)) {
-            step = raised_on_meridian(fractal, place, difference, q);
+            step = raised_on_meridian(fractal, reference, difference, q);
             index += 1u;
         } else {
             // Where squares would be too small.
@@ -124,17 +124,17 @@ fn turning_end(fractal: Fractal, point: vec3f) -> TurningEnd {
             index = fractal.restart;
         }
         motion = moved_on(fractal, orbit, motion, step, z, q, rho, u, rotor);
-        place = anchor_orbit.places[index];
-        let next = settled(place, step.power + vec3f(aside, orbit.added.z));
+        reference = anchor_orbit.points[index];
+        let next = settled(reference, step.power + vec3f(aside, orbit.added.z));
         ahead = ahead_normalized(ahead_product(ahead, next.by));
         motion.jacobian = turned_back(motion.jacobian, next.by);
         difference = next.difference;
-        z = place.z + difference;
+        z = reference.z + difference;
         count += 1u;
         q = squares(z);
         traps = min(traps, vec3f(q.s, q.a, q.zz));
     }
-    return TurningEnd(z, q, count, motion, traps);
+    return RotatingEnd(z, q, count, motion, traps);
 }
 
 fn first_motion(orbit: Orbit, ahead: vec2f) -> Motion {
@@ -159,24 +159,24 @@ struct Settled {
     by: vec2f,
 }
 
-fn settled(place: Place, difference: vec3f) -> Settled {
-    let d = deviation(place, difference.xy, length_of(place.z.xy + difference.xy));
-    let by = complex_product(d.rotor, vec2f(place.rotor.x, -place.rotor.y));
-    return Settled(vec3f(d.rho * place.rotor, difference.z), ahead_normalized(by));
+fn settled(reference: ReferencePoint, difference: vec3f) -> Settled {
+    let d = deviation(reference, difference.xy, length_of(reference.z.xy + difference.xy));
+    let by = complex_product(d.rotor, vec2f(reference.rotor.x, -reference.rotor.y));
+    return Settled(vec3f(d.rho * reference.rotor, difference.z), ahead_normalized(by));
 }
 
 // A step of a difference on its place's meridian.
-fn raised_on_meridian(fractal: Fractal, place: Place, difference: vec3f, q: Squares) -> Raised {
-    let aside = vec2f(dot(place.rotor, difference.xy), difference.z);
-    let w = pair_power(Pair(vec2f(place.rho, place.z.z), aside), POWER);
+fn raised_on_meridian(fractal: Fractal, reference: ReferencePoint, difference: vec3f, q: Squares) -> Raised {
+    let aside = vec2f(dot(reference.rotor, difference.xy), difference.z);
+    let w = pair_power(Pair(vec2f(reference.rho, reference.z.z), aside), POWER);
     // An even power.
-    let un = complex_power(complex_square(place.rotor), POWER / 2u);
+    let un = complex_power(complex_square(reference.rotor), POWER / 2u);
     let power = vec3f(w.difference.x * un, fractal.z_sign * w.difference.y);
     return Raised(power, stretch_whole(fractal, q), 0.0, un, w.value + w.difference);
 }
 
 fn rotating_estimate(fractal: Fractal, point: vec3f) -> Estimate {
-    let end = turning_end(fractal, point);
+    let end = rotating_end(fractal, point);
     if (end.q.s <= 1.0) { return Estimate(0.0, 0.0); }
     let distance = height_of(end.q) / max(end.motion.dr, 1e-37);
     let j = end.motion.jacobian;
@@ -184,8 +184,8 @@ fn rotating_estimate(fractal: Fractal, point: vec3f) -> Estimate {
     return Estimate(distance, min(distance / max(norm, 1.0), fractal.max_step));
 }
 
-fn turning_gradient(fractal: Fractal, point: vec3f) -> vec3f {
-    let end = turning_end(fractal, point);
+fn rotating_gradient(fractal: Fractal, point: vec3f) -> vec3f {
+    let end = rotating_end(fractal, point);
     if (end.q.s <= 1.0) { return vec3f(0.0); }
     return gradient_at(end.z, end.q, end.motion.jacobian, end.motion.slope);
 }

@@ -1,4 +1,4 @@
-//! Orbits in a frame that turns with their longitude: what even powers need hard by the polar axis.
+//! A frame that rotates with the longitude of an orbit: even powers need it close to the polar axis.
 //!
 //! An even power takes the axis to the plane of the equator, and a small circle around the axis to a
 //! wide one. So a difference in longitude, however small in length, is one of order s/ρ after a
@@ -21,29 +21,34 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{difference::Deviation, orbit::Place};
+use super::{difference::Deviation, orbit::ReferencePoint};
 
 /// How far a frame has been turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn {
+pub struct RotatingFrame {
     /// e: what the rotor is more than 1.
     ahead: DVec2,
     power: u32,
 }
 
-impl Turn {
+impl RotatingFrame {
     /// None.
     pub fn none(power: u32) -> Self {
         Self { ahead: DVec2::ZERO, power }
     }
 
-    /// Turns on until what is `difference` away from `place` has the place's longitude. Returns the
+    /// Turns on until what is `difference` away from `reference_point` has the place's longitude. Returns the
     /// difference as it is then, and the rotor of that turn.
-    pub fn settle(&mut self, place: &Place, difference: DVec3) -> (DVec3, DVec2) {
-        let aside = Deviation::new(place, difference);
-        let by = Self { ahead: aside.rotor.rotate(conjugate(place.rotor)), ..*self }.normalized();
+    pub fn settle(
+        &mut self,
+        reference_point: &ReferencePoint,
+        difference: DVec3,
+    ) -> (DVec3, DVec2) {
+        let aside = Deviation::new(reference_point, difference);
+        let by = Self { ahead: aside.rotor.rotate(conjugate(reference_point.rotor)), ..*self }
+            .normalized();
         *self = Self { ahead: product(self.ahead, by.ahead), ..*self }.normalized();
-        ((place.rotor * aside.rho).extend(difference.z), DVec2::X + by.ahead)
+        ((reference_point.rotor * aside.rho).extend(difference.z), DVec2::X + by.ahead)
     }
 
     /// The frame that turns as the power does.
@@ -96,18 +101,18 @@ mod tests {
     #[test]
     fn small_turns_keep_their_digits() {
         for power in [2, 7, 8, 16] {
-            let first = Place::new(DVec3::new(3e-5, -4e-5, 0.9));
+            let first = ReferencePoint::new(DVec3::new(3e-5, -4e-5, 0.9));
             let offset = DVec3::new(4e-18, 3e-18, 1e-17);
-            let mut turn = Turn::none(power);
-            let (difference, _) = turn.settle(&first, offset);
+            let mut frame = RotatingFrame::none(power);
+            let (difference, _) = frame.settle(&first, offset);
             assert!(difference.x.abs() < 1e-21 && difference.y.abs() < 1e-21, "{difference}");
             assert_eq!(difference.z, offset.z);
             let mut angle: f64 = 5e-18 / 5e-5;
             while angle < 0.1 {
                 let expected = DVec2::new((0.5 * angle).sin().powi(2) * -2.0, angle.sin());
-                let error = (turn.ahead - expected).length();
-                assert!(error < 1e-12 * angle, "{power}: {} for {expected}", turn.ahead);
-                turn = turn.raised();
+                let error = (frame.ahead - expected).length();
+                assert!(error < 1e-12 * angle, "{power}: {} for {expected}", frame.ahead);
+                frame = frame.raised();
                 angle *= f64::from(power);
             }
         }
@@ -115,13 +120,13 @@ mod tests {
 
     #[test]
     fn rotors_stay_rotors() {
-        let first = Place::new(DVec3::new(0.0, 0.0, 0.9));
-        let mut turn = Turn::none(8);
-        turn.settle(&first, DVec3::new(3e-20, -1e-20, 0.0));
+        let first = ReferencePoint::new(DVec3::new(0.0, 0.0, 0.9));
+        let mut frame = RotatingFrame::none(8);
+        frame.settle(&first, DVec3::new(3e-20, -1e-20, 0.0));
         for step in 0..200 {
-            let length = turn.back().length();
+            let length = frame.back().length();
             assert!((length - 1.0).abs() < 1e-13, "{length} at {step}");
-            turn = turn.raised();
+            frame = frame.raised();
         }
     }
 }

@@ -1,16 +1,16 @@
-//! The first steps of all orbits near an anchor at once: as long as a difference is small, it is a
-//! polynomial of the offset from the anchor.
+//! Series approximation: the first steps of all orbits near an anchor at once. While a difference is small,
+//! it is a polynomial of the offset from the anchor.
 //!
 //! With offsets q in units of the scale s, `δ_m ≈ (s·J) q + ½ (s²·H)(q, q)`, the Jacobian and the
 //! Hessian of m steps at the anchor, and the estimate's derivative likewise. How many steps may be
-//! skipped is tried, not foretold: the polynomials are compared with orbits that take every step.
+//! covered is found by trial: the polynomials are compared with orbits that take every step.
 
 use glam::DVec3;
 
-use super::{difference, jet::Jet, orbit::Place};
+use super::{difference, jet::Jet, orbit::ReferencePoint};
 use crate::fractal::power::TriplexPower;
 
-/// How far a skipped difference may be off, as a part of it, at the farthest of the points that it is for.
+/// Largest relative error of the difference at the approximation's radius.
 /// It falls as the square of the distance from the anchor: nearer points lose what f32 steps lose.
 const DIFFERENCE_ERROR: f64 = 5e-5;
 /// The same of the derivative.
@@ -18,14 +18,14 @@ const DERIVATIVE_ERROR: f64 = 2e-4;
 
 /// What m steps of the orbits about an anchor make of their offset.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Skip {
+pub struct SeriesApproximation {
     /// How many steps.
     pub steps: u32,
     /// The difference to the anchor's orbit, by the offset in units of the scale.
     pub difference: [Jet; 3],
     /// dr, in units of one over the scale.
     pub derivative: Jet,
-    /// Squares of the least distances of the skipped places, after the first, from the origin, the
+    /// Squares of the least distances of the points passed, after the first, from the origin, the
     /// z axis and the plane z = 0.
     pub traps_squared: DVec3,
 }
@@ -37,8 +37,8 @@ struct Probe {
     derivative: f64,
 }
 
-/// The set, the reference and the view that steps are skipped for.
-pub struct Skipping<'a> {
+/// Builds the series approximations of a reference orbit for a view.
+pub struct SeriesBuilder<'a> {
     /// zⁿ.
     pub power: TriplexPower,
     /// The exponent n.
@@ -48,51 +48,53 @@ pub struct Skipping<'a> {
     /// The constant moves with the point.
     pub is_mandelbulb: bool,
     /// The anchor's orbit.
-    pub places: &'a [Place],
+    pub reference_points: &'a [ReferencePoint],
     /// Scene units of an offset of one.
     pub scale: f64,
 }
 
-/// A skip under way, for offsets up to a radius.
+/// An approximation under construction, for offsets up to a radius.
 struct Rung {
-    skip: Skip,
+    series: SeriesApproximation,
     probes: Vec<Probe>,
     is_over: bool,
 }
 
-impl Skipping<'_> {
-    /// For each of these radii as many steps as all offsets up to it can skip.
-    pub fn within(&self, radii: &[f64]) -> Vec<Skip> {
+impl SeriesBuilder<'_> {
+    /// The longest approximation within each of `radii`, in units of the scale.
+    pub fn within(&self, radii: &[f64]) -> Vec<SeriesApproximation> {
         let mut next = self.start();
         let rung = |radius: &f64| Rung {
-            skip: next,
+            series: next,
             probes: directions().map(|way| Probe::new(way * *radius, self.scale)).collect(),
             is_over: false,
         };
         let mut rungs: Vec<_> = radii.iter().map(rung).collect();
         // The last place has no step.
-        for (place, reached) in self.places.iter().zip(&self.places[1..]) {
-            next = self.step(&next, place, reached);
+        for (reference_point, reached) in
+            self.reference_points.iter().zip(&self.reference_points[1..])
+        {
+            next = self.step(&next, reference_point, reached);
             for rung in rungs.iter_mut().filter(|rung| !rung.is_over) {
                 for probe in &mut rung.probes {
-                    self.step_probe(probe, place);
+                    self.step_probe(probe, reference_point);
                 }
                 rung.is_over = !rung.probes.iter().all(|probe| probe.agrees(&next));
                 if !rung.is_over {
-                    rung.skip = next;
+                    rung.series = next;
                 }
             }
             if rungs.iter().all(|rung| rung.is_over) {
                 break;
             }
         }
-        rungs.into_iter().map(|rung| rung.skip).collect()
+        rungs.into_iter().map(|rung| rung.series).collect()
     }
 
     /// No steps at all.
-    pub fn start(&self) -> Skip {
+    pub fn start(&self) -> SeriesApproximation {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        Skip {
+        SeriesApproximation {
             steps: 0,
             difference: axes.map(|axis| Jet::linear(0.0, axis * self.scale)),
             derivative: Jet::constant(self.scale),
@@ -105,34 +107,39 @@ impl Skipping<'_> {
         if self.is_mandelbulb { self.scale } else { 0.0 }
     }
 
-    /// One more step, from `place` to `reached`.
-    fn step(&self, skip: &Skip, place: &Place, reached: &Place) -> Skip {
-        let (raised, growth) = self.jets(place, &skip.difference);
+    /// One more step, from `reference_point` to `reached`.
+    fn step(
+        &self,
+        series: &SeriesApproximation,
+        reference_point: &ReferencePoint,
+        reached: &ReferencePoint,
+    ) -> SeriesApproximation {
+        let (raised, growth) = self.jets(reference_point, &series.difference);
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let difference = [0, 1, 2]
             .map(|i| Jet { value: 0.0, ..raised[i] } + Jet::linear(0.0, axes[i] * self.added()));
-        let derivative = growth * skip.derivative + Jet::constant(self.added());
+        let derivative = growth * series.derivative + Jet::constant(self.added());
         let z = reached.z;
         let seen = DVec3::new(z.length_squared(), reached.rho * reached.rho, z.z * z.z);
-        Skip {
-            steps: skip.steps + 1,
+        SeriesApproximation {
+            steps: series.steps + 1,
             difference,
             derivative,
-            traps_squared: skip.traps_squared.min(seen),
+            traps_squared: series.traps_squared.min(seen),
         }
     }
 
-    fn step_probe(&self, probe: &mut Probe, place: &Place) {
-        let z = place.z + probe.difference;
+    fn step_probe(&self, probe: &mut Probe, reference_point: &ReferencePoint) {
+        let z = reference_point.z + probe.difference;
         probe.derivative = self.power.growth(z.length()) * probe.derivative + self.added();
         probe.difference =
-            difference::raised(place, probe.difference, self.whole_power, self.sine_sign)
+            difference::raised(reference_point, probe.difference, self.whole_power, self.sine_sign)
                 + probe.offset * self.added();
     }
 
     /// zⁿ and n·r^(n−1) about a place, whose coordinates change by `difference`.
-    fn jets(&self, place: &Place, difference: &[Jet; 3]) -> ([Jet; 3], Jet) {
-        let [x, y, z] = [0, 1, 2].map(|i| difference[i] + Jet::constant(place.z[i]));
+    fn jets(&self, reference_point: &ReferencePoint, difference: &[Jet; 3]) -> ([Jet; 3], Jet) {
+        let [x, y, z] = [0, 1, 2].map(|i| difference[i] + Jet::constant(reference_point.z[i]));
         let n = self.whole_power as i32;
         let a = x * x + y * y;
         let rho = a.sqrt();
@@ -149,12 +156,12 @@ impl Probe {
         Self { offset, difference: offset * scale, derivative: scale }
     }
 
-    /// Whether a skip comes to the same: not where anything is no number, as about an anchor on the
+    /// True if an approximation agrees with this orbit: not where anything is NaN, as about an anchor on the
     /// axis.
-    fn agrees(&self, skip: &Skip) -> bool {
-        let foretold = DVec3::from_array(skip.difference.map(|jet| jet.change(self.offset)));
+    fn agrees(&self, series: &SeriesApproximation) -> bool {
+        let foretold = DVec3::from_array(series.difference.map(|jet| jet.change(self.offset)));
         let error = (foretold - self.difference).length();
-        let slope = skip.derivative.value + skip.derivative.gradient.dot(self.offset);
+        let slope = series.derivative.value + series.derivative.gradient.dot(self.offset);
         error <= DIFFERENCE_ERROR * self.difference.length()
             && (slope - self.derivative).abs() <= DERIVATIVE_ERROR * self.derivative
     }
