@@ -10,7 +10,7 @@ use std::{
 use mandelight::{
     export::{StillJob, StillOptions},
     gpu::{Gpu, readback::Readback},
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::{
         Camera, Path, PrecisePoint, Project, Scene, document, link,
         path::{Easing, Key},
@@ -20,9 +20,9 @@ use mandelight::{
 
 const SIZE_PX: [u32; 2] = [48, 32];
 
-static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
+static PIPELINES: LazyLock<Arc<Pipelines>> = LazyLock::new(|| {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU, if only a software one");
-    Kernels::new(&gpu)
+    Pipelines::new(&gpu)
 });
 
 /// The dive's row of the docs: its depth in scene units, and its link's fragment.
@@ -73,7 +73,7 @@ fn each_shows_a_surface_as_deep_as_told() {
 
         let mut one = scene.clone();
         one.quality.samples = 1;
-        let mut view = View::new(&KERNELS, Region::whole(SIZE_PX), Pace::Still);
+        let mut view = View::new(&PIPELINES, Region::whole(SIZE_PX), Pace::Still);
         view.set_scene(&one, false);
         finish(&mut view);
         let mut hits = view.gbuffer().unwrap().depth;
@@ -96,14 +96,14 @@ fn each_shows_a_surface_as_deep_as_told() {
 fn finish(view: &mut View) {
     let mut now_secs = 0.0;
     while view.pump(now_secs) {
-        KERNELS.gpu.wait();
+        PIPELINES.gpu.wait();
         now_secs += 0.01;
     }
 }
 
 /// The picture's brightness, 0 to 255.
 fn lumas(view: &View) -> Vec<f64> {
-    let gpu = &KERNELS.gpu;
+    let gpu = &PIPELINES.gpu;
     let rgba = Readback::texture(gpu, view.texture().unwrap(), SIZE_PX).wait(gpu).unwrap();
     let luma = |pixel: &[u8]| pixel[..3].iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
     rgba.chunks_exact(4).map(luma).collect()
@@ -165,7 +165,8 @@ fn frames_of_such_a_path_are_the_stills_of_their_scenes() {
         let file = frames.join(format!("frame_{frame:06}.png"));
         let drawn = pixels(BufReader::new(std::fs::File::open(file).unwrap()));
         let scene = project.path.frame(frame).unwrap();
-        let job = StillJob::new(&KERNELS, &scene, StillOptions::new(SIZE_PX), Vec::new()).unwrap();
+        let job =
+            StillJob::new(&PIPELINES, &scene, StillOptions::new(SIZE_PX), Vec::new()).unwrap();
         let still = job.run(|_| ControlFlow::Continue(())).unwrap();
         assert_eq!(drawn, pixels(std::io::Cursor::new(still)), "frame {frame}");
         let colors: std::collections::HashSet<_> = drawn.chunks_exact(3).collect();

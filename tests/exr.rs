@@ -16,13 +16,13 @@ use glam::{DVec3, Vec3};
 use mandelight::{
     export::{self, PictureFormat, StillJob, StillOptions, exr::ExrStream},
     gpu::Gpu,
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::{Camera, Precise, PrecisePoint, Scene, document},
 };
 
-static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
+static PIPELINES: LazyLock<Arc<Pipelines>> = LazyLock::new(|| {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU, if only a software one");
-    Kernels::new(&gpu)
+    Pipelines::new(&gpu)
 });
 
 const SIZE: [u32; 2] = [53, 38];
@@ -56,17 +56,17 @@ fn decoded(file: &[u8]) -> Decoded {
 
 fn file_of(scene: &Scene, tile_px: [u32; 2]) -> Vec<u8> {
     let options = StillOptions { tile_px, format: PictureFormat::Exr, ..StillOptions::new(SIZE) };
-    let job = StillJob::new(&KERNELS, scene, options, Vec::new()).unwrap();
+    let job = StillJob::new(&PIPELINES, scene, options, Vec::new()).unwrap();
     job.run(|_| ControlFlow::Continue(())).unwrap()
 }
 
 /// The same picture as one view, which a file in tiles must not differ from.
 fn view_of(scene: &Scene) -> View {
-    let mut view = View::new(&KERNELS, Region::whole(SIZE), Pace::Still);
+    let mut view = View::new(&PIPELINES, Region::whole(SIZE), Pace::Still);
     view.set_scene(scene, false);
     let mut now_secs = 0.0;
     while view.pump(now_secs) {
-        KERNELS.gpu.wait();
+        PIPELINES.gpu.wait();
         now_secs += 0.01;
     }
     view

@@ -14,13 +14,13 @@ use glam::DVec3;
 use mandelight::{
     export::{ExportError, Eye, PictureFormat, StillJob, StillOptions, scene_text},
     gpu::{Gpu, readback::Readback},
-    render::{Eyes, Kernels, Pace, Region, View},
+    render::{Eyes, Pace, Pipelines, Region, View},
     scene::{Bloom, Camera, Scene, Stereo, StereoLayout, document},
 };
 
-static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
+static PIPELINES: LazyLock<Arc<Pipelines>> = LazyLock::new(|| {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU, if only a software one");
-    Kernels::new(&gpu)
+    Pipelines::new(&gpu)
 });
 
 /// Odd sides, so that there is a pixel in the middle.
@@ -38,11 +38,11 @@ fn scene(layout: StereoLayout) -> Scene {
 
 fn view(scene: &Scene, size_px: [u32; 2], eyes: Eyes) -> View {
     let region = Region { eyes, ..Region::whole(size_px) };
-    let mut view = View::new(&KERNELS, region, Pace::Still);
+    let mut view = View::new(&PIPELINES, region, Pace::Still);
     view.set_scene(scene, false);
     let mut now_secs = 0.0;
     while view.pump(now_secs) {
-        KERNELS.gpu.wait();
+        PIPELINES.gpu.wait();
         now_secs += 0.01;
     }
     view
@@ -50,8 +50,8 @@ fn view(scene: &Scene, size_px: [u32; 2], eyes: Eyes) -> View {
 
 fn rgb(view: &View) -> Vec<[u8; 3]> {
     let texture = view.texture().expect("a picture");
-    let readback = Readback::texture(&KERNELS.gpu, texture, [texture.width(), texture.height()]);
-    let rgba = readback.wait(&KERNELS.gpu).expect("the picture's bytes");
+    let readback = Readback::texture(&PIPELINES.gpu, texture, [texture.width(), texture.height()]);
+    let rgba = readback.wait(&PIPELINES.gpu).expect("the picture's bytes");
     rgba.as_chunks::<4>().0.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
 }
 
@@ -189,7 +189,7 @@ fn glowing(layout: StereoLayout) -> Scene {
 }
 
 fn still(scene: &Scene, options: StillOptions) -> ([u32; 2], Vec<[u8; 3]>) {
-    let job = StillJob::new(&KERNELS, scene, options, Vec::new()).unwrap();
+    let job = StillJob::new(&PIPELINES, scene, options, Vec::new()).unwrap();
     decoded(&job.run(|_| ControlFlow::Continue(())).unwrap())
 }
 
@@ -263,11 +263,11 @@ fn a_shared_anaglyph_is_not_stretched() {
     scene.quality.samples = 16;
     let window = [2 * STILL_SIZE[0], 2 * STILL_SIZE[1]];
     let region = Region::whole(window).shared_by(StereoLayout::Anaglyph);
-    let mut shared = View::new(&KERNELS, region, Pace::Still);
+    let mut shared = View::new(&PIPELINES, region, Pace::Still);
     assert_eq!(shared.region().display_px(), [window[0] / 2, window[1]]);
     shared.set_scene(&scene, false);
     while shared.pump(0.0) {
-        KERNELS.gpu.wait();
+        PIPELINES.gpu.wait();
     }
     let halved = |pixels: &[[u8; 3]], [width, height]: [u32; 2], [by, down]: [u32; 2]| {
         let mean = move |x: u32, y: u32, channel: usize| {
@@ -307,7 +307,7 @@ fn an_anaglyph_is_red_for_the_left_eye_and_cyan_for_the_right_one() {
 #[test]
 fn what_no_file_can_hold_is_refused() {
     let refused = |layout, options| {
-        StillJob::new(&KERNELS, &scene(layout), options, Vec::new()).err().expect("an error")
+        StillJob::new(&PIPELINES, &scene(layout), options, Vec::new()).err().expect("an error")
     };
     let wide = StillOptions::new([8193, 10]);
     let error = refused(StereoLayout::SideBySide, wide);

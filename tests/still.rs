@@ -11,13 +11,13 @@ use std::{
 use mandelight::{
     export::{ExportError, StillJob, StillOptions, StillStatus},
     gpu::{Gpu, readback::Readback},
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::{Bloom, BloomOrder, Indirect, IndirectKind, Scene, presets},
 };
 
-static KERNELS: LazyLock<Arc<Kernels>> = LazyLock::new(|| {
+static PIPELINES: LazyLock<Arc<Pipelines>> = LazyLock::new(|| {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU, if only a software one");
-    Kernels::new(&gpu)
+    Pipelines::new(&gpu)
 });
 
 fn options(size_px: [u32; 2], samples: u32, tile_px: [u32; 2]) -> StillOptions {
@@ -25,7 +25,7 @@ fn options(size_px: [u32; 2], samples: u32, tile_px: [u32; 2]) -> StillOptions {
 }
 
 fn still(scene: &Scene, options: StillOptions) -> Vec<u8> {
-    let job = StillJob::new(&KERNELS, scene, options.clone(), Vec::new()).unwrap();
+    let job = StillJob::new(&PIPELINES, scene, options.clone(), Vec::new()).unwrap();
     let file = job.run(|_| ControlFlow::Continue(())).unwrap();
     let mut reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
     assert_eq!([reader.info().width, reader.info().height], options.size_px);
@@ -36,10 +36,10 @@ fn still(scene: &Scene, options: StillOptions) -> Vec<u8> {
 
 /// The picture as a view of the whole shows it.
 fn whole_view(scene: &Scene, size_px: [u32; 2], samples: u32) -> Vec<u8> {
-    let gpu = &KERNELS.gpu;
+    let gpu = &PIPELINES.gpu;
     let mut scene = scene.clone();
     scene.quality.samples = samples;
-    let mut view = View::new(&KERNELS, Region::whole(size_px), Pace::Still);
+    let mut view = View::new(&PIPELINES, Region::whole(size_px), Pace::Still);
     view.set_scene(&scene, false);
     let mut now_secs = 0.0;
     while view.pump(now_secs) {
@@ -162,9 +162,13 @@ impl Write for Counter {
 #[test]
 fn progress_grows_to_the_end_and_rows_leave_on_the_way() {
     let sink = Counter::default();
-    let job =
-        StillJob::new(&KERNELS, &Scene::default(), options([500, 400], 1, [250, 20]), sink.clone())
-            .unwrap();
+    let job = StillJob::new(
+        &PIPELINES,
+        &Scene::default(),
+        options([500, 400], 1, [250, 20]),
+        sink.clone(),
+    )
+    .unwrap();
     let header_bytes = sink.0.get();
     assert!(header_bytes > 0);
 
@@ -198,7 +202,7 @@ fn progress_grows_to_the_end_and_rows_leave_on_the_way() {
 fn a_cancelled_still_lets_go_of_its_sink() {
     let sink = Counter::default();
     let job =
-        StillJob::new(&KERNELS, &Scene::default(), options([64, 48], 4, [16, 16]), sink.clone())
+        StillJob::new(&PIPELINES, &Scene::default(), options([64, 48], 4, [16, 16]), sink.clone())
             .unwrap();
     let result = job.run(|status| match status {
         StillStatus::Working { done, .. } if done < 0.3 => ControlFlow::Continue(()),
@@ -232,17 +236,17 @@ impl Write for Full {
 fn a_full_disk_ends_the_job() {
     let options = options([64, 48], 1, [64, 48]);
     assert!(matches!(
-        StillJob::new(&KERNELS, &Scene::default(), options.clone(), Full(100)),
+        StillJob::new(&PIPELINES, &Scene::default(), options.clone(), Full(100)),
         Err(ExportError::Write(_))
     ));
-    let job = StillJob::new(&KERNELS, &Scene::default(), options, Full(6000)).unwrap();
+    let job = StillJob::new(&PIPELINES, &Scene::default(), options, Full(6000)).unwrap();
     assert!(matches!(job.run(|_| ControlFlow::Continue(())), Err(ExportError::Write(_))));
 }
 
 #[test]
 fn what_is_out_of_range_is_refused_by_name() {
     let refused = |scene: &Scene, options| {
-        StillJob::new(&KERNELS, scene, options, Vec::new()).err().unwrap().to_string()
+        StillJob::new(&PIPELINES, scene, options, Vec::new()).err().unwrap().to_string()
     };
     let fine = Scene::default();
     for size_px in [[0, 10], [10, 0], [16_385, 1], [1, u32::MAX]] {
@@ -259,7 +263,7 @@ fn what_is_out_of_range_is_refused_by_name() {
 #[test]
 fn an_unfinished_job_does_not_pass_for_a_file() {
     let mut job =
-        StillJob::new(&KERNELS, &Scene::default(), options([64, 48], 1, [64, 48]), Vec::new())
+        StillJob::new(&PIPELINES, &Scene::default(), options([64, 48], 1, [64, 48]), Vec::new())
             .unwrap();
     job.step(0.0).unwrap();
     assert!(matches!(job.finish(), Err(ExportError::Encode(_))));

@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, sync::Arc, time::Instant};
 
-use mandelight::render::{self, Kernels, Region, space::RenderSpace, uniforms::Inputs};
+use mandelight::render::{self, Pipelines, Region, space::RenderSpace, uniforms::Inputs};
 
 use super::{
     Failure,
@@ -29,7 +29,7 @@ const TURN_SECS: f64 = 0.4;
 /// Where the device is lost, or a picture can't be written.
 pub fn compare(
     arguments: &Arguments,
-    kernels: &Arc<Kernels>,
+    pipelines: &Arc<Pipelines>,
     literal: &Literal,
     peak: &Peak,
     view: &View,
@@ -47,7 +47,7 @@ pub fn compare(
     let truths = Truths::new(scene, size_px, arguments.error_pixels);
     let (hit, lit) = truths.coverage();
     let literal_errors = truths.compare(&literal_shown(literal, &inputs, kindness, &truths)?);
-    let (_, shown) = ours::draw_ms(kernels, &one_sample, size_px);
+    let (_, shown) = ours::draw_ms(pipelines, &one_sample, size_px);
     let our_errors = truths.compare(&our_shown(&shown, size_px, &truths)?);
     let complaints = our_errors.complaints(&literal_errors, view.normals_within_deg);
     drop(shown);
@@ -57,21 +57,21 @@ pub fn compare(
     let rounds = if view.is_long { arguments.rounds.div_ceil(2) } else { arguments.rounds };
     for _ in 0..rounds {
         literal_ms.push(repeated_ms(&mut literal_busy, || theirs.draw_ms()));
-        ours_ms.push(repeated_ms(&mut ours_busy, || ours::draw_ms(kernels, scene, size_px).0));
+        ours_ms.push(repeated_ms(&mut ours_busy, || ours::draw_ms(pipelines, scene, size_px).0));
         gflops.push(peak.gflops());
     }
     if let Some(folder) = &arguments.pictures {
         std::fs::create_dir_all(folder)?;
-        let (_, shown) = ours::draw_ms(kernels, scene, size_px);
-        let ours = ours::display(kernels, &shown)?;
+        let (_, shown) = ours::draw_ms(pipelines, scene, size_px);
+        let ours = ours::display(pipelines, &shown)?;
         picture::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
         let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
         let literal = picture::developed(&theirs.seen()?, size_px, exposure, white);
         picture::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
     }
     let pixels: f64 = size_px.into_iter().map(f64::from).product();
-    let literal_counts = counts::literal(&kernels.gpu, &inputs, kindness)?.per(pixels);
-    let our_counts: Vec<_> = counts::ours(kernels, scene, size_px)?
+    let literal_counts = counts::literal(&pipelines.gpu, &inputs, kindness)?.per(pixels);
+    let our_counts: Vec<_> = counts::ours(pipelines, scene, size_px)?
         .into_iter()
         .map(|(pass, counts)| (pass, counts.per(pixels)))
         .collect();
@@ -98,7 +98,7 @@ pub fn compare(
     let peak_share = flop.map(|flop| steps * flop / (ours.ms * 1e-3) / (peak_gflops * 1e9));
     let mut passes_ms = Vec::new();
     if arguments.passes {
-        passes_ms = passes(arguments, kernels, view, ours.ms);
+        passes_ms = passes(arguments, pipelines, view, ours.ms);
     }
     Ok(Comparison {
         view: name,
@@ -137,11 +137,11 @@ fn repeated_ms(busy: &mut Vec<f64>, mut draw_ms: impl FnMut() -> f64) -> f64 {
 /// still takes beyond them.
 fn passes(
     arguments: &Arguments,
-    kernels: &Kernels,
+    pipelines: &Pipelines,
     view: &View,
     still_ms: f64,
 ) -> Vec<(&'static str, f64)> {
-    let split = ours::Split::new(kernels, &view.scene, view.size_px);
+    let split = ours::Split::new(pipelines, &view.scene, view.size_px);
     split.draw_ms();
     let rounds: Vec<_> = (0..arguments.rounds).map(|_| split.draw_ms()).collect();
     let mut passes: Vec<_> = rounds[0]

@@ -9,9 +9,8 @@ use mandelight::{
         shader::Module,
     },
     render::{
-        Kernels,
-        kernels::{Form, Passes},
-        pass,
+        Pipelines, pass,
+        pipelines::{Passes, PipelineKey},
         uniforms::Inputs,
     },
     scene::Scene,
@@ -108,12 +107,12 @@ pub const LATER: &str = "a later sample";
 /// # Errors
 /// Where the device is lost, or a kernel can't be counted.
 pub fn ours(
-    kernels: &Kernels,
+    pipelines: &Pipelines,
     scene: &Scene,
     size_px: [u32; 2],
 ) -> Result<Vec<(&'static str, Counts)>, Failure> {
-    let split = ours::Split::new(kernels, scene, size_px);
-    let passes = counting_passes(kernels, &split)?;
+    let split = ours::Split::new(pipelines, scene, size_px);
+    let passes = counting_passes(pipelines, &split)?;
     let mut counts = split.count(&passes)?;
     if scene.quality.samples > 1 {
         counts.push((LATER, split.count_later(&passes)?));
@@ -125,10 +124,10 @@ pub fn ours(
 ///
 /// # Errors
 /// Where a kernel can't be counted.
-pub fn counting_passes(kernels: &Kernels, split: &ours::Split<'_>) -> Result<Passes, Failure> {
-    let constants = Form::of(split.picture()).constants();
-    let gpu = &kernels.gpu;
-    let [listing, listed] = [&kernels.layouts.listing, &kernels.layouts.listed]
+pub fn counting_passes(pipelines: &Pipelines, split: &ours::Split<'_>) -> Result<Passes, Failure> {
+    let constants = PipelineKey::of(split.picture()).constants();
+    let gpu = &pipelines.gpu;
+    let [listing, listed] = [&pipelines.layouts.listing, &pipelines.layouts.listed]
         .map(|layout| split.counting_layout(layout));
     let made =
         |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
@@ -151,6 +150,6 @@ pub fn counting_passes(kernels: &Kernels, split: &ours::Split<'_>) -> Result<Pas
         normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
         shadow_cone: made(&listing, &pass::shadow_cone::MODULE, "estimate_at")?,
         shadow: made(&listed, &pass::shadow::MODULE, "estimate_at")?,
-        ..kernels.passes(split.picture())
+        ..pipelines.passes(split.picture())
     })
 }

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use mandelight::{
-    render::{Kernels, Region, space::wants_anchor},
+    render::{Pipelines, Region, space::wants_anchor},
     scene::Scene,
 };
 use serde::Serialize;
@@ -62,7 +62,7 @@ fn scene(distance: f64) -> Result<Scene, Failure> {
 /// # Errors
 /// Where the device is lost, or a kernel can't be counted.
 pub fn measure(
-    kernels: &Arc<Kernels>,
+    pipelines: &Arc<Pipelines>,
     rounds: u32,
     size_px: Option<[u32; 2]>,
 ) -> Result<Vec<Row>, Failure> {
@@ -73,7 +73,7 @@ pub fn measure(
     let mut times = vec![Vec::new(); scenes.len()];
     for round in 0..=rounds {
         for (scene, times) in scenes.iter().zip(&mut times) {
-            let (ms, _) = ours::draw_ms(kernels, scene, size_px);
+            let (ms, _) = ours::draw_ms(pipelines, scene, size_px);
             // The first round warms up.
             if round > 0 {
                 times.push(ms);
@@ -83,7 +83,7 @@ pub fn measure(
     let mut rows: Vec<Row> = Vec::new();
     for ((scene, times), (name, _)) in scenes.iter().zip(&times).zip(DISTANCES) {
         let mut counts = Counts::default();
-        for (_, counted) in counts::ours(kernels, scene, size_px)? {
+        for (_, counted) in counts::ours(pipelines, scene, size_px)? {
             counts += counted.per(pixels);
         }
         let ms = median(times);

@@ -10,8 +10,8 @@ use std::{collections::HashMap, sync::Arc};
 
 use mandelight::{
     render::{
-        Kernels, Region,
-        kernels::{Extra, Form, Passes},
+        Pipelines, Region,
+        pipelines::{Passes, PipelineKey, PipelineVariant},
         uniforms::Picture,
     },
     scene::Scene,
@@ -51,7 +51,7 @@ pub struct Row {
     /// The distance, as names have it.
     pub scale: String,
     /// The pipelines that draw it.
-    pub form: String,
+    pub key: String,
     /// Nanoseconds a pixel.
     pub pixel_ns: f64,
     /// What a pixel takes.
@@ -83,8 +83,8 @@ pub fn distances() -> Vec<(String, f64)> {
 
 /// The kernels that draw views, and the copies of them that count.
 struct Bench<'a> {
-    kernels: &'a Arc<Kernels>,
-    counting: HashMap<Form, Passes>,
+    pipelines: &'a Arc<Pipelines>,
+    counting: HashMap<PipelineKey, Passes>,
     size_px: [u32; 2],
     spread: u32,
     rounds: u32,
@@ -93,12 +93,12 @@ struct Bench<'a> {
 impl Bench<'_> {
     /// What the pixels of a part of a view take.
     fn count(&mut self, split: &Split<'_>) -> Result<Counts, Failure> {
-        let form = Form::of(split.picture());
-        if !self.counting.contains_key(&form) {
-            self.counting.insert(form, counts::counting_passes(self.kernels, split)?);
+        let key = PipelineKey::of(split.picture());
+        if !self.counting.contains_key(&key) {
+            self.counting.insert(key, counts::counting_passes(self.pipelines, split)?);
         }
         let mut counts = Counts::default();
-        for (_, counted) in split.count(&self.counting[&form])? {
+        for (_, counted) in split.count(&self.counting[&key])? {
             counts += counted;
         }
         Ok(counts)
@@ -110,13 +110,13 @@ impl Bench<'_> {
         &mut self,
         scene: &Scene,
         reference: &Split<'_>,
-    ) -> Result<(Form, [f64; 2], Counts), Failure> {
+    ) -> Result<(PipelineKey, [f64; 2], Counts), Failure> {
         let (mut times, mut counts, mut pixels) = ([0.0; 2], Counts::default(), 0.0);
-        let mut form = Form::of(&Picture::new(scene, Region::whole(self.size_px)));
+        let mut key = PipelineKey::of(&Picture::new(scene, Region::whole(self.size_px)));
         for region in regions(self.size_px) {
-            let kernels = self.kernels;
-            let split = prepared(kernels, scene, region, self.spread);
-            form = Form::of(split.picture());
+            let pipelines = self.pipelines;
+            let split = prepared(pipelines, scene, region, self.spread);
+            key = PipelineKey::of(split.picture());
             let ns = |split: &Split<'_>| -> f64 {
                 split.draw_ms().into_iter().map(|(_, ms)| ms * 1e6).sum()
             };
@@ -133,23 +133,23 @@ impl Bench<'_> {
             pixels += split.pixels();
             counts += self.count(&split)?;
         }
-        Ok((form, times.map(|time| time / pixels), counts.per(pixels)))
+        Ok((key, times.map(|time| time / pixels), counts.per(pixels)))
     }
 
     /// Measures all views of a place, from the top down.
     fn descend(&mut self, place: &Place) -> Result<Vec<Row>, Failure> {
         let mut rows: Vec<Row> = Vec::new();
         let whole = regions(self.size_px)[0];
-        let reference = prepared(self.kernels, &place.scene(REFERENCE)?, whole, self.spread);
+        let reference = prepared(self.pipelines, &place.scene(REFERENCE)?, whole, self.spread);
         let reference_estimates = self.count(&reference)?.estimates / reference.pixels();
         for (scale, distance) in distances() {
-            let (form, [pixel_ns, times], counts) =
+            let (key, [pixel_ns, times], counts) =
                 self.measure(&place.scene(distance)?, &reference)?;
             rows.push(Row {
                 name: format!("{NAME}-{}-{}-{scale}", place.name, place.set()),
                 place: format!("{} {}", place.name, place.set()),
                 scale,
-                form: form.to_string(),
+                key: key.to_string(),
                 pixel_ns,
                 counts,
                 estimate_ns: pixel_ns / counts.estimates,
@@ -166,10 +166,10 @@ impl Bench<'_> {
 }
 
 /// A part of a view, with its pipelines ready and drawn once.
-fn prepared<'a>(kernels: &'a Kernels, scene: &Scene, region: Region, spread: u32) -> Split<'a> {
-    let split = Split::spread(kernels, scene, region, spread);
-    for extra in Extra::special(split.picture()) {
-        kernels.prepare(extra);
+fn prepared<'a>(pipelines: &'a Pipelines, scene: &Scene, region: Region, spread: u32) -> Split<'a> {
+    let split = Split::spread(pipelines, scene, region, spread);
+    for variant in PipelineVariant::special(split.picture()) {
+        pipelines.prepare(variant);
     }
     split.draw_ms();
     split
@@ -208,7 +208,7 @@ fn regions(size_px: [u32; 2]) -> Vec<Region> {
 /// # Errors
 /// Where the device is lost, or a kernel can't be counted.
 pub fn measure(
-    kernels: &Arc<Kernels>,
+    pipelines: &Arc<Pipelines>,
     rounds: u32,
     size_px: Option<[u32; 2]>,
     only: &[String],
@@ -217,7 +217,7 @@ pub fn measure(
     let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
     let spread = u64::from(SPREAD) * pixels(size_px) / pixels(SIZE_PX);
     let spread = u32::try_from(spread)?.max(1);
-    let mut bench = Bench { kernels, counting: HashMap::new(), size_px, spread, rounds };
+    let mut bench = Bench { pipelines, counting: HashMap::new(), size_px, spread, rounds };
     let mut rows = Vec::new();
     for place in PLACES {
         let name = format!("{NAME}-{}-{}", place.name, place.set());
@@ -238,7 +238,7 @@ fn print_place(rows: &[Row], size_px: [u32; 2]) {
     println!(
         "  {:<8}{:>22}{:>10}{:>11}{:>11}{:>9}{:>7}{:>9}{:>9}{:>9}",
         "",
-        "kernels",
+        "pipelines",
         "ns/pixel",
         "estimates",
         "steps each",
@@ -253,7 +253,7 @@ fn print_place(rows: &[Row], size_px: [u32; 2]) {
         println!(
             "  {:<8}{:>22}{:>10.0}{estimates:>11.1}{:>11.2}{:>9.1}{:>7.2}{:>9.2}{:>9.2}{:>9.2}",
             row.scale,
-            row.form,
+            row.key,
             row.pixel_ns,
             steps / estimates,
             row.estimate_ns,

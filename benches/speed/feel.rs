@@ -14,7 +14,7 @@ mod session;
 
 use std::{path::Path, sync::Arc};
 
-use mandelight::{render::Kernels, scene::Scene};
+use mandelight::{render::Pipelines, scene::Scene};
 
 pub use report::Report;
 use session::{Hold, PARTS, Session};
@@ -50,11 +50,11 @@ fn part_of(values: &mut [f64], part: f64) -> f64 {
 }
 
 /// Replays the session. Pictures that were compared go to the folder `pictures`.
-pub fn run(kernels: &Arc<Kernels>, pictures: Option<&Path>) -> Result<Report, super::Failure> {
+pub fn run(pipelines: &Arc<Pipelines>, pictures: Option<&Path>) -> Result<Report, super::Failure> {
     let session = Session::record();
-    let costs = edits::costs(kernels, session.end_of(FILLED_AFTER));
+    let costs = edits::costs(pipelines, session.end_of(FILLED_AFTER));
     let budget_ms = costs.camera_ms / BUDGETS;
-    let replay = replay::play(kernels, &session, budget_ms);
+    let replay = replay::play(pipelines, &session, budget_ms);
     let releases = PARTS.iter().enumerate().map(|(part, of)| {
         let edit = match of.hold {
             Hold::Orbit | Hold::Dive => edits::move_camera,
@@ -63,9 +63,9 @@ pub fn run(kernels: &Arc<Kernels>, pictures: Option<&Path>) -> Result<Report, su
             // Nothing is traced: there is nothing to wait for.
             Hold::Exposure => return None,
         };
-        Some(edits::release(kernels, session.end_of(part), edit, budget_ms))
+        Some(edits::release(pipelines, session.end_of(part), edit, budget_ms))
     });
     let releases: Vec<_> = releases.collect();
-    let qualities = picture::qualities(kernels, &session, &replay.frames, budget_ms, pictures)?;
+    let qualities = picture::qualities(pipelines, &session, &replay.frames, budget_ms, pictures)?;
     Ok(Report::new(budget_ms, costs, &replay, &releases, &qualities))
 }

@@ -59,7 +59,7 @@ use std::process::ExitCode;
 use arguments::Arguments;
 use clap::Parser as _;
 use limits::Limits;
-use mandelight::{gpu::Gpu, render::Kernels};
+use mandelight::{gpu::Gpu, render::Pipelines};
 use report::Report;
 use views::View;
 
@@ -98,7 +98,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     let gpu = pollster::block_on(Gpu::open(arguments.adapter_name().as_deref()))?;
     let mut report = Report { adapter: gpu.name(), ..Report::default() };
     println!("adapter {}", report.adapter);
-    let kernels = Kernels::new(&gpu);
+    let pipelines = Pipelines::new(&gpu);
     if !views.is_empty() {
         let literal = literal::Literal::new(&gpu);
         let peak = peak::Peak::new(&gpu);
@@ -106,18 +106,18 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
             return Err("the adapter does not take the literal kernel".into());
         }
         for view in &views {
-            let comparison = compare::compare(arguments, &kernels, &literal, &peak, view)?;
+            let comparison = compare::compare(arguments, &pipelines, &literal, &peak, view)?;
             comparison.print();
             report.views.push(comparison);
         }
     }
     if arguments.wants(deep::NAME) {
-        report.deep = deep::measure(&kernels, arguments.rounds, arguments.size)?;
+        report.deep = deep::measure(&pipelines, arguments.rounds, arguments.size)?;
         deep::print(&report.deep);
     }
     if arguments.wants(descent::NAME) {
         report.descent = descent::measure(
-            &kernels,
+            &pipelines,
             arguments.rounds.div_ceil(2),
             arguments.size,
             &arguments.places,
@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         report.powers = Some(table);
     }
     if arguments.wants(scaling::NAME) {
-        report.scaling = scaling::measure(&kernels, arguments.rounds, arguments.size);
+        report.scaling = scaling::measure(&pipelines, arguments.rounds, arguments.size);
         scaling::print(&report.scaling);
     }
     if arguments.wants(start::NAME) {
@@ -138,7 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         report.start = Some(starts);
     }
     if arguments.wants(feel::NAME) {
-        let feel = feel::run(&kernels, arguments.pictures.as_deref())?;
+        let feel = feel::run(&pipelines, arguments.pictures.as_deref())?;
         feel.print();
         report.feel = Some(feel);
     }

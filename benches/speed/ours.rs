@@ -5,11 +5,11 @@ use std::{sync::Arc, time::Instant};
 use mandelight::{
     gpu::readback::ReadbackError,
     render::{
-        Kernels, Pace, Region, View,
+        Pace, Pipelines, Region, View,
         frame::{Dispatches, Recorder},
-        kernels::Passes,
         lattice::MOST_TOGETHER,
         pass,
+        pipelines::Passes,
         schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
         uniforms::{Inputs, Picture},
@@ -21,15 +21,15 @@ use super::{Failure, counts::Counts};
 
 /// Draws a still from nothing and says how long that took, milliseconds: from when the view has
 /// its scene until its picture is there, tone mapped. Buffers are allocated before.
-pub fn draw_ms(kernels: &Arc<Kernels>, scene: &Scene, size_px: [u32; 2]) -> (f64, View) {
-    let mut view = View::new(kernels, Region::whole(size_px), Pace::Still);
-    kernels.gpu.wait();
+pub fn draw_ms(pipelines: &Arc<Pipelines>, scene: &Scene, size_px: [u32; 2]) -> (f64, View) {
+    let mut view = View::new(pipelines, Region::whole(size_px), Pace::Still);
+    pipelines.gpu.wait();
     let start = Instant::now();
     view.set_scene(scene, false);
     while view.pump(start.elapsed().as_secs_f64()) {
         view.wait();
     }
-    kernels.gpu.wait();
+    pipelines.gpu.wait();
     (start.elapsed().as_secs_f64() * 1e3, view)
 }
 
@@ -37,10 +37,11 @@ pub fn draw_ms(kernels: &Arc<Kernels>, scene: &Scene, size_px: [u32; 2]) -> (f64
 ///
 /// # Errors
 /// Where the device is lost.
-pub fn display(kernels: &Kernels, view: &View) -> Result<Vec<u8>, ReadbackError> {
+pub fn display(pipelines: &Pipelines, view: &View) -> Result<Vec<u8>, ReadbackError> {
     let texture = view.texture().ok_or(ReadbackError)?;
     let size_px = [texture.width(), texture.height()];
-    mandelight::gpu::readback::Readback::texture(&kernels.gpu, texture, size_px).wait(&kernels.gpu)
+    mandelight::gpu::readback::Readback::texture(&pipelines.gpu, texture, size_px)
+        .wait(&pipelines.gpu)
 }
 
 type Record = fn(&mut Recorder<'_>, &Trace, &mandelight::render::lattice::Grid);
@@ -62,7 +63,7 @@ const MARCHING: [(&str, Record); 3] = [
 
 /// The program's passes over the samples of a whole picture, each in submits of its own.
 pub struct Split<'a> {
-    kernels: &'a Kernels,
+    pipelines: &'a Pipelines,
     inputs: Inputs,
     targets: Targets,
     /// One workgroup of the picture in so many is drawn.
@@ -77,17 +78,17 @@ impl<'a> Split<'a> {
     pub const COUNTS: [u32; 2] = [3, 0];
 
     /// Allocates the buffers. The power's own pipelines are there already.
-    pub fn new(kernels: &'a Kernels, scene: &Scene, size_px: [u32; 2]) -> Self {
-        Self::spread(kernels, scene, Region::whole(size_px), 1)
+    pub fn new(pipelines: &'a Pipelines, scene: &Scene, size_px: [u32; 2]) -> Self {
+        Self::spread(pipelines, scene, Region::whole(size_px), 1)
     }
 
     /// The same of one workgroup in `spread`: work goes through a region in a scattered order, so
     /// that its first part shows a bit of everything.
-    pub fn spread(kernels: &'a Kernels, scene: &Scene, region: Region, spread: u32) -> Self {
+    pub fn spread(pipelines: &'a Pipelines, scene: &Scene, region: Region, spread: u32) -> Self {
         let inputs = Inputs::new(scene, region);
-        let targets = Targets::new(kernels, region);
-        targets.upload(&kernels.gpu.queue, &inputs);
-        let device = &kernels.gpu.device;
+        let targets = Targets::new(pipelines, region);
+        targets.upload(&pipelines.gpu.queue, &inputs);
+        let device = &pipelines.gpu.device;
         let counts = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("counts"),
             size: 8,
@@ -117,7 +118,7 @@ impl<'a> Split<'a> {
                 resource: counts.as_entire_binding(),
             }],
         });
-        Self { kernels, inputs, targets, spread, counts, counts_layout, counts_group }
+        Self { pipelines, inputs, targets, spread, counts, counts_layout, counts_group }
     }
 
     /// What the passes know of the scene.
@@ -135,8 +136,8 @@ impl<'a> Split<'a> {
 
     /// What counting copies bind that either `listed` or `listing` passes are of.
     pub fn counting_layout(&self, lists: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-        let layouts = &self.kernels.layouts;
-        self.kernels.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        let layouts = &self.pipelines.layouts;
+        self.pipelines.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("counting passes"),
             bind_group_layouts: &[
                 Some(&layouts.picture),
@@ -150,15 +151,15 @@ impl<'a> Split<'a> {
 
     /// Each pass's name and time from submit to end, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
-        let passes = self.kernels.passes(&self.inputs.picture);
+        let passes = self.pipelines.passes(&self.inputs.picture);
         let mut ms = PASSES.map(|(name, _)| (name, 0.0));
         // Lists hold what one piece of work has listed.
         for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
             for ((_, ms), (_, record)) in ms.iter_mut().zip(PASSES) {
                 let commands = self.recorded(record, &passes, trace);
                 let start = Instant::now();
-                self.kernels.gpu.queue.submit([commands]);
-                self.kernels.gpu.wait();
+                self.pipelines.gpu.queue.submit([commands]);
+                self.pipelines.gpu.wait();
                 *ms += start.elapsed().as_secs_f64() * 1e3;
             }
         }
@@ -201,10 +202,10 @@ impl<'a> Split<'a> {
         passes: &Passes,
         trace: Trace,
     ) -> Result<Counts, ReadbackError> {
-        let queue = &self.kernels.gpu.queue;
+        let queue = &self.pipelines.gpu.queue;
         queue.write_buffer(&self.counts, 0, &[0; 8]);
         queue.submit([self.recorded(record, passes, trace)]);
-        Counts::read(&self.kernels.gpu, &self.counts)
+        Counts::read(&self.pipelines.gpu, &self.counts)
     }
 
     /// These points of the whole picture, in pieces of `most` workgroups.
@@ -225,7 +226,7 @@ impl<'a> Split<'a> {
         let grid = trace.points.grid(self.inputs.picture.size_px);
         let mut dispatches = Dispatches::default();
         let mut recorder =
-            Recorder::new(self.kernels, passes, &self.targets, &self.inputs, &mut dispatches);
+            Recorder::new(self.pipelines, passes, &self.targets, &self.inputs, &mut dispatches);
         recorder.bind(Self::COUNTS[0], &self.counts_group);
         record(&mut recorder, &trace, &grid);
         recorder.finish()

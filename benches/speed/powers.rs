@@ -87,7 +87,7 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
     let files: Vec<File> = formula.copied().chain([last]).collect();
     // A module's files outlive the program's pipelines: this one is made once a run.
     let module = Module { label: "orbits", files: files.leak() };
-    let kernels: Vec<_> = POWERS
+    let pipelines: Vec<_> = POWERS
         .flat_map(|power| [(power, power), (power, 0)])
         .map(|(power, special)| Kernel::new(gpu, &module.create(&gpu.device), power, special))
         .collect();
@@ -97,9 +97,9 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
         let found = Kernel::new(gpu, &counting, power, power).count()?.steps;
         steps.extend([found, found]);
     }
-    let mut times = vec![Vec::new(); kernels.len()];
+    let mut times = vec![Vec::new(); pipelines.len()];
     for round in 0..=rounds {
-        for (kernel, times) in kernels.iter().zip(&mut times) {
+        for (kernel, times) in pipelines.iter().zip(&mut times) {
             let secs = kernel.run_secs();
             // The first round warms up.
             if round > 0 {

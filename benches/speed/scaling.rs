@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use mandelight::{
-    render::Kernels,
+    render::Pipelines,
     scene::{EnvironmentLight, Scene},
 };
 use serde::Serialize;
@@ -88,12 +88,12 @@ fn cases(size_px: [u32; 2]) -> Vec<Case> {
 }
 
 /// Measures them in turn, so many rounds.
-pub fn measure(kernels: &Arc<Kernels>, rounds: u32, size_px: Option<[u32; 2]>) -> Vec<Row> {
+pub fn measure(pipelines: &Arc<Pipelines>, rounds: u32, size_px: Option<[u32; 2]>) -> Vec<Row> {
     let cases = cases(size_px.unwrap_or(SIZE_PX));
     let mut times = vec![Vec::new(); cases.len()];
     for round in 0..=rounds {
         for (case, times) in cases.iter().zip(&mut times) {
-            let (ms, _) = ours::draw_ms(kernels, &case.scene, case.size_px);
+            let (ms, _) = ours::draw_ms(pipelines, &case.scene, case.size_px);
             // The first round warms up.
             if round > 0 {
                 times.push(ms);

@@ -7,7 +7,7 @@ use std::{process::Command, time::Instant};
 
 use mandelight::{
     gpu::Gpu,
-    render::{Kernels, Pace, Region, Report, View},
+    render::{Pace, Pipelines, Region, Report, View},
     scene::Scene,
 };
 use serde::{Deserialize, Serialize};
@@ -83,13 +83,13 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     };
     let gpu = pollster::block_on(Gpu::open(arguments.adapter_name().as_deref()))?;
     let device = lap();
-    let kernels = Kernels::new(&gpu);
-    let pipelines = lap();
+    let pipelines = Pipelines::new(&gpu);
+    let compiled = lap();
     let mut scene = Scene::default();
     scene.quality.samples = 1;
     let size_px = arguments.size.unwrap_or(SIZE_PX);
     let drawn_until = |is_enough: fn(&Report) -> bool| {
-        let mut view = View::new(&kernels, Region::whole(size_px), Pace::Interactive);
+        let mut view = View::new(&pipelines, Region::whole(size_px), Pace::Interactive);
         view.set_scene(&scene, false);
         let started = Instant::now();
         while !is_enough(&view.report()) {
@@ -103,7 +103,7 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let picture = lap();
     drawn_until(has_picture);
     let again = lap();
-    kernels.specialise(&scene);
+    pipelines.specialise(&scene);
     let made = lap();
     let has_sample = |report: &Report| report.samples_done > 0;
     drawn_until(has_sample);
@@ -112,7 +112,7 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let complete = lap();
     // What the driver put off again.
     let special = made + (compiling - complete).max(0.0);
-    let start = Start { device, pipelines, picture, again, special, complete };
+    let start = Start { device, pipelines: compiled, picture, again, special, complete };
     println!("{}", serde_json::to_string(&start)?);
     Ok(())
 }

@@ -33,7 +33,7 @@ pub fn all() -> Vec<View> {
         view("whole", "the whole Mandelbulb", whole()),
         view("filled", "a picture filled by it, at a distance of 0.15", filled()),
         deep_view("crevice", "a crevice, partly in shadow, at a distance of 1e-3", crevice()),
-        view("julia", "the Julia form of power 8", julia()),
+        view("julia", "the Julia key of power 8", julia()),
         view("power2", "power 2", powered(2.0, [0.9, -1.75, 1.3], [-0.2, 0.0, 0.0])),
         view("power3", "power 3", powered(3.0, [1.7, -2.3, 1.95], [0.0; 3])),
         view("power16", "power 16", powered(16.0, [1.5, -2.3, 1.2], [0.0; 3])),

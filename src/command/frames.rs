@@ -19,7 +19,7 @@ use mandelight::{
         ExportError, Eye, PictureFormat, StillJob, StillOptions, StillStatus,
         sequence::remaining_secs,
     },
-    render::Kernels,
+    render::Pipelines,
     scene::{BackgroundKind, Path, Scene},
 };
 
@@ -136,7 +136,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         folder: &folder,
         options: StillOptions { panorama, ..options },
         eyes,
-        kernels: Kernels::for_stills(&gpu),
+        pipelines: Pipelines::for_stills(&gpu),
         health: Health::of(&gpu),
         interrupted,
         progress: progress_bar(quiet),
@@ -180,7 +180,7 @@ struct Work<'a> {
     folder: &'a Folder,
     options: StillOptions,
     eyes: &'static [Option<Eye>],
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     health: Health,
     interrupted: Arc<AtomicBool>,
     progress: ProgressBar,
@@ -229,7 +229,7 @@ impl Work<'_> {
         let scene = self.path.frame(frame).ok_or(ExportError::NoFrames)?;
         let output = Output::create(file)?;
         let options = StillOptions { eye, ..self.options.clone() };
-        let job = StillJob::new(&self.kernels, &scene, options, output)?;
+        let job = StillJob::new(&self.pipelines, &scene, options, output)?;
         let result = job.run(|status| {
             if let StillStatus::Working { done, .. } = status {
                 tell(done);

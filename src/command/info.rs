@@ -5,7 +5,7 @@ use std::fmt::Write;
 use mandelight::{
     gpu::{Gpu, device},
     render::{
-        Kernels, MAX_REGION_PIXELS, MAX_REGION_PX, Pace, Region, View,
+        MAX_REGION_PIXELS, MAX_REGION_PX, Pace, Pipelines, Region, View,
         memory::{self, Memory},
     },
 };
@@ -95,7 +95,7 @@ fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
             "{width}x{height} is more than one view draws: no side above {MAX_REGION_PX} and no more than {MAX_REGION_PIXELS} pixels"
         )));
     }
-    let mut view = View::new(&Kernels::new(gpu), region, Pace::Interactive);
+    let mut view = View::new(&Pipelines::new(gpu), region, Pace::Interactive);
     view.set_panorama(Some(&panorama));
     view.set_scene(&scene, false);
     view.pump(0.0);

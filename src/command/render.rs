@@ -18,7 +18,7 @@ use mandelight::{
         self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus,
         sequence::remaining_secs,
     },
-    render::Kernels,
+    render::Pipelines,
     scene::param,
 };
 
@@ -101,13 +101,13 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let outputs = files.iter().map(File::create).collect::<Result<Vec<_>, _>>()?;
 
     let gpu = arguments.adapter.open()?;
-    let kernels = Kernels::for_stills(&gpu);
+    let pipelines = Pipelines::for_stills(&gpu);
     let health = Health::of(&gpu);
     let progress = progress_bar(arguments.quiet);
     let count = files.len() as u32;
     let mut whole = Vec::new();
     for ((turn, file), output) in (0..).zip(&files).zip(outputs) {
-        let job = StillJob::new(&kernels, &scene, file.options.clone(), output)
+        let job = StillJob::new(&pipelines, &scene, file.options.clone(), output)
             .map_err(|error| file.failed(error))?;
         let result = job.run(|status| {
             if let StillStatus::Working { done, remaining_secs: of_one } = status {

@@ -1,6 +1,6 @@
 //! Pictures to keep: stills of any size, rendered tile by tile and written as PNG.
 //!
-//! In: [`crate::render::Kernels`], a scene, a size in pixels and something to write to. Out:
+//! In: [`crate::render::Pipelines`], a scene, a size in pixels and something to write to. Out:
 //! the file's bytes, in order, while the picture is still being made. Nothing here holds a
 //! whole picture, opens a file, or waits for the GPU (but for [`still::StillJob::run`], which
 //! says so): the same job runs in a page and in a terminal.

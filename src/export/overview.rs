@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{PictureFormat, sheet::Sheet};
 use crate::{
-    render::{Eyes, Kernels, MAX_REGION_PX, Pace, Region, View, glow::Need, uniforms::Picture},
+    render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, glow::Need, uniforms::Picture},
     scene::{IndirectKind, Panorama, Scene},
 };
 
@@ -36,7 +36,7 @@ pub(super) struct Overview {
 impl Overview {
     /// The overview of a file of `format` that shows `scene`; none where no tile needs one.
     pub fn new(
-        kernels: &Arc<Kernels>,
+        pipelines: &Arc<Pipelines>,
         scene: &Scene,
         panorama: Option<&Arc<Panorama>>,
         sheet: &Sheet,
@@ -56,7 +56,7 @@ impl Overview {
         let enough = if glows { enough.max(MOST_SAMPLES) } else { 1 };
         let samples = scene.quality.samples.min(enough);
         scene.quality.samples = samples;
-        let mut view = View::new(kernels, region, Pace::Still);
+        let mut view = View::new(pipelines, region, Pace::Still);
         view.set_panorama(panorama);
         view.set_scene(&scene, false);
         Some(Self { view, samples, glows, has_indirect, is_finished: false })

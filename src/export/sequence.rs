@@ -6,7 +6,7 @@
 use std::{io::Write, ops::Range, sync::Arc};
 
 use super::{Archive, ExportError, Eye, StillJob, StillOptions, StillStatus};
-use crate::{render::Kernels, scene::Path};
+use crate::{render::Pipelines, scene::Path};
 
 /// The file of frame `frame`: `frame_000042.png`.
 pub fn frame_name(frame: u32) -> String {
@@ -28,7 +28,7 @@ pub fn remaining_secs(elapsed_secs: f64, done: f64, all: u32) -> Option<f64> {
 
 /// A sequence in progress, as a zip of PNGs. Dropping it cancels it.
 pub struct SequenceJob<W: Write> {
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     path: Path,
     options: StillOptions,
     /// Whose pictures each frame has, a file each.
@@ -51,7 +51,7 @@ impl<W: Write> SequenceJob<W> {
     /// [`ExportError::NoFrames`] where there is nothing to draw; sizes, samples and scenes out
     /// of range as in [`StillJob::new`].
     pub fn new(
-        kernels: &Arc<Kernels>,
+        pipelines: &Arc<Pipelines>,
         path: Path,
         frames: Range<u32>,
         options: StillOptions,
@@ -68,7 +68,7 @@ impl<W: Write> SequenceJob<W> {
             StillOptions { eye: eyes[0], ..options.clone() }.sheet_px(&key.scene)?;
         }
         Ok(Self {
-            kernels: kernels.clone(),
+            pipelines: pipelines.clone(),
             path,
             options,
             eyes,
@@ -120,7 +120,7 @@ impl<W: Write> SequenceJob<W> {
     fn begin(&self) -> Result<StillJob<Vec<u8>>, ExportError> {
         let scene = self.path.frame(self.frame).ok_or(ExportError::NoFrames)?;
         let options = StillOptions { eye: self.eyes[self.files as usize], ..self.options.clone() };
-        StillJob::new(&self.kernels, &scene, options, Vec::new())
+        StillJob::new(&self.pipelines, &scene, options, Vec::new())
     }
 
     /// Ends the archive and gives the sink back.

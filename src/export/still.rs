@@ -16,7 +16,7 @@ use super::{
     tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Kernels, Pace, View},
+    render::{Pace, Pipelines, View},
     scene::{Camera, Panorama, Scene, StereoLayout},
 };
 
@@ -105,7 +105,7 @@ pub enum StillStatus {
 
 /// A still in progress. Dropping it cancels it; what it wrote so far is no complete file.
 pub struct StillJob<W: Write> {
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     overview: Option<Overview>,
     view: View,
     tiling: Tiling,
@@ -164,7 +164,7 @@ impl<W: Write> StillJob<W> {
     /// [`ExportError::Scene`] where the samples or the scene are out of range, those of
     /// [`StillOptions::sheet_px`], [`ExportError::Write`] where `sink` refuses.
     pub fn new(
-        kernels: &Arc<Kernels>,
+        pipelines: &Arc<Pipelines>,
         scene: &Scene,
         options: StillOptions,
         sink: W,
@@ -179,13 +179,13 @@ impl<W: Write> StillJob<W> {
         let most_rows = (MOST_BAND_BYTES / row_bytes).max(1) as u32;
         let tiling = Tiling::new(sheet, [tile_width, tile_height.min(most_rows)]);
         let panorama = options.panorama.as_ref();
-        let mut view = View::new(kernels, tiling.tile(0).region, Pace::Still);
+        let mut view = View::new(pipelines, tiling.tile(0).region, Pace::Still);
         view.set_panorama(panorama);
         view.set_scene(&scene, false);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
-            kernels: kernels.clone(),
-            overview: Overview::new(kernels, &scene, panorama, &sheet, options.format),
+            pipelines: pipelines.clone(),
+            overview: Overview::new(pipelines, &scene, panorama, &sheet, options.format),
             view,
             tiling,
             drawing: 0,
@@ -199,7 +199,7 @@ impl<W: Write> StillJob<W> {
             rows_left: sheet_px[1],
             started_secs: None,
             furthest: 0.0,
-            faults_before: kernels.gpu.faults(),
+            faults_before: pipelines.gpu.faults(),
         })
     }
 
@@ -216,7 +216,7 @@ impl<W: Write> StillJob<W> {
         self.draw(now_secs);
         self.collect()?;
         self.pack()?;
-        if self.kernels.gpu.faults() > self.faults_before {
+        if self.pipelines.gpu.faults() > self.faults_before {
             return Err(ExportError::Gpu("the device reported an error".to_owned()));
         }
         if self.rows_left == 0 {
@@ -248,7 +248,7 @@ impl<W: Write> StillJob<W> {
         {
             return;
         }
-        let Some(arriving) = self.format.read(&self.kernels.gpu, &self.view) else { return };
+        let Some(arriving) = self.format.read(&self.pipelines.gpu, &self.view) else { return };
         self.arriving = Some((self.tiling.tile(self.drawing), arriving));
         self.drawing += 1;
         if self.drawing < self.tiling.count() {
@@ -275,7 +275,7 @@ impl<W: Write> StillJob<W> {
             && let Some((tile, arriving)) = &mut self.arriving
         {
             let arrived = arriving
-                .take(&self.kernels.gpu, &self.camera, tile.region)
+                .take(&self.pipelines.gpu, &self.camera, tile.region)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
             if let Some(pixels) = arrived {
                 let [sheet_width, _] = self.tiling.sheet_px();

@@ -3,7 +3,7 @@
 //! In: a decoded picture. Out: a texture of four bytes a pixel, at most 8 MiB, and its bind
 //! group; a single pixel where no picture is shown.
 
-use super::{kernels::Kernels, targets};
+use super::{pipelines::Pipelines, targets};
 use crate::scene::Panorama;
 
 /// Nine bits a channel with one exponent: a quarter of what f32 would take, and filtered by
@@ -30,7 +30,7 @@ pub struct Backdrop {
 
 impl Backdrop {
     /// The picture, or a stand-in for none.
-    pub fn new(kernels: &Kernels, panorama: Option<&Panorama>) -> Self {
+    pub fn new(pipelines: &Pipelines, panorama: Option<&Panorama>) -> Self {
         let size_px = panorama.map_or([1, 1], Panorama::size_px);
         let texels: Vec<u32> = match panorama {
             Some(panorama) => {
@@ -38,8 +38,8 @@ impl Backdrop {
             }
             None => vec![0],
         };
-        let texture = texture(kernels, size_px, &texels);
-        let device = &kernels.gpu.device;
+        let texture = texture(pipelines, size_px, &texels);
+        let device = &pipelines.gpu.device;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("surroundings"),
             // Once around; the poles end it.
@@ -52,7 +52,7 @@ impl Backdrop {
         let view = texture.create_view(&Default::default());
         let resources =
             [wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)];
-        let group = targets::group(device, &kernels.layouts.backdrop, "surroundings", resources);
+        let group = targets::group(device, &pipelines.layouts.backdrop, "surroundings", resources);
         Self {
             id: panorama.map(Panorama::id),
             view,
@@ -73,9 +73,9 @@ pub const BINDINGS: [wgpu::BindingType; 2] = [
     wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
 ];
 
-fn texture(kernels: &Kernels, [width, height]: [u32; 2], texels: &[u32]) -> wgpu::Texture {
+fn texture(pipelines: &Pipelines, [width, height]: [u32; 2], texels: &[u32]) -> wgpu::Texture {
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-    let texture = kernels.gpu.device.create_texture(&wgpu::TextureDescriptor {
+    let texture = pipelines.gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("surroundings"),
         size,
         mip_level_count: 1,
@@ -85,7 +85,7 @@ fn texture(kernels: &Kernels, [width, height]: [u32; 2], texels: &[u32]) -> wgpu
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    kernels.gpu.queue.write_texture(
+    pipelines.gpu.queue.write_texture(
         texture.as_image_copy(),
         bytemuck::cast_slice(texels),
         wgpu::TexelCopyBufferLayout {

@@ -3,10 +3,10 @@
 use super::{
     glow::{Glow, Tasks},
     indirect::{self, IndirectSource},
-    kernels::{Kernels, Passes},
     lattice::{Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
     lists::{BLOCK_THREADS, List},
     pass,
+    pipelines::{Passes, Pipelines},
     schedule::{Points, Stage, Trace, Work},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
     uniforms::{Inputs, Slice},
@@ -121,7 +121,7 @@ impl Dispatches {
 /// Records the dispatches of one submit: they run in order, each sees what the last one wrote.
 pub struct Recorder<'a> {
     /// The pipelines.
-    pub kernels: &'a Kernels,
+    pub pipelines: &'a Pipelines,
     /// The forms of the picture's passes that it uses.
     pub passes: &'a Passes,
     /// The buffers.
@@ -149,18 +149,18 @@ pub struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// An empty submit.
     pub fn new(
-        kernels: &'a Kernels,
+        pipelines: &'a Pipelines,
         passes: &'a Passes,
         targets: &'a Targets,
         inputs: &'a Inputs,
         dispatches: &'a mut Dispatches,
     ) -> Self {
-        let mut encoder = kernels.gpu.device.create_command_encoder(&Default::default());
+        let mut encoder = pipelines.gpu.device.create_command_encoder(&Default::default());
         let mut compute = encoder.begin_compute_pass(&Default::default()).forget_lifetime();
         compute.set_bind_group(1, &targets.center.group, &[]);
         compute.set_bind_group(2, &targets.film_group, &[]);
         Self {
-            kernels,
+            pipelines,
             passes,
             targets,
             inputs,
@@ -209,7 +209,7 @@ impl<'a> Recorder<'a> {
             Points::Samples { .. } => &self.targets.jittered,
             _ => &self.targets.center,
         };
-        let groups = indirect::groups(self.kernels, self.targets, samples, &self.indirect_source);
+        let groups = indirect::groups(self.pipelines, self.targets, samples, &self.indirect_source);
         for (index, group) in (1..).zip(&groups) {
             self.compute.set_bind_group(index, group, &[]);
         }
@@ -305,7 +305,7 @@ impl<'a> Recorder<'a> {
         debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
         let offset = self.slices * SLICE_STRIDE_BYTES;
         // Writes take effect in order with submits: the last submit has its own slices already.
-        self.kernels.gpu.queue.write_buffer(
+        self.pipelines.gpu.queue.write_buffer(
             &self.targets.slices,
             u64::from(offset),
             bytemuck::bytes_of(&slice),

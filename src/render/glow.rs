@@ -12,8 +12,8 @@
 //! more for the blur; what the scene does not need is not allocated.
 
 use super::{
-    kernels::Kernels,
     lattice::WORKGROUP_THREADS,
+    pipelines::Pipelines,
     region::Region,
     report::{HISTOGRAM_BINS, Histogram},
     targets,
@@ -71,23 +71,23 @@ pub struct Glow {
 
 impl Glow {
     /// Allocates what `need` takes for the film of `region`.
-    pub fn new(kernels: &Kernels, region: Region, need: Need) -> Self {
+    pub fn new(pipelines: &Pipelines, region: Region, need: Need) -> Self {
         let levels = Levels::of_region(region);
         let bytes = size_of::<Statistics>() as u64;
-        let statistics = targets::storage(&kernels.gpu.device, "statistics", bytes);
+        let statistics = targets::storage(&pipelines.gpu.device, "statistics", bytes);
         // New buffers hold zeros; the size is all that no pass writes.
-        kernels.gpu.queue.write_buffer(&statistics, 0, bytemuck::bytes_of(&levels.eye_px));
-        Self::around(kernels, levels, need, statistics)
+        pipelines.gpu.queue.write_buffer(&statistics, 0, bytemuck::bytes_of(&levels.eye_px));
+        Self::around(pipelines, levels, need, statistics)
     }
 
     /// One for the same film with room for `need`. The statistics stay: exposure goes on from
     /// where it is.
-    pub fn with_need(&self, kernels: &Kernels, need: Need) -> Self {
-        Self::around(kernels, self.levels, need, self.statistics.clone())
+    pub fn with_need(&self, pipelines: &Pipelines, need: Need) -> Self {
+        Self::around(pipelines, self.levels, need, self.statistics.clone())
     }
 
-    fn around(kernels: &Kernels, levels: Levels, need: Need, statistics: wgpu::Buffer) -> Self {
-        let device = &kernels.gpu.device;
+    fn around(pipelines: &Pipelines, levels: Levels, need: Need, statistics: wgpu::Buffer) -> Self {
+        let device = &pipelines.gpu.device;
         let finest = u64::from(levels.elements(FIRST_LEVEL));
         let all: u64 = (FIRST_LEVEL..=levels.last()).map(|n| u64::from(levels.elements(n))).sum();
         let room = |wanted: bool, count: u64| ELEMENT_BYTES * if wanted { count } else { 1 };
@@ -95,7 +95,7 @@ impl Glow {
         let half_blurred = targets::storage(device, "half blurred", room(need.bloom, finest));
         let group = targets::group(
             device,
-            &kernels.layouts.glow,
+            &pipelines.layouts.glow,
             "glow",
             [&statistics, &mips, &half_blurred].map(wgpu::Buffer::as_entire_binding),
         );

@@ -7,7 +7,7 @@
 
 use super::{
     backdrop::Backdrop,
-    kernels::Kernels,
+    pipelines::Pipelines,
     targets::{self, GBuffer, Targets},
 };
 
@@ -24,13 +24,13 @@ pub struct IndirectSource {
 
 /// Groups 1 to 3 of the indirect pass.
 pub fn groups(
-    kernels: &Kernels,
+    pipelines: &Pipelines,
     targets: &Targets,
     samples: &GBuffer,
     source: &IndirectSource,
 ) -> [wgpu::BindGroup; 3] {
-    let device = &kernels.gpu.device;
-    let layouts = &kernels.layouts;
+    let device = &pipelines.gpu.device;
+    let layouts = &pipelines.layouts;
     let Backdrop { view, sampler, .. } = &*targets.backdrop;
     let samples = [&samples.surface, &samples.color_data, &samples.visibility]
         .map(wgpu::Buffer::as_entire_binding);
@@ -41,7 +41,7 @@ pub fn groups(
     ];
     [
         targets::group(device, &layouts.samples, "samples", samples),
-        targets.film_with(kernels, &source.direct),
+        targets.film_with(pipelines, &source.direct),
         targets::group(device, &layouts.indirect, "indirect source", read),
     ]
 }

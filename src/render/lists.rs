@@ -6,8 +6,8 @@
 //! the workgroups of those that read it.
 
 use super::{
-    kernels::Kernels,
     lattice::WORKGROUP_THREADS,
+    pipelines::Pipelines,
     targets::{group, storage},
 };
 use crate::scene::MAX_LIGHTS;
@@ -47,8 +47,8 @@ pub struct Lists {
 
 impl Lists {
     /// Room for every block of so many workgroups.
-    pub fn new(kernels: &Kernels, workgroups: u32) -> Self {
-        let (device, layouts) = (&kernels.gpu.device, &kernels.layouts);
+    pub fn new(pipelines: &Pipelines, workgroups: u32) -> Self {
+        let (device, layouts) = (&pipelines.gpu.device, &pipelines.layouts);
         let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_THREADS / BLOCK_THREADS);
         let counters = WORD * (RAY_LISTS as u64 + 1);
         let blocks = storage(device, "block lists", counters + 3 * WORD * most);

@@ -9,12 +9,12 @@
 //! | [`indirect`] | where indirect light comes from |
 //! | [`pass`] | one pass a file, with its shader's stem |
 //! | [`backdrop`] | the picture of the surroundings |
-//! | [`kernels`] | pipelines and bind group layouts |
-//! | [`form`] | what rays and normals have pipelines of their own for |
+//! | [`pipelines`] | pipelines and bind group layouts |
+//! | [`pipeline_key`] | what rays and normals have pipelines of their own for |
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
-//! | `glow_kernels` | the pipelines of those passes |
+//! | `post_pipelines` | the pipelines of those passes |
 //! | `anchors` | the anchors of a view that moves |
 //! | [`space`] | render space: origin and unit of coordinates |
 //! | [`lists`] | which threads a pass has work for |
@@ -28,18 +28,18 @@
 mod anchors;
 pub mod backdrop;
 mod filling;
-pub mod form;
 pub mod frame;
 pub mod gbuffer;
 pub mod glow;
-mod glow_kernels;
 pub mod indirect;
-pub mod kernels;
 pub mod lattice;
 mod layouts;
 pub mod lists;
 pub mod memory;
 pub mod pass;
+pub mod pipeline_key;
+pub mod pipelines;
+mod post_pipelines;
 mod preparation;
 mod region;
 pub mod report;
@@ -51,7 +51,7 @@ pub mod uniforms;
 pub mod view;
 mod watch;
 
-pub use kernels::Kernels;
+pub use pipelines::Pipelines;
 pub use region::{Eyes, MAX_REGION_PIXELS, MAX_REGION_PX, Region};
 pub use report::{Activity, Report};
 pub use schedule::Pace;

@@ -15,7 +15,7 @@ use std::sync::{
 use super::{
     frame::{self, Dispatches, Recorder},
     glow::Tasks,
-    kernels::{Extra, Kernels},
+    pipelines::{PipelineVariant, Pipelines},
     schedule::{Points, Stage, Trace, Work},
     targets::Targets,
     uniforms::Inputs,
@@ -30,7 +30,7 @@ const UNSEEN_SECS: f64 = 0.25;
 
 /// Pipelines on their way.
 pub struct Preparation {
-    extra: Extra,
+    variant: PipelineVariant,
     announced_secs: f64,
     frames: u32,
     /// Whether each part has been compiled asynchronously; empty before that began, and where it cannot.
@@ -53,9 +53,9 @@ pub enum Progress {
 
 impl Preparation {
     /// Says what will be compiled.
-    pub fn announce(extra: Extra, now_secs: f64) -> Self {
+    pub fn announce(variant: PipelineVariant, now_secs: f64) -> Self {
         Self {
-            extra,
+            variant,
             announced_secs: now_secs,
             frames: 0,
             compiled: Vec::new(),
@@ -65,8 +65,8 @@ impl Preparation {
     }
 
     /// What is prepared.
-    pub fn extra(&self) -> Extra {
-        self.extra
+    pub fn variant(&self) -> PipelineVariant {
+        self.variant
     }
 
     /// Whether more than the word is out.
@@ -82,7 +82,7 @@ impl Preparation {
     /// Does what comes next: of pipelines that hold others up, one at most.
     pub fn step(
         &mut self,
-        kernels: &Kernels,
+        pipelines: &Pipelines,
         targets: &Targets,
         inputs: &Inputs,
         now_secs: f64,
@@ -92,76 +92,79 @@ impl Preparation {
             if !is_true(rehearsed) {
                 return Progress::Foreground;
             }
-            kernels.set_ready(self.extra);
+            pipelines.set_ready(self.variant);
             return Progress::Ready;
         }
         let is_seen = self.frames >= FRAMES_TO_SEE || now_secs - self.announced_secs >= UNSEEN_SECS;
         if !is_seen {
             return Progress::Background;
         }
-        let parts = self.extra.parts();
+        let parts = self.variant.parts();
         if !self.has_begun() {
-            self.compiled = (0..parts).filter_map(|part| kernels.begin(self.extra, part)).collect();
+            self.compiled =
+                (0..parts).filter_map(|part| pipelines.begin(self.variant, part)).collect();
         }
         if !self.compiled.iter().all(is_true) {
             return Progress::Background;
         }
         let at_once = if self.compiled.is_empty() { 1 } else { parts };
         for part in (self.made.len()..parts).take(at_once) {
-            self.made.push(kernels.make(self.extra, part));
+            self.made.push(pipelines.make(self.variant, part));
         }
         if self.made.len() == parts {
-            kernels.keep(self.extra, std::mem::take(&mut self.made));
-            self.rehearsed = Some(rehearse(self.extra, kernels, targets, inputs));
+            pipelines.keep(self.variant, std::mem::take(&mut self.made));
+            self.rehearsed = Some(rehearse(self.variant, pipelines, targets, inputs));
         }
         Progress::Foreground
     }
 }
 
-/// Submits every pass of `extra` once, without workgroups. The answer turns true when the GPU is
+/// Submits every pass of `variant` once, without workgroups. The answer turns true when the GPU is
 /// through with it.
 fn rehearse(
-    extra: Extra,
-    kernels: &Kernels,
+    variant: PipelineVariant,
+    pipelines: &Pipelines,
     targets: &Targets,
     inputs: &Inputs,
 ) -> Arc<AtomicBool> {
     let mut picture = inputs.picture;
-    if let Extra::Rays(form) | Extra::Normals(form, _) = extra {
-        form.put_into(&mut picture);
+    if let PipelineVariant::Rays(key) | PipelineVariant::Normals(key, _) = variant {
+        key.put_into(&mut picture);
     }
-    let passes = kernels.passes(&picture);
+    let passes = pipelines.passes(&picture);
     let mut uncounted = Dispatches::default();
-    let mut recorder = Recorder::new(kernels, &passes, targets, inputs, &mut uncounted);
+    let mut recorder = Recorder::new(pipelines, &passes, targets, inputs, &mut uncounted);
     // A count in a buffer: browsers warn of a plain zero.
-    recorder.rehearsal = Some(kernels.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+    recorder.rehearsal = Some(pipelines.gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("no workgroups"),
         size: 12,
         usage: wgpu::BufferUsages::INDIRECT,
         mapped_at_creation: false,
     }));
-    if extra == Extra::Glow {
+    if variant == PipelineVariant::Glow {
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
     let trace = |points: Points, from: Stage| {
         Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
     };
     let show = |level: u32| Work::Show { level, fill: false, film: false, adapt: 1.0 };
-    let work = match extra {
-        Extra::Rays(_) | Extra::Normals(..) => vec![trace(Points::Level(0), Stage::March)],
+    let work = match variant {
+        PipelineVariant::Rays(_) | PipelineVariant::Normals(..) => {
+            vec![trace(Points::Level(0), Stage::March)]
+        }
         // Of single samples, and of some together.
-        Extra::Shade(_) => [Points::Level(0), Points::Samples { first: 1, count: 2 }]
+        PipelineVariant::Shade(_) => [Points::Level(0), Points::Samples { first: 1, count: 2 }]
             .map(|points| trace(points, Stage::Shade))
             .to_vec(),
-        Extra::Indirect => vec![trace(Points::Indirect(0), Stage::Indirect)],
-        Extra::Glow => vec![show(0)],
+        PipelineVariant::Indirect => vec![trace(Points::Indirect(0), Stage::Indirect)],
+        PipelineVariant::Glow => vec![show(0)],
         // Of a whole picture, and of a sparse lattice.
-        Extra::Tone(_) => vec![show(0), show(1)],
+        PipelineVariant::Tone(_) => vec![show(0), show(1)],
     };
     for work in work {
         frame::record(&mut recorder, work);
     }
-    let queue = &kernels.gpu.queue;
+    let queue = &pipelines.gpu.queue;
     queue.submit([recorder.finish()]);
     let is_over = Arc::new(AtomicBool::new(false));
     let tell = is_over.clone();

@@ -9,11 +9,11 @@ use super::{
     backdrop::Backdrop,
     glow::{Glow, Need},
     indirect::IndirectSource,
-    kernels::Kernels,
     lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
     lists::Lists,
     memory::Memory,
     pass,
+    pipelines::Pipelines,
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
     uniforms::{self, ANCHOR_ORBIT_BYTES, GRADIENT_ENTRIES, Light, Picture, Slice},
@@ -83,10 +83,10 @@ pub struct Targets {
 
 impl Targets {
     /// Allocates what a region needs.
-    pub fn new(kernels: &Kernels, region: Region) -> Self {
+    pub fn new(pipelines: &Pipelines, region: Region) -> Self {
         let size_px = region.film_px();
-        let device = &kernels.gpu.device;
-        let layouts = &kernels.layouts;
+        let device = &pipelines.gpu.device;
+        let layouts = &pipelines.layouts;
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
         // A slice holds whole workgroups, some of them past the region's last pixels.
         // As many as there can be: of samples that are computed together.
@@ -119,7 +119,7 @@ impl Targets {
         let film_bw = storage(device, "film blue weight", 8 * pixels);
         let texture = display_texture(device, region.display_px());
         let direct = storage(device, "direct light", DIRECT_BYTES);
-        let film_group = film_group(kernels, [&film_rg, &film_bw, &direct], &texture);
+        let film_group = film_group(pipelines, [&film_rg, &film_bw, &direct], &texture);
         Self {
             picture,
             anchor_orbit,
@@ -127,26 +127,26 @@ impl Targets {
             lights,
             gradient,
             picture_group,
-            center: GBuffer::new(kernels, pixels),
-            jittered: GBuffer::new(kernels, u64::from(slice_samples)),
-            lists: Lists::new(kernels, workgroups.min(MOST_WORKGROUPS)),
+            center: GBuffer::new(pipelines, pixels),
+            jittered: GBuffer::new(pipelines, u64::from(slice_samples)),
+            lists: Lists::new(pipelines, workgroups.min(MOST_WORKGROUPS)),
             film_rg,
             film_bw,
             direct,
             film_group,
-            glow: Arc::new(Glow::new(kernels, region, Need::default())),
-            backdrop: Arc::new(Backdrop::new(kernels, None)),
+            glow: Arc::new(Glow::new(pipelines, region, Need::default())),
+            backdrop: Arc::new(Backdrop::new(pipelines, None)),
             texture,
         }
     }
 
     /// Makes room for direct light where indirect light is made of it, and frees it elsewhere.
-    pub fn fit_direct(&mut self, kernels: &Kernels, needed: bool) {
+    pub fn fit_direct(&mut self, pipelines: &Pipelines, needed: bool) {
         let pixels = self.film_rg.size() / 8;
         let bytes = DIRECT_BYTES * if needed { pixels } else { 1 };
         if self.direct.size() != bytes {
-            self.direct = storage(&kernels.gpu.device, "direct light", bytes);
-            self.film_group = self.film_with(kernels, &self.direct);
+            self.direct = storage(&pipelines.gpu.device, "direct light", bytes);
+            self.film_group = self.film_with(pipelines, &self.direct);
         }
     }
 
@@ -184,8 +184,8 @@ impl Targets {
     }
 
     /// The film's group with direct light of another view.
-    pub fn film_with(&self, kernels: &Kernels, direct: &wgpu::Buffer) -> wgpu::BindGroup {
-        film_group(kernels, [&self.film_rg, &self.film_bw, direct], &self.texture)
+    pub fn film_with(&self, pipelines: &Pipelines, direct: &wgpu::Buffer) -> wgpu::BindGroup {
+        film_group(pipelines, [&self.film_rg, &self.film_bw, direct], &self.texture)
     }
 
     /// Uploads a picture's uniforms.
@@ -207,14 +207,14 @@ impl GBuffer {
         self.surface.size() + self.color_data.size() + self.visibility.size()
     }
 
-    fn new(kernels: &Kernels, samples: u64) -> Self {
-        let device = &kernels.gpu.device;
+    fn new(pipelines: &Pipelines, samples: u64) -> Self {
+        let device = &pipelines.gpu.device;
         let surface = storage(device, "surface", 8 * samples);
         let color_data = storage(device, "colour data", 8 * samples);
         let visibility = storage(device, "visibility", 8 * samples);
         let group = group(
             device,
-            &kernels.layouts.gbuffer,
+            &pipelines.layouts.gbuffer,
             "gbuffer",
             [&surface, &color_data, &visibility].map(wgpu::Buffer::as_entire_binding),
         );
@@ -223,7 +223,7 @@ impl GBuffer {
 }
 
 fn film_group(
-    kernels: &Kernels,
+    pipelines: &Pipelines,
     [film_rg, film_bw, direct]: [&wgpu::Buffer; 3],
     texture: &wgpu::Texture,
 ) -> wgpu::BindGroup {
@@ -234,7 +234,7 @@ fn film_group(
         wgpu::BindingResource::TextureView(&view),
         direct.as_entire_binding(),
     ];
-    group(&kernels.gpu.device, &kernels.layouts.film, "film", resources)
+    group(&pipelines.gpu.device, &pipelines.layouts.film, "film", resources)
 }
 
 fn buffer(

@@ -9,8 +9,8 @@ use super::{
     frame::{self, Dispatches, Recorder},
     glow::{Glow, Need, Tasks},
     indirect::IndirectSource,
-    kernels::{Form, Kernels},
     memory::Memory,
+    pipelines::{PipelineKey, Pipelines},
     preparation::Preparation,
     region::Region,
     report::{Activity, Report},
@@ -37,7 +37,7 @@ struct Known {
 
 /// One picture in progress.
 pub struct View {
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     region: Region,
     pace: Pace,
     anchors: Anchors,
@@ -81,16 +81,16 @@ pub struct View {
 impl View {
     /// Allocates the buffers of `region`, which is cut down where it does not
     /// [fit](Region::fits). Nothing is drawn before it has a scene.
-    pub fn new(kernels: &Arc<Kernels>, region: Region, pace: Pace) -> Self {
+    pub fn new(pipelines: &Arc<Pipelines>, region: Region, pace: Pace) -> Self {
         let region = drawable(region);
         Self {
-            kernels: kernels.clone(),
+            pipelines: pipelines.clone(),
             region,
             pace,
             anchors: Anchors::default(),
             space: RenderSpace::plain(),
             is_space_current: false,
-            targets: Targets::new(kernels, region),
+            targets: Targets::new(pipelines, region),
             schedule: Schedule::new(pace, region.film_px()),
             stopwatch: Stopwatch::default(),
             scene: None,
@@ -135,7 +135,7 @@ impl View {
             && region.display_px() == self.region.display_px();
         if !same_size {
             let backdrop = self.targets.backdrop.clone();
-            self.targets = Targets { backdrop, ..Targets::new(&self.kernels, region) };
+            self.targets = Targets { backdrop, ..Targets::new(&self.pipelines, region) };
         }
         self.known = Known::default();
         self.region = region;
@@ -171,7 +171,7 @@ impl View {
     /// Says that the interface has just submitted its drawing of a frame: that is no part of what
     /// pictures take, and how often they are shown on their way hangs on it.
     pub fn time_frame(&mut self) {
-        self.stopwatch.note(&self.kernels.gpu, None);
+        self.stopwatch.note(&self.pipelines.gpu, None);
     }
 
     /// Gives the view the picture of the surroundings that is at hand: a scene that names it and
@@ -215,7 +215,7 @@ impl View {
         while let Some(work) = self.schedule.next(now_secs) {
             self.submit(work);
         }
-        self.watch.read(&self.kernels.gpu, &self.targets.glow.statistics);
+        self.watch.read(&self.pipelines.gpu, &self.targets.glow.statistics);
         let idle = self.schedule.status(now_secs).idle
             && !self.watch.is_reading()
             && self.pending.is_none();
@@ -228,12 +228,12 @@ impl View {
     /// Waits until the oldest piece of work has finished, or all work where the view has none in
     /// flight: between two pumps of a still. On the web this returns at once.
     pub fn wait(&self) {
-        self.stopwatch.wait(&self.kernels.gpu);
+        self.stopwatch.wait(&self.pipelines.gpu);
     }
 
     /// Takes note of what the GPU has finished.
     fn collect(&mut self) {
-        self.kernels.gpu.poll();
+        self.pipelines.gpu.poll();
         let mut ended = Vec::new();
         while let Some(finished) = self.stopwatch.next_finished() {
             ended.push((finished.mark, finished.busy_ms));
@@ -300,12 +300,12 @@ impl View {
         let moved = self.inputs.as_ref().map_or(u64::MAX, |old| inputs.moved_since(old));
         self.schedule.set_lights(inputs.shining(), moved);
         self.schedule.set_casting(inputs.casting());
-        self.targets.upload(&self.kernels.gpu.queue, &inputs);
+        self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_glow(Need::of(&inputs.picture));
-        self.targets.fit_direct(&self.kernels, inputs.has_indirect());
+        self.targets.fit_direct(&self.pipelines, inputs.has_indirect());
         if self.targets.backdrop.id != inputs.panorama {
             let shown = self.panorama.as_deref().filter(|_| inputs.panorama.is_some());
-            self.targets.backdrop = Arc::new(Backdrop::new(&self.kernels, shown));
+            self.targets.backdrop = Arc::new(Backdrop::new(&self.pipelines, shown));
         }
         self.inputs = Some(inputs);
     }
@@ -314,7 +314,7 @@ impl View {
     fn fit_glow(&mut self, need: Need) {
         let need = if self.lent_glow.is_some() { Need::default() } else { need };
         if self.targets.glow.need() != need {
-            self.targets.glow = Arc::new(self.targets.glow.with_need(&self.kernels, need));
+            self.targets.glow = Arc::new(self.targets.glow.with_need(&self.pipelines, need));
             self.known = Known::default();
         }
     }
@@ -345,10 +345,10 @@ impl View {
 
     /// What powers are raised by.
     fn arithmetic(&self) -> Arithmetic {
-        match self.inputs.as_ref().map(|inputs| Form::of(&inputs.picture)) {
-            Some(form) if form.is_deep() => Arithmetic::Deep,
-            None | Some(Form { power: 0, .. }) => Arithmetic::Real,
-            Some(form) if self.kernels.has_own(form) => Arithmetic::Special,
+        match self.inputs.as_ref().map(|inputs| PipelineKey::of(&inputs.picture)) {
+            Some(key) if key.is_deep() => Arithmetic::Deep,
+            None | Some(PipelineKey { power: 0, .. }) => Arithmetic::Real,
+            Some(key) if self.pipelines.has_own(key) => Arithmetic::SpecializedPipeline,
             Some(_) => Arithmetic::Whole,
         }
     }
@@ -367,9 +367,9 @@ impl View {
         let upsample_level = self.upsample_level(work);
         let tasks = if upsample_level.is_some() { Tasks::default() } else { self.tasks(work) };
         let Some(inputs) = &self.inputs else { return };
-        let passes = self.kernels.passes(&inputs.picture);
+        let passes = self.pipelines.passes(&inputs.picture);
         let mut recorder =
-            Recorder::new(&self.kernels, &passes, &self.targets, inputs, &mut self.dispatches);
+            Recorder::new(&self.pipelines, &passes, &self.targets, inputs, &mut self.dispatches);
         recorder.tasks = tasks;
         recorder.upsample_level = upsample_level;
         if let Some(lent) = &self.lent_glow {
@@ -380,7 +380,7 @@ impl View {
         }
         frame::record(&mut recorder, work);
         let commands = recorder.finish();
-        self.stopwatch.submit(&self.kernels.gpu, commands, Some(work));
+        self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
         if matches!(work, Work::Show { .. }) && self.shown.as_ref() != Some(&self.targets.texture) {
             self.shown = Some(self.targets.texture.clone());
             self.texture_generation += 1;
@@ -433,7 +433,7 @@ impl View {
     pub fn report(&self) -> Report {
         let status = self.schedule.status(self.now_secs);
         let activity = if let Some(preparation) = &self.preparation {
-            Activity::Compiling(preparation.extra().name())
+            Activity::Compiling(preparation.variant().name())
         } else if self.inputs.is_none() || (status.idle && self.pending.is_none()) {
             Activity::Idle
         } else if status.moving {

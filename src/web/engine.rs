@@ -25,7 +25,7 @@ use super::{
 use crate::{
     export::{PictureFormat, StillOptions},
     gpu::Gpu,
-    render::{Activity, Kernels, Report},
+    render::{Activity, Pipelines, Report},
     ui::{self, ExportProgress},
 };
 
@@ -69,7 +69,7 @@ impl Export {
 /// The work on one device.
 pub struct Engine {
     gpu: Gpu,
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     picture: Picture,
     export: Option<Export>,
     /// A sequence, in pairs or not, that waits for the visitor to choose its file.
@@ -98,11 +98,11 @@ impl Engine {
         context: egui::Context,
         session: Rc<RefCell<Session>>,
     ) -> Rc<RefCell<Self>> {
-        let kernels = Kernels::new(&gpu);
+        let pipelines = Pipelines::new(&gpu);
         let engine = Rc::new(RefCell::new(Self {
             gpu,
-            picture: Picture::new(kernels.clone(), state),
-            kernels,
+            picture: Picture::new(pipelines.clone(), state),
+            pipelines,
             export: None,
             waiting: None,
             progress: None,
@@ -139,7 +139,7 @@ impl Engine {
     ) {
         let panorama = session.interface.panorama().cloned();
         let options = StillOptions { panorama, format, ..StillOptions::new(size_px) };
-        match Still::start(&self.kernels, session.interface.scene(), options, pair) {
+        match Still::start(&self.pipelines, session.interface.scene(), options, pair) {
             Ok(still) => {
                 self.begin(Export::Still(Box::new(still)));
             }
@@ -169,8 +169,14 @@ impl Engine {
             return;
         };
         let path = session.interface.project().path.clone();
-        match Sequence::start(&self.kernels, path, frames, (options, pair), sink, &session.mailbox)
-        {
+        match Sequence::start(
+            &self.pipelines,
+            path,
+            frames,
+            (options, pair),
+            sink,
+            &session.mailbox,
+        ) {
             Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
             Err(error) => session.complain(format!("The sequence was not saved: {error}")),
         }

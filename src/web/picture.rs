@@ -8,7 +8,7 @@ use std::sync::Arc;
 use eframe::egui_wgpu::RenderState;
 
 use crate::{
-    render::{Kernels, Pace, Region, Report, View, frame::Dispatches},
+    render::{Pace, Pipelines, Region, Report, View, frame::Dispatches},
     scene::{Panorama, Scene, StereoLayout},
     ui,
 };
@@ -19,7 +19,7 @@ const SETTLED_SECS: f64 = 0.12;
 
 /// A view and its texture in egui.
 pub struct Picture {
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     state: RenderState,
     view: Option<View>,
     shown: Option<Shown>,
@@ -34,8 +34,8 @@ struct Shown {
 
 impl Picture {
     /// A picture without a size, hence without a view.
-    pub fn new(kernels: Arc<Kernels>, state: RenderState) -> Self {
-        Self { kernels, state, view: None, shown: None, wanted: None }
+    pub fn new(pipelines: Arc<Pipelines>, state: RenderState) -> Self {
+        Self { pipelines, state, view: None, shown: None, wanted: None }
     }
 
     /// The picture to show, once there is one.
@@ -70,7 +70,7 @@ impl Picture {
         let scaled_px = size_px.map(|side| (f64::from(side) * scale).round() as u32);
         let region = Region::whole_within_limits(scaled_px).shared_by(layout);
         let Some(view) = &mut self.view else {
-            self.view = Some(View::new(&self.kernels, region, Pace::Interactive));
+            self.view = Some(View::new(&self.pipelines, region, Pace::Interactive));
             return None;
         };
         if view.region() == region {

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     export::{ExportError, SequenceJob, StillOptions, StillStatus},
-    render::Kernels,
+    render::Pipelines,
     scene::Path,
 };
 
@@ -96,7 +96,7 @@ impl Sequence {
     /// # Errors
     /// A size, a range or a path out of range.
     pub fn start(
-        kernels: &Arc<Kernels>,
+        pipelines: &Arc<Pipelines>,
         path: Path,
         frames: Range<u32>,
         (options, pair): (StillOptions, bool),
@@ -107,7 +107,7 @@ impl Sequence {
             Goal::Disk(file) => Writer::Disk(file.clone()),
             Goal::Download => Writer::Download(Download::default()),
         };
-        let job = SequenceJob::new(kernels, path, frames, options, pair, writer)?;
+        let job = SequenceJob::new(pipelines, path, frames, options, pair, writer)?;
         Ok(Self { job, sink, mailbox: mailbox.clone(), last: (0.0, None) })
     }
 

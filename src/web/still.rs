@@ -8,13 +8,13 @@ use std::sync::Arc;
 use super::files::Download;
 use crate::{
     export::{ExportError, Eye, StillJob, StillOptions, StillStatus, sequence::remaining_secs},
-    render::Kernels,
+    render::Pipelines,
     scene::Scene,
 };
 
 /// A still in progress, or a pair of them.
 pub struct Still {
-    kernels: Arc<Kernels>,
+    pipelines: Arc<Pipelines>,
     scene: Scene,
     options: StillOptions,
     job: StillJob<Download>,
@@ -43,7 +43,7 @@ impl Still {
     /// # Errors
     /// A size or a scene out of range.
     pub fn start(
-        kernels: &Arc<Kernels>,
+        pipelines: &Arc<Pipelines>,
         scene: &Scene,
         options: StillOptions,
         pair: bool,
@@ -51,8 +51,8 @@ impl Still {
         let eyes: &[_] = if pair { &[Some(Eye::Left), Some(Eye::Right)] } else { &[None] };
         let options = StillOptions { eye: eyes[0], ..options };
         Ok(Self {
-            kernels: kernels.clone(),
-            job: StillJob::new(kernels, scene, options.clone(), Download::default())?,
+            pipelines: pipelines.clone(),
+            job: StillJob::new(pipelines, scene, options.clone(), Download::default())?,
             scene: scene.clone(),
             options,
             eyes,
@@ -98,7 +98,7 @@ impl Still {
         };
         self.options.eye = eye;
         let next =
-            StillJob::new(&self.kernels, &self.scene, self.options.clone(), Download::default());
+            StillJob::new(&self.pipelines, &self.scene, self.options.clone(), Download::default());
         match next {
             Ok(job) => {
                 let done = self.saved.len() as f64 / self.eyes.len() as f64;

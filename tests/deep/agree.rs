@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mandelight::{
     gpu::Gpu,
-    render::{Kernels, Pace, Region, View, gbuffer::Samples, space::RenderSpace},
+    render::{Pace, Pipelines, Region, View, gbuffer::Samples, space::RenderSpace},
     scene::Scene,
 };
 
@@ -32,18 +32,18 @@ pub fn gpu() -> Gpu {
 }
 
 /// One sample a pixel of a finished picture.
-fn draw(kernels: &Arc<Kernels>, scene: &Scene, size: Size) -> Samples {
+fn draw(pipelines: &Arc<Pipelines>, scene: &Scene, size: Size) -> Samples {
     let mut scene = scene.clone();
     scene.quality.samples = 1;
     scene.quality.shadows = false;
-    let mut view = View::new(kernels, Region::whole(size), Pace::Still);
+    let mut view = View::new(pipelines, Region::whole(size), Pace::Still);
     view.set_scene(&scene, false);
     let mut now_secs = 0.0;
     while view.pump(now_secs) {
-        kernels.gpu.wait();
+        pipelines.gpu.wait();
         now_secs += 0.01;
     }
-    assert_eq!(kernels.gpu.faults(), 0);
+    assert_eq!(pipelines.gpu.faults(), 0);
     view.gbuffer().expect("the G-buffer's bytes")
 }
 
@@ -100,8 +100,8 @@ fn compare(scene: &Scene, size: Size, samples: &Samples, every: usize) -> Compar
 }
 
 /// Holds a view to the march; on a rough surface depths alone.
-fn view_agrees(kernels: &Arc<Kernels>, scene: &Scene, size: Size, is_rough: bool, view: &str) {
-    let samples = draw(kernels, scene, size);
+fn view_agrees(pipelines: &Arc<Pipelines>, scene: &Scene, size: Size, is_rough: bool, view: &str) {
+    let samples = draw(pipelines, scene, size);
     let mut comparison = compare(scene, size, &samples, EVERY);
     if comparison.differ > 0.005 || comparison.apart > 0.01 {
         comparison = compare(scene, size, &samples, 1);
@@ -116,12 +116,12 @@ fn view_agrees(kernels: &Arc<Kernels>, scene: &Scene, size: Size, is_rough: bool
 }
 
 fn views_agree(power: f64, julia: bool) {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     for anchor in ANCHORS.iter().filter(|anchor| (anchor.power, anchor.julia) == (power, julia)) {
         for scale in anchor.scales() {
             let view = format!("power {power} {} at {scale:e}", anchor.name);
             let scene = anchor.scene(scale);
-            view_agrees(&kernels, &scene, size(scale), anchor.is_rough(), &view);
+            view_agrees(&pipelines, &scene, size(scale), anchor.is_rough(), &view);
         }
     }
 }
@@ -129,13 +129,13 @@ fn views_agree(power: f64, julia: bool) {
 /// Where an f32 falls short by a digit or two. Frames that turn about the axis are for deeper views.
 #[test]
 fn views_just_below_plain_ones() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     for anchor in ANCHORS.iter().filter(|anchor| anchor.deepest < SHALLOW) {
         let scene = anchor.scene(SHALLOW);
         let space = RenderSpace::of(&scene, Region::whole(size(SHALLOW)));
         if space.reference().is_some_and(|reference| !reference.rotates()) {
             let view = format!("power {} {} at {SHALLOW:e}", anchor.power, anchor.name);
-            view_agrees(&kernels, &scene, size(SHALLOW), false, &view);
+            view_agrees(&pipelines, &scene, size(SHALLOW), false, &view);
         }
     }
 }
@@ -169,7 +169,7 @@ fn views_of_the_julia_form() {
 /// estimates: rays that go by these alone have none left before they arrive.
 #[test]
 fn views_of_creeping_rays() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     let anchor = Anchor {
         power: 3.0,
         julia: false,
@@ -183,23 +183,23 @@ fn views_of_creeping_rays() {
         deepest: 1e-3,
     };
     let view = format!("power 3 {}", anchor.name);
-    view_agrees(&kernels, &anchor.scene(anchor.deepest), size(anchor.deepest), false, &view);
+    view_agrees(&pipelines, &anchor.scene(anchor.deepest), size(anchor.deepest), false, &view);
 }
 
 /// The set with the other sign of the sine.
 #[test]
 fn views_of_the_other_variant() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     for scale in OTHERS {
         let scene = views::MIRRORED.scene(scale);
-        view_agrees(&kernels, &scene, size(scale), false, &format!("other variant at {scale:e}"));
+        view_agrees(&pipelines, &scene, size(scale), false, &format!("other variant at {scale:e}"));
     }
 }
 
 /// The least bailout and the largest, about which the surface is the same.
 #[test]
 fn views_with_any_bailout() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     let views = [
         (2.0, "at the equator", &[2.0, 256.0][..]),
         (3.0, "from below", &[2.0, 256.0]),
@@ -214,7 +214,7 @@ fn views_with_any_bailout() {
             scene.fractal.bailout = bailout;
             assert_eq!(scene.validate(), Ok(()));
             let view = format!("power {power}, bailout {bailout} at {scale:e}");
-            view_agrees(&kernels, &scene, size(scale), false, &view);
+            view_agrees(&pipelines, &scene, size(scale), false, &view);
         }
     }
 }

@@ -164,7 +164,7 @@ pub const ANCHORS: &[Anchor] = &[
     Anchor {
         power: 8.0,
         julia: true,
-        name: "of the Julia form, from aside",
+        name: "of the Julia key, from aside",
         position: [
             "-0.30888984218751890347855344843486610538809678",
             "0.98597146898507521586390400044472522307089860",

@@ -4,7 +4,7 @@ use std::{collections::HashSet, sync::Arc};
 
 use mandelight::{
     fractal::Reference,
-    render::{Region, kernels::Form, space::RenderSpace, uniforms::Inputs},
+    render::{Region, pipelines::PipelineKey, space::RenderSpace, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
 
@@ -135,30 +135,30 @@ fn a_dive_hands_over_without_a_jump() {
 #[test]
 fn every_hand_over_draws_the_same() {
     for fractal in &sets() {
-        let form = |scale: f64| {
+        let key = |scale: f64| {
             let scene = places::at(fractal.clone(), scale);
             let space = RenderSpace::about(found(&scene, SIZE), &scene);
-            Form::of(&Inputs::about(&scene, Region::whole(SIZE), &space).picture)
+            PipelineKey::of(&Inputs::about(&scene, Region::whole(SIZE), &space).picture)
         };
         let scales: Vec<_> = (0..26).map(|i| 1e-2 * 0.5_f64.powi(i)).collect();
         let mut forms = HashSet::new();
         for pair in scales.windows(2) {
             let (mut above, end) = (pair[0], pair[1]);
-            let last = form(end);
+            let last = key(end);
             forms.insert(last);
             // There may be several between the two.
-            while form(above) != last {
-                let (old, mut below) = (form(above), end);
+            while key(above) != last {
+                let (old, mut below) = (key(above), end);
                 for _ in 0..20 {
                     let middle = (above * below).sqrt();
-                    *(if form(middle) == old { &mut above } else { &mut below }) = middle;
+                    *(if key(middle) == old { &mut above } else { &mut below }) = middle;
                 }
                 let [a, b] = [above, below].map(|scale| {
                     let scene = places::at(fractal.clone(), scale);
                     drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene))
                 });
                 let moved = moved(&places::at(fractal.clone(), below), &a, &b, 0.2);
-                let what = format!("{old} to {} at {below:e}: {moved:?}", form(below));
+                let what = format!("{old} to {} at {below:e}: {moved:?}", key(below));
                 println!("{what}");
                 assert!(moved.moved <= 0.01, "{what}");
                 // Other skips, other steps: a hit may lie some hundredths of a pixel beside the other.

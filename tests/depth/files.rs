@@ -23,7 +23,7 @@ use mandelight::{
 };
 
 use crate::{
-    harness::{finished, kernels, sampled, settle},
+    harness::{finished, pipelines, sampled, settle},
     places::{self, cone},
 };
 
@@ -31,7 +31,7 @@ const SIZE: [u32; 2] = [53, 38];
 
 fn file(scene: &Scene, tile_px: [u32; 2], format: PictureFormat) -> Vec<u8> {
     let options = StillOptions { tile_px, format, ..StillOptions::new(SIZE) };
-    let job = StillJob::new(kernels(), scene, options, Vec::new()).expect("a still");
+    let job = StillJob::new(pipelines(), scene, options, Vec::new()).expect("a still");
     job.run(|_| ControlFlow::Continue(())).expect("its file")
 }
 
@@ -132,11 +132,11 @@ fn path() -> Path {
 fn sequence(frames: std::ops::Range<u32>) -> Vec<Vec<u8>> {
     let options = StillOptions::new([36, 24]);
     let sink = Cursor::new(Vec::new());
-    let mut job =
-        SequenceJob::new(kernels(), path(), frames.clone(), options, false, sink).expect("frames");
+    let mut job = SequenceJob::new(pipelines(), path(), frames.clone(), options, false, sink)
+        .expect("frames");
     let mut now_secs = 0.0;
     while job.step(now_secs).expect("a step") != StillStatus::Done {
-        kernels().gpu.wait();
+        pipelines().gpu.wait();
         now_secs += 0.01;
     }
     let mut archive = zip::ZipArchive::new(job.finish().expect("an archive")).expect("a zip");
@@ -198,7 +198,7 @@ fn both_eyes_see_the_surface_from_where_they_are() {
         let pixel_cm = stereo.screen_height_cm / f64::from(SIZE[1]);
         for (eyes, side) in [(Eyes::Left, -0.5), (Eyes::Right, 0.5)] {
             let region = Region { eyes, ..Region::whole(SIZE) };
-            let mut view = View::new(kernels(), region, Pace::Still);
+            let mut view = View::new(pipelines(), region, Pace::Still);
             view.set_scene(&scene, false);
             settle(&mut view);
             let depth = view.gbuffer().expect("a G-buffer").depth;

@@ -9,7 +9,7 @@ use mandelight::{
 };
 
 use crate::{
-    harness::{assert_same, kernels, pixels, settle, still},
+    harness::{assert_same, pipelines, pixels, settle, still},
     places,
 };
 
@@ -26,9 +26,9 @@ fn frame(index: u32) -> Scene {
 
 #[test]
 fn what_a_dive_shows_is_what_stills_show() {
-    kernels().specialise(&places::scene(1.0));
-    kernels().specialise(&places::scene(1e-9));
-    let mut view = View::new(kernels(), Region::whole(SIZE), Pace::Interactive);
+    pipelines().specialise(&places::scene(1.0));
+    pipelines().specialise(&places::scene(1e-9));
+    let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
     view.set_scene(&frame(0), false);
     settle(&mut view);
     let start = Instant::now();
@@ -40,9 +40,9 @@ fn what_a_dive_shows_is_what_stills_show() {
         let pictures = view.report().pictures;
         view.set_scene(&scene, true);
         view.pump(start.elapsed().as_secs_f64());
-        kernels().gpu.wait();
+        pipelines().gpu.wait();
         view.pump(start.elapsed().as_secs_f64());
-        kernels().gpu.wait();
+        pipelines().gpu.wait();
         let is_late = view.report().pictures == pictures;
         waited = if is_late { waited + 1 } else { 0 };
         late += u32::from(is_late);

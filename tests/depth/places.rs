@@ -18,7 +18,7 @@ use mandelight::{
     scene::{Camera, Fractal, PrecisePoint, Scene},
 };
 
-use crate::harness::kernels;
+use crate::harness::pipelines;
 
 /// A point of the surface of power 8 to less than 1e-30, and the direction it is looked at along.
 const POWER_8: ([&str; 3], [f64; 3]) = (
@@ -102,24 +102,24 @@ pub struct Drawn {
 
 /// Draws the centre samples of `scene` in the coordinates of `space`.
 pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
-    let kernels = kernels();
-    let gpu = &kernels.gpu;
+    let pipelines = pipelines();
+    let gpu = &pipelines.gpu;
     let region = Region::whole(size);
     let inputs = Inputs::about(scene, region, space);
-    let mut targets = Targets::new(kernels, region);
-    targets.fit_direct(kernels, inputs.has_indirect());
+    let mut targets = Targets::new(pipelines, region);
+    targets.fit_direct(pipelines, inputs.has_indirect());
     targets.upload(&gpu.queue, &inputs);
-    for extra in mandelight::render::kernels::Extra::special(&inputs.picture) {
-        kernels.prepare(extra);
+    for variant in mandelight::render::pipelines::PipelineVariant::special(&inputs.picture) {
+        pipelines.prepare(variant);
     }
-    let passes = kernels.passes(&inputs.picture);
+    let passes = pipelines.passes(&inputs.picture);
     let mut stages = vec![(Points::Level(0), Stage::March)];
     if inputs.has_indirect() {
         stages.push((Points::Indirect(0), Stage::Indirect));
     }
     let mut dispatches = Dispatches::default();
     for (points, from) in stages {
-        let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
+        let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
         let workgroups = points.grid(size).workgroups();
         let lights = inputs.shining();
         let trace = Trace { points, from, lights, first_workgroup: 0, workgroups };

@@ -7,11 +7,11 @@ use std::{
 
 use mandelight::{
     gpu::{AsyncCompile, Gpu},
-    render::{Activity, Kernels, Pace, Region, View},
+    render::{Activity, Pace, Pipelines, Region, View},
     scene::{IndirectKind, Scene},
 };
 
-use crate::harness::{kernels, sampled};
+use crate::harness::{pipelines, sampled};
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -45,14 +45,14 @@ mod async_compile {
 }
 
 /// Kernels of their own: what others compiled does not count.
-fn fresh_kernels() -> std::sync::Arc<Kernels> {
+fn fresh_pipelines() -> std::sync::Arc<Pipelines> {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-    Kernels::new(&gpu)
+    Pipelines::new(&gpu)
 }
 
 /// A live view whose every pump is watched.
 struct Watched {
-    kernels: std::sync::Arc<Kernels>,
+    pipelines: std::sync::Arc<Pipelines>,
     view: View,
     start: Instant,
     /// What was announced, one after the other.
@@ -61,23 +61,23 @@ struct Watched {
 
 impl Watched {
     fn new() -> Self {
-        Self::with(fresh_kernels())
+        Self::with(fresh_pipelines())
     }
 
-    fn with(kernels: std::sync::Arc<Kernels>) -> Self {
-        let view = View::new(&kernels, Region::whole(SIZE), Pace::Interactive);
-        Self { kernels, view, start: Instant::now(), announced: Vec::new() }
+    fn with(pipelines: std::sync::Arc<Pipelines>) -> Self {
+        let view = View::new(&pipelines, Region::whole(SIZE), Pace::Interactive);
+        Self { pipelines, view, start: Instant::now(), announced: Vec::new() }
     }
 
     /// Pumps once. No pipeline is made but where the report of the pump before says so, and, where
     /// that holds others up, one at most, while the picture stays.
     fn pump(&mut self) -> bool {
         let activity = self.view.report().activity;
-        let is_async = self.kernels.gpu.async_compile.is_some();
+        let is_async = self.pipelines.gpu.async_compile.is_some();
         let dispatches = self.view.dispatches();
-        let made = self.kernels.made();
+        let made = self.pipelines.made();
         let is_busy = self.view.pump(self.start.elapsed().as_secs_f64());
-        let new = self.kernels.made().split_off(made.len());
+        let new = self.pipelines.made().split_off(made.len());
         match &activity {
             Activity::Compiling(_) => assert!(new.len() <= 1 || is_async, "{new:?} at once"),
             other => assert!(new.is_empty(), "{new:?} compiled while {other:?}"),
@@ -116,7 +116,7 @@ impl Watched {
 fn nothing_is_compiled_unannounced() {
     let mut watched = Watched::new();
     let mut scene = sampled(Scene::default(), 1);
-    let first = watched.kernels.made();
+    let first = watched.pipelines.made();
     let general = [
         "camera_cone",
         "march",
@@ -155,7 +155,7 @@ fn nothing_is_compiled_unannounced() {
     watched.settle();
     assert_eq!(watched.announced, [""; 0]);
 
-    let made = watched.kernels.made();
+    let made = watched.pipelines.made();
     let mut all: BTreeSet<String> = first.into_iter().collect();
     for power in [8, 3] {
         for pass in ["camera_cone", "march", "shadow_cone", "shadow"] {
@@ -192,7 +192,7 @@ fn a_drag_of_the_power_compiles_nothing() {
     let mut watched = Watched::new();
     let mut scene = sampled(Scene::default(), 1);
     watched.show(&scene);
-    let made = watched.kernels.made();
+    let made = watched.pipelines.made();
     for power in [7.0, 6.0, 5.0, 4.0, 3.0, 2.0] {
         scene.fractal.power = power;
         watched.view.set_scene(&scene, true);
@@ -200,9 +200,9 @@ fn a_drag_of_the_power_compiles_nothing() {
             watched.pump();
         }
     }
-    assert_eq!(watched.kernels.made(), made);
+    assert_eq!(watched.pipelines.made(), made);
     watched.show(&scene);
-    assert_eq!(watched.kernels.made().len(), made.len() + 5);
+    assert_eq!(watched.pipelines.made().len(), made.len() + 5);
 }
 
 /// Where pipelines are compiled asynchronously, the view goes on meanwhile, and is ready for all that may
@@ -212,8 +212,8 @@ fn asynchronous_compilation_blocks_no_frame() {
     let mut gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
     gpu.async_compile =
         Some(AsyncCompile { begin: async_compile::begin, take: async_compile::take });
-    let mut watched = Watched::with(Kernels::new(&gpu));
-    let made = watched.kernels.made();
+    let mut watched = Watched::with(Pipelines::new(&gpu));
+    let made = watched.pipelines.made();
     let mut scene = sampled(Scene::default(), 1);
     let pump_until = |watched: &mut Watched, what: &str, parts: usize| {
         let start = Instant::now();
@@ -232,7 +232,7 @@ fn asynchronous_compilation_blocks_no_frame() {
     while watched.view.report().pictures == before {
         watched.pump();
     }
-    assert_eq!(watched.kernels.made(), made);
+    assert_eq!(watched.pipelines.made(), made);
     assert_eq!(async_compile::finish(), 4);
     // Its normals are a matter of their own.
     for (what, parts) in [("power 8", 1), ("light", 2), ("tone mapping", 2)] {
@@ -240,12 +240,12 @@ fn asynchronous_compilation_blocks_no_frame() {
         assert_eq!(async_compile::finish(), parts);
     }
     pump_until(&mut watched, "indirect light", 1);
-    assert_eq!(watched.kernels.made().len(), made.len() + 9);
+    assert_eq!(watched.pipelines.made().len(), made.len() + 9);
     assert_eq!(async_compile::finish(), 1);
     pump_until(&mut watched, "exposure and bloom", 6);
     assert_eq!(async_compile::finish(), 6);
     watched.settle();
-    assert_eq!(watched.kernels.made().len(), made.len() + 16);
+    assert_eq!(watched.pipelines.made().len(), made.len() + 16);
     watched.announced.clear();
     scene.indirect.kind = IndirectKind::Horizon;
     scene.tone.auto_exposure = true;
@@ -256,23 +256,23 @@ fn asynchronous_compilation_blocks_no_frame() {
 /// A still has nobody to tell, and waits for nothing.
 #[test]
 fn a_still_compiles_at_once() {
-    let kernels = fresh_kernels();
+    let pipelines = fresh_pipelines();
     let mut scene = sampled(Scene::default(), 1);
     scene.bloom.strength = 0.4;
-    let mut view = View::new(&kernels, Region::whole(SIZE), Pace::Still);
+    let mut view = View::new(&pipelines, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(kernels.made().len(), 11 + 5 + 4 + 6);
+    assert_eq!(pipelines.made().len(), 11 + 5 + 4 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 
 /// Pipelines that one view prepared are there for all others of the device.
 #[test]
 fn what_is_ready_is_not_announced_again() {
-    kernels().prepare(mandelight::render::kernels::Extra::Indirect);
+    pipelines().prepare(mandelight::render::pipelines::PipelineVariant::Indirect);
     let mut scene = sampled(Scene::default(), 1);
     scene.indirect.kind = IndirectKind::Uniform;
-    let mut view = View::new(kernels(), Region::whole(SIZE), Pace::Interactive);
+    let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
     view.set_scene(&scene, false);
     view.pump(0.0);
     assert_eq!(view.report().activity, Activity::Refining);

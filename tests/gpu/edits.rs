@@ -3,11 +3,11 @@
 
 use glam::DVec3;
 use mandelight::{
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::{EnvironmentLight, IndirectKind, Normals, PointLight, RigKind, Scene},
 };
 
-use crate::harness::{assert_same, kernels, pixels, sampled, settle, still};
+use crate::harness::{assert_same, pipelines, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [67, 50];
 
@@ -76,11 +76,11 @@ fn edit(scene: &mut Scene, dice: &mut Dice) {
 
 /// Edits a view's scene again and again, at any moment of its refinement, gives it another region
 /// now and then, and lets it finish.
-fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene, View) {
+fn edited(pipelines: &'static std::sync::Arc<Pipelines>, dice: &mut Dice) -> (Scene, View) {
     let mut scene = sampled(Scene::default(), 1 + dice.below(2) as u32);
     // Openings on sparse lattices have the most to remember.
     scene.quality.motion_budget_ms = 4.0;
-    let mut view = View::new(kernels, Region::whole(SIZE), Pace::Interactive);
+    let mut view = View::new(pipelines, Region::whole(SIZE), Pace::Interactive);
     let mut now_secs = 0.0;
     for _ in 0..12 {
         for _ in 0..=dice.below(2) {
@@ -97,7 +97,7 @@ fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene,
             now_secs += 0.016;
             view.pump(now_secs);
             if dice.below(2) == 0 {
-                kernels.gpu.wait();
+                pipelines.gpu.wait();
             }
         }
     }
@@ -107,19 +107,19 @@ fn edited(kernels: &'static std::sync::Arc<Kernels>, dice: &mut Dice) -> (Scene,
         if !view.pump(now_secs) {
             return (scene, view);
         }
-        kernels.gpu.wait();
+        pipelines.gpu.wait();
     }
     panic!("the view never rests: {:?}", view.report());
 }
 
 #[test]
 fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
-    let kernels = kernels();
+    let pipelines = pipelines();
     // A view that comes to rest sooner compiles them later.
-    kernels.specialise(&Scene::default());
+    pipelines.specialise(&Scene::default());
     for seed in 0..40 {
-        let (scene, view) = edited(kernels, &mut Dice(seed));
-        let mut fresh = View::new(kernels, view.region(), Pace::Still);
+        let (scene, view) = edited(pipelines, &mut Dice(seed));
+        let mut fresh = View::new(pipelines, view.region(), Pace::Still);
         fresh.set_scene(&scene, false);
         settle(&mut fresh);
         let what = format!("seed {seed}: {scene:#?}");
@@ -130,7 +130,7 @@ fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
 /// The same where nothing is interrupted: each of a few edits of lights, one after the other.
 #[test]
 fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     let mut scene = sampled(Scene::default(), 1);
     let mut view = crate::harness::finished(&scene, SIZE, Pace::Interactive);
     let edits: [fn(&mut Scene); 4] = [

@@ -6,7 +6,7 @@ use mandelight::{
     scene::{Bloom, BloomOrder, Scene, StereoLayout},
 };
 
-use crate::harness::{assert_same, finished, kernels, pixels, sampled, settle};
+use crate::harness::{assert_same, finished, pipelines, pixels, sampled, settle};
 
 fn exposed_scene() -> Scene {
     let mut scene = sampled(Scene::default(), 2);
@@ -15,7 +15,7 @@ fn exposed_scene() -> Scene {
 }
 
 fn statistics(view: &View) -> Statistics {
-    let gpu = &kernels().gpu;
+    let gpu = &pipelines().gpu;
     let bytes = Readback::buffer(gpu, &view.glow().statistics).wait(gpu).expect("statistics");
     bytemuck::pod_read_unaligned(&bytes)
 }
@@ -48,12 +48,12 @@ fn a_change_of_layout_leaves_nothing_of_the_one_before() {
     let mut scene = exposed_scene();
     scene.bloom = Bloom { strength: 0.5, threshold: 0.0, ..Bloom::default() };
     let window = Region::whole([50, 30]);
-    let mut view = View::new(kernels(), window, Pace::Interactive);
+    let mut view = View::new(pipelines(), window, Pace::Interactive);
     for layout in [StereoLayout::Off, StereoLayout::SideBySide, StereoLayout::TopBottom] {
         scene.camera.stereo.layout = layout;
         let region = window.shared_by(layout);
         assert_eq!(region.film_px(), window.film_px());
-        let mut fresh = View::new(kernels(), region, Pace::Interactive);
+        let mut fresh = View::new(pipelines(), region, Pace::Interactive);
         view.set_region(region);
         for view in [&mut view, &mut fresh] {
             view.set_scene(&scene, false);
@@ -69,7 +69,7 @@ fn stops_until_rest(view: &mut View, now_secs: &mut f64) -> Vec<f32> {
     let mut pictures = view.report().pictures;
     loop {
         let is_busy = view.pump(*now_secs);
-        kernels().gpu.wait();
+        pipelines().gpu.wait();
         *now_secs += 0.01;
         let report = view.report();
         if report.pictures > pictures {
@@ -93,7 +93,7 @@ fn exposure_goes_straight_to_its_goal_and_rests_there() {
         scene.background.bottom = [value; 3];
     };
     filled(&mut scene, 0.04);
-    let mut view = View::new(kernels(), Region::whole([33, 20]), Pace::Interactive);
+    let mut view = View::new(pipelines(), Region::whole([33, 20]), Pace::Interactive);
     view.set_scene(&scene, false);
     let mut now_secs = 0.0;
     let dark = *stops_until_rest(&mut view, &mut now_secs).last().expect("a picture");
@@ -118,7 +118,7 @@ fn exposure_goes_straight_to_its_goal_and_rests_there() {
 /// Whatever a live view went through, its exposure ends as that of the picture alone.
 #[test]
 fn a_live_view_ends_with_the_exposure_of_a_still() {
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     let mut scene = exposed_scene();
     let mut view = finished(&scene, [96, 64], Pace::Interactive);
     for stops in [3.0_f64, -2.0] {
@@ -147,7 +147,7 @@ fn a_tile_is_exposed_and_blooms_as_the_whole_picture_does() {
         let expected = pixels(&whole);
         let region =
             Region { picture_px, origin_px: [32, 16], size_px: [50, 40], eyes: Eyes::Camera };
-        let mut tile = View::new(kernels(), region, Pace::Still);
+        let mut tile = View::new(pipelines(), region, Pace::Still);
         tile.lend_glow(Some(whole.glow()));
         tile.set_scene(&scene, false);
         settle(&mut tile);

@@ -4,16 +4,16 @@ use std::sync::{Arc, OnceLock};
 
 use mandelight::{
     gpu::{Gpu, readback::Readback},
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::Scene,
 };
 
 /// The pipelines of the one device.
-pub fn kernels() -> &'static Arc<Kernels> {
-    static KERNELS: OnceLock<Arc<Kernels>> = OnceLock::new();
-    KERNELS.get_or_init(|| {
+pub fn pipelines() -> &'static Arc<Pipelines> {
+    static PIPELINES: OnceLock<Arc<Pipelines>> = OnceLock::new();
+    PIPELINES.get_or_init(|| {
         let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-        Kernels::new(&gpu)
+        Pipelines::new(&gpu)
     })
 }
 
@@ -21,14 +21,14 @@ pub fn kernels() -> &'static Arc<Kernels> {
 pub fn settle(view: &mut View) {
     let start = std::time::Instant::now();
     while view.pump(start.elapsed().as_secs_f64()) {
-        kernels().gpu.wait();
+        pipelines().gpu.wait();
         assert!(start.elapsed().as_secs() < 300, "the view never rests: {:?}", view.report());
     }
 }
 
 /// A view of the whole scene, finished.
 pub fn finished(scene: &Scene, size_px: [u32; 2], pace: Pace) -> View {
-    let mut view = View::new(kernels(), Region::whole(size_px), pace);
+    let mut view = View::new(pipelines(), Region::whole(size_px), pace);
     view.set_scene(scene, false);
     settle(&mut view);
     view
@@ -36,7 +36,7 @@ pub fn finished(scene: &Scene, size_px: [u32; 2], pace: Pace) -> View {
 
 /// The bytes of a view's picture, RGBA.
 pub fn pixels(view: &View) -> Vec<u8> {
-    let gpu = &kernels().gpu;
+    let gpu = &pipelines().gpu;
     let texture = view.texture().expect("a picture");
     let size_px = [texture.width(), texture.height()];
     let bytes = Readback::texture(gpu, texture, size_px).wait(gpu).expect("the picture's bytes");

@@ -5,7 +5,9 @@ use mandelight::{
     scene::{Indirect, IndirectKind, Scene},
 };
 
-use crate::harness::{assert_same, difference, finished, kernels, pixels, sampled, settle, still};
+use crate::harness::{
+    assert_same, difference, finished, pipelines, pixels, sampled, settle, still,
+};
 use crate::picture::sparse;
 
 const SIZE: [u32; 2] = [96, 64];
@@ -60,7 +62,7 @@ fn what_is_off_costs_nothing() {
 /// However the lattice was completed, the picture is the one that a still makes at once.
 #[test]
 fn refinement_with_indirect_light_ends_in_the_still() {
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     for kind in KINDS {
         let scene = lit(kind, 3);
         for size in [SIZE, [37, 21]] {
@@ -85,7 +87,7 @@ fn tiles_have_no_seams() {
             size_px: [width, height],
             eyes: Eyes::Camera,
         };
-        let mut tile = View::new(kernels(), region, Pace::Still);
+        let mut tile = View::new(pipelines(), region, Pace::Still);
         tile.lend_indirect_source(Some(whole.indirect_source()));
         tile.set_scene(&scene, false);
         settle(&mut tile);
@@ -111,7 +113,7 @@ fn neighbours_of_a_smaller_picture_do_nearly_as_well() {
         let scene = lit(kind, 1);
         let own = finished(&scene, size, Pace::Still);
         let overview = finished(&scene, [225, 150], Pace::Still);
-        let mut view = View::new(kernels(), Region::whole(size), Pace::Still);
+        let mut view = View::new(pipelines(), Region::whole(size), Pace::Still);
         view.lend_indirect_source(Some(overview.indirect_source()));
         view.set_scene(&scene, false);
         settle(&mut view);

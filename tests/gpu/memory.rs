@@ -2,7 +2,7 @@
 
 use mandelight::{
     gpu::Gpu,
-    render::{Kernels, Pace, Region, View, memory},
+    render::{Pace, Pipelines, Region, View, memory},
     scene::Scene,
 };
 
@@ -12,14 +12,14 @@ const MOST_BYTES: u64 = 116 * 1024 * 1024 + 512 * 1024;
 /// A view on a device of its own, with all buffers made, and what that device's allocator counts.
 fn allocated(scene: &Scene, with_panorama: bool, size: [u32; 2]) -> (u64, u64) {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-    let kernels = Kernels::new(&gpu);
+    let pipelines = Pipelines::new(&gpu);
     let counted = || {
         let report = gpu.device.generate_allocator_report().expect("a report of the allocator");
         report.allocations.iter().map(|allocation| allocation.size).sum::<u64>()
     };
     let before = counted();
     let region = Region::whole(size).shared_by(scene.camera.stereo.layout);
-    let mut view = View::new(&kernels, region, Pace::Interactive);
+    let mut view = View::new(&pipelines, region, Pace::Interactive);
     let (_, panorama) = memory::everything_on();
     view.set_panorama(with_panorama.then_some(&panorama));
     view.set_scene(scene, false);
@@ -50,7 +50,7 @@ fn everything_on_stays_below_the_thesis() {
 fn what_is_off_takes_nothing() {
     let (told, held) = allocated(&Scene::default(), false, [960, 540]);
     let pixels = 960 * 540;
-    let view = View::new(crate::harness::kernels(), Region::whole([960, 540]), Pace::Still);
+    let view = View::new(crate::harness::pipelines(), Region::whole([960, 540]), Pace::Still);
     let memory = view.report().memory;
     assert_eq!(memory.sample_points, 24 * pixels);
     assert_eq!((memory.film, memory.display), (16 * pixels, 4 * pixels));

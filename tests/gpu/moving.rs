@@ -5,7 +5,9 @@ use mandelight::{
     scene::Scene,
 };
 
-use crate::harness::{assert_same, difference, finished, kernels, pixels, sampled, settle, still};
+use crate::harness::{
+    assert_same, difference, finished, pipelines, pixels, sampled, settle, still,
+};
 
 /// A scene whose motion budget is so small that only the sparsest of lattices fit, or so many
 /// more as `generosity` says.
@@ -21,7 +23,7 @@ fn moved(view: &mut View, scene: &Scene) -> (u32, bool) {
     let pictures = view.report().pictures;
     while view.report().pictures == pictures {
         view.pump(0.0);
-        kernels().gpu.wait();
+        pipelines().gpu.wait();
     }
     let level = view.report().pixels_per_sample.ilog2();
     (1 << (level / 2), level % 2 == 1)
@@ -31,13 +33,13 @@ fn moved(view: &mut View, scene: &Scene) -> (u32, bool) {
 /// no pixel between them goes beyond what the samples have.
 #[test]
 fn samples_keep_their_places_and_colours() {
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     let mut seen = std::collections::BTreeSet::new();
     for size in [[96, 64], [101, 67], [41, 3], [1, 1]] {
         for generosity in [1.0, 3e4, 1e5, 3e5] {
             let scene = hurried(generosity);
             let whole = still(&scene, size);
-            let mut view = View::new(kernels(), Region::whole(size), Pace::Interactive);
+            let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
             view.set_scene(&Scene::default(), false);
             settle(&mut view);
             let (spacing, is_staggered) = moved(&mut view, &scene);
@@ -76,9 +78,9 @@ fn samples_keep_their_places_and_colours() {
 /// What needs to know the film as a whole can be switched on while the film is unfilled.
 #[test]
 fn an_unfilled_film_gives_way_to_what_needs_it_whole() {
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     let scene = hurried(1.0);
-    let mut view = View::new(kernels(), Region::whole([96, 64]), Pace::Interactive);
+    let mut view = View::new(pipelines(), Region::whole([96, 64]), Pace::Interactive);
     view.set_scene(&Scene::default(), false);
     settle(&mut view);
     let mut turned = scene.clone();
@@ -98,7 +100,7 @@ fn an_unfilled_film_gives_way_to_what_needs_it_whole() {
 fn frames_of_the_interface_change_nothing() {
     let scene = sampled(Scene::default(), 3);
     let size = [96, 64];
-    let mut view = View::new(kernels(), Region::whole(size), Pace::Interactive);
+    let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
     view.set_scene(&scene, false);
     let start = std::time::Instant::now();
     while view.pump(start.elapsed().as_secs_f64()) {

@@ -15,7 +15,7 @@ use mandelight::{
     scene::{EnvironmentLight, LightFrame, PointLight, PrecisePoint, Scene, ToneCurve},
 };
 
-use crate::harness::{difference, finished, kernels, pixels, sampled, settle, still};
+use crate::harness::{difference, finished, pipelines, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [120, 80];
 
@@ -40,12 +40,12 @@ fn a_sparse_picture_is_filled_in_better_than_by_nearest_pixels() {
 
 /// The picture as it is shown from one lattice level alone.
 pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
-    let kernels = kernels();
-    let mut targets = Targets::new(kernels, Region::whole(size));
+    let pipelines = pipelines();
+    let mut targets = Targets::new(pipelines, Region::whole(size));
     let inputs = Inputs::new(scene, Region::whole(size));
-    targets.fit_direct(kernels, inputs.has_indirect());
-    targets.upload(&kernels.gpu.queue, &inputs);
-    let passes = kernels.passes(&inputs.picture);
+    targets.fit_direct(pipelines, inputs.has_indirect());
+    targets.upload(&pipelines.gpu.queue, &inputs);
+    let passes = pipelines.passes(&inputs.picture);
     let mut dispatches = Dispatches::default();
     let trace = |points: Points, from| {
         let workgroups = points.grid(size).workgroups();
@@ -56,12 +56,12 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let show = Work::Show { level, fill: level > 0, film: false, adapt: 1.0 };
     let works = [Some(trace(Points::Level(level), Stage::March)), indirect, Some(show)];
     for work in works.into_iter().flatten() {
-        let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
+        let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);
-        kernels.gpu.queue.submit([recorder.finish()]);
+        pipelines.gpu.queue.submit([recorder.finish()]);
     }
-    let readback = Readback::texture(&kernels.gpu, &targets.texture, size);
-    readback.wait(&kernels.gpu).expect("the picture's bytes")
+    let readback = Readback::texture(&pipelines.gpu, &targets.texture, size);
+    readback.wait(&pipelines.gpu).expect("the picture's bytes")
 }
 
 /// The full picture as its lattice pixels alone would show it.

@@ -8,7 +8,7 @@ use mandelight::{
     },
 };
 
-use crate::harness::{assert_same, difference, finished, kernels, pixels, sampled, settle};
+use crate::harness::{assert_same, difference, finished, pipelines, pixels, sampled, settle};
 
 const SIZE: [u32; 2] = [96, 64];
 
@@ -273,7 +273,7 @@ fn the_same_scene_costs_nothing() {
 #[test]
 fn a_resting_view_submits_nothing() {
     // A view that comes to rest sooner compiles them later.
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     let mut view = finished(&sampled(Scene::default(), 2), SIZE, Pace::Interactive);
     let before = view.dispatches();
     for frame in 0..50 {
@@ -288,7 +288,7 @@ fn a_resting_view_submits_nothing() {
 #[test]
 fn refinement_ends_in_the_still() {
     let scene = sampled(Scene::default(), 3);
-    kernels().specialise(&Scene::default());
+    pipelines().specialise(&Scene::default());
     for size in [SIZE, [101, 67], [5, 3]] {
         let refined = pixels(&finished(&scene, size, Pace::Interactive));
         let direct = pixels(&finished(&scene, size, Pace::Still));

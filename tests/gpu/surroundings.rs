@@ -12,7 +12,7 @@ use mandelight::{
     },
 };
 
-use crate::harness::{finished, kernels, pixels, sampled, settle, still};
+use crate::harness::{finished, pipelines, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [64, 48];
 
@@ -36,7 +36,7 @@ fn away(toward: DVec3) -> Scene {
 }
 
 fn film(scene: &Scene, panorama: Option<&Arc<Panorama>>) -> Vec<[f32; 3]> {
-    let mut view = View::new(kernels(), Region::whole(SIZE), Pace::Still);
+    let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Still);
     view.set_panorama(panorama);
     view.set_scene(scene, false);
     settle(&mut view);

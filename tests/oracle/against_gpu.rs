@@ -9,7 +9,7 @@ use glam::DVec3;
 use mandelight::{
     fractal::Estimator,
     gpu::{Gpu, readback::Readback},
-    render::{Kernels, Pace, Region, View, gbuffer::Samples, pass::probe, uniforms::Inputs},
+    render::{Pace, Pipelines, Region, View, gbuffer::Samples, pass::probe, uniforms::Inputs},
     scene::{Fractal, Normals, Scene, Variant},
 };
 
@@ -26,11 +26,11 @@ pub struct Picture {
     pub display: Vec<DVec3>,
 }
 
-pub fn draw(kernels: &Arc<Kernels>, scene: &Scene) -> Picture {
+pub fn draw(pipelines: &Arc<Pipelines>, scene: &Scene) -> Picture {
     let mut scene = scene.clone();
     scene.quality.samples = 1;
-    let gpu = &kernels.gpu;
-    let mut view = View::new(kernels, Region::whole(views::SIZE), Pace::Still);
+    let gpu = &pipelines.gpu;
+    let mut view = View::new(pipelines, Region::whole(views::SIZE), Pace::Still);
     view.set_scene(&scene, false);
     let mut now_secs = 0.0;
     while view.pump(now_secs) {
@@ -242,11 +242,11 @@ fn compare(scene: &Scene, samples: &Samples) -> Comparison {
 
 #[test]
 fn hits_depths_and_normals_of_whole_views() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     for view in views::all() {
         let mut scene = view.scene.clone();
         scene.quality.normals = Normals::Six;
-        let picture = draw(&kernels, &scene);
+        let picture = draw(&pipelines, &scene);
         let Comparison { hit, differ, depth_footprints, normal_deg } =
             compare(&view.scene, &picture.samples);
         let name = view.name;
@@ -264,7 +264,7 @@ fn hits_depths_and_normals_of_whole_views() {
 fn along_the_seam_of_a_power_that_is_not_whole() {
     // Measured 0.2 %, and 12 footprints on the last percent: steps still pass a few thin walls there.
     let view = views::seam();
-    let picture = draw(&Kernels::new(&gpu()), &view.scene);
+    let picture = draw(&Pipelines::new(&gpu()), &view.scene);
     let Comparison { differ, depth_footprints, .. } = compare(&view.scene, &picture.samples);
     assert!(differ < 0.005, "{differ}");
     assert!(quantile(depth_footprints, 0.95) < 4.0);
@@ -272,10 +272,10 @@ fn along_the_seam_of_a_power_that_is_not_whole() {
 
 #[test]
 fn visibility_of_lights() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     for view in views::lit() {
         let scene = &view.scene;
-        let picture = draw(&kernels, scene);
+        let picture = draw(&pipelines, scene);
         let hits: Vec<_> = pixels()
             .into_iter()
             .zip(0..)
@@ -308,10 +308,10 @@ fn visibility_of_lights() {
 
 #[test]
 fn shading_and_tone_of_whole_views() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     for view in views::lit() {
         let scene = &view.scene;
-        let picture = draw(&kernels, scene);
+        let picture = draw(&pipelines, scene);
         let indexed: Vec<_> = pixels().into_iter().zip(0..).collect();
         let casting = Inputs::new(scene, Region::whole(views::SIZE)).casting();
         // Light and colour alone: points, normals and visibility are the kernel's own.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use mandelight::{
     gpu::{Gpu, readback::Readback},
     render::{
-        Kernels, Region,
+        Pipelines, Region,
         frame::{Dispatches, Recorder, record},
         glow::{Glow, Need, Tasks},
         schedule::Work,
@@ -17,11 +17,11 @@ use mandelight::{
 };
 
 /// The pipelines, made once.
-pub fn kernels() -> &'static Arc<Kernels> {
-    static KERNELS: OnceLock<Arc<Kernels>> = OnceLock::new();
-    KERNELS.get_or_init(|| {
+pub fn pipelines() -> &'static Arc<Pipelines> {
+    static PIPELINES: OnceLock<Arc<Pipelines>> = OnceLock::new();
+    PIPELINES.get_or_init(|| {
         let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-        Kernels::new(&gpu)
+        Pipelines::new(&gpu)
     })
 }
 
@@ -49,9 +49,9 @@ impl Film {
 
     /// The film of a region.
     pub fn of(region: Region) -> Self {
-        let mut targets = Targets::new(kernels(), region);
+        let mut targets = Targets::new(pipelines(), region);
         let need = Need { mean: true, bloom: true };
-        targets.glow = Arc::new(Glow::new(kernels(), region, need));
+        targets.glow = Arc::new(Glow::new(pipelines(), region, need));
         Self { region, targets }
     }
 
@@ -62,17 +62,18 @@ impl Film {
 
     /// The same, with only the pixels of the lattice `level` known of `colors`.
     pub fn show(&self, scene: &Scene, colors: &[[f32; 3]], level: u32) -> Toned {
-        let kernels = kernels();
-        let gpu = &kernels.gpu;
+        let pipelines = pipelines();
+        let gpu = &pipelines.gpu;
         let inputs = Inputs::new(scene, self.region);
         self.targets.upload(&gpu.queue, &inputs);
         let rg: Vec<_> = colors.iter().map(|[r, g, _]| [*r, *g]).collect();
         let bw: Vec<_> = colors.iter().map(|[_, _, b]| [*b, 1.0]).collect();
         gpu.queue.write_buffer(&self.targets.film_rg, 0, bytemuck::cast_slice(&rg));
         gpu.queue.write_buffer(&self.targets.film_bw, 0, bytemuck::cast_slice(&bw));
-        let passes = kernels.passes(&inputs.picture);
+        let passes = pipelines.passes(&inputs.picture);
         let mut dispatches = Dispatches::default();
-        let mut recorder = Recorder::new(kernels, &passes, &self.targets, &inputs, &mut dispatches);
+        let mut recorder =
+            Recorder::new(pipelines, &passes, &self.targets, &inputs, &mut dispatches);
         recorder.tasks = Tasks {
             mean: true,
             histogram: true,

@@ -14,7 +14,7 @@ use mandelight::{
     scene::{GradientStop, Indirect, IndirectKind, Scene},
 };
 
-use crate::{film::kernels, quantile, rays};
+use crate::{film::pipelines, quantile, rays};
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -63,11 +63,11 @@ fn shared_exponent(radiance: f64) -> u32 {
 
 /// The indirect light of the kernels, red of each pixel.
 fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
-    let kernels = kernels();
-    let gpu = &kernels.gpu;
+    let pipelines = pipelines();
+    let gpu = &pipelines.gpu;
     let region = Region::whole(SIZE);
-    let mut targets = Targets::new(kernels, region);
-    targets.fit_direct(kernels, true);
+    let mut targets = Targets::new(pipelines, region);
+    targets.fit_direct(pipelines, true);
     let inputs = Inputs::new(scene, region);
     targets.upload(&gpu.queue, &inputs);
     let surface: Vec<_> =
@@ -75,9 +75,9 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let direct: Vec<_> = made.iter().map(|m| shared_exponent(m.direct)).collect();
     gpu.queue.write_buffer(&targets.center.surface, 0, cast_slice(&surface));
     gpu.queue.write_buffer(&targets.direct, 0, cast_slice(&direct));
-    let passes = kernels.passes(&inputs.picture);
+    let passes = pipelines.passes(&inputs.picture);
     let mut dispatches = Dispatches::default();
-    let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
+    let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
     let points = Points::Indirect(0);
     let workgroups = points.grid(SIZE).workgroups();
     record(

@@ -6,7 +6,7 @@ use std::{fmt::Write, fs, sync::Arc, time::Instant};
 
 use mandelight::{
     render::{
-        Kernels, Region,
+        Pipelines, Region,
         frame::{self, Dispatches, Recorder},
         pass,
         schedule::{Points, Stage, Trace, Work},
@@ -49,11 +49,11 @@ const TOLERANCE: (f64, f64) = (0.1, 0.1);
 type Off = [f64; 2];
 
 /// Every way's error on one view.
-fn errors(kernels: &Arc<Kernels>, scene: &Scene) -> Vec<Off> {
+fn errors(pipelines: &Arc<Pipelines>, scene: &Scene) -> Vec<Off> {
     let pictures = WAYS.map(|(way, ..)| {
         let mut scene = scene.clone();
         scene.quality.normals = way;
-        draw(kernels, &scene).samples
+        draw(pipelines, &scene).samples
     });
     let indexed: Vec<_> = pixels().into_iter().zip(0..).collect();
     let gradients = in_parallel(&indexed, |&(pixel, index): &([u32; 2], usize)| {
@@ -78,30 +78,30 @@ fn errors(kernels: &Arc<Kernels>, scene: &Scene) -> Vec<Off> {
 }
 
 /// The time of each way's pass over that of six samples, on a view that the bulb fills.
-fn costs(kernels: &Kernels, scene: &Scene) -> Vec<f64> {
+fn costs(pipelines: &Pipelines, scene: &Scene) -> Vec<f64> {
     const PICTURE_PX: [u32; 2] = [480, 320];
     let points = Points::Level(0);
     let grid = points.grid(PICTURE_PX);
     let workgroups = grid.workgroups();
     let trace = Trace { points, from: Stage::March, lights: 0, first_workgroup: 0, workgroups };
-    let targets = Targets::new(kernels, Region::whole(PICTURE_PX));
+    let targets = Targets::new(pipelines, Region::whole(PICTURE_PX));
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {
         let mut scene = scene.clone();
         scene.quality.normals = way.unwrap_or(Normals::None);
         let inputs = Inputs::new(&scene, Region::whole(PICTURE_PX));
-        kernels.specialise(&scene);
-        let passes = kernels.passes(&inputs.picture);
-        targets.upload(&kernels.gpu.queue, &inputs);
-        let mut recorder = Recorder::new(kernels, &passes, &targets, &inputs, &mut dispatches);
+        pipelines.specialise(&scene);
+        let passes = pipelines.passes(&inputs.picture);
+        targets.upload(&pipelines.gpu.queue, &inputs);
+        let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
         match way {
             Some(_) => pass::normal::record(&mut recorder, &trace, &grid),
             None => frame::record(&mut recorder, Work::Trace(trace)),
         }
         let commands = recorder.finish();
         let start = Instant::now();
-        kernels.gpu.queue.submit([commands]);
-        kernels.gpu.wait();
+        pipelines.gpu.queue.submit([commands]);
+        pipelines.gpu.wait();
         start.elapsed().as_secs_f64() * 1e3
     };
     // Depths for all of them.
@@ -143,10 +143,10 @@ fn figures(table: &str) -> Vec<Off> {
 
 #[test]
 fn the_docs_tell_how_far_off_normals_are() {
-    let kernels = Kernels::new(&gpu());
+    let pipelines = Pipelines::new(&gpu());
     let all = views::all();
     let scene = |name| &all.iter().find(|view| view.name == name).expect("a view").scene;
-    let found: Vec<_> = VIEWS.iter().map(|name| errors(&kernels, scene(*name))).collect();
+    let found: Vec<_> = VIEWS.iter().map(|name| errors(&pipelines, scene(*name))).collect();
     for (name, view) in VIEWS.iter().zip(&found) {
         let [.., six, _, _, analytic] = view[..] else { unreachable!("six ways") };
         assert!(analytic[0] <= six[0] && analytic[1] <= six[1], "{name}: {analytic:?}, {six:?}");
@@ -156,7 +156,7 @@ fn the_docs_tell_how_far_off_normals_are() {
     let (before, rest) = text.split_once("<!-- errors -->\n").expect("the mark before the table");
     let (told, after) = rest.split_once("<!-- end of errors -->").expect("the mark after it");
     if std::env::var_os("MANDELIGHT_BLESS").is_some() {
-        let new = table(&found, &costs(&kernels, scene("power 8 at 0.15")));
+        let new = table(&found, &costs(&pipelines, scene("power 8 at 0.15")));
         let text = format!("{before}<!-- errors -->\n{new}<!-- end of errors -->{after}");
         fs::write(file, text).expect("docs/normals.md");
         return;

@@ -9,7 +9,7 @@ use std::{
 
 use glam::{DQuat, DVec3};
 use mandelight::{
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::Scene,
 };
 use serde::Serialize;
@@ -39,13 +39,13 @@ pub struct Costs {
 /// From the release after an edit to the picture of all pixels, in full frames' own time: the median
 /// of rounds in which both have their turn.
 pub fn release(
-    kernels: &Arc<Kernels>,
+    pipelines: &Arc<Pipelines>,
     scene: &Scene,
     edit: fn(&mut Scene, f64),
     budget_ms: f64,
 ) -> f64 {
     let start = Instant::now();
-    let new_view = || View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive);
+    let new_view = || View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
     let (mut hurried, mut unhurried) = (new_view(), new_view());
     let (mut scene, mut turned) = (scene.clone(), super::aimed(scene, NO_HURRY_MS));
     turned.quality.samples = 1;
@@ -53,12 +53,12 @@ pub fn release(
     for round in 0..WARM_UP + ROUNDS {
         let sign = if round % 2 == 0 { 1.0 } else { -1.0 };
         move_camera(&mut turned, sign);
-        let own_ms = draw(kernels, &mut unhurried, &turned, start);
+        let own_ms = draw(pipelines, &mut unhurried, &turned, start);
         edit(&mut scene, sign);
         let aimed = super::aimed(&scene, budget_ms);
-        draw_until(kernels, &mut hurried, &aimed, true, start, |_| true);
+        draw_until(pipelines, &mut hurried, &aimed, true, start, |_| true);
         let whole = |pixels_per_sample| pixels_per_sample == 1;
-        let released_ms = draw_until(kernels, &mut hurried, &aimed, false, start, whole);
+        let released_ms = draw_until(pipelines, &mut hurried, &aimed, false, start, whole);
         if round >= WARM_UP {
             ratios.push(released_ms / own_ms);
         }
@@ -69,7 +69,7 @@ pub fn release(
 /// Gives a scene to a view that is pumped as the page does; milliseconds until a picture is
 /// `enough`, one pixel of so many having been computed.
 fn draw_until(
-    kernels: &Kernels,
+    pipelines: &Pipelines,
     view: &mut View,
     scene: &Scene,
     moving: bool,
@@ -84,7 +84,7 @@ fn draw_until(
     loop {
         std::thread::sleep(Duration::from_micros(200));
         // Browsers tell by themselves when work is done.
-        kernels.gpu.poll();
+        pipelines.gpu.poll();
         if pumped.elapsed().as_secs_f64() >= PUMP_SECS {
             pumped = Instant::now();
             view.pump(start.elapsed().as_secs_f64());
@@ -97,9 +97,9 @@ fn draw_until(
 }
 
 /// Measures the edits on one scene.
-pub fn costs(kernels: &Arc<Kernels>, scene: &Scene) -> Costs {
+pub fn costs(pipelines: &Arc<Pipelines>, scene: &Scene) -> Costs {
     let [camera_ms, light_ms, intensity_ms, exposure_ms] =
-        measured(kernels, scene, [move_camera, move_light, dim_light, expose]);
+        measured(pipelines, scene, [move_camera, move_light, dim_light, expose]);
     Costs { camera_ms, light_ms, intensity_ms, exposure_ms }
 }
 
@@ -130,22 +130,22 @@ fn expose(scene: &mut Scene, sign: f64) {
 }
 
 fn measured<const N: usize>(
-    kernels: &Arc<Kernels>,
+    pipelines: &Arc<Pipelines>,
     scene: &Scene,
     edits: [fn(&mut Scene, f64); N],
 ) -> [f64; N] {
     let mut scene = super::aimed(scene, NO_HURRY_MS);
     scene.quality.samples = 1;
-    kernels.specialise(&scene);
-    let mut view = View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive);
+    pipelines.specialise(&scene);
+    let mut view = View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
     let start = Instant::now();
     let mut times = [(); N].map(|()| Vec::new());
-    draw(kernels, &mut view, &scene, start);
+    draw(pipelines, &mut view, &scene, start);
     for round in 0..WARM_UP + ROUNDS {
         let sign = if round % 2 == 0 { 1.0 } else { -1.0 };
         for (edit, times) in edits.iter().zip(&mut times) {
             edit(&mut scene, sign);
-            let ms = draw(kernels, &mut view, &scene, start);
+            let ms = draw(pipelines, &mut view, &scene, start);
             if round >= WARM_UP {
                 times.push(ms);
             }
@@ -155,13 +155,13 @@ fn measured<const N: usize>(
 }
 
 /// Draws a scene; milliseconds from the edit to the picture of all pixels.
-fn draw(kernels: &Kernels, view: &mut View, scene: &Scene, start: Instant) -> f64 {
+fn draw(pipelines: &Pipelines, view: &mut View, scene: &Scene, start: Instant) -> f64 {
     let edited = Instant::now();
     view.set_scene(scene, true);
     let before = view.report().pictures;
     loop {
         view.pump(start.elapsed().as_secs_f64());
-        kernels.gpu.wait();
+        pipelines.gpu.wait();
         let report = view.report();
         if report.pictures > before && report.pixels_per_sample == 1 {
             return edited.elapsed().as_secs_f64() * 1e3;

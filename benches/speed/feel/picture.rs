@@ -9,7 +9,7 @@ use std::{
 
 use mandelight::{
     gpu::readback::Readback,
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::Scene,
 };
 
@@ -39,13 +39,13 @@ pub struct Quality {
 
 /// Plays the frames that a replay showed once more, without a clock, and compares.
 pub fn qualities(
-    kernels: &Arc<Kernels>,
+    pipelines: &Arc<Pipelines>,
     session: &Session,
     frames: &[Frame],
     budget_ms: f64,
     keep: Option<&Path>,
 ) -> Result<Vec<Quality>, Failure> {
-    let mut moving = View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive);
+    let mut moving = View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
     let start = Instant::now();
     let mut found = Vec::new();
     if let Some(folder) = keep {
@@ -58,13 +58,13 @@ pub fn qualities(
         let every = (frames.len() / LOOKED_AT).max(1);
         for (index, frame) in frames.iter().enumerate() {
             let scene = &session.parts[part][frame.tick as usize];
-            move_to(kernels, &mut moving, &super::aimed(scene, budget_ms), start);
+            move_to(pipelines, &mut moving, &super::aimed(scene, budget_ms), start);
             let pixels_per_sample = moving.report().pixels_per_sample;
             if index % every != every / 2 || pixels_per_sample == 1 {
                 continue;
             }
-            let shown = pixels(kernels, &moving)?;
-            let full = full_frame(kernels, scene)?;
+            let shown = pixels(pipelines, &moving)?;
+            let full = full_frame(pipelines, scene)?;
             let nearest = nearest(&full, pixels_per_sample);
             if let Some(folder) = keep {
                 let name = |kind| folder.join(format!("feel-{part}-{index:02}-{kind}.png"));
@@ -93,10 +93,10 @@ fn settle(view: &mut View, scene: &Scene, start: Instant) {
 }
 
 /// Draws one moving picture.
-fn move_to(kernels: &Kernels, view: &mut View, scene: &Scene, start: Instant) {
-    kernels.gpu.wait();
+fn move_to(pipelines: &Pipelines, view: &mut View, scene: &Scene, start: Instant) {
+    pipelines.gpu.wait();
     view.pump(start.elapsed().as_secs_f64());
-    kernels.gpu.wait();
+    pipelines.gpu.wait();
     view.set_scene(scene, true);
     let tones = view.dispatches().tone;
     while view.dispatches().tone == tones {
@@ -104,25 +104,25 @@ fn move_to(kernels: &Kernels, view: &mut View, scene: &Scene, start: Instant) {
             // The scene before it was the same.
             return;
         }
-        kernels.gpu.wait();
+        pipelines.gpu.wait();
     }
 }
 
-fn full_frame(kernels: &Arc<Kernels>, scene: &Scene) -> Result<Vec<u8>, Failure> {
+fn full_frame(pipelines: &Arc<Pipelines>, scene: &Scene) -> Result<Vec<u8>, Failure> {
     let mut scene = scene.clone();
     scene.quality.samples = 1;
-    let mut view = View::new(kernels, Region::whole(SIZE_PX), Pace::Still);
+    let mut view = View::new(pipelines, Region::whole(SIZE_PX), Pace::Still);
     view.set_scene(&scene, false);
     let start = Instant::now();
     while view.pump(start.elapsed().as_secs_f64()) {
-        kernels.gpu.wait();
+        pipelines.gpu.wait();
     }
-    pixels(kernels, &view)
+    pixels(pipelines, &view)
 }
 
-fn pixels(kernels: &Kernels, view: &View) -> Result<Vec<u8>, Failure> {
+fn pixels(pipelines: &Pipelines, view: &View) -> Result<Vec<u8>, Failure> {
     let texture = view.texture().ok_or("the view shows nothing")?;
-    Ok(Readback::texture(&kernels.gpu, texture, SIZE_PX).wait(&kernels.gpu)?)
+    Ok(Readback::texture(&pipelines.gpu, texture, SIZE_PX).wait(&pipelines.gpu)?)
 }
 
 /// The picture whose lattice, one pixel in so many, is spread to the pixels that are nearest.

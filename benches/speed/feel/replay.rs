@@ -14,7 +14,7 @@ use std::{
 
 use mandelight::{
     gpu::Gpu,
-    render::{Kernels, Pace, Region, View},
+    render::{Pace, Pipelines, Region, View},
     scene::Scene,
 };
 
@@ -206,12 +206,12 @@ impl Player {
 }
 
 /// Plays the session with a display that ticks every `budget_ms`.
-pub fn play(kernels: &Arc<Kernels>, session: &Session, budget_ms: f64) -> Replay {
-    let _poller = Poller::new(&kernels.gpu);
+pub fn play(pipelines: &Arc<Pipelines>, session: &Session, budget_ms: f64) -> Replay {
+    let _poller = Poller::new(&pipelines.gpu);
     let before = Load::now();
     let mut player = Player {
-        gpu: kernels.gpu.clone(),
-        view: View::new(kernels, Region::whole(SIZE_PX), Pace::Interactive),
+        gpu: pipelines.gpu.clone(),
+        view: View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive),
         start: Instant::now(),
         budget_secs: budget_ms * 1e-3,
         next_pump_secs: 0.0,
@@ -234,7 +234,7 @@ pub fn play(kernels: &Arc<Kernels>, session: &Session, budget_ms: f64) -> Replay
         player.play(part, &scenes);
         player.rest();
     }
-    kernels.gpu.wait();
+    pipelines.gpu.wait();
     let shown = player.shown.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let others = Load::now().zip(before).map(|(now, before)| now.of_others_since(&before));
     Replay { frames: moving_frames(&shown), others }

@@ -35,7 +35,7 @@ pub fn record(recorder: &mut Recorder<'_>) {
     let levels = Levels::of(picture);
     let passes = picture.bloom.passes;
     let kernel = Kernel::new(picture.bloom.radius, passes, levels);
-    let pipeline = recorder.kernels.glow().bloom.clone();
+    let pipeline = recorder.pipelines.glow().bloom.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, kernel.level);
     for _ in 0..passes {

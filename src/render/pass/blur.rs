@@ -25,7 +25,7 @@ pub const MODULE: Module = Module {
 
 /// Applies `kernel` once.
 pub fn record(recorder: &mut Recorder<'_>, kernel: Kernel) {
-    let pipeline = recorder.kernels.glow().blur.clone();
+    let pipeline = recorder.pipelines.glow().blur.clone();
     let workgroups = Levels::of(&recorder.inputs.picture).workgroups(kernel.level);
     for axis in 0..2 {
         let Kernel { level, half_width } = kernel;

@@ -35,6 +35,6 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.camera_cone.clone();
     let slice = recorder.slice(trace, grid);
     let lists = &recorder.targets.lists;
-    lists.clear_rays(&recorder.kernels.gpu.queue);
+    lists.clear_rays(&recorder.pipelines.gpu.queue);
     recorder.dispatch_blocks(&pipeline, &lists.listing_rays, slice);
 }

@@ -22,9 +22,9 @@ pub const MODULE: Module = Module {
 
 /// Lists the surface points of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.kernels.compact_hits();
+    let pipeline = recorder.pipelines.compact_hits();
     let slice = recorder.slice(trace, grid);
     let lists = &recorder.targets.lists;
-    lists.clear_hits(&recorder.kernels.gpu.queue);
+    lists.clear_hits(&recorder.pipelines.gpu.queue);
     recorder.dispatch_blocks(&pipeline, &lists.listing_hits, slice);
 }

@@ -23,7 +23,7 @@ pub const MODULE: Module = Module {
 /// Moves exposure by `adapt`, above 0 to 1, toward its goal; `mean_is_new` where the mip levels
 /// hold a mean that the statistics do not.
 pub fn record(recorder: &mut Recorder<'_>, mean_is_new: bool, adapt: f32) {
-    let pipeline = recorder.kernels.glow().expose.clone();
+    let pipeline = recorder.pipelines.glow().expose.clone();
     let last = Levels::of(&recorder.inputs.picture).last();
     let mip_level = if mean_is_new { last } else { 0 };
     recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::zeroed() }, 1);

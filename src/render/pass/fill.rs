@@ -22,7 +22,7 @@ pub const MODULE: Module = Module {
 
 /// Fills every level below `level`, the coarsest first: each reads what the one before wrote.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.kernels.fill();
+    let pipeline = recorder.pipelines.fill();
     for finer in (0..level).rev() {
         let grid = Grid::added(finer, recorder.inputs.picture.size_px);
         if grid.workgroups() > 0 {

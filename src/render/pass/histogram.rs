@@ -31,12 +31,12 @@ pub fn record(recorder: &mut Recorder<'_>) {
     // Writes take effect with the submit, before its passes.
     let first_bin = std::mem::offset_of!(Statistics, bins) as u64;
     let zeros = Statistics::zeroed().bins;
-    recorder.kernels.gpu.queue.write_buffer(
+    recorder.pipelines.gpu.queue.write_buffer(
         &recorder.glow.statistics,
         first_bin,
         bytemuck::bytes_of(&zeros),
     );
-    let pipeline = recorder.kernels.glow().histogram.clone();
+    let pipeline = recorder.pipelines.glow().histogram.clone();
     let workgroups = Levels::of(&recorder.inputs.picture).workgroups(FIRST_LEVEL);
     recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
     recorder.dispatches.histogram += 1;

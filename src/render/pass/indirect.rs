@@ -36,7 +36,7 @@ pub const MODULE: Module = Module {
 
 /// Gathers light for the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.kernels.indirect().clone();
+    let pipeline = recorder.pipelines.indirect().clone();
     let mut slice = recorder.slice(trace, grid);
     if let Points::Indirect(level) = trace.points {
         slice.neighbour_level = level;

@@ -30,7 +30,7 @@ pub const MODULE: Module = Module {
 /// Makes all mip levels of the film, down to one element.
 pub fn record(recorder: &mut Recorder<'_>) {
     let levels = Levels::of(&recorder.inputs.picture);
-    let pipeline = recorder.kernels.glow().mean.clone();
+    let pipeline = recorder.pipelines.glow().mean.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, levels.last());
     recorder.dispatches.mean += 1;

@@ -11,7 +11,7 @@ use crate::{
     },
     render::{
         Eyes, Region,
-        kernels::{Depth, Form},
+        pipelines::{Depth, PipelineKey},
         space::RenderSpace,
         uniforms::{ANCHOR_ORBIT_BYTES, Inputs},
     },
@@ -61,8 +61,8 @@ pub fn ask(
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, &RenderSpace::plain());
-    let power = if specialised { Form::of(&inputs.picture).power } else { 0 };
-    ask_form(gpu, &inputs, points, Form { power, depth: Depth::Plain })
+    let power = if specialised { PipelineKey::of(&inputs.picture).power } else { 0 };
+    ask_form(gpu, &inputs, points, PipelineKey { power, depth: Depth::Plain })
 }
 
 /// The same about points that are given by their offsets from the anchor of `space`, in its units,
@@ -74,7 +74,7 @@ pub fn ask_about(
     offsets: &[DVec3],
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, space);
-    ask_form(gpu, &inputs, offsets, Form::of(&inputs.picture))
+    ask_form(gpu, &inputs, offsets, PipelineKey::of(&inputs.picture))
 }
 
 /// Of the kernel's answer to one point.
@@ -88,7 +88,7 @@ fn ask_form(
     gpu: &Gpu,
     inputs: &Inputs,
     points: &[DVec3],
-    form: Form,
+    key: PipelineKey,
 ) -> Result<Vec<Answer>, ReadbackError> {
     let device = &gpu.device;
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -97,7 +97,7 @@ fn ask_form(
         module: &MODULE.create(device),
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &form.constants(),
+            constants: &key.constants(),
             ..Default::default()
         },
         cache: None,

@@ -25,7 +25,7 @@ pub const MODULE: Module = Module {
 
 /// Makes every level up to `last`.
 pub fn record(recorder: &mut Recorder<'_>, last: u32) {
-    let pipeline = recorder.kernels.glow().reduce.clone();
+    let pipeline = recorder.pipelines.glow().reduce.clone();
     for level in FIRST_LEVEL..last {
         let workgroups = Levels::of(&recorder.inputs.picture).workgroups(level + 1);
         let slice = Slice { mip_level: level, ..Slice::zeroed() };

@@ -42,7 +42,7 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         [&recorder.passes.shadow_cone, &recorder.passes.shadow].map(Clone::clone);
     let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
     let (inputs, lists) = (recorder.inputs, &recorder.targets.lists);
-    lists.clear_rays(&recorder.kernels.gpu.queue);
+    lists.clear_rays(&recorder.pipelines.gpu.queue);
     let marched = trace.lights & inputs.casting();
     let lights = inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0);
     // The first list is the camera's.

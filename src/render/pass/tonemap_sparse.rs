@@ -31,7 +31,7 @@ pub fn places(level: u32, size_px: [u32; 2]) -> u64 {
 
 /// Develops every sample of a lattice level.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.kernels.tonemap_sparse();
+    let pipeline = recorder.pipelines.tonemap_sparse();
     let grid = Grid::level(level, recorder.inputs.picture.size_px);
     recorder.dispatch_grid(&pipeline, &grid, 1 << (level / 2));
 }

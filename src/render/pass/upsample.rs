@@ -22,7 +22,7 @@ pub const MODULE: Module = Module {
 
 /// Makes the whole region's display picture of a lattice level that has been developed.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.kernels.upsample();
+    let pipeline = recorder.pipelines.upsample();
     let slice = Grid::level(level, recorder.inputs.picture.size_px).slice(0);
     recorder.dispatch_plane(&pipeline, slice);
     recorder.dispatches.fill += 1;

@@ -46,7 +46,7 @@ const AIM: f64 = 0.9;
 pub enum Arithmetic {
     /// By pipelines for one whole power.
     #[default]
-    Special,
+    SpecializedPipeline,
     /// By pipelines for any whole power.
     Whole,
     /// By series, for real powers.
@@ -56,13 +56,13 @@ pub enum Arithmetic {
 }
 
 impl Arithmetic {
-    const ALL: [Self; 4] = [Self::Special, Self::Whole, Self::Real, Self::Deep];
+    const ALL: [Self; 4] = [Self::SpecializedPipeline, Self::Whole, Self::Real, Self::Deep];
 
     /// What an orbit step usually costs, in parts of the first one's. It only has to do until the
     /// first picture of another kind has been measured.
     fn usual(self) -> f64 {
         match self {
-            Self::Special => 1.0,
+            Self::SpecializedPipeline => 1.0,
             Self::Whole => 2.0,
             Self::Real | Self::Deep => 6.0,
         }

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use super::{MOST_NEAR_STEPS, Picture, ReferencePoint, SeriesApproximation};
 use crate::{
     fractal::deep::{self, jacobian::norm, reference::MOST_REFERENCE_POINTS},
-    render::{form::NearSteps, space::RenderSpace},
+    render::{pipeline_key::NearSteps, space::RenderSpace},
 };
 
 /// How many series approximations `anchor_orbit` holds.

@@ -13,11 +13,11 @@ fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
     schedule.change(Stale::Geometry, false, now);
     settle(&mut schedule, &mut device, &mut now);
     let pictures = [
-        (Arithmetic::Special, 1.0),
+        (Arithmetic::SpecializedPipeline, 1.0),
         (Arithmetic::Real, 4.0),
-        (Arithmetic::Special, 1.0),
+        (Arithmetic::SpecializedPipeline, 1.0),
         (Arithmetic::Deep, 5.0),
-        (Arithmetic::Special, 1.0),
+        (Arithmetic::SpecializedPipeline, 1.0),
     ];
     for (arithmetic, dearer) in pictures {
         schedule.set_arithmetic(arithmetic);

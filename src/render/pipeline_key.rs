@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::{kernels::Constants, uniforms::Picture};
+use super::{pipelines::Constants, uniforms::Picture};
 
 /// What rays and normals are specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Form {
+pub struct PipelineKey {
     /// A whole power; 0 for others.
     pub power: u32,
     /// How their orbits are followed.
@@ -57,7 +57,7 @@ impl Depth {
     }
 }
 
-impl fmt::Display for Form {
+impl fmt::Display for PipelineKey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "power {}, ", self.power)?;
         match self.depth {
@@ -74,7 +74,7 @@ fn whole(power: f32) -> u32 {
     if power.fract() == 0.0 { power as u32 } else { 0 }
 }
 
-impl Form {
+impl PipelineKey {
     /// A picture's.
     pub fn of(picture: &Picture) -> Self {
         Self { power: whole(picture.fractal.power), depth: Depth::of(picture) }

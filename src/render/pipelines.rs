@@ -12,9 +12,9 @@ use super::{
     uniforms::{Inputs, Picture},
 };
 pub use super::{
-    form::{Depth, Form},
-    glow_kernels::GlowKernels,
     layouts::Layouts,
+    pipeline_key::{Depth, PipelineKey},
+    post_pipelines::PostPipelines,
 };
 use crate::{
     gpu::{Gpu, device::in_parallel, shader::Module},
@@ -61,10 +61,10 @@ impl LazyPipeline {
         self.shader.get_or_init(|| self.module.create(device))
     }
 
-    fn pipeline(&self, kernels: &Kernels) -> wgpu::ComputePipeline {
+    fn pipeline(&self, pipelines: &Pipelines) -> wgpu::ComputePipeline {
         let make = || {
-            let (device, label) = (&kernels.gpu.device, self.module.label);
-            locked(&kernels.made).push(label.to_owned());
+            let (device, label) = (&pipelines.gpu.device, self.module.label);
+            locked(&pipelines.made).push(label.to_owned());
             pipeline(device, &self.layout, self.shader(device), label, &Constants::new())
         };
         self.pipeline.get_or_init(make).clone()
@@ -74,27 +74,32 @@ impl LazyPipeline {
 /// A pass that any picture can have in its general form, and that is faster with some of the
 /// picture's values compiled in: then there is nothing left to decide. (Where lanes disagree, and
 /// always on lavapipe, all sides of a decision are computed.)
-struct Special {
+struct SpecializedPipeline {
     general: LazyPipeline,
     /// By what they are for, and which of its parts they are.
-    made: Mutex<HashMap<(Extra, usize), wgpu::ComputePipeline>>,
+    made: Mutex<HashMap<(PipelineVariant, usize), wgpu::ComputePipeline>>,
 }
 
-impl Special {
+impl SpecializedPipeline {
     fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
         Self { general: LazyPipeline::new(layout, module), made: Mutex::default() }
     }
 
-    /// Its form for `extra`, or the general one until that is kept.
-    fn of(&self, extra: Extra, part: usize, kernels: &Kernels) -> wgpu::ComputePipeline {
-        if let Some(made) = locked(&self.made).get(&(extra, part)) {
+    /// Its form for `variant`, or the general one until that is kept.
+    fn of(
+        &self,
+        variant: PipelineVariant,
+        part: usize,
+        pipelines: &Pipelines,
+    ) -> wgpu::ComputePipeline {
+        if let Some(made) = locked(&self.made).get(&(variant, part)) {
             return made.clone();
         }
-        self.general.pipeline(kernels)
+        self.general.pipeline(pipelines)
     }
 
-    fn keep(&self, extra: Extra, part: usize, pipeline: wgpu::ComputePipeline) {
-        locked(&self.made).entry((extra, part)).or_insert(pipeline);
+    fn keep(&self, variant: PipelineVariant, part: usize, pipeline: wgpu::ComputePipeline) {
+        locked(&self.made).entry((variant, part)).or_insert(pipeline);
     }
 }
 
@@ -135,11 +140,11 @@ pub struct ToneForm {
 /// Pipelines beyond those that every picture needs: made when one needs them, or is faster with
 /// them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Extra {
+pub enum PipelineVariant {
     /// Rays of one form.
-    Rays(Form),
+    Rays(PipelineKey),
     /// Normals of one kind, as the shaders count them, for one form.
-    Normals(Form, u32),
+    Normals(PipelineKey, u32),
     /// Shading, with the picture of the surroundings behind all or without.
     Shade(bool),
     /// Tone mapping.
@@ -150,18 +155,18 @@ pub enum Extra {
     Glow,
 }
 
-impl Extra {
+impl PipelineVariant {
     /// The special forms of a picture's passes.
     pub fn special(picture: &Picture) -> [Self; 4] {
-        let form = Form::of(picture);
+        let key = PipelineKey::of(picture);
         let tone = ToneForm {
             curve: picture.tone.curve,
             blooms: picture.bloom.strength > 0.0,
             is_anaglyph: picture.eyes.anaglyph != 0,
         };
         [
-            Self::Rays(form),
-            Self::Normals(form, picture.normals),
+            Self::Rays(key),
+            Self::Normals(key, picture.normals),
             Self::Shade(picture.background.picture_gain > 0.0),
             Self::Tone(tone),
         ]
@@ -170,10 +175,8 @@ impl Extra {
     /// What they are for, in words that follow "Preparing".
     pub fn name(self) -> String {
         match self {
-            Self::Rays(form) | Self::Normals(form, _) if form.is_deep() => {
-                "the deep zoom".to_owned()
-            }
-            Self::Rays(form) | Self::Normals(form, _) => format!("power {}", form.power),
+            Self::Rays(key) | Self::Normals(key, _) if key.is_deep() => "the deep zoom".to_owned(),
+            Self::Rays(key) | Self::Normals(key, _) => format!("power {}", key.power),
             Self::Shade(_) => "light".to_owned(),
             Self::Tone(_) => "tone mapping".to_owned(),
             Self::Indirect => "indirect light".to_owned(),
@@ -187,17 +190,17 @@ impl Extra {
             Self::Rays(_) => 4,
             Self::Tone(_) | Self::Shade(_) => 2,
             Self::Normals(..) | Self::Indirect => 1,
-            Self::Glow => GlowKernels::PARTS.len(),
+            Self::Glow => PostPipelines::PARTS.len(),
         }
     }
 
     /// The overrides that one of its parts sets.
     fn constants(self, part: usize) -> Constants {
         match self {
-            Self::Rays(form) => form.constants(),
-            Self::Normals(form, kind) => {
+            Self::Rays(key) => key.constants(),
+            Self::Normals(key, kind) => {
                 let kind = ("NORMALS", f64::from(kind));
-                form.constants().into_iter().chain([kind]).collect()
+                key.constants().into_iter().chain([kind]).collect()
             }
             Self::Shade(has_backdrop) => {
                 vec![("BACKDROP", f64::from(has_backdrop)), ("SINGLE", f64::from(part == 0))]
@@ -214,43 +217,43 @@ impl Extra {
 }
 
 /// The pipelines that every picture needs, and the [extra](Extra) ones made so far.
-pub struct Kernels {
+pub struct Pipelines {
     /// The device.
     pub gpu: Gpu,
     /// What bind groups look like.
     pub layouts: Layouts,
-    camera_cone: Special,
-    march: Special,
+    camera_cone: SpecializedPipeline,
+    march: SpecializedPipeline,
     compact_hits: LazyPipeline,
-    normal: Special,
-    shadow_cone: Special,
-    shadow: Special,
-    shade: Special,
-    tone: Special,
+    normal: SpecializedPipeline,
+    shadow_cone: SpecializedPipeline,
+    shadow: SpecializedPipeline,
+    shade: SpecializedPipeline,
+    tone: SpecializedPipeline,
     indirect: OnceLock<wgpu::ComputePipeline>,
     fill: LazyPipeline,
-    glow: OnceLock<GlowKernels>,
+    glow: OnceLock<PostPipelines>,
     glow_layout: wgpu::PipelineLayout,
     tonemap_sparse: LazyPipeline,
     upsample: LazyPipeline,
     /// Those that can be used without delay.
-    ready: Mutex<HashSet<Extra>>,
+    ready: Mutex<HashSet<PipelineVariant>>,
     /// The labels of all pipelines so far.
     made: Mutex<Vec<String>>,
 }
 
-impl Kernels {
+impl Pipelines {
     /// Makes the general forms of all passes, which draw whatever comes.
     pub fn new(gpu: &Gpu) -> Arc<Self> {
-        let kernels = Self::for_stills(gpu);
-        let Self { camera_cone, march, normal, shadow_cone, shadow, shade, tone, .. } = &*kernels;
+        let pipelines = Self::for_stills(gpu);
+        let Self { camera_cone, march, normal, shadow_cone, shadow, shade, tone, .. } = &*pipelines;
         let specials = [camera_cone, march, normal, shadow_cone, shadow, shade, tone]
             .map(|special| &special.general);
-        let Self { compact_hits, fill, tonemap_sparse, upsample, .. } = &*kernels;
+        let Self { compact_hits, fill, tonemap_sparse, upsample, .. } = &*pipelines;
         for plain in specials.into_iter().chain([compact_hits, fill, tonemap_sparse, upsample]) {
-            plain.pipeline(&kernels);
+            plain.pipeline(&pipelines);
         }
-        kernels
+        pipelines
     }
 
     /// Makes nothing yet: stills have the special forms of their passes compiled before they begin, and
@@ -265,13 +268,13 @@ impl Kernels {
         let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
         let glow_layout =
             pipeline_layout(device, "passes over the film as a whole", &[picture, glow, film]);
-        let camera_cone = Special::new(&listing_layout, &pass::camera_cone::MODULE);
-        let march = Special::new(&listed_layout, &pass::march::MODULE);
-        let normal = Special::new(&listed_layout, &pass::normal::MODULE);
-        let shadow_cone = Special::new(&listing_layout, &pass::shadow_cone::MODULE);
-        let shadow = Special::new(&listed_layout, &pass::shadow::MODULE);
-        let shade = Special::new(&shade_layout, &pass::shade::MODULE);
-        let tone = Special::new(&glow_layout, &pass::tone::MODULE);
+        let camera_cone = SpecializedPipeline::new(&listing_layout, &pass::camera_cone::MODULE);
+        let march = SpecializedPipeline::new(&listed_layout, &pass::march::MODULE);
+        let normal = SpecializedPipeline::new(&listed_layout, &pass::normal::MODULE);
+        let shadow_cone = SpecializedPipeline::new(&listing_layout, &pass::shadow_cone::MODULE);
+        let shadow = SpecializedPipeline::new(&listed_layout, &pass::shadow::MODULE);
+        let shade = SpecializedPipeline::new(&shade_layout, &pass::shade::MODULE);
+        let tone = SpecializedPipeline::new(&glow_layout, &pass::tone::MODULE);
         let compact_hits = LazyPipeline::new(&listing_layout, &pass::compact_hits::MODULE);
         let fill = LazyPipeline::new(&layout, &pass::fill::MODULE);
         let tonemap_sparse = LazyPipeline::new(&layout, &pass::tonemap_sparse::MODULE);
@@ -300,19 +303,21 @@ impl Kernels {
 
     /// The passes that see the film as a whole; compiles them where nobody
     /// [prepared](Self::prepare) them.
-    pub fn glow(&self) -> &GlowKernels {
-        self.glow.get_or_init(|| GlowKernels::from_parts(|part| self.make(Extra::Glow, part)))
+    pub fn glow(&self) -> &PostPipelines {
+        self.glow.get_or_init(|| {
+            PostPipelines::from_parts(|part| self.make(PipelineVariant::Glow, part))
+        })
     }
 
     /// Direct and indirect light onto the film; compiles that where nobody
     /// [prepared](Self::prepare) it.
     pub fn indirect(&self) -> &wgpu::ComputePipeline {
-        self.indirect.get_or_init(|| self.make(Extra::Indirect, 0))
+        self.indirect.get_or_init(|| self.make(PipelineVariant::Indirect, 0))
     }
 
     /// The fastest forms of a picture's passes that are ready.
     pub fn passes(&self, picture: &Picture) -> Passes {
-        let [rays, normals, light, tone] = Extra::special(picture);
+        let [rays, normals, light, tone] = PipelineVariant::special(picture);
         Passes {
             camera_cone: self.camera_cone.of(rays, 0, self),
             march: self.march.of(rays, 1, self),
@@ -347,100 +352,102 @@ impl Kernels {
     }
 
     /// Whether [`Self::passes`] has rays of this form alone.
-    pub fn has_own(&self, form: Form) -> bool {
-        locked(&self.march.made).contains_key(&(Extra::Rays(form), 1))
+    pub fn has_own(&self, key: PipelineKey) -> bool {
+        locked(&self.march.made).contains_key(&(PipelineVariant::Rays(key), 1))
     }
 
     /// Whether these can be used without delay.
-    pub fn is_ready(&self, extra: Extra) -> bool {
+    pub fn is_ready(&self, variant: PipelineVariant) -> bool {
         // Other powers have the general forms only.
-        let general = Form { power: 0, depth: Depth::Plain };
-        matches!(extra, Extra::Rays(form) | Extra::Normals(form, _) if form == general)
-            || locked(&self.ready).contains(&extra)
+        let general = PipelineKey { power: 0, depth: Depth::Plain };
+        matches!(variant, PipelineVariant::Rays(key) | PipelineVariant::Normals(key, _) if key == general)
+            || locked(&self.ready).contains(&variant)
     }
 
     /// Compiles what is missing of these. This may take a second and blocks.
-    pub fn prepare(&self, extra: Extra) {
-        if !self.is_ready(extra) {
-            self.keep(extra, (0..extra.parts()).map(|part| self.make(extra, part)).collect());
-            self.set_ready(extra);
+    pub fn prepare(&self, variant: PipelineVariant) {
+        if !self.is_ready(variant) {
+            self.keep(variant, (0..variant.parts()).map(|part| self.make(variant, part)).collect());
+            self.set_ready(variant);
         }
     }
 
     /// The same of several at once, on as many threads as the platform has for that.
-    pub fn prepare_together(&self, extras: &[Extra]) {
+    pub fn prepare_together(&self, extras: &[PipelineVariant]) {
         let parts: Vec<_> = extras
             .iter()
-            .filter(|extra| !self.is_ready(**extra))
-            .flat_map(|&extra| (0..extra.parts()).map(move |part| (extra, part)))
+            .filter(|variant| !self.is_ready(**variant))
+            .flat_map(|&variant| (0..variant.parts()).map(move |part| (variant, part)))
             .collect();
-        let mut made = HashMap::<Extra, Vec<_>>::new();
-        let pipelines = in_parallel(&parts, |&(extra, part)| self.make(extra, part));
-        for ((extra, _), pipeline) in parts.into_iter().zip(pipelines) {
-            made.entry(extra).or_default().push(pipeline);
+        let mut made = HashMap::<PipelineVariant, Vec<_>>::new();
+        let made_in_order = in_parallel(&parts, |&(variant, part)| self.make(variant, part));
+        for ((variant, _), pipeline) in parts.into_iter().zip(made_in_order) {
+            made.entry(variant).or_default().push(pipeline);
         }
-        for (extra, pipelines) in made {
-            self.keep(extra, pipelines);
-            self.set_ready(extra);
+        for (variant, parts) in made {
+            self.keep(variant, parts);
+            self.set_ready(variant);
         }
     }
 
     /// Compiles all special forms of a scene's passes. This may take a second and blocks.
     pub fn specialise(&self, scene: &Scene) {
         let inputs = Inputs::new(scene, Region::whole([64, 64]));
-        self.prepare_together(&Extra::special(&inputs.picture));
+        self.prepare_together(&PipelineVariant::special(&inputs.picture));
     }
 
     /// The passes that an extra has special forms of, in the order of its parts.
-    fn special(&self, extra: Extra) -> Vec<&Special> {
-        match extra {
-            Extra::Rays(_) => vec![&self.camera_cone, &self.march, &self.shadow_cone, &self.shadow],
-            Extra::Normals(..) => vec![&self.normal],
-            Extra::Shade(_) => vec![&self.shade, &self.shade],
-            Extra::Tone(_) => vec![&self.tone, &self.tone],
-            Extra::Indirect | Extra::Glow => Vec::new(),
+    fn special(&self, variant: PipelineVariant) -> Vec<&SpecializedPipeline> {
+        match variant {
+            PipelineVariant::Rays(_) => {
+                vec![&self.camera_cone, &self.march, &self.shadow_cone, &self.shadow]
+            }
+            PipelineVariant::Normals(..) => vec![&self.normal],
+            PipelineVariant::Shade(_) => vec![&self.shade, &self.shade],
+            PipelineVariant::Tone(_) => vec![&self.tone, &self.tone],
+            PipelineVariant::Indirect | PipelineVariant::Glow => Vec::new(),
         }
     }
 
     /// Starts to compile one pipeline asynchronously, `part` of as many as there are
     /// [parts](Extra::parts), for [`Self::make`] to have it at once when the flag is true; none
     /// where pipelines cannot be compiled asynchronously.
-    pub(super) fn begin(&self, extra: Extra, part: usize) -> Option<Arc<AtomicBool>> {
+    pub(super) fn begin(&self, variant: PipelineVariant, part: usize) -> Option<Arc<AtomicBool>> {
         let compile = self.gpu.async_compile?;
-        Some((compile.begin)(&self.gpu.device, &mut || drop(self.ask(extra, part))))
+        Some((compile.begin)(&self.gpu.device, &mut || drop(self.ask(variant, part))))
     }
 
     /// Makes one pipeline, `part` of as many as there are [parts](Extra::parts). For
     /// [`Self::keep`].
-    pub(super) fn make(&self, extra: Extra, part: usize) -> wgpu::ComputePipeline {
+    pub(super) fn make(&self, variant: PipelineVariant, part: usize) -> wgpu::ComputePipeline {
         let mut made = None;
         if let Some(compile) = self.gpu.async_compile {
-            (compile.take)(&self.gpu.device, &mut || made = Some(self.ask(extra, part)));
+            (compile.take)(&self.gpu.device, &mut || made = Some(self.ask(variant, part)));
         }
-        let (label, pipeline) = made.unwrap_or_else(|| self.ask(extra, part));
+        let (label, pipeline) = made.unwrap_or_else(|| self.ask(variant, part));
         locked(&self.made).push(label);
         pipeline
     }
 
     /// Asks the device for one pipeline; its label and what the device gives.
-    fn ask(&self, extra: Extra, part: usize) -> (String, wgpu::ComputePipeline) {
+    fn ask(&self, variant: PipelineVariant, part: usize) -> (String, wgpu::ComputePipeline) {
         let device = &self.gpu.device;
         let plain = |layout: &wgpu::PipelineLayout, module: &Module| {
             let shader = module.create(device);
             (module.label.to_owned(), pipeline(device, layout, &shader, module.label, &Vec::new()))
         };
-        match extra {
-            Extra::Indirect => {
+        match variant {
+            PipelineVariant::Indirect => {
                 let Layouts { picture, samples, film, indirect, .. } = &self.layouts;
                 let groups = [picture, samples, film, indirect];
                 plain(&pipeline_layout(device, "indirect", &groups), &pass::indirect::MODULE)
             }
-            Extra::Glow => plain(&self.glow_layout, GlowKernels::PARTS[part]),
+            PipelineVariant::Glow => plain(&self.glow_layout, PostPipelines::PARTS[part]),
             _ => {
-                let LazyPipeline { module, layout, .. } = &self.special(extra)[part].general;
-                let shader = self.special(extra)[part].general.shader(device);
+                let LazyPipeline { module, layout, .. } = &self.special(variant)[part].general;
+                let shader = self.special(variant)[part].general.shader(device);
                 let label = module.label;
-                let constants = extra.constants(part);
+                let constants = variant.constants(part);
                 let values = constants.iter().map(|(name, value)| format!(", {name} {value}"));
                 let label = format!("{label}{}", values.collect::<String>());
                 let pipeline = pipeline(device, layout, shader, &label, &constants);
@@ -450,26 +457,26 @@ impl Kernels {
     }
 
     /// Takes all parts of these, in order. Where somebody else was faster, theirs stay.
-    pub(super) fn keep(&self, extra: Extra, parts: Vec<wgpu::ComputePipeline>) {
+    pub(super) fn keep(&self, variant: PipelineVariant, parts: Vec<wgpu::ComputePipeline>) {
         let part = |index: usize| parts[index].clone();
-        match extra {
-            Extra::Indirect => {
+        match variant {
+            PipelineVariant::Indirect => {
                 self.indirect.get_or_init(|| part(0));
             }
-            Extra::Glow => {
-                self.glow.get_or_init(|| GlowKernels::from_parts(part));
+            PipelineVariant::Glow => {
+                self.glow.get_or_init(|| PostPipelines::from_parts(part));
             }
             _ => {
                 for (part, pipeline) in parts.into_iter().enumerate() {
-                    self.special(extra)[part].keep(extra, part, pipeline);
+                    self.special(variant)[part].keep(variant, part, pipeline);
                 }
             }
         }
     }
 
     /// Says that these are kept and have been used once.
-    pub(super) fn set_ready(&self, extra: Extra) {
-        locked(&self.ready).insert(extra);
+    pub(super) fn set_ready(&self, variant: PipelineVariant) {
+        locked(&self.ready).insert(variant);
     }
 
     /// The labels of all pipelines made so far, in that order.

@@ -4,7 +4,7 @@ use super::pass;
 use crate::gpu::shader::Module;
 
 /// The passes that see the film as a whole.
-pub struct GlowKernels {
+pub struct PostPipelines {
     /// Film to the finest mip level.
     pub mean: wgpu::ComputePipeline,
     /// A mip level to the next.
@@ -19,7 +19,7 @@ pub struct GlowKernels {
     pub blur: wgpu::ComputePipeline,
 }
 
-impl GlowKernels {
+impl PostPipelines {
     /// Their names and modules, in the order of the fields.
     pub(super) const PARTS: [&Module; 6] = [
         &pass::mean::MODULE,
