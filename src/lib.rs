@@ -27,7 +27,7 @@
 //!    ([`render::lists`]): the passes after them are as large as their lists.
 //!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
 //! 5. Where the scene asks for it, the film is first looked at as a whole: its mean sets the
-//!    exposure, and what is bright in it blooms ([`render::glow`]).
+//!    exposure, and what is bright in it blooms ([`render::post`]).
 //!    A sparse lattice that nothing else has to know as a whole never fills the film: its samples are
 //!    developed by themselves, and spread over the display.
 //! 6. What the film holds is shown: by the page's interface, or tile by tile as a PNG

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use mandelight::{
     fractal::{deep, estimator, march},
-    render::{glow, lattice, lists, pass::MODULES, report, uniforms},
+    render::{lattice, lists, pass::MODULES, post, report, uniforms},
     scene::MAX_LIGHTS,
 };
 use naga::{
@@ -152,7 +152,7 @@ fn host_constants_match_their_wgsl_twins() {
         ("HISTOGRAM_BINS", report::HISTOGRAM_BINS as f64),
         ("HISTOGRAM_LOW_STOPS", report::HISTOGRAM_LOW_STOPS),
         ("HISTOGRAM_BINS_PER_STOP", report::HISTOGRAM_BINS_PER_STOP),
-        ("FIRST_MIP_LEVEL", whole(glow::FIRST_LEVEL)),
+        ("FIRST_MIP_LEVEL", whole(post::FIRST_LEVEL)),
     ];
     for (name, value) in host {
         let files = MODULES.iter().flat_map(|module| module.files);

@@ -1,7 +1,7 @@
 // Mip levels of a film. An element of level n is the mean of the 2^n x 2^n pixels below it, or of
 // as many of them as there are at the right and lower edges: each level has as many elements as
 // it takes to cover the film. Where two eyes share the film, each one's part is covered for
-// itself: no element holds light of both. Host twin: `render::glow::Levels`.
+// itself: no element holds light of both. Host twin: `render::post::Levels`.
 
 // The finest level that is kept.
 const FIRST_MIP_LEVEL = 2u;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{PictureFormat, sheet::Sheet};
 use crate::{
-    render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, glow::Need, uniforms::Picture},
+    render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need, uniforms::Picture},
     scene::{IndirectKind, Panorama, Scene},
 };
 
@@ -28,7 +28,7 @@ const LEAST_SAMPLES_IN_ALL: f64 = 1e6;
 pub(super) struct Overview {
     view: View,
     samples: u32,
-    glows: bool,
+    has_post: bool,
     has_indirect: bool,
     is_finished: bool,
 }
@@ -45,21 +45,21 @@ impl Overview {
         let region = region(sheet.picture_px, sheet.overview_eyes());
         let has_indirect = scene.indirect.kind != IndirectKind::Off;
         // An EXR holds what is before exposure and bloom.
-        let glows =
+        let has_post =
             format != PictureFormat::Exr && !Need::of(&Picture::new(scene, region)).is_none();
-        if !glows && !has_indirect {
+        if !has_post && !has_indirect {
             return None;
         }
         let mut scene = scene.clone();
         let enough = (LEAST_SAMPLES_IN_ALL / pixels(region)) as u32;
         // Indirect light is gathered from centre samples alone.
-        let enough = if glows { enough.max(MOST_SAMPLES) } else { 1 };
+        let enough = if has_post { enough.max(MOST_SAMPLES) } else { 1 };
         let samples = scene.quality.samples.min(enough);
         scene.quality.samples = samples;
         let mut view = View::new(pipelines, region, Pace::Still);
         view.set_panorama(panorama);
         view.set_scene(&scene, false);
-        Some(Self { view, samples, glows, has_indirect, is_finished: false })
+        Some(Self { view, samples, has_post, has_indirect, is_finished: false })
     }
 
     /// Draws on, without waiting. True once all is known.
@@ -75,8 +75,8 @@ impl Overview {
 
     /// Gives the view of a tile what it is shown by, once all is known.
     pub fn lend_to(&self, tile: &mut View) {
-        if self.glows {
-            tile.lend_glow(Some(self.view.glow()));
+        if self.has_post {
+            tile.lend_post(Some(self.view.post()));
         }
         if self.has_indirect {
             tile.lend_indirect_source(Some(self.view.indirect_source()));

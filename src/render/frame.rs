@@ -1,12 +1,12 @@
 //! The life of a frame: its passes, in the order in which they run.
 
 use super::{
-    glow::{Glow, Tasks},
     indirect::{self, IndirectSource},
     lattice::{Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
     lists::{BLOCK_THREADS, List},
     pass,
     pipelines::{Passes, Pipelines},
+    post::{Post, Tasks},
     schedule::{Points, Stage, Trace, Work},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
     uniforms::{Inputs, Slice},
@@ -129,7 +129,7 @@ pub struct Recorder<'a> {
     /// What the buffers hold of the scene.
     pub inputs: &'a Inputs,
     /// What is known of the film as a whole: the targets' own unless a view puts another here.
-    pub glow: &'a Glow,
+    pub post: &'a Post,
     /// Where indirect light comes from: the targets' own unless a view puts another here.
     pub indirect_source: IndirectSource,
     /// What of it a display brings up to date.
@@ -164,7 +164,7 @@ impl<'a> Recorder<'a> {
             passes,
             targets,
             inputs,
-            glow: &targets.glow,
+            post: &targets.post,
             indirect_source: targets.indirect_source(inputs.picture.indirect.source_px),
             tasks: Tasks::default(),
             rehearsal: None,
@@ -179,7 +179,7 @@ impl<'a> Recorder<'a> {
     /// Turns from passes over sample points to those that see the film as a whole, and says which
     /// of them there are to be.
     fn begin_whole(&mut self) -> Tasks {
-        self.compute.set_bind_group(1, &self.glow.group, &[]);
+        self.compute.set_bind_group(1, &self.post.group, &[]);
         self.tasks
     }
 

@@ -11,7 +11,7 @@ pub struct Layouts {
     pub samples: wgpu::BindGroupLayout,
     /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
     /// all storage.
-    pub glow: wgpu::BindGroupLayout,
+    pub post: wgpu::BindGroupLayout,
     /// Group 2 of passes that read lists of blocks: these.
     pub listed: wgpu::BindGroupLayout,
     /// Group 2 of passes that write them: the same, and the workgroups of those that read them.
@@ -46,7 +46,7 @@ impl Layouts {
             ),
             gbuffer: group("gbuffer", &[STORAGE; 3]),
             samples: group("samples", &[READ_ONLY; 3]),
-            glow: group("glow", &[STORAGE; 3]),
+            post: group("post", &[STORAGE; 3]),
             listed: group("listed", &[STORAGE]),
             listing: group("listing", &[STORAGE; 2]),
             film: group("film", &[STORAGE, STORAGE, display, STORAGE]),

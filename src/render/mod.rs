@@ -13,7 +13,7 @@
 //! | [`pipeline_key`] | what rays and normals have pipelines of their own for |
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
-//! | [`glow`] | what is known of a film as a whole: mean, histogram, bloom |
+//! | [`post`] | film statistics, exposure, bloom |
 //! | `post_pipelines` | the pipelines of those passes |
 //! | `anchors` | the anchors of a view that moves |
 //! | [`space`] | render space: origin and unit of coordinates |
@@ -30,7 +30,7 @@ pub mod backdrop;
 mod filling;
 pub mod frame;
 pub mod gbuffer;
-pub mod glow;
+mod histogram_readback;
 pub mod indirect;
 pub mod lattice;
 mod layouts;
@@ -39,6 +39,7 @@ pub mod memory;
 pub mod pass;
 pub mod pipeline_key;
 pub mod pipelines;
+pub mod post;
 mod post_pipelines;
 mod preparation;
 mod region;
@@ -49,7 +50,6 @@ pub mod space;
 pub mod targets;
 pub mod uniforms;
 pub mod view;
-mod watch;
 
 pub use pipelines::Pipelines;
 pub use region::{Eyes, MAX_REGION_PIXELS, MAX_REGION_PX, Region};

@@ -152,7 +152,7 @@ pub enum PipelineVariant {
     /// Indirect light.
     Indirect,
     /// Mean, histogram, bloom.
-    Glow,
+    Post,
 }
 
 impl PipelineVariant {
@@ -180,7 +180,7 @@ impl PipelineVariant {
             Self::Shade(_) => "light".to_owned(),
             Self::Tone(_) => "tone mapping".to_owned(),
             Self::Indirect => "indirect light".to_owned(),
-            Self::Glow => "exposure and bloom".to_owned(),
+            Self::Post => "exposure and bloom".to_owned(),
         }
     }
 
@@ -190,7 +190,7 @@ impl PipelineVariant {
             Self::Rays(_) => 4,
             Self::Tone(_) | Self::Shade(_) => 2,
             Self::Normals(..) | Self::Indirect => 1,
-            Self::Glow => PostPipelines::PARTS.len(),
+            Self::Post => PostPipelines::PARTS.len(),
         }
     }
 
@@ -211,7 +211,7 @@ impl PipelineVariant {
                 ("ANAGLYPH", f64::from(is_anaglyph)),
                 ("SPARSE", f64::from(part == 1)),
             ],
-            Self::Indirect | Self::Glow => Vec::new(),
+            Self::Indirect | Self::Post => Vec::new(),
         }
     }
 }
@@ -232,8 +232,8 @@ pub struct Pipelines {
     tone: SpecializedPipeline,
     indirect: OnceLock<wgpu::ComputePipeline>,
     fill: LazyPipeline,
-    glow: OnceLock<PostPipelines>,
-    glow_layout: wgpu::PipelineLayout,
+    post: OnceLock<PostPipelines>,
+    post_layout: wgpu::PipelineLayout,
     tonemap_sparse: LazyPipeline,
     upsample: LazyPipeline,
     /// Those that can be used without delay.
@@ -261,20 +261,20 @@ impl Pipelines {
     pub fn for_stills(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
-        let Layouts { picture, gbuffer, listed, listing, film, glow, backdrop, .. } = &layouts;
+        let Layouts { picture, gbuffer, listed, listing, film, post, backdrop, .. } = &layouts;
         let listing_layout = pipeline_layout(device, "listing", &[picture, gbuffer, listing]);
         let listed_layout = pipeline_layout(device, "listed", &[picture, gbuffer, listed]);
         let layout = pipeline_layout(device, "picture passes", &[picture, gbuffer, film]);
         let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
-        let glow_layout =
-            pipeline_layout(device, "passes over the film as a whole", &[picture, glow, film]);
+        let post_layout =
+            pipeline_layout(device, "passes over the film as a whole", &[picture, post, film]);
         let camera_cone = SpecializedPipeline::new(&listing_layout, &pass::camera_cone::MODULE);
         let march = SpecializedPipeline::new(&listed_layout, &pass::march::MODULE);
         let normal = SpecializedPipeline::new(&listed_layout, &pass::normal::MODULE);
         let shadow_cone = SpecializedPipeline::new(&listing_layout, &pass::shadow_cone::MODULE);
         let shadow = SpecializedPipeline::new(&listed_layout, &pass::shadow::MODULE);
         let shade = SpecializedPipeline::new(&shade_layout, &pass::shade::MODULE);
-        let tone = SpecializedPipeline::new(&glow_layout, &pass::tone::MODULE);
+        let tone = SpecializedPipeline::new(&post_layout, &pass::tone::MODULE);
         let compact_hits = LazyPipeline::new(&listing_layout, &pass::compact_hits::MODULE);
         let fill = LazyPipeline::new(&layout, &pass::fill::MODULE);
         let tonemap_sparse = LazyPipeline::new(&layout, &pass::tonemap_sparse::MODULE);
@@ -291,10 +291,10 @@ impl Pipelines {
             tone,
             indirect: OnceLock::new(),
             fill,
-            glow: OnceLock::new(),
+            post: OnceLock::new(),
             tonemap_sparse,
             upsample,
-            glow_layout,
+            post_layout,
             layouts,
             ready: Mutex::default(),
             made: Mutex::default(),
@@ -303,9 +303,9 @@ impl Pipelines {
 
     /// The passes that see the film as a whole; compiles them where nobody
     /// [prepared](Self::prepare) them.
-    pub fn glow(&self) -> &PostPipelines {
-        self.glow.get_or_init(|| {
-            PostPipelines::from_parts(|part| self.make(PipelineVariant::Glow, part))
+    pub fn post(&self) -> &PostPipelines {
+        self.post.get_or_init(|| {
+            PostPipelines::from_parts(|part| self.make(PipelineVariant::Post, part))
         })
     }
 
@@ -405,7 +405,7 @@ impl Pipelines {
             PipelineVariant::Normals(..) => vec![&self.normal],
             PipelineVariant::Shade(_) => vec![&self.shade, &self.shade],
             PipelineVariant::Tone(_) => vec![&self.tone, &self.tone],
-            PipelineVariant::Indirect | PipelineVariant::Glow => Vec::new(),
+            PipelineVariant::Indirect | PipelineVariant::Post => Vec::new(),
         }
     }
 
@@ -442,7 +442,7 @@ impl Pipelines {
                 let groups = [picture, samples, film, indirect];
                 plain(&pipeline_layout(device, "indirect", &groups), &pass::indirect::MODULE)
             }
-            PipelineVariant::Glow => plain(&self.glow_layout, PostPipelines::PARTS[part]),
+            PipelineVariant::Post => plain(&self.post_layout, PostPipelines::PARTS[part]),
             _ => {
                 let LazyPipeline { module, layout, .. } = &self.special(variant)[part].general;
                 let shader = self.special(variant)[part].general.shader(device);
@@ -463,8 +463,8 @@ impl Pipelines {
             PipelineVariant::Indirect => {
                 self.indirect.get_or_init(|| part(0));
             }
-            PipelineVariant::Glow => {
-                self.glow.get_or_init(|| PostPipelines::from_parts(part));
+            PipelineVariant::Post => {
+                self.post.get_or_init(|| PostPipelines::from_parts(part));
             }
             _ => {
                 for (part, pipeline) in parts.into_iter().enumerate() {

@@ -14,8 +14,8 @@ use std::sync::{
 
 use super::{
     frame::{self, Dispatches, Recorder},
-    glow::Tasks,
     pipelines::{PipelineVariant, Pipelines},
+    post::Tasks,
     schedule::{Points, Stage, Trace, Work},
     targets::Targets,
     uniforms::Inputs,
@@ -141,7 +141,7 @@ fn rehearse(
         usage: wgpu::BufferUsages::INDIRECT,
         mapped_at_creation: false,
     }));
-    if variant == PipelineVariant::Glow {
+    if variant == PipelineVariant::Post {
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
     let trace = |points: Points, from: Stage| {
@@ -157,7 +157,7 @@ fn rehearse(
             .map(|points| trace(points, Stage::Shade))
             .to_vec(),
         PipelineVariant::Indirect => vec![trace(Points::Indirect(0), Stage::Indirect)],
-        PipelineVariant::Glow => vec![show(0)],
+        PipelineVariant::Post => vec![show(0)],
         // Of a whole picture, and of a sparse lattice.
         PipelineVariant::Tone(_) => vec![show(0), show(1)],
     };

@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use super::{
     backdrop::Backdrop,
-    glow::{Glow, Need},
     indirect::IndirectSource,
     lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
     lists::Lists,
     memory::Memory,
     pass,
     pipelines::Pipelines,
+    post::{Need, Post},
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
     uniforms::{self, ANCHOR_ORBIT_BYTES, GRADIENT_ENTRIES, Light, Picture, Slice},
@@ -74,7 +74,7 @@ pub struct Targets {
     /// The film, the display texture and direct light.
     pub film_group: wgpu::BindGroup,
     /// What is known of the film as a whole: next to nothing until something needs it.
-    pub glow: Arc<Glow>,
+    pub post: Arc<Post>,
     /// The picture of the surroundings: a stand-in until one is shown.
     pub backdrop: Arc<Backdrop>,
     /// The display picture.
@@ -134,7 +134,7 @@ impl Targets {
             film_bw,
             direct,
             film_group,
-            glow: Arc::new(Glow::new(pipelines, region, Need::default())),
+            post: Arc::new(Post::new(pipelines, region, Need::default())),
             backdrop: Arc::new(Backdrop::new(pipelines, None)),
             texture,
         }
@@ -160,7 +160,7 @@ impl Targets {
 
     /// What all of it takes.
     pub fn memory(&self) -> Memory {
-        let [mip_levels, blur] = self.glow.bytes();
+        let [mip_levels, blur] = self.post.bytes();
         let uniforms =
             [&self.picture, &self.anchor_orbit, &self.slices, &self.lights, &self.gradient];
         Memory {
@@ -174,7 +174,7 @@ impl Targets {
             surroundings: self.backdrop.bytes,
             display: texture_bytes(&self.texture),
             uniforms: uniforms.into_iter().map(wgpu::Buffer::size).sum::<u64>()
-                + self.glow.statistics.size(),
+                + self.post.statistics.size(),
         }
     }
 

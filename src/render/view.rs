@@ -7,10 +7,11 @@ use super::{
     backdrop::Backdrop,
     filling::Filling,
     frame::{self, Dispatches, Recorder},
-    glow::{Glow, Need, Tasks},
+    histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     memory::Memory,
     pipelines::{PipelineKey, Pipelines},
+    post::{Need, Post, Tasks},
     preparation::Preparation,
     region::Region,
     report::{Activity, Report},
@@ -18,7 +19,6 @@ use super::{
     space::{self, RenderSpace},
     targets::{Targets, texture_bytes},
     uniforms::Inputs,
-    watch::Watch,
 };
 use crate::{
     gpu::timing::Stopwatch,
@@ -59,9 +59,9 @@ pub struct View {
     moving: bool,
     known: Known,
     filling: Filling,
-    watch: Watch,
+    histogram_readback: HistogramReadback,
     /// What another view knows of the whole picture, of which this one draws a part.
-    lent_glow: Option<Arc<Glow>>,
+    lent_post: Option<Arc<Post>>,
     /// The same of where its indirect light comes from.
     lent_indirect_source: Option<IndirectSource>,
     /// Pipelines on their way.
@@ -101,8 +101,8 @@ impl View {
             moving: false,
             known: Known::default(),
             filling: Filling::default(),
-            watch: Watch::default(),
-            lent_glow: None,
+            histogram_readback: HistogramReadback::default(),
+            lent_post: None,
             lent_indirect_source: None,
             preparation: None,
             dispatches: Dispatches::default(),
@@ -215,9 +215,9 @@ impl View {
         while let Some(work) = self.schedule.next(now_secs) {
             self.submit(work);
         }
-        self.watch.read(&self.pipelines.gpu, &self.targets.glow.statistics);
+        self.histogram_readback.read(&self.pipelines.gpu, &self.targets.post.statistics);
         let idle = self.schedule.status(now_secs).idle
-            && !self.watch.is_reading()
+            && !self.histogram_readback.is_reading()
             && self.pending.is_none();
         if !idle {
             self.finished_secs = now_secs;
@@ -301,7 +301,7 @@ impl View {
         self.schedule.set_lights(inputs.shining(), moved);
         self.schedule.set_casting(inputs.casting());
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
-        self.fit_glow(Need::of(&inputs.picture));
+        self.fit_post(Need::of(&inputs.picture));
         self.targets.fit_direct(&self.pipelines, inputs.has_indirect());
         if self.targets.backdrop.id != inputs.panorama {
             let shown = self.panorama.as_deref().filter(|_| inputs.panorama.is_some());
@@ -311,10 +311,10 @@ impl View {
     }
 
     /// Allocates what the scene needs to know of its film as a whole, and frees what it doesn't.
-    fn fit_glow(&mut self, need: Need) {
-        let need = if self.lent_glow.is_some() { Need::default() } else { need };
-        if self.targets.glow.need() != need {
-            self.targets.glow = Arc::new(self.targets.glow.with_need(&self.pipelines, need));
+    fn fit_post(&mut self, need: Need) {
+        let need = if self.lent_post.is_some() { Need::default() } else { need };
+        if self.targets.post.need() != need {
+            self.targets.post = Arc::new(self.targets.post.with_need(&self.pipelines, need));
             self.known = Known::default();
         }
     }
@@ -328,13 +328,13 @@ impl View {
         if fill {
             self.known = Known::default();
         }
-        if self.lent_glow.is_some() {
+        if self.lent_post.is_some() {
             return Tasks::default();
         }
-        let need = self.targets.glow.need();
+        let need = self.targets.post.need();
         let tasks = Tasks {
             mean: need.mean && !self.known.mean,
-            histogram: self.watch.is_wanted() && !self.known.histogram,
+            histogram: self.histogram_readback.is_wanted() && !self.known.histogram,
             adapt: need.mean.then_some(adapt),
             bloom: need.bloom,
         };
@@ -357,9 +357,9 @@ impl View {
     fn upsample_level(&mut self, work: Work) -> Option<u32> {
         let picture = &self.inputs.as_ref()?.picture;
         let is_plain = picture.eyes.count == 1
-            && self.lent_glow.is_none()
-            && self.targets.glow.need().is_none()
-            && !self.watch.is_wanted();
+            && self.lent_post.is_none()
+            && self.targets.post.need().is_none()
+            && !self.histogram_readback.is_wanted();
         self.filling.upsample_level(work, is_plain, self.targets.finest_spread(picture.size_px))
     }
 
@@ -372,8 +372,8 @@ impl View {
             Recorder::new(&self.pipelines, &passes, &self.targets, inputs, &mut self.dispatches);
         recorder.tasks = tasks;
         recorder.upsample_level = upsample_level;
-        if let Some(lent) = &self.lent_glow {
-            recorder.glow = lent;
+        if let Some(lent) = &self.lent_post {
+            recorder.post = lent;
         }
         if let Some(lent) = &self.lent_indirect_source {
             recorder.indirect_source = lent.clone();
@@ -386,33 +386,33 @@ impl View {
             self.texture_generation += 1;
         }
         if matches!(work, Work::Show { .. }) {
-            self.watch.note_picture();
+            self.histogram_readback.note_picture();
         }
     }
 
     /// Says whether the interface shows the film's histogram: [`Report::histogram`] has it then.
     pub fn watch_histogram(&mut self, wanted: bool) {
-        if wanted == self.watch.is_wanted() {
+        if wanted == self.histogram_readback.is_wanted() {
             return;
         }
-        self.watch = Watch::new(wanted);
+        self.histogram_readback = HistogramReadback::new(wanted);
         if wanted {
             self.schedule.show_again();
         }
     }
 
     /// What is known of the film as a whole: for a view that draws a part of the same picture.
-    pub fn glow(&self) -> Arc<Glow> {
-        self.targets.glow.clone()
+    pub fn post(&self) -> Arc<Post> {
+        self.targets.post.clone()
     }
 
     /// Has the view show its region by the exposure and the bloom of another view that draws all
     /// of the picture, rather than by what it would find in the region; none takes that back. The
     /// lender's picture is finished, and both have the same tone and bloom settings.
-    pub fn lend_glow(&mut self, glow: Option<Arc<Glow>>) {
-        self.lent_glow = glow;
+    pub fn lend_post(&mut self, post: Option<Arc<Post>>) {
+        self.lent_post = post;
         if let Some(inputs) = &self.inputs {
-            self.fit_glow(Need::of(&inputs.picture));
+            self.fit_post(Need::of(&inputs.picture));
             self.schedule.show_again();
         }
     }
@@ -452,7 +452,7 @@ impl View {
             frame_ms: self.frame_ms,
             frame_interval_secs: self.schedule.frame_interval_secs(),
             anchor_ms: self.anchors.took_ms(),
-            histogram: self.watch.histogram().cloned(),
+            histogram: self.histogram_readback.histogram().cloned(),
             memory: self.memory(),
             reference: self.anchors.reference(),
             pictures: self.pictures,

@@ -3,13 +3,13 @@
 
 mod compiling;
 mod edits;
-mod glow;
 mod golden;
 mod harness;
 mod indirect;
 mod memory;
 mod moving;
 mod picture;
+mod post;
 mod samples;
 mod staleness;
 mod surroundings;

@@ -207,7 +207,7 @@ fn mean_histogram_and_bloom_cost_nothing_while_off() {
     let view = finished(&sampled(Scene::default(), 3), SIZE, Pace::Interactive);
     let Dispatches { mean, histogram, bloom, .. } = view.dispatches();
     assert_eq!([mean, histogram, bloom], [0; 3]);
-    assert!(view.glow().bytes().into_iter().sum::<u64>() < 64);
+    assert!(view.post().bytes().into_iter().sum::<u64>() < 64);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use mandelight::{
     render::{
         Pipelines, Region,
         frame::{Dispatches, Recorder, record},
-        glow::{Glow, Need, Tasks},
+        post::{Need, Post, Tasks},
         schedule::Work,
         targets::Targets,
         uniforms::{Inputs, Statistics},
@@ -51,7 +51,7 @@ impl Film {
     pub fn of(region: Region) -> Self {
         let mut targets = Targets::new(pipelines(), region);
         let need = Need { mean: true, bloom: true };
-        targets.glow = Arc::new(Glow::new(pipelines(), region, need));
+        targets.post = Arc::new(Post::new(pipelines(), region, need));
         Self { region, targets }
     }
 
@@ -83,7 +83,7 @@ impl Film {
         record(&mut recorder, Work::Show { level, fill: level > 0, film: false, adapt: 1.0 });
         gpu.queue.submit([recorder.finish()]);
 
-        let glow = &self.targets.glow;
+        let post = &self.targets.post;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("the buffer's bytes");
         let display = Readback::texture(gpu, &self.targets.texture, self.region.display_px());
         let bytes = display.wait(gpu).expect("the picture's bytes");
@@ -93,8 +93,8 @@ impl Film {
             DVec3::new(r.into(), g.into(), b.into())
         };
         Toned {
-            statistics: bytemuck::pod_read_unaligned(&read(&glow.statistics)),
-            mips: read(&glow.mips).as_chunks().0.iter().map(element).collect(),
+            statistics: bytemuck::pod_read_unaligned(&read(&post.statistics)),
+            mips: read(&post.mips).as_chunks().0.iter().map(element).collect(),
             display: bytes
                 .as_chunks::<4>()
                 .0

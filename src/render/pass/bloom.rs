@@ -5,7 +5,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{FIRST_LEVEL, Kernel, Levels},
+        post::{FIRST_LEVEL, Kernel, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -18,7 +18,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/luminance.wgsl"),
@@ -35,7 +35,7 @@ pub fn record(recorder: &mut Recorder<'_>) {
     let levels = Levels::of(picture);
     let passes = picture.bloom.passes;
     let kernel = Kernel::new(picture.bloom.radius, passes, levels);
-    let pipeline = recorder.pipelines.glow().bloom.clone();
+    let pipeline = recorder.pipelines.post().bloom.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, kernel.level);
     for _ in 0..passes {

@@ -4,7 +4,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{Kernel, Levels},
+        post::{Kernel, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -17,7 +17,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("lib/mip.wgsl"),
         shader_file!("pass/blur.wgsl"),
     ],
@@ -25,7 +25,7 @@ pub const MODULE: Module = Module {
 
 /// Applies `kernel` once.
 pub fn record(recorder: &mut Recorder<'_>, kernel: Kernel) {
-    let pipeline = recorder.pipelines.glow().blur.clone();
+    let pipeline = recorder.pipelines.post().blur.clone();
     let workgroups = Levels::of(&recorder.inputs.picture).workgroups(kernel.level);
     for axis in 0..2 {
         let Kernel { level, half_width } = kernel;

@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, glow::Levels, uniforms::Slice},
+    render::{frame::Recorder, post::Levels, uniforms::Slice},
     shader_file,
 };
 use bytemuck::Zeroable;
@@ -13,7 +13,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("lib/luminance.wgsl"),
         shader_file!("lib/mip.wgsl"),
         shader_file!("pass/expose.wgsl"),
@@ -23,7 +23,7 @@ pub const MODULE: Module = Module {
 /// Moves exposure by `adapt`, above 0 to 1, toward its goal; `mean_is_new` where the mip levels
 /// hold a mean that the statistics do not.
 pub fn record(recorder: &mut Recorder<'_>, mean_is_new: bool, adapt: f32) {
-    let pipeline = recorder.pipelines.glow().expose.clone();
+    let pipeline = recorder.pipelines.post().expose.clone();
     let last = Levels::of(&recorder.inputs.picture).last();
     let mip_level = if mean_is_new { last } else { 0 };
     recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::zeroed() }, 1);

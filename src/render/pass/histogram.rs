@@ -4,7 +4,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{FIRST_LEVEL, Levels},
+        post::{FIRST_LEVEL, Levels},
         uniforms::{Slice, Statistics},
     },
     shader_file,
@@ -17,7 +17,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/luminance.wgsl"),
@@ -32,11 +32,11 @@ pub fn record(recorder: &mut Recorder<'_>) {
     let first_bin = std::mem::offset_of!(Statistics, bins) as u64;
     let zeros = Statistics::zeroed().bins;
     recorder.pipelines.gpu.queue.write_buffer(
-        &recorder.glow.statistics,
+        &recorder.post.statistics,
         first_bin,
         bytemuck::bytes_of(&zeros),
     );
-    let pipeline = recorder.pipelines.glow().histogram.clone();
+    let pipeline = recorder.pipelines.post().histogram.clone();
     let workgroups = Levels::of(&recorder.inputs.picture).workgroups(FIRST_LEVEL);
     recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
     recorder.dispatches.histogram += 1;

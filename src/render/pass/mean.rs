@@ -5,7 +5,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{FIRST_LEVEL, Levels},
+        post::{FIRST_LEVEL, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -18,7 +18,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/luminance.wgsl"),
@@ -30,7 +30,7 @@ pub const MODULE: Module = Module {
 /// Makes all mip levels of the film, down to one element.
 pub fn record(recorder: &mut Recorder<'_>) {
     let levels = Levels::of(&recorder.inputs.picture);
-    let pipeline = recorder.pipelines.glow().mean.clone();
+    let pipeline = recorder.pipelines.post().mean.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, levels.last());
     recorder.dispatches.mean += 1;

@@ -4,7 +4,7 @@ use crate::{
     gpu::shader::Module,
     render::{
         frame::Recorder,
-        glow::{FIRST_LEVEL, Levels},
+        post::{FIRST_LEVEL, Levels},
         uniforms::Slice,
     },
     shader_file,
@@ -17,7 +17,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("lib/mip.wgsl"),
         shader_file!("pass/reduce.wgsl"),
     ],
@@ -25,7 +25,7 @@ pub const MODULE: Module = Module {
 
 /// Makes every level up to `last`.
 pub fn record(recorder: &mut Recorder<'_>, last: u32) {
-    let pipeline = recorder.pipelines.glow().reduce.clone();
+    let pipeline = recorder.pipelines.post().reduce.clone();
     for level in FIRST_LEVEL..last {
         let workgroups = Levels::of(&recorder.inputs.picture).workgroups(level + 1);
         let slice = Slice { mip_level: level, ..Slice::zeroed() };

@@ -12,7 +12,7 @@ pub const MODULE: Module = Module {
     files: &[
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
-        shader_file!("types/glow.wgsl"),
+        shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("lib/eye.wgsl"),

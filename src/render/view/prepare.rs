@@ -4,8 +4,8 @@ use super::View;
 use crate::{
     render::{
         Pace,
-        glow::Need,
         pipelines::{Depth, PipelineKey, PipelineVariant},
+        post::Need,
         preparation::{Preparation, Progress},
     },
     scene::{IndirectKind, Scene},
@@ -58,10 +58,10 @@ impl View {
     /// What a scene needs of indirect light and of the passes over the whole film.
     fn behind_shading(&self, scene: &Scene) -> [Option<PipelineVariant>; 2] {
         let has_indirect = scene.indirect.kind != IndirectKind::Off;
-        let glows = self.lent_glow.is_none() && !Need::of_scene(scene).is_none();
+        let has_post = self.lent_post.is_none() && !Need::of_scene(scene).is_none();
         [
             has_indirect.then_some(PipelineVariant::Indirect),
-            (glows || self.watch.is_wanted()).then_some(PipelineVariant::Glow),
+            (has_post || self.histogram_readback.is_wanted()).then_some(PipelineVariant::Post),
         ]
     }
 
@@ -86,7 +86,7 @@ impl View {
         let others = [
             self.special_to_prepare(scene),
             is_free.then_some(PipelineVariant::Indirect),
-            is_free.then_some(PipelineVariant::Glow),
+            is_free.then_some(PipelineVariant::Post),
         ];
         let dive = if is_free { self.of_dive() } else { Vec::new() };
         let others = others.into_iter().chain(dive.into_iter().map(Some));

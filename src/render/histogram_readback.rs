@@ -1,16 +1,16 @@
-//! The film's histogram on its way to the interface, while that shows it.
+//! Readback of the film's histogram, while the interface shows it.
 //!
 //! In: the statistics of each new picture. Out: the newest histogram; nothing here waits.
 
-use super::{glow, report::Histogram};
+use super::{post, report::Histogram};
 use crate::gpu::{
     Gpu,
     readback::{Readback, ReadbackError},
 };
 
-/// The histogram, and what is being read of it.
+/// The newest histogram, and a readback in flight.
 #[derive(Default)]
-pub struct Watch {
+pub struct HistogramReadback {
     is_wanted: bool,
     reading: Option<Readback>,
     /// There has been another picture since the reading began.
@@ -18,8 +18,8 @@ pub struct Watch {
     histogram: Option<Histogram>,
 }
 
-impl Watch {
-    /// One that is wanted or not, and knows nothing yet.
+impl HistogramReadback {
+    /// Starts without a histogram.
     pub fn new(is_wanted: bool) -> Self {
         Self { is_wanted, ..Self::default() }
     }
@@ -49,7 +49,7 @@ impl Watch {
         if let Some(reading) = &mut self.reading {
             match reading.take(gpu) {
                 Ok(None) => return,
-                Ok(Some(bytes)) => self.histogram = glow::histogram(&bytes),
+                Ok(Some(bytes)) => self.histogram = post::histogram(&bytes),
                 // A lost device says so elsewhere.
                 Err(ReadbackError) => {}
             }

@@ -1,4 +1,4 @@
-// What is known of a film as a whole, and its mip levels. Host twin: `render::glow`.
+// Film statistics and mip levels. Host twin: `render::post`.
 
 const HISTOGRAM_BINS = 128u;
 const HISTOGRAM_LOW_STOPS = -14.0;

@@ -1,10 +1,9 @@
-//! What is known of a film as a whole: its mean, its histogram, the exposure that follows from
-//! them, and the light that blooms.
+//! Post passes: statistics of the whole film (mean, histogram), exposure and bloom.
 //!
-//! In: a film. Out: two things that [`tone`](super::pass::tone) reads, the statistics and the mip
-//! level that holds the bloom. They belong to the picture and not to a region of it: a view that
-//! draws a tile tones it by the [`Glow`] of a view that draws all of the picture
-//! ([`View::lend_glow`](super::View::lend_glow)), in which the tile's pixels are looked up by
+//! In: a film. Out: the statistics and the mip level with the bloom, which [`tone`](super::pass::tone)
+//! reads. Both belong to the whole picture: a view that draws a tile uses the [`Post`] of a view that draws
+//! all of the picture
+//! ([`View::lend_post`](super::View::lend_glow)), in which the tile's pixels are looked up by
 //! their place in the picture.
 //!
 //! The mip levels start with the one of 4×4 pixels and serve twice in one submit: first for the
@@ -30,7 +29,7 @@ pub const MOST_HALF_WIDTH: f32 = 6.0;
 
 const ELEMENT_BYTES: u64 = 16;
 
-/// What a scene wants to know of its film as a whole.
+/// Film statistics that a scene needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Need {
     /// The film's mean, for auto exposure.
@@ -57,7 +56,7 @@ impl Need {
 }
 
 /// Statistics and mip levels of a film of one size.
-pub struct Glow {
+pub struct Post {
     levels: Levels,
     need: Need,
     /// [`Statistics`].
@@ -69,7 +68,7 @@ pub struct Glow {
     pub group: wgpu::BindGroup,
 }
 
-impl Glow {
+impl Post {
     /// Allocates what `need` takes for the film of `region`.
     pub fn new(pipelines: &Pipelines, region: Region, need: Need) -> Self {
         let levels = Levels::of_region(region);
@@ -95,8 +94,8 @@ impl Glow {
         let half_blurred = targets::storage(device, "half blurred", room(need.bloom, finest));
         let group = targets::group(
             device,
-            &pipelines.layouts.glow,
-            "glow",
+            &pipelines.layouts.post,
+            "post",
             [&statistics, &mips, &half_blurred].map(wgpu::Buffer::as_entire_binding),
         );
         Self { levels, need, statistics, mips, half_blurred, group }
@@ -113,7 +112,7 @@ impl Glow {
     }
 }
 
-/// Which parts of a glow one display brings up to date.
+/// Post passes that one display runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tasks {
     /// The film's mean.

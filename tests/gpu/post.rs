@@ -16,7 +16,7 @@ fn exposed_scene() -> Scene {
 
 fn statistics(view: &View) -> Statistics {
     let gpu = &pipelines().gpu;
-    let bytes = Readback::buffer(gpu, &view.glow().statistics).wait(gpu).expect("statistics");
+    let bytes = Readback::buffer(gpu, &view.post().statistics).wait(gpu).expect("statistics");
     bytemuck::pod_read_unaligned(&bytes)
 }
 
@@ -148,7 +148,7 @@ fn a_tile_is_exposed_and_blooms_as_the_whole_picture_does() {
         let region =
             Region { picture_px, origin_px: [32, 16], size_px: [50, 40], eyes: Eyes::Camera };
         let mut tile = View::new(pipelines(), region, Pace::Still);
-        tile.lend_glow(Some(whole.glow()));
+        tile.lend_post(Some(whole.post()));
         tile.set_scene(&scene, false);
         settle(&mut tile);
         let Dispatches { mean, bloom, .. } = tile.dispatches();
