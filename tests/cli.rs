@@ -410,7 +410,7 @@ fn options_in(text: &str) -> std::collections::BTreeSet<String> {
 }
 
 #[test]
-fn a_picture_of_the_surroundings_lights_the_scene() {
+fn an_environment_map_lights_the_scene() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("garden.hdr");
     let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();

@@ -1,10 +1,10 @@
 // Light and colour of a sample. No ray is marched here: visibility is a bit.
 
-// Whether this pipeline shows the picture of the surroundings: 0 no, 1 yes, -1 as the picture says.
-override BACKDROP: i32 = -1;
+// Whether this pipeline shows the environment map: 0 no, 1 yes, -1 as the picture says.
+override HAS_ENVIRONMENT_MAP: i32 = -1;
 
-fn has_backdrop() -> bool {
-    if (BACKDROP >= 0) { return BACKDROP == 1; }
+fn has_environment_map() -> bool {
+    if (HAS_ENVIRONMENT_MAP >= 0) { return HAS_ENVIRONMENT_MAP == 1; }
     return picture.background.picture_gain > 0.0;
 }
 
@@ -69,10 +69,10 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
 // What a ray sees that meets nothing, `height` below the picture's upper edge.
 fn background(direction: vec3f, height: f32) -> vec3f {
     let behind = picture.background;
-    if (!has_backdrop()) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
+    if (!has_environment_map()) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
     let in_picture = vec3f(
         dot(direction, behind.picture_x), dot(direction, behind.picture_y), dot(direction, behind.picture_z));
-    return behind.picture_gain * surroundings_at(in_picture);
+    return behind.picture_gain * environment_at(in_picture);
 }
 
 // Light straight from its source that a sample sends to the eye.

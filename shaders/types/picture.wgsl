@@ -128,7 +128,7 @@ struct Background {
     // Linear Rec. 709; w unused.
     top: vec4f,
     bottom: vec4f,
-    // The axes of the surroundings' picture in world space: right, ahead, up.
+    // Axes of the environment map in world space: right, ahead, up.
     picture_x: vec3f,
     // Factor on the picture; 0 where the gradient is shown in its place.
     picture_gain: f32,

@@ -1,4 +1,4 @@
-//! A picture of the surroundings from a file, and what it does to a scene.
+//! An environment map from a file, and what it does to a scene.
 //!
 //! In: the arguments. Out: the picture, and scenes that are lit by it.
 
@@ -10,7 +10,7 @@ use std::{
 };
 
 use mandelight::scene::{
-    BackgroundKind, Panorama, Project, Scene, panorama,
+    BackgroundKind, EnvironmentMap, Project, Scene, environment_map,
     param::{self, Param},
 };
 
@@ -19,7 +19,7 @@ use super::{Failure, tell};
 /// The surroundings that were asked for.
 #[derive(clap::Args)]
 pub struct EnvironmentArguments {
-    /// Light the scene by a picture of the surroundings, Radiance (.hdr) or OpenEXR, and show it
+    /// Light the scene by an environment map, Radiance (.hdr) or OpenEXR, and show it
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
     /// How many lights to divide the picture into, 3 to 64, in place of the scene's own
@@ -30,7 +30,7 @@ pub struct EnvironmentArguments {
 /// A picture that was read, and how many lights it is divided into.
 pub struct Environment {
     /// The picture.
-    pub panorama: Arc<Panorama>,
+    pub environment_map: Arc<EnvironmentMap>,
     count: Option<u32>,
 }
 
@@ -38,8 +38,8 @@ impl EnvironmentArguments {
     /// Reads the picture, where one was asked for.
     pub fn read(&self) -> Result<Option<Environment>, Failure> {
         let Some(path) = &self.environment else { return Ok(None) };
-        let panorama = Arc::new(read(path)?);
-        Ok(Some(Environment { panorama, count: self.environment_lights }))
+        let environment_map = Arc::new(read(path)?);
+        Ok(Some(Environment { environment_map, count: self.environment_lights }))
     }
 }
 
@@ -49,7 +49,7 @@ impl Environment {
         if let Some(count) = self.count {
             scene.lights.rig.count = count;
         }
-        scene.surround_by(&self.panorama);
+        scene.surround_by(&self.environment_map);
     }
 
     /// Lights a scene and every key of its path by the picture.
@@ -71,16 +71,17 @@ pub fn tell_of_missing(scene: &Scene) {
     }
 }
 
-fn read(path: &Path) -> Result<Panorama, Failure> {
+fn read(path: &Path) -> Result<EnvironmentMap, Failure> {
     let shown = path.display();
     let mut bytes = Vec::new();
     // One byte more than is decoded, so that what is too large is known as such.
-    let most = panorama::decode::MAX_FILE_BYTES as u64 + 1;
+    let most = environment_map::decode::MAX_FILE_BYTES as u64 + 1;
     File::open(path)
         .and_then(|file| file.take(most).read_to_end(&mut bytes))
         .map_err(|error| Failure::usage(format!("{shown}: {error}")))?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    panorama::decode(&name, &bytes).map_err(|error| Failure::usage(format!("{shown}: {error}")))
+    environment_map::decode(&name, &bytes)
+        .map_err(|error| Failure::usage(format!("{shown}: {error}")))
 }
 
 fn parse_count(text: &str) -> Result<u32, String> {

@@ -13,7 +13,7 @@ use std::{
 
 use mandelight::{
     export::{Eye, PictureFormat, frame_name},
-    scene::{Panorama, document},
+    scene::{EnvironmentMap, document},
 };
 use sha2::{Digest as _, Sha256};
 
@@ -33,7 +33,7 @@ pub struct Sequence<'a> {
     /// Samples a pixel in place of the scenes' own.
     pub samples: Option<u32>,
     /// The picture behind, where one is at hand.
-    pub panorama: Option<&'a Panorama>,
+    pub environment_map: Option<&'a EnvironmentMap>,
     /// The kind of the files.
     pub format: PictureFormat,
     /// Whose pictures each frame has.
@@ -59,7 +59,9 @@ impl Sequence<'_> {
             let scene = document::to_json_compact(&key.scene);
             line(&mut hash, format!("{:?} {:?} {scene}", key.time_secs, key.easing));
         }
-        for pixel in self.panorama.iter().flat_map(|panorama| panorama.pixels()) {
+        for pixel in
+            self.environment_map.iter().flat_map(|environment_map| environment_map.pixels())
+        {
             pixel.to_array().iter().for_each(|channel| hash.update(channel.to_le_bytes()));
         }
         let digits: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();

@@ -97,7 +97,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         }
     }
     let frames = wanted_of(arguments.frames, &path, &arguments.scene)?;
-    let panorama = environment.map(|environment| environment.panorama);
+    let environment_map = environment.map(|environment| environment.environment_map);
     let Arguments { size, samples, quiet, .. } = arguments;
     let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
     let eyes = arguments.stereo.eyes();
@@ -105,7 +105,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         path: &path,
         size_px: size,
         samples,
-        panorama: panorama.as_deref(),
+        environment_map: environment_map.as_deref(),
         format,
         eyes,
     };
@@ -134,7 +134,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let work = Work {
         path: &path,
         folder: &folder,
-        options: StillOptions { panorama, ..options },
+        options: StillOptions { environment_map, ..options },
         eyes,
         pipelines: Pipelines::for_stills(&gpu),
         health: Health::of(&gpu),

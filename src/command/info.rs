@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
     /// Tell what a view of so many pixels holds of the GPU's memory with everything on: stereo,
-    /// 64 lights, indirect light, auto exposure, bloom, a picture of the surroundings
+    /// 64 lights, indirect light, auto exposure, bloom, an environment map
     #[arg(long, value_name = "WxH", value_parser = super::render::parse_size)]
     size: Option<[u32; 2]>,
     #[command(flatten)]
@@ -87,7 +87,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
 
 /// What a view of `size_px` with everything on holds, by making it.
 fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
-    let (scene, panorama) = memory::everything_on();
+    let (scene, environment_map) = memory::everything_on();
     let region = Region::whole(size_px).shared_by(scene.camera.stereo.layout);
     if !region.fits() {
         let [width, height] = size_px;
@@ -96,7 +96,7 @@ fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
         )));
     }
     let mut view = View::new(&Pipelines::new(gpu), region, Pace::Interactive);
-    view.set_panorama(Some(&panorama));
+    view.set_environment_map(Some(&environment_map));
     view.set_scene(&scene, false);
     view.pump(0.0);
     gpu.wait();

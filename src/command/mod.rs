@@ -13,7 +13,7 @@
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | a file that is there whole or not at all |
 //! | [`folder`] | a folder of frames that belong together |
-//! | [`environment`] | a picture of the surroundings |
+//! | [`environment`] | an environment map |
 //! | [`stereo`] | how both eyes' pictures are put together |
 //! | [`adapter`] | which GPU |
 

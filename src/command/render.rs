@@ -83,7 +83,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     }
     let options = StillOptions {
         samples: arguments.samples,
-        panorama: environment.map(|environment| environment.panorama),
+        environment_map: environment.map(|environment| environment.environment_map),
         format: PictureFormat::of(&arguments.output),
         ..StillOptions::new(arguments.size)
     };

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::{PictureFormat, sheet::Sheet};
 use crate::{
     render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need, uniforms::Picture},
-    scene::{IndirectKind, Panorama, Scene},
+    scene::{EnvironmentMap, IndirectKind, Scene},
 };
 
 /// Most pixels of an overview, both eyes' together: those of 1920×1080, so that pictures up to
@@ -38,7 +38,7 @@ impl Overview {
     pub fn new(
         pipelines: &Arc<Pipelines>,
         scene: &Scene,
-        panorama: Option<&Arc<Panorama>>,
+        environment_map: Option<&Arc<EnvironmentMap>>,
         sheet: &Sheet,
         format: PictureFormat,
     ) -> Option<Self> {
@@ -57,7 +57,7 @@ impl Overview {
         let samples = scene.quality.samples.min(enough);
         scene.quality.samples = samples;
         let mut view = View::new(pipelines, region, Pace::Still);
-        view.set_panorama(panorama);
+        view.set_environment_map(environment_map);
         view.set_scene(&scene, false);
         Some(Self { view, samples, has_post, has_indirect, is_finished: false })
     }

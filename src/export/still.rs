@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     render::{Pace, Pipelines, View},
-    scene::{Camera, Panorama, Scene, StereoLayout},
+    scene::{Camera, EnvironmentMap, Scene, StereoLayout},
 };
 
 /// Largest tile unless told otherwise, in pixels: wide, so that bands stay thin.
@@ -47,8 +47,8 @@ pub struct StillOptions {
     /// Largest width and height of a tile. Smaller needs less memory, larger wastes less time
     /// between tiles; the picture is the same.
     pub tile_px: [u32; 2],
-    /// The picture of the surroundings that is at hand.
-    pub panorama: Option<Arc<Panorama>>,
+    /// The environment map that is at hand.
+    pub environment_map: Option<Arc<EnvironmentMap>>,
     /// The kind of file.
     pub format: PictureFormat,
 }
@@ -61,7 +61,7 @@ impl StillOptions {
             eye: None,
             samples: None,
             tile_px: TILE_PX,
-            panorama: None,
+            environment_map: None,
             format: PictureFormat::default(),
         }
     }
@@ -178,14 +178,14 @@ impl<W: Write> StillJob<W> {
         let [tile_width, tile_height] = options.tile_px;
         let most_rows = (MOST_BAND_BYTES / row_bytes).max(1) as u32;
         let tiling = Tiling::new(sheet, [tile_width, tile_height.min(most_rows)]);
-        let panorama = options.panorama.as_ref();
+        let environment_map = options.environment_map.as_ref();
         let mut view = View::new(pipelines, tiling.tile(0).region, Pace::Still);
-        view.set_panorama(panorama);
+        view.set_environment_map(environment_map);
         view.set_scene(&scene, false);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             pipelines: pipelines.clone(),
-            overview: Overview::new(pipelines, &scene, panorama, &sheet, options.format),
+            overview: Overview::new(pipelines, &scene, environment_map, &sheet, options.format),
             view,
             tiling,
             drawing: 0,

@@ -198,9 +198,9 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(index, group, &[]);
     }
 
-    /// Binds the picture of the surroundings.
-    pub fn bind_backdrop(&mut self) {
-        self.compute.set_bind_group(3, &self.targets.backdrop.group, &[]);
+    /// Binds the environment map.
+    pub fn bind_environment(&mut self) {
+        self.compute.set_bind_group(3, &self.targets.environment_texture.group, &[]);
     }
 
     /// Binds the samples that indirect light is gathered from and for.

@@ -6,7 +6,7 @@
 //! that no tile ends at its border.
 
 use super::{
-    backdrop::Backdrop,
+    environment_texture::EnvironmentTexture,
     pipelines::Pipelines,
     targets::{self, GBuffer, Targets},
 };
@@ -31,7 +31,7 @@ pub fn groups(
 ) -> [wgpu::BindGroup; 3] {
     let device = &pipelines.gpu.device;
     let layouts = &pipelines.layouts;
-    let Backdrop { view, sampler, .. } = &*targets.backdrop;
+    let EnvironmentTexture { view, sampler, .. } = &*targets.environment_texture;
     let samples = [&samples.surface, &samples.color_data, &samples.visibility]
         .map(wgpu::Buffer::as_entire_binding);
     let read = [

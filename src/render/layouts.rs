@@ -18,8 +18,8 @@ pub struct Layouts {
     pub listing: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves, the display texture, direct light.
     pub film: wgpu::BindGroupLayout,
-    /// Group 3 of shading: the picture of the surroundings and its sampler.
-    pub backdrop: wgpu::BindGroupLayout,
+    /// Group 3 of shading: the environment map and its sampler.
+    pub environment_texture: wgpu::BindGroupLayout,
     /// Group 3 of the indirect pass: the same, and the surface of the indirect source.
     pub indirect: wgpu::BindGroupLayout,
 }
@@ -38,7 +38,8 @@ impl Layouts {
             format: super::targets::DISPLAY_FORMAT,
             view_dimension: wgpu::TextureViewDimension::D2,
         };
-        let [backdrop_texture, backdrop_sampler] = super::backdrop::BINDINGS;
+        let [environment_texture_binding, environment_sampler_binding] =
+            super::environment_texture::BINDINGS;
         Self {
             picture: group(
                 "picture",
@@ -50,8 +51,14 @@ impl Layouts {
             listed: group("listed", &[STORAGE]),
             listing: group("listing", &[STORAGE; 2]),
             film: group("film", &[STORAGE, STORAGE, display, STORAGE]),
-            backdrop: group("surroundings", &[backdrop_texture, backdrop_sampler]),
-            indirect: group("indirect source", &[backdrop_texture, backdrop_sampler, READ_ONLY]),
+            environment_texture: group(
+                "environment map",
+                &[environment_texture_binding, environment_sampler_binding],
+            ),
+            indirect: group(
+                "indirect source",
+                &[environment_texture_binding, environment_sampler_binding, READ_ONLY],
+            ),
         }
     }
 }

@@ -10,8 +10,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::scene::{
-    BackgroundKind, EnvironmentLight, IndirectKind, MAX_LIGHTS, Panorama, RigKind, Scene,
-    StereoLayout, panorama,
+    BackgroundKind, EnvironmentLight, EnvironmentMap, IndirectKind, MAX_LIGHTS, RigKind, Scene,
+    StereoLayout, environment_map,
 };
 
 /// Bytes that a view holds, by purpose.
@@ -31,8 +31,8 @@ pub struct Memory {
     pub mip_levels: u64,
     /// What a blur needs beside them.
     pub blur: u64,
-    /// The picture of the surroundings.
-    pub surroundings: u64,
+    /// The environment map.
+    pub environment_map: u64,
     /// The display picture; that of another size too while it is still shown.
     pub display: u64,
     /// Scene, lights, gradient, slices, statistics.
@@ -50,7 +50,7 @@ impl Memory {
             film,
             mip_levels,
             blur,
-            surroundings,
+            environment_map,
             display,
             uniforms,
         } = *self;
@@ -62,7 +62,7 @@ impl Memory {
             ("film", film),
             ("mip levels", mip_levels),
             ("blur", blur),
-            ("surroundings", surroundings),
+            ("environment map", environment_map),
             ("display", display),
             ("uniforms", uniforms),
         ]
@@ -79,8 +79,8 @@ pub fn mebibytes(bytes: u64) -> String {
     format!("{:.1} MiB", bytes as f64 / f64::from(1_u32 << 20))
 }
 
-/// A scene that uses everything that takes memory, and the largest picture of surroundings.
-pub fn everything_on() -> (Scene, Arc<Panorama>) {
+/// A scene that uses everything that takes memory, and the largest environment map.
+pub fn everything_on() -> (Scene, Arc<EnvironmentMap>) {
     let mut scene = Scene::default();
     scene.camera.stereo.layout = StereoLayout::SideBySide;
     let light = EnvironmentLight {
@@ -94,7 +94,10 @@ pub fn everything_on() -> (Scene, Arc<Panorama>) {
     scene.background.kind = BackgroundKind::Picture;
     scene.tone.auto_exposure = true;
     scene.bloom.strength = 0.3;
-    let panorama = Panorama::from_fn("surroundings", panorama::MAX_SIZE_PX, |_| DVec3::splat(0.2));
-    scene.lights.rig.picture.name = panorama.name().to_owned();
-    (scene, Arc::new(panorama))
+    let environment_map =
+        EnvironmentMap::from_fn("environment map", environment_map::MAX_SIZE_PX, |_| {
+            DVec3::splat(0.2)
+        });
+    scene.lights.rig.picture.name = environment_map.name().to_owned();
+    (scene, Arc::new(environment_map))
 }

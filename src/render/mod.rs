@@ -8,7 +8,7 @@
 //! | [`frame`] | the passes of one submit |
 //! | [`indirect`] | where indirect light comes from |
 //! | [`pass`] | one pass a file, with its shader's stem |
-//! | [`backdrop`] | the picture of the surroundings |
+//! | [`environment_texture`] | the environment map |
 //! | [`pipelines`] | pipelines and bind group layouts |
 //! | [`pipeline_key`] | what rays and normals have pipelines of their own for |
 //! | `filling` | how a sparse lattice becomes a whole picture |
@@ -26,7 +26,7 @@
 //! | [`report`] | what a view says of itself |
 
 mod anchors;
-pub mod backdrop;
+pub mod environment_texture;
 mod filling;
 pub mod frame;
 pub mod gbuffer;

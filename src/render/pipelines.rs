@@ -145,7 +145,7 @@ pub enum PipelineVariant {
     Rays(PipelineKey),
     /// Normals of one kind, as the shaders count them, for one form.
     Normals(PipelineKey, u32),
-    /// Shading, with the picture of the surroundings behind all or without.
+    /// Shading, with the environment map behind all or without.
     Shade(bool),
     /// Tone mapping.
     Tone(ToneForm),
@@ -202,8 +202,11 @@ impl PipelineVariant {
                 let kind = ("NORMALS", f64::from(kind));
                 key.constants().into_iter().chain([kind]).collect()
             }
-            Self::Shade(has_backdrop) => {
-                vec![("BACKDROP", f64::from(has_backdrop)), ("SINGLE", f64::from(part == 0))]
+            Self::Shade(has_environment_map) => {
+                vec![
+                    ("HAS_ENVIRONMENT_MAP", f64::from(has_environment_map)),
+                    ("SINGLE", f64::from(part == 0)),
+                ]
             }
             Self::Tone(ToneForm { curve, blooms, is_anaglyph }) => vec![
                 ("CURVE", f64::from(curve)),
@@ -261,11 +264,13 @@ impl Pipelines {
     pub fn for_stills(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
-        let Layouts { picture, gbuffer, listed, listing, film, post, backdrop, .. } = &layouts;
+        let Layouts { picture, gbuffer, listed, listing, film, post, environment_texture, .. } =
+            &layouts;
         let listing_layout = pipeline_layout(device, "listing", &[picture, gbuffer, listing]);
         let listed_layout = pipeline_layout(device, "listed", &[picture, gbuffer, listed]);
         let layout = pipeline_layout(device, "picture passes", &[picture, gbuffer, film]);
-        let shade_layout = pipeline_layout(device, "shading", &[picture, gbuffer, film, backdrop]);
+        let shade_layout =
+            pipeline_layout(device, "shading", &[picture, gbuffer, film, environment_texture]);
         let post_layout =
             pipeline_layout(device, "passes over the film as a whole", &[picture, post, film]);
         let camera_cone = SpecializedPipeline::new(&listing_layout, &pass::camera_cone::MODULE);

@@ -3,7 +3,7 @@
 //! In: a film. Out: the statistics and the mip level with the bloom, which [`tone`](super::pass::tone)
 //! reads. Both belong to the whole picture: a view that draws a tile uses the [`Post`] of a view that draws
 //! all of the picture
-//! ([`View::lend_post`](super::View::lend_glow)), in which the tile's pixels are looked up by
+//! ([`View::lend_post`](super::View::lend_post)), in which the tile's pixels are looked up by
 //! their place in the picture.
 //!
 //! The mip levels start with the one of 4×4 pixels and serve twice in one submit: first for the

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::{
-    backdrop::Backdrop,
+    environment_texture::EnvironmentTexture,
     indirect::IndirectSource,
     lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
     lists::Lists,
@@ -75,8 +75,8 @@ pub struct Targets {
     pub film_group: wgpu::BindGroup,
     /// What is known of the film as a whole: next to nothing until something needs it.
     pub post: Arc<Post>,
-    /// The picture of the surroundings: a stand-in until one is shown.
-    pub backdrop: Arc<Backdrop>,
+    /// The environment map: a stand-in until one is shown.
+    pub environment_texture: Arc<EnvironmentTexture>,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
@@ -135,7 +135,7 @@ impl Targets {
             direct,
             film_group,
             post: Arc::new(Post::new(pipelines, region, Need::default())),
-            backdrop: Arc::new(Backdrop::new(pipelines, None)),
+            environment_texture: Arc::new(EnvironmentTexture::new(pipelines, None)),
             texture,
         }
     }
@@ -171,7 +171,7 @@ impl Targets {
             film: self.film_rg.size() + self.film_bw.size(),
             mip_levels,
             blur,
-            surroundings: self.backdrop.bytes,
+            environment_map: self.environment_texture.bytes,
             display: texture_bytes(&self.texture),
             uniforms: uniforms.into_iter().map(wgpu::Buffer::size).sum::<u64>()
                 + self.post.statistics.size(),

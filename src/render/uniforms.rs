@@ -21,7 +21,7 @@ use super::{Region, region::Eyes as RegionEyes, schedule::Stale, space::RenderSp
 use crate::{
     fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
     scene::{
-        self, BloomOrder, ColorSource, IndirectKind, MAX_LIGHTS, Normals, Panorama, Scene,
+        self, BloomOrder, ColorSource, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
         ToneChannels, ToneCurve, ToneMean, color,
     },
 };
@@ -254,8 +254,8 @@ pub struct Inputs {
     pub series: SeriesList,
     /// The anchor's orbit; one place that means nothing where there is none.
     pub reference_points: Arc<[ReferencePoint]>,
-    /// The [`Panorama::id`] of the picture of the surroundings, where it is shown.
-    pub panorama: Option<u64>,
+    /// The [`EnvironmentMap::id`] of the environment map, where it is shown.
+    pub environment_map: Option<u64>,
 }
 
 impl Inputs {
@@ -276,7 +276,7 @@ impl Inputs {
             gradient: color::gradient_lut(&scene.surface.gradient),
             series,
             reference_points,
-            panorama: None,
+            environment_map: None,
         }
     }
 
@@ -285,10 +285,10 @@ impl Inputs {
         [bytemuck::bytes_of(&self.series), bytemuck::cast_slice(&self.reference_points)].concat()
     }
 
-    /// The same with the picture of the surroundings that is at hand, where `scene` shows it.
-    pub fn with_panorama(mut self, scene: &Scene, at_hand: Option<&Panorama>) -> Self {
+    /// The same with the environment map that is at hand, where `scene` shows it.
+    pub fn with_environment_map(mut self, scene: &Scene, at_hand: Option<&EnvironmentMap>) -> Self {
         let shown = background::shown(scene, at_hand);
-        self.panorama = shown.map(Panorama::id);
+        self.environment_map = shown.map(EnvironmentMap::id);
         let gain = scene.lights.rig.intensity as f32;
         self.picture.background.picture_gain = if shown.is_some() { gain } else { 0.0 };
         self
@@ -358,7 +358,7 @@ impl Inputs {
         let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.picture.surface };
         let same_light = surface(self) == surface(old)
             && new_picture.background == old_picture.background
-            && self.panorama == old.panorama
+            && self.environment_map == old.environment_map
             && self.is_lit_as(old)
             && self.gradient == old.gradient
             && self.has_indirect() == old.has_indirect();

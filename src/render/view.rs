@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     anchors::Anchors,
-    backdrop::Backdrop,
+    environment_texture::EnvironmentTexture,
     filling::Filling,
     frame::{self, Dispatches, Recorder},
     histogram_readback::HistogramReadback,
@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     gpu::timing::Stopwatch,
-    scene::{IndirectKind, Panorama, Quality, Scene},
+    scene::{EnvironmentMap, IndirectKind, Quality, Scene},
 };
 
 mod prepare;
@@ -50,10 +50,10 @@ pub struct View {
     /// Of the view's own work, and of frames of the interface: those are none.
     stopwatch: Stopwatch<Option<Work>>,
     scene: Option<Scene>,
-    /// The picture of the surroundings that is at hand.
-    panorama: Option<Arc<Panorama>>,
+    /// The environment map that is at hand.
+    environment_map: Option<Arc<EnvironmentMap>>,
     /// It came since the scene was looked at.
-    is_panorama_new: bool,
+    is_environment_map_new: bool,
     inputs: Option<Inputs>,
     pending: Option<Scene>,
     moving: bool,
@@ -94,8 +94,8 @@ impl View {
             schedule: Schedule::new(pace, region.film_px()),
             stopwatch: Stopwatch::default(),
             scene: None,
-            panorama: None,
-            is_panorama_new: false,
+            environment_map: None,
+            is_environment_map_new: false,
             inputs: None,
             pending: None,
             moving: false,
@@ -134,8 +134,8 @@ impl View {
             && region.film_px() == self.region.film_px()
             && region.display_px() == self.region.display_px();
         if !same_size {
-            let backdrop = self.targets.backdrop.clone();
-            self.targets = Targets { backdrop, ..Targets::new(&self.pipelines, region) };
+            let environment_texture = self.targets.environment_texture.clone();
+            self.targets = Targets { environment_texture, ..Targets::new(&self.pipelines, region) };
         }
         self.known = Known::default();
         self.region = region;
@@ -156,7 +156,7 @@ impl View {
     pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
         self.moving = moving;
         self.schedule.set_moving(moving);
-        let is_new = self.scene.as_ref() != Some(scene) || self.is_panorama_new;
+        let is_new = self.scene.as_ref() != Some(scene) || self.is_environment_map_new;
         self.pending = is_new.then(|| scene.clone());
     }
 
@@ -174,15 +174,16 @@ impl View {
         self.stopwatch.note(&self.pipelines.gpu, None);
     }
 
-    /// Gives the view the picture of the surroundings that is at hand: a scene that names it and
+    /// Gives the view the environment map that is at hand: a scene that names it and
     /// has it as background shows it.
-    pub fn set_panorama(&mut self, panorama: Option<&Arc<Panorama>>) {
-        if self.panorama.as_ref().map(|old| old.id()) == panorama.map(|new| new.id()) {
+    pub fn set_environment_map(&mut self, environment_map: Option<&Arc<EnvironmentMap>>) {
+        if self.environment_map.as_ref().map(|old| old.id()) == environment_map.map(|new| new.id())
+        {
             return;
         }
-        self.panorama = panorama.cloned();
+        self.environment_map = environment_map.cloned();
         // The scene is looked at again, in its turn.
-        self.is_panorama_new = true;
+        self.is_environment_map_new = true;
         self.pending = self.pending.take().or_else(|| self.scene.clone());
     }
 
@@ -271,7 +272,7 @@ impl View {
     /// Uploads a new scene and tells the schedule what it made stale.
     fn apply(&mut self, scene: Scene) {
         let inputs = self.inputs_of(&scene);
-        self.is_panorama_new = false;
+        self.is_environment_map_new = false;
         let stale = match &self.inputs {
             None => Some(Stale::Geometry),
             Some(old) => inputs.stale_since(old),
@@ -291,7 +292,7 @@ impl View {
     /// The scene as this view's passes read it.
     fn inputs_of(&self, scene: &Scene) -> Inputs {
         Inputs::about(scene, self.region, &self.space)
-            .with_panorama(scene, self.panorama.as_deref())
+            .with_environment_map(scene, self.environment_map.as_deref())
             .with_indirect_source(self.lent_indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
     }
@@ -303,9 +304,11 @@ impl View {
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_post(Need::of(&inputs.picture));
         self.targets.fit_direct(&self.pipelines, inputs.has_indirect());
-        if self.targets.backdrop.id != inputs.panorama {
-            let shown = self.panorama.as_deref().filter(|_| inputs.panorama.is_some());
-            self.targets.backdrop = Arc::new(Backdrop::new(&self.pipelines, shown));
+        if self.targets.environment_texture.id != inputs.environment_map {
+            let shown =
+                self.environment_map.as_deref().filter(|_| inputs.environment_map.is_some());
+            self.targets.environment_texture =
+                Arc::new(EnvironmentTexture::new(&self.pipelines, shown));
         }
         self.inputs = Some(inputs);
     }

@@ -10,7 +10,7 @@
 //! | [`precise`] | positions that stay exact at any zoom |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
-//! | [`panorama`] | a picture of the surroundings, decoded, and cut into lights |
+//! | [`environment_map`] | an environment map, decoded, and cut into lights |
 //! | [`history`] | undo and redo, grouped by gesture |
 //! | [`path`] | key frames of whole scenes, and the scene at any time between them |
 //! | `project` | a scene and its path, as a document holds them |
@@ -31,10 +31,10 @@ mod tone;
 
 pub mod color;
 pub mod document;
+pub mod environment_map;
 pub mod history;
 mod indirect;
 pub mod link;
-pub mod panorama;
 pub mod param;
 pub mod path;
 pub mod precise;
@@ -45,10 +45,10 @@ mod validate;
 pub use background::{Background, BackgroundKind};
 pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
+pub use environment_map::EnvironmentMap;
 pub use fractal::{Fractal, Variant};
 pub use indirect::{Indirect, IndirectKind};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
-pub use panorama::Panorama;
 pub use path::Path;
 pub use precise::{Precise, PrecisePoint};
 pub use project::Project;

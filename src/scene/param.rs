@@ -187,7 +187,7 @@ params! {
     SUN_LIGHTS = "lights.rig.sky.sun_lights", "Sun lights", Count, 1.0, 32.0, default 1.0, Integer by 1.0,
         "How many of the rig's lights make the sun, spread over its disc.";
     RIG_ROTATION = "lights.rig.picture.rotation_deg", "Rotation", Degrees, -180.0, 180.0, default 0.0, Linear by 1.0,
-        "Turns the picture of the surroundings and its lights about the vertical axis, counterclockwise as seen from above.";
+        "Turns the environment map and its lights about the vertical axis, counterclockwise as seen from above.";
     AMBIENT = "surface.ambient", "Ambient", None, 0.0, 1.0, default 0.04, Linear by 0.01,
         "Light that reaches every point alike, as a part of the surface's colour. Higher lifts the shadows.";
     DIFFUSE = "surface.diffuse", "Diffuse", None, 0.0, 1.0, default 0.9, Linear by 0.01,

@@ -14,7 +14,7 @@ mod sky;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{BackgroundKind, LightFrame, Panorama, Scene, param};
+use super::{BackgroundKind, EnvironmentMap, LightFrame, Scene, param};
 pub use sky::Sky;
 
 /// What a rig's lights are made from.
@@ -26,7 +26,7 @@ pub enum RigKind {
     None,
     /// A sky with a sun.
     Sky,
-    /// An equirectangular picture of the surroundings.
+    /// An equirectangular environment map.
     Picture,
 }
 
@@ -74,7 +74,7 @@ impl Default for Rig {
     }
 }
 
-/// A picture of the surroundings, and the lights that it was cut into.
+/// An environment map, and the lights that it was cut into.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PictureRig {
@@ -156,13 +156,13 @@ impl Rig {
             .collect()
     }
 
-    /// Makes the picture's lights from `panorama`: as many as [`Self::count`] says, but at most
+    /// Makes the picture's lights from `environment_map`: as many as [`Self::count`] says, but at most
     /// `room`; fewer where the picture cannot be divided so often.
-    pub fn light_by(&mut self, panorama: &Panorama, room: usize) {
+    pub fn light_by(&mut self, environment_map: &EnvironmentMap, room: usize) {
         let count = (self.count as usize).min(room);
         self.kind = RigKind::Picture;
-        self.picture.name = panorama.name().to_owned();
-        self.picture.lights = panorama
+        self.picture.name = environment_map.name().to_owned();
+        self.picture.lights = environment_map
             .cut(count)
             .into_iter()
             .map(|light| RigLight::rounded(light.direction, light.energy / std::f64::consts::PI))
@@ -172,16 +172,16 @@ impl Rig {
 }
 
 impl Scene {
-    /// Lights the scene by `panorama` and, where it does not name that picture yet, shows it
+    /// Lights the scene by `environment_map` and, where it does not name that picture yet, shows it
     /// behind the fractal. A scene that names it without being lit by it stays as it is.
-    pub fn surround_by(&mut self, panorama: &Panorama) {
-        let is_new = self.lights.rig.picture.name != panorama.name();
+    pub fn surround_by(&mut self, environment_map: &EnvironmentMap) {
+        let is_new = self.lights.rig.picture.name != environment_map.name();
         if is_new {
             self.background.kind = BackgroundKind::Picture;
         }
         if is_new || self.lights.rig.kind == RigKind::Picture {
             let room = self.lights.room_for_rig();
-            self.lights.rig.light_by(panorama, room);
+            self.lights.rig.light_by(environment_map, room);
         }
     }
 }

@@ -19,7 +19,7 @@ use super::{
     timeline::Timeline,
     view,
 };
-use crate::scene::{Camera, Panorama, Project, Scene, presets};
+use crate::scene::{Camera, EnvironmentMap, Project, Scene, presets};
 
 /// A movement that pauses for this long, while the hand still holds on, gets a full picture.
 const STILL_SECS: f64 = 0.25;
@@ -44,8 +44,8 @@ pub struct Interface {
     view_px: [u32; 2],
     moving: bool,
     histogram_shown: bool,
-    /// The picture of the surroundings that is at hand.
-    panorama: Option<Arc<Panorama>>,
+    /// The environment map that is at hand.
+    environment_map: Option<Arc<EnvironmentMap>>,
 }
 
 impl Interface {
@@ -65,7 +65,7 @@ impl Interface {
             view_px: [1, 1],
             moving: false,
             histogram_shown: false,
-            panorama: None,
+            environment_map: None,
         }
     }
 
@@ -89,20 +89,20 @@ impl Interface {
         self.timeline.stop();
     }
 
-    /// Takes a picture of the surroundings. A scene that does not name it yet is lit by it from
+    /// Takes an environment map. A scene that does not name it yet is lit by it from
     /// now on and shows it, which undo takes back; one that is lit by it already is lit by what
     /// it holds now.
-    pub fn use_panorama(&mut self, panorama: Arc<Panorama>) {
+    pub fn use_environment_map(&mut self, environment_map: Arc<EnvironmentMap>) {
         let mut project = self.project().clone();
-        project.scene.surround_by(&panorama);
+        project.scene.surround_by(&environment_map);
         self.editor.replace(project);
-        self.panorama = Some(panorama);
+        self.environment_map = Some(environment_map);
     }
 
-    /// The picture of the surroundings that is at hand, where the scene names it.
-    pub fn panorama(&self) -> Option<&Arc<Panorama>> {
+    /// The environment map that is at hand, where the scene names it.
+    pub fn environment_map(&self) -> Option<&Arc<EnvironmentMap>> {
         let name = &self.scene().lights.rig.picture.name;
-        self.panorama.as_ref().filter(|panorama| panorama.name() == name)
+        self.environment_map.as_ref().filter(|environment_map| environment_map.name() == name)
     }
 
     /// Width and height that the picture should have, in pixels.
@@ -201,7 +201,7 @@ impl Interface {
             commands,
             actions,
             inputs,
-            panorama: self.panorama.as_deref(),
+            environment_map: self.environment_map.as_deref(),
             camera_status: self.camera_status,
             view_px: self.view_px,
             flying: self.pilot.is_flying(),

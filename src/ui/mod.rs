@@ -113,7 +113,7 @@ pub enum Action {
     SaveScene,
     /// Ask for a scene document, or a PNG that carries one, and load it.
     LoadScene,
-    /// Ask for a picture of the surroundings, for [`Interface::use_panorama`].
+    /// Ask for an environment map, for [`Interface::use_environment_map`].
     ChoosePicture,
     /// Copy the address that shares this view.
     CopyLink,

@@ -118,7 +118,7 @@ fn hint_at_drop(ui: &egui::Ui) {
     painter.text(
         area.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop a scene, a picture saved by Mandelight, or surroundings (.hdr, .exr)",
+        "Drop a scene, a picture saved by Mandelight, or an environment map (.hdr, .exr)",
         egui::FontId::proportional(18.0),
         egui::Color32::WHITE,
     );

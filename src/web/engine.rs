@@ -137,8 +137,8 @@ impl Engine {
         pair: bool,
         session: &mut Session,
     ) {
-        let panorama = session.interface.panorama().cloned();
-        let options = StillOptions { panorama, format, ..StillOptions::new(size_px) };
+        let environment_map = session.interface.environment_map().cloned();
+        let options = StillOptions { environment_map, format, ..StillOptions::new(size_px) };
         match Still::start(&self.pipelines, session.interface.scene(), options, pair) {
             Ok(still) => {
                 self.begin(Export::Still(Box::new(still)));
@@ -156,9 +156,9 @@ impl Engine {
         session: &mut Session,
     ) {
         let [width, height] = size_px;
-        let panorama = session.interface.panorama().cloned();
+        let environment_map = session.interface.environment_map().cloned();
         self.waiting =
-            Some((StillOptions { panorama, ..StillOptions::new(size_px) }, frames, pair));
+            Some((StillOptions { environment_map, ..StillOptions::new(size_px) }, frames, pair));
         Sink::choose(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
     }
 
@@ -207,7 +207,7 @@ impl Engine {
             now_secs,
         );
         self.picture.note_frame();
-        self.picture.set_panorama(interface.panorama());
+        self.picture.set_environment_map(interface.environment_map());
         self.picture.set_scene(interface.scene(), interface.is_moving());
         self.picture.watch_histogram(interface.wants_histogram());
         if self.step(session, now_secs) {

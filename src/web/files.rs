@@ -12,17 +12,17 @@ use super::{
     mailbox::{Mailbox, Message},
     page::{self, describe, document, window},
 };
-use crate::scene::{document::MAX_BYTES, panorama::decode::MAX_FILE_BYTES};
+use crate::scene::{document::MAX_BYTES, environment_map::decode::MAX_FILE_BYTES};
 
 /// As much as is read of a file that may hold a scene: one byte more than of a document, so that
 /// what is too large is known as such. A picture carries its scene ahead of its pixels.
 const MAX_READ_BYTES: f64 = (MAX_BYTES + 1) as f64;
 
-/// Largest picture of the surroundings: one byte more than is decoded, so that what is too
+/// Largest environment map: one byte more than is decoded, so that what is too
 /// large is known as such.
 const MAX_PANORAMA_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
 
-/// How the names of pictures of the surroundings end.
+/// How the names of environment maps end.
 const PANORAMA_ENDINGS: [&str; 3] = [".hdr", ".pic", ".exr"];
 
 /// A download is handed over in pieces of about this size.
@@ -157,8 +157,8 @@ pub fn read(file: &web_sys::File, mailbox: &Mailbox) {
 
 async fn read_start(file: &web_sys::File) -> Result<Vec<u8>, JsValue> {
     let name = file.name().to_lowercase();
-    let is_panorama = PANORAMA_ENDINGS.iter().any(|ending| name.ends_with(ending));
-    let most = if is_panorama { MAX_PANORAMA_BYTES } else { MAX_READ_BYTES };
+    let is_environment_map = PANORAMA_ENDINGS.iter().any(|ending| name.ends_with(ending));
+    let most = if is_environment_map { MAX_PANORAMA_BYTES } else { MAX_READ_BYTES };
     let start = file.slice_with_f64_and_f64(0.0, file.size().min(most))?;
     let buffer = JsFuture::from(start.array_buffer()).await?;
     Ok(js_sys::Uint8Array::new(&buffer).to_vec())

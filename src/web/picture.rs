@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     render::{Pace, Pipelines, Region, Report, View, frame::Dispatches},
-    scene::{Panorama, Scene, StereoLayout},
+    scene::{EnvironmentMap, Scene, StereoLayout},
     ui,
 };
 
@@ -123,10 +123,10 @@ impl Picture {
         }
     }
 
-    /// Gives the view the picture of the surroundings that is at hand.
-    pub fn set_panorama(&mut self, panorama: Option<&Arc<Panorama>>) {
+    /// Gives the view the environment map that is at hand.
+    pub fn set_environment_map(&mut self, environment_map: Option<&Arc<EnvironmentMap>>) {
         if let Some(view) = &mut self.view {
-            view.set_panorama(panorama);
+            view.set_environment_map(environment_map);
         }
     }
 

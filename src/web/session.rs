@@ -18,7 +18,7 @@ use crate::{
     export,
     gpu::Gpu,
     render::{Report, frame::Dispatches},
-    scene::{BackgroundKind, Project, Scene, document, link, panorama},
+    scene::{BackgroundKind, Project, Scene, document, environment_map, link},
     ui::{Interface, Notice, Settings, theme},
 };
 
@@ -90,7 +90,7 @@ impl Session {
             paused_at: None,
         };
         session.be_cautious(device_loss::caution_at_start(session.fragment().as_deref()));
-        session.miss_panorama();
+        session.miss_environment_map();
         if let Some(complaint) = complaint {
             session.complain(complaint);
         }
@@ -203,7 +203,7 @@ impl Session {
                 Message::Fragment(fragment) => match link::project_from_fragment(&fragment) {
                     Ok(project) => {
                         self.interface.replace_project(project);
-                        self.miss_panorama();
+                        self.miss_environment_map();
                     }
                     Err(error) => self.complain(error.to_string()),
                 },
@@ -214,12 +214,13 @@ impl Session {
         }
     }
 
-    /// Opens a file: a scene, a picture that carries one, or a picture of the surroundings.
+    /// Opens a file: a scene, a picture that carries one, or an environment map.
     fn open_file(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
         // A picture of this program's own opens its scene, whatever else its pixels could light.
-        if panorama::is_panorama(bytes) && exr_scene(bytes).is_none() {
-            let panorama = panorama::decode(name, bytes).map_err(|error| error.to_string())?;
-            self.interface.use_panorama(Arc::new(panorama));
+        if environment_map::is_environment_map(bytes) && exr_scene(bytes).is_none() {
+            let environment_map =
+                environment_map::decode(name, bytes).map_err(|error| error.to_string())?;
+            self.interface.use_environment_map(Arc::new(environment_map));
             let lights = self.interface.scene().lights.rig.len();
             self.say(format!(
                 "{name} lights the scene with {lights} lights, beside those of the list."
@@ -228,16 +229,16 @@ impl Session {
         }
         self.interface.replace_project(project_in(bytes)?);
         self.say(format!("Opened {name}."));
-        self.miss_panorama();
+        self.miss_environment_map();
         Ok(())
     }
 
-    /// Says which picture of the surroundings the scene shows, where it is not at hand.
-    fn miss_panorama(&mut self) {
+    /// Says which environment map the scene shows, where it is not at hand.
+    fn miss_environment_map(&mut self) {
         let scene = self.interface.scene();
         let name = scene.lights.rig.picture.name.clone();
         let is_shown = scene.background.kind == BackgroundKind::Picture;
-        if is_shown && !name.is_empty() && self.interface.panorama().is_none() {
+        if is_shown && !name.is_empty() && self.interface.environment_map().is_none() {
             self.say(format!("The background is {name}, which is not kept with the scene: drop or choose it to see it. Its lights are there."));
         }
     }

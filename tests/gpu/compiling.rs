@@ -163,7 +163,7 @@ fn nothing_is_compiled_unannounced() {
         }
         all.insert(format!("normal, POWER {power}, NORMALS 5"));
     }
-    all.extend([0, 1].map(|single| format!("shade, BACKDROP 0, SINGLE {single}")));
+    all.extend([0, 1].map(|single| format!("shade, HAS_ENVIRONMENT_MAP 0, SINGLE {single}")));
     for (bloom, sparse) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         all.insert(format!("tone, CURVE 1, BLOOM {bloom}, ANAGLYPH 0, SPARSE {sparse}"));
     }

@@ -3,6 +3,7 @@
 
 mod compiling;
 mod edits;
+mod environment_map;
 mod golden;
 mod harness;
 mod indirect;
@@ -12,4 +13,3 @@ mod picture;
 mod post;
 mod samples;
 mod staleness;
-mod surroundings;

@@ -10,7 +10,7 @@ use mandelight::{
 const MOST_BYTES: u64 = 116 * 1024 * 1024 + 512 * 1024;
 
 /// A view on a device of its own, with all buffers made, and what that device's allocator counts.
-fn allocated(scene: &Scene, with_panorama: bool, size: [u32; 2]) -> (u64, u64) {
+fn allocated(scene: &Scene, with_environment_map: bool, size: [u32; 2]) -> (u64, u64) {
     let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
     let pipelines = Pipelines::new(&gpu);
     let counted = || {
@@ -20,8 +20,8 @@ fn allocated(scene: &Scene, with_panorama: bool, size: [u32; 2]) -> (u64, u64) {
     let before = counted();
     let region = Region::whole(size).shared_by(scene.camera.stereo.layout);
     let mut view = View::new(&pipelines, region, Pace::Interactive);
-    let (_, panorama) = memory::everything_on();
-    view.set_panorama(with_panorama.then_some(&panorama));
+    let (_, environment_map) = memory::everything_on();
+    view.set_environment_map(with_environment_map.then_some(&environment_map));
     view.set_scene(scene, false);
     view.pump(0.0);
     gpu.wait();
@@ -54,7 +54,7 @@ fn what_is_off_takes_nothing() {
     let memory = view.report().memory;
     assert_eq!(memory.sample_points, 24 * pixels);
     assert_eq!((memory.film, memory.display), (16 * pixels, 4 * pixels));
-    let else_ = [memory.direct_light, memory.mip_levels, memory.blur, memory.surroundings];
+    let else_ = [memory.direct_light, memory.mip_levels, memory.blur, memory.environment_map];
     assert!(else_.iter().all(|bytes| *bytes <= 16), "{memory:?}");
     assert!((0.98..1.08).contains(&(held as f64 / told as f64)), "{told} told, {held} held");
 }

@@ -2,9 +2,9 @@
 
 mod controls;
 mod depth;
+mod environment_map;
 mod fit;
 mod gestures;
 mod hostile;
 mod stage;
-mod surroundings;
 mod timeline;

@@ -28,7 +28,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("lib/shared_exponent.wgsl"),
         shader_file!("lib/noise.wgsl"),
-        shader_file!("lib/surroundings.wgsl"),
+        shader_file!("lib/environment_map.wgsl"),
         shader_file!("lib/shading.wgsl"),
         shader_file!("pass/indirect.wgsl"),
     ],

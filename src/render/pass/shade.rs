@@ -7,7 +7,7 @@ use crate::{
     shader_file,
 };
 
-/// The pass's shader; `BACKDROP` and `SINGLE` specialise it.
+/// The pass's shader; `HAS_ENVIRONMENT_MAP` and `SINGLE` specialise it.
 pub const MODULE: Module = Module {
     label: "shade",
     files: &[
@@ -22,7 +22,7 @@ pub const MODULE: Module = Module {
         shader_file!("lib/camera.wgsl"),
         shader_file!("lib/octahedral.wgsl"),
         shader_file!("lib/shared_exponent.wgsl"),
-        shader_file!("lib/surroundings.wgsl"),
+        shader_file!("lib/environment_map.wgsl"),
         shader_file!("lib/shading.wgsl"),
         shader_file!("pass/shade.wgsl"),
     ],
@@ -34,7 +34,7 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let passes = recorder.passes;
     let pipeline = if slice.samples == 1 { &passes.shade } else { &passes.shade_together }.clone();
     recorder.bind_film();
-    recorder.bind_backdrop();
+    recorder.bind_environment();
     recorder.dispatch_pixels(&pipeline, slice);
     recorder.dispatches.shade += 1;
 }

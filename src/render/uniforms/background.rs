@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Background;
-use crate::scene::{BackgroundKind, LightFrame, Panorama, Scene};
+use crate::scene::{BackgroundKind, EnvironmentMap, LightFrame, Scene};
 
 /// The scene's background: the gradient until [`shown`] says that the picture is at hand.
 pub fn background(scene: &Scene) -> Background {
@@ -33,11 +33,11 @@ pub fn background(scene: &Scene) -> Background {
     }
 }
 
-/// The picture of the surroundings, where the scene shows it and `at_hand` is the one that it
+/// The environment map, where the scene shows it and `at_hand` is the one that it
 /// names.
-pub fn shown<'a>(scene: &Scene, at_hand: Option<&'a Panorama>) -> Option<&'a Panorama> {
+pub fn shown<'a>(scene: &Scene, at_hand: Option<&'a EnvironmentMap>) -> Option<&'a EnvironmentMap> {
     let name = &scene.lights.rig.picture.name;
     let is_wanted =
         scene.background.kind == BackgroundKind::Picture && scene.lights.rig.intensity > 0.0;
-    at_hand.filter(|panorama| is_wanted && panorama.name() == name)
+    at_hand.filter(|environment_map| is_wanted && environment_map.name() == name)
 }

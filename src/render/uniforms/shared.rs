@@ -231,7 +231,7 @@ host_shared! {
         /// Lights in use.
         light_count: u32,
     }
-    /// Vertical gradient, linear Rec. 709, and how the picture of the surroundings lies.
+    /// Vertical gradient, linear Rec. 709, and how the environment map lies.
     Background {
         /// At the upper edge.
         top: [f32; 4],
@@ -239,7 +239,7 @@ host_shared! {
         bottom: [f32; 4],
         /// The picture's axis to the right, in world space.
         picture_x: [f32; 3],
-        /// Factor on the picture of the surroundings; 0 for the gradient.
+        /// Factor on the environment map; 0 for the gradient.
         picture_gain: f32,
         /// The picture's axis ahead.
         picture_y: [f32; 3],

@@ -108,20 +108,23 @@ fn the_suns_lights_lie_on_its_disc() {
 
 #[test]
 fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
-    let panorama = Panorama::from_fn("studio.hdr", [64, 32], |to| {
+    let environment_map = EnvironmentMap::from_fn("studio.hdr", [64, 32], |to| {
         DVec3::new(1.0 + to.z, 0.3, if to.x > 0.8 { 900.0 } else { 0.1 })
     });
     let mut scene = Scene::default();
     for count in [3, 17, 61] {
         scene.lights.rig.count = count;
         let room = scene.lights.room_for_rig();
-        scene.lights.rig.light_by(&panorama, room);
+        scene.lights.rig.light_by(&environment_map, room);
         assert_eq!(scene.validate(), Ok(()));
         assert_eq!(scene.lights.rig.picture.name, "studio.hdr");
         let lights = scene.lights.rig.lights();
         assert_eq!(lights.len(), count as usize);
         let sum: DVec3 = lights.iter().map(|(_, strength)| *strength * PI).sum();
-        assert!(((sum - panorama.energy()) / panorama.energy()).abs().max_element() < 1e-5);
+        assert!(
+            ((sum - environment_map.energy()) / environment_map.energy()).abs().max_element()
+                < 1e-5
+        );
     }
     // The longest still fits into a link.
     let link = link::to_fragment(&scene).unwrap();
@@ -130,7 +133,7 @@ fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
     // No more than there is room for.
     scene.lights.rig.count = 64;
     let room = scene.lights.room_for_rig();
-    scene.lights.rig.light_by(&panorama, room);
+    scene.lights.rig.light_by(&environment_map, room);
     assert_eq!(scene.lights.len(), 64);
     assert_eq!(scene.validate(), Ok(()));
 }
@@ -138,10 +141,10 @@ fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
 #[test]
 fn a_turned_picture_turns_its_lights() {
     let mut rig = Rig::default();
-    let panorama = Panorama::from_fn("one", [64, 32], |to| {
+    let environment_map = EnvironmentMap::from_fn("one", [64, 32], |to| {
         DVec3::splat(if to.dot(DVec3::Y) > 0.99 { 100.0 } else { 0.0 })
     });
-    rig.light_by(&panorama, 64);
+    rig.light_by(&environment_map, 64);
     rig.picture.rotation_deg = 90.0;
     let strongest = rig.lights().into_iter().max_by(|a, b| a.1.x.total_cmp(&b.1.x)).unwrap();
     // Counterclockwise as seen from above: from +y to −x.

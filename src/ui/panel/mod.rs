@@ -31,7 +31,7 @@ use super::{
     theme,
     widgets::section,
 };
-use crate::scene::{Panorama, Scene};
+use crate::scene::{EnvironmentMap, Scene};
 pub(super) use help::help_window;
 pub(super) use lights::LightRef;
 pub(super) use timeline::strip;
@@ -115,8 +115,8 @@ pub(super) struct Context<'a> {
     pub inputs: &'a Inputs<'a>,
     /// Set where the histogram is in sight.
     pub histogram_shown: &'a mut bool,
-    /// The picture of the surroundings that is at hand.
-    pub panorama: Option<&'a Panorama>,
+    /// The environment map that is at hand.
+    pub environment_map: Option<&'a EnvironmentMap>,
     /// Where the camera stood in the last frame.
     pub camera_status: Option<CameraStatus>,
     /// Size of the view in the last frame, in pixels.

@@ -1,4 +1,4 @@
-//! The rig: many lights made together, from a sky or from a picture of the surroundings.
+//! The rig: many lights made together, from a sky or from an environment map.
 
 use egui::{Button, Response, RichText, Ui, vec2};
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::{Context, light};
 use crate::{
     scene::{
-        Background, BackgroundKind, Camera, LightFrame, Lights, Panorama, Rig, RigKind, param,
+        Background, BackgroundKind, Camera, EnvironmentMap, LightFrame, Lights, Rig, RigKind, param,
     },
     ui::{
         Action, theme,
@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         &[
             (RigKind::None, "None", "No lights beside those of the list"),
             (RigKind::Sky, "Sky", "Lights that stand for a sky with a sun"),
-            (RigKind::Picture, "Picture", "Lights that stand for a picture of the surroundings"),
+            (RigKind::Picture, "Picture", "Lights taken from a 360° picture (an environment map)"),
         ],
     );
     cx.rects.note("rig", &chosen);
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if cx.scene.lights.rig.kind != RigKind::None && !cx.scene.lights.rig.is_empty() {
         common(ui, &mut cx.scene.lights.rig, &cx.scene.camera);
     }
-    keep_within_room(&mut cx.scene.lights, cx.panorama, turned_on.then_some(before));
+    keep_within_room(&mut cx.scene.lights, cx.environment_map, turned_on.then_some(before));
 }
 
 /// Asks for light that comes along.
@@ -88,23 +88,29 @@ fn tie_to_view(lights: &mut Lights) {
 
 /// Sees to it that the scene has no more lights than it can hold; where there is no room for a
 /// rig at all, it stays what it was `before`.
-fn keep_within_room(lights: &mut Lights, panorama: Option<&Panorama>, before: Option<RigKind>) {
+fn keep_within_room(
+    lights: &mut Lights,
+    environment_map: Option<&EnvironmentMap>,
+    before: Option<RigKind>,
+) {
     let room = lights.room_for_rig();
     if lights.rig.len() <= room {
         return;
     }
     match lights.rig.kind {
         RigKind::Sky if room >= param::RIG_COUNT.min as usize => lights.rig.count = room as u32,
-        RigKind::Picture => match panorama.filter(|at_hand| is_named(&lights.rig, at_hand)) {
-            Some(panorama) => lights.rig.light_by(panorama, room),
-            None => lights.rig.kind = before.unwrap_or_default(),
-        },
+        RigKind::Picture => {
+            match environment_map.filter(|at_hand| is_named(&lights.rig, at_hand)) {
+                Some(environment_map) => lights.rig.light_by(environment_map, room),
+                None => lights.rig.kind = before.unwrap_or_default(),
+            }
+        }
         _ => lights.rig.kind = before.unwrap_or_default(),
     }
 }
 
-fn is_named(rig: &Rig, panorama: &Panorama) -> bool {
-    rig.picture.name == panorama.name()
+fn is_named(rig: &Rig, environment_map: &EnvironmentMap) -> bool {
+    rig.picture.name == environment_map.name()
 }
 
 fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
@@ -145,11 +151,11 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     let room = cx.scene.lights.room_for_rig();
     let rig = &mut cx.scene.lights.rig;
-    let at_hand = cx.panorama.filter(|panorama| is_named(rig, panorama));
+    let at_hand = cx.environment_map.filter(|environment_map| is_named(rig, environment_map));
     let text = match (rig.picture.name.as_str(), at_hand) {
         ("", _) => "A Radiance (.hdr) or OpenEXR (.exr) picture of all directions. It can be dropped on the page, too.".to_owned(),
-        (name, Some(panorama)) => {
-            let [width, height] = panorama.size_px();
+        (name, Some(environment_map)) => {
+            let [width, height] = environment_map.size_px();
             format!("{name}, {width} × {height}, as {} lights", rig.picture.lights.len())
         }
         (name, None) => format!(
@@ -162,10 +168,10 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_enabled_ui(at_hand.is_some(), |ui| {
         param_slider_count(ui, &param::RIG_COUNT, &mut rig.count)
     });
-    if let Some(panorama) = at_hand
+    if let Some(environment_map) = at_hand
         && rig.count != before
     {
-        rig.light_by(panorama, room);
+        rig.light_by(environment_map, room);
     }
     param_slider(ui, &param::RIG_ROTATION, &mut rig.picture.rotation_deg);
 }
@@ -173,7 +179,7 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
 fn choose(ui: &mut Ui) -> Response {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     ui.add_sized(size, Button::new("Choose picture…").truncate())
-        .on_hover_text("Choose a Radiance (.hdr) or OpenEXR (.exr) picture of the surroundings")
+        .on_hover_text("Choose a Radiance (.hdr) or OpenEXR (.exr) environment map")
 }
 
 /// Whether the picture is seen behind the fractal.
@@ -181,7 +187,7 @@ fn behind(ui: &mut Ui, background: &mut Background) {
     let mut shown = background.kind == BackgroundKind::Picture;
     let response = ui
         .checkbox(&mut shown, "Show it behind the fractal")
-        .on_hover_text("Whether the picture of the surroundings is the background");
+        .on_hover_text("Shows the environment map as the background");
     if response.changed() {
         background.kind = if shown { BackgroundKind::Picture } else { BackgroundKind::Gradient };
     }

@@ -7,8 +7,8 @@ use glam::{DQuat, DVec3};
 use mandelight::{
     render::{Pace, Region, View},
     scene::{
-        BackgroundKind, Camera, EnvironmentLight, LightFrame, Panorama, Rig, RigKind, Scene,
-        panorama::place_of,
+        BackgroundKind, Camera, EnvironmentLight, EnvironmentMap, LightFrame, Rig, RigKind, Scene,
+        environment_map::place_of,
     },
 };
 
@@ -17,8 +17,8 @@ use crate::harness::{finished, pipelines, pixels, sampled, settle, still};
 const SIZE: [u32; 2] = [64, 48];
 
 /// A picture in which every direction has a colour of its own.
-fn colourful(size_px: [u32; 2]) -> Arc<Panorama> {
-    Arc::new(Panorama::from_fn("colourful.hdr", size_px, |to| {
+fn colourful(size_px: [u32; 2]) -> Arc<EnvironmentMap> {
+    Arc::new(EnvironmentMap::from_fn("colourful.hdr", size_px, |to| {
         let wave = (to.x * 7.0).sin() * (to.y * 5.0).cos() * (to.z * 6.0).sin();
         DVec3::new(1.0 + to.x, 3.0 + 3.0 * wave, 0.2 + to.z * to.z)
     }))
@@ -35,23 +35,23 @@ fn away(toward: DVec3) -> Scene {
     scene
 }
 
-fn film(scene: &Scene, panorama: Option<&Arc<Panorama>>) -> Vec<[f32; 3]> {
+fn film(scene: &Scene, environment_map: Option<&Arc<EnvironmentMap>>) -> Vec<[f32; 3]> {
     let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Still);
-    view.set_panorama(panorama);
+    view.set_environment_map(environment_map);
     view.set_scene(scene, false);
     settle(&mut view);
     view.film().unwrap()
 }
 
 /// The picture toward `direction`, between its four nearest pixels' centres.
-fn looked_up(panorama: &Panorama, direction: DVec3) -> DVec3 {
-    let [width, height] = panorama.size_px().map(|side| side as i64);
+fn looked_up(environment_map: &EnvironmentMap, direction: DVec3) -> DVec3 {
+    let [width, height] = environment_map.size_px().map(|side| side as i64);
     let [u, v] = place_of(direction);
     let (x, y) = (u * width as f64 - 0.5, v * height as f64 - 0.5);
     let pixel = |dx: i64, dy: i64| {
         let column = (x.floor() as i64 + dx).rem_euclid(width);
         let row = (y.floor() as i64 + dy).clamp(0, height - 1);
-        panorama.pixels()[(row * width + column) as usize].as_dvec3()
+        environment_map.pixels()[(row * width + column) as usize].as_dvec3()
     };
     let (fx, fy) = (x - x.floor(), y - y.floor());
     let upper = pixel(0, 0).lerp(pixel(1, 0), fx);
@@ -69,7 +69,7 @@ fn ray(camera: &Camera, x: u32, y: u32) -> DVec3 {
 
 #[test]
 fn the_background_is_the_picture_in_every_direction() {
-    let panorama = colourful([128, 64]);
+    let environment_map = colourful([128, 64]);
     // Its middle, across its left and right edges, straight up, down, and in between.
     for toward in [DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z, DVec3::new(1.0, -0.3, 0.4)] {
         for (rotation_deg, frame) in
@@ -79,14 +79,14 @@ fn the_background_is_the_picture_in_every_direction() {
             scene.lights.rig.intensity = 0.5;
             scene.lights.rig.frame = frame;
             scene.lights.rig.picture.rotation_deg = rotation_deg;
-            let seen = film(&scene, Some(&panorama));
+            let seen = film(&scene, Some(&environment_map));
             let mut turn = DQuat::from_rotation_z(f64::to_radians(rotation_deg));
             if frame == LightFrame::View {
                 turn = scene.camera.rotation() * turn;
             }
             for (i, pixel) in (0..).zip(&seen) {
                 let direction = ray(&scene.camera, i % SIZE[0], i / SIZE[0]);
-                let expected = 0.5 * looked_up(&panorama, turn.inverse() * direction);
+                let expected = 0.5 * looked_up(&environment_map, turn.inverse() * direction);
                 let got = DVec3::from_array(pixel.map(f64::from));
                 // Nine bits a channel, eight between pixels.
                 let off = (got - expected).abs().max_element();
@@ -114,10 +114,10 @@ fn a_picture_that_comes_later_is_seen_and_can_go_again() {
     let mut view = finished(&scene, SIZE, Pace::Interactive);
     let gradient = view.film().unwrap();
     let before = view.dispatches();
-    for (panorama, is_seen) in
+    for (environment_map, is_seen) in
         [(Some(colourful([32, 16])), true), (Some(colourful([16, 8])), true), (None, false)]
     {
-        view.set_panorama(panorama.as_ref());
+        view.set_environment_map(environment_map.as_ref());
         // The page gives the same scene again in every frame.
         view.set_scene(&scene, false);
         settle(&mut view);

@@ -15,7 +15,7 @@ use std::{
 
 use glam::{DVec2, DVec3};
 
-use super::Panorama;
+use super::EnvironmentMap;
 use crate::scene::color::luminance;
 
 /// A region whose sides are no longer than this is small enough for one shadow, degrees.
@@ -32,9 +32,9 @@ pub struct CutLight {
 
 /// `count` lights, or fewer where there are not as many pixels that shine, which together carry
 /// the picture's light; in no particular order.
-pub fn median_cut(panorama: &Panorama, count: usize) -> Vec<CutLight> {
-    let table = Table::new(panorama);
-    let [width, height] = panorama.size_px();
+pub fn median_cut(environment_map: &EnvironmentMap, count: usize) -> Vec<CutLight> {
+    let table = Table::new(environment_map);
+    let [width, height] = environment_map.size_px();
     let mut regions = vec![Region::new(&table, 0..width, 0..height)];
     while regions.len() < count {
         let by_rank = |a: &Region, b: &Region| {
@@ -45,7 +45,7 @@ pub fn median_cut(panorama: &Panorama, count: usize) -> Vec<CutLight> {
         let (first, second) = regions.swap_remove(most).divided(&table);
         regions.extend([first, second]);
     }
-    regions.iter().take(count).filter_map(|region| region.light(panorama, &table)).collect()
+    regions.iter().take(count).filter_map(|region| region.light(environment_map, &table)).collect()
 }
 
 /// What is asked for again and again.
@@ -58,13 +58,13 @@ struct Table {
 }
 
 impl Table {
-    fn new(panorama: &Panorama) -> Self {
-        let size_px = panorama.size_px();
+    fn new(environment_map: &EnvironmentMap) -> Self {
+        let size_px = environment_map.size_px();
         let stride = size_px[0] as usize + 1;
         let mut sums = vec![0.0; stride];
-        let rows = panorama.pixels().chunks_exact(size_px[0] as usize);
+        let rows = environment_map.pixels().chunks_exact(size_px[0] as usize);
         for (y, row) in (0..).zip(rows) {
-            let solid_angle = panorama.pixel_solid_angle(y);
+            let solid_angle = environment_map.pixel_solid_angle(y);
             let mut of_row = 0.0;
             sums.push(0.0);
             for pixel in row {
@@ -151,14 +151,15 @@ impl Region {
     }
 
     /// The region's light at its centre; none where it is black.
-    fn light(&self, panorama: &Panorama, table: &Table) -> Option<CutLight> {
-        let [width, height] = panorama.size_px();
+    fn light(&self, environment_map: &EnvironmentMap, table: &Table) -> Option<CutLight> {
+        let [width, height] = environment_map.size_px();
         let (mut energy, mut toward) = (DVec3::ZERO, DVec3::ZERO);
         for y in self.y.clone() {
-            let solid_angle = panorama.pixel_solid_angle(y);
+            let solid_angle = environment_map.pixel_solid_angle(y);
             let (sin, cos) = ((f64::from(y) + 0.5) / f64::from(height) * PI).sin_cos();
             for x in self.x.clone() {
-                let pixel = panorama.pixels()[(y * width + x) as usize].as_dvec3() * solid_angle;
+                let pixel =
+                    environment_map.pixels()[(y * width + x) as usize].as_dvec3() * solid_angle;
                 energy += pixel;
                 toward += (table.columns[x as usize] * sin).extend(cos) * luminance(pixel);
             }

@@ -1,10 +1,10 @@
-//! The picture of the surroundings on the GPU, for where a ray meets nothing.
+//! The environment map on the GPU, for where a ray meets nothing.
 //!
 //! In: a decoded picture. Out: a texture of four bytes a pixel, at most 8 MiB, and its bind
 //! group; a single pixel where no picture is shown.
 
 use super::{pipelines::Pipelines, targets};
-use crate::scene::Panorama;
+use crate::scene::EnvironmentMap;
 
 /// Nine bits a channel with one exponent: a quarter of what f32 would take, and filtered by
 /// every GPU.
@@ -15,8 +15,8 @@ const MANTISSA_BITS: i32 = 9;
 const EXPONENT_BIAS: i32 = 15;
 
 /// What is bound for the background.
-pub struct Backdrop {
-    /// The picture's [`Panorama::id`]; none where there is none.
+pub struct EnvironmentTexture {
+    /// The picture's [`EnvironmentMap::id`]; none where there is none.
     pub id: Option<u64>,
     /// The texture.
     pub view: wgpu::TextureView,
@@ -28,20 +28,20 @@ pub struct Backdrop {
     pub bytes: u64,
 }
 
-impl Backdrop {
+impl EnvironmentTexture {
     /// The picture, or a stand-in for none.
-    pub fn new(pipelines: &Pipelines, panorama: Option<&Panorama>) -> Self {
-        let size_px = panorama.map_or([1, 1], Panorama::size_px);
-        let texels: Vec<u32> = match panorama {
-            Some(panorama) => {
-                panorama.pixels().iter().map(|p| shared_exponent((*p).into())).collect()
+    pub fn new(pipelines: &Pipelines, environment_map: Option<&EnvironmentMap>) -> Self {
+        let size_px = environment_map.map_or([1, 1], EnvironmentMap::size_px);
+        let texels: Vec<u32> = match environment_map {
+            Some(environment_map) => {
+                environment_map.pixels().iter().map(|p| shared_exponent((*p).into())).collect()
             }
             None => vec![0],
         };
         let texture = texture(pipelines, size_px, &texels);
         let device = &pipelines.gpu.device;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("surroundings"),
+            label: Some("environment map"),
             // Once around; the poles end it.
             address_mode_u: wgpu::AddressMode::Repeat,
             address_mode_v: wgpu::AddressMode::ClampToEdge,
@@ -52,9 +52,14 @@ impl Backdrop {
         let view = texture.create_view(&Default::default());
         let resources =
             [wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)];
-        let group = targets::group(device, &pipelines.layouts.backdrop, "surroundings", resources);
+        let group = targets::group(
+            device,
+            &pipelines.layouts.environment_texture,
+            "environment map",
+            resources,
+        );
         Self {
-            id: panorama.map(Panorama::id),
+            id: environment_map.map(EnvironmentMap::id),
             view,
             sampler,
             group,
@@ -76,7 +81,7 @@ pub const BINDINGS: [wgpu::BindingType; 2] = [
 fn texture(pipelines: &Pipelines, [width, height]: [u32; 2], texels: &[u32]) -> wgpu::Texture {
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     let texture = pipelines.gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("surroundings"),
+        label: Some("environment map"),
         size,
         mip_level_count: 1,
         sample_count: 1,

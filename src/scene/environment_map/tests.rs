@@ -15,9 +15,9 @@ fn noise(seed: u64) -> f64 {
 }
 
 /// A picture of no pattern, a few pixels of it a thousand times as bright as the rest.
-fn speckled(size_px: [u32; 2]) -> Panorama {
+fn speckled(size_px: [u32; 2]) -> EnvironmentMap {
     let mut i = 0;
-    Panorama::from_fn("speckled", size_px, |_| {
+    EnvironmentMap::from_fn("speckled", size_px, |_| {
         i += 3;
         let bright = if noise(i) > 0.99 { 1000.0 } else { 1.0 };
         DVec3::new(noise(i), noise(i + 1), noise(i + 2)) * bright
@@ -26,8 +26,8 @@ fn speckled(size_px: [u32; 2]) -> Panorama {
 
 /// The energy of a picture from its pixels alone: the solid angle of a pixel as an integral of
 /// the sine, by Simpson's rule.
-fn energy_of(panorama: &Panorama) -> DVec3 {
-    let [width, height] = panorama.size_px();
+fn energy_of(environment_map: &EnvironmentMap) -> DVec3 {
+    let [width, height] = environment_map.size_px();
     let (step, parts) = (PI / f64::from(height), 64);
     let sine = |y: f64| (y * step).sin();
     (0..height)
@@ -39,7 +39,7 @@ fn energy_of(panorama: &Panorama) -> DVec3 {
                 .map(|top| sine(top) + 4.0 * sine(top + part / 2.0) + sine(top + part))
                 .sum();
             let solid_angle = sines * (step * part / 6.0) * TAU / f64::from(width);
-            panorama.pixels()[(y * width + x) as usize].as_dvec3() * solid_angle
+            environment_map.pixels()[(y * width + x) as usize].as_dvec3() * solid_angle
         })
         .sum()
 }
@@ -70,13 +70,13 @@ fn places_and_directions_are_each_others_inverse() {
 #[test]
 fn a_cut_carries_the_pictures_light_whatever_the_count() {
     for size_px in [[64, 32], [7, 5], [1, 1], [200, 1], [1, 30]] {
-        let panorama = speckled(size_px);
-        let whole = energy_of(&panorama);
-        assert!(apart(panorama.energy(), whole) < 1e-6, "{size_px:?}");
+        let environment_map = speckled(size_px);
+        let whole = energy_of(&environment_map);
+        assert!(apart(environment_map.energy(), whole) < 1e-6, "{size_px:?}");
         for count in (1..=64).chain([200, 5000]) {
-            let lights = panorama.cut(count);
+            let lights = environment_map.cut(count);
             let sum: DVec3 = lights.iter().map(|light| light.energy).sum();
-            assert!(apart(sum, panorama.energy()) < 1e-5, "{size_px:?} in {count}");
+            assert!(apart(sum, environment_map.energy()) < 1e-5, "{size_px:?} in {count}");
             let pixels = (size_px[0] * size_px[1]) as usize;
             assert!(lights.len() == count.min(pixels), "{} of {count}", lights.len());
             assert!(lights.iter().all(|light| (light.direction.length() - 1.0).abs() < 1e-9));
@@ -86,7 +86,7 @@ fn a_cut_carries_the_pictures_light_whatever_the_count() {
 
 #[test]
 fn even_white_lights_every_surface_alike() {
-    let white = Panorama::from_fn("white", [256, 128], |_| DVec3::ONE);
+    let white = EnvironmentMap::from_fn("white", [256, 128], |_| DVec3::ONE);
     let irradiance = |count: usize, normal: DVec3| {
         let lights = white.cut(count);
         lights
@@ -111,13 +111,13 @@ fn a_small_sun_gets_a_light_of_its_own_within_a_pixel() {
     let size_px = [512, 256];
     for (x, y) in [(100, 60), (0, 128), (511, 20), (300, 250)] {
         let sun = direction_at([(f64::from(x) + 0.5) / 512.0, (f64::from(y) + 0.5) / 256.0]);
-        let panorama = Panorama::from_fn("sun", size_px, |direction| {
+        let environment_map = EnvironmentMap::from_fn("sun", size_px, |direction| {
             let is_sun = direction.dot(sun) > 1.0 - 1e-9;
             DVec3::splat(if is_sun { 50_000.0 } else { 0.2 })
         });
-        let sun_energy = 50_000.0 * panorama.pixel_solid_angle(y);
+        let sun_energy = 50_000.0 * environment_map.pixel_solid_angle(y);
         for count in [8, 16, 64] {
-            let lights = panorama.cut(count);
+            let lights = environment_map.cut(count);
             let near: Vec<_> = lights
                 .iter()
                 .filter(|light| (light.direction - sun).length() < PI / 256.0)
@@ -131,7 +131,7 @@ fn a_small_sun_gets_a_light_of_its_own_within_a_pixel() {
 /// Without the sine, a cut would give the poles the light of as many pixels at the equator.
 #[test]
 fn the_poles_weigh_no_more_than_they_should() {
-    let white = Panorama::from_fn("white", [256, 128], |_| DVec3::ONE);
+    let white = EnvironmentMap::from_fn("white", [256, 128], |_| DVec3::ONE);
     let near_pole = |lights: &[CutLight]| {
         lights.iter().filter(|l| l.direction.z > 0.866).map(|l| l.energy.x).sum::<f64>()
     };
@@ -139,7 +139,7 @@ fn the_poles_weigh_no_more_than_they_should() {
     let part = near_pole(&white.cut(64)) / (4.0 * PI);
     assert!((part - 0.067).abs() < 0.035, "{part}");
     // A bright cap at the pole, against the integral: its light is not its pixels'.
-    let cap = Panorama::from_fn("cap", [64, 32], |direction| {
+    let cap = EnvironmentMap::from_fn("cap", [64, 32], |direction| {
         DVec3::splat(if direction.z > 0.9 { 10.0 } else { 0.0 })
     });
     let rows = (0..32).filter(|y| (PI * (f64::from(*y) + 0.5) / 32.0).cos() > 0.9).count() as f64;
@@ -150,9 +150,9 @@ fn the_poles_weigh_no_more_than_they_should() {
 
 #[test]
 fn darkness_gives_no_lights() {
-    let black = Panorama::from_fn("black", [16, 8], |_| DVec3::ZERO);
+    let black = EnvironmentMap::from_fn("black", [16, 8], |_| DVec3::ZERO);
     assert!(black.cut(16).is_empty());
-    let one = Panorama::from_fn("one", [16, 8], |direction| {
+    let one = EnvironmentMap::from_fn("one", [16, 8], |direction| {
         if direction.dot(direction_at([8.5 / 16.0, 2.5 / 8.0])) > 0.999 {
             DVec3::X
         } else {
@@ -179,11 +179,11 @@ fn a_larger_picture_is_brought_down_without_losing_light() {
                 expected += pixel.as_dvec3() * solid_angle;
             }
         }
-        let panorama = gather.finish("large");
-        assert!((0..2).all(|i| panorama.size_px()[i] == source_px[i].min(MAX_SIZE_PX[i])));
-        assert!(apart(panorama.energy(), expected) < 1e-5, "{source_px:?}");
+        let environment_map = gather.finish("large");
+        assert!((0..2).all(|i| environment_map.size_px()[i] == source_px[i].min(MAX_SIZE_PX[i])));
+        assert!(apart(environment_map.energy(), expected) < 1e-5, "{source_px:?}");
         // An even channel stays even: no pixel gets another's share.
-        assert!(panorama.pixels().iter().all(|pixel| (pixel.z - 1.0).abs() < 1e-5));
+        assert!(environment_map.pixels().iter().all(|pixel| (pixel.z - 1.0).abs() < 1e-5));
     }
 }
 
@@ -223,7 +223,7 @@ fn exr_file(
         blocks: exr::prelude::Blocks::ScanLines,
         line_order: exr::prelude::LineOrder::Increasing,
     };
-    let name = exr::prelude::LayerAttributes::named("surroundings");
+    let name = exr::prelude::LayerAttributes::named("environment map");
     let layer = exr::prelude::Layer::new((size[0], size[1]), name, encoding, channels);
     exr::prelude::Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes).unwrap();
     bytes.into_inner()
@@ -235,9 +235,9 @@ fn a_radiance_file_gives_the_values_that_its_bytes_mean() {
     let bytes = flat_radiance([20, 10], "RADIANCE\nFORMAT=32-bit_rle_rgbe", |x, y| {
         [128, x as u8 * 10, 64, 129 + (y % 3) as u8]
     });
-    let panorama = decode("a.hdr", &bytes).unwrap();
-    assert_eq!((panorama.name(), panorama.size_px()), ("a.hdr", [20, 10]));
-    for (i, pixel) in panorama.pixels().iter().enumerate() {
+    let environment_map = decode("a.hdr", &bytes).unwrap();
+    assert_eq!((environment_map.name(), environment_map.size_px()), ("a.hdr", [20, 10]));
+    for (i, pixel) in environment_map.pixels().iter().enumerate() {
         let (x, y) = (i % 20, i / 20);
         let scale = f32::from(2u8.pow((y % 3) as u32));
         let expected = Vec3::new(1.0, x as f32 * 10.0 / 128.0, 0.5) * scale;
@@ -252,9 +252,9 @@ fn a_radiance_file_gives_the_values_that_its_bytes_mean() {
 fn an_openexr_file_gives_its_values() {
     let value = |x: usize, y: usize| (x as f32 * 0.5, y as f32 + 0.25, 1000.0);
     for packing in PACKINGS {
-        let panorama = decode("a.exr", &exr_file([12, 6], packing, value)).unwrap();
-        assert_eq!(panorama.size_px(), [12, 6]);
-        for (i, pixel) in panorama.pixels().iter().enumerate() {
+        let environment_map = decode("a.exr", &exr_file([12, 6], packing, value)).unwrap();
+        assert_eq!(environment_map.size_px(), [12, 6]);
+        for (i, pixel) in environment_map.pixels().iter().enumerate() {
             let (r, g, b) = value(i % 12, i / 12);
             // PXR24 keeps 24 bits of each number, DWAA what the eye would notice.
             let tolerance = if packing == Compression::DWAA(None) { 30.0 } else { 0.02 };
@@ -268,15 +268,15 @@ fn an_openexr_file_gives_its_values() {
 fn values_that_are_no_light_count_as_the_nearest_that_is() {
     let odd = [f32::NAN, -3.0, f32::INFINITY, 2.0];
     let bytes = exr_file([4, 1], Compression::ZIP16, |x, _| (odd[x], odd[x], 1.0));
-    let panorama = decode("odd.exr", &bytes).unwrap();
-    let kept: Vec<f32> = panorama.pixels().iter().map(|pixel| pixel.x).collect();
+    let environment_map = decode("odd.exr", &bytes).unwrap();
+    let kept: Vec<f32> = environment_map.pixels().iter().map(|pixel| pixel.x).collect();
     assert!(
         kept.iter()
             .zip([0.0, 0.0, MAX_RADIANCE, 2.0])
             .all(|(a, b)| (a - b).abs() < 1e-2 * b.max(0.1)),
         "{kept:?}"
     );
-    assert!(panorama.energy().is_finite());
+    assert!(environment_map.energy().is_finite());
 }
 
 #[test]
@@ -314,10 +314,10 @@ proptest! {
             bytes[at] = value;
         }
         bytes.truncate((length.sqrt() * bytes.len() as f64).ceil() as usize);
-        if let Ok(panorama) = decode("damaged", &bytes) {
-            prop_assert!(panorama.energy().is_finite());
-            let [width, height] = panorama.size_px();
-            prop_assert_eq!(panorama.pixels().len(), (width * height) as usize);
+        if let Ok(environment_map) = decode("damaged", &bytes) {
+            prop_assert!(environment_map.energy().is_finite());
+            let [width, height] = environment_map.size_px();
+            prop_assert_eq!(environment_map.pixels().len(), (width * height) as usize);
         }
     }
 }

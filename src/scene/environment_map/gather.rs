@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
 
-use super::{MAX_SIZE_PX, Panorama, clean};
+use super::{EnvironmentMap, MAX_SIZE_PX, clean};
 
 /// A picture that is coming in.
 pub struct Gather {
@@ -47,7 +47,7 @@ impl Gather {
     }
 
     /// The picture of what was added; what was not is black.
-    pub fn finish(self, name: &str) -> Panorama {
+    pub fn finish(self, name: &str) -> EnvironmentMap {
         let [width, height] = self.size_px;
         // In units of the source's pixels across, as the sums are.
         let across = f64::from(self.source_px[0]) / f64::from(width);
@@ -61,7 +61,7 @@ impl Gather {
                 row.iter().map(move |sum| clean((*sum / weight).as_vec3()))
             })
             .collect();
-        Panorama::new(name, self.size_px, pixels)
+        EnvironmentMap::new(name, self.size_px, pixels)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The rig's panel, and the picture of the surroundings that comes from outside.
+//! The rig's panel, and the environment map that comes from outside.
 
 use std::sync::Arc;
 
@@ -6,39 +6,39 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::DVec3;
 use mandelight::{
-    scene::{BackgroundKind, MAX_LIGHTS, Panorama, RigKind, Scene},
+    scene::{BackgroundKind, EnvironmentMap, MAX_LIGHTS, RigKind, Scene},
     ui::Action,
 };
 
 use crate::stage::*;
 
-fn panorama(name: &str) -> Arc<Panorama> {
-    Arc::new(Panorama::from_fn(name, [64, 32], |to| DVec3::new(1.0 + to.x, 1.0, 1.5 + to.z)))
+fn environment_map(name: &str) -> Arc<EnvironmentMap> {
+    Arc::new(EnvironmentMap::from_fn(name, [64, 32], |to| DVec3::new(1.0 + to.x, 1.0, 1.5 + to.z)))
 }
 
 #[test]
 fn a_picture_lights_the_scene_in_one_step_of_the_history() {
     let mut harness = workshop();
-    harness.state_mut().interface.use_panorama(panorama("garden.hdr"));
+    harness.state_mut().interface.use_environment_map(environment_map("garden.hdr"));
     harness.run();
     let lit = scene(&harness).clone();
     assert_eq!(lit.validate(), Ok(()));
     assert_eq!(lit.lights.rig.kind, RigKind::Picture);
     assert_eq!(lit.lights.rig.picture.name, "garden.hdr");
     assert_eq!(lit.background.kind, BackgroundKind::Picture);
-    assert!(harness.state().interface.panorama().is_some());
+    assert!(harness.state().interface.environment_map().is_some());
     // The same again changes nothing, and needs no undoing.
-    harness.state_mut().interface.use_panorama(panorama("garden.hdr"));
+    harness.state_mut().interface.use_environment_map(environment_map("garden.hdr"));
     assert_eq!(*scene(&harness), lit);
     assert_eq!(undo_all(&mut harness), 1);
     assert_eq!(*scene(&harness), Scene::default());
-    assert!(harness.state().interface.panorama().is_none(), "the scene names it no longer");
+    assert!(harness.state().interface.environment_map().is_none(), "the scene names it no longer");
 }
 
 #[test]
 fn another_number_of_lights_divides_the_picture_anew() {
     let mut harness = workshop();
-    harness.state_mut().interface.use_panorama(panorama("garden.hdr"));
+    harness.state_mut().interface.use_environment_map(environment_map("garden.hdr"));
     harness.run();
     for (wanted, expected) in [(5.0, 5), (30.0, 30), (64.0, MAX_LIGHTS - 3)] {
         slider(&harness, "Rig lights").set_value_accesskit(wanted);
@@ -51,7 +51,7 @@ fn another_number_of_lights_divides_the_picture_anew() {
 #[test]
 fn without_its_picture_a_rig_keeps_its_lights() {
     let mut lit = Scene::default();
-    lit.surround_by(&panorama("garden.hdr"));
+    lit.surround_by(&environment_map("garden.hdr"));
     let mut harness = stage(lit.clone(), unfolded(), [1280.0, 4000.0]);
     harness.run();
     harness.get_by_label_contains("garden.hdr is not at hand");
@@ -81,7 +81,7 @@ fn a_rig_never_brings_more_lights_than_a_scene_can_hold() {
 #[test]
 fn a_background_picture_can_be_taken_away_whatever_lights_the_scene() {
     let mut lit = Scene::default();
-    lit.surround_by(&panorama("garden.hdr"));
+    lit.surround_by(&environment_map("garden.hdr"));
     let mut harness = stage(lit, unfolded(), [1280.0, 4000.0]);
     for rig in ["Rig: Picture", "Rig: Sky", "Rig: None"] {
         press(&mut harness, rig);

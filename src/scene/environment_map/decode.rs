@@ -1,4 +1,4 @@
-//! A picture of the surroundings out of a file: Radiance RGBE (`.hdr`) or OpenEXR (`.exr`).
+//! An environment map out of a file: Radiance RGBE (`.hdr`) or OpenEXR (`.exr`).
 //!
 //! In: bytes that may come from anyone. Out: a picture of which every channel is finite, not
 //! negative and within the GPU's range, or an error that says what is wrong with the file.
@@ -9,7 +9,7 @@ use exr::prelude as exr;
 use glam::Vec3;
 use image::{ImageDecoder as _, codecs::hdr::HdrDecoder};
 
-use super::{Gather, Panorama};
+use super::{EnvironmentMap, Gather};
 
 /// Most pixels that a file may have, across and down.
 pub const MAX_SOURCE_PX: [u32; 2] = [8192, 8192];
@@ -21,7 +21,7 @@ pub const MAX_FILE_BYTES: usize = 512 << 20;
 const RADIANCE_SIGNATURE: &[u8] = b"#?";
 const EXR_SIGNATURE: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
 
-/// Why a file gives no picture of the surroundings.
+/// Why a file gives no environment map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DecodeError {
     /// Larger than [`MAX_FILE_BYTES`].
@@ -42,7 +42,7 @@ pub enum DecodeError {
 }
 
 /// Whether `bytes` begin like a file that [`decode`] reads.
-pub fn is_panorama(bytes: &[u8]) -> bool {
+pub fn is_environment_map(bytes: &[u8]) -> bool {
     bytes.starts_with(RADIANCE_SIGNATURE) || bytes.starts_with(EXR_SIGNATURE)
 }
 
@@ -53,7 +53,7 @@ pub fn is_panorama(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// See [`DecodeError`].
-pub fn decode(name: &str, bytes: &[u8]) -> Result<Panorama, DecodeError> {
+pub fn decode(name: &str, bytes: &[u8]) -> Result<EnvironmentMap, DecodeError> {
     if bytes.len() > MAX_FILE_BYTES {
         return Err(DecodeError::TooLarge);
     }

@@ -1,4 +1,4 @@
-//! An equirectangular picture of the surroundings: linear radiance from every direction.
+//! An equirectangular environment map: linear radiance from every direction.
 //!
 //! In: rows of pixels, or the bytes of a file ([`decode`]). Out: the radiance from a direction,
 //! and the lights that stand for all of it ([`cut`]). A picture keeps at most
@@ -22,7 +22,7 @@ use glam::{DVec3, Vec3};
 use super::MAX_NAME_CHARS;
 
 pub use cut::CutLight;
-pub use decode::{DecodeError, decode, is_panorama};
+pub use decode::{DecodeError, decode, is_environment_map};
 pub use gather::Gather;
 
 /// Most pixels that are kept, across and down.
@@ -34,7 +34,7 @@ pub const MAX_RADIANCE: f32 = 65_408.0;
 
 /// A picture of all directions.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Panorama {
+pub struct EnvironmentMap {
     name: String,
     size_px: [u32; 2],
     /// Rows from the top, linear Rec. 709, each channel 0 to [`MAX_RADIANCE`].
@@ -45,7 +45,7 @@ pub struct Panorama {
 /// Where something lies in a picture: 0 to 1 from its left and its upper edge.
 pub type Place = [f64; 2];
 
-impl Panorama {
+impl EnvironmentMap {
     /// A picture of its mean colour in each direction, as `radiance` gives it for pixel centres.
     pub fn from_fn(
         name: &str,
