@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use mandelight::{
     fractal::{deep, estimator, march},
-    render::{lattice, lists, pass::MODULES, post, report, uniforms},
+    render::{lattice, pass::MODULES, post, report, uniforms, work_queues},
     scene::MAX_LIGHTS,
 };
 use naga::{
@@ -133,9 +133,9 @@ fn host_constants_match_their_wgsl_twins() {
         ("GRADIENT_ENTRIES", uniforms::GRADIENT_ENTRIES as f64),
         ("WORKGROUP_SIDE", whole(lattice::WORKGROUP_SIDE)),
         ("WORKGROUP_THREADS", whole(lattice::WORKGROUP_THREADS)),
-        ("BLOCK_THREADS", whole(lists::BLOCK_THREADS)),
-        ("BLOCKS", whole(lattice::WORKGROUP_THREADS / lists::BLOCK_THREADS)),
-        ("RAY_LISTS", lists::RAY_LISTS as f64),
+        ("BLOCK_THREADS", whole(work_queues::BLOCK_THREADS)),
+        ("BLOCKS", whole(lattice::WORKGROUP_THREADS / work_queues::BLOCK_THREADS)),
+        ("RAY_QUEUES", work_queues::RAY_QUEUES as f64),
         ("SERIES", uniforms::SERIES as f64),
         ("MOST_REFERENCE_POINTS", deep::reference::MOST_REFERENCE_POINTS as f64),
         ("MOST_NEAR_STEPS", uniforms::MOST_NEAR_STEPS as f64),

@@ -367,6 +367,18 @@ fn the_file_has_limits() {
     assert_ne!(limits, Limits::default());
 }
 
+/// The kernel of the powers' table runs: every time is a number above 0.
+#[test]
+fn every_power_has_a_time() {
+    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+    let table = powers::measure(&gpu, 1).expect("a table");
+    assert_eq!(gpu.faults(), 0);
+    for row in &table.rows {
+        let is_time = |ns: f64| ns.is_finite() && ns > 0.0;
+        assert!(is_time(row.special_ns) && is_time(row.general_ns), "{row:?}");
+    }
+}
+
 /// A place's views are compared with one of them, which has to be plain.
 #[test]
 fn descents_have_plain_references() {

@@ -127,7 +127,7 @@ pub fn ours(
 pub fn counting_passes(pipelines: &Pipelines, split: &ours::Split<'_>) -> Result<Passes, Failure> {
     let constants = PipelineKey::of(split.picture()).constants();
     let gpu = &pipelines.gpu;
-    let [listing, listed] = [&pipelines.layouts.listing, &pipelines.layouts.listed]
+    let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
         .map(|layout| split.counting_layout(layout));
     let made =
         |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
@@ -145,11 +145,11 @@ pub fn counting_passes(pipelines: &Pipelines, split: &ours::Split<'_>) -> Result
             }))
         };
     Ok(Passes {
-        camera_cone: made(&listing, &pass::camera_cone::MODULE, "estimate_at")?,
-        march: made(&listed, &pass::march::MODULE, "estimate_at")?,
-        normal: made(&listed, &pass::normal::MODULE, "distance_gradient")?,
-        shadow_cone: made(&listing, &pass::shadow_cone::MODULE, "estimate_at")?,
-        shadow: made(&listed, &pass::shadow::MODULE, "estimate_at")?,
+        camera_cone: made(&enqueue, &pass::camera_cone::MODULE, "estimate_at")?,
+        march: made(&queued, &pass::march::MODULE, "estimate_at")?,
+        normal: made(&queued, &pass::normal::MODULE, "distance_gradient")?,
+        shadow_cone: made(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
+        shadow: made(&queued, &pass::shadow::MODULE, "estimate_at")?,
         ..pipelines.passes(split.picture())
     })
 }

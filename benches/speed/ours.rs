@@ -134,15 +134,15 @@ impl<'a> Split<'a> {
         pixels * f64::from(grid.workgroups().div_ceil(self.spread)) / workgroups
     }
 
-    /// What counting copies bind that either `listed` or `listing` passes are of.
-    pub fn counting_layout(&self, lists: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+    /// What counting copies bind that either `queued` or `enqueue` passes are of.
+    pub fn counting_layout(&self, work_queues: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
         let layouts = &self.pipelines.layouts;
         self.pipelines.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("counting passes"),
             bind_group_layouts: &[
                 Some(&layouts.picture),
                 Some(&layouts.gbuffer),
-                Some(lists),
+                Some(work_queues),
                 Some(&self.counts_layout),
             ],
             immediate_size: 0,

@@ -39,7 +39,7 @@ const TEXT: &str = "
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    let fractal = given.picture.fractal;
+    let fractal = given.fractal;
     var sum = 0.0;
     for (var k = 0u; k < 32u; k++) {
         let part = f32(id.x * 32u + k) * 1e-7;
@@ -166,7 +166,6 @@ impl Kernel {
         let fractal = Fractal { power: power.into(), iterations: ITERATIONS, ..Fractal::default() };
         let scene = Scene { fractal, ..Scene::default() };
         let inputs = Inputs::new(&scene, Region::whole([64, 64]));
-        let given = bytemuck::bytes_of(&inputs.picture);
         let buffer = |size: usize| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("orbits"),
@@ -177,19 +176,23 @@ impl Kernel {
                 mapped_at_creation: false,
             })
         };
-        let [uniforms, sums, counts] = [given.len(), 4 * 64 * WORKGROUPS as usize, 8].map(buffer);
-        gpu.queue.write_buffer(&uniforms, 0, given);
-        let group = |index: u32, buffer: &wgpu::Buffer| {
+        let [sums, counts] = [4 * 64 * WORKGROUPS as usize, 8].map(buffer);
+        let [frame, anchor_orbit] = probe::bindings(gpu, &inputs);
+        let group = |index: u32, buffers: &[&wgpu::Buffer]| {
+            let entries: Vec<_> = (0..)
+                .zip(buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("orbits"),
                 layout: &pipeline.get_bind_group_layout(index),
-                entries: &[wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: buffer.as_entire_binding(),
-                }],
+                entries: &entries,
             })
         };
-        let groups = vec![group(0, &uniforms), group(1, &sums)];
+        let groups = vec![group(0, &[&frame, &anchor_orbit]), group(1, &[&sums])];
         Self { gpu: gpu.clone(), pipeline, groups, counts }
     }
 

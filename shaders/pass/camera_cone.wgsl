@@ -1,5 +1,5 @@
 // How far all rays of a block go before any of them may hit, and which blocks have any that may:
-// these are listed for marching, and the others' samples meet nothing.
+// these are queued for marching, and the others' samples meet nothing.
 
 // How deep all rays of a block may go; negative where all of them miss.
 fn clear_block(fractal: Fractal, block: Block) -> f32 {
@@ -25,7 +25,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let block = block_at(thread.x);
     let clear = clear_block(picture.fractal, block);
     if (clear >= 0.0) {
-        list_ray(block.index, clear);
+        enqueue_ray(block.index, clear);
         return;
     }
     for (var i = 0u; i < BLOCK_THREADS; i++) {

@@ -1,4 +1,4 @@
-// Which blocks have a surface point: these are listed for what follows.
+// Queues the blocks that have a surface point.
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
@@ -10,5 +10,5 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
         let site = block_site(block, i);
         if (site.is_there) { any |= surface[site.index].x; }
     }
-    if (any != 0u) { list_hit(block.index); }
+    if (any != 0u) { enqueue_hit(block.index); }
 }

@@ -50,7 +50,7 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given;
-    let site = listed_hit(thread.x);
+    let site = queued_hit(thread.x);
     if (!site.is_there) { return; }
     let t = bitcast<f32>(surface[site.index].x);
     if (t == 0.0) { return; }

@@ -62,13 +62,13 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given;
-    let listed = listed_ray(thread.x);
-    let site = listed.site;
+    let queued = queued_ray(thread.x);
+    let site = queued.site;
     if (!site.is_there) { return; }
     let seen = receiver(site);
     if (!seen.faces) { return; }
     var clear = 1e30;
-    if (slice.light_kind != LIGHT_POINT) { clear = listed.clear - dot(seen.point, slice.light_vector); }
+    if (slice.light_kind != LIGHT_POINT) { clear = queued.clear - dot(seen.point, slice.light_vector); }
     if (light_reaches(picture.fractal, seen.point, seen.surface_distance, clear)) {
         visibility[site.index][light_word()] |= light_mask();
     }

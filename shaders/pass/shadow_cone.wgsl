@@ -1,5 +1,5 @@
 // How far all rays of a block to the slice's light go unblocked, and which blocks face it: these
-// are listed for shadow rays. Every point is dark until one of those finds it lit.
+// are queued for shadow rays. Every point is dark until one of those finds it lit.
 
 var<private> points: array<vec4f, BLOCK_THREADS>;
 
@@ -53,8 +53,8 @@ fn clear_plane(fractal: Fractal) -> f32 {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     picture = given;
-    if (thread.x >= atomicLoad(&lists.hits)) { return; }
-    let block = block_at(lists.entries[thread.x]);
+    if (thread.x >= atomicLoad(&work_queues.hits)) { return; }
+    let block = block_at(work_queues.entries[thread.x]);
     var any_faces = false;
     for (var i = 0u; i < BLOCK_THREADS; i++) {
         points[i] = vec4f(0.0);
@@ -69,5 +69,5 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!any_faces) { return; }
     var clear = 1e30;
     if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(picture.fractal); }
-    list_ray(block.index, clear);
+    enqueue_ray(block.index, clear);
 }

@@ -37,10 +37,10 @@ struct Slice {
     neighbour_level: u32,
     light_vector: vec3f,
     light_kind: u32,
-    // Blocks of a dispatch that goes through all of them: see `types/lists.wgsl`.
+    // Blocks of a dispatch that goes through all of them: see `types/work_queues.wgsl`.
     blocks: u32,
-    // The ray list that a dispatch writes or reads.
-    ray_list: u32,
+    // The ray queue that a dispatch writes or reads.
+    ray_queue: u32,
     // How many samples of a pixel are computed together, and the logarithm to base two of the
     // threads that they have.
     samples: u32,

@@ -3,13 +3,13 @@
 use super::{
     indirect::{self, IndirectSource},
     lattice::{Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
-    lists::{BLOCK_THREADS, List},
     pass,
     pipelines::{Passes, Pipelines},
     post::{Post, Tasks},
     schedule::{Points, Stage, Trace, Work},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
     uniforms::{Inputs, Slice},
+    work_queues::{BLOCK_THREADS, Queue},
 };
 
 /// Records one piece of work.
@@ -73,8 +73,8 @@ pub fn record(recorder: &mut Recorder<'_>, work: Work) {
 pub struct Dispatches {
     /// Camera rays.
     pub march: u64,
-    /// Lists of blocks: of rays, with the bundles that decide about them, and of hits.
-    pub list: u64,
+    /// Passes that write work queues: of rays, with the cones that decide about them, and of hits.
+    pub queue: u64,
     /// Normals.
     pub normal: u64,
     /// Shadow rays.
@@ -102,7 +102,7 @@ impl Dispatches {
     pub fn total(&self) -> u64 {
         let Self {
             march,
-            list,
+            queue,
             normal,
             shadow,
             shadow_rays: _,
@@ -114,7 +114,7 @@ impl Dispatches {
             bloom,
             tone,
         } = *self;
-        march + list + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
+        march + queue + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
     }
 }
 
@@ -188,7 +188,7 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
     }
 
-    /// Binds the film, for passes that come after those that use lists of blocks.
+    /// Binds the film, for passes after those that use work queues.
     pub fn bind_film(&mut self) {
         self.compute.set_bind_group(2, &self.targets.film_group, &[]);
     }
@@ -252,31 +252,31 @@ impl<'a> Recorder<'a> {
         self.dispatch(pipeline, slice, pixels.div_ceil(WORKGROUP_THREADS));
     }
 
-    /// Adds a dispatch over all blocks of a trace, that lists some of them.
+    /// Adds a dispatch over all blocks of a trace that queues some of them.
     pub fn dispatch_blocks(
         &mut self,
         pipeline: &wgpu::ComputePipeline,
-        lists: &wgpu::BindGroup,
+        work_queues: &wgpu::BindGroup,
         slice: Slice,
     ) {
-        self.compute.set_bind_group(2, lists, &[]);
+        self.compute.set_bind_group(2, work_queues, &[]);
         self.dispatch(pipeline, slice, slice.blocks.div_ceil(WORKGROUP_THREADS));
-        self.dispatches.list += 1;
+        self.dispatches.queue += 1;
     }
 
-    /// Adds a dispatch over a list, that reads lists, or reads one and writes another.
-    pub fn dispatch_list(
+    /// Adds a dispatch over a queue, which may write another.
+    pub fn dispatch_queue(
         &mut self,
         pipeline: &wgpu::ComputePipeline,
-        lists: &wgpu::BindGroup,
+        work_queues: &wgpu::BindGroup,
         slice: Slice,
-        list: List,
+        queue: Queue,
     ) {
-        self.compute.set_bind_group(2, lists, &[]);
+        self.compute.set_bind_group(2, work_queues, &[]);
         self.prepare(pipeline, slice);
         let (workgroups, offset) = match &self.rehearsal {
             Some(nothing) => (nothing, 0),
-            None => self.targets.lists.workgroups(list),
+            None => self.targets.work_queues.workgroups(queue),
         };
         self.compute.dispatch_workgroups_indirect(workgroups, offset);
     }

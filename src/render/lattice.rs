@@ -123,7 +123,7 @@ impl Grid {
             light_vector: [0.0; 3],
             light_kind: 0,
             blocks: 0,
-            ray_list: 0,
+            ray_queue: 0,
             samples: 1,
             samples_shift: self.samples_shift,
             jitter_step: JITTER_STEP.map(|step| step as f32),

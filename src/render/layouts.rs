@@ -12,10 +12,10 @@ pub struct Layouts {
     /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
     /// all storage.
     pub post: wgpu::BindGroupLayout,
-    /// Group 2 of passes that read lists of blocks: these.
-    pub listed: wgpu::BindGroupLayout,
+    /// Group 2 of passes that read a work queue: the queues.
+    pub dequeue: wgpu::BindGroupLayout,
     /// Group 2 of passes that write them: the same, and the workgroups of those that read them.
-    pub listing: wgpu::BindGroupLayout,
+    pub enqueue: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves, the display texture, direct light.
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the environment map and its sampler.
@@ -48,8 +48,8 @@ impl Layouts {
             gbuffer: group("gbuffer", &[STORAGE; 3]),
             samples: group("samples", &[READ_ONLY; 3]),
             post: group("post", &[STORAGE; 3]),
-            listed: group("listed", &[STORAGE]),
-            listing: group("listing", &[STORAGE; 2]),
+            dequeue: group("dequeue", &[STORAGE]),
+            enqueue: group("enqueue", &[STORAGE; 2]),
             film: group("film", &[STORAGE, STORAGE, display, STORAGE]),
             environment_texture: group(
                 "environment map",

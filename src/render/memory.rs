@@ -22,7 +22,7 @@ pub struct Memory {
     /// The jittered samples of one piece of work.
     pub jittered_samples: u64,
     /// Lists of the threads that a piece of work has something to do for.
-    pub block_lists: u64,
+    pub work_queues: u64,
     /// Direct light of the centre samples, where indirect light is made of it.
     pub direct_light: u64,
     /// Sums of radiance, 32-bit.
@@ -45,7 +45,7 @@ impl Memory {
         let Self {
             sample_points,
             jittered_samples,
-            block_lists,
+            work_queues,
             direct_light,
             film,
             mip_levels,
@@ -57,7 +57,7 @@ impl Memory {
         [
             ("sample points", sample_points),
             ("jittered samples", jittered_samples),
-            ("block lists", block_lists),
+            ("work queues", work_queues),
             ("direct light", direct_light),
             ("film", film),
             ("mip levels", mip_levels),

@@ -17,7 +17,7 @@
 //! | `post_pipelines` | the pipelines of those passes |
 //! | `anchors` | the anchors of a view that moves |
 //! | [`space`] | render space: origin and unit of coordinates |
-//! | [`lists`] | which threads a pass has work for |
+//! | [`work_queues`] | which threads a pass has work for |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | a finished view's pixels on their way back |
@@ -34,7 +34,6 @@ mod histogram_readback;
 pub mod indirect;
 pub mod lattice;
 mod layouts;
-pub mod lists;
 pub mod memory;
 pub mod pass;
 pub mod pipeline_key;
@@ -50,6 +49,7 @@ pub mod space;
 pub mod targets;
 pub mod uniforms;
 pub mod view;
+pub mod work_queues;
 
 pub use pipelines::Pipelines;
 pub use region::{Eyes, MAX_REGION_PIXELS, MAX_REGION_PX, Region};

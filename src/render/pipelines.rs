@@ -264,23 +264,23 @@ impl Pipelines {
     pub fn for_stills(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
-        let Layouts { picture, gbuffer, listed, listing, film, post, environment_texture, .. } =
+        let Layouts { picture, gbuffer, dequeue, enqueue, film, post, environment_texture, .. } =
             &layouts;
-        let listing_layout = pipeline_layout(device, "listing", &[picture, gbuffer, listing]);
-        let listed_layout = pipeline_layout(device, "listed", &[picture, gbuffer, listed]);
+        let enqueue_layout = pipeline_layout(device, "enqueue", &[picture, gbuffer, enqueue]);
+        let dequeue_layout = pipeline_layout(device, "dequeue", &[picture, gbuffer, dequeue]);
         let layout = pipeline_layout(device, "picture passes", &[picture, gbuffer, film]);
         let shade_layout =
             pipeline_layout(device, "shading", &[picture, gbuffer, film, environment_texture]);
         let post_layout =
             pipeline_layout(device, "passes over the film as a whole", &[picture, post, film]);
-        let camera_cone = SpecializedPipeline::new(&listing_layout, &pass::camera_cone::MODULE);
-        let march = SpecializedPipeline::new(&listed_layout, &pass::march::MODULE);
-        let normal = SpecializedPipeline::new(&listed_layout, &pass::normal::MODULE);
-        let shadow_cone = SpecializedPipeline::new(&listing_layout, &pass::shadow_cone::MODULE);
-        let shadow = SpecializedPipeline::new(&listed_layout, &pass::shadow::MODULE);
+        let camera_cone = SpecializedPipeline::new(&enqueue_layout, &pass::camera_cone::MODULE);
+        let march = SpecializedPipeline::new(&dequeue_layout, &pass::march::MODULE);
+        let normal = SpecializedPipeline::new(&dequeue_layout, &pass::normal::MODULE);
+        let shadow_cone = SpecializedPipeline::new(&enqueue_layout, &pass::shadow_cone::MODULE);
+        let shadow = SpecializedPipeline::new(&dequeue_layout, &pass::shadow::MODULE);
         let shade = SpecializedPipeline::new(&shade_layout, &pass::shade::MODULE);
         let tone = SpecializedPipeline::new(&post_layout, &pass::tone::MODULE);
-        let compact_hits = LazyPipeline::new(&listing_layout, &pass::compact_hits::MODULE);
+        let compact_hits = LazyPipeline::new(&enqueue_layout, &pass::compact_hits::MODULE);
         let fill = LazyPipeline::new(&layout, &pass::fill::MODULE);
         let tonemap_sparse = LazyPipeline::new(&layout, &pass::tonemap_sparse::MODULE);
         let upsample = LazyPipeline::new(&layout, &pass::upsample::MODULE);

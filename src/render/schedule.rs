@@ -11,20 +11,20 @@ use super::lattice::{COARSEST, WORKGROUP_THREADS};
 
 mod adaptation;
 mod choice;
+mod completion;
 mod cost;
-mod ended;
-mod known;
+mod gbuffer_validity;
 mod rate;
-mod terms;
+mod types;
 mod work;
 
 use adaptation::Adaptation;
 use choice::STRAIGHT_MS;
 pub use cost::Arithmetic;
 use cost::Cost;
-use known::Known;
+use gbuffer_validity::GBufferValidity;
 use rate::Aim;
-pub use terms::{Pace, Stale, Status};
+pub use types::{Pace, Stale, Status};
 pub use work::{Job, Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
@@ -83,7 +83,7 @@ pub struct Schedule {
     budget_ms: f64,
     samples_wanted: u32,
     /// What the centre samples' G-buffer holds.
-    known: Known,
+    gbuffer_validity: GBufferValidity,
     /// The visibility bits of the lights that shine.
     shining: u64,
     /// Finest level whose every centre sample is shaded.
@@ -122,7 +122,7 @@ impl Schedule {
             size_px,
             budget_ms: 16.0,
             samples_wanted: 1,
-            known: Known::default(),
+            gbuffer_validity: GBufferValidity::default(),
             shining: 0,
             shaded: None,
             has_indirect: false,
@@ -180,7 +180,7 @@ impl Schedule {
     /// kind shines or did.
     pub fn set_lights(&mut self, shining: u64, moved: u64) {
         self.shining = shining;
-        self.known.forget_lights(moved);
+        self.gbuffer_validity.forget_lights(moved);
     }
 
     /// Says which lights have shadow rays at all, by their visibility bits.
@@ -245,7 +245,7 @@ impl Schedule {
             }
             return;
         }
-        self.known.forget(stale);
+        self.gbuffer_validity.forget(stale);
         if stale >= Stale::Light {
             self.shaded = None;
         }
@@ -407,7 +407,7 @@ impl Schedule {
                 self.shaded = Some(level);
                 // What waits for indirect light is not on the film yet.
                 self.show_due = !self.has_indirect;
-                self.known.complete(level, self.shining);
+                self.gbuffer_validity.complete(level, self.shining);
             }
             Points::Indirect(level) => {
                 self.indirect_shaded = Some(level);

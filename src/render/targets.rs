@@ -9,7 +9,6 @@ use super::{
     environment_texture::EnvironmentTexture,
     indirect::IndirectSource,
     lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
-    lists::Lists,
     memory::Memory,
     pass,
     pipelines::Pipelines,
@@ -17,6 +16,7 @@ use super::{
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
     uniforms::{self, ANCHOR_ORBIT_BYTES, GRADIENT_ENTRIES, Light, Picture, Slice},
+    work_queues::WorkQueues,
 };
 use crate::scene::MAX_LIGHTS;
 
@@ -62,8 +62,8 @@ pub struct Targets {
     pub center: GBuffer,
     /// The jittered samples of one slice.
     pub jittered: GBuffer,
-    /// What a piece of work has listed for its later passes.
-    pub lists: Lists,
+    /// Work queues between the passes of a piece of work.
+    pub work_queues: WorkQueues,
     /// 2 × f32 a pixel: sums of red and green.
     pub film_rg: wgpu::Buffer,
     /// 2 × f32 a pixel: sum of blue, number of samples.
@@ -129,7 +129,7 @@ impl Targets {
             picture_group,
             center: GBuffer::new(pipelines, pixels),
             jittered: GBuffer::new(pipelines, u64::from(slice_samples)),
-            lists: Lists::new(pipelines, workgroups.min(MOST_WORKGROUPS)),
+            work_queues: WorkQueues::new(pipelines, workgroups.min(MOST_WORKGROUPS)),
             film_rg,
             film_bw,
             direct,
@@ -166,7 +166,7 @@ impl Targets {
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
-            block_lists: self.lists.bytes(),
+            work_queues: self.work_queues.bytes(),
             direct_light: self.direct.size(),
             film: self.film_rg.size() + self.film_bw.size(),
             mip_levels,

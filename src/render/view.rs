@@ -28,9 +28,9 @@ use crate::{
 mod prepare;
 mod read;
 
-/// What is known of the film as it is.
+/// Which statistics describe the film as it is.
 #[derive(Clone, Copy, Debug, Default)]
-struct Known {
+struct StatsValidity {
     mean: bool,
     histogram: bool,
 }
@@ -57,7 +57,7 @@ pub struct View {
     inputs: Option<Inputs>,
     pending: Option<Scene>,
     moving: bool,
-    known: Known,
+    stats_validity: StatsValidity,
     filling: Filling,
     histogram_readback: HistogramReadback,
     /// What another view knows of the whole picture, of which this one draws a part.
@@ -99,7 +99,7 @@ impl View {
             inputs: None,
             pending: None,
             moving: false,
-            known: Known::default(),
+            stats_validity: StatsValidity::default(),
             filling: Filling::default(),
             histogram_readback: HistogramReadback::default(),
             lent_post: None,
@@ -128,8 +128,7 @@ impl View {
         if region == self.region {
             return;
         }
-        // Two eyes can share a film of the size that one had: what is known of it as a whole lies
-        // otherwise.
+        // Two regions of one size can hold different eye layouts, so discard the film statistics.
         let same_size = region.size_px == self.region.size_px
             && region.film_px() == self.region.film_px()
             && region.display_px() == self.region.display_px();
@@ -137,7 +136,7 @@ impl View {
             let environment_texture = self.targets.environment_texture.clone();
             self.targets = Targets { environment_texture, ..Targets::new(&self.pipelines, region) };
         }
-        self.known = Known::default();
+        self.stats_validity = StatsValidity::default();
         self.region = region;
         self.schedule.resize(region.film_px());
         let Some(scene) = &self.scene else { return };
@@ -318,31 +317,31 @@ impl View {
         let need = if self.lent_post.is_some() { Need::default() } else { need };
         if self.targets.post.need() != need {
             self.targets.post = Arc::new(self.targets.post.with_need(&self.pipelines, need));
-            self.known = Known::default();
+            self.stats_validity = StatsValidity::default();
         }
     }
 
     /// What the next piece of work has to find out about the film as a whole.
     fn tasks(&mut self, work: Work) -> Tasks {
         let Work::Show { fill, adapt, .. } = work else {
-            self.known = Known::default();
+            self.stats_validity = StatsValidity::default();
             return Tasks::default();
         };
         if fill {
-            self.known = Known::default();
+            self.stats_validity = StatsValidity::default();
         }
         if self.lent_post.is_some() {
             return Tasks::default();
         }
         let need = self.targets.post.need();
         let tasks = Tasks {
-            mean: need.mean && !self.known.mean,
-            histogram: self.histogram_readback.is_wanted() && !self.known.histogram,
+            mean: need.mean && !self.stats_validity.mean,
+            histogram: self.histogram_readback.is_wanted() && !self.stats_validity.histogram,
             adapt: need.mean.then_some(adapt),
             bloom: need.bloom,
         };
-        self.known.mean |= tasks.mean;
-        self.known.histogram |= tasks.histogram;
+        self.stats_validity.mean |= tasks.mean;
+        self.stats_validity.histogram |= tasks.histogram;
         tasks
     }
 

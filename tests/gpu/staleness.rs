@@ -33,7 +33,7 @@ fn cost_from(
     let after = view.dispatches();
     Dispatches {
         march: after.march - before.march,
-        list: after.list - before.list,
+        queue: after.queue - before.queue,
         normal: after.normal - before.normal,
         shadow: after.shadow - before.shadow,
         shadow_rays: after.shadow_rays - before.shadow_rays,

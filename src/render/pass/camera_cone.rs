@@ -1,4 +1,4 @@
-//! Bundles of camera rays: lists the blocks of samples that may hit, and how far their rays are clear.
+//! Cones of camera rays: queues the blocks of samples that may hit, and how far their rays are clear.
 
 use crate::{
     gpu::shader::Module,
@@ -13,8 +13,8 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/lists.wgsl"),
-        shader_file!("types/listing.wgsl"),
+        shader_file!("types/work_queues.wgsl"),
+        shader_file!("types/enqueue.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -34,7 +34,7 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.camera_cone.clone();
     let slice = recorder.slice(trace, grid);
-    let lists = &recorder.targets.lists;
-    lists.clear_rays(&recorder.pipelines.gpu.queue);
-    recorder.dispatch_blocks(&pipeline, &lists.listing_rays, slice);
+    let work_queues = &recorder.targets.work_queues;
+    work_queues.clear_rays(&recorder.pipelines.gpu.queue);
+    recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_rays, slice);
 }

@@ -1,4 +1,4 @@
-//! Surface points to a list: lists the blocks of samples that have any.
+//! Queues the blocks of samples that have surface points.
 
 use crate::{
     gpu::shader::Module,
@@ -13,18 +13,18 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/lists.wgsl"),
-        shader_file!("types/listing.wgsl"),
+        shader_file!("types/work_queues.wgsl"),
+        shader_file!("types/enqueue.wgsl"),
         shader_file!("lib/lattice.wgsl"),
         shader_file!("pass/compact_hits.wgsl"),
     ],
 };
 
-/// Lists the surface points of `trace`.
+/// Queues the surface points of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipelines.compact_hits();
     let slice = recorder.slice(trace, grid);
-    let lists = &recorder.targets.lists;
-    lists.clear_hits(&recorder.pipelines.gpu.queue);
-    recorder.dispatch_blocks(&pipeline, &lists.listing_hits, slice);
+    let work_queues = &recorder.targets.work_queues;
+    work_queues.clear_hits(&recorder.pipelines.gpu.queue);
+    recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_hits, slice);
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, lists::List, schedule::Trace},
+    render::{frame::Recorder, lattice::Grid, schedule::Trace, work_queues::Queue},
     shader_file,
 };
 
@@ -13,7 +13,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/lists.wgsl"),
+        shader_file!("types/work_queues.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -33,6 +33,11 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.passes.march.clone();
     let slice = recorder.slice(trace, grid);
-    recorder.dispatch_list(&pipeline, &recorder.targets.lists.reading, slice, List::Rays(0));
+    recorder.dispatch_queue(
+        &pipeline,
+        &recorder.targets.work_queues.reading,
+        slice,
+        Queue::Rays(0),
+    );
     recorder.dispatches.march += 1;
 }

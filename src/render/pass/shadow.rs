@@ -5,8 +5,8 @@ use crate::{
     render::{
         frame::Recorder,
         lattice::{Grid, WORKGROUP_THREADS},
-        lists::List,
         schedule::Trace,
+        work_queues::Queue,
     },
     shader_file,
 };
@@ -18,7 +18,7 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/lists.wgsl"),
+        shader_file!("types/work_queues.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -41,21 +41,21 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let [shadow_cone, shadow] =
         [&recorder.passes.shadow_cone, &recorder.passes.shadow].map(Clone::clone);
     let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
-    let (inputs, lists) = (recorder.inputs, &recorder.targets.lists);
-    lists.clear_rays(&recorder.pipelines.gpu.queue);
+    let (inputs, work_queues) = (recorder.inputs, &recorder.targets.work_queues);
+    work_queues.clear_rays(&recorder.pipelines.gpu.queue);
     let marched = trace.lights & inputs.casting();
     let lights = inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0);
-    // The first list is the camera's.
-    for (list, light) in (1..).zip(lights) {
+    // The first queue is the camera's.
+    for (queue, light) in (1..).zip(lights) {
         let mut slice = recorder.slice(trace, grid);
-        slice.ray_list = list;
+        slice.ray_queue = queue;
         slice.light_bit = light.bit;
         slice.light_reach = light.shadow_reach;
         slice.light_vector = light.vector;
         slice.light_kind = light.kind;
-        recorder.dispatch_list(&shadow_cone, &lists.listing_rays, slice, List::HitBlocks);
-        recorder.dispatch_list(&shadow, &lists.reading, slice, List::Rays(list));
-        recorder.dispatches.list += 1;
+        recorder.dispatch_queue(&shadow_cone, &work_queues.enqueue_rays, slice, Queue::HitBlocks);
+        recorder.dispatch_queue(&shadow, &work_queues.reading, slice, Queue::Rays(queue));
+        recorder.dispatches.queue += 1;
         recorder.dispatches.shadow += 1;
         recorder.dispatches.shadow_rays += rays;
     }

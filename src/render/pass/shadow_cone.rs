@@ -1,4 +1,4 @@
-//! Bundles of shadow rays: lists the blocks of samples that face a light, and how far their rays are
+//! Cones of shadow rays: queues the blocks of samples that face a light, and how far their rays are
 //! clear. [`super::shadow`] dispatches it.
 
 use crate::{gpu::shader::Module, shader_file};
@@ -10,8 +10,8 @@ pub const MODULE: Module = Module {
         shader_file!("types/picture.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/lists.wgsl"),
-        shader_file!("types/listing.wgsl"),
+        shader_file!("types/work_queues.wgsl"),
+        shader_file!("types/enqueue.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("lib/lattice.wgsl"),

@@ -52,7 +52,7 @@ impl Schedule {
     /// The finest lattice that the budget allows, and none finer than the G-buffer where only
     /// light is stale.
     fn opening_level(&self) -> u32 {
-        let finest = self.known.marched().unwrap_or(0);
+        let finest = self.gbuffer_validity.marched().unwrap_or(0);
         self.finest_within_budget(finest, |level| self.job(Points::Level(level)), self.has_indirect)
     }
 
@@ -114,8 +114,10 @@ impl Schedule {
     /// marched toward.
     pub(super) fn job(&self, points: Points) -> Job {
         let (from, lights) = match points {
-            Points::Level(level) | Points::Added(level) => self.known.start(level, self.shining),
-            Points::All => self.known.start(0, self.shining),
+            Points::Level(level) | Points::Added(level) => {
+                self.gbuffer_validity.start(level, self.shining)
+            }
+            Points::All => self.gbuffer_validity.start(0, self.shining),
             Points::Indirect(_) => (Stage::Indirect, 0),
             Points::Samples { .. } => (Stage::March, self.shining),
         };

@@ -4,8 +4,8 @@ use super::*;
 
 mod arithmetic;
 mod hand;
-mod held_up;
 mod light;
+mod stalls;
 
 const SIZE: [u32; 2] = [1280, 720];
 const FRAME_SECS: f64 = 1.0 / 60.0;

@@ -368,7 +368,7 @@ host_shared! {
         /// Blocks of a dispatch that goes through all of them.
         blocks: u32,
         /// The ray list that a dispatch writes or reads.
-        ray_list: u32,
+        ray_queue: u32,
         /// Samples of a pixel that are computed together.
         samples: u32,
         /// log2 of the threads that they have.

@@ -17,7 +17,7 @@ fn holds(finest: Finest, level: u32) -> bool {
 
 /// What is true of the centre samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Known {
+pub struct GBufferValidity {
     /// They have depth and colour data.
     marched: Finest,
     /// They have normals.
@@ -26,14 +26,14 @@ pub struct Known {
     lit: [Finest; MAX_LIGHTS],
 }
 
-impl Default for Known {
+impl Default for GBufferValidity {
     /// Nothing.
     fn default() -> Self {
         Self { marched: None, faced: None, lit: [None; MAX_LIGHTS] }
     }
 }
 
-impl Known {
+impl GBufferValidity {
     /// Forgets what an edit made untrue; which lights it moved is for [`Self::forget_lights`].
     pub fn forget(&mut self, stale: Stale) {
         match stale {
@@ -96,37 +96,37 @@ mod tests {
 
     #[test]
     fn one_moved_light_is_marched_alone() {
-        let mut known = Known::default();
-        assert_eq!(known.start(3, 0b111), (Stage::March, 0b111));
-        known.complete(0, 0b111);
-        assert_eq!(known.start(0, 0b111), (Stage::Shade, 0));
-        known.forget_lights(0b010);
-        assert_eq!(known.start(0, 0b111), (Stage::Shadow, 0b010));
-        assert_eq!(known.start(0, 0b101), (Stage::Shade, 0));
+        let mut validity = GBufferValidity::default();
+        assert_eq!(validity.start(3, 0b111), (Stage::March, 0b111));
+        validity.complete(0, 0b111);
+        assert_eq!(validity.start(0, 0b111), (Stage::Shade, 0));
+        validity.forget_lights(0b010);
+        assert_eq!(validity.start(0, 0b111), (Stage::Shadow, 0b010));
+        assert_eq!(validity.start(0, 0b101), (Stage::Shade, 0));
     }
 
     #[test]
     fn a_light_that_was_out_for_a_while_keeps_its_bits_unless_something_moved() {
-        let mut known = Known::default();
-        known.complete(0, 0b11);
-        assert_eq!(known.start(0, 0b01), (Stage::Shade, 0));
-        assert_eq!(known.start(0, 0b11), (Stage::Shade, 0));
-        known.forget(Stale::Normals);
-        assert_eq!(known.start(0, 0b01), (Stage::Normal, 0b01));
-        known.complete(0, 0b01);
-        assert_eq!(known.start(0, 0b11), (Stage::Shadow, 0b10));
+        let mut validity = GBufferValidity::default();
+        validity.complete(0, 0b11);
+        assert_eq!(validity.start(0, 0b01), (Stage::Shade, 0));
+        assert_eq!(validity.start(0, 0b11), (Stage::Shade, 0));
+        validity.forget(Stale::Normals);
+        assert_eq!(validity.start(0, 0b01), (Stage::Normal, 0b01));
+        validity.complete(0, 0b01);
+        assert_eq!(validity.start(0, 0b11), (Stage::Shadow, 0b10));
     }
 
     #[test]
     fn levels_are_kept_apart() {
-        let mut known = Known::default();
-        known.complete(4, 1 << 63);
-        known.complete(3, 1 << 63);
-        known.forget_lights(1 << 63);
-        known.complete(5, 1 << 63);
-        assert_eq!(known.start(5, 1 << 63), (Stage::Shade, 0));
-        assert_eq!(known.start(4, 1 << 63), (Stage::Shadow, 1 << 63));
-        assert_eq!(known.start(3, 0), (Stage::Shade, 0));
-        assert_eq!(known.start(2, 0), (Stage::March, 0));
+        let mut validity = GBufferValidity::default();
+        validity.complete(4, 1 << 63);
+        validity.complete(3, 1 << 63);
+        validity.forget_lights(1 << 63);
+        validity.complete(5, 1 << 63);
+        assert_eq!(validity.start(5, 1 << 63), (Stage::Shade, 0));
+        assert_eq!(validity.start(4, 1 << 63), (Stage::Shadow, 1 << 63));
+        assert_eq!(validity.start(3, 0), (Stage::Shade, 0));
+        assert_eq!(validity.start(2, 0), (Stage::March, 0));
     }
 }

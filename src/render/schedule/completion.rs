@@ -15,7 +15,7 @@ const TOGETHER: f64 = 0.05;
 
 /// One thing that has ended.
 #[derive(Clone, Copy)]
-struct Ended {
+struct Completion {
     /// What it was; none for a frame of the interface.
     work: Option<(Work, InFlight)>,
     /// The GPU's time from the end of the one before it, milliseconds.
@@ -23,7 +23,7 @@ struct Ended {
     expected_ms: f64,
 }
 
-impl Ended {
+impl Completion {
     /// Whether its end was told with that of the one before it.
     fn is_told_late(&self) -> bool {
         self.busy_ms < TOGETHER_MS && self.busy_ms < TOGETHER * self.expected_ms
@@ -45,7 +45,7 @@ impl Schedule {
                 None => None,
             };
             let expected_ms = work.map_or(self.cost.interface_ms(), |(_, piece)| piece.expected_ms);
-            all.push(Ended { work, busy_ms, expected_ms });
+            all.push(Completion { work, busy_ms, expected_ms });
         }
         for group in all.chunk_by(|_, next| next.is_told_late()) {
             self.is_told_late |= group.len() > 1;
@@ -55,11 +55,11 @@ impl Schedule {
 }
 
 /// Takes note of what ended at once.
-fn learn(cost: &mut Cost, group: &[Ended]) {
-    let sum = |value: fn(&Ended) -> f64| group.iter().map(value).sum::<f64>();
+fn learn(cost: &mut Cost, group: &[Completion]) {
+    let sum = |value: fn(&Completion) -> f64| group.iter().map(value).sum::<f64>();
     let (busy_ms, expected_ms) = (sum(|ended| ended.busy_ms), sum(|ended| ended.expected_ms));
     // Of kinds, each has the part of the time that it was expected to take.
-    let took_ms = |ended: &Ended| match group {
+    let took_ms = |ended: &Completion| match group {
         [_] => busy_ms,
         _ => busy_ms * ended.expected_ms / expected_ms,
     };

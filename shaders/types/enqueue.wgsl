@@ -1,0 +1,31 @@
+// For passes that write a queue: the workgroups of the passes that read it.
+
+struct Workgroups {
+    x: atomic<u32>,
+    // Always 1.
+    y: u32,
+    z: u32,
+}
+
+// Of the queue of hits: at a thread for each of a block's points, and at a thread a block. Of ray
+// queues: one each, at a thread a ray.
+@group(2) @binding(1) var<storage, read_write> workgroups_for: array<Workgroups, RAY_QUEUES>;
+
+// One more of what goes into workgroups of so many.
+fn count_workgroup(which: u32, entry: u32, in_each: u32) {
+    if (entry % in_each == 0u) { atomicAdd(&workgroups_for[which].x, 1u); }
+}
+
+fn enqueue_hit(block: u32) {
+    let entry = atomicAdd(&work_queues.hits, 1u);
+    work_queues.entries[entry] = block;
+    count_workgroup(0u, entry, BLOCKS);
+    count_workgroup(1u, entry, WORKGROUP_THREADS);
+}
+
+fn enqueue_ray(block: u32, clear: f32) {
+    let entry = atomicAdd(&work_queues.rays[slice.ray_queue], 1u);
+    work_queues.entries[most_blocks() + entry] = block;
+    work_queues.entries[2u * most_blocks() + entry] = bitcast<u32>(clear);
+    count_workgroup(slice.ray_queue, entry, BLOCKS);
+}
