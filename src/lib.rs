@@ -23,13 +23,12 @@
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.
 //! 4. [`render::frame::record`] records each piece, pass by pass, in the order in which they run.
-//!    Bundles of rays go first and list the blocks of threads that have any left to march
-//!    ([`render::lists`]): the passes after them are as large as their lists.
+//!    Cones of rays go first and queue the blocks of threads that have rays left to march
+//!    ([`render::work_queues`]): the passes after them are as large as their queues.
 //!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
-//! 5. Where the scene asks for it, the film is first looked at as a whole: its mean sets the
-//!    exposure, and what is bright in it blooms ([`render::post`]).
-//!    A sparse lattice that nothing else has to know as a whole never fills the film: its samples are
-//!    developed by themselves, and spread over the display.
+//! 5. Post passes read the whole film where the scene asks for it: its mean sets the exposure, and
+//!    bright pixels bloom ([`render::post`]). Without them the samples of a sparse lattice never fill the
+//!    film: they are tone mapped and upsampled to the display.
 //! 6. What the film holds is shown: by the page's interface, or tile by tile as a PNG
 //!    ([`export::StillJob`]).
 //!

@@ -43,7 +43,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     var sum = 0.0;
     for (var k = 0u; k < 32u; k++) {
         let part = f32(id.x * 32u + k) * 1e-7;
-        sum += estimate(fractal, vec3f(0.2 + part, 0.15 - part, 0.1)).distance;
+        let point = vec3f(0.2 + part, 0.15 - part, 0.1);
+        sum += distance_estimate(fractal, point);
     }
     sums[id.x] = sum;
 }

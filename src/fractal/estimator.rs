@@ -84,7 +84,7 @@ impl Estimator {
     }
 
     /// The estimated distance from `point` to the fractal, in scene units: at least zero, and
-    /// zero inside. It is no strict bound: a ray steps by [`Self::reach`].
+    /// zero inside. It is no strict bound: a ray steps by [`Self::estimate`].
     pub fn distance(&self, point: DVec3) -> f64 {
         self.estimate(point).distance
     }

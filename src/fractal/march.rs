@@ -93,7 +93,7 @@ pub trait DistanceField {
         self.clear_estimate(point).distance
     }
 
-    /// [`Self::reach`], mended like [`Self::clear_distance`].
+    /// [`Self::estimate`], mended like [`Self::clear_distance`].
     fn clear_estimate(&self, point: DVec3) -> Estimate {
         let from_centre = point.distance(self.center());
         let to_sphere = from_centre - self.bounding_radius();

@@ -6,15 +6,15 @@
 //! | [`schedule`] | what to compute next: a pure state machine |
 //! | [`lattice`] | sparse lattices of pixels, and where samples lie in a pixel |
 //! | [`frame`] | the passes of one submit |
-//! | [`indirect`] | where indirect light comes from |
+//! | [`indirect`] | the source of indirect light |
 //! | [`pass`] | one pass a file, with its shader's stem |
-//! | [`environment_texture`] | the environment map |
+//! | [`environment_texture`] | the environment map on the GPU |
 //! | [`pipelines`] | pipelines and bind group layouts |
-//! | [`pipeline_key`] | what rays and normals have pipelines of their own for |
+//! | [`pipeline_key`] | what pipelines are specialised for |
 //! | `filling` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | pipelines on their way: announced, compiled, tried |
 //! | [`post`] | film statistics, exposure, bloom |
-//! | `post_pipelines` | the pipelines of those passes |
+//! | `post_pipelines` | pipelines of the post passes |
 //! | `anchors` | the anchors of a view that moves |
 //! | [`space`] | render space: origin and unit of coordinates |
 //! | [`work_queues`] | which threads a pass has work for |
@@ -22,7 +22,7 @@
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | a finished view's pixels on their way back |
 //! | [`memory`] | what a view holds of the GPU's memory |
-//! | `watch` | the film's histogram on its way to the interface |
+//! | `histogram_readback` | readback of the film's histogram |
 //! | [`report`] | what a view says of itself |
 
 mod anchors;

@@ -137,13 +137,13 @@ pub struct ToneForm {
     pub is_anaglyph: bool,
 }
 
-/// Pipelines beyond those that every picture needs: made when one needs them, or is faster with
+/// Specialized and optional pipelines: compiled when a picture needs them or is faster with
 /// them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PipelineVariant {
-    /// Rays of one form.
+    /// Camera and shadow rays of a key.
     Rays(PipelineKey),
-    /// Normals of one kind, as the shaders count them, for one form.
+    /// Normals of one kind, as the shaders count them, of a key.
     Normals(PipelineKey, u32),
     /// Shading, with the environment map behind all or without.
     Shade(bool),
@@ -156,7 +156,7 @@ pub enum PipelineVariant {
 }
 
 impl PipelineVariant {
-    /// The special forms of a picture's passes.
+    /// Specialized variants of the passes of a picture.
     pub fn special(picture: &Picture) -> [Self; 4] {
         let key = PipelineKey::of(picture);
         let tone = ToneForm {
@@ -219,7 +219,7 @@ impl PipelineVariant {
     }
 }
 
-/// The pipelines that every picture needs, and the [extra](Extra) ones made so far.
+/// Compute pipelines: those of every picture, and the [variants](PipelineVariant) compiled so far.
 pub struct Pipelines {
     /// The device.
     pub gpu: Gpu,
@@ -415,14 +415,14 @@ impl Pipelines {
     }
 
     /// Starts to compile one pipeline asynchronously, `part` of as many as there are
-    /// [parts](Extra::parts), for [`Self::make`] to have it at once when the flag is true; none
+    /// [parts](PipelineVariant::parts), for [`Self::make`] to have it at once when the flag is true; none
     /// where pipelines cannot be compiled asynchronously.
     pub(super) fn begin(&self, variant: PipelineVariant, part: usize) -> Option<Arc<AtomicBool>> {
         let compile = self.gpu.async_compile?;
         Some((compile.begin)(&self.gpu.device, &mut || drop(self.ask(variant, part))))
     }
 
-    /// Makes one pipeline, `part` of as many as there are [parts](Extra::parts). For
+    /// Makes one pipeline, `part` of as many as there are [parts](PipelineVariant::parts). For
     /// [`Self::keep`].
     pub(super) fn make(&self, variant: PipelineVariant, part: usize) -> wgpu::ComputePipeline {
         let mut made = None;

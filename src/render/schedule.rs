@@ -33,7 +33,7 @@ pub const MOST_IN_FLIGHT: usize = 2;
 /// Most workgroups of jittered samples in one piece: their G-buffer has this size.
 pub const SAMPLE_WORKGROUPS: u32 = 4096;
 
-/// Most workgroups in any piece: its lists have room for a megapixel.
+/// Most workgroups in any piece: its queues have room for a megapixel.
 pub const MOST_WORKGROUPS: u32 = 16_384;
 
 /// Most GPU time that one piece aims at while someone is watching, milliseconds. Each has its own

@@ -17,7 +17,7 @@ pub enum Stale {
     /// How indirect light is gathered: the centre samples' direct light stays.
     Indirect,
     /// Lights, surface, colours: the centre samples' G-buffer stays, but for the bits of lights
-    /// that moved. Those are told apart by [`Schedule::set_lights`].
+    /// that moved. Those are told apart by [`Schedule::set_lights`](super::Schedule::set_lights).
     Light,
     /// How normals are found: the centre samples' depths stay.
     Normals,

@@ -137,8 +137,8 @@ host_shared! {
         own_points: u32,
         /// The one that orbits start anew from.
         restart: u32,
-        /// 1 where orbits about it are followed in frames that turn with their points' longitudes:
-        /// see [`crate::fractal::deep::turn`].
+        /// 1 if orbits about it are followed in frames that turn with their points' longitudes:
+        /// see [`crate::fractal::deep::rotating_frame`].
         rotates: u32,
         /// Within which radius of the anchor, squared, orbits take the near steps; 0 where none do.
         near_radius_squared: f32,
