@@ -86,7 +86,7 @@ fn host_structs_match_their_wgsl_twins() {
     }
 }
 
-/// Else it would be all zeros: see `types/picture.wgsl`.
+/// Else it would be all zeros: see `types/frame_uniforms.wgsl`.
 #[test]
 fn every_pass_begins_by_reading_the_picture() {
     for module in MODULES {
@@ -94,7 +94,7 @@ fn every_pass_begins_by_reading_the_picture() {
         let (_, main) = text.split_once("fn main(").expect("an entry point");
         let (_, body) = main.split_once("{\n").expect("its body");
         let first = body.lines().next().map(str::trim);
-        assert_eq!(first, Some("picture = given;"), "{}", module.label);
+        assert_eq!(first, Some("frame = frame_uniforms;"), "{}", module.label);
     }
 }
 

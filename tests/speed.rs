@@ -211,7 +211,7 @@ fn counters_count_orbits() {
         // As many iterations as the view's pixels need.
         let inputs = Inputs::new(&scene, Region::whole([64, 64]));
         let followed =
-            Fractal { iterations: inputs.picture.fractal.iterations, ..scene.fractal.clone() };
+            Fractal { iterations: inputs.frame.fractal.iterations, ..scene.fractal.clone() };
         let expected: u32 = points.iter().map(|p| estimate::orbit(&followed, *p).steps).sum();
         for power in [0, scene.fractal.integer_power().unwrap_or(0)] {
             let found = counted(&gpu, &inputs, &points, power);

@@ -125,7 +125,7 @@ pub fn ours(
 /// # Errors
 /// Where a kernel can't be counted.
 pub fn counting_passes(pipelines: &Pipelines, split: &ours::Split<'_>) -> Result<Passes, Failure> {
-    let constants = PipelineKey::of(split.picture()).constants();
+    let constants = PipelineKey::of(split.frame()).constants();
     let gpu = &pipelines.gpu;
     let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
         .map(|layout| split.counting_layout(layout));
@@ -150,6 +150,6 @@ pub fn counting_passes(pipelines: &Pipelines, split: &ours::Split<'_>) -> Result
         normal: made(&queued, &pass::normal::MODULE, "distance_gradient")?,
         shadow_cone: made(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
         shadow: made(&queued, &pass::shadow::MODULE, "estimate_at")?,
-        ..pipelines.passes(split.picture())
+        ..pipelines.passes(split.frame())
     })
 }

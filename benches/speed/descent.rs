@@ -12,7 +12,7 @@ use mandelight::{
     render::{
         Pipelines, Region,
         pipelines::{Passes, PipelineKey, PipelineVariant},
-        uniforms::Picture,
+        uniforms::FrameUniforms,
     },
     scene::Scene,
 };
@@ -93,7 +93,7 @@ struct Bench<'a> {
 impl Bench<'_> {
     /// What the pixels of a part of a view take.
     fn count(&mut self, split: &Split<'_>) -> Result<Counts, Failure> {
-        let key = PipelineKey::of(split.picture());
+        let key = PipelineKey::of(split.frame());
         if !self.counting.contains_key(&key) {
             self.counting.insert(key, counts::counting_passes(self.pipelines, split)?);
         }
@@ -112,11 +112,11 @@ impl Bench<'_> {
         reference: &Split<'_>,
     ) -> Result<(PipelineKey, [f64; 2], Counts), Failure> {
         let (mut times, mut counts, mut pixels) = ([0.0; 2], Counts::default(), 0.0);
-        let mut key = PipelineKey::of(&Picture::new(scene, Region::whole(self.size_px)));
+        let mut key = PipelineKey::of(&FrameUniforms::new(scene, Region::whole(self.size_px)));
         for region in regions(self.size_px) {
             let pipelines = self.pipelines;
             let split = prepared(pipelines, scene, region, self.spread);
-            key = PipelineKey::of(split.picture());
+            key = PipelineKey::of(split.frame());
             let ns = |split: &Split<'_>| -> f64 {
                 split.draw_ms().into_iter().map(|(_, ms)| ms * 1e6).sum()
             };
@@ -168,7 +168,7 @@ impl Bench<'_> {
 /// A part of a view, with its pipelines ready and drawn once.
 fn prepared<'a>(pipelines: &'a Pipelines, scene: &Scene, region: Region, spread: u32) -> Split<'a> {
     let split = Split::spread(pipelines, scene, region, spread);
-    for variant in PipelineVariant::special(split.picture()) {
+    for variant in PipelineVariant::special(split.frame()) {
         pipelines.prepare(variant);
     }
     split.draw_ms();

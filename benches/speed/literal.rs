@@ -73,7 +73,7 @@ struct Settings {
 
 impl Settings {
     fn new(inputs: &Inputs, kindness: Kindness, stride: u32) -> Self {
-        let picture = &inputs.picture;
+        let picture = &inputs.frame;
         let (camera, fractal) = (&picture.camera, &picture.fractal);
         let (surface, background) = (&picture.surface, &picture.background);
         Self {

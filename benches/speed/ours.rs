@@ -12,7 +12,7 @@ use mandelight::{
         pipelines::Passes,
         schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
-        uniforms::{Inputs, Picture},
+        uniforms::{FrameUniforms, Inputs},
     },
     scene::Scene,
 };
@@ -122,14 +122,14 @@ impl<'a> Split<'a> {
     }
 
     /// What the passes know of the scene.
-    pub fn picture(&self) -> &Picture {
-        &self.inputs.picture
+    pub fn frame(&self) -> &FrameUniforms {
+        &self.inputs.frame
     }
 
     /// About how many pixels are drawn: those of workgroups that reach past the region count whole.
     pub fn pixels(&self) -> f64 {
-        let grid = Points::Level(0).grid(self.inputs.picture.size_px);
-        let pixels: f64 = self.inputs.picture.size_px.into_iter().map(f64::from).product();
+        let grid = Points::Level(0).grid(self.inputs.frame.size_px);
+        let pixels: f64 = self.inputs.frame.size_px.into_iter().map(f64::from).product();
         let workgroups = f64::from(grid.workgroups());
         pixels * f64::from(grid.workgroups().div_ceil(self.spread)) / workgroups
     }
@@ -140,7 +140,7 @@ impl<'a> Split<'a> {
         self.pipelines.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("counting passes"),
             bind_group_layouts: &[
-                Some(&layouts.picture),
+                Some(&layouts.frame),
                 Some(&layouts.gbuffer),
                 Some(work_queues),
                 Some(&self.counts_layout),
@@ -151,7 +151,7 @@ impl<'a> Split<'a> {
 
     /// Each pass's name and time from submit to end, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
-        let passes = self.pipelines.passes(&self.inputs.picture);
+        let passes = self.pipelines.passes(&self.inputs.frame);
         let mut ms = PASSES.map(|(name, _)| (name, 0.0));
         // Lists hold what one piece of work has listed.
         for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
@@ -210,8 +210,8 @@ impl<'a> Split<'a> {
 
     /// These points of the whole picture, in pieces of `most` workgroups.
     fn traces(&self, points: Points, most: u32) -> impl Iterator<Item = Trace> {
-        let lights = u64::MAX >> (64 - self.inputs.picture.surface.light_count.clamp(1, 64));
-        let all = points.grid(self.inputs.picture.size_px).workgroups().div_ceil(self.spread);
+        let lights = u64::MAX >> (64 - self.inputs.frame.surface.light_count.clamp(1, 64));
+        let all = points.grid(self.inputs.frame.size_px).workgroups().div_ceil(self.spread);
         (0..all).step_by(most as usize).map(move |first_workgroup| Trace {
             points,
             from: Stage::March,
@@ -223,7 +223,7 @@ impl<'a> Split<'a> {
 
     /// One pass over some points.
     fn recorded(&self, record: Record, passes: &Passes, trace: Trace) -> wgpu::CommandBuffer {
-        let grid = trace.points.grid(self.inputs.picture.size_px);
+        let grid = trace.points.grid(self.inputs.frame.size_px);
         let mut dispatches = Dispatches::default();
         let mut recorder =
             Recorder::new(self.pipelines, passes, &self.targets, &self.inputs, &mut dispatches);

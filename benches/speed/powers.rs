@@ -39,7 +39,7 @@ const TEXT: &str = "
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    let fractal = given.fractal;
+    let fractal = frame_uniforms.fractal;
     var sum = 0.0;
     for (var k = 0u; k < 32u; k++) {
         let part = f32(id.x * 32u + k) * 1e-7;

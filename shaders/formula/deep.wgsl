@@ -41,13 +41,13 @@ fn series_of(point: vec3f) -> u32 {
 
 // True if the series approximation and the near steps of the picture itself hold for a point.
 fn is_near(point: vec3f) -> bool {
-    return dot(point, point) < picture.fractal.near_radius_squared;
+    return dot(point, point) < frame.fractal.near_radius_squared;
 }
 
 // True if the pixel at a point is wide enough for plain f32.
 fn is_far(point: vec3f) -> bool {
     // Its square may be past what an f32 holds.
-    return max(max(abs(point.x), abs(point.y)), abs(point.z)) > picture.fractal.far_radius;
+    return max(max(abs(point.x), abs(point.y)), abs(point.z)) > frame.fractal.far_radius;
 }
 
 // State behind the steps of a series approximation.
@@ -84,7 +84,7 @@ fn series_derivatives(
 // Whether the next step is one of the difference.
 fn is_close(state: OrbitState, q: Squares) -> bool {
     let next = state.index + 1u;
-    let goes_on = (next != picture.fractal.own_points) & (next < picture.fractal.reference_points);
+    let goes_on = (next != frame.fractal.own_points) & (next < frame.fractal.reference_points);
     // Squares of tiny differences are 0, which is what they are meant to be here.
     return goes_on & (dot(state.difference, state.difference) < CLOSE * CLOSE * q.s);
 }
@@ -187,7 +187,7 @@ fn step_to(state: OrbitState, reference: vec3f, step: Raised, orbit: Orbit) -> O
 fn step_anew(state: OrbitState, power: vec3f, orbit: Orbit) -> OrbitState {
     let difference = power + orbit.added;
     let z = orbit.constant + difference;
-    return OrbitState(z, state.count + 1u, difference, picture.fractal.restart);
+    return OrbitState(z, state.count + 1u, difference, frame.fractal.restart);
 }
 
 // What a step makes of directions, but for those along parallels: turns the meridian's plane, which

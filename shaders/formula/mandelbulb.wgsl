@@ -288,7 +288,7 @@ fn estimate_at(fractal: Fractal, derivatives: Derivatives, q: Squares) -> Estima
     return Estimate(distance, min(safe_step(derivatives, height), fractal.max_step));
 }
 
-// The near step from `picture.near[index]`, unless the orbit has escaped.
+// The near step from `frame.near[index]`, unless the orbit has escaped.
 fn near_step(
     index: u32, state: ptr<function, OrbitState>, derivatives: ptr<function, Derivatives>,
     fractal: Fractal, orbit: Orbit, along: vec3f,
@@ -296,9 +296,9 @@ fn near_step(
     let q = squares((*state).z);
     // No orbit has escaped before the first: it starts in the bounding sphere, or behind the series.
     if (index > 0u && q.s > orbit.limit) { return; }
-    let step = raised_close(fractal, *state, picture.near[index], sqrt(q.a), q);
+    let step = raised_close(fractal, *state, frame.near[index], sqrt(q.a), q);
     *derivatives = next_derivatives(fractal, orbit, along, *derivatives, step, (*state).z, q);
-    *state = step_to(*state, picture.near[index + 1u].z, step, orbit);
+    *state = step_to(*state, frame.near[index + 1u].z, step, orbit);
 }
 
 // The same by the near steps, or by plain ones far from the anchor. Where neither is exact enough the step
@@ -310,8 +310,8 @@ fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     var state = initial_state(orbit, point);
     var derivatives = initial_derivatives(fractal, orbit, along);
     if (HAS_SERIES) {
-        state = series_state(picture.series, picture.near[0].z, point);
-        derivatives = series_derivatives(fractal, picture.series, point, along, 0u);
+        state = series_state(frame.series, frame.near[0].z, point);
+        derivatives = series_derivatives(fractal, frame.series, point, along, 0u);
     }
     // Unrolled by hand: llvmpipe keeps a loop of four or more, which takes twice as long.
     near_step(0u, &state, &derivatives, fractal, orbit, along);

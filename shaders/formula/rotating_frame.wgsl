@@ -69,7 +69,7 @@ fn moved_on(
     let by_rho = dr_before * min(1.0 / max(rho, 1e-37), 1e6 / fractal.scale);
     let turn = fractal.power * (before.turn + by_rho * (vec3f(-u.y, u.x, 0.0) * j));
     // Ripples that are finer than some pixels are lower than one, where the axis is in view.
-    let finest = 0.5 / picture.camera.hit_cone;
+    let finest = 0.5 / frame.camera.hit_cone;
     let most = finest * clamp(anchor_orbit.points[0].rho / fractal.scale, 1.0, 1e9);
     let capped = turn * min(1.0, most / max(length(turn), 1e-37));
     let constant = orbit.constant + orbit.added;

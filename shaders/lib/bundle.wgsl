@@ -27,7 +27,7 @@ fn clear_cone(
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = estimate_next(&pending, fractal, origin + t * axis, picture.series.widest);
+            let ahead = estimate_next(&pending, fractal, origin + t * axis, frame.series.widest);
             if (pending.is_needed) { break; }
             let ball = min(part * ahead.step, MOST_BALL) - hit_cone * t;
             let width = t * spread;
@@ -41,7 +41,7 @@ fn clear_cone(
             t += advance;
         }
         if (!pending.is_needed) { break; }
-        pending.estimate = careful_estimate(fractal, origin + t * axis, picture.series.widest);
+        pending.estimate = careful_estimate(fractal, origin + t * axis, frame.series.widest);
     }
     return t;
 }

@@ -10,11 +10,11 @@ struct Ray {
 // right one, is seen from and along what. Both eyes' frusta meet at the screen (thesis 4.5): the
 // eye moves aside by `side` half separations and its picture moves back by as much.
 fn eye_ray(position: vec2f, side: f32) -> Ray {
-    let on_screen = vec2f(2.0 * position.x - 1.0, 1.0 - 2.0 * position.y) * picture.camera.half_height;
-    let across = on_screen.x * picture.camera.aspect - side * picture.eyes.half_shift;
+    let on_screen = vec2f(2.0 * position.x - 1.0, 1.0 - 2.0 * position.y) * frame.camera.half_height;
+    let across = on_screen.x * frame.camera.aspect - side * frame.eyes.half_shift;
     return Ray(
-        picture.camera.origin + picture.camera.right * (side * picture.eyes.half_separation),
-        normalize(picture.camera.forward + picture.camera.right * across + picture.camera.up * on_screen.y),
+        frame.camera.origin + frame.camera.right * (side * frame.eyes.half_separation),
+        normalize(frame.camera.forward + frame.camera.right * across + frame.camera.up * on_screen.y),
     );
 }
 

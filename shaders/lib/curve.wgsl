@@ -10,13 +10,13 @@ override CURVE: i32 = -1;
 
 fn tone_curve() -> u32 {
     if (CURVE >= 0) { return u32(CURVE); }
-    return picture.tone.curve;
+    return frame.tone.curve;
 }
 
 // Reinhard et al. 2002, eq. 4, on luminance, so that colours keep their hue, or on each channel.
 fn reinhard(color: vec3f) -> vec3f {
-    let by = select(vec3f(luminance(color)), color, picture.tone.per_channel != 0u);
-    return color * ((1.0 + by * picture.tone.inverse_white_squared) / (1.0 + by));
+    let by = select(vec3f(luminance(color)), color, frame.tone.per_channel != 0u);
+    return color * ((1.0 + by * frame.tone.inverse_white_squared) / (1.0 + by));
 }
 
 // Stephen Hill's fit of the ACES reference rendering and sRGB output transforms. Exposed by

@@ -2,36 +2,36 @@
 
 // Whether a pixel belongs to the region's second eye.
 fn is_second_eye(pixel: vec2u) -> bool {
-    return picture.eyes.count > 1u && all(pixel >= picture.eyes.second_at);
+    return frame.eyes.count > 1u && all(pixel >= frame.eyes.second_at);
 }
 
 // The pixel's place in its own eye's part of the region.
 fn eye_pixel(pixel: vec2u) -> vec2u {
-    return select(pixel, pixel - picture.eyes.second_at, is_second_eye(pixel));
+    return select(pixel, pixel - frame.eyes.second_at, is_second_eye(pixel));
 }
 
 // -1 for a left eye, 1 for a right one, 0 where there is only the camera.
 fn eye_side(pixel: vec2u) -> f32 {
-    return select(picture.eyes.first_side, -picture.eyes.first_side, is_second_eye(pixel));
+    return select(frame.eyes.first_side, -frame.eyes.first_side, is_second_eye(pixel));
 }
 
 // How many columns and rows of eyes the whole film has.
 fn sheet_eyes() -> vec2u {
-    return vec2u(round(1.0 / picture.eyes.share));
+    return vec2u(round(1.0 / frame.eyes.share));
 }
 
 // In which of them a pixel's eye is.
 fn eye_on_sheet(pixel: vec2u) -> vec2u {
-    let place = select(picture.eyes.first_place, 1.0, is_second_eye(pixel));
+    let place = select(frame.eyes.first_place, 1.0, is_second_eye(pixel));
     return u32(place) * (sheet_eyes() - 1u);
 }
 
 // Where on the whole film a pixel's eye begins; (0, 0) to (1, 1) are all of the film.
 fn eye_corner(pixel: vec2u) -> vec2f {
-    return vec2f(eye_on_sheet(pixel)) * picture.eyes.share;
+    return vec2f(eye_on_sheet(pixel)) * frame.eyes.share;
 }
 
 // A position in an eye's whole picture, 0 to 1, for a place in one of the region's pixels.
 fn eye_position(pixel: vec2u, place: vec2f) -> vec2f {
-    return (vec2f(picture.origin_px + eye_pixel(pixel)) + place) / vec2f(picture.picture_px);
+    return (vec2f(frame.origin_px + eye_pixel(pixel)) + place) / vec2f(frame.picture_px);
 }

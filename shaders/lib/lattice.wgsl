@@ -86,12 +86,12 @@ fn lattice_pixel(workgroup: u32, local_index: u32) -> vec2u {
 }
 
 fn inside_region(pixel: vec2u) -> bool {
-    return all(pixel < picture.size_px);
+    return all(pixel < frame.size_px);
 }
 
 // The element of film arrays that belongs to a pixel.
 fn pixel_index(pixel: vec2u) -> u32 {
-    return pixel.y * picture.size_px.x + pixel.x;
+    return pixel.y * frame.size_px.x + pixel.x;
 }
 
 // A sample: what a thread of a block computes.

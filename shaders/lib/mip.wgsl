@@ -15,8 +15,8 @@ struct Levels {
 
 // The levels of the film that a region has.
 fn film_levels() -> Levels {
-    let eyes = 1u + vec2u(picture.eyes.second_at > vec2u(0u));
-    return Levels(picture.size_px / eyes, eyes);
+    let eyes = 1u + vec2u(frame.eyes.second_at > vec2u(0u));
+    return Levels(frame.size_px / eyes, eyes);
 }
 
 // Columns and rows of the elements of one eye.

@@ -5,7 +5,7 @@ override HAS_ENVIRONMENT_MAP: i32 = -1;
 
 fn has_environment_map() -> bool {
     if (HAS_ENVIRONMENT_MAP >= 0) { return HAS_ENVIRONMENT_MAP == 1; }
-    return picture.background.picture_gain > 0.0;
+    return frame.background.picture_gain > 0.0;
 }
 
 const SOURCE_ITERATIONS = 0u;
@@ -26,21 +26,21 @@ fn surface_color(data: vec2u) -> vec3f {
     let first = unpack2x16unorm(data.x);
     let second = unpack2x16unorm(data.y) * 2.0;
     var value = second.y;
-    if (picture.surface.color_source == SOURCE_ITERATIONS) {
-        value = first.x * f32(picture.fractal.iterations + 1u);
-    } else if (picture.surface.color_source == SOURCE_ORIGIN_TRAP) {
+    if (frame.surface.color_source == SOURCE_ITERATIONS) {
+        value = first.x * f32(frame.fractal.iterations + 1u);
+    } else if (frame.surface.color_source == SOURCE_ORIGIN_TRAP) {
         value = first.y * 2.0;
-    } else if (picture.surface.color_source == SOURCE_AXIS_TRAP) {
+    } else if (frame.surface.color_source == SOURCE_AXIS_TRAP) {
         value = second.x;
     }
-    return gradient_color(value * picture.surface.color_repeats + picture.surface.color_offset);
+    return gradient_color(value * frame.surface.color_repeats + frame.surface.color_offset);
 }
 
 // Blinn-Phong (Blinn 1977) summed over the lights that reach the point. Without normals (thesis
 // fig. 3.3 a) every point faces them, and there is nothing that a highlight could lie on.
 fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
-    var sum = color * picture.surface.ambient;
-    for (var k = 0u; k < picture.surface.light_count; k++) {
+    var sum = color * frame.surface.ambient;
+    for (var k = 0u; k < frame.surface.light_count; k++) {
         let light = lights[k];
         // Nobody marched toward a light without light, or without shadows: their bits mean nothing.
         if (all(light.color == vec3f(0.0))) { continue; }
@@ -53,22 +53,22 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
             toward_light = offset * inverseSqrt(distance_squared);
             radiance /= distance_squared;
         }
-        if (picture.normals == NORMALS_NONE) {
-            sum += radiance * color * picture.surface.diffuse;
+        if (frame.normals == NORMALS_NONE) {
+            sum += radiance * color * frame.surface.diffuse;
             continue;
         }
         let cosine = dot(n, toward_light);
         if (cosine <= 0.0) { continue; }
         let half_way = normalize(toward_light + toward_eye);
-        let highlight = pow(max(dot(n, half_way), 0.0), picture.surface.shininess);
-        sum += radiance * (color * (picture.surface.diffuse * cosine) + picture.surface.specular * highlight);
+        let highlight = pow(max(dot(n, half_way), 0.0), frame.surface.shininess);
+        sum += radiance * (color * (frame.surface.diffuse * cosine) + frame.surface.specular * highlight);
     }
     return sum;
 }
 
 // What a ray sees that meets nothing, `height` below the picture's upper edge.
 fn background(direction: vec3f, height: f32) -> vec3f {
-    let behind = picture.background;
+    let behind = frame.background;
     if (!has_environment_map()) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
     let in_picture = vec3f(
         dot(direction, behind.picture_x), dot(direction, behind.picture_y), dot(direction, behind.picture_z));

@@ -25,11 +25,11 @@ fn receiver(site: Site) -> Receiver {
     let seen = surface[site.index];
     let t = bitcast<f32>(seen.x);
     let n = octahedral_unpack(seen.y);
-    let surface_distance = hit_distance(picture.camera, picture.fractal, t);
+    let surface_distance = hit_distance(frame.camera, frame.fractal, t);
     let ray = camera_ray(site);
     let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
     let toward = select(slice.light_vector, slice.light_vector - point, slice.light_kind == LIGHT_POINT);
-    let faces = t > 0.0 && (picture.normals == NORMALS_NONE || dot(n, toward) > 0.0);
+    let faces = t > 0.0 && (frame.normals == NORMALS_NONE || dot(n, toward) > 0.0);
     return Receiver(point, surface_distance, faces);
 }
 

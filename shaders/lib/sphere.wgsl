@@ -3,13 +3,13 @@
 // A point of the view in scene units from the set's centre: squares of lengths that a deep view
 // counts in its own unit may be past what an f32 holds.
 fn in_scene(point: vec3f) -> vec3f {
-    if (DEEP) { return picture.fractal.anchor + picture.fractal.scale * point; }
+    if (DEEP) { return frame.fractal.anchor + frame.fractal.scale * point; }
     return point;
 }
 
 // A length in scene units in those of the view.
 fn in_view(length: f32) -> f32 {
-    if (DEEP) { return length / picture.fractal.scale; }
+    if (DEEP) { return length / frame.fractal.scale; }
     return length;
 }
 
@@ -19,7 +19,7 @@ fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
     let b = dot(from_center, direction);
     // The closest approach itself, rather than |origin|² - b²: no cancellation from afar.
     let closest = from_center - b * direction;
-    let half_chord_squared = picture.fractal.bounding_radius * picture.fractal.bounding_radius
+    let half_chord_squared = frame.fractal.bounding_radius * frame.fractal.bounding_radius
         - dot(closest, closest);
     if (half_chord_squared <= 0.0) { return vec2f(1.0, -1.0); }
     let half_chord = sqrt(half_chord_squared);
@@ -31,8 +31,8 @@ fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
 fn bounding_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
-    let aside = max(length(from_center - b * direction) - picture.fractal.scale * width, 0.0);
-    let radius = picture.fractal.bounding_radius;
+    let aside = max(length(from_center - b * direction) - frame.fractal.scale * width, 0.0);
+    let radius = frame.fractal.bounding_radius;
     return in_view(sqrt(max(radius * radius - aside * aside, 0.0)) - b);
 }
 

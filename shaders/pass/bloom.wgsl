@@ -4,12 +4,12 @@
 // The part of a colour's light above the threshold: nothing jumps where it is crossed.
 fn above_threshold(color: vec3f) -> vec3f {
     let l = luminance(color);
-    return color * (max(l - picture.bloom.threshold, 0.0) / max(l, 1e-12));
+    return color * (max(l - frame.bloom.threshold, 0.0) / max(l, 1e-12));
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     let levels = film_levels();
     let size = mip_size(levels, FIRST_MIP_LEVEL);
     let index = mip_index(workgroup.x, local_index);
@@ -23,7 +23,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         for (var x = 0u; x < span.x; x++) {
             let pixel = corner + vec2u(x, y);
             var color = film_part(pixel_index(pixel)) * exposure;
-            if (picture.bloom.after != 0u) { color = tone_mapped(color); }
+            if (frame.bloom.after != 0u) { color = tone_mapped(color); }
             sum += above_threshold(color);
         }
     }

@@ -5,7 +5,7 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     let level = slice.mip_level;
     let levels = film_levels();
     let size = mip_size(levels, level);

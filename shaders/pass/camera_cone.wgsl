@@ -15,15 +15,15 @@ fn clear_block(fractal: Fractal, block: Block) -> f32 {
     }
     let entry = bounding_entry(middle.origin, middle.direction, spread);
     if (entry < 0.0) { return -1.0; }
-    return clear_cone(fractal, middle.origin, middle.direction, spread, entry, picture.camera.hit_cone);
+    return clear_cone(fractal, middle.origin, middle.direction, spread, entry, frame.camera.hit_cone);
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     if (thread.x >= slice.blocks) { return; }
     let block = block_at(thread.x);
-    let clear = clear_block(picture.fractal, block);
+    let clear = clear_block(frame.fractal, block);
     if (clear >= 0.0) {
         enqueue_ray(block.index, clear);
         return;

@@ -2,7 +2,7 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     if (thread.x >= slice.blocks) { return; }
     let block = block_at(thread.x);
     var any = 0u;

@@ -6,7 +6,7 @@ const MOST_STOPS = 20.0;
 
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     if (local_index != 0u) { return; }
     if (slice.mip_level != 0u) {
         // One element for each eye.
@@ -17,8 +17,8 @@ fn main(@builtin(local_invocation_index) local_index: u32) {
         statistics.mean_log2 = all.w;
     }
     let arithmetic = log2(max(luminance(statistics.mean), 1e-12));
-    let mean_stops = select(arithmetic, statistics.mean_log2, picture.tone.logarithmic != 0u);
-    let goal = clamp(log2(picture.tone.key) - mean_stops, -MOST_STOPS, MOST_STOPS);
+    let mean_stops = select(arithmetic, statistics.mean_log2, frame.tone.logarithmic != 0u);
+    let goal = clamp(log2(frame.tone.key) - mean_stops, -MOST_STOPS, MOST_STOPS);
     // At its end the goal itself, whatever the rounding.
     let nearer = mix(statistics.adapted_stops, goal, slice.adapt);
     statistics.adapted_stops = select(nearer, goal, slice.adapt >= 1.0);

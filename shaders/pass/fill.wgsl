@@ -14,7 +14,7 @@ fn film_at(position: vec2i) -> vec3f {
 }
 
 fn in_region(position: vec2i) -> bool {
-    return all(position >= vec2i(0)) && all(position < vec2i(picture.size_px));
+    return all(position >= vec2i(0)) && all(position < vec2i(frame.size_px));
 }
 
 // Whether there is a pixel of the same eye.
@@ -37,7 +37,7 @@ fn pair(at: vec2i, offset: vec2i, sure: vec3f) -> array<vec3f, 2> {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let at = vec2i(pixel);

@@ -10,7 +10,7 @@ fn bin(color: vec3f) -> u32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     // Workgroup memory starts as zeros.
     let levels = film_levels();
     let size = mip_size(levels, FIRST_MIP_LEVEL);

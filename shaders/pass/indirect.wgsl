@@ -28,13 +28,13 @@ fn on_lattice(at: vec2i) -> vec2i {
 // the operator looks, at the sample's own depth: what is farther away than that belongs to something
 // else, and counts less and less.
 fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
-    let eye_px = picture.indirect.source_px;
+    let eye_px = frame.indirect.source_px;
     let middle = eye_position(site.pixel, place_in_pixel(site.sample)) * vec2f(eye_px);
     // Heights to pixels, which need not be square.
-    let px = vec2f(f32(eye_px.x) / picture.camera.aspect, f32(eye_px.y));
+    let px = vec2f(f32(eye_px.x) / frame.camera.aspect, f32(eye_px.y));
     let at = on_lattice(vec2i(floor(middle + aside * px)));
     if (any(at < vec2i(0)) || any(at >= vec2i(eye_px))) { return NOBODY; }
-    let film_px = vec2u(round(vec2f(eye_px) / picture.eyes.share));
+    let film_px = vec2u(round(vec2f(eye_px) / frame.eyes.share));
     let corner = vec2u(round(eye_corner(site.pixel) * vec2f(film_px)));
     let index = (corner.y + u32(at.y)) * film_px.x + corner.x + u32(at.x);
     let seen = neighbour_surface[index];
@@ -48,7 +48,7 @@ fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
 
 // Noise from 0 to 1, other for each sample of a pixel.
 fn noise(site: Site, salt: f32) -> f32 {
-    let place = vec2f(picture.origin_px + eye_pixel(site.pixel)) + salt;
+    let place = vec2f(frame.origin_px + eye_pixel(site.pixel)) + salt;
     let shift = dot(place_in_pixel(site.sample), vec2f(1.0));
     return fract(interleaved(place) + shift);
 }
@@ -57,8 +57,8 @@ fn noise(site: Site, salt: f32) -> f32 {
 // cosine of its normal to the sample's, negative ones clamped. Where the square has more pixels
 // than samples they lie on a grid, one at a noisy place of each of its cells.
 fn uniform_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
-    let count = i32(picture.indirect.samples);
-    let stride = picture.indirect.radius / (f32(count) + 0.5);
+    let count = i32(frame.indirect.samples);
+    let stride = frame.indirect.radius / (f32(count) + 0.5);
     let place = vec2f(noise(site, 0.0), noise(site, 37.0)) - 0.5;
     var sum = vec3f(0.0);
     var total = 0.0;
@@ -77,18 +77,18 @@ fn uniform_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
 // is never lowered between directions, and a sum of nothing is divided by nothing: here each
 // direction begins with its own, and a sample without neighbours gets the ambient light alone.
 fn horizon_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
-    let ambient = vec3f(picture.indirect.ambient);
+    let ambient = vec3f(frame.indirect.ambient);
     let turn = noise(site, 0.0);
     let along = noise(site, 37.0);
     var sum = vec3f(0.0);
     var total = 0.0;
-    for (var d = 0u; d < picture.indirect.directions; d++) {
-        let angle = 6.2831853 * (f32(d) + turn) / f32(picture.indirect.directions);
+    for (var d = 0u; d < frame.indirect.directions; d++) {
+        let angle = 6.2831853 * (f32(d) + turn) / f32(frame.indirect.directions);
         let direction = vec2f(cos(angle), sin(angle));
         var horizon = 0.0;
-        for (var k = 0u; k < picture.indirect.samples; k++) {
-            let part = (f32(k) + along) / f32(picture.indirect.samples);
-            let other = neighbour(site, point, direction * (part * picture.indirect.radius), reach);
+        for (var k = 0u; k < frame.indirect.samples; k++) {
+            let part = (f32(k) + along) / f32(frame.indirect.samples);
+            let other = neighbour(site, point, direction * (part * frame.indirect.radius), reach);
             let distance = length(other.offset);
             // Pixels so near that they may be the sample's own tell nothing.
             if (other.weight <= 0.0 || distance < 0.02 * part * reach) { continue; }
@@ -112,19 +112,19 @@ fn radiance_of(site: Site) -> vec3f {
     let ray = camera_ray(site);
     let point = ray.origin + t * ray.direction;
     let n = octahedral_unpack(seen.y);
-    let reach = picture.indirect.radius * 2.0 * picture.camera.half_height * t;
+    let reach = frame.indirect.radius * 2.0 * frame.camera.half_height * t;
     var arriving: vec3f;
-    if (picture.indirect.kind == INDIRECT_UNIFORM) {
+    if (frame.indirect.kind == INDIRECT_UNIFORM) {
         arriving = uniform_light(site, point, n, reach);
     } else {
         arriving = horizon_light(site, point, n, reach);
     }
-    return radiance + picture.indirect.strength * surface_color(color_data[site.index]) * arriving;
+    return radiance + frame.indirect.strength * surface_color(color_data[site.index]) * arriving;
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);

@@ -61,13 +61,13 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }
-    let fractal = picture.fractal;
+    let fractal = frame.fractal;
     let ray = camera_ray(site);
-    let t = march(picture.camera, fractal, ray, queued.clear);
+    let t = march(frame.camera, fractal, ray, queued.clear);
     surface[site.index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
     let point = ray.origin + t * ray.direction;

@@ -5,7 +5,7 @@ override NORMALS: i32 = -1;
 
 fn normals_kind() -> u32 {
     if (NORMALS >= 0) { return u32(NORMALS); }
-    return picture.normals;
+    return frame.normals;
 }
 
 // The grid points that are sampled, the nearest ones of a 3x3x3 grid about the point.
@@ -49,14 +49,14 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     let site = queued_hit(thread.x);
     if (!site.is_there) { return; }
     let t = bitcast<f32>(surface[site.index].x);
     if (t == 0.0) { return; }
     let ray = camera_ray(site);
     let point = ray.origin + t * ray.direction;
-    let fractal = picture.fractal;
-    let spacing = hit_distance(picture.camera, fractal, t);
+    let fractal = frame.fractal;
+    let spacing = hit_distance(frame.camera, fractal, t);
     surface[site.index].y = octahedral_pack(surface_normal(fractal, point, spacing, -ray.direction));
 }

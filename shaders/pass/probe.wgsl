@@ -18,13 +18,13 @@ struct Answer {
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
-    let fractal = picture.fractal;
+    let fractal = frame.fractal;
     let colors = orbit_colors(fractal, point);
-    let ahead = estimate(fractal, point, picture.series.widest);
-    let quick = quick_estimate(fractal, point, picture.series.widest);
+    let ahead = estimate(fractal, point, frame.series.widest);
+    let quick = quick_estimate(fractal, point, frame.series.widest);
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,

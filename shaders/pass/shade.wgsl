@@ -5,13 +5,13 @@ override SINGLE: bool = false;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
     if (SINGLE) { sum = direct_radiance(first); }
     for (var i = 0u; !SINGLE && i < slice.samples; i++) { sum += direct_radiance(sample_site(first, i)); }
-    if (picture.indirect.kind == INDIRECT_OFF) {
+    if (frame.indirect.kind == INDIRECT_OFF) {
         put_on_film(first.pixel, sum);
     } else {
         // Of centre samples alone.

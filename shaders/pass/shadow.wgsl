@@ -61,7 +61,7 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }
@@ -69,7 +69,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!seen.faces) { return; }
     var clear = 1e30;
     if (slice.light_kind != LIGHT_POINT) { clear = queued.clear - dot(seen.point, slice.light_vector); }
-    if (light_reaches(picture.fractal, seen.point, seen.surface_distance, clear)) {
+    if (light_reaches(frame.fractal, seen.point, seen.surface_distance, clear)) {
         visibility[site.index][light_word()] |= light_mask();
     }
 }

@@ -35,7 +35,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = estimate_next(&pending, fractal, center + s * direction, picture.series.widest);
+            let ahead = estimate_next(&pending, fractal, center + s * direction, frame.series.widest);
             if (pending.is_needed) { break; }
             // No point is farther than this from the plane through `s`.
             let blocks = blocking_distance(fractal, s + extent, surface_distance);
@@ -45,14 +45,14 @@ fn clear_plane(fractal: Fractal) -> f32 {
             s -= advance;
         }
         if (!pending.is_needed) { break; }
-        pending.estimate = careful_estimate(fractal, center + s * direction, picture.series.widest);
+        pending.estimate = careful_estimate(fractal, center + s * direction, frame.series.widest);
     }
     return height + s;
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
-    picture = given;
+    frame = frame_uniforms;
     if (thread.x >= atomicLoad(&work_queues.hits)) { return; }
     let block = block_at(work_queues.entries[thread.x]);
     var any_faces = false;
@@ -68,6 +68,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     }
     if (!any_faces) { return; }
     var clear = 1e30;
-    if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(picture.fractal); }
+    if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(frame.fractal); }
     enqueue_ray(block.index, clear);
 }

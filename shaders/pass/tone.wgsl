@@ -7,12 +7,12 @@ override SPARSE: i32 = -1;
 
 fn has_bloom() -> bool {
     if (BLOOM >= 0) { return BLOOM == 1; }
-    return picture.bloom.strength > 0.0;
+    return frame.bloom.strength > 0.0;
 }
 
 fn is_anaglyph() -> bool {
     if (ANAGLYPH >= 0) { return ANAGLYPH == 1; }
-    return picture.eyes.anaglyph != 0u;
+    return frame.eyes.anaglyph != 0u;
 }
 
 fn is_sparse() -> bool {
@@ -24,7 +24,7 @@ fn is_sparse() -> bool {
 
 // The film beside a pixel, or the pixel's own where that is outside of the region or of another eye.
 fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
-    let inside = vec2u(clamp(vec2i(pixel) + offset, vec2i(0), vec2i(picture.size_px) - 1));
+    let inside = vec2u(clamp(vec2i(pixel) + offset, vec2i(0), vec2i(frame.size_px) - 1));
     let same_eye = is_second_eye(inside) == is_second_eye(pixel);
     return film_mean(pixel_index(select(pixel, inside, same_eye)));
 }
@@ -68,24 +68,24 @@ fn bloom_at(pixel: vec2u) -> vec3f {
 fn shown(pixel: vec2u) -> vec3f {
     var color = reconstructed(pixel) * exposure_factor();
     var bloom = vec3f(0.0);
-    if (has_bloom()) { bloom = picture.bloom.strength * bloom_at(pixel); }
-    if (picture.bloom.after == 0u) { color += bloom; }
+    if (has_bloom()) { bloom = frame.bloom.strength * bloom_at(pixel); }
+    if (frame.bloom.after == 0u) { color += bloom; }
     color = tone_mapped(color);
-    if (picture.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
+    if (frame.bloom.after != 0u) { color = min(color + bloom, vec3f(1.0)); }
     return srgb_from_linear(color);
 }
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     var encoded = shown(pixel);
     if (is_anaglyph()) {
         if (is_second_eye(pixel)) { return; }
         // The left glass is red and lets the left eye's red through, the right one all but red.
-        encoded = vec3f(encoded.r, shown(pixel + picture.eyes.second_at).gb);
+        encoded = vec3f(encoded.r, shown(pixel + frame.eyes.second_at).gb);
     }
-    let dithered = encoded + dither(picture.origin_px + eye_pixel(pixel)) / 255.0;
+    let dithered = encoded + dither(frame.origin_px + eye_pixel(pixel)) / 255.0;
     textureStore(display, pixel, vec4f(dithered, 1.0));
 }

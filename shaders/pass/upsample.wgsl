@@ -10,7 +10,7 @@ const SAME = 0.024;
 
 // Where a cell of the lattice hangs over the region's border, the sample within it that comes next.
 fn within(cell: vec2i) -> vec2u {
-    let cells = vec2i(((picture.size_px - 1u) >> vec2u(slice.shift)) + 1u);
+    let cells = vec2i(((frame.size_px - 1u) >> vec2u(slice.shift)) + 1u);
     let back = 1 + i32(slice.stagger);
     var inside = cell + select(vec2i(0), vec2i(back), cell < vec2i(0));
     inside -= select(vec2i(0), vec2i(back), inside >= cells);
@@ -24,7 +24,7 @@ fn sample_at(cell: vec2i) -> vec3f {
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
-    picture = given;
+    frame = frame_uniforms;
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     let place = vec2f(pixel) / f32(1u << slice.shift);
@@ -60,5 +60,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     // Squared: the better one wins clearly, without a visible switch.
     let ratio = (other_differs + SAME) / (main_differs + SAME);
     let color = mix(by_other, by_main, ratio * ratio / (ratio * ratio + 1.0));
-    textureStore(display, pixel, vec4f(color + dither(picture.origin_px + pixel) / 255.0, 1.0));
+    textureStore(display, pixel, vec4f(color + dither(frame.origin_px + pixel) / 255.0, 1.0));
 }

@@ -7,7 +7,7 @@ const DEVELOPED_STEPS = vec3f(2047.0, 2047.0, 1023.0);
 // Lattice points in a row, in cells of `spacing` pixels. Staggered lattices leave every other
 // one of a row out.
 fn developed_columns() -> u32 {
-    return ((picture.size_px.x - 1u) >> slice.shift) + 1u;
+    return ((frame.size_px.x - 1u) >> slice.shift) + 1u;
 }
 
 fn developed_index(cell: vec2u) -> u32 {

@@ -259,7 +259,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::render::uniforms::Picture;
+    use crate::render::uniforms::FrameUniforms;
 
     /// The rays of the shaders' own numbers, by the shaders' own formula.
     #[test]
@@ -275,7 +275,7 @@ mod tests {
             scene.camera.stereo.swap_eyes = swap_eyes;
             let tile = Region { eyes, ..Region::whole([30, 20]) };
             let rays = Rays::new(&scene.camera, tile);
-            let Picture { camera, eyes: shader_eyes, .. } = Picture::new(&scene, tile);
+            let FrameUniforms { camera, eyes: shader_eyes, .. } = FrameUniforms::new(&scene, tile);
             let side = shader_eyes.first_side;
             let axis = |axis: [f32; 3]| Vec3::from_array(axis);
             let aside = axis(camera.right) * (side * shader_eyes.half_separation);

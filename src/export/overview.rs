@@ -8,7 +8,9 @@ use std::sync::Arc;
 
 use super::{PictureFormat, sheet::Sheet};
 use crate::{
-    render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need, uniforms::Picture},
+    render::{
+        Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need, uniforms::FrameUniforms,
+    },
     scene::{EnvironmentMap, IndirectKind, Scene},
 };
 
@@ -46,7 +48,7 @@ impl Overview {
         let has_indirect = scene.indirect.kind != IndirectKind::Off;
         // An EXR holds what is before exposure and bloom.
         let has_post =
-            format != PictureFormat::Exr && !Need::of(&Picture::new(scene, region)).is_none();
+            format != PictureFormat::Exr && !Need::of(&FrameUniforms::new(scene, region)).is_none();
         if !has_post && !has_indirect {
             return None;
         }

@@ -16,7 +16,7 @@ use super::{
 pub fn record(recorder: &mut Recorder<'_>, work: Work) {
     match work {
         Work::Trace(trace) => {
-            let grid = trace.points.grid(recorder.inputs.picture.size_px);
+            let grid = trace.points.grid(recorder.inputs.frame.size_px);
             if trace.from <= Stage::March {
                 pass::camera_cone::record(recorder, &trace, &grid);
                 pass::march::record(recorder, &trace, &grid);
@@ -165,7 +165,7 @@ impl<'a> Recorder<'a> {
             targets,
             inputs,
             post: &targets.post,
-            indirect_source: targets.indirect_source(inputs.picture.indirect.source_px),
+            indirect_source: targets.indirect_source(inputs.frame.indirect.source_px),
             tasks: Tasks::default(),
             rehearsal: None,
             upsample_level: None,
@@ -242,7 +242,7 @@ impl<'a> Recorder<'a> {
 
     /// Adds a dispatch over all pixels of the region, row by row.
     pub fn dispatch_plane(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
-        let workgroups = self.inputs.picture.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
+        let workgroups = self.inputs.frame.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
         self.dispatch_groups(pipeline, slice, workgroups);
     }
 
@@ -312,7 +312,7 @@ impl<'a> Recorder<'a> {
         );
         self.slices += 1;
         self.compute.set_pipeline(pipeline);
-        self.compute.set_bind_group(0, &self.targets.picture_group, &[offset]);
+        self.compute.set_bind_group(0, &self.targets.frame_group, &[offset]);
     }
 
     /// The commands, ready for submission.

@@ -2,9 +2,9 @@
 
 /// The bind group layouts that all passes of a picture share.
 pub struct Layouts {
-    /// Group 0: picture, the anchor's orbit, slice (dynamic offset), lights, gradient; uniform but for the
-    /// picture.
-    pub picture: wgpu::BindGroupLayout,
+    /// Group 0: frame uniforms (a storage buffer), the anchor's orbit, slice (dynamic offset), lights,
+    /// gradient.
+    pub frame: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
     /// Group 1 of the indirect pass: the same, read only.
@@ -41,8 +41,8 @@ impl Layouts {
         let [environment_texture_binding, environment_sampler_binding] =
             super::environment_texture::BINDINGS;
         Self {
-            picture: group(
-                "picture",
+            frame: group(
+                "frame",
                 &[READ_ONLY, uniform(false), uniform(true), uniform(false), uniform(false)],
             ),
             gbuffer: group("gbuffer", &[STORAGE; 3]),
@@ -63,7 +63,7 @@ impl Layouts {
     }
 }
 
-/// The picture too, rather than uniform: Mesa's lavapipe puts the values of a uniform buffer that decide branches into
+/// Frame uniforms too, rather than a uniform buffer: Mesa's lavapipe puts the values of a uniform buffer that decide branches into
 /// the shader, anew for each dispatch, and keeps every shader so made. Seen with Mesa 22.3.6.
 const READ_ONLY: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: true },

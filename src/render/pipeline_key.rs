@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{pipelines::Constants, uniforms::Picture};
+use super::{pipelines::Constants, uniforms::FrameUniforms};
 
 /// What rays and normals are specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -44,7 +44,7 @@ impl Depth {
     ];
 
     /// A picture's.
-    fn of(picture: &Picture) -> Self {
+    fn of(picture: &FrameUniforms) -> Self {
         let fractal = &picture.fractal;
         match (fractal.reference_points, fractal.rotates) {
             (0, _) => Self::Plain,
@@ -76,12 +76,12 @@ fn whole(power: f32) -> u32 {
 
 impl PipelineKey {
     /// A picture's.
-    pub fn of(picture: &Picture) -> Self {
+    pub fn of(picture: &FrameUniforms) -> Self {
         Self { power: whole(picture.fractal.power), depth: Depth::of(picture) }
     }
 
     /// Makes a picture one of this form, as far as that is what passes are chosen by.
-    pub(super) fn put_into(self, picture: &mut Picture) {
+    pub(super) fn put_into(self, picture: &mut FrameUniforms) {
         let fractal = &mut picture.fractal;
         fractal.power = self.power as f32;
         fractal.reference_points = self.is_deep().into();

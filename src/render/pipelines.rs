@@ -9,7 +9,7 @@ use super::{
     Region,
     layouts::pipeline_layout,
     pass,
-    uniforms::{Inputs, Picture},
+    uniforms::{FrameUniforms, Inputs},
 };
 pub use super::{
     layouts::Layouts,
@@ -157,17 +157,17 @@ pub enum PipelineVariant {
 
 impl PipelineVariant {
     /// Specialized variants of the passes of a picture.
-    pub fn special(picture: &Picture) -> [Self; 4] {
-        let key = PipelineKey::of(picture);
+    pub fn special(frame: &FrameUniforms) -> [Self; 4] {
+        let key = PipelineKey::of(frame);
         let tone = ToneForm {
-            curve: picture.tone.curve,
-            blooms: picture.bloom.strength > 0.0,
-            is_anaglyph: picture.eyes.anaglyph != 0,
+            curve: frame.tone.curve,
+            blooms: frame.bloom.strength > 0.0,
+            is_anaglyph: frame.eyes.anaglyph != 0,
         };
         [
             Self::Rays(key),
-            Self::Normals(key, picture.normals),
-            Self::Shade(picture.background.picture_gain > 0.0),
+            Self::Normals(key, frame.normals),
+            Self::Shade(frame.background.picture_gain > 0.0),
             Self::Tone(tone),
         ]
     }
@@ -264,15 +264,15 @@ impl Pipelines {
     pub fn for_stills(gpu: &Gpu) -> Arc<Self> {
         let device = &gpu.device;
         let layouts = Layouts::new(device);
-        let Layouts { picture, gbuffer, dequeue, enqueue, film, post, environment_texture, .. } =
+        let Layouts { frame, gbuffer, dequeue, enqueue, film, post, environment_texture, .. } =
             &layouts;
-        let enqueue_layout = pipeline_layout(device, "enqueue", &[picture, gbuffer, enqueue]);
-        let dequeue_layout = pipeline_layout(device, "dequeue", &[picture, gbuffer, dequeue]);
-        let layout = pipeline_layout(device, "picture passes", &[picture, gbuffer, film]);
+        let enqueue_layout = pipeline_layout(device, "enqueue", &[frame, gbuffer, enqueue]);
+        let dequeue_layout = pipeline_layout(device, "dequeue", &[frame, gbuffer, dequeue]);
+        let layout = pipeline_layout(device, "picture passes", &[frame, gbuffer, film]);
         let shade_layout =
-            pipeline_layout(device, "shading", &[picture, gbuffer, film, environment_texture]);
+            pipeline_layout(device, "shading", &[frame, gbuffer, film, environment_texture]);
         let post_layout =
-            pipeline_layout(device, "passes over the film as a whole", &[picture, post, film]);
+            pipeline_layout(device, "passes over the film as a whole", &[frame, post, film]);
         let camera_cone = SpecializedPipeline::new(&enqueue_layout, &pass::camera_cone::MODULE);
         let march = SpecializedPipeline::new(&dequeue_layout, &pass::march::MODULE);
         let normal = SpecializedPipeline::new(&dequeue_layout, &pass::normal::MODULE);
@@ -321,8 +321,8 @@ impl Pipelines {
     }
 
     /// The fastest forms of a picture's passes that are ready.
-    pub fn passes(&self, picture: &Picture) -> Passes {
-        let [rays, normals, light, tone] = PipelineVariant::special(picture);
+    pub fn passes(&self, frame: &FrameUniforms) -> Passes {
+        let [rays, normals, light, tone] = PipelineVariant::special(frame);
         Passes {
             camera_cone: self.camera_cone.of(rays, 0, self),
             march: self.march.of(rays, 1, self),
@@ -398,7 +398,7 @@ impl Pipelines {
     /// Compiles all special forms of a scene's passes. This may take a second and blocks.
     pub fn specialise(&self, scene: &Scene) {
         let inputs = Inputs::new(scene, Region::whole([64, 64]));
-        self.prepare_together(&PipelineVariant::special(&inputs.picture));
+        self.prepare_together(&PipelineVariant::special(&inputs.frame));
     }
 
     /// The passes that an extra has special forms of, in the order of its parts.
@@ -443,8 +443,8 @@ impl Pipelines {
         };
         match variant {
             PipelineVariant::Indirect => {
-                let Layouts { picture, samples, film, indirect, .. } = &self.layouts;
-                let groups = [picture, samples, film, indirect];
+                let Layouts { frame, samples, film, indirect, .. } = &self.layouts;
+                let groups = [frame, samples, film, indirect];
                 plain(&pipeline_layout(device, "indirect", &groups), &pass::indirect::MODULE)
             }
             PipelineVariant::Post => plain(&self.post_layout, PostPipelines::PARTS[part]),

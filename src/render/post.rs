@@ -16,7 +16,7 @@ use super::{
     region::Region,
     report::{HISTOGRAM_BINS, Histogram},
     targets,
-    uniforms::{Picture, Statistics},
+    uniforms::{FrameUniforms, Statistics},
 };
 use crate::scene::Scene;
 
@@ -40,7 +40,7 @@ pub struct Need {
 
 impl Need {
     /// What the tone pass of a picture reads.
-    pub fn of(picture: &Picture) -> Self {
+    pub fn of(picture: &FrameUniforms) -> Self {
         Self { mean: picture.tone.auto_exposure != 0, bloom: picture.bloom.strength > 0.0 }
     }
 
@@ -142,7 +142,7 @@ impl Levels {
     }
 
     /// Those of the film that a picture's passes write.
-    pub fn of(picture: &Picture) -> Self {
+    pub fn of(picture: &FrameUniforms) -> Self {
         let eyes = picture.eyes.second_at.map(|at| 1 + at.min(1));
         Self { eye_px: std::array::from_fn(|i| picture.size_px[i] / eyes[i]), eyes }
     }

@@ -127,7 +127,7 @@ fn rehearse(
     targets: &Targets,
     inputs: &Inputs,
 ) -> Arc<AtomicBool> {
-    let mut picture = inputs.picture;
+    let mut picture = inputs.frame;
     if let PipelineVariant::Rays(key) | PipelineVariant::Normals(key, _) = variant {
         key.put_into(&mut picture);
     }

@@ -15,7 +15,7 @@ use super::{
     post::{Need, Post},
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
-    uniforms::{self, ANCHOR_ORBIT_BYTES, GRADIENT_ENTRIES, Light, Picture, Slice},
+    uniforms::{self, ANCHOR_ORBIT_BYTES, FrameUniforms, GRADIENT_ENTRIES, Light, Slice},
     work_queues::WorkQueues,
 };
 use crate::scene::MAX_LIGHTS;
@@ -46,8 +46,8 @@ pub struct GBuffer {
 
 /// Everything a region is rendered with and into.
 pub struct Targets {
-    /// [`Picture`].
-    pub picture: wgpu::Buffer,
+    /// [`FrameUniforms`].
+    pub frame: wgpu::Buffer,
     /// The anchor's orbit, as far as the picture does not hold it.
     pub anchor_orbit: wgpu::Buffer,
     /// [`MOST_SLICES`] of [`Slice`], [`SLICE_STRIDE_BYTES`] apart.
@@ -57,7 +57,7 @@ pub struct Targets {
     /// [`GRADIENT_ENTRIES`] colours.
     pub gradient: wgpu::Buffer,
     /// All five.
-    pub picture_group: wgpu::BindGroup,
+    pub frame_group: wgpu::BindGroup,
     /// Every pixel's centre sample, kept.
     pub center: GBuffer,
     /// The jittered samples of one slice.
@@ -93,7 +93,7 @@ impl Targets {
         let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
-        let picture = storage(device, "picture", size_of::<Picture>() as u64);
+        let frame = storage(device, "frame uniforms", size_of::<FrameUniforms>() as u64);
         let anchor_orbit = uniform("anchor's orbit", ANCHOR_ORBIT_BYTES);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
         let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
@@ -103,12 +103,12 @@ impl Targets {
             offset: 0,
             size: wgpu::BufferSize::new(size_of::<Slice>() as u64),
         });
-        let picture_group = group(
+        let frame_group = group(
             device,
-            &layouts.picture,
-            "picture",
+            &layouts.frame,
+            "frame",
             [
-                picture.as_entire_binding(),
+                frame.as_entire_binding(),
                 anchor_orbit.as_entire_binding(),
                 one_slice,
                 lights.as_entire_binding(),
@@ -121,12 +121,12 @@ impl Targets {
         let direct = storage(device, "direct light", DIRECT_BYTES);
         let film_group = film_group(pipelines, [&film_rg, &film_bw, &direct], &texture);
         Self {
-            picture,
+            frame,
             anchor_orbit,
             slices,
             lights,
             gradient,
-            picture_group,
+            frame_group,
             center: GBuffer::new(pipelines, pixels),
             jittered: GBuffer::new(pipelines, u64::from(slice_samples)),
             work_queues: WorkQueues::new(pipelines, workgroups.min(MOST_WORKGROUPS)),
@@ -162,7 +162,7 @@ impl Targets {
     pub fn memory(&self) -> Memory {
         let [mip_levels, blur] = self.post.bytes();
         let uniforms =
-            [&self.picture, &self.anchor_orbit, &self.slices, &self.lights, &self.gradient];
+            [&self.frame, &self.anchor_orbit, &self.slices, &self.lights, &self.gradient];
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
@@ -190,7 +190,7 @@ impl Targets {
 
     /// Uploads a picture's uniforms.
     pub fn upload(&self, queue: &wgpu::Queue, inputs: &uniforms::Inputs) {
-        queue.write_buffer(&self.picture, 0, bytemuck::bytes_of(&inputs.picture));
+        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&inputs.frame));
         queue.write_buffer(&self.anchor_orbit, 0, &inputs.anchor_orbit());
         queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(&inputs.lights));
         queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));

@@ -45,7 +45,7 @@ const SHADOW_STEPS: u32 = 320;
 /// Below this hit distance, in the view's unit, f32 positions near the surface run together.
 const FINEST_HIT: f32 = 4e-7;
 
-impl Picture {
+impl FrameUniforms {
     /// The scene as it is seen in `region`, in coordinates that are found for it.
     pub fn new(scene: &Scene, region: Region) -> Self {
         Self::about(scene, region, &RenderSpace::of(scene, region))
@@ -245,7 +245,7 @@ fn surface(scene: &Scene) -> Surface {
 #[derive(Clone, PartialEq)]
 pub struct Inputs {
     /// Camera, set, surface, tone, region.
-    pub picture: Picture,
+    pub frame: FrameUniforms,
     /// The lights, in the scene's order.
     pub lights: [Light; MAX_LIGHTS],
     /// The surface's gradient: linear Rec. 709, closed on itself.
@@ -268,10 +268,10 @@ impl Inputs {
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
         let ((series, near), reference_points) =
             (depth::series(space), depth::reference_points(space));
-        let mut picture = Picture::about(scene, region, space);
-        depth::put_near(&mut picture, space, (&series, &near), &reference_points);
+        let mut frame = FrameUniforms::about(scene, region, space);
+        depth::put_near(&mut frame, space, (&series, &near), &reference_points);
         Self {
-            picture,
+            frame,
             lights: lights(scene, space),
             gradient: color::gradient_lut(&scene.surface.gradient),
             series,
@@ -290,13 +290,13 @@ impl Inputs {
         let shown = background::shown(scene, at_hand);
         self.environment_map = shown.map(EnvironmentMap::id);
         let gain = scene.lights.rig.intensity as f32;
-        self.picture.background.picture_gain = if shown.is_some() { gain } else { 0.0 };
+        self.frame.background.picture_gain = if shown.is_some() { gain } else { 0.0 };
         self
     }
 
     /// The same with the indirect source of another view, one eye of which has so many pixels.
     pub fn with_indirect_source(mut self, eye_px: Option<[u32; 2]>) -> Self {
-        self.picture.indirect.source_px = eye_px.unwrap_or(self.picture.indirect.source_px);
+        self.frame.indirect.source_px = eye_px.unwrap_or(self.frame.indirect.source_px);
         self
     }
 
@@ -327,7 +327,7 @@ impl Inputs {
 
     /// The lights of the scene, shining or not.
     pub fn lights_in_use(&self) -> &[Light] {
-        let count = self.picture.surface.light_count as usize;
+        let count = self.frame.surface.light_count as usize;
         &self.lights[..count.min(MAX_LIGHTS)]
     }
 
@@ -341,38 +341,37 @@ impl Inputs {
 
     /// Whether there is indirect light.
     pub fn has_indirect(&self) -> bool {
-        self.picture.indirect.kind != 0
+        self.frame.indirect.kind != 0
     }
 
     /// What must be computed again after `old`, of which this has the [bits](Self::with_bits_of);
     /// none where no pass would see a difference.
     pub fn stale_since(&self, old: &Self) -> Option<Stale> {
-        let (new_picture, old_picture) = (&self.picture, &old.picture);
-        let same_geometry = new_picture.camera == old_picture.camera
-            && new_picture.eyes == old_picture.eyes
-            && new_picture.fractal == old_picture.fractal
+        let (new_frame, old_frame) = (&self.frame, &old.frame);
+        let same_geometry = new_frame.camera == old_frame.camera
+            && new_frame.eyes == old_frame.eyes
+            && new_frame.fractal == old_frame.fractal
             && self.reference_points == old.reference_points
-            && new_picture.picture_px == old_picture.picture_px
-            && new_picture.origin_px == old_picture.origin_px
-            && new_picture.size_px == old_picture.size_px;
-        let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.picture.surface };
+            && new_frame.picture_px == old_frame.picture_px
+            && new_frame.origin_px == old_frame.origin_px
+            && new_frame.size_px == old_frame.size_px;
+        let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.frame.surface };
         let same_light = surface(self) == surface(old)
-            && new_picture.background == old_picture.background
+            && new_frame.background == old_frame.background
             && self.environment_map == old.environment_map
             && self.is_lit_as(old)
             && self.gradient == old.gradient
             && self.has_indirect() == old.has_indirect();
         if !same_geometry {
             Some(Stale::Geometry)
-        } else if new_picture.normals != old_picture.normals {
+        } else if new_frame.normals != old_frame.normals {
             Some(Stale::Normals)
         } else if !same_light {
             Some(Stale::Light)
-        } else if self.has_indirect() && new_picture.indirect != old_picture.indirect {
+        } else if self.has_indirect() && new_frame.indirect != old_frame.indirect {
             Some(Stale::Indirect)
         } else {
-            let same_tone =
-                new_picture.tone == old_picture.tone && new_picture.bloom == old_picture.bloom;
+            let same_tone = new_frame.tone == old_frame.tone && new_frame.bloom == old_frame.bloom;
             (!same_tone).then_some(Stale::Tone)
         }
     }

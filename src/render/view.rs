@@ -301,7 +301,7 @@ impl View {
         self.schedule.set_lights(inputs.shining(), moved);
         self.schedule.set_casting(inputs.casting());
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
-        self.fit_post(Need::of(&inputs.picture));
+        self.fit_post(Need::of(&inputs.frame));
         self.targets.fit_direct(&self.pipelines, inputs.has_indirect());
         if self.targets.environment_texture.id != inputs.environment_map {
             let shown =
@@ -347,7 +347,7 @@ impl View {
 
     /// What powers are raised by.
     fn arithmetic(&self) -> Arithmetic {
-        match self.inputs.as_ref().map(|inputs| PipelineKey::of(&inputs.picture)) {
+        match self.inputs.as_ref().map(|inputs| PipelineKey::of(&inputs.frame)) {
             Some(key) if key.is_deep() => Arithmetic::Deep,
             None | Some(PipelineKey { power: 0, .. }) => Arithmetic::Real,
             Some(key) if self.pipelines.has_own(key) => Arithmetic::SpecializedPipeline,
@@ -357,7 +357,7 @@ impl View {
 
     /// The lattice level whose samples a display is made of by themselves, where it is.
     fn upsample_level(&mut self, work: Work) -> Option<u32> {
-        let picture = &self.inputs.as_ref()?.picture;
+        let picture = &self.inputs.as_ref()?.frame;
         let is_plain = picture.eyes.count == 1
             && self.lent_post.is_none()
             && self.targets.post.need().is_none()
@@ -369,7 +369,7 @@ impl View {
         let upsample_level = self.upsample_level(work);
         let tasks = if upsample_level.is_some() { Tasks::default() } else { self.tasks(work) };
         let Some(inputs) = &self.inputs else { return };
-        let passes = self.pipelines.passes(&inputs.picture);
+        let passes = self.pipelines.passes(&inputs.frame);
         let mut recorder =
             Recorder::new(&self.pipelines, &passes, &self.targets, inputs, &mut self.dispatches);
         recorder.tasks = tasks;
@@ -414,7 +414,7 @@ impl View {
     pub fn lend_post(&mut self, post: Option<Arc<Post>>) {
         self.lent_post = post;
         if let Some(inputs) = &self.inputs {
-            self.fit_post(Need::of(&inputs.picture));
+            self.fit_post(Need::of(&inputs.frame));
             self.schedule.show_again();
         }
     }

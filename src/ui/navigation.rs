@@ -41,7 +41,7 @@ use crate::{
 };
 use flight::Flight;
 pub use fly::FlyInput;
-use fly::Pace;
+use fly::FlySpeed;
 use turn::Turntable;
 
 /// The farthest that the eye goes from the scene's origin, in scene units.
@@ -193,7 +193,7 @@ enum Gesture {
 #[derive(Clone, Debug, Default)]
 pub struct Navigator {
     gesture: Option<Gesture>,
-    pace: Pace,
+    fly_speed: FlySpeed,
     flight: Option<Flight>,
 }
 
@@ -256,7 +256,7 @@ impl Navigator {
     pub fn cancel(&mut self) {
         self.gesture = None;
         self.flight = None;
-        self.pace.rest();
+        self.fly_speed.rest();
     }
 
     /// Comes nearer to what is under the pointer by a factor of `exp(amount)`, or recedes from it
@@ -271,7 +271,7 @@ impl Navigator {
         amount: f64,
     ) -> bool {
         self.flight = None;
-        self.pace.rest();
+        self.fly_speed.rest();
         let target = match &self.gesture {
             Some(Gesture::Pan { held }) => held - &camera.position,
             _ => world.target(camera, ndc),

@@ -130,15 +130,15 @@ fn a_dive_hands_over_without_a_jump() {
     assert!(steps[4] <= 1.05 * most, "a step of {} between others of {most}", steps[4]);
 }
 
-/// On the way down orbits are followed in ever more steps of the difference, then behind a skip. Where
-/// one way gives way to the next, both draw the same.
+/// On the way down orbits take ever more perturbed steps, then a series approximation and perturbed steps.
+/// Where one form hands over to the next, both draw the same.
 #[test]
 fn every_hand_over_draws_the_same() {
     for fractal in &sets() {
         let key = |scale: f64| {
             let scene = places::at(fractal.clone(), scale);
             let space = RenderSpace::about(found(&scene, SIZE), &scene);
-            PipelineKey::of(&Inputs::about(&scene, Region::whole(SIZE), &space).picture)
+            PipelineKey::of(&Inputs::about(&scene, Region::whole(SIZE), &space).frame)
         };
         let scales: Vec<_> = (0..26).map(|i| 1e-2 * 0.5_f64.powi(i)).collect();
         let mut forms = HashSet::new();
@@ -160,8 +160,10 @@ fn every_hand_over_draws_the_same() {
                 let moved = moved(&places::at(fractal.clone(), below), &a, &b, 0.2);
                 let what = format!("{old} to {} at {below:e}: {moved:?}", key(below));
                 println!("{what}");
-                assert!(moved.moved <= 0.01, "{what}");
-                // Other skips, other steps: a hit may lie some hundredths of a pixel beside the other.
+                // Where orbits pass the origin soon after a series, its error grows: 1.2 % at most, all
+                // other hand-overs 0.5 %.
+                assert!(moved.moved <= 0.0125, "{what}");
+                // Another series, other steps: a hit may lie some hundredths of a pixel beside the other.
                 assert!(moved.turned_deg < 1.5, "{what}");
                 assert!(moved.relit < 0.02, "{what}");
                 above = below;

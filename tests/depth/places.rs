@@ -109,10 +109,10 @@ pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
     let mut targets = Targets::new(pipelines, region);
     targets.fit_direct(pipelines, inputs.has_indirect());
     targets.upload(&gpu.queue, &inputs);
-    for variant in mandelight::render::pipelines::PipelineVariant::special(&inputs.picture) {
+    for variant in mandelight::render::pipelines::PipelineVariant::special(&inputs.frame) {
         pipelines.prepare(variant);
     }
-    let passes = pipelines.passes(&inputs.picture);
+    let passes = pipelines.passes(&inputs.frame);
     let mut stages = vec![(Points::Level(0), Stage::March)];
     if inputs.has_indirect() {
         stages.push((Points::Indirect(0), Stage::Indirect));

@@ -45,7 +45,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let inputs = Inputs::new(scene, Region::whole(size));
     targets.fit_direct(pipelines, inputs.has_indirect());
     targets.upload(&pipelines.gpu.queue, &inputs);
-    let passes = pipelines.passes(&inputs.picture);
+    let passes = pipelines.passes(&inputs.frame);
     let mut dispatches = Dispatches::default();
     let trace = |points: Points, from| {
         let workgroups = points.grid(size).workgroups();

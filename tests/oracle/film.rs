@@ -70,7 +70,7 @@ impl Film {
         let bw: Vec<_> = colors.iter().map(|[_, _, b]| [*b, 1.0]).collect();
         gpu.queue.write_buffer(&self.targets.film_rg, 0, bytemuck::cast_slice(&rg));
         gpu.queue.write_buffer(&self.targets.film_bw, 0, bytemuck::cast_slice(&bw));
-        let passes = pipelines.passes(&inputs.picture);
+        let passes = pipelines.passes(&inputs.frame);
         let mut dispatches = Dispatches::default();
         let mut recorder =
             Recorder::new(pipelines, &passes, &self.targets, &inputs, &mut dispatches);

@@ -75,7 +75,7 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let direct: Vec<_> = made.iter().map(|m| shared_exponent(m.direct)).collect();
     gpu.queue.write_buffer(&targets.center.surface, 0, cast_slice(&surface));
     gpu.queue.write_buffer(&targets.direct, 0, cast_slice(&direct));
-    let passes = pipelines.passes(&inputs.picture);
+    let passes = pipelines.passes(&inputs.frame);
     let mut dispatches = Dispatches::default();
     let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
     let points = Points::Indirect(0);

@@ -91,7 +91,7 @@ fn costs(pipelines: &Pipelines, scene: &Scene) -> Vec<f64> {
         scene.quality.normals = way.unwrap_or(Normals::None);
         let inputs = Inputs::new(&scene, Region::whole(PICTURE_PX));
         pipelines.specialise(&scene);
-        let passes = pipelines.passes(&inputs.picture);
+        let passes = pipelines.passes(&inputs.frame);
         targets.upload(&pipelines.gpu.queue, &inputs);
         let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
         match way {

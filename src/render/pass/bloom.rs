@@ -16,7 +16,7 @@ use bytemuck::Zeroable;
 pub const MODULE: Module = Module {
     label: "bloom",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
@@ -31,7 +31,7 @@ pub const MODULE: Module = Module {
 
 /// Leaves the blurred light in the mip level that the statistics then name.
 pub fn record(recorder: &mut Recorder<'_>) {
-    let picture = &recorder.inputs.picture;
+    let picture = &recorder.inputs.frame;
     let levels = Levels::of(picture);
     let passes = picture.bloom.passes;
     let kernel = Kernel::new(picture.bloom.radius, passes, levels);

@@ -15,7 +15,7 @@ use bytemuck::Zeroable;
 pub const MODULE: Module = Module {
     label: "blur",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("lib/mip.wgsl"),
@@ -26,7 +26,7 @@ pub const MODULE: Module = Module {
 /// Applies `kernel` once.
 pub fn record(recorder: &mut Recorder<'_>, kernel: Kernel) {
     let pipeline = recorder.pipelines.post().blur.clone();
-    let workgroups = Levels::of(&recorder.inputs.picture).workgroups(kernel.level);
+    let workgroups = Levels::of(&recorder.inputs.frame).workgroups(kernel.level);
     for axis in 0..2 {
         let Kernel { level, half_width } = kernel;
         let slice = Slice { mip_level: level, axis, half_width, ..Slice::zeroed() };

@@ -11,7 +11,7 @@ use bytemuck::Zeroable;
 pub const MODULE: Module = Module {
     label: "expose",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("lib/luminance.wgsl"),
@@ -24,7 +24,7 @@ pub const MODULE: Module = Module {
 /// hold a mean that the statistics do not.
 pub fn record(recorder: &mut Recorder<'_>, mean_is_new: bool, adapt: f32) {
     let pipeline = recorder.pipelines.post().expose.clone();
-    let last = Levels::of(&recorder.inputs.picture).last();
+    let last = Levels::of(&recorder.inputs.frame).last();
     let mip_level = if mean_is_new { last } else { 0 };
     recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::zeroed() }, 1);
 }

@@ -10,7 +10,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "fill",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/film.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -24,7 +24,7 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     let pipeline = recorder.pipelines.fill();
     for finer in (0..level).rev() {
-        let grid = Grid::added(finer, recorder.inputs.picture.size_px);
+        let grid = Grid::added(finer, recorder.inputs.frame.size_px);
         if grid.workgroups() > 0 {
             recorder.dispatch_grid(&pipeline, &grid, 1 << (finer / 2));
             recorder.dispatches.fill += 1;

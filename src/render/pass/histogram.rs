@@ -15,7 +15,7 @@ use bytemuck::Zeroable;
 pub const MODULE: Module = Module {
     label: "histogram",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
@@ -37,7 +37,7 @@ pub fn record(recorder: &mut Recorder<'_>) {
         bytemuck::bytes_of(&zeros),
     );
     let pipeline = recorder.pipelines.post().histogram.clone();
-    let workgroups = Levels::of(&recorder.inputs.picture).workgroups(FIRST_LEVEL);
+    let workgroups = Levels::of(&recorder.inputs.frame).workgroups(FIRST_LEVEL);
     recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
     recorder.dispatches.histogram += 1;
 }

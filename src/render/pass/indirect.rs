@@ -15,7 +15,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "indirect",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/light.wgsl"),
         shader_file!("types/sample.wgsl"),

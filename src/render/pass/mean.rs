@@ -16,7 +16,7 @@ use bytemuck::Zeroable;
 pub const MODULE: Module = Module {
     label: "mean",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
@@ -29,7 +29,7 @@ pub const MODULE: Module = Module {
 
 /// Makes all mip levels of the film, down to one element.
 pub fn record(recorder: &mut Recorder<'_>) {
-    let levels = Levels::of(&recorder.inputs.picture);
+    let levels = Levels::of(&recorder.inputs.frame);
     let pipeline = recorder.pipelines.post().mean.clone();
     recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, levels.last());

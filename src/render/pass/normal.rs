@@ -10,7 +10,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "normal",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
         shader_file!("types/work_queues.wgsl"),

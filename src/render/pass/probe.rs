@@ -23,7 +23,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "probe",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("lib/numeric.wgsl"),
         shader_file!("lib/complex.wgsl"),
         shader_file!("formula/deep.wgsl"),
@@ -61,7 +61,7 @@ pub fn ask(
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, &RenderSpace::plain());
-    let power = if specialised { PipelineKey::of(&inputs.picture).power } else { 0 };
+    let power = if specialised { PipelineKey::of(&inputs.frame).power } else { 0 };
     ask_form(gpu, &inputs, points, PipelineKey { power, depth: Depth::Plain })
 }
 
@@ -74,7 +74,7 @@ pub fn ask_about(
     offsets: &[DVec3],
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, space);
-    ask_form(gpu, &inputs, offsets, PipelineKey::of(&inputs.picture))
+    ask_form(gpu, &inputs, offsets, PipelineKey::of(&inputs.frame))
 }
 
 /// Of the kernel's answer to one point.
@@ -163,7 +163,7 @@ pub fn bindings(gpu: &Gpu, inputs: &Inputs) -> [wgpu::Buffer; 2] {
     let mut anchor_orbit = inputs.anchor_orbit();
     anchor_orbit.resize(ANCHOR_ORBIT_BYTES as usize, 0);
     [
-        filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::bytes_of(&inputs.picture)),
+        filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::bytes_of(&inputs.frame)),
         filled(gpu, wgpu::BufferUsages::UNIFORM, &anchor_orbit),
     ]
 }

@@ -15,7 +15,7 @@ use bytemuck::Zeroable;
 pub const MODULE: Module = Module {
     label: "reduce",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("lib/mip.wgsl"),
@@ -27,7 +27,7 @@ pub const MODULE: Module = Module {
 pub fn record(recorder: &mut Recorder<'_>, last: u32) {
     let pipeline = recorder.pipelines.post().reduce.clone();
     for level in FIRST_LEVEL..last {
-        let workgroups = Levels::of(&recorder.inputs.picture).workgroups(level + 1);
+        let workgroups = Levels::of(&recorder.inputs.frame).workgroups(level + 1);
         let slice = Slice { mip_level: level, ..Slice::zeroed() };
         recorder.dispatch(&pipeline, slice, workgroups);
     }

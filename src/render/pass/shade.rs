@@ -11,7 +11,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "shade",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/light.wgsl"),
         shader_file!("types/gbuffer.wgsl"),

@@ -7,7 +7,7 @@ use crate::{gpu::shader::Module, shader_file};
 pub const MODULE: Module = Module {
     label: "shadow_cone",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/gbuffer.wgsl"),
         shader_file!("types/work_queues.wgsl"),

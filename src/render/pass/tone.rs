@@ -10,7 +10,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "tone",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/post.wgsl"),
         shader_file!("types/film.wgsl"),
@@ -31,7 +31,7 @@ pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     let passes = recorder.passes;
     let pipeline = if level == 0 { &passes.tone } else { &passes.sparse_tone };
     let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
-    let whole = Grid::level(0, recorder.inputs.picture.size_px);
+    let whole = Grid::level(0, recorder.inputs.frame.size_px);
     recorder.dispatch_plane(pipeline, Slice { spacing, ..whole.slice(0) });
     recorder.dispatches.tone += 1;
 }

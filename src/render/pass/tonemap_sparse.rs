@@ -10,7 +10,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "tonemap_sparse",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/tonemap_sparse.wgsl"),
         shader_file!("types/film.wgsl"),
@@ -32,6 +32,6 @@ pub fn places(level: u32, size_px: [u32; 2]) -> u64 {
 /// Develops every sample of a lattice level.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     let pipeline = recorder.pipelines.tonemap_sparse();
-    let grid = Grid::level(level, recorder.inputs.picture.size_px);
+    let grid = Grid::level(level, recorder.inputs.frame.size_px);
     recorder.dispatch_grid(&pipeline, &grid, 1 << (level / 2));
 }

@@ -10,7 +10,7 @@ use crate::{
 pub const MODULE: Module = Module {
     label: "upsample",
     files: &[
-        shader_file!("types/picture.wgsl"),
+        shader_file!("types/frame_uniforms.wgsl"),
         shader_file!("types/slice.wgsl"),
         shader_file!("types/tonemap_sparse.wgsl"),
         shader_file!("lib/lattice.wgsl"),
@@ -23,7 +23,7 @@ pub const MODULE: Module = Module {
 /// Makes the whole region's display picture of a lattice level that has been developed.
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     let pipeline = recorder.pipelines.upsample();
-    let slice = Grid::level(level, recorder.inputs.picture.size_px).slice(0);
+    let slice = Grid::level(level, recorder.inputs.frame.size_px).slice(0);
     recorder.dispatch_plane(&pipeline, slice);
     recorder.dispatches.fill += 1;
     recorder.dispatches.tone += 1;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::Zeroable;
 use glam::{DMat3, DVec3};
 
-use super::{MOST_NEAR_STEPS, Picture, ReferencePoint, SeriesApproximation};
+use super::{FrameUniforms, MOST_NEAR_STEPS, ReferencePoint, SeriesApproximation};
 use crate::{
     fractal::deep::{self, jacobian::norm, reference::MOST_REFERENCE_POINTS},
     render::{pipeline_key::NearSteps, space::RenderSpace},
@@ -129,7 +129,7 @@ fn widest_direction(map: DMat3) -> DVec3 {
 /// only the first approximation where orbits, or the reference, are too short for more. `near`: of
 /// [`series`].
 pub fn put_near(
-    picture: &mut Picture,
+    picture: &mut FrameUniforms,
     space: &RenderSpace,
     (series, near): (&SeriesList, &[deep::SeriesApproximation]),
     reference_points: &[ReferencePoint],

@@ -289,7 +289,7 @@ host_shared! {
         unused_c: u32,
     }
     /// Everything above, and the region.
-    Picture {
+    FrameUniforms {
         /// The camera.
         camera: Camera,
         /// Its eyes.

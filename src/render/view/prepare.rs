@@ -50,8 +50,8 @@ impl View {
     /// The special forms of the passes that draw a scene.
     fn special(&self, scene: &Scene) -> [PipelineVariant; 4] {
         match &self.inputs {
-            Some(inputs) if self.pending.is_none() => PipelineVariant::special(&inputs.picture),
-            _ => PipelineVariant::special(&self.inputs_of(scene).picture),
+            Some(inputs) if self.pending.is_none() => PipelineVariant::special(&inputs.frame),
+            _ => PipelineVariant::special(&self.inputs_of(scene).frame),
         }
     }
 
@@ -70,10 +70,9 @@ impl View {
     fn missing(&self) -> Option<(PipelineVariant, bool)> {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
         // There is no general form of what is drawn from an anchor.
-        let deep =
-            self.inputs.as_ref().filter(|inputs| inputs.picture.fractal.reference_points > 0);
+        let deep = self.inputs.as_ref().filter(|inputs| inputs.frame.fractal.reference_points > 0);
         let [rays, normals, ..] = match deep {
-            Some(inputs) => PipelineVariant::special(&inputs.picture).map(Some),
+            Some(inputs) => PipelineVariant::special(&inputs.frame).map(Some),
             None => [None; 4],
         };
         let awaited = [rays, normals].into_iter().chain(self.behind_shading(scene));
@@ -99,13 +98,13 @@ impl View {
     /// What a dive is going to need, once there may be one.
     fn of_dive(&self) -> Vec<PipelineVariant> {
         let inputs = self.inputs.as_ref().filter(|_| self.anchors.are_near());
-        let Some(inputs) = inputs.filter(|inputs| inputs.picture.fractal.rotates == 0) else {
+        let Some(inputs) = inputs.filter(|inputs| inputs.frame.fractal.rotates == 0) else {
             return Vec::new();
         };
-        let power = PipelineKey::of(&inputs.picture).power;
+        let power = PipelineKey::of(&inputs.frame).power;
         let of = |depth| {
             let key = PipelineKey { power, depth };
-            [PipelineVariant::Rays(key), PipelineVariant::Normals(key, inputs.picture.normals)]
+            [PipelineVariant::Rays(key), PipelineVariant::Normals(key, inputs.frame.normals)]
         };
         Depth::DIVE.into_iter().flat_map(of).collect()
     }

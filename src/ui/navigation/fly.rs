@@ -40,12 +40,12 @@ pub struct FlyInput {
 
 /// The distance that sets the speed, followed smoothly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pace {
+pub struct FlySpeed {
     /// Logarithm of the distance in scene units; none at rest.
     ln_distance: Option<f64>,
 }
 
-impl Pace {
+impl FlySpeed {
     /// Forgets the speed: the next travel starts from the distance found then.
     pub(super) fn rest(&mut self) {
         self.ln_distance = None;
@@ -77,7 +77,7 @@ impl Navigator {
         dt_secs: f64,
     ) -> bool {
         if input == (FlyInput { faster: input.faster, ..FlyInput::default() }) {
-            self.pace.rest();
+            self.fly_speed.rest();
             return false;
         }
         self.gesture = None;
@@ -86,16 +86,17 @@ impl Navigator {
         let dt_secs = if dt_secs.is_finite() { dt_secs.clamp(0.0, LONGEST_STEP_SECS) } else { 0.0 };
         turn(camera, input, dt_secs, world.grain(camera));
         if input.travel == DVec3::ZERO || !input.travel.is_finite() {
-            self.pace.rest();
+            self.fly_speed.rest();
         } else {
             let distance = world.field.clear_distance(world.eye(camera)).max(world.nearest(camera));
-            let pace = self.pace.follow(distance, dt_secs);
-            let speed = pace * SPEED_PER_SEC * if input.faster { FASTER } else { 1.0 };
+            let followed = self.fly_speed.follow(distance, dt_secs);
+            let speed = followed * SPEED_PER_SEC * if input.faster { FASTER } else { 1.0 };
             let DVec3 { x, y, z } = input.travel.clamp_length_max(1.0);
             let way = camera.rotation() * DVec3::new(x, y, -z) * speed * dt_secs;
             let moved = collide::slide(world, camera, way);
             shift(camera, world, moved);
-            camera.pivot = camera.position.moved_by(camera.forward() * pace, world.grain(camera));
+            camera.pivot =
+                camera.position.moved_by(camera.forward() * followed, world.grain(camera));
         }
         *camera != before
     }
@@ -103,7 +104,7 @@ impl Navigator {
     /// The speed that [`Self::fly`] last travelled at without the fast key, in scene units per
     /// second; none at rest.
     pub fn speed(&self) -> Option<f64> {
-        self.pace.ln_distance.map(|ln| ln.exp() * SPEED_PER_SEC)
+        self.fly_speed.ln_distance.map(|ln| ln.exp() * SPEED_PER_SEC)
     }
 }
 

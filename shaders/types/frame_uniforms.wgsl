@@ -55,7 +55,7 @@ struct Fractal {
     near_radius_squared: f32,
     // Beyond which distance from the anchor plain f32 tells points apart.
     far_radius: f32,
-    // How many near steps there are, and 1 where `Picture.series` stands for the steps before those.
+    // How many near steps there are, and 1 where `FrameUniforms.series` stands for the steps before those.
     near_steps: u32,
     has_series: u32,
 }
@@ -220,7 +220,7 @@ struct Eyes {
 const MOST_NEAR_STEPS = 8u;
 const NEAR_POINTS = MOST_NEAR_STEPS + 1u;
 
-struct Picture {
+struct FrameUniforms {
     camera: Camera,
     eyes: Eyes,
     fractal: Fractal,
@@ -249,12 +249,12 @@ struct AnchorOrbit {
     points: array<ReferencePoint, MOST_REFERENCE_POINTS>,
 }
 
-@group(0) @binding(0) var<storage, read> given: Picture;
+@group(0) @binding(0) var<storage, read> frame_uniforms: FrameUniforms;
 // Lanes that read places of their own gather them from a uniform buffer several times as fast on lavapipe:
 // of a storage buffer it reads each lane's words one by one, in a loop.
 @group(0) @binding(1) var<uniform> anchor_orbit: AnchorOrbit;
 
-// Every entry point begins with `picture = given`. Where all threads are still together,
+// Every entry point begins with `frame = frame_uniforms`. Where all threads are still together,
 // lavapipe reads a value once for all of them; past any branch, once for each, and again for each
 // use in a loop.
-var<private> picture: Picture;
+var<private> frame: FrameUniforms;
