@@ -18,7 +18,7 @@ use super::{
     device_loss::Caution,
     page,
     picture::Picture,
-    sequence::{Sequence, Sink},
+    sequence::{Sequence, ZipChoice, ZipRequest},
     session::{Session, Status},
     still::{Progress, Still},
 };
@@ -66,14 +66,23 @@ impl Export {
     }
 }
 
+/// A sequence that starts once the visitor has chosen its zip.
+struct RequestedSequence {
+    options: StillOptions,
+    frames: Range<u32>,
+    /// Whether each frame is a file for each eye.
+    pair: bool,
+    zip: ZipRequest,
+}
+
 /// The work on one device.
 pub struct Engine {
     gpu: Gpu,
     pipelines: Arc<Pipelines>,
     picture: Picture,
     export: Option<Export>,
-    /// A sequence, in pairs or not, that waits for the visitor to choose its file.
-    waiting: Option<(StillOptions, Range<u32>, bool)>,
+    /// The sequence whose zip the visitor has yet to choose.
+    requested_sequence: Option<RequestedSequence>,
     progress: Option<ExportProgress>,
     context: egui::Context,
     /// Whether a tick is on its way.
@@ -104,7 +113,7 @@ impl Engine {
             picture: Picture::new(pipelines.clone(), state),
             pipelines,
             export: None,
-            waiting: None,
+            requested_sequence: None,
             progress: None,
             context,
             is_ticking: false,
@@ -147,7 +156,7 @@ impl Engine {
         }
     }
 
-    /// Asks where the frames of the path are to go; [`Self::follow`] starts when that is known.
+    /// Requests a zip for the frames of the path; [`Self::follow`] starts once it is chosen.
     pub fn start_sequence(
         &mut self,
         size_px: [u32; 2],
@@ -157,24 +166,29 @@ impl Engine {
     ) {
         let [width, height] = size_px;
         let environment_map = session.interface.environment_map().cloned();
-        self.waiting =
-            Some((StillOptions { environment_map, ..StillOptions::new(size_px) }, frames, pair));
-        Sink::choose(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
+        let options = StillOptions { environment_map, ..StillOptions::new(size_px) };
+        let zip = ZipRequest::new(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
+        self.requested_sequence = Some(RequestedSequence { options, frames, pair, zip });
     }
 
-    /// Starts the sequence whose file was chosen.
-    fn take_sink(&mut self, session: &mut Session) {
-        let Some(sink) = session.sink.take() else { return };
-        let (Some(sink), Some((options, frames, pair))) = (sink, self.waiting.take()) else {
-            return;
+    /// Starts the requested sequence once its zip is chosen.
+    fn start_requested_sequence(&mut self, session: &mut Session) {
+        let Some(requested) = self.requested_sequence.take() else { return };
+        let zip = match requested.zip.take_choice() {
+            ZipChoice::Pending => {
+                self.requested_sequence = Some(requested);
+                return;
+            }
+            ZipChoice::Cancelled => return,
+            ZipChoice::Chosen(zip) => zip,
         };
         let path = session.interface.project().path.clone();
         match Sequence::start(
             &self.pipelines,
             path,
-            frames,
-            (options, pair),
-            sink,
+            requested.frames,
+            (requested.options, requested.pair),
+            zip,
             &session.mailbox,
         ) {
             Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
@@ -197,7 +211,7 @@ impl Engine {
     /// Returns after how many seconds to call again where that is known.
     pub fn follow(&mut self, session: &mut Session) -> Option<f64> {
         let now_secs = page::now_secs();
-        self.take_sink(session);
+        self.start_requested_sequence(session);
         let scale = session.caution().scale();
         let interface = &session.interface;
         let settling = self.picture.resize(

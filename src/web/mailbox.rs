@@ -5,8 +5,6 @@
 
 use std::{cell::RefCell, rc::Rc};
 
-use super::sequence::Sink;
-
 /// Something that happened outside a frame.
 pub enum Message {
     /// A file was picked or dropped.
@@ -18,8 +16,6 @@ pub enum Message {
     },
     /// The address's fragment was changed by someone else.
     Fragment(String),
-    /// Where the sequence goes that was asked for; none where the visitor chose nothing.
-    Sink(Option<Sink>),
     /// Something to tell the person at the page.
     Notice(String),
     /// The same, of something that failed.

@@ -1,12 +1,14 @@
-//! The frames of a path on their way from the GPU to a zip on the visitor's disk.
+//! An export of a path's frames: rendered one by one into a zip on the visitor's disk.
 //!
 //! In: a path, a size, a range of frames. Out: progress for the interface, and one zip: written
-//! while it is made where the browser can, else among the downloads. It is stepped between
-//! frames; dropping it cancels it.
+//! while the frames are rendered where the browser can, else among the downloads. The engine steps
+//! the export between frames; dropping it cancels it.
 
 use std::{
+    cell::RefCell,
     io::{self, Write},
     ops::Range,
+    rc::Rc,
     sync::Arc,
 };
 
@@ -15,7 +17,7 @@ use wasm_bindgen_futures::spawn_local;
 use super::{
     file_access::{self, DiskFile, NoFile},
     files::Download,
-    mailbox::{Mailbox, Message},
+    mailbox::Mailbox,
     still::Progress,
 };
 use crate::{
@@ -26,47 +28,64 @@ use crate::{
 
 const MIME: &str = "application/zip";
 
-/// Where the zip goes.
-pub struct Sink {
+/// A request to the visitor: where to save the zip.
+pub struct ZipRequest(Rc<RefCell<ZipChoice>>);
+
+/// The visitor's answer to a [`ZipRequest`].
+#[derive(Default)]
+pub enum ZipChoice {
+    /// The dialogue is still open.
+    #[default]
+    Pending,
+    /// The visitor closed the dialogue without a choice.
+    Cancelled,
+    /// The zip to write to.
+    Chosen(Zip),
+}
+
+/// An empty zip: its name, and what its bytes are written to.
+pub struct Zip {
     name: String,
-    goal: Goal,
+    writer: ZipWriter,
 }
 
-#[derive(Clone)]
-enum Goal {
-    Disk(DiskFile),
-    Download,
-}
-
-impl Sink {
-    /// Asks for a file where the browser writes while it goes, and posts where the zip goes.
-    pub fn choose(name: String, mailbox: &Mailbox) {
-        let mailbox = mailbox.clone();
-        if !file_access::is_there() {
-            mailbox.post(Message::Sink(Some(Self { name, goal: Goal::Download })));
-            return;
-        }
-        spawn_local(async move {
-            let goal = match DiskFile::choose(&name, MIME, ".zip").await {
-                Ok(file) => Some(Goal::Disk(file)),
-                Err(NoFile::NotChosen) => None,
-                Err(NoFile::Refused(reason)) => {
-                    log::warn!("the zip goes to the downloads: {reason}");
-                    Some(Goal::Download)
-                }
-            };
-            mailbox.post(Message::Sink(goal.map(|goal| Self { name, goal })));
-        });
-    }
-}
-
-/// What the zip is written to.
-enum Writer {
+enum ZipWriter {
     Disk(DiskFile),
     Download(Download),
 }
 
-impl Write for Writer {
+impl ZipRequest {
+    /// Opens the save dialogue where the browser has one, and wakes the page after the choice.
+    pub fn new(name: String, mailbox: &Mailbox) -> Self {
+        let download = |name| {
+            ZipChoice::Chosen(Zip { name, writer: ZipWriter::Download(Download::default()) })
+        };
+        if !file_access::is_there() {
+            return Self(Rc::new(RefCell::new(download(name))));
+        }
+        let choice = Rc::new(RefCell::new(ZipChoice::Pending));
+        let (answer, mailbox) = (choice.clone(), mailbox.clone());
+        spawn_local(async move {
+            *answer.borrow_mut() = match DiskFile::choose(&name, MIME, ".zip").await {
+                Ok(file) => ZipChoice::Chosen(Zip { name, writer: ZipWriter::Disk(file) }),
+                Err(NoFile::NotChosen) => ZipChoice::Cancelled,
+                Err(NoFile::Refused(reason)) => {
+                    log::warn!("the zip goes to the downloads: {reason}");
+                    download(name)
+                }
+            };
+            mailbox.wake();
+        });
+        Self(choice)
+    }
+
+    /// Takes the answer; leaves [`ZipChoice::Pending`].
+    pub fn take_choice(&self) -> ZipChoice {
+        self.0.take()
+    }
+}
+
+impl Write for ZipWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Self::Disk(file) => file.write(bytes),
@@ -84,14 +103,17 @@ impl Write for Writer {
 
 /// A sequence in progress.
 pub struct Sequence {
-    job: SequenceJob<Writer>,
-    sink: Sink,
+    job: SequenceJob<ZipWriter>,
+    name: String,
+    /// The file on the disk, which can lag behind; none for a download.
+    disk_file: Option<DiskFile>,
     mailbox: Mailbox,
-    last: (f64, Option<f64>),
+    /// The part done and the seconds left, as of the last step that rendered.
+    progress: (f64, Option<f64>),
 }
 
 impl Sequence {
-    /// Starts the sequence of `frames`; the options say how each is made, and whether in pairs.
+    /// Starts the sequence of `frames`; with `pair`, each frame is a file for each eye.
     ///
     /// # Errors
     /// A size, a range or a path out of range.
@@ -100,28 +122,26 @@ impl Sequence {
         path: Path,
         frames: Range<u32>,
         (options, pair): (StillOptions, bool),
-        sink: Sink,
+        Zip { name, writer }: Zip,
         mailbox: &Mailbox,
     ) -> Result<Self, ExportError> {
-        let writer = match &sink.goal {
-            Goal::Disk(file) => Writer::Disk(file.clone()),
-            Goal::Download => Writer::Download(Download::default()),
+        let disk_file = match &writer {
+            ZipWriter::Disk(file) => Some(file.clone()),
+            ZipWriter::Download(_) => None,
         };
         let job = SequenceJob::new(pipelines, path, frames, options, pair, writer)?;
-        Ok(Self { job, sink, mailbox: mailbox.clone(), last: (0.0, None) })
+        Ok(Self { job, name, disk_file, mailbox: mailbox.clone(), progress: (0.0, None) })
     }
 
-    /// Does what can be done without waiting, and hands the zip over once it is whole.
+    /// Renders without waiting, and saves the zip once all frames are in it.
     pub fn step(mut self, now_secs: f64) -> (Option<Self>, Progress) {
-        if let Goal::Disk(file) = &self.sink.goal
-            && file.is_behind()
-        {
-            let (done, remaining_secs) = self.last;
+        if self.disk_file.as_ref().is_some_and(DiskFile::is_behind) {
+            let (done, remaining_secs) = self.progress;
             return (Some(self), Progress::Working(done, remaining_secs));
         }
         match self.job.step(now_secs) {
             Ok(StillStatus::Working { done, remaining_secs }) => {
-                self.last = (done, remaining_secs);
+                self.progress = (done, remaining_secs);
                 (Some(self), Progress::Working(done, remaining_secs))
             }
             Ok(StillStatus::Done) => (None, self.finish()),
@@ -130,14 +150,14 @@ impl Sequence {
     }
 
     fn finish(self) -> Progress {
-        let Self { job, sink, mailbox, .. } = self;
+        let Self { job, name, mailbox, .. } = self;
         match job.finish() {
-            Ok(Writer::Disk(file)) => {
-                file.finish(sink.name, &mailbox);
+            Ok(ZipWriter::Disk(file)) => {
+                file.finish(name, &mailbox);
                 Progress::Closing
             }
-            Ok(Writer::Download(download)) => match download.finish(&sink.name, MIME) {
-                Ok(()) => Progress::Saved(sink.name),
+            Ok(ZipWriter::Download(download)) => match download.finish(&name, MIME) {
+                Ok(()) => Progress::Saved(name),
                 Err(reason) => Progress::Failed(reason),
             },
             Err(error) => Progress::Failed(error.to_string()),

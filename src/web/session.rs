@@ -10,9 +10,7 @@ use super::{
     device_loss::{self, Caution},
     files::{self, Picker},
     mailbox::{Mailbox, Message},
-    page,
-    sequence::Sink,
-    storage,
+    page, storage,
 };
 use crate::{
     export,
@@ -43,8 +41,6 @@ pub struct Session {
     notice_until_secs: Option<f64>,
     /// What the app last said of itself.
     pub status: Status,
-    /// The answer to where a sequence is to go, until the engine takes it.
-    pub sink: Option<Option<Sink>>,
     caution: Caution,
     /// The scene that was in view when drawing was paused.
     paused_at: Option<Scene>,
@@ -85,7 +81,6 @@ impl Session {
             notice: None,
             notice_until_secs: None,
             status: Status::default(),
-            sink: None,
             caution: Caution::None,
             paused_at: None,
         };
@@ -207,7 +202,6 @@ impl Session {
                     }
                     Err(error) => self.complain(error.to_string()),
                 },
-                Message::Sink(sink) => self.sink = Some(sink),
                 Message::Notice(text) => self.say(text),
                 Message::Complaint(text) => self.complain(text),
             }
