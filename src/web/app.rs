@@ -1,7 +1,7 @@
-//! One frame of the page: show the interface, do what it asks for, pass its scene on.
+//! One frame of the page: shows the interface, performs its actions, updates the engine.
 //!
-//! In: eframe's calls. Out: downloads and work for the engine. Another frame is asked for only when
-//! there is something to show: an idle page draws nothing.
+//! In: eframe's calls. Out: downloads, work for the engine, repaint requests. An idle page requests no
+//! repaint and so draws nothing.
 
 use std::{cell::RefCell, rc::Rc};
 
@@ -21,24 +21,24 @@ use crate::{
 
 /// The app on one device.
 pub struct App {
-    adapter: String,
+    adapter_name: String,
     engine: Rc<RefCell<Engine>>,
     session: Rc<RefCell<Session>>,
 }
 
 impl App {
-    /// An app on `gpu`; none where egui was started without wgpu.
+    /// An app on `gpu`; `None` if egui runs without wgpu.
     pub fn new(
         context: &eframe::CreationContext<'_>,
         gpu: Gpu,
         session: Rc<RefCell<Session>>,
     ) -> Option<Self> {
-        let state = context.wgpu_render_state.clone()?;
+        let render_state = context.wgpu_render_state.clone()?;
         theme::install(&context.egui_ctx);
-        session.borrow().mailbox.wakes(&context.egui_ctx);
-        let adapter = gpu.name();
-        let engine = Engine::new(gpu, state, context.egui_ctx.clone(), session.clone());
-        Some(Self { adapter, engine, session })
+        session.borrow().mailbox.set_context(&context.egui_ctx);
+        let adapter_name = gpu.name();
+        let engine = Engine::new(gpu, render_state, context.egui_ctx.clone(), session.clone());
+        Some(Self { adapter_name, engine, session })
     }
 }
 
@@ -46,29 +46,29 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let session = &mut *self.session.borrow_mut();
         let engine = &mut *self.engine.borrow_mut();
-        read_dropped(ui.ctx(), &session.mailbox);
+        read_dropped_files(ui.ctx(), &session.mailbox);
         session.read_messages();
         let now_secs = page::now_secs();
-        let expiring = session.expire_notice(now_secs);
+        let notice_secs = session.expire_notice(now_secs);
 
         let inputs = Inputs {
-            picture: engine.shown(),
+            picture: engine.picture(),
             report: &session.status.report,
-            export: engine.progress(),
+            export: engine.exporter.progress(),
             notice: session.notice.as_ref(),
-            adapter: &self.adapter,
+            adapter: &self.adapter_name,
         };
         let actions = session.interface.show(ui, &inputs);
-        hint_at_drop(ui);
+        show_drop_hint(ui);
         for action in actions {
             perform(action, engine, session);
         }
 
-        let settling = engine.follow(session);
+        let engine_secs = engine.update(session);
         let moving = session.interface.is_moving();
-        let kept = session.autosave.watch(session.interface.project(), moving, now_secs);
+        let autosave_secs = session.autosave.update(session.interface.project(), moving, now_secs);
         session.status.frames += 1;
-        for secs in [expiring, settling, kept].into_iter().flatten() {
+        for secs in [notice_secs, engine_secs, autosave_secs].into_iter().flatten() {
             ui.ctx().request_repaint_after_secs(secs as f32);
         }
     }
@@ -78,25 +78,25 @@ impl eframe::App for App {
     }
 }
 
-/// Does what the interface asked for.
+/// Performs an action of the interface.
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
         Action::SavePicture { size_px, exr, pair } => {
             let format = if exr { PictureFormat::Exr } else { PictureFormat::Png };
-            engine.start_still(size_px, format, pair, session);
+            engine.exporter.start_still(size_px, format, pair, session);
         }
         Action::SaveSequence { size_px, frames: [first, end], pair } => {
-            engine.start_sequence(size_px, first..end, pair, session);
+            engine.exporter.request_sequence(size_px, first..end, pair, session);
         }
         Action::CancelExport => {
-            engine.cancel_export();
-            session.say("Saving was cancelled.");
+            engine.exporter.cancel();
+            session.show_notice("Saving was cancelled.");
         }
         Action::SaveScene => {
             let text = document::project_to_json(session.interface.project());
             let saved = files::download_text("mandelight.json", "application/json", &text);
             if let Err(reason) = saved {
-                session.complain(format!("The scene was not saved: {reason}"));
+                session.show_error(format!("The scene could not be saved: {reason}"));
             }
         }
         Action::LoadScene | Action::ChoosePicture => session.picker.open(),
@@ -106,8 +106,8 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     }
 }
 
-/// Says what a file that hovers over the page will do.
-fn hint_at_drop(ui: &egui::Ui) {
+/// Shows which files can be dropped while one is dragged over the page.
+fn show_drop_hint(ui: &egui::Ui) {
     if ui.input(|input| input.raw.hovered_files.is_empty()) {
         return;
     }
@@ -118,14 +118,14 @@ fn hint_at_drop(ui: &egui::Ui) {
     painter.text(
         area.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop a scene, a picture saved by Mandelight, or an environment map (.hdr, .exr)",
+        "Drop a scene, a picture saved by Mandelight, or an environment map that lights the scene (.hdr, .exr)",
         egui::FontId::proportional(18.0),
         egui::Color32::WHITE,
     );
 }
 
-/// Reads the files that were dropped on the page.
-fn read_dropped(context: &egui::Context, mailbox: &Mailbox) {
+/// Reads the file that was dropped on the page.
+fn read_dropped_files(context: &egui::Context, mailbox: &Mailbox) {
     let dropped = context.input(|input| input.raw.dropped_files.clone());
     match dropped.as_slice() {
         [] => {}
@@ -134,6 +134,6 @@ fn read_dropped(context: &egui::Context, mailbox: &Mailbox) {
                 files::read(file, mailbox);
             }
         }
-        _ => mailbox.post(Message::Complaint("Drop one scene or picture at a time.".to_owned())),
+        _ => mailbox.post(Message::Error("Drop one file at a time.".to_owned())),
     }
 }

@@ -1,10 +1,9 @@
 //! Asynchronous pipeline compilation by `createComputePipelineAsync`.
 //!
-//! wgpu has no call for it, and takes no pipeline that others made. So the device's own
-//! `createComputePipeline` is stood in for while wgpu asks once: first by something that only
-//! keeps the descriptor, later by something that hands out what the browser made of it. Between
-//! these the page, its other pictures and everything else that the browser draws go on; a pipeline
-//! that is asked for in the plain way holds all of them up.
+//! In: a device and a closure by which wgpu creates one pipeline. Out: that pipeline, compiled while
+//! the page goes on; a synchronous compilation blocks the page and the browser's other drawing.
+//! wgpu has no call for it and accepts no foreign pipeline. So the device's `createComputePipeline`
+//! is overridden during two wgpu calls: `begin` keeps the descriptor, `take` returns the result.
 
 use std::{
     cell::RefCell,
@@ -20,90 +19,91 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 
 use crate::gpu::AsyncCompile;
 
-const PLAIN: &str = "createComputePipeline";
-const ASIDE: &str = "createComputePipelineAsync";
+const CREATE: &str = "createComputePipeline";
+const CREATE_ASYNC: &str = "createComputePipelineAsync";
 
-/// A pipeline that waits to be taken.
-struct Made {
+/// A compiled pipeline that was not taken yet.
+struct Compiled {
     device: JsValue,
     label: JsValue,
     pipeline: JsValue,
 }
 
 thread_local! {
-    static MADE: RefCell<Vec<Made>> = const { RefCell::new(Vec::new()) };
+    static COMPILED: RefCell<Vec<Compiled>> = const { RefCell::new(Vec::new()) };
 }
 
-/// The browser's asynchronous compilation; none where it has none.
+/// The browser's asynchronous compilation; `None` where it has none.
 pub fn async_compile(device: &wgpu::Device) -> Option<AsyncCompile> {
     let device = device.as_webgpu()?;
-    let call = Reflect::get(device.as_ref(), &ASIDE.into()).ok()?;
-    call.is_function().then_some(AsyncCompile { begin, take })
+    let method = Reflect::get(device.as_ref(), &CREATE_ASYNC.into()).ok()?;
+    method.is_function().then_some(AsyncCompile { begin, take })
 }
 
-fn begin(device: &wgpu::Device, ask: &mut dyn FnMut()) -> Arc<AtomicBool> {
-    let is_over = Arc::new(AtomicBool::new(false));
-    let asked = device.as_webgpu().and_then(|device| {
+/// Starts to compile the pipeline that `create` creates. The flag turns true at the end.
+fn begin(device: &wgpu::Device, create: &mut dyn FnMut()) -> Arc<AtomicBool> {
+    let is_done = Arc::new(AtomicBool::new(false));
+    let compilation = device.as_webgpu().and_then(|device| {
         let device: &JsValue = device.as_ref();
         let mut descriptor = JsValue::UNDEFINED;
-        stand_in(device, ask, |asked| {
-            descriptor = asked;
-            // Nobody uses it.
+        with_override(device, create, |requested| {
+            descriptor = requested;
+            // A placeholder: the caller drops the pipeline that wgpu makes of it.
             Ok(Object::new().into())
         });
-        let call: Function = Reflect::get(device, &ASIDE.into()).ok()?.dyn_into().ok()?;
-        let promise: Promise = call.call1(device, &descriptor).ok()?.dyn_into().ok()?;
+        let method: Function = Reflect::get(device, &CREATE_ASYNC.into()).ok()?.dyn_into().ok()?;
+        let promise: Promise = method.call1(device, &descriptor).ok()?.dyn_into().ok()?;
         Some((device.clone(), label_of(&descriptor), promise))
     });
-    let tell = is_over.clone();
+    let flag = is_done.clone();
     spawn_local(async move {
-        if let Some((device, label, promise)) = asked {
-            // What failed is asked for again in the plain way, which tells of the error.
+        if let Some((device, label, promise)) = compilation {
+            // After a failure `take` compiles synchronously, which reports the error.
             if let Ok(pipeline) = JsFuture::from(promise).await {
-                MADE.with_borrow_mut(|made| made.push(Made { device, label, pipeline }));
+                COMPILED.with_borrow_mut(|all| all.push(Compiled { device, label, pipeline }));
             }
         }
-        tell.store(true, Ordering::Release);
+        flag.store(true, Ordering::Release);
     });
-    is_over
+    is_done
 }
 
-fn take(device: &wgpu::Device, ask: &mut dyn FnMut()) {
-    let Some(device) = device.as_webgpu() else { return ask() };
+/// Runs `create` with the compiled pipeline of its label; compiles synchronously without one.
+fn take(device: &wgpu::Device, create: &mut dyn FnMut()) {
+    let Some(device) = device.as_webgpu() else { return create() };
     let device: &JsValue = device.as_ref();
-    stand_in(device, ask, |descriptor| {
+    with_override(device, create, |descriptor| {
         let label = label_of(&descriptor);
-        let found = MADE.with_borrow_mut(|made| {
-            let is_it = |made: &Made| made.label == label && made.device == *device;
-            made.iter().position(is_it).map(|at| made.swap_remove(at).pipeline)
+        let compiled = COMPILED.with_borrow_mut(|all| {
+            let matches = |one: &Compiled| one.label == label && one.device == *device;
+            all.iter().position(matches).map(|at| all.swap_remove(at).pipeline)
         });
-        match found {
+        match compiled {
             Some(pipeline) => Ok(pipeline),
             None => {
                 let class = Object::get_prototype_of(device);
-                let plain: Function = Reflect::get(&class, &PLAIN.into())?.dyn_into()?;
-                plain.call1(device, &descriptor)
+                let method: Function = Reflect::get(&class, &CREATE.into())?.dyn_into()?;
+                method.call1(device, &descriptor)
             }
         }
     });
 }
 
-/// Has `answer` stand in for the device's own method while `ask` runs.
-fn stand_in(
+/// Runs `create` while `method` overrides the device's `createComputePipeline`.
+fn with_override(
     device: &JsValue,
-    ask: &mut dyn FnMut(),
-    mut answer: impl FnMut(JsValue) -> Result<JsValue, JsValue>,
+    create: &mut dyn FnMut(),
+    mut method: impl FnMut(JsValue) -> Result<JsValue, JsValue>,
 ) {
-    // The closure does not outlive this function: it is invalid to JavaScript once dropped, and
-    // the property that held it is gone by then.
-    let answer =
+    // JavaScript must not call the closure after this function; by then the override is deleted.
+    let method =
         ScopedClosure::<dyn FnMut(JsValue) -> Result<JsValue, JsValue>>::borrow_mut_aborting(
-            &mut answer,
+            &mut method,
         );
-    // A property of the object's own comes before its class's; setting and deleting one does not fail.
-    let _ = Reflect::set(device, &PLAIN.into(), answer.as_js_value());
-    ask();
-    let _ = Reflect::delete_property(device.unchecked_ref::<Object>(), &PLAIN.into());
+    // An object's own property hides that of its class. Neither call fails on a device.
+    let _ = Reflect::set(device, &CREATE.into(), method.as_js_value());
+    create();
+    let _ = Reflect::delete_property(device.unchecked_ref::<Object>(), &CREATE.into());
 }
 
 fn label_of(descriptor: &JsValue) -> JsValue {

@@ -1,8 +1,8 @@
-//! A file that is written while it is made: the browser's save dialogue and the stream behind it.
+//! A file on the visitor's disk, written while its content is made (File System Access API).
 //!
-//! In: bytes. Out: a file on the visitor's disk, there under its name when it is closed. The
-//! browser writes behind; [`DiskFile::is_behind`] says when to wait. Not every browser has this:
-//! its parts are looked up by name.
+//! In: bytes. Out: a file, complete once it is closed. The browser writes asynchronously;
+//! [`DiskFile::is_backlogged`] says when to wait. Not every browser has this API, so its methods
+//! are looked up by name.
 
 use std::{
     cell::{Cell, RefCell},
@@ -16,116 +16,122 @@ use wasm_bindgen_futures::spawn_local;
 
 use super::{
     mailbox::{Mailbox, Message},
-    page::{self, call_with, describe, settled},
+    page::{self, call, describe, resolve},
 };
 
-/// Bytes are handed over in pieces of about this size.
-const PIECE_BYTES: usize = 1 << 20;
+/// Approximate bytes of one write.
+const CHUNK_BYTES: usize = 1 << 20;
 
-/// Bytes on their way to the disk at which to wait.
-const BEHIND_BYTES: usize = 16 << 20;
+/// Unwritten bytes above which [`DiskFile::is_backlogged`].
+const MAX_PENDING_BYTES: usize = 16 << 20;
 
-/// Whether this browser writes files while they are made.
-pub fn is_there() -> bool {
+/// Whether this browser has the API.
+pub fn is_supported() -> bool {
     page::window().is_some_and(|window| {
         Reflect::get(&window, &"showSaveFilePicker".into()).is_ok_and(|f| f.is_function())
     })
 }
 
-/// Why there is no file.
-pub enum NoFile {
+/// Why [`DiskFile::choose`] returned no file.
+pub enum ChooseError {
     /// The visitor closed the dialogue.
-    NotChosen,
-    /// The browser refused.
+    Cancelled,
+    /// The browser refused, with its reason.
     Refused(String),
 }
 
-/// A file in the making. Dropped before its end, it is given up.
+/// A file that is being written. Clones share it; dropping the last one unfinished deletes it.
 #[derive(Clone)]
 pub struct DiskFile(Rc<Inner>);
 
 struct Inner {
+    /// The `FileSystemFileHandle`.
     handle: JsValue,
+    /// The `FileSystemWritableFileStream`.
     stream: JsValue,
-    piece: RefCell<Vec<u8>>,
-    waiting_bytes: Cell<usize>,
-    fault: RefCell<Option<String>>,
+    /// Bytes that were not handed to the stream yet.
+    chunk: RefCell<Vec<u8>>,
+    /// Bytes that the stream has not written yet.
+    pending_bytes: Cell<usize>,
+    /// The first error of a write.
+    error: RefCell<Option<String>>,
     is_closed: Cell<bool>,
 }
 
 impl DiskFile {
-    /// Asks the visitor for a file of the given kind. The browser allows it only shortly after a
-    /// click or a key.
-    pub async fn choose(name: &str, mime: &str, ending: &str) -> Result<Self, NoFile> {
-        let refused = |error: JsValue| match name_of(&error).as_deref() {
-            Some("AbortError") => NoFile::NotChosen,
-            _ => NoFile::Refused(describe(&error)),
+    /// Opens the save dialogue. Browsers allow that only shortly after a click or a key.
+    pub async fn choose(name: &str, mime: &str, extension: &str) -> Result<Self, ChooseError> {
+        let choose_error = |error: JsValue| match error_name(&error).as_deref() {
+            Some("AbortError") => ChooseError::Cancelled,
+            _ => ChooseError::Refused(describe(&error)),
         };
         let window = JsValue::from(page::window());
-        let options = options(name, mime, ending);
-        let asked = call_with(&window, "showSaveFilePicker", &Array::of1(&options));
-        let handle = settled(asked).await.map_err(refused)?;
-        let opened = call_with(&handle, "createWritable", &Array::new());
-        let stream = settled(opened).await.map_err(refused)?;
+        let options = dialogue_options(name, mime, extension);
+        let chosen = call(&window, "showSaveFilePicker", &Array::of1(&options));
+        let handle = resolve(chosen).await.map_err(choose_error)?;
+        let opened = call(&handle, "createWritable", &Array::new());
+        let stream = resolve(opened).await.map_err(choose_error)?;
         Ok(Self(Rc::new(Inner {
             handle,
             stream,
-            piece: RefCell::default(),
-            waiting_bytes: Cell::new(0),
-            fault: RefCell::default(),
+            chunk: RefCell::default(),
+            pending_bytes: Cell::new(0),
+            error: RefCell::default(),
             is_closed: Cell::new(false),
         })))
     }
 
-    /// Whether the disk has to catch up before more is made.
-    pub fn is_behind(&self) -> bool {
-        self.0.waiting_bytes.get() > BEHIND_BYTES
+    /// Whether the browser has over 16 MiB left to write.
+    pub fn is_backlogged(&self) -> bool {
+        self.0.pending_bytes.get() > MAX_PENDING_BYTES
     }
 
-    /// Writes the rest, closes the file, and posts how that went.
+    /// Writes the last bytes, closes the file, and posts the outcome as a notice about `name`.
     pub fn finish(self, name: String, mailbox: &Mailbox) {
         let mailbox = mailbox.clone();
-        self.send();
+        self.write_chunk();
         self.0.is_closed.set(true);
-        let closed = call_with(&self.0.stream, "close", &Array::new());
+        let closed = call(&self.0.stream, "close", &Array::new());
         spawn_local(async move {
-            let outcome = settled(closed).await.map_err(|error| describe(&error));
-            let fault = self.0.fault.borrow_mut().take();
-            mailbox.post(match outcome.and(fault.map_or(Ok(()), Err)) {
+            let outcome = resolve(closed).await.map_err(|error| describe(&error));
+            let write_error = self.0.error.borrow_mut().take();
+            mailbox.post(match outcome.and(write_error.map_or(Ok(()), Err)) {
                 Ok(()) => Message::Notice(format!("Saved {name}.")),
-                Err(reason) => Message::Complaint(format!("{name} was not saved: {reason}")),
+                Err(reason) => Message::Error(format!(
+                    "{name} could not be saved ({reason}). Check the free space on the disk, then save again."
+                )),
             });
         });
     }
 
-    /// Hands what has gathered to the browser.
-    fn send(&self) {
-        let piece = std::mem::take(&mut *self.0.piece.borrow_mut());
-        if piece.is_empty() {
+    /// Hands the collected bytes to the stream.
+    fn write_chunk(&self) {
+        let chunk = std::mem::take(&mut *self.0.chunk.borrow_mut());
+        if chunk.is_empty() {
             return;
         }
         let inner = self.0.clone();
-        inner.waiting_bytes.set(inner.waiting_bytes.get() + piece.len());
-        // A copy on JavaScript's side: the module's own memory may move meanwhile.
-        let bytes = Uint8Array::from(piece.as_slice());
-        let written = call_with(&inner.stream, "write", &Array::of1(&bytes));
+        inner.pending_bytes.set(inner.pending_bytes.get() + chunk.len());
+        // A copy in JavaScript's memory: the module's own memory can move before the write.
+        let bytes = Uint8Array::from(chunk.as_slice());
+        let written = call(&inner.stream, "write", &Array::of1(&bytes));
         spawn_local(async move {
-            if let Err(error) = settled(written).await {
-                inner.fault.borrow_mut().get_or_insert_with(|| describe(&error));
+            if let Err(error) = resolve(written).await {
+                inner.error.borrow_mut().get_or_insert_with(|| describe(&error));
             }
-            inner.waiting_bytes.set(inner.waiting_bytes.get() - piece.len());
+            inner.pending_bytes.set(inner.pending_bytes.get() - chunk.len());
         });
     }
 }
 
 impl io::Write for DiskFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if let Some(fault) = &*self.0.fault.borrow() {
-            return Err(io::Error::other(fault.clone()));
+        if let Some(error) = &*self.0.error.borrow() {
+            return Err(io::Error::other(error.clone()));
         }
-        self.0.piece.borrow_mut().extend_from_slice(bytes);
-        if self.0.piece.borrow().len() >= PIECE_BYTES {
-            self.send();
+        self.0.chunk.borrow_mut().extend_from_slice(bytes);
+        if self.0.chunk.borrow().len() >= CHUNK_BYTES {
+            self.write_chunk();
         }
         Ok(bytes.len())
     }
@@ -140,35 +146,35 @@ impl Drop for Inner {
         if self.is_closed.get() {
             return;
         }
-        let aborted = call_with(&self.stream, "abort", &Array::new());
+        let aborted = call(&self.stream, "abort", &Array::new());
         let handle = self.handle.clone();
         spawn_local(async move {
-            // The file is the stream's until that has let go of it, well or not.
-            if let Err(error) = settled(aborted).await {
-                log::warn!("abort: {}", describe(&error));
+            // The stream locks the file until the abort has ended, even if it fails.
+            if let Err(error) = resolve(aborted).await {
+                log::warn!("abort failed: {}", describe(&error));
             }
-            // The dialogue has made an empty file of that name.
-            page::call(&handle, "remove");
+            // The save dialogue created an empty file.
+            page::call_and_log(&handle, "remove");
         });
     }
 }
 
-/// What the dialogue proposes: `{suggestedName, types: [{accept: {mime: [ending]}}]}`.
-fn options(name: &str, mime: &str, ending: &str) -> JsValue {
+/// The dialogue's options: `{suggestedName, types: [{accept: {mime: [extension]}}]}`.
+fn dialogue_options(name: &str, mime: &str, extension: &str) -> JsValue {
     let object = |key: &str, value: &JsValue| {
         let object = Object::new();
         // Setting a property of a plain object does not fail.
         let _ = Reflect::set(&object, &key.into(), value);
         object
     };
-    let accept = object(mime, &Array::of1(&ending.into()));
-    let kind = object("accept", &accept);
-    let options = object("types", &Array::of1(&kind));
+    let accept = object(mime, &Array::of1(&extension.into()));
+    let file_type = object("accept", &accept);
+    let options = object("types", &Array::of1(&file_type));
     let _ = Reflect::set(&options, &"suggestedName".into(), &name.into());
     options.into()
 }
 
-/// The name of a thrown error.
-fn name_of(error: &JsValue) -> Option<String> {
+/// The `name` property of a thrown error.
+fn error_name(error: &JsValue) -> Option<String> {
     Reflect::get(error, &"name".into()).ok()?.as_string()
 }

@@ -1,6 +1,6 @@
-//! Files in and out of the page: downloads, the file picker, dropped files, the clipboard.
+//! Downloads, the file dialogue, dropped files and the clipboard.
 //!
-//! In: bytes and names. Out: bytes and names, by the mailbox. What is in a file is not known here.
+//! In: bytes and names. Out: bytes and names, through the mailbox. Does not know what a file means.
 
 use std::io::{self, Write};
 
@@ -14,64 +14,63 @@ use super::{
 };
 use crate::scene::{document::MAX_BYTES, environment_map::decode::MAX_FILE_BYTES};
 
-/// As much as is read of a file that may hold a scene: one byte more than of a document, so that
-/// what is too large is known as such. A picture carries its scene ahead of its pixels.
+/// Bytes read of a file that may hold a scene: one over a document's limit, so that the decoder
+/// refuses a larger document. A picture's scene precedes its pixels.
 const MAX_READ_BYTES: f64 = (MAX_BYTES + 1) as f64;
 
-/// Largest environment map: one byte more than is decoded, so that what is too
-/// large is known as such.
-const MAX_PANORAMA_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
+/// Bytes read of an environment map: one over the decoder's limit, so that it refuses a larger one.
+const MAX_ENVIRONMENT_MAP_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
 
-/// How the names of environment maps end.
-const PANORAMA_ENDINGS: [&str; 3] = [".hdr", ".pic", ".exr"];
+/// Extensions of environment maps.
+const ENVIRONMENT_MAP_EXTENSIONS: [&str; 3] = [".hdr", ".pic", ".exr"];
 
-/// A download is handed over in pieces of about this size.
-const PIECE_BYTES: usize = 1 << 20;
+/// Approximate bytes of one blob of a download.
+const CHUNK_BYTES: usize = 1 << 20;
 
-/// A browser may still be reading a download when the click returns; this long it stays valid.
+/// Milliseconds that a download's URL stays valid: a browser may read it after the click returns.
 const REVOKE_AFTER_MS: i32 = 60_000;
 
-/// A file that is handed to the browser piece by piece, so that it never stands whole in the
-/// module's own memory.
+/// A download in pieces, so that the module's memory never holds the whole file.
 #[derive(Default)]
 pub struct Download {
-    parts: js_sys::Array,
-    piece: Vec<u8>,
+    blobs: js_sys::Array,
+    chunk: Vec<u8>,
 }
 
 impl Download {
-    /// Offers the whole as a download called `name`.
+    /// Starts the download, under the name `name`.
     ///
     /// # Errors
-    /// What the browser says, mostly of memory.
+    /// The browser's message, mostly that memory is short.
     pub fn finish(mut self, name: &str, mime: &str) -> Result<(), String> {
-        self.hand_over().and_then(|()| self.offer(name, mime)).map_err(|error| describe(&error))
+        self.push_chunk().and_then(|()| self.start(name, mime)).map_err(|error| describe(&error))
     }
 
-    fn hand_over(&mut self) -> Result<(), JsValue> {
-        if !self.piece.is_empty() {
-            let bytes = js_sys::Uint8Array::from(self.piece.as_slice());
-            // A blob for each piece lets the browser move it out of memory.
-            self.parts.push(&Blob::new_with_u8_array_sequence(&js_sys::Array::of1(&bytes))?.into());
-            self.piece.clear();
+    /// Moves the collected bytes into a blob.
+    fn push_chunk(&mut self) -> Result<(), JsValue> {
+        if !self.chunk.is_empty() {
+            let bytes = js_sys::Uint8Array::from(self.chunk.as_slice());
+            // A browser can keep blobs on disk, but not arrays.
+            self.blobs.push(&Blob::new_with_u8_array_sequence(&js_sys::Array::of1(&bytes))?.into());
+            self.chunk.clear();
         }
         Ok(())
     }
 
-    fn offer(self, name: &str, mime: &str) -> Result<(), JsValue> {
+    fn start(self, name: &str, mime: &str) -> Result<(), JsValue> {
         let options = BlobPropertyBag::new();
         options.set_type(mime);
-        let blob = Blob::new_with_blob_sequence_and_options(&self.parts, &options)?;
+        let blob = Blob::new_with_blob_sequence_and_options(&self.blobs, &options)?;
         let url = Url::create_object_url_with_blob(&blob)?;
         let anchor: HtmlAnchorElement = document()
-            .ok_or_else(|| JsValue::from_str("there is no document"))?
+            .ok_or_else(|| JsValue::from_str("the page has no document"))?
             .create_element("a")?
             .unchecked_into();
         anchor.set_href(&url);
         anchor.set_download(name);
         anchor.click();
         page::after_ms(REVOKE_AFTER_MS, move || {
-            // An address that is already gone needs no revoking.
+            // A URL that is already revoked needs nothing more.
             let _ = Url::revoke_object_url(&url);
         });
         Ok(())
@@ -80,9 +79,9 @@ impl Download {
 
 impl io::Write for Download {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.piece.extend_from_slice(bytes);
-        if self.piece.len() >= PIECE_BYTES {
-            self.hand_over().map_err(|error| io::Error::other(describe(&error)))?;
+        self.chunk.extend_from_slice(bytes);
+        if self.chunk.len() >= CHUNK_BYTES {
+            self.push_chunk().map_err(|error| io::Error::other(describe(&error)))?;
         }
         Ok(bytes.len())
     }
@@ -92,60 +91,63 @@ impl io::Write for Download {
     }
 }
 
-/// Offers `text` as a download called `name`.
+/// Downloads `text` as a file called `name`.
+///
+/// # Errors
+/// Those of [`Download::finish`].
 pub fn download_text(name: &str, mime: &str, text: &str) -> Result<(), String> {
     let mut download = Download::default();
     download.write_all(text.as_bytes()).map_err(|error| error.to_string())?;
     download.finish(name, mime)
 }
 
-/// The browser's file dialogue, through an input element that is never shown.
-pub struct Picker {
+/// The browser's file dialogue, opened through a hidden input element.
+pub struct FilePicker {
     input: Option<HtmlInputElement>,
 }
 
-impl Picker {
-    /// Prepares a picker that posts what is chosen.
+impl FilePicker {
+    /// A picker that posts each chosen file.
     pub fn new(mailbox: &Mailbox) -> Self {
-        let input = make_input();
+        let input = create_input();
         match &input {
             Ok(input) => {
-                let (chosen, mailbox) = (input.clone(), mailbox.clone());
+                let (source, mailbox) = (input.clone(), mailbox.clone());
                 page::listen(input, "change", move || {
-                    if let Some(file) = chosen.files().and_then(|files| files.get(0)) {
+                    if let Some(file) = source.files().and_then(|files| files.get(0)) {
                         read(&file, &mailbox);
                     }
                 });
             }
-            Err(error) => log::warn!("no file picker: {}", describe(error)),
+            Err(error) => log::warn!("cannot create the file dialogue: {}", describe(error)),
         }
         Self { input: input.ok() }
     }
 
-    /// Opens the dialogue. The browser allows it only shortly after a click or a key.
+    /// Opens the dialogue. Browsers allow that only shortly after a click or a key.
     pub fn open(&self) {
         if let Some(input) = &self.input {
-            // Emptied, so that choosing the same file again is a change.
+            // Cleared, because choosing the same file again fires no event otherwise.
             input.set_value("");
             input.click();
         }
     }
 }
 
-fn make_input() -> Result<HtmlInputElement, JsValue> {
-    let document = document().ok_or_else(|| JsValue::from_str("there is no document"))?;
+fn create_input() -> Result<HtmlInputElement, JsValue> {
+    let document = document().ok_or_else(|| JsValue::from_str("the page has no document"))?;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
     input.set_type("file");
     input.set_accept(".json,.png,.hdr,.pic,.exr,application/json,image/png");
     input.set_hidden(true);
-    // Some browsers open the dialogue only for an element that is in the page.
+    // Some browsers open the dialogue only for an element in the document.
     if let Some(body) = document.body() {
         body.append_child(&input)?;
     }
     Ok(input)
 }
 
-/// Reads `file` and posts it.
+/// Reads `file` and posts its content.
 pub fn read(file: &web_sys::File, mailbox: &Mailbox) {
     let (file, mailbox) = (file.clone(), mailbox.clone());
     spawn_local(async move {
@@ -155,31 +157,32 @@ pub fn read(file: &web_sys::File, mailbox: &Mailbox) {
     });
 }
 
+/// The first bytes of `file`, as many as its kind needs.
 async fn read_start(file: &web_sys::File) -> Result<Vec<u8>, JsValue> {
     let name = file.name().to_lowercase();
-    let is_environment_map = PANORAMA_ENDINGS.iter().any(|ending| name.ends_with(ending));
-    let most = if is_environment_map { MAX_PANORAMA_BYTES } else { MAX_READ_BYTES };
-    let start = file.slice_with_f64_and_f64(0.0, file.size().min(most))?;
+    let is_environment_map = ENVIRONMENT_MAP_EXTENSIONS.iter().any(|end| name.ends_with(end));
+    let max_bytes = if is_environment_map { MAX_ENVIRONMENT_MAP_BYTES } else { MAX_READ_BYTES };
+    let start = file.slice_with_f64_and_f64(0.0, file.size().min(max_bytes))?;
     let buffer = JsFuture::from(start.array_buffer()).await?;
     Ok(js_sys::Uint8Array::new(&buffer).to_vec())
 }
 
-/// Copies `text` to the clipboard and posts whether that went well.
-pub fn copy_text(text: String, said_when_done: &str, mailbox: &Mailbox) {
-    let (mailbox, done) = (mailbox.clone(), said_when_done.to_owned());
+/// Copies `link` to the clipboard, and posts `notice` on success.
+pub fn copy_link(link: String, notice: &str, mailbox: &Mailbox) {
+    let (mailbox, notice) = (mailbox.clone(), notice.to_owned());
     let Some(window) = window() else { return };
     spawn_local(async move {
         let clipboard = window.navigator().clipboard();
-        // The property is missing on pages without TLS, whatever its type says.
+        // On pages without TLS the property is missing, despite its type.
         let outcome = if clipboard.is_undefined() {
-            Err(JsValue::from_str("this page may not use the clipboard"))
+            Err(JsValue::from_str("the browser gives this page no access to the clipboard"))
         } else {
-            JsFuture::from(clipboard.write_text(&text)).await
+            JsFuture::from(clipboard.write_text(&link)).await
         };
         mailbox.post(match outcome {
-            Ok(_) => Message::Notice(done),
-            Err(error) => Message::Complaint(format!(
-                "The link was not copied ({}). Copy it from the address bar.",
+            Ok(_) => Message::Notice(notice),
+            Err(error) => Message::Error(format!(
+                "The link could not be copied ({}). Copy it from the address bar.",
                 describe(&error)
             )),
         });

@@ -1,28 +1,28 @@
-//! What reaches the app between two frames: files, links, outcomes of things that took a while.
+//! A queue of messages from the browser's callbacks to the next frame.
 //!
-//! The browser calls back at moments when the app may be in the middle of a frame. Callbacks
-//! therefore only leave a message and ask for a frame; the app reads its messages when it starts one.
+//! In: messages, at any moment. Out: the same messages, once a frame. A callback can run in the
+//! middle of a frame, so it posts a message and requests a repaint instead of touching the app.
 
 use std::{cell::RefCell, rc::Rc};
 
-/// Something that happened outside a frame.
+/// An event from outside a frame.
 pub enum Message {
-    /// A file was picked or dropped.
+    /// The visitor picked or dropped a file.
     File {
-        /// Its name, for messages.
+        /// The file's name, for notices.
         name: String,
-        /// Its content, or why it could not be read.
+        /// The file's bytes, or why the browser could not read them.
         content: Result<Vec<u8>, String>,
     },
-    /// The address's fragment was changed by someone else.
+    /// The visitor changed the address's fragment, given without `#`.
     Fragment(String),
-    /// Something to tell the person at the page.
+    /// A success to show to the visitor.
     Notice(String),
-    /// The same, of something that failed.
-    Complaint(String),
+    /// A failure to show to the visitor.
+    Error(String),
 }
 
-/// Messages on their way to the app. Clones share the same box.
+/// A queue of messages to the app. Clones share one queue.
 #[derive(Clone, Default)]
 pub struct Mailbox {
     inner: Rc<RefCell<Inner>>,
@@ -35,20 +35,20 @@ struct Inner {
 }
 
 impl Mailbox {
-    /// Says whom to wake; a new app after a lost device replaces the one before.
-    pub fn wakes(&self, context: &egui::Context) {
+    /// Sets the egui context to repaint; each new device has its own.
+    pub fn set_context(&self, context: &egui::Context) {
         self.inner.borrow_mut().context = Some(context.clone());
     }
 
-    /// Leaves a message and asks for a frame.
+    /// Queues a message and requests a repaint.
     pub fn post(&self, message: Message) {
         self.inner.borrow_mut().messages.push(message);
         self.wake();
     }
 
-    /// Asks for a frame.
+    /// Requests a repaint.
     pub fn wake(&self) {
-        // Cloned first: the context may call back while it wakes.
+        // Cloned first: the context may call back into the mailbox.
         let context = self.inner.borrow().context.clone();
         if let Some(context) = context {
             context.request_repaint();

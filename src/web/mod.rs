@@ -1,26 +1,30 @@
-//! The page: start-up, device loss, downloads, drops, the address bar, storage.
+//! The page: start-up, device loss, downloads, dropped files, the address bar, storage.
 //!
 //! In: a canvas and the browser's events. Out: the interface on that canvas, the renderer's work in
-//! small pieces, and everything that the interface asks for but does not do itself.
+//! small pieces, and the interface's [`Action`](crate::ui::Action)s performed.
 //!
-//! The files from top to bottom; each names only files below it.
+//! The files from top to bottom; each imports only files below it:
 //!
-//! | file | what lives there |
+//! | file | what it does |
 //! |---|---|
-//! | [`start`] | opening the GPU, and again when it is lost |
+//! | [`start`] | opens the GPU, starts the app, restarts it after a GPU loss |
 //! | `app` | one frame of the interface |
-//! | `engine` | the GPU's work between frames |
-//! | `test_hook` | the handle that browser tests have |
-//! | `session` | what outlives the GPU: the interface, its scene, where they are kept |
-//! | `picture` | the view in the window and its texture in egui |
-//! | `sequence`, `still` | the frames of a path, or a picture, on their way to a download |
-//! | `autosave` | writes the scene to storage and address at rest |
-//! | `device_loss` | how often, and how carefully, to start again |
-//! | `file_access` | a file that is written while it is made, where the browser can |
-//! | `files`, `address`, `storage` | what the browser takes and gives |
-//! | `async_compile` | pipelines that are compiled while everything else goes on |
-//! | `faults` | what went wrong |
-//! | `mailbox` | what callbacks leave for the next frame |
+//! | `engine` | the GPU work between frames |
+//! | `exporter` | the export in progress |
+//! | `test_hook` | the object by which browser tests drive the page |
+//! | `session` | the state that outlives the GPU: interface, scene, notice |
+//! | `sequence_export` | frames of a path into a zip |
+//! | `still_export` | a picture into a download |
+//! | `autosave` | writes the scene to storage and address |
+//! | `device_loss` | how often to restart, and in which safe mode |
+//! | `file_access` | a file on the disk, written while its content is made |
+//! | `files` | downloads, file dialogue, dropped files, clipboard |
+//! | `address` | the scene in the address bar |
+//! | `storage` | texts in the browser's storage |
+//! | `error_log` | panics and errors of the visit |
+//! | `live_view` | the picture in the window and its texture in egui |
+//! | `async_compile` | pipelines compiled while the page goes on |
+//! | `mailbox` | messages from callbacks to the next frame |
 //! | `page` | the window: clocks, timers, listeners |
 
 mod address;
@@ -29,15 +33,16 @@ mod async_compile;
 mod autosave;
 mod device_loss;
 mod engine;
-mod faults;
+mod error_log;
+mod exporter;
 mod file_access;
 mod files;
+mod live_view;
 mod mailbox;
 mod page;
-mod picture;
-mod sequence;
+mod sequence_export;
 mod session;
 pub mod start;
-mod still;
+mod still_export;
 mod storage;
 mod test_hook;

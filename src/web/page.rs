@@ -1,7 +1,7 @@
-//! The browser's window as the rest of this layer wants it: clocks, timers, the query, a plain notice.
+//! The browser's window: clocks, timers, listeners, the query, the notice over the page.
 //!
-//! In: nothing. Out: values that are absent rather than a panic where a browser withholds them.
-//! It knows neither scenes nor the interface.
+//! In: nothing. Out: values; `None` where a browser withholds one. Knows neither scenes nor the
+//! interface.
 
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
@@ -9,12 +9,12 @@ use web_sys::{Document, Window};
 
 #[wasm_bindgen]
 extern "C" {
-    /// The page's own notice, drawn by the boot script without any GPU.
+    /// The boot script's notice over the page, which needs no GPU.
     #[wasm_bindgen(catch, js_namespace = window, js_name = mandelightNotice)]
     fn mandelight_notice(text: &str, detail: &str) -> Result<(), JsValue>;
 }
 
-/// The browser's window; absent in a worker, where this program never runs.
+/// The browser's window; `None` only in a worker, where Mandelight never runs.
 pub fn window() -> Option<Window> {
     web_sys::window()
 }
@@ -29,7 +29,7 @@ pub fn document() -> Option<Document> {
     window()?.document()
 }
 
-/// Seconds since the page was opened, steady.
+/// Seconds since the page was opened; never goes back.
 pub fn now_secs() -> f64 {
     window().and_then(|window| window.performance()).map_or(0.0, |clock| clock.now() / 1000.0)
 }
@@ -39,40 +39,40 @@ pub fn epoch_secs() -> f64 {
     js_sys::Date::now() / 1000.0
 }
 
-/// Whether the address's query asks for the test hook.
+/// Whether the address's query contains `test`, which installs the test hook.
 pub fn is_test() -> bool {
     window()
         .and_then(|window| window.location().search().ok())
         .is_some_and(|search| search.trim_start_matches('?').split('&').any(|word| word == "test"))
 }
 
-/// Whether the page is hidden: another tab is in front, or the window is minimised.
+/// Whether the page is hidden: behind another tab, or in a minimised window.
 pub fn is_hidden() -> bool {
     document().is_some_and(|document| document.hidden())
 }
 
 /// Shows `text` and `detail` over the page, for when the interface cannot be drawn.
-pub fn notice(text: &str, detail: &str) {
+pub fn show_notice(text: &str, detail: &str) {
     if mandelight_notice(text, detail).is_err() {
         log::error!("{text}: {detail}");
     }
 }
 
-/// Lets the page fill the screen, or no longer. Does nothing where the browser refuses.
+/// Enters or leaves fullscreen. Does nothing where the browser refuses.
 pub fn toggle_fullscreen() {
     let Some(document) = document() else { return };
     match document.document_element().filter(|_| document.fullscreen_element().is_none()) {
-        Some(root) => call(&root, "requestFullscreen"),
-        None => call(&document, "exitFullscreen"),
+        Some(root) => call_and_log(&root, "requestFullscreen"),
+        None => call_and_log(&document, "exitFullscreen"),
     }
 }
 
-/// Calls a method that a browser may lack, and notes its refusal, at once or by a promise.
-pub fn call(target: &JsValue, method: &'static str) {
-    let outcome = call_with(target, method, &js_sys::Array::new());
+/// Calls a method that a browser may lack, and logs an exception or a rejected promise.
+pub fn call_and_log(target: &JsValue, method: &'static str) {
+    let outcome = call(target, method, &js_sys::Array::new());
     spawn_local(async move {
-        if let Err(error) = settled(outcome).await {
-            log::warn!("{method}: {}", describe(&error));
+        if let Err(error) = resolve(outcome).await {
+            log::warn!("{method} failed: {}", describe(&error));
         }
     });
 }
@@ -80,22 +80,18 @@ pub fn call(target: &JsValue, method: &'static str) {
 /// Calls a method that a browser may lack.
 ///
 /// # Errors
-/// What it throws; so it does where it isn't there.
-pub fn call_with(
-    target: &JsValue,
-    method: &str,
-    arguments: &js_sys::Array,
-) -> Result<JsValue, JsValue> {
+/// The method's exception, or a `TypeError` where the method is missing.
+pub fn call(target: &JsValue, method: &str, arguments: &js_sys::Array) -> Result<JsValue, JsValue> {
     js_sys::Reflect::get(target, &JsValue::from_str(method))?
         .dyn_into::<js_sys::Function>()?
         .apply(target, arguments)
 }
 
-/// What comes of a call's outcome, be it a promise or not.
+/// The final value of a call that may have returned a promise.
 ///
 /// # Errors
-/// What was thrown, at once or by the promise.
-pub async fn settled(outcome: Result<JsValue, JsValue>) -> Result<JsValue, JsValue> {
+/// The call's exception, or the promise's rejection.
+pub async fn resolve(outcome: Result<JsValue, JsValue>) -> Result<JsValue, JsValue> {
     JsFuture::from(js_sys::Promise::resolve(&outcome?)).await
 }
 
@@ -106,7 +102,7 @@ pub fn after_ms(delay_ms: i32, action: impl FnOnce() + 'static) {
     if let Err(error) = window
         .set_timeout_with_callback_and_timeout_and_arguments_0(callback.unchecked_ref(), delay_ms)
     {
-        log::warn!("no timer: {}", describe(&error));
+        log::warn!("the browser set no timer: {}", describe(&error));
     }
 }
 
@@ -114,9 +110,9 @@ pub fn after_ms(delay_ms: i32, action: impl FnOnce() + 'static) {
 pub fn listen(target: &web_sys::EventTarget, event: &str, action: impl FnMut() + 'static) {
     let callback = Closure::<dyn FnMut()>::new(action);
     match target.add_event_listener_with_callback(event, callback.as_ref().unchecked_ref()) {
-        // The page's own listeners are never removed, so the closure is the page's to keep.
+        // No listener is ever removed, so leaking the closure is right.
         Ok(()) => callback.forget(),
-        Err(error) => log::warn!("no listener for {event}: {}", describe(&error)),
+        Err(error) => log::warn!("the browser added no {event} listener: {}", describe(&error)),
     }
 }
 

@@ -1,8 +1,8 @@
-//! Start-up, and starting again when the GPU was lost.
+//! Starts the app, and restarts it after the GPU is lost.
 //!
 //! In: the page's canvas. Out: a running app. Neither eframe nor egui-wgpu handles a lost device,
-//! so the device is opened here and watched here, and all that must outlive it is kept in a
-//! [`Session`] outside the app.
+//! so this file opens the device and handles its loss. A [`Session`] outside the app holds all state
+//! that outlives the device.
 
 use std::{
     cell::{Cell, RefCell},
@@ -15,75 +15,75 @@ use wasm_bindgen_futures::spawn_local;
 use web_sys::HtmlCanvasElement;
 
 use super::{
-    app::App, async_compile, device_loss, faults, page, session::Session, test_hook::TestHook,
+    app::App, async_compile, device_loss, error_log, page, session::Session, test_hook::TestHook,
 };
 use crate::{gpu::Gpu, render::MAX_REGION_PX};
 
 thread_local! {
-    /// The one stage of the page. GPU callbacks must be `Send`, so they cannot carry it.
-    static STAGE: RefCell<Option<Rc<Stage>>> = const { RefCell::new(None) };
+    /// The page's only host, for GPU callbacks: these must be `Send`, so they can't own it.
+    static HOST: RefCell<Option<Rc<AppHost>>> = const { RefCell::new(None) };
 }
 
-/// What a page has one of, for as long as it lives.
-struct Stage {
+/// The canvas, egui's runner and the session: one of each a page.
+struct AppHost {
     canvas: HtmlCanvasElement,
     runner: eframe::WebRunner,
     session: Rc<RefCell<Session>>,
-    /// Counts devices, so that a late word about an old one is known as such.
+    /// The number of devices so far; tells a late callback of an old device apart.
     generation: Cell<u32>,
 }
 
-/// Starts the program on `canvas`.
+/// Starts the app on `canvas`.
 ///
 /// # Errors
-/// A text for people, where there is no usable GPU or the interface cannot be drawn.
+/// A text for the visitor: no usable GPU, or no interface.
 #[wasm_bindgen]
 pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
-    if STAGE.with(|slot| slot.borrow().is_some()) {
+    if HOST.with(|slot| slot.borrow().is_some()) {
         return Err(JsValue::from_str("Mandelight was started twice on one page."));
     }
-    faults::watch();
-    let stage = Rc::new(Stage {
+    error_log::install();
+    let host = Rc::new(AppHost {
         canvas,
         runner: eframe::WebRunner::new(),
         session: Rc::new(RefCell::new(Session::open())),
         generation: Cell::new(0),
     });
-    STAGE.with(|slot| slot.replace(Some(stage.clone())));
-    limit_canvas(&stage.canvas);
-    Session::watch_page(&stage.session);
-    raise(&stage).await.map_err(|text| JsValue::from_str(&text))?;
-    // So that keys work before the first click; a page that may not take the focus does without.
-    let _ = stage.canvas.focus();
+    HOST.with(|slot| slot.replace(Some(host.clone())));
+    limit_canvas(&host.canvas);
+    Session::save_on_leave(&host.session);
+    start_app(&host).await.map_err(|text| JsValue::from_str(&text))?;
+    // Makes keys work before the first click; a refusal does no harm.
+    let _ = host.canvas.focus();
     if page::is_test() {
-        TestHook::install(&stage.session);
+        TestHook::install(&host.session);
     }
     Ok(())
 }
 
 /// Opens a device and runs an app on it.
-async fn raise(stage: &Rc<Stage>) -> Result<(), String> {
+async fn start_app(host: &Rc<AppHost>) -> Result<(), String> {
     let mut gpu = Gpu::open(None).await.map_err(|error| error.to_string())?;
     gpu.async_compile = async_compile::async_compile(&gpu.device);
-    let generation = stage.generation.get() + 1;
-    stage.generation.set(generation);
-    watch_device(&gpu.device, generation);
+    let generation = host.generation.get() + 1;
+    host.generation.set(generation);
+    restart_on_loss(&gpu.device, generation);
 
-    let session = stage.session.clone();
-    let options = options_on(&gpu);
-    stage.session.borrow_mut().gpu = Some(gpu.clone());
+    let session = host.session.clone();
+    let options = web_options(&gpu);
+    host.session.borrow_mut().gpu = Some(gpu.clone());
     let create = move |context: &eframe::CreationContext<'_>| {
         let app = App::new(context, gpu, session).ok_or("egui runs without wgpu")?;
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
-    stage
-        .runner
-        .start(stage.canvas.clone(), options, Box::new(create))
+    host.runner
+        .start(host.canvas.clone(), options, Box::new(create))
         .await
         .map_err(|error| page::describe(&error))
 }
 
-fn options_on(gpu: &Gpu) -> eframe::WebOptions {
+/// eframe's options: draw with `gpu`.
+fn web_options(gpu: &Gpu) -> eframe::WebOptions {
     eframe::WebOptions {
         wgpu_options: WgpuConfiguration {
             wgpu_setup: WgpuSetup::Existing(WgpuSetupExisting {
@@ -98,46 +98,50 @@ fn options_on(gpu: &Gpu) -> eframe::WebOptions {
     }
 }
 
-/// Starts again once the device is gone.
-fn watch_device(device: &wgpu::Device, generation: u32) {
+/// Restarts the app once `device` is lost.
+fn restart_on_loss(device: &wgpu::Device, generation: u32) {
     device.set_device_lost_callback(move |reason, message| {
-        let stage = STAGE.with(|slot| slot.borrow().clone());
-        if let Some(stage) = stage.filter(|stage| stage.generation.get() == generation) {
+        let host = HOST.with(|slot| slot.borrow().clone());
+        if let Some(host) = host.filter(|host| host.generation.get() == generation) {
             log::warn!("the GPU was lost ({reason:?}): {message}");
-            // In a task of its own: the callback may come from within a frame.
-            spawn_local(async move { recover(&stage, &message).await });
+            // The callback can run within a frame, which the restart would interrupt.
+            spawn_local(async move { restart(&host, &message).await });
         }
     });
 }
 
-/// Puts a new device under the session, as often as is wise.
-async fn recover(stage: &Rc<Stage>, message: &str) {
-    stage.runner.destroy();
-    let (was_exporting, caution) = {
-        let mut session = stage.session.borrow_mut();
-        (session.lose_gpu(), device_loss::note_loss(session.fragment()))
+/// Restarts the app on a new device, unless devices were lost too often.
+async fn restart(host: &Rc<AppHost>, message: &str) {
+    host.runner.destroy();
+    let (was_exporting, safe_mode) = {
+        let mut session = host.session.borrow_mut();
+        (session.release_gpu(), device_loss::note_loss(session.fragment()))
     };
-    let Some(caution) = caution else {
+    let Some(safe_mode) = safe_mode else {
         give_up(message);
         return;
     };
-    stage.session.borrow_mut().be_cautious(caution);
+    host.session.borrow_mut().enter_safe_mode(safe_mode);
     if was_exporting {
-        stage.session.borrow_mut().complain(
-            "The graphics card was lost, and the picture that was being saved with it. A smaller one may go well.",
+        host.session.borrow_mut().show_error(
+            "The graphics card stopped, which cancelled saving. Save again in a smaller size.",
         );
     }
-    if let Err(error) = raise(stage).await {
+    if let Err(error) = start_app(host).await {
         give_up(&error);
     }
 }
 
+/// Shows a final notice; the visitor can only reload the page.
 fn give_up(detail: &str) {
-    let help = "Your scene is kept. Close other pages that use the graphics card, wait two minutes, then try again.";
-    page::notice("The graphics card was lost too often", &format!("{help}\n{detail}"));
+    let help = "Your scene is saved. Close other pages that use the graphics card, wait two minutes, then try again.";
+    page::show_notice(
+        "The graphics card stopped and could not be restarted",
+        &format!("{help}\n\n{detail}"),
+    );
 }
 
-/// Keeps the canvas within the largest texture: eframe makes its surface as large as the canvas.
+/// Limits the canvas to the largest texture: eframe's surface has the canvas's size.
 fn limit_canvas(canvas: &HtmlCanvasElement) {
     let apply = {
         let style = canvas.style();
@@ -146,7 +150,7 @@ fn limit_canvas(canvas: &HtmlCanvasElement) {
             let limit = format!("{}px", (f64::from(MAX_REGION_PX) / ratio).floor());
             for side in ["max-width", "max-height"] {
                 if let Err(error) = style.set_property(side, &limit) {
-                    log::warn!("the canvas has no {side}: {}", page::describe(&error));
+                    log::warn!("cannot set the canvas's {side}: {}", page::describe(&error));
                 }
             }
         }

@@ -1,63 +1,65 @@
-//! What the browser keeps between visits: text under a few keys.
+//! The browser's storage: texts that outlive a visit or a reload.
 //!
-//! In: keys and text. Out: the text that was there, if any. A blocked or full storage is a console
-//! note, said once, and never an error: the page works without it.
+//! In: keys and texts. Out: the stored texts. A blocked or full storage logs one warning and is no
+//! error: the page works without it.
 
 use std::cell::Cell;
 
 use super::page::{describe, window};
 
 /// The scene in view, as a document.
-pub const SCENE: Shelf = Shelf { key: "mandelight.scene", kind: Kind::Lasting };
-/// How the interface is laid out.
-pub const SETTINGS: Shelf = Shelf { key: "mandelight.settings", kind: Kind::Lasting };
-/// When the GPU was lost, and with which scene; forgotten with the tab.
-pub const LOSSES: Shelf = Shelf { key: "mandelight.losses", kind: Kind::Tab };
+pub const SCENE: StorageKey =
+    StorageKey { name: "mandelight.scene", lifetime: Lifetime::Permanent };
+/// The interface's settings, as JSON.
+pub const SETTINGS: StorageKey =
+    StorageKey { name: "mandelight.settings", lifetime: Lifetime::Permanent };
+/// The times of GPU losses and the scene of the last one, as JSON.
+pub const LOSSES: StorageKey = StorageKey { name: "mandelight.losses", lifetime: Lifetime::Tab };
 
-/// One place for text in the browser's storage.
+/// A key of the browser's storage.
 #[derive(Clone, Copy)]
-pub struct Shelf {
-    key: &'static str,
-    kind: Kind,
+pub struct StorageKey {
+    name: &'static str,
+    lifetime: Lifetime,
 }
 
 #[derive(Clone, Copy)]
-enum Kind {
-    /// Kept until the visitor clears it.
-    Lasting,
-    /// Kept across reloads of one tab.
+enum Lifetime {
+    /// Until the visitor clears the storage.
+    Permanent,
+    /// Across reloads of one tab.
     Tab,
 }
 
 thread_local! {
-    static COMPLAINED: Cell<bool> = const { Cell::new(false) };
+    static HAS_WARNED: Cell<bool> = const { Cell::new(false) };
 }
 
-impl Shelf {
-    /// The text kept here.
+impl StorageKey {
+    /// The stored text.
     pub fn read(self) -> Option<String> {
-        // A blocked storage throws already here.
-        self.open()?.get_item(self.key).ok()?
+        // A blocked storage throws here already.
+        self.open()?.get_item(self.name).ok()?
     }
 
-    /// Keeps `text` here; a full or blocked storage keeps what it had.
+    /// Stores `text`; a full or blocked storage keeps the old text.
     pub fn write(self, text: &str) {
-        let outcome = self.open().map(|storage| storage.set_item(self.key, text));
+        let outcome = self.open().map(|storage| storage.set_item(self.name, text));
         let reason = match outcome {
             Some(Ok(())) => return,
             Some(Err(error)) => describe(&error),
-            None => "it is blocked".to_owned(),
+            None => "the browser blocks it".to_owned(),
         };
-        if !COMPLAINED.replace(true) {
-            log::warn!("the browser's storage keeps nothing of this visit: {reason}");
+        if !HAS_WARNED.replace(true) {
+            log::warn!("cannot write to the browser's storage: {reason}");
         }
     }
 
     fn open(self) -> Option<web_sys::Storage> {
         let window = window()?;
-        match self.kind {
-            Kind::Lasting => window.local_storage().ok()?,
-            Kind::Tab => window.session_storage().ok()?,
+        match self.lifetime {
+            Lifetime::Permanent => window.local_storage().ok()?,
+            Lifetime::Tab => window.session_storage().ok()?,
         }
     }
 }

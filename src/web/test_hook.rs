@@ -1,8 +1,7 @@
-//! `window.mandelight`: what a browser test drives the page by, there only when the address asks
-//! for it (`?test`). egui has no accessibility tree on the web, so a test cannot find widgets.
+//! `window.mandelight`: the object by which browser tests drive the page, with `?test` only.
 //!
-//! In: calls from JavaScript. Out: plain objects. It can do nothing that a person at the page
-//! could not do, but for losing the device.
+//! In: calls from JavaScript. Out: plain objects. Except for losing the device, a visitor can do all
+//! that the hook does. egui has no accessibility tree on the web, so the hook locates the widgets.
 
 use std::{cell::RefCell, rc::Rc};
 
@@ -10,7 +9,7 @@ use js_sys::{Array, Object, Promise, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, future_to_promise};
 
-use super::{faults, page, session::Session};
+use super::{error_log, page, session::Session};
 use crate::{
     gpu::{Gpu, readback::Readback},
     render::Activity,
@@ -18,17 +17,17 @@ use crate::{
     ui::zoom,
 };
 
-/// Between two looks for pixels that are on their way, milliseconds.
-const LOOK_EVERY_MS: i32 = 4;
+/// Milliseconds between two polls of a readback.
+const POLL_MS: i32 = 4;
 
-/// The test hook.
+/// The page's test hook.
 #[wasm_bindgen]
 pub struct TestHook {
     session: Rc<RefCell<Session>>,
 }
 
 impl TestHook {
-    /// Puts a hook on the window.
+    /// Sets `window.mandelight`.
     pub fn install(session: &Rc<RefCell<Session>>) {
         let Some(window) = page::window() else { return };
         let hook = JsValue::from(Self { session: session.clone() });
@@ -38,7 +37,7 @@ impl TestHook {
 
 #[wasm_bindgen]
 impl TestHook {
-    /// What the view is doing: counts, milliseconds and pixels.
+    /// The view's report, as an object: counts, milliseconds and pixels.
     pub fn report(&self) -> Object {
         let session = self.session.borrow();
         let status = &session.status;
@@ -50,7 +49,7 @@ impl TestHook {
             Activity::Refining => "refining".to_owned(),
             Activity::Compiling(what) => format!("compiling {what}"),
         };
-        // An idle view without a picture has not begun.
+        // A view without a picture has not started, so it is not idle.
         let idle = report.activity == Activity::Idle
             && session.status.texture.is_some()
             && report.pictures > 0;
@@ -72,12 +71,12 @@ impl TestHook {
         object
     }
 
-    /// The scene in view with its path, as a document.
+    /// The scene in view and its path, as a document.
     pub fn scene(&self) -> String {
         document::project_to_json(self.session.borrow().interface.project())
     }
 
-    /// Puts a scene document in view; throws what is wrong with it.
+    /// Shows the scene of a document; throws a description of the document's error.
     #[wasm_bindgen(js_name = setScene)]
     pub fn set_scene(&self, json: &str) -> Result<(), JsValue> {
         let project = document::project_from_json(json)
@@ -88,7 +87,7 @@ impl TestHook {
         Ok(())
     }
 
-    /// The picture's pixels, read back from the GPU: `{width, height, data}`, RGBA, from the top.
+    /// The picture's pixels, read back from the GPU: `{width, height, data}`, RGBA, top row first.
     pub fn pixels(&self) -> Promise {
         let session = self.session.borrow();
         let source = session.gpu.clone().zip(session.status.texture.clone());
@@ -99,7 +98,7 @@ impl TestHook {
         })
     }
 
-    /// Loses the GPU, as a driver's reset would.
+    /// Destroys the device, as a driver's reset would.
     #[wasm_bindgen(js_name = loseDevice)]
     pub fn lose_device(&self) {
         let gpu = self.session.borrow().gpu.clone();
@@ -108,53 +107,54 @@ impl TestHook {
         }
     }
 
-    /// Where the interface's widgets are: name to `{x, y, width, height}` in CSS pixels.
+    /// The widgets' rectangles: name to `{x, y, width, height}` in CSS pixels.
     #[wasm_bindgen(js_name = uiRects)]
     pub fn ui_rects(&self) -> Object {
         let object = Object::new();
         for (name, rect) in self.session.borrow().interface.rects().iter() {
-            let place = Object::new();
-            set(&place, "x", rect.min.x);
-            set(&place, "y", rect.min.y);
-            set(&place, "width", rect.width());
-            set(&place, "height", rect.height());
-            set(&object, name, place);
+            let bounds = Object::new();
+            set(&bounds, "x", rect.min.x);
+            set(&bounds, "y", rect.min.y);
+            set(&bounds, "width", rect.width());
+            set(&bounds, "height", rect.height());
+            set(&object, name, bounds);
         }
         object
     }
 
     /// Panics and errors of this visit: `{count, messages}`.
     pub fn errors(&self) -> Object {
-        let faults = faults::so_far();
+        let log = error_log::snapshot();
         let object = Object::new();
-        set(&object, "count", faults.count);
+        set(&object, "count", log.count);
         set(
             &object,
             "messages",
-            faults.messages.iter().map(|text| JsValue::from_str(text)).collect::<Array>(),
+            log.messages.iter().map(|text| JsValue::from_str(text)).collect::<Array>(),
         );
         object
     }
 }
 
+/// Reads the texture's pixels: `{width, height, data}`.
 async fn read_back(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Object, JsValue> {
     let size_px = [texture.width(), texture.height()];
     let mut readback = Readback::texture(gpu, texture, size_px);
     loop {
-        let arrived = readback.take(gpu).map_err(|error| JsValue::from_str(&error.to_string()))?;
-        if let Some(bytes) = arrived {
+        let pixels = readback.take(gpu).map_err(|error| JsValue::from_str(&error.to_string()))?;
+        if let Some(bytes) = pixels {
             let object = Object::new();
             set(&object, "width", size_px[0]);
             set(&object, "height", size_px[1]);
             set(&object, "data", Uint8Array::from(bytes.as_slice()));
             return Ok(object);
         }
-        rest(LOOK_EVERY_MS).await?;
+        sleep(POLL_MS).await?;
     }
 }
 
 /// Waits without blocking the page.
-async fn rest(delay_ms: i32) -> Result<(), JsValue> {
+async fn sleep(delay_ms: i32) -> Result<(), JsValue> {
     let promise = Promise::new(&mut |resolve, _| {
         page::after_ms(delay_ms, move || {
             // A promise's own resolve function does not throw.

@@ -1,7 +1,7 @@
-//! A still on its way from the GPU to a download, and how exports of any kind tell of themselves.
+//! An export of one picture, or of one for each eye, as downloads.
 //!
-//! In: the scene and a size. Out: progress for the interface, and at the end a file, or one for
-//! each eye, among the visitor's downloads. It is stepped between frames; dropping it cancels it.
+//! In: the scene and a size. Out: an [`ExportStatus`] a step, and in the end the downloads. The
+//! engine steps the export between frames; dropping it cancels it.
 
 use std::sync::Arc;
 
@@ -12,33 +12,33 @@ use crate::{
     scene::Scene,
 };
 
-/// A still in progress, or a pair of them.
-pub struct Still {
+/// The export of a still or of a pair of stills.
+pub struct StillExport {
     pipelines: Arc<Pipelines>,
     scene: Scene,
     options: StillOptions,
     job: StillJob<Download>,
-    /// Whose pictures are wanted, a file each.
+    /// The eye of each file; `None` for a file of the whole picture.
     eyes: &'static [Option<Eye>],
-    /// The files that are with the visitor.
+    /// Names of the downloads so far.
     saved: Vec<String>,
     started_secs: Option<f64>,
 }
 
-/// How an export is getting on.
-pub enum Progress {
-    /// Part of the work done, 0 to 1, and the seconds to go where they can be told.
+/// The status of an export of any kind.
+pub enum ExportStatus {
+    /// The part done, 0 to 1, and the estimated seconds left.
     Working(f64, Option<f64>),
     /// The download has begun; the file's name.
     Saved(String),
-    /// All is written; the browser is closing the file, and says so itself.
+    /// All bytes are handed over; the file posts its own notice once the browser has closed it.
     Closing,
-    /// It will not be finished.
+    /// The export failed, with the reason.
     Failed(String),
 }
 
-impl Still {
-    /// Starts a still of `scene`, or, as a `pair`, one for each eye.
+impl StillExport {
+    /// Starts the export of `scene`; with `pair`, each eye is a file.
     ///
     /// # Errors
     /// A size or a scene out of range.
@@ -61,24 +61,24 @@ impl Still {
         })
     }
 
-    /// Does what can be done without waiting, and hands each file over once it is whole.
-    pub fn step(mut self, now_secs: f64) -> (Option<Self>, Progress) {
+    /// Renders without waiting, and downloads each finished file. `None` once it has ended.
+    pub fn step(mut self, now_secs: f64) -> (Option<Self>, ExportStatus) {
         let started_secs = *self.started_secs.get_or_insert(now_secs);
         match self.job.step(now_secs) {
-            Ok(StillStatus::Working { done, remaining_secs: of_one }) => {
-                let all = self.eyes.len() as u32;
+            Ok(StillStatus::Working { done, remaining_secs: file_secs }) => {
+                let file_count = self.eyes.len() as u32;
                 let done = self.saved.len() as f64 + done;
-                let of_all = remaining_secs(now_secs - started_secs, done, all);
-                let left = if all == 1 { of_one } else { of_all };
-                (Some(self), Progress::Working(done / f64::from(all), left))
+                let pair_secs = remaining_secs(now_secs - started_secs, done, file_count);
+                let left_secs = if file_count == 1 { file_secs } else { pair_secs };
+                (Some(self), ExportStatus::Working(done / f64::from(file_count), left_secs))
             }
-            Ok(StillStatus::Done) => self.hand_over(),
-            Err(error) => (None, Progress::Failed(error.to_string())),
+            Ok(StillStatus::Done) => self.finish_file(),
+            Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
     }
 
-    /// Hands the file over, and turns to the next one where there is one.
-    fn hand_over(mut self) -> (Option<Self>, Progress) {
+    /// Downloads the finished file and starts the next one, if any.
+    fn finish_file(mut self) -> (Option<Self>, ExportStatus) {
         let format = self.options.format;
         let suffix = self.options.eye.map_or("", Eye::suffix);
         let file = self.options.sheet_px(&self.scene).and_then(|[width, height]| {
@@ -91,10 +91,10 @@ impl Still {
         });
         match saved {
             Ok(name) => self.saved.push(name),
-            Err(reason) => return (None, Progress::Failed(reason)),
+            Err(reason) => return (None, ExportStatus::Failed(reason)),
         }
         let Some(&eye) = self.eyes.get(self.saved.len()) else {
-            return (None, Progress::Saved(self.saved.join(" and ")));
+            return (None, ExportStatus::Saved(self.saved.join(" and ")));
         };
         self.options.eye = eye;
         let next =
@@ -102,9 +102,9 @@ impl Still {
         match next {
             Ok(job) => {
                 let done = self.saved.len() as f64 / self.eyes.len() as f64;
-                (Some(Self { job, ..self }), Progress::Working(done, None))
+                (Some(Self { job, ..self }), ExportStatus::Working(done, None))
             }
-            Err(error) => (None, Progress::Failed(error.to_string())),
+            Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
     }
 }

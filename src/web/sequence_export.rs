@@ -1,8 +1,8 @@
 //! An export of a path's frames: rendered one by one into a zip on the visitor's disk.
 //!
-//! In: a path, a size, a range of frames. Out: progress for the interface, and one zip: written
-//! while the frames are rendered where the browser can, else among the downloads. The engine steps
-//! the export between frames; dropping it cancels it.
+//! In: a path, a size, a range of frames. Out: an [`ExportStatus`] a step, and one zip: written to
+//! the disk frame by frame where the browser can, else a download. The engine steps the export
+//! between frames; dropping it cancels it.
 
 use std::{
     cell::RefCell,
@@ -15,10 +15,10 @@ use std::{
 use wasm_bindgen_futures::spawn_local;
 
 use super::{
-    file_access::{self, DiskFile, NoFile},
+    file_access::{self, ChooseError, DiskFile},
     files::Download,
     mailbox::Mailbox,
-    still::Progress,
+    still_export::ExportStatus,
 };
 use crate::{
     export::{ExportError, SequenceJob, StillOptions, StillStatus},
@@ -55,12 +55,12 @@ enum ZipWriter {
 }
 
 impl ZipRequest {
-    /// Opens the save dialogue where the browser has one, and wakes the page after the choice.
+    /// Opens the save dialogue where the browser has one, and requests a repaint after the choice.
     pub fn new(name: String, mailbox: &Mailbox) -> Self {
         let download = |name| {
             ZipChoice::Chosen(Zip { name, writer: ZipWriter::Download(Download::default()) })
         };
-        if !file_access::is_there() {
+        if !file_access::is_supported() {
             return Self(Rc::new(RefCell::new(download(name))));
         }
         let choice = Rc::new(RefCell::new(ZipChoice::Pending));
@@ -68,9 +68,9 @@ impl ZipRequest {
         spawn_local(async move {
             *answer.borrow_mut() = match DiskFile::choose(&name, MIME, ".zip").await {
                 Ok(file) => ZipChoice::Chosen(Zip { name, writer: ZipWriter::Disk(file) }),
-                Err(NoFile::NotChosen) => ZipChoice::Cancelled,
-                Err(NoFile::Refused(reason)) => {
-                    log::warn!("the zip goes to the downloads: {reason}");
+                Err(ChooseError::Cancelled) => ZipChoice::Cancelled,
+                Err(ChooseError::Refused(reason)) => {
+                    log::warn!("no file on the disk, so the zip becomes a download: {reason}");
                     download(name)
                 }
             };
@@ -101,19 +101,19 @@ impl Write for ZipWriter {
     }
 }
 
-/// A sequence in progress.
-pub struct Sequence {
+/// The export of a sequence of frames.
+pub struct SequenceExport {
     job: SequenceJob<ZipWriter>,
     name: String,
-    /// The file on the disk, which can lag behind; none for a download.
+    /// The file on the disk, which can be backlogged; `None` for a download.
     disk_file: Option<DiskFile>,
     mailbox: Mailbox,
-    /// The part done and the seconds left, as of the last step that rendered.
+    /// The part done and the seconds left, after the last step that rendered.
     progress: (f64, Option<f64>),
 }
 
-impl Sequence {
-    /// Starts the sequence of `frames`; with `pair`, each frame is a file for each eye.
+impl SequenceExport {
+    /// Starts the export of `frames`; with `pair`, each frame is a file for each eye.
     ///
     /// # Errors
     /// A size, a range or a path out of range.
@@ -133,34 +133,34 @@ impl Sequence {
         Ok(Self { job, name, disk_file, mailbox: mailbox.clone(), progress: (0.0, None) })
     }
 
-    /// Renders without waiting, and saves the zip once all frames are in it.
-    pub fn step(mut self, now_secs: f64) -> (Option<Self>, Progress) {
-        if self.disk_file.as_ref().is_some_and(DiskFile::is_behind) {
+    /// Renders without waiting, and saves the complete zip. `None` once it has ended.
+    pub fn step(mut self, now_secs: f64) -> (Option<Self>, ExportStatus) {
+        if self.disk_file.as_ref().is_some_and(DiskFile::is_backlogged) {
             let (done, remaining_secs) = self.progress;
-            return (Some(self), Progress::Working(done, remaining_secs));
+            return (Some(self), ExportStatus::Working(done, remaining_secs));
         }
         match self.job.step(now_secs) {
             Ok(StillStatus::Working { done, remaining_secs }) => {
                 self.progress = (done, remaining_secs);
-                (Some(self), Progress::Working(done, remaining_secs))
+                (Some(self), ExportStatus::Working(done, remaining_secs))
             }
             Ok(StillStatus::Done) => (None, self.finish()),
-            Err(error) => (None, Progress::Failed(error.to_string())),
+            Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
     }
 
-    fn finish(self) -> Progress {
+    fn finish(self) -> ExportStatus {
         let Self { job, name, mailbox, .. } = self;
         match job.finish() {
             Ok(ZipWriter::Disk(file)) => {
                 file.finish(name, &mailbox);
-                Progress::Closing
+                ExportStatus::Closing
             }
             Ok(ZipWriter::Download(download)) => match download.finish(&name, MIME) {
-                Ok(()) => Progress::Saved(name),
-                Err(reason) => Progress::Failed(reason),
+                Ok(()) => ExportStatus::Saved(name),
+                Err(reason) => ExportStatus::Failed(reason),
             },
-            Err(error) => Progress::Failed(error.to_string()),
+            Err(error) => ExportStatus::Failed(error.to_string()),
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The picture in the window: a view of the scene, and the texture by which egui shows it.
+//! The live view: the picture in the window and its texture in egui.
 //!
-//! In: the scene, the size of the viewport. Out: a texture for the interface, always a finished
-//! picture, and the view's report. Compute is submitted here, apart from egui's own pass.
+//! In: the scene, the size of the viewport. Out: a texture of the newest complete picture, and the
+//! view's report. Submits its compute work apart from egui's pass.
 
 use std::sync::Arc;
 
@@ -13,32 +13,34 @@ use crate::{
     ui,
 };
 
-/// A viewport that changes its size is followed once it has kept it for this long, seconds;
-/// until then egui stretches the picture that there is.
-const SETTLED_SECS: f64 = 0.12;
+/// Seconds that a new viewport size must last before the view takes it; until then egui stretches
+/// the old picture.
+const SETTLE_SECS: f64 = 0.12;
 
-/// A view and its texture in egui.
-pub struct Picture {
+/// A [`View`] of the size of the viewport, and its texture in egui.
+pub struct LiveView {
     pipelines: Arc<Pipelines>,
-    state: RenderState,
+    render_state: RenderState,
     view: Option<View>,
     shown: Option<Shown>,
-    wanted: Option<(Region, f64)>,
+    /// A new size that has not settled, and since when.
+    pending_region: Option<(Region, f64)>,
 }
 
-/// What egui shows.
+/// The texture that egui shows.
 struct Shown {
     picture: ui::Picture,
+    /// The view's texture generation.
     generation: u64,
 }
 
-impl Picture {
-    /// A picture without a size, hence without a view.
-    pub fn new(pipelines: Arc<Pipelines>, state: RenderState) -> Self {
-        Self { pipelines, state, view: None, shown: None, wanted: None }
+impl LiveView {
+    /// A live view without a size and without a picture.
+    pub fn new(pipelines: Arc<Pipelines>, render_state: RenderState) -> Self {
+        Self { pipelines, render_state, view: None, shown: None, pending_region: None }
     }
 
-    /// The picture to show, once there is one.
+    /// The picture for egui; `None` before the first one.
     pub fn shown(&self) -> Option<ui::Picture> {
         self.shown.as_ref().map(|shown| shown.picture)
     }
@@ -48,7 +50,7 @@ impl Picture {
         self.view.as_ref().and_then(View::texture)
     }
 
-    /// What the view is doing.
+    /// The view's report.
     pub fn report(&self) -> Report {
         self.view.as_ref().map(View::report).unwrap_or_default()
     }
@@ -58,8 +60,8 @@ impl Picture {
         self.view.as_ref().map(View::dispatches).unwrap_or_default()
     }
 
-    /// Asks for a picture of `size_px` pixels, `scale` times as large a side, that both eyes of a
-    /// layout share. Returns after how many seconds to ask again while the size is still settling.
+    /// Resizes the picture to `size_px` times `scale`, a size that both eyes of `layout` share.
+    /// Returns the seconds until the size settles, if it has not.
     pub fn resize(
         &mut self,
         size_px: [u32; 2],
@@ -74,20 +76,20 @@ impl Picture {
             return None;
         };
         if view.region() == region {
-            self.wanted = None;
+            self.pending_region = None;
             return None;
         }
         if view.region().eyes != region.eyes {
-            // Asked for by a click: at once.
+            // A stereo layout changes by a click, so there is nothing to settle.
             view.set_region(region);
             return None;
         }
-        let since_secs = match self.wanted {
-            Some((wanted, since_secs)) if wanted == region => since_secs,
+        let since_secs = match self.pending_region {
+            Some((pending, since_secs)) if pending == region => since_secs,
             _ => now_secs,
         };
-        self.wanted = Some((region, since_secs));
-        let left_secs = since_secs + SETTLED_SECS - now_secs;
+        self.pending_region = Some((region, since_secs));
+        let left_secs = since_secs + SETTLE_SECS - now_secs;
         if left_secs > 0.0 {
             return Some(left_secs);
         }
@@ -95,61 +97,61 @@ impl Picture {
         None
     }
 
-    /// Gives the view its scene; `moving` says that more changes are expected at once.
+    /// Sets the scene; `moving` announces more changes at once.
     pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
         if let Some(view) = &mut self.view {
             view.set_scene(scene, moving);
         }
     }
 
-    /// Says that the interface draws a frame.
+    /// Notes that the interface draws a frame.
     pub fn note_frame(&mut self) {
         if let Some(view) = &mut self.view {
             view.note_frame();
         }
     }
 
-    /// Says that the interface has just submitted its drawing of a frame.
+    /// Notes that the interface has just submitted its drawing of a frame.
     pub fn time_frame(&mut self) {
         if let Some(view) = &mut self.view {
             view.time_frame();
         }
     }
 
-    /// Says whether the interface shows the film's histogram.
+    /// Turns the film's histogram in the report on or off.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if let Some(view) = &mut self.view {
             view.watch_histogram(wanted);
         }
     }
 
-    /// Gives the view the environment map that is at hand.
+    /// Sets the loaded environment map.
     pub fn set_environment_map(&mut self, environment_map: Option<&Arc<EnvironmentMap>>) {
         if let Some(view) = &mut self.view {
             view.set_environment_map(environment_map);
         }
     }
 
-    /// Draws as much as fits now. Returns whether there is more to do.
+    /// Submits as much work as fits now. Returns whether more is left.
     pub fn pump(&mut self, now_secs: f64) -> bool {
         let Some(view) = &mut self.view else { return false };
         let busy = view.pump(now_secs);
-        self.show_newest();
+        self.update_egui_texture();
         busy
     }
 
-    /// Lets egui show the view's texture, where it is another one than before.
-    fn show_newest(&mut self) {
+    /// Registers the view's texture with egui when the view has replaced it.
+    fn update_egui_texture(&mut self) {
         let Some(view) = &self.view else { return };
         let generation = view.texture_generation();
         let Some(texture) = view.texture() else { return };
         if self.shown.as_ref().is_some_and(|shown| shown.generation == generation) {
             return;
         }
-        let device = &self.state.device;
+        let device = &self.render_state.device;
         let texture_view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let filter = wgpu::FilterMode::Linear;
-        let mut renderer = self.state.renderer.write();
+        let mut renderer = self.render_state.renderer.write();
         let id = match &self.shown {
             Some(Shown { picture: ui::Picture { texture: id, .. }, .. }) => {
                 renderer.update_egui_texture_from_wgpu_texture(device, &texture_view, filter, *id);
@@ -164,10 +166,10 @@ impl Picture {
     }
 }
 
-impl Drop for Picture {
+impl Drop for LiveView {
     fn drop(&mut self) {
         if let Some(shown) = &self.shown {
-            self.state.renderer.write().free_texture(&shown.picture.texture);
+            self.render_state.renderer.write().free_texture(&shown.picture.texture);
         }
     }
 }

@@ -1,0 +1,162 @@
+//! The export in progress: its start, its steps, its progress and its notices.
+//!
+//! In: sizes and frames to export, of the session's scene. Out: files, progress for the interface,
+//! notices. Runs one export at a time.
+
+use std::{ops::Range, sync::Arc};
+
+use super::{
+    sequence_export::{SequenceExport, ZipChoice, ZipRequest},
+    session::Session,
+    still_export::{ExportStatus, StillExport},
+};
+use crate::{
+    export::{PictureFormat, StillOptions},
+    render::Pipelines,
+    ui::ExportProgress,
+};
+
+/// Runs exports on one device.
+pub struct Exporter {
+    pipelines: Arc<Pipelines>,
+    export: Option<Export>,
+    progress: Option<ExportProgress>,
+    /// The sequence whose zip the visitor has yet to choose.
+    requested_sequence: Option<RequestedSequence>,
+}
+
+/// An export of any kind.
+enum Export {
+    Still(Box<StillExport>),
+    Sequence(Box<SequenceExport>),
+}
+
+/// A sequence that starts once the visitor has chosen its zip.
+struct RequestedSequence {
+    options: StillOptions,
+    frames: Range<u32>,
+    /// Whether each frame is a file for each eye.
+    pair: bool,
+    zip: ZipRequest,
+}
+
+impl Exporter {
+    /// An exporter without an export.
+    pub fn new(pipelines: Arc<Pipelines>) -> Self {
+        Self { pipelines, export: None, progress: None, requested_sequence: None }
+    }
+
+    /// Whether an export is in progress.
+    pub fn is_busy(&self) -> bool {
+        self.export.is_some()
+    }
+
+    /// The progress of the export, for the interface.
+    pub fn progress(&self) -> Option<ExportProgress> {
+        self.progress
+    }
+
+    /// Starts to export a still of the scene in view; with `pair`, each eye is a file.
+    pub fn start_still(
+        &mut self,
+        size_px: [u32; 2],
+        format: PictureFormat,
+        pair: bool,
+        session: &mut Session,
+    ) {
+        let environment_map = session.interface.environment_map().cloned();
+        let options = StillOptions { environment_map, format, ..StillOptions::new(size_px) };
+        match StillExport::start(&self.pipelines, session.interface.scene(), options, pair) {
+            Ok(still) => self.begin(Export::Still(Box::new(still))),
+            Err(error) => session.show_error(format!("The picture could not be saved: {error}")),
+        }
+    }
+
+    /// Requests a zip for `frames` of the path; [`Self::start_requested_sequence`] uses the answer.
+    pub fn request_sequence(
+        &mut self,
+        size_px: [u32; 2],
+        frames: Range<u32>,
+        pair: bool,
+        session: &Session,
+    ) {
+        let [width, height] = size_px;
+        let environment_map = session.interface.environment_map().cloned();
+        let options = StillOptions { environment_map, ..StillOptions::new(size_px) };
+        let zip = ZipRequest::new(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
+        self.requested_sequence = Some(RequestedSequence { options, frames, pair, zip });
+    }
+
+    /// Starts the requested sequence once its zip is chosen.
+    pub fn start_requested_sequence(&mut self, session: &mut Session) {
+        let Some(requested) = self.requested_sequence.take() else { return };
+        let zip = match requested.zip.take_choice() {
+            ZipChoice::Pending => {
+                self.requested_sequence = Some(requested);
+                return;
+            }
+            ZipChoice::Cancelled => return,
+            ZipChoice::Chosen(zip) => zip,
+        };
+        let path = session.interface.project().path.clone();
+        match SequenceExport::start(
+            &self.pipelines,
+            path,
+            requested.frames,
+            (requested.options, requested.pair),
+            zip,
+            &session.mailbox,
+        ) {
+            Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
+            Err(error) => session.show_error(format!("The frames could not be saved: {error}")),
+        }
+    }
+
+    fn begin(&mut self, export: Export) {
+        self.export = Some(export);
+        self.progress = Some(ExportProgress { done: 0.0, remaining_secs: None });
+    }
+
+    /// Drops the export in progress.
+    pub fn cancel(&mut self) {
+        self.export = None;
+        self.progress = None;
+    }
+
+    /// Advances the export without waiting, and shows a notice when it ends.
+    pub fn step(&mut self, session: &mut Session, now_secs: f64) {
+        let Some(export) = self.export.take() else { return };
+        let (export, status) = export.step(now_secs);
+        self.export = export;
+        self.progress = match status {
+            ExportStatus::Working(done, remaining_secs) => {
+                Some(ExportProgress { done: done as f32, remaining_secs })
+            }
+            ExportStatus::Saved(name) => {
+                session.show_notice(format!("Saved {name}."));
+                None
+            }
+            ExportStatus::Closing => None,
+            ExportStatus::Failed(reason) => {
+                session.show_error(format!("Saving failed: {reason}. Try a smaller size."));
+                None
+            }
+        };
+    }
+}
+
+impl Export {
+    /// Advances the export without waiting; `None` once it has ended.
+    fn step(self, now_secs: f64) -> (Option<Self>, ExportStatus) {
+        match self {
+            Self::Still(still) => {
+                let (still, status) = still.step(now_secs);
+                (still.map(|still| Self::Still(Box::new(still))), status)
+            }
+            Self::Sequence(sequence) => {
+                let (sequence, status) = sequence.step(now_secs);
+                (sequence.map(|sequence| Self::Sequence(Box::new(sequence))), status)
+            }
+        }
+    }
+}
