@@ -1,39 +1,39 @@
-// Brings the page up: asks whether the browser can do it, loads the module, starts it on the canvas.
-// Whatever goes wrong is said in the notice, with what would help; the page never stays blank.
+// Boots the page: checks for WebGPU, loads the module, starts it on the canvas.
+// Every failure becomes a notice that says what to do; the page never stays blank.
 
-/** The module's size in bytes, filled in by the build: a host that compresses does not tell it. */
+/** The module's size in bytes, set by the build: a compressed response does not contain it. */
 const WASM_BYTES = 0;
 
-const part = (name) => document.getElementById(name);
+const element = (id) => document.getElementById(id);
 
 /**
  * Shows the notice over the canvas, or hides it where `text` is empty.
- * The module calls this as well (for a graphics device that is gone for good, say).
- * @param {string} text what is the matter, in a few words
- * @param {string} [detail] what would help; line breaks are kept
- * @param {{again?: boolean, progress?: number}} [more] a button that loads the page again (unless
- *   `again` is false), a progress bar from 0 to 1 (NaN: under way, no telling how far)
+ * The module calls it too, for example after too many GPU losses.
+ * @param {string} text the trouble, in a few words
+ * @param {string} [detail] what to do; line breaks are kept
+ * @param {{again?: boolean, progress?: number}} [options] `again`: whether to show the button that
+ *   reloads the page; `progress`: a progress bar from 0 to 1, NaN where the part done is unknown
  */
-function notice(text, detail = "", { again = true, progress } = {}) {
-  part("notice").hidden = !text;
-  part("notice-text").textContent = text || "";
-  part("notice-detail").textContent = detail;
-  part("notice-again").hidden = !again;
-  const bar = part("notice-progress");
+function showNotice(text, detail = "", { again = true, progress } = {}) {
+  element("notice").hidden = !text;
+  element("notice-text").textContent = text || "";
+  element("notice-detail").textContent = detail;
+  element("notice-again").hidden = !again;
+  const bar = element("notice-progress");
   bar.hidden = progress === undefined;
   if (Number.isFinite(progress)) bar.value = progress;
   else bar.removeAttribute("value");
 }
 
-const loading = (text, progress) => notice("Mandelight", text, { again: false, progress });
+const showLoading = (text, progress) => showNotice("Mandelight", text, { again: false, progress });
 
-/** What is missing for WebGPU here, as a text and what would help; nothing where all is there. */
-async function missing() {
+/** The obstacle to WebGPU and what to do about it; undefined where WebGPU works. */
+async function findObstacle() {
   if (!window.isSecureContext) {
     return {
       text: "This address is not secure",
       detail:
-        "Mandelight computes on the graphics card, through WebGPU, and browsers offer that only to " +
+        "Mandelight draws with the graphics card, through WebGPU. Browsers allow that only to " +
         "pages from https:// addresses and from this computer itself.\n\n" +
         "Open the page by its https:// address, or from localhost.",
     };
@@ -42,114 +42,121 @@ async function missing() {
     return {
       text: "This browser has no WebGPU",
       detail:
-        "Mandelight computes on the graphics card, through WebGPU, which this browser does not have " +
-        "or has turned off.\n\n" +
-        "A current Chrome or Edge has it, as do Safari from version 26 on and current Firefox on " +
-        "Windows and macOS. On Linux it may have to be turned on in the browser's settings.",
+        "Mandelight draws with the graphics card, through WebGPU. This browser does not have WebGPU, " +
+        "or it is turned off.\n\n" +
+        "Open the page in a current Chrome or Edge, in Safari 26 or later, or in a current Firefox on " +
+        "Windows or macOS. On Linux, WebGPU may have to be turned on in the browser's settings.",
     };
   }
   const adapter = await navigator.gpu.requestAdapter().catch(() => null);
   if (!adapter) {
     return {
-      text: "No graphics card is on offer",
+      text: "The browser offers no graphics card",
       detail:
-        "This browser has WebGPU, but gives it no graphics card to compute on.\n\n" +
-        "Turn on graphics (or hardware) acceleration in the browser's settings and start the " +
-        "browser again; update the graphics driver; or try another browser, such as Chrome or Edge.",
+        "Mandelight draws with the graphics card. This browser has WebGPU, but gives it no graphics " +
+        "card to use.\n\n" +
+        "Turn on graphics (or hardware) acceleration in the browser's settings and restart the " +
+        "browser. If that does not help, update the graphics driver, or try another browser, such as " +
+        "Chrome or Edge.",
     };
   }
 }
 
-/** Fetches the module and tells how much of it has come. */
-async function fetched(url) {
+/** Fetches the module and shows the progress of the download. */
+async function fetchModule(url) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
   let bytes = 0;
   const counter = new TransformStream({
     transform(chunk, stream) {
       bytes += chunk.byteLength;
-      loading("Loading…", WASM_BYTES > 0 ? Math.min(bytes / WASM_BYTES, 1) : NaN);
+      showLoading("Loading…", WASM_BYTES > 0 ? Math.min(bytes / WASM_BYTES, 1) : NaN);
       stream.enqueue(chunk);
     },
   });
-  // The browser compiles while the module arrives, if the answer says that it is one.
+  // With this type the browser compiles the module while it arrives.
   return new Response(response.body.pipeThrough(counter), {
     headers: { "Content-Type": "application/wasm" },
   });
 }
 
 /**
- * Sees to it that the canvas gets the pixels that it is shown in. Where a browser emulates another
- * screen, as for a phone in its developer tools, it may tell sizes in pixels of its own screen;
- * then those are left out, and the module goes by CSS pixels and their ratio.
+ * Removes `devicePixelContentBoxSize` where it is wrong, so that the module uses CSS pixels times
+ * `devicePixelRatio`. A browser that emulates another screen can report pixels of its own screen.
  * @param {HTMLCanvasElement} canvas
  */
-async function countPixels(canvas) {
+async function fixDevicePixels(canvas) {
   const entry = await new Promise((resolve) => {
     const observer = new ResizeObserver(([first]) => {
       observer.disconnect();
       resolve(first);
     });
     observer.observe(canvas);
-    // A page in the background is told nothing.
+    // A hidden page gets no callback.
     setTimeout(resolve, 500);
   });
-  const told = entry?.devicePixelContentBoxSize?.[0]?.inlineSize;
+  const reported = entry?.devicePixelContentBoxSize?.[0]?.inlineSize;
   const expected = entry?.contentRect.width * window.devicePixelRatio;
-  if (told > 0 && Math.abs(told / expected - 1) > 0.05) {
+  if (reported > 0 && Math.abs(reported / expected - 1) > 0.05) {
     delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
   }
 }
 
 async function boot() {
-  loading("Loading…", NaN);
-  const lack = await missing();
-  if (lack) {
-    notice(lack.text, lack.detail);
+  showLoading("Loading…", NaN);
+  const obstacle = await findObstacle();
+  if (obstacle) {
+    showNotice(obstacle.text, obstacle.detail);
     return;
   }
-  // Meanwhile.
-  const counted = countPixels(part("mandelight"));
+  // Not awaited yet: it runs while the module loads.
+  const pixelsFixed = fixDevicePixels(element("mandelight"));
   let mandelight;
   try {
     mandelight = await import("./mandelight.js");
     const module = new URL("./mandelight_bg.wasm", import.meta.url);
-    await mandelight.default({ module_or_path: fetched(module) });
+    await mandelight.default({ module_or_path: fetchModule(module) });
   } catch (error) {
     console.error(error);
-    notice("Mandelight could not be loaded", `${error}\n\nIs the connection up? Then try again.`);
+    showNotice(
+      "Mandelight could not be loaded",
+      `Check the internet connection, then try again.\n\n${error}`,
+    );
     return;
   }
   try {
-    loading("Starting…", NaN);
-    await counted;
-    await mandelight.start(part("mandelight"));
-    notice("");
+    showLoading("Starting…", NaN);
+    await pixelsFixed;
+    await mandelight.start(element("mandelight"));
+    showNotice("");
   } catch (error) {
     console.error(error);
     const reason = error instanceof Error ? error.message : String(error);
-    notice(
+    showNotice(
       "Mandelight could not start",
-      `${reason}\n\nClosing other pages that use the graphics card, or updating its driver, may help.`,
+      `Close other pages that use the graphics card, or update its driver, then try again.\n\n${reason}`,
     );
   }
 }
 
-/** Whether the module itself has said what is the matter: it knows more than the trap tells. */
-let told = false;
+/** Whether the module has shown a notice of its own, which says more than a trap's message. */
+let hasModuleNotice = false;
 
-// A trap in the module ends it for good: better said than a picture that stands still.
-const stopped = (error) => {
-  if (error instanceof WebAssembly.RuntimeError && !told) {
-    notice("Mandelight stopped", `Something went wrong inside (${error.message}).`);
+// A trap ends the module for good; without a notice the picture would just freeze.
+const reportTrap = (error) => {
+  if (error instanceof WebAssembly.RuntimeError && !hasModuleNotice) {
+    showNotice(
+      "Mandelight stopped because of an error in the program",
+      `Your scene is saved. Press “Try again” to continue.\n\n${error.message}`,
+    );
   }
 };
-window.addEventListener("error", (event) => stopped(event.error));
-window.addEventListener("unhandledrejection", (event) => stopped(event.reason));
+window.addEventListener("error", (event) => reportTrap(event.error));
+window.addEventListener("unhandledrejection", (event) => reportTrap(event.reason));
 
 window.mandelightNotice = (text, detail) => {
-  told = true;
-  notice(text, detail);
+  hasModuleNotice = true;
+  showNotice(text, detail);
 };
-part("notice-again").addEventListener("click", () => window.location.reload());
+element("notice-again").addEventListener("click", () => window.location.reload());
 boot();

@@ -1,19 +1,19 @@
-// A dive by the wheel, from the whole bulb to where single precision has long ended; then home, and a
-// link to a deeper place.
+// A visit that dives by the wheel, from the whole bulb to beyond single precision, flies home, and
+// opens a link to a deeper place.
 
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
-/** The zoom that the dive is for. */
-const DEEP = 1e8;
-/** Notches of the wheel that do not come so far mean that it does not go on. */
-const MOST_NOTCHES = 300;
+/** The zoom at which the dive ends. */
+const DEEP_ZOOM = 1e8;
+/** Wheel notches after which the dive is stuck. */
+const MAX_NOTCHES = 300;
 
 await visit({ context: { viewport: { width: 560, height: 300 }, deviceScaleFactor: 1 } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
   await page.open();
-  // Little is enough to see that there is a picture.
+  // One sample a pixel shows that there is a picture.
   const quick = JSON.parse(await page.scene());
   quick.scene.quality.samples = 1;
   await page.show(JSON.stringify(quick));
@@ -23,10 +23,10 @@ await visit({ context: { viewport: { width: 560, height: 300 }, deviceScaleFacto
   v.seen.anchor_ms = [];
   v.seen.notches = 0;
   await v.timed("dive", async () => {
-    while ((await page.report()).zoom < DEEP && v.seen.notches < MOST_NOTCHES) {
+    while ((await page.report()).zoom < DEEP_ZOOM && v.seen.notches < MAX_NOTCHES) {
       await v.tab.mouse.wheel(0, -100);
       v.seen.notches++;
-      await rest(60);
+      await sleep(60);
       v.seen.anchor_ms.push((await page.report()).anchorMs);
     }
   });
@@ -49,6 +49,6 @@ await visit({ context: { viewport: { width: 560, height: 300 }, deviceScaleFacto
   await v.screenshot("linked-560x300");
 });
 
-function rest(ms) {
+function sleep(ms) {
   return new Promise((resolve) => setTimeout(resolve, ms));
 }

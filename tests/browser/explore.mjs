@@ -1,45 +1,44 @@
-// A visit with mouse and keyboard: look, turn, zoom, change the power, light it, save it, come back.
+// A visit with the mouse: turn, zoom, change the power, add a light, save, reload, open a link.
 
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
-/** A small window that still has the panel at its side: a software GPU has to draw all this. */
+/** A window small enough for a software GPU, and wide enough for the panel at its side. */
 const SMALL = { width: 720, height: 420 };
 
-const rest = (secs) => new Promise((resolve) => setTimeout(resolve, 1000 * secs));
+const sleep = (secs) => new Promise((resolve) => setTimeout(resolve, 1000 * secs));
 
 await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
 
-  // What a visitor sees first, once edges have become smooth.
+  // The opening view, until its edges are smooth.
   await v.timed("first_picture", () => page.open());
   await v.timed("first_sample", () => page.sampled(1));
   await v.timed("four_samples", () => page.sampled(4));
   scenes.opened = await page.scene();
   await v.screenshot("opening-1280x720");
 
-  // From here on a small picture of few samples, each time to the last of them.
+  // From here on, small pictures of two samples a pixel, each of them complete.
   await v.tab.setViewportSize(SMALL);
   const quick = JSON.parse(scenes.opened);
   quick.scene.quality.samples = 2;
   v.seen.quick = await v.timed("whole_picture", () => page.show(JSON.stringify(quick)));
   scenes.quick = await page.scene();
 
-  // Idle means idle: no dispatch and no frame while nobody does anything. (Half a second after a
-  // change the page writes its scene down, and a frame or two come of that; and what it may need
-  // later is compiled at rest.)
-  await rest(2);
+  // An idle page dispatches nothing and draws no frame. The autosave's last frames and the idle
+  // compilation of pipelines come within the first two seconds.
+  await sleep(2);
   v.seen.idle = [await page.settled()];
-  await rest(3);
+  await sleep(3);
   v.seen.idle.push(await page.report());
 
   const [x, y] = await page.middle("view");
-  const aside = [x - 80, y + 30];
-  scenes.turned = await page.changed("a drag", () => page.drag(aside, [90, -40]));
+  const offCentre = [x - 80, y + 30];
+  scenes.turned = await page.changed("a drag", () => page.drag(offCentre, [90, -40]));
   v.seen.turned = await page.settled();
   scenes.approached = await page.changed("the wheel", async () => {
-    await v.tab.mouse.move(...aside);
+    await v.tab.mouse.move(...offCentre);
     await v.tab.mouse.wheel(0, -240);
   });
   await page.settled();
@@ -60,9 +59,9 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
 
   v.seen.download = await page.keepDownload("download.png", "save picture");
 
-  // Back again: from the address, from the browser's storage alone, and from a link.
+  // Three ways back: the address, the browser's storage alone, a link.
   scenes.before_reload = await page.scene();
-  await rest(2);
+  await sleep(2);
   v.seen.fragment = new URL(v.tab.url()).hash.slice(1);
   await v.tab.reload();
   await page.firstPicture();

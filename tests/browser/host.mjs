@@ -1,4 +1,4 @@
-// Serves a built folder on a free port of 127.0.0.1, as any static host would.
+// A static host for a built folder, on a free port of 127.0.0.1.
 
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
@@ -12,21 +12,21 @@ const MIME = {
   ".svg": "image/svg+xml",
 };
 
-/** A host may put the page below its top; the page's own addresses have to stand that. */
+/** A folder below the root: the page's own URLs must be relative. */
 const BASE = "/shared/page/";
 
 /**
  * Serves `folder`.
  * @param {string} folder
- * @returns {Promise<{address: string, asked: string[], close: () => Promise<void>}>} the page's
- *   address, the files asked for so far, and a way to stop
+ * @returns {Promise<{address: string, requests: string[], close: () => Promise<void>}>} the page's
+ *   address, the files requested so far, and a function that stops the host
  */
 export async function host(folder) {
-  const asked = [];
+  const requests = [];
   const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url, "http://127.0.0.1");
     const name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) || "index.html" : undefined;
-    asked.push(name ?? pathname);
+    requests.push(name ?? pathname);
     const file = name && normalize(join(folder, name));
     try {
       if (!file?.startsWith(folder + sep)) throw new Error("outside the page");
@@ -40,7 +40,7 @@ export async function host(folder) {
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   return {
     address: `http://127.0.0.1:${server.address().port}${BASE}`,
-    asked,
+    requests,
     close: () => new Promise((resolve) => server.close(resolve)),
   };
 }

@@ -1,4 +1,4 @@
-// A visit during which the GPU goes away, as after a driver's reset.
+// A visit that loses the GPU, as after a driver's reset.
 
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
@@ -14,11 +14,11 @@ await visit({ context: { viewport: { width: 480, height: 480 } } }, async (v) =>
 
   const { pictures } = await page.report();
   await v.tab.evaluate(() => window.mandelight.loseDevice());
-  // The old picture went with the device; pixels can be read again once there is a new one.
-  const isGone = () => v.tab.evaluate(() => window.mandelight.pixels().then(() => false, () => true));
-  await v.until("the picture to be gone", isGone, 60);
-  await v.until("a picture on the new device", async () => !(await isGone()), 120);
-  await v.until("the new device's own count", async () => (await page.report()).pictures !== pictures);
+  // The loss drops the picture: pixels() fails until the new device has drawn one.
+  const hasNoPicture = () => v.tab.evaluate(() => window.mandelight.pixels().then(() => false, () => true));
+  await v.until("the picture to be dropped", hasNoPicture, 60);
+  await v.until("a picture on the new device", async () => !(await hasNoPicture()), 120);
+  await v.until("the new device's picture count", async () => (await page.report()).pictures !== pictures);
   v.seen.report = await page.settled();
   v.seen.after = await page.scene();
   v.seen.notice = await v.notice();

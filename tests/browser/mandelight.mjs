@@ -1,20 +1,20 @@
-// The page's program as a visit drives it: real pointer events on widgets that the page's test hook
-// (`?test`) locates, and the hook's own view of the scene, the progress and the pixels.
+// Drives the page of a visit: sends pointer events to widgets that the page's test hook (`?test`)
+// locates, and reads scene, progress and pixels from the hook.
 
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 
-/** A move is made of so many pointer events. */
+/** Pointer events of one drag. */
 const MOVE_STEPS = 8;
 
-/** Parts of the panel that do not scroll, at its upper and lower end, in CSS pixels. */
+/** Heights of the panel's top and bottom parts that do not scroll, in CSS pixels. */
 const PANEL_HEADING = 60;
 const PANEL_FOOT = 80;
 
-/** Something rests when so many looks, 50 ms apart, find it the same: frames may be that far apart. */
-const REST_LOOKS = 10;
+/** Equal polls, 50 ms apart, after which a value is at rest: frames can be that slow. */
+const REST_POLLS = 10;
 
-/** The longest that a picture may take on a software GPU whose cores others use as well. */
+/** Longest wait for a picture on a software GPU whose cores other programs use too. */
 const PICTURE_LIMIT_SECS = 420;
 
 export class Mandelight {
@@ -24,25 +24,25 @@ export class Mandelight {
     this.tab = visit.tab;
   }
 
-  /** Opens the page with its test hook and waits for a first picture. */
+  /** Opens the page with its test hook and waits for the first picture. */
   async open(fragment = "") {
-    // A change of the fragment alone would not load the page again.
+    // A change of the fragment alone does not reload the page.
     await this.tab.goto("about:blank");
     await this.tab.goto(`${this.visit.address}?test${fragment && `#${fragment}`}`);
     await this.firstPicture();
   }
 
-  /** Waits for a picture on a page that has just been loaded. */
+  /** Waits for the first picture of a page that is loading. */
   firstPicture() {
     return this.visit.until("a first picture", async () => {
       const notice = await this.visit.notice();
-      if (notice?.again) throw new Error(`the page says: ${notice.text}: ${notice.detail}`);
+      if (notice?.again) throw new Error(`the page shows the notice: ${notice.text}: ${notice.detail}`);
       return (await this.report())?.pictures > 0;
     });
   }
 
-  /** What the renderer says of itself; null before the page has started. (Until then the name is
-   * the canvas's, which browsers put on the window by its id.) */
+  /** The renderer's report, or null before the page has started. (Until then `window.mandelight`
+   * is the canvas, by its id.) */
   report() {
     return this.tab.evaluate(() => window.mandelight?.report?.() ?? null);
   }
@@ -52,7 +52,7 @@ export class Mandelight {
     return this.tab.evaluate(() => window.mandelight.scene());
   }
 
-  /** Puts `document` in view and waits for the whole picture. */
+  /** Shows the scene of `document` and waits for its complete picture. */
   show(document) {
     return this.redrawn(() => this.tab.evaluate((json) => window.mandelight.setScene(json), document));
   }
@@ -66,10 +66,10 @@ export class Mandelight {
     return this.visit.until(`${samples} samples a pixel`, isThere, PICTURE_LIMIT_SECS);
   }
 
-  /** Waits until the picture is whole and the renderer rests. */
+  /** Waits until the picture is complete and the renderer idle. */
   settled() {
     return this.visit.until(
-      "the picture to be whole",
+      "the picture to be complete",
       async () => {
         const report = await this.report();
         return report?.idle && report.samplesDone >= report.samplesWanted && report;
@@ -78,7 +78,7 @@ export class Mandelight {
     );
   }
 
-  /** Makes a change and waits for the whole picture of what came of it. */
+  /** Runs `change` and waits for the complete picture after it. */
   async redrawn(change) {
     const { pictures } = await this.report();
     await change();
@@ -86,7 +86,7 @@ export class Mandelight {
     return this.settled();
   }
 
-  /** Makes a change by hand and waits until the scene shows all of it; returns the scene. */
+  /** Runs `change`, waits until the scene has changed and is at rest, and returns the scene. */
   async changed(what, change) {
     const before = await this.scene();
     await change();
@@ -98,30 +98,30 @@ export class Mandelight {
     return this.rested(`the scene after ${what}`, after);
   }
 
-  /** What `look` sees, once it is something and has stayed the same for a while. */
+  /** The result of `look`, once it is truthy and has stayed the same for `REST_POLLS` polls. */
   async rested(what, look) {
     let [last, times] = [null, 0];
     return this.visit.until(what, async () => {
       const now = await look();
       const isSame = now && JSON.stringify(now) === JSON.stringify(last);
       [last, times] = [now, isSame ? times + 1 : 0];
-      return times >= REST_LOOKS && now;
+      return times >= REST_POLLS && now;
     }, 60);
   }
 
-  /** A widget's place in CSS pixels; null while it is not shown. */
+  /** A widget's rectangle in CSS pixels, or null while the widget is not shown. */
   rect(name) {
     return this.tab.evaluate((widget) => window.mandelight.uiRects()[widget] ?? null, name);
   }
 
-  /** The middle of a widget, in CSS pixels, once it is there and rests. */
+  /** The middle of a widget at rest, in CSS pixels. */
   async middle(name) {
     const { x, y, width, height } = await this.rested(`the widget ${name}`, () => this.rect(name));
     return [x + width / 2, y + height / 2];
   }
 
-  /** Scrolls the panel until a widget in it can be clicked, and returns the widget's middle. */
-  async reach(name) {
+  /** Scrolls the panel until a widget is visible, and returns the widget's middle. */
+  async scrollTo(name) {
     for (;;) {
       const panel = await this.rect("panel");
       const [x, y] = await this.middle(name);
@@ -135,16 +135,16 @@ export class Mandelight {
 
   /** Clicks a widget of the panel, scrolling to it first. */
   async click(name) {
-    await this.tab.mouse.click(...(await this.reach(name)));
+    await this.tab.mouse.click(...(await this.scrollTo(name)));
   }
 
-  /** Where in the window the scene's newest point light is drawn, in CSS pixels. */
+  /** The newest point light's position in the window, in CSS pixels. */
   async newestLight() {
     const { scene } = JSON.parse(await this.scene());
     const { position, orientation, vertical_fov_deg } = scene.camera;
     const [qx, qy, qz, qw] = orientation;
     const offset = scene.lights.point.at(-1).position.map((at, i) => Number(at) - Number(position[i]));
-    // The offset in the camera's frame: turned by the conjugate of the orientation.
+    // The offset in camera space: rotated by the conjugate of the orientation.
     const cross = (a, b) => [0, 1, 2].map((i) => {
       const [j, k] = [(i + 1) % 3, (i + 2) % 3];
       return a[j] * b[k] - a[k] * b[j];
@@ -159,7 +159,7 @@ export class Mandelight {
     return [view.x + view.width / 2 + x * scale, view.y + view.height / 2 - y * scale];
   }
 
-  /** Drags from the middle of a widget, or from a point, by so many CSS pixels. */
+  /** Drags from the middle of a widget, or from a point, by `[dx, dy]` CSS pixels. */
   async drag(from, [dx, dy]) {
     const [x, y] = typeof from === "string" ? await this.middle(from) : from;
     const { mouse } = this.tab;
@@ -169,7 +169,7 @@ export class Mandelight {
     await mouse.up();
   }
 
-  /** Writes the picture's pixels to `<name>.rgba`, as the GPU holds them, and notes their size. */
+  /** Writes the picture's pixels, read from the GPU, to `<name>.rgba`, and records their size. */
   async keepPixels(name) {
     const { width, height, base64 } = await this.tab.evaluate(async () => {
       const { width, height, data } = await window.mandelight.pixels();
@@ -184,7 +184,7 @@ export class Mandelight {
     this.visit.seen.pixels[name] = { width, height };
   }
 
-  /** Presses a button that saves a file, and keeps the file as `name`. */
+  /** Clicks a button that saves a file, stores the file as `name`, and returns the suggested name. */
   async keepDownload(name, button) {
     const download = this.tab.waitForEvent("download", { timeout: PICTURE_LIMIT_SECS * 1000 });
     await this.tab.mouse.click(...(await this.middle(button)));

@@ -1,4 +1,4 @@
-// A visit from a phone: a narrow window, fingers instead of a mouse.
+// A visit from a phone: a narrow window, touches instead of a mouse.
 
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
@@ -12,13 +12,13 @@ await visit({ context: phone }, async (v) => {
   await v.timed("four_samples", () => page.sampled(4));
   await v.screenshot("opening-390x844");
 
-  // One sample a pixel is enough to see where the camera goes.
+  // One sample a pixel shows where the camera is.
   const quick = JSON.parse(await page.scene());
   quick.scene.quality.samples = 1;
   await page.show(JSON.stringify(quick));
   scenes.opened = await page.scene();
 
-  // playwright has no moving fingers; the browser's own protocol has.
+  // playwright's API has no moving touches, so the DevTools protocol sends them.
   const protocol = await v.context.newCDPSession(v.tab);
   const touch = (type, ...points) =>
     protocol.send("Input.dispatchTouchEvent", {
@@ -36,7 +36,7 @@ await visit({ context: phone }, async (v) => {
   };
 
   const [x, y] = await page.middle("view");
-  scenes.turned = await page.changed("a finger", () => fingers([[x - 40, y], [x + 60, y + 30]]));
+  scenes.turned = await page.changed("a one-finger drag", () => fingers([[x - 40, y], [x + 60, y + 30]]));
   await page.settled();
   scenes.pinched = await page.changed("a pinch", () =>
     fingers([[x - 30, y], [x - 90, y]], [[x + 30, y], [x + 90, y]]),

@@ -1,4 +1,4 @@
-//! Pictures from two GPUs, and how far apart they are.
+//! Pictures from two GPUs, and their difference.
 
 use std::{fs::File, io::BufReader, path::Path};
 
@@ -6,32 +6,32 @@ use std::{fs::File, io::BufReader, path::Path};
 pub struct Picture {
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Four bytes a pixel.
+    /// Four bytes a pixel, row by row from the top.
     pub rgba: Vec<u8>,
 }
 
-/// How far apart two pictures are.
+/// The difference between two pictures.
 #[derive(Debug)]
 pub struct Difference {
-    /// Mean of the absolute differences of all colour channels, in steps of 8 bits (0 to 255).
+    /// Mean absolute difference of the colour channels, in 8-bit steps (0 to 255).
     pub mean: f64,
-    /// Part of the pixels of which some channel differs by more than [`Difference::NOTABLE`] steps.
+    /// Fraction of pixels with a channel over [`Difference::NOTABLE`] steps apart.
     pub notable: f64,
 }
 
 impl Difference {
-    /// Steps that are seen where a surface is smooth.
+    /// 8-bit steps that are visible on a smooth surface.
     pub const NOTABLE: u8 = 12;
 }
 
 impl Picture {
-    /// A picture of `size_px` from its bytes.
+    /// A picture of `size_px` from its RGBA bytes.
     pub fn new(size_px: [u32; 2], rgba: Vec<u8>) -> Self {
         assert_eq!(rgba.len(), 4 * size_px[0] as usize * size_px[1] as usize);
         Self { size_px, rgba }
     }
 
-    /// Reads a PNG of eight bits a channel.
+    /// Reads a PNG as eight bits a channel.
     pub fn read_png(file: &Path) -> Self {
         let file = BufReader::new(File::open(file).unwrap());
         let mut decoder = png::Decoder::new(file);
@@ -43,7 +43,7 @@ impl Picture {
         Self::new([info.width, info.height], rgba)
     }
 
-    /// How far `other`, of the same size, is from this picture.
+    /// The difference between this picture and `other`, of the same size.
     pub fn difference(&self, other: &Self) -> Difference {
         assert_eq!(self.size_px, other.size_px);
         let (mut sum, mut notable) = (0_u64, 0_usize);
@@ -57,7 +57,7 @@ impl Picture {
         Difference { mean: sum as f64 / (3 * count) as f64, notable: notable as f64 / count as f64 }
     }
 
-    /// Standard deviation of brightness (0 to 255): next to nothing for an empty picture.
+    /// Standard deviation of brightness (0 to 255); near zero for an empty picture.
     pub fn contrast(&self) -> f64 {
         let greys = || {
             self.rgba.chunks_exact(4).map(|p| f64::from(p[0]) + f64::from(p[1]) + f64::from(p[2]))

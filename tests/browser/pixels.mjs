@@ -1,4 +1,4 @@
-// The same scenes as the native program draws, for their pixels to be compared.
+// A visit that keeps the pixels of the scenes that the native program draws too.
 
 import { readFile } from "node:fs/promises";
 import { Mandelight } from "./mandelight.mjs";

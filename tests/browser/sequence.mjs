@@ -1,5 +1,5 @@
-// A visit that makes a camera path: scrub it, play it, and save its frames, once as a download and
-// once through the browser's own save dialogue, which is played here.
+// A visit with a camera path: scrub it, play it, and save its frames, first as a download, then
+// through the browser's save dialogue, for which a mock stands here.
 
 import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -12,7 +12,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const scenes = (v.seen.scenes = {});
   const document = process.env.MANDELIGHT_PATH;
 
-  // Without the dialogue the zip is a download.
+  // Without the save dialogue, the zip is a download.
   await v.tab.addInitScript(() => {
     if (new URLSearchParams(location.search).has("dialogue")) return;
     window.showSaveFilePicker = undefined;
@@ -38,7 +38,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.name = await page.keepDownload("frames.zip", "save sequence");
   v.seen.frames = await keepFrames(v, "frames.zip", "frames");
 
-  // With it the zip is written while it is made.
+  // With the save dialogue, the zip is written frame by frame.
   await v.tab.addInitScript(() => {
     window.written = [];
     window.fileIsClosed = false;
@@ -68,7 +68,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.streamed = await keepFrames(v, "streamed.zip", "streamed");
 });
 
-/** Takes a zip apart, keeps its files with `prefix`, and returns their names. */
+/** Unpacks a zip into files with `prefix`, and returns their names in the zip. */
 async function keepFrames(v, zip, prefix) {
   const files = unzipped(await readFile(join(v.out, zip)));
   for (const [name, bytes] of files) await writeFile(join(v.out, `${prefix}-${name}`), bytes);

@@ -1,8 +1,8 @@
-// Visits where the page cannot draw: it has to say so, and to load nothing that it cannot use.
+// Visits where the page cannot draw: it must show a notice and load no module.
 
 import { visit } from "./visit.mjs";
 
-/** The notice once it is final: only then it offers to try again. */
+/** The final notice: the one that has the "Try again" button. */
 const finalNotice = (v) =>
   v.until("a notice", async () => {
     const notice = await v.notice();
@@ -10,11 +10,11 @@ const finalNotice = (v) =>
   }, 60);
 
 await visit({ gpu: false, context: { viewport: { width: 1280, height: 720 } } }, async (v) => {
-  // A browser without a GPU, as it is.
+  // A browser with WebGPU and without a GPU.
   await v.tab.goto(v.address);
   v.seen.without_gpu = await finalNotice(v);
 
-  // A browser that has never heard of WebGPU.
+  // A browser without WebGPU.
   await v.tab.addInitScript(() => {
     Object.defineProperty(navigator, "gpu", { value: undefined, configurable: true });
   });

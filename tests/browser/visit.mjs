@@ -1,8 +1,8 @@
-// One visit to the page in a real browser: launching it, watching it for errors, leaving a record.
+// One visit to the page in a real browser: launches it, records its errors and observations.
 //
-// A script tells a visit's story with `visit(…)`. What it observes lands in a folder, as
-// `observations.json` and pictures, for tests/browser.rs to judge. Only errors of the page, of its
-// console or of the GPU are judged here: each of them is put on the record.
+// A script calls `visit(…)` with its steps. Its observations go to a folder, as `observations.json`
+// and pictures, where tests/browser.rs checks them. This file records every error of the page, of
+// its console and of the GPU; any of them fails the test.
 
 import { mkdir, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -19,7 +19,7 @@ const FLAGS = [
   "--disable-sync",
 ];
 
-/** WebGPU on Chromium's own software; without the last four a screenshot shows no canvas. */
+/** WebGPU on Chromium's software GPU; without the last four, screenshots lack the canvas. */
 const SOFTWARE_GPU = [
   "--enable-unsafe-webgpu",
   "--use-webgpu-adapter=swiftshader",
@@ -31,16 +31,16 @@ const SOFTWARE_GPU = [
 
 const POLL_MS = 50;
 
-/** What Chromium says of a request that its page's leaving, or a download, broke off. */
-const LEFT = "net::ERR_ABORTED";
+/** Chromium's error for a request that a navigation or a download aborted. */
+const ABORTED = "net::ERR_ABORTED";
 
 /**
- * Visits the page.
- * @param {{gpu?: boolean, context?: object}} how `gpu: false` starts the browser without a GPU;
+ * Visits the page and writes the observations.
+ * @param {{gpu?: boolean, context?: object}} options `gpu: false` starts the browser without a GPU;
  *   `context` goes to playwright's newContext (viewport, touch, pixels per point)
- * @param {(v: Visit) => Promise<void>} story
+ * @param {(v: Visit) => Promise<void>} steps
  */
-export async function visit({ gpu = true, context = {} }, story) {
+export async function visit({ gpu = true, context = {} }, steps) {
   const out = setting("MANDELIGHT_OUT");
   await mkdir(out, { recursive: true });
   const server = await host(setting("MANDELIGHT_DIST"));
@@ -51,20 +51,20 @@ export async function visit({ gpu = true, context = {} }, story) {
   const v = new Visit(out, server, await browser.newContext(context));
   try {
     await v.open();
-    await story(v);
+    await steps(v);
   } catch (error) {
     v.seen.failure = String(error?.stack ?? error);
-    // The picture is a help only; the failure is what counts.
+    // A failed screenshot must not hide the failure itself.
     await v.screenshot("failure").catch(() => {});
   } finally {
-    v.seen.asked = server.asked;
+    v.seen.asked = server.requests;
     await writeFile(join(out, "observations.json"), `${JSON.stringify(v.seen, null, 2)}\n`);
     await browser.close();
     await server.close();
   }
 }
 
-/** A tab and what was seen in it. */
+/** A tab and its observations. */
 export class Visit {
   constructor(out, server, context) {
     this.out = out;
@@ -73,41 +73,41 @@ export class Visit {
     this.seen = { errors: [], secs: {} };
   }
 
-  /** Opens a tab that keeps a record of everything that goes wrong in it. */
+  /** Opens a tab and records every error in it. */
   async open() {
     this.tab = await this.context.newPage();
-    const note = (kind, text) => this.seen.errors.push(`${kind}: ${text}`);
-    this.tab.on("pageerror", (error) => note("page", error.stack ?? String(error)));
-    this.tab.on("crash", () => note("page", "the tab crashed"));
+    const record = (kind, text) => this.seen.errors.push(`${kind}: ${text}`);
+    this.tab.on("pageerror", (error) => record("page", error.stack ?? String(error)));
+    this.tab.on("crash", () => record("page", "the tab crashed"));
     this.tab.on("requestfailed", (request) => {
-      // What was still under way when the tab went to another page (an icon, say) failed nobody.
-      if (request.failure()?.errorText === LEFT) return;
-      note("request", `${request.url()} (${request.failure()?.errorText})`);
+      // A navigation aborts requests (for an icon, say); those are no errors.
+      if (request.failure()?.errorText === ABORTED) return;
+      record("request", `${request.url()} (${request.failure()?.errorText})`);
     });
     this.tab.on("console", (message) => {
       const text = message.text();
       if (process.env.MANDELIGHT_TALK) console.error(`${message.type()}: ${text}`);
-      // Chromium reports GPU errors that nobody caught as mere warnings.
-      const fromGpu = /uncaptured|validation|\[Invalid /i.test(text);
-      if (message.type() === "error" || fromGpu) note("console", text);
+      // Chromium reports uncaught GPU errors as warnings.
+      const isGpuError = /uncaptured|validation|\[Invalid /i.test(text);
+      if (message.type() === "error" || isGpuError) record("console", text);
     });
   }
 
-  /** Waits until `look` returns something true, and returns that. (playwright's own waiting
+  /** Polls `look` until its result is truthy, and returns that result. (playwright's own waiting
    * evaluates text, which the page's content security policy forbids.) */
   async until(what, look, limitSecs = 240) {
     const start = performance.now();
     for (;;) {
-      const found = await look();
-      if (found) return found;
+      const result = await look();
+      if (result) return result;
       if (performance.now() - start > limitSecs * 1000) {
-        throw new Error(`waited ${limitSecs} s in vain for ${what}`);
+        throw new Error(`gave up after ${limitSecs} s of waiting for ${what}`);
       }
       await new Promise((resolve) => setTimeout(resolve, POLL_MS));
     }
   }
 
-  /** Runs `step` and notes the seconds that it took. */
+  /** Runs `step` and records its duration in seconds. */
   async timed(name, step) {
     const start = performance.now();
     const result = await step();
@@ -119,7 +119,7 @@ export class Visit {
     await this.tab.screenshot({ path: join(this.out, `${name}.png`) });
   }
 
-  /** The notice over the page; null while it is hidden. */
+  /** The notice over the page, or null while none is shown. */
   notice() {
     return this.tab.evaluate(() => {
       if (document.getElementById("notice").hidden) return null;
@@ -134,6 +134,6 @@ export class Visit {
 
 function setting(name) {
   const value = process.env[name];
-  if (!value) throw new Error(`${name} is not set: run this by \`cargo xtask test\``);
+  if (!value) throw new Error(`${name} is not set: run this script through \`cargo xtask test\``);
   return value;
 }

@@ -1,6 +1,6 @@
-//! Running a script of this folder, and what it left.
+//! Runs a script of this folder and reads its observations.
 //!
-//! In: a script's name. Out: its observations and files, once no error of the page is among them.
+//! In: a script's name. Out: its observations and files, which contain no error of the page.
 
 use std::{
     ffi::OsStr,
@@ -15,14 +15,14 @@ use serde_json::Value;
 
 use crate::picture::Picture;
 
-/// One browser at a time: each of them draws on all cores.
+/// One browser at a time: each browser draws on all cores.
 static BROWSER: Mutex<()> = Mutex::new(());
 
-/// What a visit left.
+/// The observations and files of a visit.
 pub struct Visit {
-    /// Downloads, pictures and pixels.
+    /// The folder of downloads, pictures and pixels.
     pub folder: PathBuf,
-    /// The observations.
+    /// The observations, as JSON.
     pub seen: Value,
 }
 
@@ -32,16 +32,16 @@ impl Visit {
         Self::run_with(script, [("MANDELIGHT_NOTHING", "")])
     }
 
-    /// Runs a script that is told more by environment variables.
+    /// Runs a script with additional environment variables.
     pub fn run_with<V: AsRef<OsStr>>(
         script: &str,
-        told: impl IntoIterator<Item = (&'static str, V)>,
+        variables: impl IntoIterator<Item = (&'static str, V)>,
     ) -> Self {
         for name in ["MANDELIGHT_DIST", "MANDELIGHT_CHROMIUM"] {
             let is_set = std::env::var_os(name).is_some_and(|value| !value.is_empty());
-            assert!(is_set, "{name} is not set: the browser tests are run by `cargo xtask test`");
+            assert!(is_set, "{name} is not set: run the browser tests through `cargo xtask test`");
         }
-        let _alone = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
+        let _guard = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
         let top = Path::new(env!("CARGO_MANIFEST_DIR"));
         let folder = folder_of(script);
         if folder.exists() {
@@ -50,11 +50,11 @@ impl Visit {
         let status = Command::new("node")
             .arg(top.join(format!("tests/browser/{script}.mjs")))
             .env("MANDELIGHT_OUT", &folder)
-            .envs(told)
+            .envs(variables)
             .current_dir(top)
             .status()
-            .expect("Node.js runs: `cargo xtask test` makes sure of it");
-        assert!(status.success(), "the script {script}.mjs broke down: {status}");
+            .expect("Node.js starts; `cargo xtask test` has checked that");
+        assert!(status.success(), "the script {script}.mjs failed: {status}");
 
         let seen = fs::read(folder.join("observations.json")).unwrap();
         let visit = Self { folder, seen: serde_json::from_slice(&seen).unwrap() };
@@ -67,25 +67,25 @@ impl Visit {
         visit
     }
 
-    /// Text among the observations: `text("/notice/detail")`.
+    /// The observed text at a JSON pointer: `text("/notice/detail")`.
     pub fn text(&self, pointer: &str) -> &str {
         let found = self.seen.pointer(pointer).and_then(Value::as_str);
         found.unwrap_or_else(|| panic!("the visit observed no {pointer}"))
     }
 
-    /// A number among the observations.
+    /// The observed number at a JSON pointer.
     pub fn number(&self, pointer: &str) -> f64 {
         let found = self.seen.pointer(pointer).and_then(Value::as_f64);
         found.unwrap_or_else(|| panic!("the visit observed no {pointer}"))
     }
 
-    /// A scene among the observations, by the name that the script gave it.
+    /// The observed scene of this name.
     pub fn scene(&self, name: &str) -> Scene {
         let json = self.text(&format!("/scenes/{name}"));
         document::from_json(json).unwrap_or_else(|error| panic!("the scene {name}: {error}"))
     }
 
-    /// Pixels that the script read back from the page's GPU.
+    /// The pixels that the script kept under this name.
     pub fn pixels(&self, name: &str) -> Picture {
         let side = |side: &str| self.number(&format!("/pixels/{name}/{side}")) as u32;
         let rgba = fs::read(self.folder.join(format!("{name}.rgba"))).unwrap();
@@ -93,7 +93,7 @@ impl Visit {
     }
 }
 
-/// Where a script leaves its things.
+/// The folder of a script's observations and files.
 pub fn folder_of(script: &str) -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     target.join("browser").join(script)
