@@ -12,7 +12,7 @@ const REST_SECS: f64 = 0.5;
 /// The autosave of one project.
 pub struct Autosave {
     address: Address,
-    /// The project of the last frame; `None` before the first, which fits the camera to the window.
+    /// The project of the last frame. `None` before the first, which fits the camera to the window.
     last: Option<Project>,
     /// When the last unsaved change was seen, on the page's clock.
     changed_at_secs: Option<f64>,

@@ -35,7 +35,7 @@ const REPORT_EVERY_SECS: f64 = 0.2;
 const FRAMES_PER_ACTIVITY: u32 = 2;
 
 thread_local! {
-    /// The running engine, for GPU callbacks: these must be `Send`, so they can't own it.
+    /// The running engine. GPU callbacks must be `Send`, so they can't own the engine.
     static ENGINE: RefCell<Weak<RefCell<Engine>>> = const { RefCell::new(Weak::new()) };
 }
 

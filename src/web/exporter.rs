@@ -56,7 +56,7 @@ impl Exporter {
         self.progress
     }
 
-    /// Starts to export a still of the scene in view; with `pair`, each eye is a file.
+    /// Starts to export the scene in view; with `pair`, each eye is a file.
     pub fn start_still(
         &mut self,
         size_px: [u32; 2],

@@ -86,7 +86,7 @@ impl DiskFile {
         self.0.pending_bytes.get() > MAX_PENDING_BYTES
     }
 
-    /// Writes the last bytes, closes the file, and posts the outcome as a notice about `name`.
+    /// Writes the last bytes, closes the file, and posts a notice about `name`.
     pub fn finish(self, name: String, mailbox: &Mailbox) {
         let mailbox = mailbox.clone();
         self.write_chunk();

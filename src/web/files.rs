@@ -14,11 +14,12 @@ use super::{
 };
 use crate::scene::{document::MAX_BYTES, environment_map::decode::MAX_FILE_BYTES};
 
-/// Bytes read of a file that may hold a scene: one over a document's limit, so that the decoder
+/// Bytes read of a file that may hold a scene. One over a document's limit, so that the decoder
 /// refuses a larger document. A picture's scene precedes its pixels.
 const MAX_READ_BYTES: f64 = (MAX_BYTES + 1) as f64;
 
-/// Bytes read of an environment map: one over the decoder's limit, so that it refuses a larger one.
+/// Bytes read of an environment map. One over the decoder's limit, so that the decoder refuses a
+/// larger file.
 const MAX_ENVIRONMENT_MAP_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
 
 /// Extensions of environment maps.
@@ -27,7 +28,7 @@ const ENVIRONMENT_MAP_EXTENSIONS: [&str; 3] = [".hdr", ".pic", ".exr"];
 /// Approximate bytes of one blob of a download.
 const CHUNK_BYTES: usize = 1 << 20;
 
-/// Milliseconds that a download's URL stays valid: a browser may read it after the click returns.
+/// Milliseconds that a download's URL stays valid. A browser may read the URL after the click.
 const REVOKE_AFTER_MS: i32 = 60_000;
 
 /// A download in pieces, so that the module's memory never holds the whole file.

@@ -13,7 +13,7 @@ use crate::{
     ui,
 };
 
-/// Seconds that a new viewport size must last before the view takes it; until then egui stretches
+/// Seconds that a new viewport size must last before the view is resized. Until then egui stretches
 /// the old picture.
 const SETTLE_SECS: f64 = 0.12;
 

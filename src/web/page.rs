@@ -67,7 +67,7 @@ pub fn toggle_fullscreen() {
     }
 }
 
-/// Calls a method that a browser may lack, and logs an exception or a rejected promise.
+/// Calls a method that a browser may lack, and logs a failure.
 pub fn call_and_log(target: &JsValue, method: &'static str) {
     let outcome = call(target, method, &js_sys::Array::new());
     spawn_local(async move {

@@ -43,19 +43,21 @@ pub enum ZipChoice {
     Chosen(Zip),
 }
 
-/// An empty zip: its name, and what its bytes are written to.
+/// An empty zip with its name.
 pub struct Zip {
     name: String,
     writer: ZipWriter,
 }
 
+/// The bytes of a zip.
 enum ZipWriter {
     Disk(DiskFile),
     Download(Download),
 }
 
 impl ZipRequest {
-    /// Opens the save dialogue where the browser has one, and requests a repaint after the choice.
+    /// Opens the browser's save dialogue; its answer requests a repaint. A browser without one answers
+    /// at once, with a download.
     pub fn new(name: String, mailbox: &Mailbox) -> Self {
         let download = |name| {
             ZipChoice::Chosen(Zip { name, writer: ZipWriter::Download(Download::default()) })

@@ -63,7 +63,7 @@ pub struct AppStatus {
 }
 
 impl Session {
-    /// A session with the scene of the address, of the last visit, or the first opening scene.
+    /// Opens the scene of the address, of the last visit, or the first opening scene.
     pub fn open() -> Self {
         let address = Address::default();
         let (project, error) = initial_project(&address);
@@ -111,7 +111,7 @@ impl Session {
         }
     }
 
-    /// The scene in view as a fragment; `None` where it is too large for an address.
+    /// The scene in view as a fragment; `None` if too large for an address.
     pub fn fragment(&self) -> Option<String> {
         link::to_fragment(self.interface.scene()).ok()
     }
@@ -262,7 +262,7 @@ impl Session {
     }
 }
 
-/// The project of the address or of the last visit, and why the address was unreadable, if it was.
+/// The project of the address or of the last visit, and the address's error, if any.
 fn initial_project(address: &Address) -> (Option<Project>, Option<String>) {
     let mut link_error = None;
     if let Some(fragment) = address.read_foreign() {

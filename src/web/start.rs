@@ -20,7 +20,7 @@ use super::{
 use crate::{gpu::Gpu, render::MAX_REGION_PX};
 
 thread_local! {
-    /// The page's only host, for GPU callbacks: these must be `Send`, so they can't own it.
+    /// The page's only host. GPU callbacks must be `Send`, so they can't own the host.
     static HOST: RefCell<Option<Rc<AppHost>>> = const { RefCell::new(None) };
 }
 
@@ -29,7 +29,7 @@ struct AppHost {
     canvas: HtmlCanvasElement,
     runner: eframe::WebRunner,
     session: Rc<RefCell<Session>>,
-    /// The number of devices so far; tells a late callback of an old device apart.
+    /// The number of devices so far, by which callbacks of an old device are ignored.
     generation: Cell<u32>,
 }
 

@@ -31,7 +31,7 @@ pub enum ExportStatus {
     Working(f64, Option<f64>),
     /// The download has begun; the file's name.
     Saved(String),
-    /// All bytes are handed over; the file posts its own notice once the browser has closed it.
+    /// All bytes are handed over; the file posts a notice when closed.
     Closing,
     /// The export failed, with the reason.
     Failed(String),
