@@ -1,23 +1,23 @@
-//! How auto exposure follows the film: over some tenths of a second for someone who watches.
+//! How auto exposure follows the film: over some tenths of a second where someone watches.
 
-/// Time in which it goes 1 − 1/e of the way to its goal, seconds.
+/// Time constant of exposure, seconds: it moves 1 − 1/e of the way to its goal in this time.
 const ADAPT_SECS: f64 = 0.15;
 
-/// After this long without a new goal it is there, seconds: what is left of a change by two
-/// stops no longer shows.
+/// Time after which exposure jumps to its goal, seconds: the rest of a change by two stops is
+/// invisible then.
 const SETTLE_SECS: f64 = 0.9;
 
-/// Auto exposure on its way.
+/// Progress of auto exposure toward its goal.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Adaptation {
-    /// It takes its time.
+    /// Whether exposure moves gradually.
     is_slow: bool,
-    /// When it will have settled; none once it has.
+    /// Time at which exposure reaches its goal; none once there.
     settles_at: Option<f64>,
 }
 
 impl Adaptation {
-    /// Says whether it takes time, or is at its goal at once.
+    /// Sets whether exposure moves gradually, or jumps to its goal.
     pub fn set_slow(&mut self, is_slow: bool) {
         self.is_slow = is_slow;
         if !is_slow {
@@ -25,18 +25,20 @@ impl Adaptation {
         }
     }
 
-    /// It is wherever the next goal will be.
+    /// Ends the movement: exposure jumps to its next goal.
     pub fn stop(&mut self) {
         self.settles_at = None;
     }
 
-    /// Whether there is a way left.
+    /// Whether exposure is still moving.
     pub fn is_under_way(&self) -> bool {
         self.settles_at.is_some()
     }
 
-    /// How far it goes toward its goal in a display at `now_secs`, `since_secs` after the one
-    /// before, above 0 to 1. `is_new_goal`: the film is another than it was.
+    /// Part of the way to its goal that exposure moves in a display, above 0 to 1.
+    ///
+    /// The display is at `now_secs`, `since_secs` after the one before. `is_new_goal`: the film has
+    /// changed.
     pub fn step(&mut self, now_secs: f64, since_secs: f64, is_new_goal: bool) -> f32 {
         if !self.is_slow || since_secs == f64::INFINITY {
             self.settles_at = None;

@@ -1,126 +1,120 @@
-//! Which sample points come next: how sparse an opening is, and by which way it is completed.
+//! Which sample points come next: the density of an opening, and the order in which it is completed.
+//!
+//! In: the picture's progress, the cost of work, the motion budget. Out: [`Points`].
 
-use super::{Job, Pace, Points, Schedule, Stage, rate::Aim};
+use super::{
+    cost::Cost,
+    progress::Progress,
+    types::{Pace, Phase},
+    work::{Job, Points},
+};
 use crate::render::lattice::{COARSEST, Grid, MOST_TOGETHER};
 
-/// A full frame that is done this soon comes straight after the opening, milliseconds.
-pub(super) const STRAIGHT_MS: f64 = 1000.0;
+/// Longest full frame that is computed straight after the opening, milliseconds.
+const STRAIGHT_MS: f64 = 1000.0;
 
-/// Any other one comes once this lattice level, one pixel of 32, has been seen.
-pub(super) const PREVIEW_LEVEL: u32 = 5;
+/// Longer full frames first refine to this lattice level, one pixel of 32.
+pub const PREVIEW_LEVEL: u32 = 5;
 
-/// The finest lattice level whose pixels are so few that they are computed once more.
+/// The finest lattice level that is so sparse that all pixels are computed at once after it.
 const SPARSE_LEVEL: u32 = 3;
 
-impl Schedule {
-    /// What comes after everything computed so far.
-    pub(super) fn next_points(&self, now_secs: f64) -> Option<Points> {
-        match self.shaded {
+/// All that the next points depend on.
+#[derive(Clone, Copy)]
+pub struct Choice<'a> {
+    /// How much of the picture has been computed.
+    pub progress: &'a Progress,
+    /// What work costs.
+    pub cost: &'a Cost,
+    /// How the view spends GPU time.
+    pub pace: Pace,
+    /// GPU time of a moving picture, milliseconds.
+    pub budget_ms: f64,
+    /// Samples that each pixel gets.
+    pub samples_wanted: u32,
+    /// Whether no picture of the last change has been shown.
+    pub is_opening: bool,
+    /// Whether enough time has passed for another display.
+    pub is_display_due: bool,
+    /// Estimated time of refining work in flight, which can't be cancelled, milliseconds.
+    pub in_flight_ms: f64,
+}
+
+impl Choice<'_> {
+    /// The points to compute next; none where all samples are done.
+    pub fn next_points(&self) -> Option<Points> {
+        let progress = self.progress;
+        match progress.shaded {
             None if self.pace == Pace::Still => Some(Points::Level(0)),
             None => Some(Points::Level(self.opening_level())),
-            Some(level) if self.filmed() != Some(level) && self.indirect_now(level, now_secs) => {
+            Some(level) if progress.filmed() != Some(level) && self.is_indirect_due(level) => {
                 Some(Points::Indirect(self.finest_indirect(level)))
             }
-            Some(0) if self.samples_done < self.samples_wanted => {
-                let left = self.samples_wanted - self.samples_done;
-                Some(Points::Samples { first: self.samples_done, count: left.min(MOST_TOGETHER) })
+            Some(0) if progress.samples_done < self.samples_wanted => {
+                let left = self.samples_wanted - progress.samples_done;
+                let count = left.min(MOST_TOGETHER);
+                Some(Points::Samples { first: progress.samples_done, count })
             }
             Some(0) => None,
             Some(level) => Some(self.completing(level)),
         }
     }
 
-    /// What comes after a lattice of `level` on the way to all pixels.
+    /// Whether all pixels at once take long enough for a filled preview first.
+    pub fn needs_preview(&self) -> bool {
+        let pixels = Grid::level(0, self.progress.size_px).threads();
+        let job = self.progress.job(Points::All);
+        self.cost.expected_ms(job, Phase::Refining, pixels) > STRAIGHT_MS
+    }
+
+    /// The points after a lattice of `level`, on the way to all pixels.
     fn completing(&self, level: u32) -> Points {
-        let is_short = self.whole_ms() <= STRAIGHT_MS;
-        // Where it takes long, more of the picture is seen first. Then the film shows how far it
-        // is, which it cannot while it waits for indirect light.
-        let is_dense_enough = level <= PREVIEW_LEVEL && !self.has_indirect;
-        if level >= SPARSE_LEVEL && (is_short || is_dense_enough) {
+        // The film shows pixels under way only where it does not wait for indirect light.
+        let is_dense_enough = level <= PREVIEW_LEVEL && !self.progress.has_indirect;
+        if level >= SPARSE_LEVEL && (is_dense_enough || !self.needs_preview()) {
             Points::All
         } else {
             Points::Added(level - 1)
         }
     }
 
-    /// What all pixels take at one go, milliseconds.
-    pub(super) fn whole_ms(&self) -> f64 {
-        let pixels = Grid::level(0, self.size_px).threads();
-        self.cost.expected_ms(self.job(Points::All), Aim::Refining, pixels)
-    }
-
-    /// The finest lattice that the budget allows, and none finer than the G-buffer where only
+    /// The finest lattice that fits the budget, and none finer than the G-buffer where only
     /// light is stale.
     fn opening_level(&self) -> u32 {
-        let finest = self.gbuffer_validity.marched().unwrap_or(0);
-        self.finest_within_budget(finest, |level| self.job(Points::Level(level)), self.has_indirect)
+        let progress = self.progress;
+        let finest = progress.gbuffer_validity.marched().unwrap_or(0);
+        let job = |level| progress.job(Points::Level(level));
+        self.finest_within_budget(finest, job, progress.has_indirect)
     }
 
-    /// The finest level, none finer than `finest`, that the budget has room for. `has_indirect`: with
-    /// its indirect light.
+    /// The finest level from `finest` up that fits the budget. `has_indirect`: the level's indirect
+    /// light is part of the same picture.
     fn finest_within_budget(
         &self,
         finest: u32,
         job: impl Fn(u32) -> Job,
         has_indirect: bool,
     ) -> u32 {
-        // What refined the picture before cannot be called back.
-        let refining = self.in_flight.iter().filter(|piece| piece.aim == Aim::Refining);
-        let before_ms = refining.map(|piece| piece.expected_ms).sum();
         let fits = |level: &u32| {
-            let pixels = Grid::level(*level, self.size_px).threads();
-            self.cost.fits(self.budget_ms, before_ms, pixels, job(*level), has_indirect)
+            let pixels = Grid::level(*level, self.progress.size_px).threads();
+            self.cost.fits(self.budget_ms, self.in_flight_ms, pixels, job(*level), has_indirect)
         };
         (finest..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 
-    /// Whether a level gets its indirect light, rather than wait for a finer one: where it is the
-    /// first to be seen, or the last, or where something new should be seen by now.
-    fn indirect_now(&self, level: u32, now_secs: f64) -> bool {
-        self.opening || level == 0 || now_secs - self.shown_at >= self.show_interval_secs()
+    /// Whether a level gets its indirect light now, rather than a finer level its direct light: the
+    /// first level shown, the last one, and any level where a display is due.
+    fn is_indirect_due(&self, level: u32) -> bool {
+        self.is_opening || level == 0 || self.is_display_due
     }
 
-    /// The level whose indirect light comes next, where `shaded` has its direct light: where that
-    /// is too fine for the budget, an edit opens on a coarser one.
+    /// The level that gets indirect light, where `shaded` has direct light. An opening takes a coarser
+    /// one where the budget demands it.
     fn finest_indirect(&self, shaded: u32) -> u32 {
-        if !self.opening || self.pace == Pace::Still {
+        if !self.is_opening || self.pace == Pace::Still {
             return shaded;
         }
-        self.finest_within_budget(shaded, |level| self.job(Points::Indirect(level)), false)
-    }
-
-    /// Samples so far with what has been submitted of those under way.
-    pub(super) fn samples_so_far(&self) -> f32 {
-        let pixels_at = |level: u32| 1.0 / (1_u64 << level) as f32;
-        let share = self.under_way.map_or(0.0, |(points, next)| {
-            next as f32 / points.grid(self.size_px).workgroups().max(1) as f32
-        });
-        let there = match self.samples_done {
-            0 => self.shaded.map_or(0.0, pixels_at),
-            done => done as f32,
-        };
-        match self.under_way {
-            Some((Points::Samples { count, .. }, _)) => there + count as f32 * share,
-            Some((Points::Level(level) | Points::Added(level), _)) => {
-                there + (pixels_at(level) - there).max(0.0) * share
-            }
-            // These go over the pixels that the lattice has once more.
-            Some((Points::All, _)) => there.max(share),
-            Some((Points::Indirect(_), _)) | None => there,
-        }
-    }
-
-    /// What samples need: the stage they have to start with, and the lights they have to be
-    /// marched toward.
-    pub(super) fn job(&self, points: Points) -> Job {
-        let (from, lights) = match points {
-            Points::Level(level) | Points::Added(level) => {
-                self.gbuffer_validity.start(level, self.shining)
-            }
-            Points::All => self.gbuffer_validity.start(0, self.shining),
-            Points::Indirect(_) => (Stage::Indirect, 0),
-            Points::Samples { .. } => (Stage::March, self.shining),
-        };
-        Job { from, lights }
+        let job = |level| self.progress.job(Points::Indirect(level));
+        self.finest_within_budget(shaded, job, false)
     }
 }

@@ -1,86 +1,136 @@
-//! What has ended, and what it says of costs.
+//! Pieces of work in flight, and what their completions say of costs.
 //!
-//! In: pieces of work and frames of the interface as they are found finished. Out: measurements. Some
-//! browsers run several pieces as one and tell of all when the last one ends, as if the first had
-//! taken all of the time and the others none. What a piece costs, and what its pixels, would come out
-//! as anything then.
+//! In: pieces as they are submitted, and pieces and frames of the interface as they finish. Out:
+//! measurements for [`Cost`]. Some browsers run several pieces as one and report all of them when the
+//! last one ends: the first seems to take all of the time, the rest none. Measured one by one, such
+//! completions give a piece's fixed cost and the cost of its pixels any value.
 
-use super::{Cost, InFlight, Schedule, Work};
+use std::collections::VecDeque;
+
+use super::{
+    cost::Cost,
+    types::{Arithmetic, Phase},
+    work::{Trace, Work},
+};
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// What ends so soon after the one before it, milliseconds, and took so small a part of the time that
-/// it was expected to take, is taken to have shared the time of both.
-const TOGETHER_MS: f64 = 2.0;
-const TOGETHER: f64 = 0.05;
+/// A completion shares the time of the one before it where it follows within so many milliseconds,
+/// and within so small a part of its expected time.
+const MERGED_MS: f64 = 2.0;
+const MERGED_SHARE: f64 = 0.05;
 
-/// One thing that has ended.
+/// A piece of work that has not finished.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    /// What the piece is for.
+    pub phase: Phase,
+    /// How its kernels raise powers.
+    pub arithmetic: Arithmetic,
+    /// Its estimated GPU time, milliseconds.
+    pub expected_ms: f64,
+}
+
+/// The pieces of work that have not finished, oldest first.
+#[derive(Clone, Debug, Default)]
+pub struct InFlight {
+    pieces: VecDeque<Piece>,
+    are_merged: bool,
+}
+
+/// A piece or a frame of the interface that has finished.
 #[derive(Clone, Copy)]
 struct Completion {
-    /// What it was; none for a frame of the interface.
-    work: Option<(Work, InFlight)>,
-    /// The GPU's time from the end of the one before it, milliseconds.
+    /// The piece; none for a frame of the interface.
+    work: Option<(Work, Piece)>,
+    /// GPU time since the completion before it, milliseconds.
     busy_ms: f64,
     expected_ms: f64,
 }
 
 impl Completion {
-    /// Whether its end was told with that of the one before it.
-    fn is_told_late(&self) -> bool {
-        self.busy_ms < TOGETHER_MS && self.busy_ms < TOGETHER * self.expected_ms
+    /// Whether it arrived together with the completion before it.
+    fn is_merged(&self) -> bool {
+        self.busy_ms < MERGED_MS && self.busy_ms < MERGED_SHARE * self.expected_ms
     }
 }
 
-impl Schedule {
-    /// Pieces of work that [`Self::next`] gave, and frames of the interface (none), have been found
-    /// finished, in their order: each with the GPU's time from the end of the one before it.
-    pub fn collect(&mut self, ended: &[(Option<Work>, f64)]) {
-        let mut all = Vec::new();
-        for &(work, busy_ms) in ended {
+impl InFlight {
+    /// Adds a piece that has been submitted.
+    pub fn push(&mut self, piece: Piece) {
+        self.pieces.push_back(piece);
+    }
+
+    /// Number of pieces.
+    pub fn len(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Whether there are no pieces.
+    pub fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// Estimated time of the pieces of one phase, milliseconds.
+    pub fn expected_ms(&self, phase: Phase) -> f64 {
+        self.pieces.iter().filter(|piece| piece.phase == phase).map(|piece| piece.expected_ms).sum()
+    }
+
+    /// Whether completions have arrived together at any time.
+    pub fn are_merged(&self) -> bool {
+        self.are_merged
+    }
+
+    /// Removes finished pieces and learns their costs. `finished`: pieces and frames of the interface
+    /// (none), in order, each with the GPU time since the completion before it, milliseconds.
+    pub fn collect(&mut self, finished: &[(Option<Work>, f64)], cost: &mut Cost) {
+        let mut completions = Vec::new();
+        for &(work, busy_ms) in finished {
             let work = match work {
-                // What is not known to be in flight tells nothing.
+                // A piece that was never in flight has no estimate to compare with.
                 Some(work) => {
-                    let Some(piece) = self.in_flight.pop_front() else { continue };
+                    let Some(piece) = self.pieces.pop_front() else { continue };
                     Some((work, piece))
                 }
                 None => None,
             };
-            let expected_ms = work.map_or(self.cost.interface_ms(), |(_, piece)| piece.expected_ms);
-            all.push(Completion { work, busy_ms, expected_ms });
+            let expected_ms = work.map_or(cost.interface_ms(), |(_, piece)| piece.expected_ms);
+            completions.push(Completion { work, busy_ms, expected_ms });
         }
-        for group in all.chunk_by(|_, next| next.is_told_late()) {
-            self.is_told_late |= group.len() > 1;
-            learn(&mut self.cost, group);
+        for group in completions.chunk_by(|_, next| next.is_merged()) {
+            self.are_merged |= group.len() > 1;
+            learn(cost, group);
         }
     }
 }
 
-/// Takes note of what ended at once.
+/// Learns from completions that arrived together.
 fn learn(cost: &mut Cost, group: &[Completion]) {
     let sum = |value: fn(&Completion) -> f64| group.iter().map(value).sum::<f64>();
-    let (busy_ms, expected_ms) = (sum(|ended| ended.busy_ms), sum(|ended| ended.expected_ms));
-    // Of kinds, each has the part of the time that it was expected to take.
-    let took_ms = |ended: &Completion| match group {
+    let (busy_ms, expected_ms) = (sum(|it| it.busy_ms), sum(|it| it.expected_ms));
+    // Kinds of work share the time in proportion to their estimates.
+    let took_ms = |completion: &Completion| match group {
         [_] => busy_ms,
-        _ => busy_ms * ended.expected_ms / expected_ms,
+        _ => busy_ms * completion.expected_ms / expected_ms,
     };
-    // Pieces of a trace have the same part each, as if they had been of one size: to go by what was
-    // expected would only confirm it.
-    let traces = group.iter().filter_map(|ended| match ended.work {
-        Some((Work::Trace(trace), piece)) => Some((trace, piece, took_ms(ended))),
-        _ => None,
-    });
-    let traces: Vec<_> = traces.collect();
+    // Traces share theirs equally, as if of one size: shares by estimate would only confirm it.
+    let traces: Vec<(Trace, Piece, f64)> = group
+        .iter()
+        .filter_map(|completion| match completion.work {
+            Some((Work::Trace(trace), piece)) => Some((trace, piece, took_ms(completion))),
+            _ => None,
+        })
+        .collect();
     let mean = |values: f64| values / traces.len() as f64;
     let workgroups = mean(traces.iter().map(|(trace, ..)| f64::from(trace.workgroups)).sum());
     let trace_ms = mean(traces.iter().map(|(.., ms)| ms).sum());
-    for (trace, InFlight { aim, arithmetic, .. }, _) in &traces {
+    for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
         let pixels = workgroups * f64::from(WORKGROUP_THREADS);
-        cost.traced(trace.job(), *aim, *arithmetic, pixels, trace_ms);
+        cost.traced(trace.job(), *phase, *arithmetic, pixels, trace_ms);
     }
-    for ended in group {
-        match ended.work {
-            Some((Work::Show { .. }, _)) => cost.shown(took_ms(ended)),
-            None => cost.interface_drawn(took_ms(ended)),
+    for completion in group {
+        match completion.work {
+            Some((Work::Show { .. }, _)) => cost.shown(took_ms(completion)),
+            None => cost.interface_drawn(took_ms(completion)),
             Some((Work::Trace(_), _)) => {}
         }
     }

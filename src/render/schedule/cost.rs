@@ -13,8 +13,9 @@
 //! what has been learnt with some lights holds well enough with others.
 
 use super::{
-    Job, Stage,
-    rate::{Aim, GROWTH, Rate},
+    rate::{GROWTH, Rate},
+    types::{Arithmetic, Phase},
+    work::{Job, Stage},
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
@@ -40,21 +41,6 @@ const MOST_INTERFACE_MS: f64 = 200.0;
 /// Part of a budget that is planned for: one frame takes a little more than the one before it.
 const AIM: f64 = 0.9;
 
-/// How powers are raised: what a ray costs hangs on it more than on anything else that can change
-/// from one moving picture to the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// By pipelines for one whole power.
-    #[default]
-    SpecializedPipeline,
-    /// By pipelines for any whole power.
-    Whole,
-    /// By series, for real powers.
-    Real,
-    /// By differences to an anchor's orbit.
-    Deep,
-}
-
 impl Arithmetic {
     const ALL: [Self; 4] = [Self::SpecializedPipeline, Self::Whole, Self::Real, Self::Deep];
 
@@ -72,7 +58,7 @@ impl Arithmetic {
 /// Running estimates of what traces and shows cost.
 #[derive(Clone, Debug)]
 pub struct Cost {
-    /// Of traces that start with each [`Stage`], by each arithmetic, for either aim.
+    /// Of traces that start with each [`Stage`], by each arithmetic, for either phase.
     rates: [[[Rate; 5]; Arithmetic::ALL.len()]; 2],
     /// What is traced by from now on.
     pub arithmetic: Arithmetic,
@@ -117,31 +103,31 @@ impl Cost {
     pub fn traced(
         &mut self,
         job: Job,
-        aim: Aim,
+        phase: Phase,
         arithmetic: Arithmetic,
         pixels: f64,
         busy_ms: f64,
     ) {
         if pixels > 0.0 {
             let (stage, rays) = self.price(job);
-            let refining = self.rate_for(Aim::Refining, arithmetic, stage).fixed_ms;
+            let refining = self.rate_for(Phase::Refining, arithmetic, stage).fixed_ms;
             // Openings are of too many views to tell.
-            let fixed_ms = (aim == Aim::Opening).then_some(refining);
-            let rate = &mut self.rates[aim as usize][arithmetic as usize][stage as usize];
-            rate.learn(aim, fixed_ms, pixels * rays, busy_ms.max(1e-3));
-            if aim == Aim::Opening {
+            let fixed_ms = (phase == Phase::Opening).then_some(refining);
+            let rate = &mut self.rates[phase as usize][arithmetic as usize][stage as usize];
+            rate.learn(phase, fixed_ms, pixels * rays, busy_ms.max(1e-3));
+            if phase == Phase::Opening {
                 // It has seen a view that what refines has not.
                 let ray_ms = rate.ray_ms / SPARSEST;
-                let rates = &mut self.rates[Aim::Refining as usize];
+                let rates = &mut self.rates[Phase::Refining as usize];
                 rates[arithmetic as usize][stage as usize].raise_to(ray_ms);
             }
         }
     }
 
     /// What a slice of so many pixels is going to take, milliseconds.
-    pub fn expected_ms(&self, job: Job, aim: Aim, pixels: u32) -> f64 {
+    pub fn expected_ms(&self, job: Job, phase: Phase, pixels: u32) -> f64 {
         let (stage, rays) = self.price(job);
-        self.rate(aim, stage).expected_ms(f64::from(pixels) * rays)
+        self.rate(phase, stage).expected_ms(f64::from(pixels) * rays)
     }
 
     /// A show took so long.
@@ -166,9 +152,9 @@ impl Cost {
         self.interface_ms
     }
 
-    fn rate(&self, aim: Aim, from: Stage) -> Rate {
-        let own = self.rate_by(aim, self.arithmetic, from);
-        let of_others = Arithmetic::ALL.map(|other| (other, self.rate_by(aim, other, from)));
+    fn rate(&self, phase: Phase, from: Stage) -> Rate {
+        let own = self.rate_by(phase, self.arithmetic, from);
+        let of_others = Arithmetic::ALL.map(|other| (other, self.rate_by(phase, other, from)));
         match of_others.into_iter().find(|(_, rate)| rate.is_measured()) {
             Some((other, rate)) if !own.is_measured() => {
                 rate.times(self.arithmetic.usual() / other.usual())
@@ -178,20 +164,20 @@ impl Cost {
     }
 
     /// What is known of one arithmetic.
-    fn rate_by(&self, aim: Aim, arithmetic: Arithmetic, from: Stage) -> Rate {
-        let own = self.rate_for(aim, arithmetic, from);
+    fn rate_by(&self, phase: Phase, arithmetic: Arithmetic, from: Stage) -> Rate {
+        let own = self.rate_for(phase, arithmetic, from);
         if own.is_measured() {
             return own;
         }
         // A refining slice that is as dear as an opening's errs on the safe side.
-        let rate = self.rate_for(aim.other(), arithmetic, from);
-        let dearer = if aim == Aim::Opening && rate.is_measured() { SPARSER } else { 1.0 };
+        let rate = self.rate_for(phase.other(), arithmetic, from);
+        let dearer = if phase == Phase::Opening && rate.is_measured() { SPARSER } else { 1.0 };
         rate.times(dearer)
     }
 
-    /// What is known of one aim and arithmetic.
-    fn rate_for(&self, aim: Aim, arithmetic: Arithmetic, from: Stage) -> Rate {
-        let rates = &self.rates[aim as usize][arithmetic as usize];
+    /// What is known of one phase and arithmetic.
+    fn rate_for(&self, phase: Phase, arithmetic: Arithmetic, from: Stage) -> Rate {
+        let rates = &self.rates[phase as usize][arithmetic as usize];
         let own = rates[from as usize];
         // Rays cost about the same at any start.
         let earlier = &rates[..from.min(Stage::Shade) as usize];
@@ -207,9 +193,9 @@ impl Cost {
 
     /// Workgroups of a slice whose pixels are to take `aim_ms`, or as long as the fixed part does
     /// where that is longer: not much larger than slices have been seen to end well, and two at least.
-    pub fn slice_workgroups(&self, aim_ms: f64, job: Job, aim: Aim) -> u32 {
+    pub fn slice_workgroups(&self, aim_ms: f64, job: Job, phase: Phase) -> u32 {
         let (stage, rays_of_pixel) = self.price(job);
-        let rate = self.rate(aim, stage);
+        let rate = self.rate(phase, stage);
         let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(GROWTH * rate.largest);
         let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel;
         (rays / workgroup).clamp(FEWEST_WORKGROUPS, 1e9) as u32
@@ -227,11 +213,11 @@ impl Cost {
         has_indirect: bool,
     ) -> bool {
         let (stage, rays_of_pixel) = self.price(job);
-        let rate = self.rate(Aim::Opening, stage);
+        let rate = self.rate(Phase::Opening, stage);
         let mut fixed_ms = rate.fixed_ms;
         let mut pixel_ms = rate.ray_ms * rays_of_pixel;
         if has_indirect {
-            let indirect = self.rate(Aim::Opening, Stage::Indirect);
+            let indirect = self.rate(Phase::Opening, Stage::Indirect);
             fixed_ms += indirect.fixed_ms;
             pixel_ms += indirect.ray_ms;
         }
@@ -240,7 +226,7 @@ impl Cost {
         let left_ms = AIM * budget_ms - before_ms - self.show_ms - fixed_ms;
         let pixels = f64::from(pixels);
         // What few rays took says little of what many will.
-        let tried = self.rate_for(Aim::Opening, self.arithmetic, stage);
+        let tried = self.rate_for(Phase::Opening, self.arithmetic, stage);
         let is_near = !tried.is_measured() || pixels * rays_of_pixel <= FINER * tried.largest;
         is_near && pixels * pixel_ms <= left_ms.max(0.25 * budget_ms)
     }

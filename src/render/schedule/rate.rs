@@ -2,6 +2,8 @@
 //!
 //! In: the rays and the time of each slice. Out: its fixed part, and what a ray adds.
 
+use super::types::Phase;
+
 /// Rays of the very first slice: small enough for a device 200 times slower than a desktop's.
 const FIRST_RAYS: f64 = 4096.0;
 
@@ -22,16 +24,7 @@ pub const GROWTH: f64 = 3.0;
 /// Most of the mean time that may count as fixed: the rest keeps slices from growing at once.
 const MOST_FIXED: f64 = 0.95;
 
-/// What work is done for: see `cost.rs`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Aim {
-    /// The first picture of a change.
-    Opening,
-    /// All that follows it.
-    Refining,
-}
-
-impl Aim {
+impl Phase {
     /// What a measurement weighs against the next one. A movement's costs follow the view; what
     /// refines stays the same for long, and its line has to outlast others who hold it up.
     fn memory(self) -> f64 {
@@ -56,14 +49,6 @@ impl Aim {
         match self {
             Self::Opening => 0.75,
             Self::Refining => 0.4,
-        }
-    }
-
-    /// The other one.
-    pub fn other(self) -> Self {
-        match self {
-            Self::Opening => Self::Refining,
-            Self::Refining => Self::Opening,
         }
     }
 }
@@ -138,7 +123,7 @@ impl Rate {
 
     /// Takes note of a measurement. `fixed_ms`: what is known of the fixed part from elsewhere;
     /// found out by the line unless told.
-    pub fn learn(&mut self, aim: Aim, fixed_ms: Option<f64>, rays: f64, ms: f64) {
+    pub fn learn(&mut self, phase: Phase, fixed_ms: Option<f64>, rays: f64, ms: f64) {
         if let Some(before) = self.before.take()
             && ms * HELD_UP < self.expected_ms(rays)
         {
@@ -154,19 +139,19 @@ impl Rate {
         // A surprise is no point of the line. It would tilt it until rays seem to cost nothing,
         // and the next slices would take many times as long as they should.
         let mut ms = ms;
-        if self.surprises >= aim.patience().min(self.sums.weight as u32) {
+        if self.surprises >= phase.patience().min(self.sums.weight as u32) {
             self.before = (dearer > HELD_UP).then_some(self.sums);
-            self.sums.scale(dearer.powf(aim.belief()));
+            self.sums.scale(dearer.powf(phase.belief()));
         } else if self.surprises > 0 {
             ms = SURPRISE * expected_ms;
         }
-        self.sums.add(aim.memory(), rays, ms);
+        self.sums.add(phase.memory(), rays, ms);
         self.fit(fixed_ms);
         // What follows a surprise is no larger than it was.
         self.largest = if self.surprises > 0 {
             self.largest.min(rays / GROWTH)
         } else {
-            rays.max(aim.memory() * self.largest)
+            rays.max(phase.memory() * self.largest)
         };
     }
 

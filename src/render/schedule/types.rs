@@ -1,4 +1,4 @@
-//! What a schedule is told, and what it says of itself.
+//! What a schedule is told, and what it reports: plain types that its other files share.
 
 /// How a view spends GPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +9,42 @@ pub enum Pace {
     Still,
 }
 
+/// What a piece of work is for. The two phases have costs of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The first picture of a change.
+    Opening,
+    /// All work that follows that picture.
+    Refining,
+}
+
+impl Phase {
+    /// The phase that this one is not.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Opening => Self::Refining,
+            Self::Refining => Self::Opening,
+        }
+    }
+}
+
+/// How kernels raise a power.
+///
+/// The cost of a ray depends on this more than on anything else that changes between two moving
+/// pictures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// By pipelines for one whole power.
+    #[default]
+    SpecializedPipeline,
+    /// By pipelines for any whole power.
+    Whole,
+    /// By series, for real powers.
+    Real,
+    /// By differences to an anchor's orbit.
+    Deep,
+}
+
 /// What an edit makes stale; each level contains those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stale {
@@ -16,8 +52,8 @@ pub enum Stale {
     Tone,
     /// How indirect light is gathered: the centre samples' direct light stays.
     Indirect,
-    /// Lights, surface, colours: the centre samples' G-buffer stays, but for the bits of lights
-    /// that moved. Those are told apart by [`Schedule::set_lights`](super::Schedule::set_lights).
+    /// Lights, surface, colours: the centre samples' G-buffer stays, except the bits of lights
+    /// that moved, which [`Schedule::set_lights`](super::Schedule::set_lights) names.
     Light,
     /// How normals are found: the centre samples' depths stay.
     Normals,
@@ -25,16 +61,16 @@ pub enum Stale {
     Geometry,
 }
 
-/// What the schedule says of itself.
+/// State of a schedule, for its view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Status {
     /// Whole samples on the film; 0 while the lattice is incomplete.
     pub samples_done: u32,
-    /// The same with what has been submitted of those under way.
+    /// `samples_done` with the submitted part of the samples under way.
     pub samples_so_far: f32,
     /// Level of the lattice in the picture shown last.
     pub shown_level: u32,
-    /// True once something of the last change has been shown.
+    /// True once a picture of the last change has been shown.
     pub shown: bool,
     /// True while the opening lattice follows a movement.
     pub moving: bool,

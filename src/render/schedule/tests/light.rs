@@ -53,14 +53,14 @@ fn what_a_restart_interrupts_is_not_forgotten() {
     // What opens the second edit may be known of the first light already.
     assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { from: Stage::Shadow, .. }))));
     let job = Job { from: Stage::Shadow, lights: 0b101 };
-    assert_eq!(schedule.job(Points::Level(0)), job);
+    assert_eq!(schedule.progress.job(Points::Level(0)), job);
     schedule.change(Stale::Normals, false, now);
     let half_way = schedule.clone();
     schedule.set_lights(LIGHTS, 0);
     schedule.change(Stale::Light, false, now);
     let job = Job { from: Stage::Normal, lights: LIGHTS };
-    assert_eq!(schedule.job(Points::Level(0)), job);
-    assert_eq!(half_way.job(Points::Level(0)), job);
+    assert_eq!(schedule.progress.job(Points::Level(0)), job);
+    assert_eq!(half_way.progress.job(Points::Level(0)), job);
 }
 
 /// What a light without shadows costs says nothing of others: they are not taken for as cheap.
