@@ -348,25 +348,16 @@ impl Schedule {
     fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let job = self.progress.job(points);
         let total = points.grid(self.progress.size_px).workgroups();
-        // An opening is one piece where the budget has room for it: with its display it makes the
-        // two pieces in flight, so that every displayed frame can have one.
-        let phase = self.phase();
-        let aim_ms = match (self.pace, phase) {
-            (Pace::Still, _) => STILL_SLICE_MS,
-            (Pace::Interactive, Phase::Opening) => self.budget_ms,
-            (Pace::Interactive, Phase::Refining) => SLICE_MS.min(SLICE_SHARE * self.budget_ms),
-        };
         let most = match points {
             Points::Samples { .. } => SAMPLE_WORKGROUPS,
             _ => MOST_WORKGROUPS,
         };
-        let largest = self.cost.slice_workgroups(aim_ms, job, phase).min(most);
-        // Slices of two sizes separate the fixed cost of a slice from that of its pixels. Merged
-        // completions are of two slices, so that only every third slice makes pairs of two sizes.
-        self.slices = self.slices.wrapping_add(1);
-        let period = if self.in_flight.are_merged() { 3 } else { 2 };
-        let is_half = phase == Phase::Refining && self.slices.is_multiple_of(period);
-        let wanted = if is_half { largest.div_ceil(2) } else { largest };
+        let wanted = match self.phase() {
+            // With its display an opening makes the two pieces in flight, so that every displayed
+            // frame can have one.
+            Phase::Opening => most,
+            Phase::Refining => self.slice_workgroups(job).min(most),
+        };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;
         if next < total {
@@ -377,6 +368,20 @@ impl Schedule {
         }
         let Job { from, lights } = job;
         Trace { points, from, lights, first_workgroup, workgroups }
+    }
+
+    /// Workgroups of a refining slice: every second or third one is half as large as the others.
+    fn slice_workgroups(&mut self, job: Job) -> u32 {
+        let aim_ms = match self.pace {
+            Pace::Still => STILL_SLICE_MS,
+            Pace::Interactive => SLICE_MS.min(SLICE_SHARE * self.budget_ms),
+        };
+        let largest = self.cost.slice_workgroups(aim_ms, job);
+        // Slices of two sizes separate the fixed cost of a slice from that of its pixels. Merged
+        // completions are of two slices, so that only every third slice makes pairs of two sizes.
+        self.slices = self.slices.wrapping_add(1);
+        let period = if self.in_flight.are_merged() { 3 } else { 2 };
+        if self.slices.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
     }
 
     /// The state of the schedule at `now_secs`.

@@ -14,9 +14,8 @@ use super::{
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// A completion shares the time of the one before it where it follows within so many milliseconds,
-/// and within so small a part of its expected time.
-const MERGED_MS: f64 = 2.0;
+/// A completion shares the time of the one before it where it follows within so small a part of
+/// its expected time.
 const MERGED_SHARE: f64 = 0.05;
 
 /// A piece of work that has not finished.
@@ -50,7 +49,7 @@ struct Completion {
 impl Completion {
     /// Whether it arrived together with the completion before it.
     fn is_merged(&self) -> bool {
-        self.busy_ms < MERGED_MS && self.busy_ms < MERGED_SHARE * self.expected_ms
+        self.busy_ms < MERGED_SHARE * self.expected_ms
     }
 }
 

@@ -1,105 +1,114 @@
 //! What work has cost so far, and how much of it fits a time.
 //!
-//! A piece of work takes a fixed time, whatever its size, and a time for each ray. The fixed
-//! part is small natively; in a browser the interface's own drawing and the way back of the news
-//! can make it many milliseconds, and pieces that shrank for its sake would only add to it. A
-//! straight line through recent measurements of what refines tells the two apart.
+//! In: measured pieces. Out: estimates of others. A piece takes a fixed time and a time for each
+//! ray. The fixed part is small natively; in a browser the interface's own drawing and the
+//! completion-callback latency make it many milliseconds. Pieces that shrank on its account would
+//! only add to it, so slices of two sizes separate the two.
 //!
 //! A ray of a sparse lattice has little in common with its neighbours and costs more than one of
-//! a dense lattice; how much more hangs on the scene. So what opens a change is measured apart
-//! from what refines: what the last picture of a movement took is what the next one's first will.
+//! a dense lattice, by a factor that depends on the scene. So openings and refining slices are
+//! estimated separately: what the last picture of a movement took is what its next one will take.
 //!
-//! Rays are what work is counted in, for the shadow rays of a few lights or many are most of it:
-//! what has been learnt with some lights holds well enough with others.
+//! Work is counted in rays, because most of it is the shadow rays of a few lights or many: costs
+//! learned with some lights hold well enough with others.
 
 use super::{
-    rate::{GROWTH, Rate},
+    rate::{History, Rate},
     types::{Arithmetic, Phase},
     work::{Job, Stage},
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// Rays that shading is taken for until it has been measured.
-const SHADING_RAYS: f64 = 0.25;
-
-/// What a ray of an opening costs, in rays of what refines, until it has been measured.
-const SPARSER: f64 = 1.5;
-
-/// The most that it costs in those.
-const SPARSEST: f64 = 2.0;
-
-/// Fewest workgroups of a slice: two can be halved, and slices of two sizes keep telling what is
-/// fixed. Were they all of one workgroup, their own smallness could never be found to be the trouble.
+/// Fewest workgroups of a slice: two can be halved. Slices that were all of one workgroup could not
+/// tell that their cost is fixed.
 const FEWEST_WORKGROUPS: f64 = 2.0;
 
-/// How many times as many rays as those before it an opening may have: two lattice levels.
-const FINER: f64 = 5.0;
-
-/// The most that drawing the interface may count as, milliseconds: what takes longer was held up.
+/// Longest time that drawing the interface counts as, milliseconds: longer ones were held up.
 const MOST_INTERFACE_MS: f64 = 200.0;
 
-/// Part of a budget that is planned for: one frame takes a little more than the one before it.
-const AIM: f64 = 0.9;
+/// Part of a budget that is planned for: a picture may take more than the one before it.
+const PLANNED: f64 = 0.9;
 
-impl Arithmetic {
-    const ALL: [Self; 4] = [Self::SpecializedPipeline, Self::Whole, Self::Real, Self::Deep];
+/// Least part of a budget that goes into the lattice's pixels, however long the display and the
+/// latency take.
+const LEAST_FOR_PIXELS: f64 = 0.25;
 
-    /// What an orbit step usually costs, in parts of the first one's. It only has to do until the
-    /// first picture of another kind has been measured.
-    fn usual(self) -> f64 {
-        match self {
-            Self::SpecializedPipeline => 1.0,
-            Self::Whole => 2.0,
-            Self::Real | Self::Deep => 6.0,
-        }
-    }
-}
+/// Cost of a ray by other than specialized pipelines, in rays by those, until the first picture has
+/// been measured.
+const UNSPECIALIZED: f64 = 4.0;
 
-/// Running estimates of what traces and shows cost.
+const ARITHMETICS: [Arithmetic; 4] =
+    [Arithmetic::SpecializedPipeline, Arithmetic::Whole, Arithmetic::Real, Arithmetic::Deep];
+
+/// Kinds of work that have costs of their own: rays by each arithmetic, shading, indirect light.
+const SHADING: usize = ARITHMETICS.len();
+const INDIRECT: usize = SHADING + 1;
+const KINDS: usize = INDIRECT + 1;
+
+/// Running estimates of what traces and displays cost.
 #[derive(Clone, Debug)]
 pub struct Cost {
-    /// Of traces that start with each [`Stage`], by each arithmetic, for either phase.
-    rates: [[[Rate; 5]; Arithmetic::ALL.len()]; 2],
-    /// What is traced by from now on.
+    histories: [History; KINDS],
+    /// How kernels raise powers from now on.
     pub arithmetic: Arithmetic,
     show_ms: f64,
+    /// Time of the last display alone.
+    last_show_ms: f64,
     interface_ms: f64,
     /// The visibility bits of the lights that have shadow rays.
     casting: u64,
 }
 
 impl Default for Cost {
-    /// No experience yet.
+    /// Nothing has been measured.
     fn default() -> Self {
-        let rates = [[[Rate::UNKNOWN; 5]; Arithmetic::ALL.len()]; 2];
         Self {
-            rates,
+            histories: Default::default(),
             arithmetic: Arithmetic::default(),
             show_ms: 0.0,
+            last_show_ms: f64::INFINITY,
             interface_ms: 0.0,
             casting: u64::MAX,
         }
     }
 }
 
+/// What the rays of a job are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Tracing,
+    Shading,
+    Indirect,
+}
+
+impl Kind {
+    fn index(self, arithmetic: Arithmetic) -> usize {
+        match self {
+            Self::Tracing => arithmetic as usize,
+            Self::Shading => SHADING,
+            Self::Indirect => INDIRECT,
+        }
+    }
+}
+
 impl Cost {
-    /// Says which lights have shadow rays, by their visibility bits: others are as good as free.
+    /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
     pub fn set_casting(&mut self, casting: u64) {
         self.casting = casting;
     }
 
-    /// The stage that a job costs as much as, and the rays that one of its pixels counts as.
-    fn price(&self, job: Job) -> (Stage, f64) {
+    /// The kind of a job, and the rays that each of its pixels counts as.
+    fn price(&self, job: Job) -> (Kind, f64) {
         let lights = f64::from((job.lights & self.casting).count_ones());
         match job.from {
-            Stage::March | Stage::Normal => (job.from, 1.0 + lights),
-            Stage::Shadow if lights > 0.0 => (Stage::Shadow, lights),
-            Stage::Shadow | Stage::Shade => (Stage::Shade, SHADING_RAYS),
-            Stage::Indirect => (Stage::Indirect, 1.0),
+            Stage::March | Stage::Normal => (Kind::Tracing, 1.0 + lights),
+            Stage::Shadow if lights > 0.0 => (Kind::Tracing, lights),
+            Stage::Shadow | Stage::Shade => (Kind::Shading, 1.0),
+            Stage::Indirect => (Kind::Indirect, 1.0),
         }
     }
 
-    /// A slice of so many pixels, traced by `arithmetic`, took so long.
+    /// Learns that a trace of so many pixels by `arithmetic` took `busy_ms`.
     pub fn traced(
         &mut self,
         job: Job,
@@ -109,125 +118,98 @@ impl Cost {
         busy_ms: f64,
     ) {
         if pixels > 0.0 {
-            let (stage, rays) = self.price(job);
-            let refining = self.rate_for(Phase::Refining, arithmetic, stage).fixed_ms;
-            // Openings are of too many views to tell.
-            let fixed_ms = (phase == Phase::Opening).then_some(refining);
-            let rate = &mut self.rates[phase as usize][arithmetic as usize][stage as usize];
-            rate.learn(phase, fixed_ms, pixels * rays, busy_ms.max(1e-3));
-            if phase == Phase::Opening {
-                // It has seen a view that what refines has not.
-                let ray_ms = rate.ray_ms / SPARSEST;
-                let rates = &mut self.rates[Phase::Refining as usize];
-                rates[arithmetic as usize][stage as usize].raise_to(ray_ms);
-            }
+            let (kind, rays_of_pixel) = self.price(job);
+            let history = &mut self.histories[kind.index(arithmetic)];
+            history.learn(phase, pixels * rays_of_pixel, busy_ms.max(1e-3));
         }
     }
 
-    /// What a slice of so many pixels is going to take, milliseconds.
+    /// Estimated time of a trace of so many pixels, milliseconds.
     pub fn expected_ms(&self, job: Job, phase: Phase, pixels: u32) -> f64 {
-        let (stage, rays) = self.price(job);
-        self.rate(phase, stage).expected_ms(f64::from(pixels) * rays)
+        let (kind, rays_of_pixel) = self.price(job);
+        self.rate(phase, kind).expected_ms(f64::from(pixels) * rays_of_pixel)
     }
 
-    /// A show took so long.
+    /// Learns the time of a display.
     pub fn shown(&mut self, busy_ms: f64) {
-        // All displays are much alike: what the last one took more was none of its own.
-        let before_ms = self.show_ms.min(2.0 * busy_ms);
-        self.show_ms = 0.5 * (before_ms + busy_ms);
+        // Displays are much alike: one that took longer than the one before it was held up.
+        self.show_ms = busy_ms.min(self.last_show_ms);
+        self.last_show_ms = busy_ms;
     }
 
-    /// What a show takes, milliseconds.
+    /// Estimated time of a display, milliseconds.
     pub fn show_ms(&self) -> f64 {
         self.show_ms
     }
 
-    /// The interface's drawing of a frame took so long.
+    /// Learns the time of a frame of the interface.
     pub fn interface_drawn(&mut self, busy_ms: f64) {
-        self.interface_ms += 0.5 * (busy_ms.min(MOST_INTERFACE_MS) - self.interface_ms);
+        self.interface_ms = 0.5 * (self.interface_ms + busy_ms.min(MOST_INTERFACE_MS));
     }
 
-    /// What the interface's drawing of a frame takes, milliseconds.
+    /// Estimated time of a frame of the interface, milliseconds.
     pub fn interface_ms(&self) -> f64 {
         self.interface_ms
     }
 
-    fn rate(&self, phase: Phase, from: Stage) -> Rate {
-        let own = self.rate_by(phase, self.arithmetic, from);
-        let of_others = Arithmetic::ALL.map(|other| (other, self.rate_by(phase, other, from)));
-        match of_others.into_iter().find(|(_, rate)| rate.is_measured()) {
-            Some((other, rate)) if !own.is_measured() => {
-                rate.times(self.arithmetic.usual() / other.usual())
-            }
-            _ => own,
-        }
+    /// The rate of a kind by the present arithmetic, or by the first one that has been measured.
+    fn rate(&self, phase: Phase, kind: Kind) -> Rate {
+        let of_other = |&other: &Arithmetic| {
+            let factor =
+                |of| if of == Arithmetic::SpecializedPipeline { 1.0 } else { UNSPECIALIZED };
+            let rate = self.rate_by(other, phase, kind)?;
+            Some(rate.scaled(factor(self.arithmetic) / factor(other)))
+        };
+        self.rate_by(self.arithmetic, phase, kind)
+            .or_else(|| ARITHMETICS.iter().find_map(of_other))
+            .unwrap_or(Rate::ASSUMED)
     }
 
-    /// What is known of one arithmetic.
-    fn rate_by(&self, phase: Phase, arithmetic: Arithmetic, from: Stage) -> Rate {
-        let own = self.rate_for(phase, arithmetic, from);
-        if own.is_measured() {
-            return own;
-        }
-        // A refining slice that is as dear as an opening's errs on the safe side.
-        let rate = self.rate_for(phase.other(), arithmetic, from);
-        let dearer = if phase == Phase::Opening && rate.is_measured() { SPARSER } else { 1.0 };
-        rate.times(dearer)
+    /// The rate of a kind by one arithmetic: that of tracing where only tracing has been measured.
+    fn rate_by(&self, arithmetic: Arithmetic, phase: Phase, kind: Kind) -> Option<Rate> {
+        let rate = |kind: Kind| self.histories[kind.index(arithmetic)].rate(phase);
+        rate(kind).or_else(|| match kind {
+            Kind::Indirect => rate(Kind::Tracing).map(Rate::untried),
+            Kind::Tracing | Kind::Shading => rate(Kind::Tracing),
+        })
     }
 
-    /// What is known of one phase and arithmetic.
-    fn rate_for(&self, phase: Phase, arithmetic: Arithmetic, from: Stage) -> Rate {
-        let rates = &self.rates[phase as usize][arithmetic as usize];
-        let own = rates[from as usize];
-        // Rays cost about the same at any start.
-        let earlier = &rates[..from.min(Stage::Shade) as usize];
-        let dearer = earlier.iter().rev().find(|rate| rate.is_measured());
-        match dearer {
-            Some(dearer) if !own.is_measured() => {
-                // Gathering is no part of the others: what is too much of it has to be found out.
-                if from == Stage::Indirect { dearer.in_slices_of(own) } else { *dearer }
-            }
-            _ => own,
-        }
-    }
-
-    /// Workgroups of a slice whose pixels are to take `aim_ms`, or as long as the fixed part does
-    /// where that is longer: not much larger than slices have been seen to end well, and two at least.
-    pub fn slice_workgroups(&self, aim_ms: f64, job: Job, phase: Phase) -> u32 {
-        let (stage, rays_of_pixel) = self.price(job);
-        let rate = self.rate(phase, stage);
-        let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(GROWTH * rate.largest);
+    /// Workgroups of a refining slice that takes `aim_ms`, or the fixed cost where that is longer.
+    /// It is not much larger than any slice before it.
+    pub fn slice_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
+        let (kind, rays_of_pixel) = self.price(job);
+        let rate = self.rate(Phase::Refining, kind);
+        let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(rate.most_rays);
         let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel;
         (rays / workgroup).clamp(FEWEST_WORKGROUPS, 1e9) as u32
     }
 
-    /// Whether an opening of so many pixels fits `budget_ms` together with its display and with
-    /// what is still in flight of other work, which takes `before_ms`. `has_indirect`: and with its
-    /// indirect light.
+    /// Whether an opening of so many pixels fits `budget_ms`, with its display and with refining work
+    /// in flight that takes `in_flight_ms`.
+    ///
+    /// `has_indirect`: the opening's indirect light has to fit too.
     pub fn fits(
         &self,
         budget_ms: f64,
-        before_ms: f64,
+        in_flight_ms: f64,
         pixels: u32,
         job: Job,
         has_indirect: bool,
     ) -> bool {
-        let (stage, rays_of_pixel) = self.price(job);
-        let rate = self.rate(Phase::Opening, stage);
+        let (kind, rays_of_pixel) = self.price(job);
+        let rate = self.rate(Phase::Opening, kind);
         let mut fixed_ms = rate.fixed_ms;
         let mut pixel_ms = rate.ray_ms * rays_of_pixel;
         if has_indirect {
-            let indirect = self.rate(Phase::Opening, Stage::Indirect);
+            let indirect = self.rate(Phase::Opening, Kind::Indirect);
             fixed_ms += indirect.fixed_ms;
             pixel_ms += indirect.ray_ms;
         }
-        // At least a quarter of the budget goes into the lattice's pixels, however slow the
-        // display and the way to it.
-        let left_ms = AIM * budget_ms - before_ms - self.show_ms - fixed_ms;
+        let left_ms = PLANNED * budget_ms - in_flight_ms - self.show_ms - fixed_ms;
         let pixels = f64::from(pixels);
-        // What few rays took says little of what many will.
-        let tried = self.rate_for(Phase::Opening, self.arithmetic, stage);
-        let is_near = !tried.is_measured() || pixels * rays_of_pixel <= FINER * tried.largest;
-        is_near && pixels * pixel_ms <= left_ms.max(0.25 * budget_ms)
+        // The cost of few rays says little of the cost of many.
+        let tried = self.histories[kind.index(self.arithmetic)].opening();
+        let is_near = tried.is_none_or(|rate| pixels * rays_of_pixel <= rate.most_rays);
+        is_near && pixels * pixel_ms <= left_ms.max(LEAST_FOR_PIXELS * budget_ms)
     }
 }
