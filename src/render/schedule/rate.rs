@@ -160,3 +160,31 @@ fn quantile(part: f64, mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get((part * values.len().saturating_sub(1) as f64) as usize).copied()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_of_stalled_slices_does_not_move_the_line() {
+        let mut history = History::default();
+        for index in 0..64_u32 {
+            let rays = if index % 2 == 0 { 2000.0 } else { 1000.0 };
+            let stall_ms = if index % 4 == index / 8 % 4 { 50.0 } else { 0.0 };
+            history.learn(Phase::Refining, rays, 3.0 + 0.004 * rays + stall_ms);
+        }
+        let rate = history.rate(Phase::Refining).expect("slices");
+        assert!((rate.ray_ms - 0.004).abs() < 1e-9, "{rate:?}");
+        assert!((rate.fixed_ms - 3.0).abs() < 1e-6, "{rate:?}");
+    }
+
+    #[test]
+    fn one_stalled_opening_does_not_change_the_estimate() {
+        let mut history = History::default();
+        for ms in [500.0, 10.0, 10.0, 10.0, 10.0, 300.0, 10.0] {
+            history.learn(Phase::Opening, 1000.0, ms);
+        }
+        let rate = history.rate(Phase::Opening).expect("openings");
+        assert!((rate.ray_ms - 0.01).abs() < 1e-9, "{rate:?}");
+    }
+}

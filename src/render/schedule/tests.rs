@@ -10,14 +10,15 @@ mod stalls;
 const SIZE: [u32; 2] = [1280, 720];
 const FRAME_SECS: f64 = 1.0 / 60.0;
 
-/// A GPU that takes `overhead_ms` for a submit and `pixel_ns` for a pixel, runs submits one
-/// after another, and stumbles for `spike_ms` at every 97th.
+/// A simulated GPU that runs submits one after another.
+///
+/// A submit takes `overhead_ms` and `pixel_ns` for each pixel, every 97th one `spike_ms` more.
 struct Device {
     overhead_ms: f64,
     /// Seed of the noise in the overhead, log-normal with a deviation of 1.5; none where steady.
     noise: Option<u32>,
     pixel_ns: f64,
-    /// What a pixel of a sparse lattice takes, in pixels of a dense one.
+    /// Cost of a pixel of a sparse lattice, in pixels of a dense one.
     sparser: f64,
     /// The lights that have shadow rays.
     casting: u64,
@@ -28,8 +29,7 @@ struct Device {
     longest_ms: f64,
 }
 
-/// What a pixel takes of the time that one takes from the start with three lights. Shadow rays are
-/// most of it, shading is next to nothing.
+/// Time of a pixel as a part of one that starts at the camera, with three lights: mostly shadow rays.
 fn share_of_frame(from: Stage, lights: f64) -> f64 {
     let before = match from {
         Stage::March => 0.33,
@@ -153,30 +153,30 @@ fn every_device_finishes_and_then_rests() {
             assert_eq!(schedule.status(now).shown_level, 0);
             let submits = device.submits;
             run(&mut schedule, &mut device, &mut now, 100, |_, _, _| false);
-            assert_eq!(device.submits, submits, "work was given at rest");
+            assert_eq!(device.submits, submits, "work was returned at rest");
         }
     }
 }
 
 #[test]
-fn what_is_told_of_progress_only_grows() {
+fn reported_progress_only_grows() {
     for has_indirect in [false, true] {
         let mut device = Device::new(200.0, 0.0);
         let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
         schedule.set_indirect(has_indirect);
         schedule.aim(16.0, 3);
-        let (mut now, mut told, mut steps_of_first) = (0.0, 0.0, 0);
+        let (mut now, mut reported, mut steps_of_first) = (0.0, 0.0, 0);
         run(&mut schedule, &mut device, &mut now, 400_000, |s, now, _| {
             let status = s.status(now);
             let so_far = status.samples_so_far;
-            assert!(so_far >= told, "{told} became {so_far}");
+            assert!(so_far >= reported, "{reported} became {so_far}");
             let done = status.samples_done as f32;
             assert!(so_far >= done && so_far <= 3.0, "{so_far} with {done} done");
-            steps_of_first += u32::from(so_far > told && so_far < 1.0);
-            told = so_far;
+            steps_of_first += u32::from(so_far > reported && so_far < 1.0);
+            reported = so_far;
             status.idle
         });
-        assert_eq!(told, 3.0);
+        assert_eq!(reported, 3.0);
         assert!(steps_of_first >= 10, "{steps_of_first} steps of the first sample");
     }
 }
@@ -198,7 +198,7 @@ fn slices_stay_short() {
     }
 }
 
-/// Pictures shown while everything changes in each of 600 displayed frames.
+/// Number of pictures shown while the camera moves in each of 600 displayed frames.
 fn pictures_of_a_movement(slowness: f64, spike_ms: f64) -> usize {
     let mut device = Device::new(slowness, spike_ms);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
@@ -231,10 +231,9 @@ fn the_slowest_device_still_shows_movement() {
     assert!(pictures >= 60, "{pictures} pictures in ten seconds");
 }
 
-/// A browser can take long to say that even the smallest piece is done. Pieces must not shrink
-/// on that account until nothing else is left of the time.
+/// Completion-callback latency must not make pieces shrink until most of the time is latency.
 #[test]
-fn a_long_way_back_does_not_stall_refinement() {
+fn completion_latency_does_not_stall_refinement() {
     for slowness in [1.0, 20.0] {
         let overhead_ms = 60.0;
         let mut device = Device::with_overhead(slowness, 0.0, overhead_ms);
@@ -244,15 +243,15 @@ fn a_long_way_back_does_not_stall_refinement() {
         settle(&mut schedule, &mut device, &mut now);
         let pixels = f64::from(SIZE[0] * SIZE[1]) * 4.0;
         let ideal_secs = pixels * device.pixel_ns * 1e-9;
-        // Half of the time at most is lost on the way, beside the start's small pieces and shows.
+        // At most half of the time is latency, apart from the start's small pieces and displays.
         assert!(now < 3.0 * ideal_secs + 8.0, "slowness {slowness}: {now} s for {ideal_secs} s");
     }
 }
 
-/// Where others take the processor, the way back is long and never twice the same. Pieces that
-/// have shrunk to the least there is must find out that it wasn't the pixels.
+/// On a busy machine latency is long and varies. Pieces that have shrunk to the smallest size have to
+/// grow again.
 #[test]
-fn an_unsteady_way_back_does_not_stall_refinement() {
+fn varying_latency_does_not_stall_refinement() {
     for seed in 0..200 {
         let mut device = Device::with_overhead(1.0, 0.0, 55.0);
         device.noise = Some(seed);
@@ -264,7 +263,7 @@ fn an_unsteady_way_back_does_not_stall_refinement() {
     }
 }
 
-/// However dear a display is, the first complete lattice is not kept waiting for one.
+/// The first complete lattice is displayed at once, however long a display takes.
 #[test]
 fn the_complete_lattice_is_shown_before_more_samples_come() {
     let mut device = Device::with_overhead(20.0, 0.0, 60.0);
@@ -278,7 +277,7 @@ fn the_complete_lattice_is_shown_before_more_samples_come() {
     });
 }
 
-/// Runs to rest and returns all traces and shows on the way.
+/// Runs to rest and returns all pieces of work.
 fn works_until_rest(schedule: &mut Schedule, device: &mut Device, now: &mut f64) -> Vec<Work> {
     let mut works = Vec::new();
     while !schedule.status(*now).idle {
@@ -307,7 +306,7 @@ fn tone_edits_only_show() {
     assert_eq!(schedule.next(now), None);
 }
 
-/// The parts of the way to its goal that exposure goes in each show until rest, with their times.
+/// Time of each display until rest, and the part of the way to its goal that exposure moves in it.
 fn adaptations(schedule: &mut Schedule, now: &mut f64) -> Vec<(f64, f32)> {
     let mut device = Device::new(1.0, 0.0);
     let mut shows = Vec::new();
@@ -351,7 +350,7 @@ fn exposure_settles_and_the_view_rests() {
     };
     let secs = half_way(&shows).expect("half of the way");
     assert!((0.05..0.4).contains(&secs), "half of the way after {secs} s");
-    // What is left before the last step no longer shows, even of a change by four stops.
+    // The last step is invisible even after a change by four stops.
     let left: f32 = before.iter().map(|(_, adapt)| 1.0 - adapt).product();
     assert!(4.0 * left < 0.02, "{left} of the way is left to the last step");
     assert!(before.len() > 10, "only {} steps", before.len());

@@ -18,16 +18,6 @@ pub enum Phase {
     Refining,
 }
 
-impl Phase {
-    /// The phase that this one is not.
-    pub fn other(self) -> Self {
-        match self {
-            Self::Opening => Self::Refining,
-            Self::Refining => Self::Opening,
-        }
-    }
-}
-
 /// How kernels raise a power.
 ///
 /// The cost of a ray depends on this more than on anything else that changes between two moving

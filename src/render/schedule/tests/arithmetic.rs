@@ -1,12 +1,11 @@
-//! What powers are raised by changes from one picture to the next.
+//! The arithmetic of powers changes from one picture to the next.
 
 use super::*;
 
-/// A power that is dragged leaves its own pipelines for those of real powers from one picture to the
-/// next, and a dive those of plain views: that picture is late already if what it costs is only known
-/// afterwards.
+/// A dragged power changes from specialized pipelines to those of real powers between two pictures, and
+/// a dive to deep ones: the first picture by the new arithmetic is not late.
 #[test]
-fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
+fn the_first_picture_by_a_slower_arithmetic_is_in_time() {
     let (mut device, mut now) = (Device::new(20.0, 0.0), 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 1);
@@ -19,14 +18,14 @@ fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
         (Arithmetic::Deep, 5.0),
         (Arithmetic::SpecializedPipeline, 1.0),
     ];
-    for (arithmetic, dearer) in pictures {
+    for (arithmetic, factor) in pictures {
         schedule.set_arithmetic(arithmetic);
         schedule.change(Stale::Geometry, true, now);
         let mut ms = 0.0;
         while !schedule.status(now).shown || !schedule.in_flight.is_empty() {
             while let Some(work) = schedule.next(now) {
                 let is_trace = matches!(work, Work::Trace(_));
-                device.pixel_ns = 20.0 * 20.0 * if is_trace { dearer } else { 1.0 };
+                device.pixel_ns = 20.0 * 20.0 * if is_trace { factor } else { 1.0 };
                 device.submit(work, now);
             }
             ms += device.queue.iter().map(|(_, _, ms)| ms).sum::<f64>();
@@ -34,7 +33,7 @@ fn the_first_picture_by_a_dearer_arithmetic_is_in_time() {
             device.collect(&mut schedule, now);
         }
         assert!(ms <= 1.25 * 16.0, "{arithmetic:?}: {ms} ms");
-        // Neither is it sparser than it has to be.
+        // The picture is no sparser than it has to be.
         assert!(ms >= 0.3 * 16.0, "{arithmetic:?}: {ms} ms");
     }
 }

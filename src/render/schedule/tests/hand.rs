@@ -1,11 +1,11 @@
-//! A hand that sets out while a picture refines: its first picture is in time.
+//! Movements that begin while a picture refines, and releases that end them.
 
 use super::*;
 use crate::render::schedule::choice::PREVIEW_LEVEL;
 
 const BUDGET_MS: f64 = 16.0;
 
-/// A schedule and a device of which a full frame takes twenty budgets, after a while of rest.
+/// A schedule and a device after two seconds of refinement. A full frame takes twenty budgets.
 fn at_rest(sparser: f64) -> (Schedule, Device, f64) {
     let mut device = Device::new(20.0 * BUDGET_MS / 18.4, 0.0);
     device.sparser = sparser;
@@ -16,7 +16,7 @@ fn at_rest(sparser: f64) -> (Schedule, Device, f64) {
     (schedule, device, now)
 }
 
-/// Gives the device all that it takes for so many seconds, looking as often as the page does.
+/// Refines for so many seconds, pumping as often as the page does.
 fn refine(schedule: &mut Schedule, device: &mut Device, now: &mut f64, secs: f64) {
     let end = *now + secs;
     while *now < end {
@@ -28,7 +28,7 @@ fn refine(schedule: &mut Schedule, device: &mut Device, now: &mut f64, secs: f64
     }
 }
 
-/// From a change to the end of its picture, in budgets.
+/// Time from a change to the end of its picture, in budgets.
 fn picture_of_a_move(schedule: &mut Schedule, device: &mut Device, now: &mut f64) -> f64 {
     let moved_at = *now;
     schedule.change(Stale::Geometry, true, moved_at);
@@ -48,8 +48,8 @@ fn picture_of_a_move(schedule: &mut Schedule, device: &mut Device, now: &mut f64
     }
 }
 
-/// What is in flight cannot be called back, and a sparse lattice's rays are dearer than those that
-/// refined: neither makes the first picture of a movement late.
+/// Refining work in flight, and the higher cost of sparse rays, don't make the first picture of a
+/// movement late.
 #[test]
 fn the_first_picture_of_a_movement_is_in_time() {
     for sparser in (0..=10).map(|tenths| 1.0 + 0.1 * f64::from(tenths)) {
@@ -60,7 +60,7 @@ fn the_first_picture_of_a_movement_is_in_time() {
             for _ in 0..6 {
                 times.push(picture_of_a_move(&mut schedule, &mut device, &mut now));
             }
-            // The first movement of all tells what a movement costs.
+            // The very first movement measures what openings cost.
             if movement > 0 {
                 first.push(times[0]);
                 assert!(times[1..].iter().all(|&time| time <= 1.0), "{sparser}: {times:?}");
@@ -73,10 +73,10 @@ fn the_first_picture_of_a_movement_is_in_time() {
     }
 }
 
-/// Where others hold up a short piece now and then, pieces get shorter, not many times as long.
+/// Short pieces that other programs hold up now and then don't make other pieces long.
 #[test]
 fn pieces_that_were_held_up_do_not_make_others_long() {
-    let longest = |seed: u32, stumbles: bool| {
+    let longest = |seed: u32, has_stalls: bool| {
         let (mut schedule, mut device, mut now) = at_rest(1.4);
         let (mut seed, mut longest) = (seed, 0.0_f64);
         let end = now + 20.0;
@@ -87,7 +87,7 @@ fn pieces_that_were_held_up_do_not_make_others_long() {
                 let (_, ends_at, ms) = device.queue.last_mut().expect("a piece");
                 longest = longest.max(*ms);
                 seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                if stumbles && seed >> 24 < 25 {
+                if has_stalls && seed >> 24 < 25 {
                     *ms += 12.0;
                     *ends_at += 0.012;
                     device.busy_until = *ends_at;
@@ -107,19 +107,19 @@ fn pieces_that_were_held_up_do_not_make_others_long() {
     }
 }
 
-/// Views of a movement differ: a dear one on a coarse lattice and a cheap one on a fine one must
-/// not be taken for a fixed cost that leaves rays next to nothing.
+/// An expensive view on a coarse lattice and a cheap one on a fine lattice must not look like a fixed
+/// cost.
 #[test]
-fn a_movement_through_dearer_and_cheaper_views_stays_in_time() {
+fn a_movement_through_views_of_varying_cost_stays_in_time() {
     for seed in 0..20 {
         let (mut schedule, mut device, mut now) = at_rest(1.4);
-        let (mut seed, mut dearer) = (seed as u32, 0.0_f64);
+        let (mut seed, mut log_cost) = (seed as u32, 0.0_f64);
         let pixel_ns = device.pixel_ns;
         let mut times = Vec::new();
         for _ in 0..300 {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            dearer += 0.2 * (f64::from(seed) / f64::from(u32::MAX) - 0.5) - 0.01 * dearer;
-            device.pixel_ns = pixel_ns * dearer.exp();
+            log_cost += 0.2 * (f64::from(seed) / f64::from(u32::MAX) - 0.5) - 0.01 * log_cost;
+            device.pixel_ns = pixel_ns * log_cost.exp();
             times.push(picture_of_a_move(&mut schedule, &mut device, &mut now));
         }
         let worst = times[1..].iter().copied().fold(0.0, f64::max);
@@ -127,9 +127,9 @@ fn a_movement_through_dearer_and_cheaper_views_stays_in_time() {
     }
 }
 
-/// What refines a view that is dearer than the one before it is cut by what its opening took.
+/// Refining slices of a more expensive view are sized by the cost of its openings.
 #[test]
-fn pieces_of_a_dearer_view_are_no_longer() {
+fn slices_of_an_expensive_view_are_no_longer() {
     let (mut schedule, mut device, mut now) = at_rest(1.4);
     for _ in 0..6 {
         picture_of_a_move(&mut schedule, &mut device, &mut now);
@@ -153,12 +153,12 @@ fn pieces_of_a_dearer_view_are_no_longer() {
     assert!(longest <= 1.1 * BUDGET_MS, "{longest} ms");
 }
 
-/// Where others hold up the little that a first picture takes, the next one is not many times finer.
+/// After a short first picture that was held up, the next one is at most two levels finer.
 #[test]
 fn pictures_get_finer_step_by_step() {
     for held_up_ms in [0.0, 1.0, 3.0, 10.0] {
         let (mut schedule, mut device, mut now) = at_rest(1.4);
-        // What pieces that refine take says that nearly all of it is fixed.
+        // Nearly all of a refining slice's time is fixed.
         device.overhead_ms = 5.0;
         refine(&mut schedule, &mut device, &mut now, 2.0);
         device.overhead_ms = held_up_ms;
@@ -180,7 +180,7 @@ fn pictures_get_finer_step_by_step() {
     }
 }
 
-/// From the release to the picture of all pixels, in full frames at one go; and what was shown.
+/// Time from the release to the picture of all pixels, in full frames, and the displays meanwhile.
 fn release(full_ms: f64, piece_ms: f64) -> (f64, Vec<Work>) {
     let budget_ms = full_ms / 20.0;
     let mut device = Device::with_overhead(full_ms / 18.4, 0.0, piece_ms);
@@ -208,20 +208,20 @@ fn release(full_ms: f64, piece_ms: f64) -> (f64, Vec<Work>) {
     ((now - released_at) * 1e3 / full_ms, shows)
 }
 
-/// A hand that rests has all pixels nearly as soon as if they were drawn at one go.
+/// After a release all pixels take little longer than a full frame in one piece.
 #[test]
 fn all_pixels_come_soon_after_a_release() {
     for full_ms in [100.0, 300.0, 500.0, 900.0] {
         let (took, shows) = release(full_ms, 0.01 * full_ms / 20.0);
         assert!(took <= 1.2, "{full_ms} ms: {took}");
-        // Nothing between shows more than the lattice did.
+        // There is no display between the lattice and the whole picture.
         assert_eq!(shows.len(), 1, "{full_ms} ms: {shows:?}");
     }
 }
 
-/// Where that takes seconds, the picture gets finer in the meantime, from a filled film.
+/// Where a full frame takes seconds, the filled film is displayed meanwhile.
 #[test]
-fn a_long_way_to_all_pixels_is_seen() {
+fn a_long_full_frame_is_displayed_on_its_way() {
     for full_ms in [1500.0, 4000.0] {
         let (took, shows) = release(full_ms, 0.5);
         assert!(took <= 1.2, "{full_ms} ms: {took}");

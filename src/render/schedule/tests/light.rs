@@ -1,8 +1,8 @@
-//! What edits of lights, normals and geometry march, and how fine they are seen meanwhile.
+//! Which rays edits of lights, normals and geometry march, and how fine their lattices are.
 
 use super::*;
 
-/// What the traces of an edit at rest do, which makes some lights shine and moves some.
+/// The jobs of all traces after an edit at rest that sets the shining and the moved lights.
 fn jobs_of(stale: Stale, shining: u64, moved: u64) -> Vec<Job> {
     let mut device = Device::new(1.0, 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
@@ -37,9 +37,9 @@ fn an_edit_restarts_from_its_own_stage() {
     }
 }
 
-/// An edit in the middle of another leaves nothing of what that one found untrue.
+/// An edit that interrupts another keeps everything stale that the first one made stale.
 #[test]
-fn what_a_restart_interrupts_is_not_forgotten() {
+fn an_interrupted_edit_stays_stale() {
     let mut device = Device::new(20.0, 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 1);
@@ -50,7 +50,7 @@ fn what_a_restart_interrupts_is_not_forgotten() {
     assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { lights: 0b001, .. }))));
     schedule.set_lights(LIGHTS, 0b100);
     schedule.change(Stale::Light, false, now);
-    // What opens the second edit may be known of the first light already.
+    // The second opening may be coarse enough to have the first light's bits.
     assert!(matches!(schedule.next(now), Some(Work::Trace(Trace { from: Stage::Shadow, .. }))));
     let job = Job { from: Stage::Shadow, lights: 0b101 };
     assert_eq!(schedule.progress.job(Points::Level(0)), job);
@@ -63,7 +63,7 @@ fn what_a_restart_interrupts_is_not_forgotten() {
     assert_eq!(half_way.progress.job(Points::Level(0)), job);
 }
 
-/// What a light without shadows costs says nothing of others: they are not taken for as cheap.
+/// The low cost of lights without shadows is not taken for that of shadow rays.
 #[test]
 fn lights_without_shadows_are_not_priced_as_rays() {
     let mut device = Device::new(20.0, 0.0);
@@ -84,15 +84,15 @@ fn lights_without_shadows_are_not_priced_as_rays() {
     };
     let before = (0..10).map(|_| level_of(0b001)).last().flatten();
     let others: Vec<_> = (0..10).map(|_| level_of(0b100)).collect();
-    // It takes a few pictures to be sure.
+    // Pictures get finer step by step.
     assert_eq!(others[3..], [Some(0); 7], "{others:?}");
     assert_eq!(level_of(0b010), before);
 }
 
-/// While one of three lights is dragged, pictures are finer than while the camera moves, and while
-/// a colour is, finer still: every pixel where shading them all fits the budget.
+/// Pictures of a moved light are finer than those of a moved camera, and those of a colour finest:
+/// every pixel, where shading all of them fits the budget.
 #[test]
-fn what_costs_less_is_seen_finer() {
+fn cheaper_edits_have_finer_lattices() {
     let shown_while = |stale: Stale, moved: u64| {
         let mut device = Device::new(20.0, 0.0);
         let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);

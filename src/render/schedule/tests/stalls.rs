@@ -1,9 +1,9 @@
-//! What holds pieces up that is none of their own: work that is done once, and the interface.
+//! Stalls that are no cost of the pieces themselves: one-time work, the interface, merged completions.
 
 use super::*;
 
-/// Seconds until a picture is complete, on a device that takes so much longer for one piece, and the
-/// lattice level of the fifth picture of a movement that follows.
+/// Seconds until a picture is complete, and the lattice level of the fifth picture of a movement
+/// after it, on a device that holds up one piece.
 fn with_one_held_up(slowness: f64, which: u32, held_up_ms: f64) -> (f64, u32) {
     let mut device = Device::new(slowness, 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
@@ -28,12 +28,12 @@ fn with_one_held_up(slowness: f64, which: u32, held_up_ms: f64) -> (f64, u32) {
     (complete_secs, schedule.status(now).shown_level)
 }
 
-/// Drivers may leave for a pipeline's first use what takes them many seconds.
+/// Drivers may do work at a pipeline's first use that takes many seconds.
 #[test]
-fn a_first_piece_that_was_held_up_says_nothing_of_others() {
+fn one_time_work_does_not_change_estimates() {
     for slowness in [1.0, 20.0] {
         let (usual_secs, usual_level) = with_one_held_up(slowness, 0, 0.05);
-        // Two of an opening, a display, the first of what refines.
+        // An opening, its display and the first refining slices.
         for (which, held_up_ms) in (0..4).flat_map(|k| [(k, 500.0), (k, 20_000.0)]) {
             let (secs, level) = with_one_held_up(slowness, which, held_up_ms);
             let secs = secs - 1e-3 * held_up_ms;
@@ -43,7 +43,7 @@ fn a_first_piece_that_was_held_up_says_nothing_of_others() {
     }
 }
 
-/// Displays, and seconds, until a picture of many samples is complete.
+/// Number of displays, and seconds, until a picture of many samples is complete.
 fn displays(interface_ms: f64) -> (usize, f64) {
     let mut device = Device::new(20.0, 0.0);
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
@@ -57,9 +57,9 @@ fn displays(interface_ms: f64) -> (usize, f64) {
     (displays, now)
 }
 
-/// Each display has the interface drawn once more. On a software GPU that takes a third of a second.
+/// Each display comes with a frame of the interface, which takes a third of a second on a software GPU.
 #[test]
-fn a_dear_interface_is_not_drawn_often() {
+fn a_slow_interface_is_not_drawn_often() {
     let (often, secs) = displays(2.0);
     assert!(often as f64 > 0.8 * secs, "{often} displays in {secs} s");
     let (seldom, secs) = displays(150.0);
@@ -67,7 +67,7 @@ fn a_dear_interface_is_not_drawn_often() {
 }
 
 #[test]
-fn what_held_the_interface_up_does_not_hold_displays_up() {
+fn a_stalled_interface_does_not_delay_displays() {
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     for _ in 0..20 {
         schedule.collect(&[(None, 60_000.0)]);
@@ -75,10 +75,10 @@ fn what_held_the_interface_up_does_not_hold_displays_up() {
     assert!(schedule.frame_interval_secs() <= 2.0);
 }
 
-/// Some browsers run two pieces as one: the end of the first is told with that of the second. Pieces
-/// of any size seem to take the same time then, and yet they must not grow on that account.
+/// Some browsers report two pieces when the second one ends. Pieces of any size seem to take the same
+/// time then, and must not grow on that account.
 #[test]
-fn pieces_whose_ends_are_told_together_stay_short() {
+fn pieces_with_merged_completions_stay_short() {
     for (slowness, overhead_ms) in [(20.0, 0.05), (200.0, 0.05), (20.0, 5.0), (20.0, 300.0)] {
         let mut device = Device::with_overhead(slowness, 0.0, overhead_ms);
         let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
@@ -91,15 +91,15 @@ fn pieces_whose_ends_are_told_together_stay_short() {
             }
             now = device.busy_until.max(now + 1e-3);
             let mut ms: f64 = device.queue.iter().map(|(_, _, ms)| ms).sum();
-            let ended: Vec<_> = device.queue.drain(..).map(|(work, ..)| Some(work)).collect();
-            let pieces = ended.iter().all(|work| matches!(work, Some(Work::Trace(_))));
-            longest_ms = longest_ms.max(if pieces { ms } else { 0.0 });
-            let told = |work| (work, std::mem::take(&mut ms));
-            schedule.collect(&ended.into_iter().map(told).collect::<Vec<_>>());
+            let finished: Vec<_> = device.queue.drain(..).map(|(work, ..)| Some(work)).collect();
+            let are_traces = finished.iter().all(|work| matches!(work, Some(Work::Trace(_))));
+            longest_ms = longest_ms.max(if are_traces { ms } else { 0.0 });
+            let completion = |work| (work, std::mem::take(&mut ms));
+            schedule.collect(&finished.into_iter().map(completion).collect::<Vec<_>>());
         }
         let bound = 2.0 * (1.5 * SLICE_MS).min(16.0) + 2.0 * overhead_ms;
         assert!(longest_ms < bound, "slowness {slowness}: {longest_ms} ms");
-        // Nor do they stay so short that what each takes by itself is all of the time.
+        // Pieces are long enough that their fixed cost is not most of the time.
         assert!(device.submits < 6000, "slowness {slowness}: {} pieces", device.submits);
         assert!(now < 40.0, "slowness {slowness}: {now} s");
     }
