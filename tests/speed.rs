@@ -9,9 +9,9 @@ mod estimate;
 
 use bench::{
     arguments::Arguments,
-    counts, descent, instrument, kindness,
+    counts, descent, instrument,
     limits::{Limits, Measure, Measured},
-    literal, powers, statistics, views,
+    literal, pixels, powers, statistics, tuning, views,
 };
 use clap::Parser as _;
 use glam::DVec3;
@@ -28,7 +28,7 @@ const SIZE: [u32; 2] = [96, 54];
 /// The thesis's rays in f64, step by step as `literal.wgsl` has them, on the oracle's Algorithm 1.
 struct Thesis {
     fractal: Fractal,
-    kindness: literal::Kindness,
+    tuning: literal::Tuning,
     outside: f64,
 }
 
@@ -39,13 +39,13 @@ impl Thesis {
 
     fn march(&self, ray: Ray) -> Option<f64> {
         let mut t = 0.0;
-        for _ in 0..self.kindness.steps {
+        for _ in 0..self.tuning.steps {
             let point = ray.at(t);
             if point.length() > self.fractal.bailout && point.dot(ray.direction) > 0.0 {
                 return None;
             }
             let d = self.distance(point);
-            if d < self.kindness.epsilon {
+            if d < self.tuning.epsilon {
                 return Some(t);
             }
             t += d;
@@ -55,7 +55,7 @@ impl Thesis {
 
     fn normal(&self, point: DVec3) -> DVec3 {
         let slope = |axis: DVec3| {
-            let offset = axis * self.kindness.epsilon;
+            let offset = axis * self.tuning.epsilon;
             self.distance(point + offset) - self.distance(point - offset)
         };
         DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).normalize_or_zero()
@@ -65,10 +65,10 @@ impl Thesis {
         if normal.dot(light) <= 0.0 {
             return false;
         }
-        let epsilon = self.kindness.epsilon;
+        let epsilon = self.tuning.epsilon;
         let ray = Ray { origin: point + normal * (2.0 * epsilon), direction: light };
         let mut s = ray.sphere_span(DVec3::ZERO, self.outside).map_or(0.0, |(_, far)| far);
-        for _ in 0..self.kindness.steps {
+        for _ in 0..self.tuning.steps {
             if s <= epsilon {
                 return true;
             }
@@ -87,19 +87,19 @@ fn is_literal(literal: &literal::Literal, view: &views::View) {
     let views::View { name, scene, .. } = view;
     // What an f32 makes of positions at 1e-3 of the surface.
     let grain = if view.normals_within_deg > 1.0 { 10.0 } else { 1.0 };
-    let kindness = kindness::find(scene, SIZE);
+    let tuning = tuning::find(scene, SIZE);
     let inputs = Inputs::new(scene, Region::whole(SIZE));
-    let picture = literal::Picture::new(literal, &inputs, 1, kindness, 1);
+    let picture = literal::Picture::new(literal, &inputs, 1, tuning, 1);
     picture.draw_ms();
     let seen = picture.seen().expect("the picture's bytes");
     assert_eq!(seen.len(), (SIZE[0] * SIZE[1]) as usize, "{name}");
-    let fractal = Fractal { iterations: kindness.iterations, ..scene.fractal.clone() };
+    let fractal = Fractal { iterations: tuning.iterations, ..scene.fractal.clone() };
     let outside = Estimator::new(&scene.fractal).bounding_radius();
-    let thesis = Thesis { fractal, kindness, outside };
+    let thesis = Thesis { fractal, tuning, outside };
     let lights: Vec<_> =
         scene.lights.environment.iter().map(|light| DVec3::from_array(light.direction)).collect();
     let both = statistics::in_parallel(&seen, |seen| {
-        let ray = kindness::pixel_ray(scene, SIZE, seen.pixel);
+        let ray = pixels::pixel_ray(scene, SIZE, seen.pixel);
         let is_same_hit = thesis.march(ray).is_some() == (seen.depth > 0.0);
         let depth = thesis.march(ray).filter(|_| seen.depth > 0.0);
         let off = depth.map(|depth| {
@@ -112,7 +112,7 @@ fn is_literal(literal: &literal::Literal, view: &views::View) {
                 .sum();
             let angle_deg = normal.angle_between(thesis.normal(point)).to_degrees();
             (
-                (found - depth).abs() / kindness.epsilon,
+                (found - depth).abs() / tuning.epsilon,
                 angle_deg,
                 (bits ^ seen.visibility).count_ones(),
             )
@@ -150,10 +150,10 @@ fn left_out_blocks_are_left_out_evenly() {
     let literal = literal::Literal::new(&gpu);
     let scene = views::filled();
     let size = [256, 144];
-    let kindness = kindness::find(&scene, size);
+    let tuning = tuning::find(&scene, size);
     let inputs = Inputs::new(&scene, Region::whole(size));
     let seen = |stride| {
-        let picture = literal::Picture::new(&literal, &inputs, 1, kindness, stride);
+        let picture = literal::Picture::new(&literal, &inputs, 1, tuning, stride);
         picture.draw_ms();
         (picture.share(), picture.seen().expect("the picture's bytes"))
     };

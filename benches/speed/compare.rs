@@ -3,25 +3,137 @@
 use std::{collections::HashMap, sync::Arc, time::Instant};
 
 use mandelight::render::{self, Pipelines, Region, space::RenderSpace, uniforms::Inputs};
+use serde::Serialize;
 
 use super::{
-    Failure,
     arguments::Arguments,
-    counts::{self, Counts},
-    errors::{Shown, Truths},
-    kindness,
-    literal::{Kindness, Literal, Picture},
+    counts::Counts,
+    errors::{Errors, Shown, Truths},
+    failure::Failure,
+    image_file,
+    literal::{self, Literal, Picture, Tuning},
     load::Load,
     ours,
     peak::{self, Peak},
-    picture,
-    report::{Comparison, Side},
     statistics::median,
-    views::View,
+    tuning,
+    views::{View, sampled},
 };
 
 /// How long either side's turn takes at least, seconds.
 const TURN_SECS: f64 = 0.4;
+
+/// One view by both sides.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// The view's name.
+    pub view: &'static str,
+    /// What it shows.
+    pub about: &'static str,
+    /// Width and height, pixels.
+    pub size_px: [u32; 2],
+    /// Samples a pixel.
+    pub samples: u32,
+    /// How many lights there are.
+    pub lights: usize,
+    /// Part of the pixels that hit the set, and of the bits that are set, by the reference.
+    pub hit: f64,
+    /// As above.
+    pub lit: f64,
+    /// The thesis's algorithm.
+    pub literal: Side,
+    /// The program.
+    pub ours: Side,
+    /// Literal time over ours.
+    pub ratio: f64,
+    /// The adapter's multiply-adds, measured in the same rounds, GFLOP/s.
+    pub peak_gflops: f64,
+    /// The program's share of that, 0 to 1: orbit steps as the mathematics needs them, over all of
+    /// its time; none for a power that isn't whole.
+    pub peak_share: Option<f64>,
+    /// What keeps the ratio from counting; empty where it counts.
+    pub complaints: Vec<String>,
+    /// What the program's passes take for the first sample of a pixel, and what a later one takes.
+    pub our_counts: Vec<(&'static str, Counts)>,
+    /// Times of the program's passes over one sample of each pixel, milliseconds.
+    pub passes_ms: Vec<(&'static str, f64)>,
+}
+
+/// One side of a comparison.
+#[derive(Clone, Debug, Serialize)]
+pub struct Side {
+    /// Median time, milliseconds.
+    pub ms: f64,
+    /// Each round's.
+    pub rounds_ms: Vec<f64>,
+    /// The part of the machine's processors that drawing kept busy, 0 to 1; 0 where it does not tell.
+    pub busy: f64,
+    /// Most iterations of an orbit.
+    pub iterations: u32,
+    /// One sample's errors.
+    pub errors: Errors,
+    /// What a sample of a pixel takes in the mean.
+    pub counts: Counts,
+}
+
+impl Comparison {
+    /// Tells it to people, and its ratio to scripts.
+    pub fn print(&self) {
+        let Self { view, about, size_px: [width, height], samples, lights, .. } = self;
+        println!("\n{view}: {about}");
+        println!(
+            "  {width}x{height}, {samples} samples, {lights} lights; {:.0} % of the pixels hit, {:.0} % of their lights' bits set",
+            100.0 * self.hit,
+            100.0 * self.lit
+        );
+        println!("  {:<18}{:>12}{:>12}", "", "literal", "ours");
+        let row = |name: &str, literal: String, ours: String| {
+            println!("  {name:<18}{literal:>12}{ours:>12}");
+        };
+        let (literal, ours) = (&self.literal, &self.ours);
+        row("ms", format!("{:.1}", literal.ms), format!("{:.1}", ours.ms));
+        row(
+            "processors busy, %",
+            format!("{:.0}", 100.0 * literal.busy),
+            format!("{:.0}", 100.0 * ours.busy),
+        );
+        row("iterations", literal.iterations.to_string(), ours.iterations.to_string());
+        row(
+            "estimates a pixel",
+            format!("{:.1}", literal.counts.estimates),
+            format!("{:.1}", ours.counts.estimates),
+        );
+        row(
+            "steps a pixel",
+            format!("{:.1}", literal.counts.steps),
+            format!("{:.1}", ours.counts.steps),
+        );
+        if let Some(share) = self.peak_share {
+            let peak = format!("% of {:.0} GFLOP/s", self.peak_gflops);
+            row(&peak, String::new(), format!("{:.1}", 100.0 * share));
+        }
+        let columns = literal.errors.columns().into_iter().zip(ours.errors.columns());
+        for ((name, literal), (_, ours)) in columns {
+            row(name, format!("{literal:.4}"), format!("{ours:.4}"));
+        }
+        for (name, counts) in &self.our_counts {
+            println!(
+                "  in {name}: {:.1} estimates, {:.1} steps a pixel",
+                counts.estimates, counts.steps
+            );
+        }
+        for (name, ms) in &self.passes_ms {
+            println!("  pass {name} {ms:.1} ms");
+        }
+        if self.complaints.is_empty() {
+            println!("  pass: the picture is as good");
+        }
+        for complaint in &self.complaints {
+            println!("  FAIL: {complaint}");
+        }
+        println!("ratio {view} {:.2}", self.ratio);
+    }
+}
 
 /// Measures a view.
 ///
@@ -36,17 +148,17 @@ pub fn compare(
 ) -> Result<Comparison, Failure> {
     let View { name, about, ref scene, size_px, stride, .. } = *view;
     let samples = scene.quality.samples;
-    let kindness = kindness::find(scene, size_px);
+    let tuning = tuning::find(scene, size_px);
     // The literal kernel knows no anchors.
     let inputs = Inputs::about(scene, Region::whole(size_px), &RenderSpace::plain());
-    let theirs = Picture::new(literal, &inputs, samples, kindness, stride);
+    let theirs = Picture::new(literal, &inputs, samples, tuning, stride);
 
     // Errors are those of one sample. Its pictures warm up: pipelines are compiled, and drivers
     // have seen them.
-    let one_sample = super::views::sampled(scene.clone(), 1);
+    let one_sample = sampled(scene.clone(), 1);
     let truths = Truths::new(scene, size_px, arguments.error_pixels);
     let (hit, lit) = truths.coverage();
-    let literal_errors = truths.compare(&literal_shown(literal, &inputs, kindness, &truths)?);
+    let literal_errors = truths.compare(&literal_shown(literal, &inputs, tuning, &truths)?);
     let (_, shown) = ours::draw_ms(pipelines, &one_sample, size_px);
     let our_errors = truths.compare(&our_shown(&shown, size_px, &truths)?);
     let complaints = our_errors.complaints(&literal_errors, view.normals_within_deg);
@@ -64,21 +176,21 @@ pub fn compare(
         std::fs::create_dir_all(folder)?;
         let (_, shown) = ours::draw_ms(pipelines, scene, size_px);
         let ours = ours::display(pipelines, &shown)?;
-        picture::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
+        image_file::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
         let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
-        let literal = picture::developed(&theirs.seen()?, size_px, exposure, white);
-        picture::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
+        let literal = image_file::developed(&theirs.seen()?, size_px, exposure, white);
+        image_file::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
     }
     let pixels: f64 = size_px.into_iter().map(f64::from).product();
-    let literal_counts = counts::literal(&pipelines.gpu, &inputs, kindness)?.per(pixels);
-    let our_counts: Vec<_> = counts::ours(pipelines, scene, size_px)?
+    let literal_counts = literal::counts(&pipelines.gpu, &inputs, tuning)?.per(pixels);
+    let our_counts: Vec<_> = ours::counts(pipelines, scene, size_px)?
         .into_iter()
         .map(|(pass, counts)| (pass, counts.per(pixels)))
         .collect();
     let mut our_sum = Counts::default();
     for (name, counts) in &our_counts {
         // In the mean over the samples.
-        let part = if *name == counts::LATER { samples - 1 } else { 1 };
+        let part = if *name == ours::LATER { samples - 1 } else { 1 };
         our_sum += counts.per(f64::from(samples) / f64::from(part));
     }
     let side = |rounds_ms: Vec<f64>, busy: Vec<f64>, iterations, errors, counts| Side {
@@ -89,8 +201,7 @@ pub fn compare(
         errors,
         counts,
     };
-    let literal =
-        side(literal_ms, literal_busy, kindness.iterations, literal_errors, literal_counts);
+    let literal = side(literal_ms, literal_busy, tuning.iterations, literal_errors, literal_counts);
     let ours = side(ours_ms, ours_busy, scene.fractal.iterations, our_errors, our_sum);
     let peak_gflops = median(&gflops);
     let flop = scene.fractal.integer_power().map(peak::flop_a_step);
@@ -161,10 +272,10 @@ fn passes(
 fn literal_shown(
     literal: &Literal,
     inputs: &Inputs,
-    kindness: Kindness,
+    tuning: Tuning,
     truths: &Truths,
 ) -> Result<Vec<Shown>, Failure> {
-    let picture = Picture::new(literal, inputs, 1, kindness, 1);
+    let picture = Picture::new(literal, inputs, 1, tuning, 1);
     picture.draw_ms();
     let seen: HashMap<_, _> = picture.seen()?.into_iter().map(|seen| (seen.pixel, seen)).collect();
     let shown = truths.pixels.iter().filter_map(|pixel| seen.get(pixel)).map(|seen| Shown {

@@ -2,27 +2,14 @@
 
 use std::ops::AddAssign;
 
-use mandelight::{
-    gpu::{
-        Gpu,
-        readback::{Readback, ReadbackError},
-        shader::Module,
-    },
-    render::{
-        Pipelines, pass,
-        pipelines::{Passes, PipelineKey},
-        uniforms::Inputs,
-    },
-    scene::Scene,
+use mandelight::gpu::{
+    Gpu,
+    readback::{Readback, ReadbackError},
+    shader::Module,
 };
 use serde::Serialize;
 
-use super::{
-    Failure,
-    instrument::{self, Marks},
-    literal::{Kindness, Literal, Picture},
-    ours,
-};
+use super::instrument::{self, Marks};
 
 /// How much of the formula a picture takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -87,69 +74,4 @@ pub fn counting(
         label: Some(module.label),
         source: wgpu::ShaderSource::Wgsl(text.into()),
     }))
-}
-
-/// The literal kernel's counts for one sample of each pixel of a whole picture.
-///
-/// # Errors
-/// Where the device is lost, or the kernel can't be counted.
-pub fn literal(gpu: &Gpu, inputs: &Inputs, kindness: Kindness) -> Result<Counts, Failure> {
-    let counting = Literal::counting(gpu)?;
-    Ok(Picture::new(&counting, inputs, 1, kindness, 1).count()?)
-}
-
-/// What later samples' counts are called.
-pub const LATER: &str = "a later sample";
-
-/// The program's counts for the first sample of each pixel of a whole picture, pass by pass, and
-/// for a later one where there is one.
-///
-/// # Errors
-/// Where the device is lost, or a kernel can't be counted.
-pub fn ours(
-    pipelines: &Pipelines,
-    scene: &Scene,
-    size_px: [u32; 2],
-) -> Result<Vec<(&'static str, Counts)>, Failure> {
-    let split = ours::Split::new(pipelines, scene, size_px);
-    let passes = counting_passes(pipelines, &split)?;
-    let mut counts = split.count(&passes)?;
-    if scene.quality.samples > 1 {
-        counts.push((LATER, split.count_later(&passes)?));
-    }
-    Ok(counts)
-}
-
-/// Copies of the passes that march, for pictures of one form, that count.
-///
-/// # Errors
-/// Where a kernel can't be counted.
-pub fn counting_passes(pipelines: &Pipelines, split: &ours::Split<'_>) -> Result<Passes, Failure> {
-    let constants = PipelineKey::of(split.frame()).constants();
-    let gpu = &pipelines.gpu;
-    let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
-        .map(|layout| split.counting_layout(layout));
-    let made =
-        |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
-            let shader = counting(gpu, module, &marks(&[estimate], ours::Split::COUNTS))?;
-            Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(module.label),
-                layout: Some(layout),
-                module: &shader,
-                entry_point: Some("main"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &constants,
-                    ..Default::default()
-                },
-                cache: None,
-            }))
-        };
-    Ok(Passes {
-        camera_cone: made(&enqueue, &pass::camera_cone::MODULE, "estimate_at")?,
-        march: made(&queued, &pass::march::MODULE, "estimate_at")?,
-        normal: made(&queued, &pass::normal::MODULE, "distance_gradient")?,
-        shadow_cone: made(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
-        shadow: made(&queued, &pass::shadow::MODULE, "estimate_at")?,
-        ..pipelines.passes(split.frame())
-    })
 }

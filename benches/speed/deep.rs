@@ -13,12 +13,7 @@ use mandelight::{
 use serde::Serialize;
 
 use super::{
-    Failure,
-    counts::{self, Counts},
-    descent::PLACES,
-    ours,
-    statistics::median,
-    views::SIZE_PX,
+    counts::Counts, descent::PLACES, failure::Failure, ours, statistics::median, views::SIZE_PX,
 };
 
 /// What `--views` calls the table.
@@ -83,7 +78,7 @@ pub fn measure(
     let mut rows: Vec<Row> = Vec::new();
     for ((scene, times), (name, _)) in scenes.iter().zip(&times).zip(DISTANCES) {
         let mut counts = Counts::default();
-        for (_, counted) in counts::ours(pipelines, scene, size_px)? {
+        for (_, counted) in ours::counts(pipelines, scene, size_px)? {
             counts += counted.per(pixels);
         }
         let ms = median(times);

@@ -19,9 +19,9 @@ use mandelight::{
 use serde::Serialize;
 
 use super::{
-    Failure,
-    counts::{self, Counts},
-    ours::Split,
+    counts::Counts,
+    failure::Failure,
+    ours::{Split, counting_passes},
     statistics::median,
     views::SIZE_PX,
 };
@@ -95,7 +95,7 @@ impl Bench<'_> {
     fn count(&mut self, split: &Split<'_>) -> Result<Counts, Failure> {
         let key = PipelineKey::of(split.frame());
         if !self.counting.contains_key(&key) {
-            self.counting.insert(key, counts::counting_passes(self.pipelines, split)?);
+            self.counting.insert(key, counting_passes(self.pipelines, split)?);
         }
         let mut counts = Counts::default();
         for (_, counted) in split.count(&self.counting[&key])? {

@@ -5,7 +5,7 @@ use mandelight::{fractal::Ray, scene::Scene};
 use serde::Serialize;
 
 use super::{
-    kindness::{pixel_ray, spread},
+    pixels::{pixel_ray, spread},
     reference::{Reference, Truth},
     statistics::{in_parallel, mean, quantile},
 };

@@ -5,25 +5,23 @@
 //! budgets, what edits cost next to a camera move, how soon the whole picture follows a release,
 //! and how good moving pictures are.
 
+mod difference;
 mod edits;
-mod error;
-mod picture;
+mod quality;
 mod replay;
-mod report;
+mod results;
 mod session;
 
 use std::{path::Path, sync::Arc};
 
-use mandelight::{render::Pipelines, scene::Scene};
+use mandelight::render::Pipelines;
 
-pub use report::Report;
+use super::failure::Failure;
+pub use results::Results;
 use session::{Hold, PARTS, Session};
 
 /// What the command line calls it.
 pub const NAME: &str = "feel";
-
-/// The picture's size.
-pub const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// Budgets in a full frame.
 const BUDGETS: f64 = 20.0;
@@ -31,26 +29,8 @@ const BUDGETS: f64 = 20.0;
 /// The part after which the picture is filled with surface: there a full frame is measured.
 const FILLED_AFTER: usize = 1;
 
-/// The scene with another motion budget, milliseconds.
-fn aimed(scene: &Scene, budget_ms: f64) -> Scene {
-    let mut scene = scene.clone();
-    scene.quality.motion_budget_ms = budget_ms;
-    scene
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    part_of(&mut values, 0.5)
-}
-
-/// The value that so large a part of all are no larger than.
-fn part_of(values: &mut [f64], part: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let index = (part * values.len() as f64).ceil() as usize;
-    values.get(index.saturating_sub(1)).copied().unwrap_or(f64::NAN)
-}
-
 /// Replays the session. Pictures that were compared go to the folder `pictures`.
-pub fn run(pipelines: &Arc<Pipelines>, pictures: Option<&Path>) -> Result<Report, super::Failure> {
+pub fn run(pipelines: &Arc<Pipelines>, pictures: Option<&Path>) -> Result<Results, Failure> {
     let session = Session::record();
     let costs = edits::costs(pipelines, session.end_of(FILLED_AFTER));
     let budget_ms = costs.camera_ms / BUDGETS;
@@ -66,6 +46,6 @@ pub fn run(pipelines: &Arc<Pipelines>, pictures: Option<&Path>) -> Result<Report
         Some(edits::release(pipelines, session.end_of(part), edit, budget_ms))
     });
     let releases: Vec<_> = releases.collect();
-    let qualities = picture::qualities(pipelines, &session, &replay.frames, budget_ms, pictures)?;
-    Ok(Report::new(budget_ms, costs, &replay, &releases, &qualities))
+    let qualities = quality::qualities(pipelines, &session, &replay.frames, budget_ms, pictures)?;
+    Ok(Results::new(budget_ms, costs, &replay, &releases, &qualities))
 }

@@ -1,6 +1,6 @@
 //! The thesis's own algorithm on the GPU: `literal.wgsl`, and what drives it.
 //!
-//! In: the program's inputs of a scene, and the settings that [`super::kindness`] finds. Out: how
+//! In: the program's inputs of a scene, and the settings that `tuning` finds. Out: how
 //! long its pictures take, and what is in them. It shares no kernel with the program. Tone mapping
 //! is left out: it costs the literal side nothing.
 
@@ -17,7 +17,7 @@ use mandelight::{
 };
 use std::time::Instant;
 
-use super::{counts::Counts, instrument};
+use super::{counts::Counts, failure::Failure, instrument};
 
 const TEXT: &str = include_str!("literal.wgsl");
 
@@ -26,7 +26,7 @@ const LOOP_TURNS: u32 = 60_000;
 
 /// What one literal picture is made with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kindness {
+pub struct Tuning {
     /// How near to the set counts as on it, scene units.
     pub epsilon: f64,
     /// Most steps of an orbit.
@@ -72,7 +72,7 @@ struct Settings {
 }
 
 impl Settings {
-    fn new(inputs: &Inputs, kindness: Kindness, stride: u32) -> Self {
+    fn new(inputs: &Inputs, tuning: Tuning, stride: u32) -> Self {
         let picture = &inputs.frame;
         let (camera, fractal) = (&picture.camera, &picture.fractal);
         let (surface, background) = (&picture.surface, &picture.background);
@@ -82,7 +82,7 @@ impl Settings {
             right: camera.right,
             aspect: camera.aspect,
             up: camera.up,
-            epsilon: kindness.epsilon as f32,
+            epsilon: tuning.epsilon as f32,
             forward: camera.forward,
             power: fractal.power,
             constant: fractal.julia_constant,
@@ -90,8 +90,8 @@ impl Settings {
             size_px: picture.picture_px,
             stride,
             julia: fractal.julia,
-            max_iterations: kindness.iterations,
-            max_steps: kindness.steps,
+            max_iterations: tuning.iterations,
+            max_steps: tuning.steps,
             outside: fractal.bounding_radius,
             first_light: 0,
             jitter: [0.5; 2],
@@ -236,11 +236,11 @@ impl<'a> Picture<'a> {
         literal: &'a Literal,
         inputs: &Inputs,
         samples: u32,
-        kindness: Kindness,
+        tuning: Tuning,
         stride: u32,
     ) -> Self {
         let device = &literal.gpu.device;
-        let settings = Settings::new(inputs, kindness, stride);
+        let settings = Settings::new(inputs, tuning, stride);
         let blocks = settings.size_px.map(|side| side.div_ceil(8).div_ceil(stride));
         let pixels = 64 * u64::from(blocks[0]) * u64::from(blocks[1]);
         let buffer = |label, size| {
@@ -394,4 +394,13 @@ impl<'a> Picture<'a> {
             })
             .collect())
     }
+}
+
+/// The literal kernel's counts for one sample of each pixel of a whole picture.
+///
+/// # Errors
+/// Where the device is lost, or the kernel can't be counted.
+pub fn counts(gpu: &Gpu, inputs: &Inputs, tuning: Tuning) -> Result<Counts, Failure> {
+    let counting = Literal::counting(gpu)?;
+    Ok(Picture::new(&counting, inputs, 1, tuning, 1).count()?)
 }

@@ -6,13 +6,15 @@
 //!
 //! | file | what lives there |
 //! |---|---|
+//! | `failure` | the error of any measurement |
 //! | `arguments` | the command line |
 //! | `views` | what is drawn |
 //! | `compare` | one view by both sides |
 //! | `limits` | what a run is held to |
 //! | `literal` | the thesis's algorithm on the GPU |
-//! | `kindness` | its kindest honest settings |
+//! | `tuning` | its settings for a view |
 //! | `ours` | the program's stills, and its passes one by one |
+//! | `pixels` | compared pixels, their rays and cones |
 //! | `reference` | what a picture should show, in f64 |
 //! | `errors` | how far pictures are from that |
 //! | `counts` | distance estimates and orbit steps of both sides |
@@ -25,7 +27,7 @@
 //! | `scaling` | how time grows with what is asked for |
 //! | `start` | how long it takes until there is a picture |
 //! | `feel` | a recorded session against the clock |
-//! | `picture` | what both sides draw, as files |
+//! | `image_file` | what both sides draw, as files |
 //! | `report` | what was measured, told |
 //! | `tables` | the same for `docs/benchmark.md` |
 //! | `statistics` | medians, quantiles |
@@ -36,15 +38,16 @@ pub mod counts;
 pub mod deep;
 pub mod descent;
 pub mod errors;
+pub mod failure;
 pub mod feel;
+pub mod image_file;
 pub mod instrument;
-pub mod kindness;
 pub mod limits;
 pub mod literal;
 pub mod load;
 pub mod ours;
 pub mod peak;
-pub mod picture;
+pub mod pixels;
 pub mod powers;
 pub mod reference;
 pub mod report;
@@ -52,12 +55,14 @@ pub mod scaling;
 pub mod start;
 pub mod statistics;
 pub mod tables;
+pub mod tuning;
 pub mod views;
 
 use std::process::ExitCode;
 
 use arguments::Arguments;
 use clap::Parser as _;
+use failure::Failure;
 use limits::Limits;
 use mandelight::{gpu::Gpu, render::Pipelines};
 use report::Report;
@@ -65,8 +70,6 @@ use views::View;
 
 /// The limits of views in their own sizes.
 const LIMITS: &str = include_str!("limits.txt");
-
-pub type Failure = Box<dyn std::error::Error>;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();

@@ -3,13 +3,13 @@
 use std::{sync::Arc, time::Instant};
 
 use mandelight::{
-    gpu::readback::ReadbackError,
+    gpu::{readback::ReadbackError, shader::Module},
     render::{
         Pace, Pipelines, Region, View,
         frame::{Dispatches, Recorder},
         lattice::MOST_TOGETHER,
         pass,
-        pipelines::Passes,
+        pipelines::{Passes, PipelineKey},
         schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
         targets::Targets,
         uniforms::{FrameUniforms, Inputs},
@@ -17,7 +17,10 @@ use mandelight::{
     scene::Scene,
 };
 
-use super::{Failure, counts::Counts};
+use super::{
+    counts::{self, Counts},
+    failure::Failure,
+};
 
 /// Draws a still from nothing and says how long that took, milliseconds: from when the view has
 /// its scene until its picture is there, tone mapped. Buffers are allocated before.
@@ -231,4 +234,60 @@ impl<'a> Split<'a> {
         record(&mut recorder, &trace, &grid);
         recorder.finish()
     }
+}
+
+/// What later samples' counts are called.
+pub const LATER: &str = "a later sample";
+
+/// The program's counts for the first sample of each pixel of a whole picture, pass by pass, and
+/// for a later one where there is one.
+///
+/// # Errors
+/// Where the device is lost, or a kernel can't be counted.
+pub fn counts(
+    pipelines: &Pipelines,
+    scene: &Scene,
+    size_px: [u32; 2],
+) -> Result<Vec<(&'static str, Counts)>, Failure> {
+    let split = Split::new(pipelines, scene, size_px);
+    let passes = counting_passes(pipelines, &split)?;
+    let mut counted = split.count(&passes)?;
+    if scene.quality.samples > 1 {
+        counted.push((LATER, split.count_later(&passes)?));
+    }
+    Ok(counted)
+}
+
+/// Copies of the passes that march, for pictures of one form, that count.
+///
+/// # Errors
+/// Where a kernel can't be counted.
+pub fn counting_passes(pipelines: &Pipelines, split: &Split<'_>) -> Result<Passes, Failure> {
+    let constants = PipelineKey::of(split.frame()).constants();
+    let gpu = &pipelines.gpu;
+    let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
+        .map(|layout| split.counting_layout(layout));
+    let made =
+        |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
+            let shader = counts::counting(gpu, module, &counts::marks(&[estimate], Split::COUNTS))?;
+            Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(module.label),
+                layout: Some(layout),
+                module: &shader,
+                entry_point: Some("main"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
+                cache: None,
+            }))
+        };
+    Ok(Passes {
+        camera_cone: made(&enqueue, &pass::camera_cone::MODULE, "estimate_at")?,
+        march: made(&queued, &pass::march::MODULE, "estimate_at")?,
+        normal: made(&queued, &pass::normal::MODULE, "distance_gradient")?,
+        shadow_cone: made(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
+        shadow: made(&queued, &pass::shadow::MODULE, "estimate_at")?,
+        ..pipelines.passes(split.frame())
+    })
 }

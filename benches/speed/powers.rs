@@ -17,8 +17,8 @@ use mandelight::{
 use serde::Serialize;
 
 use super::{
-    Failure,
     counts::{self, Counts},
+    failure::Failure,
     statistics::median,
 };
 

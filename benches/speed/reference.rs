@@ -14,9 +14,9 @@ use mandelight::{
     scene::Scene,
 };
 
-use super::kindness::{footprint, pixel_ray, with_iterations};
+use super::pixels::{footprint, pixel_ray, with_iterations};
 
-/// More iterations than any view needs: [`super::errors`] would show it.
+/// More iterations than any view needs: `errors` would show it.
 const ITERATIONS: u32 = 100;
 /// The part of the careful step that the reference takes.
 const STEP_PART: f64 = 0.25;

@@ -12,7 +12,7 @@ use mandelight::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::{Failure, arguments::Arguments, statistics::median};
+use super::{arguments::Arguments, failure::Failure, statistics::median};
 
 /// What `--views` calls the table.
 pub const NAME: &str = "start";

@@ -4,11 +4,7 @@
 
 use std::fmt::Write as _;
 
-use super::{
-    counts::Counts,
-    descent::Row,
-    report::{Comparison, Report},
-};
+use super::{compare::Comparison, counts::Counts, descent::Row, report::Report};
 
 /// `text` with the tables that `report` has.
 ///

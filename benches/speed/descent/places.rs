@@ -7,7 +7,7 @@ use glam::DVec3;
 use mandelight::scene::{Camera, EnvironmentLight, Fractal, Precise, PrecisePoint, Scene};
 
 use super::super::{
-    Failure,
+    failure::Failure,
     views::{sampled, sky, with_lights},
 };
 

@@ -14,7 +14,11 @@ use mandelight::{
 };
 use serde::Serialize;
 
-use super::{SIZE_PX, median, replay::PUMP_SECS};
+use super::{
+    super::statistics::median,
+    replay::PUMP_SECS,
+    session::{SIZE_PX, with_motion_budget},
+};
 
 /// A motion budget that every frame fits, milliseconds.
 const NO_HURRY_MS: f64 = 1e7;
@@ -47,7 +51,7 @@ pub fn release(
     let start = Instant::now();
     let new_view = || View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
     let (mut hurried, mut unhurried) = (new_view(), new_view());
-    let (mut scene, mut turned) = (scene.clone(), super::aimed(scene, NO_HURRY_MS));
+    let (mut scene, mut turned) = (scene.clone(), with_motion_budget(scene, NO_HURRY_MS));
     turned.quality.samples = 1;
     let mut ratios = Vec::new();
     for round in 0..WARM_UP + ROUNDS {
@@ -55,7 +59,7 @@ pub fn release(
         move_camera(&mut turned, sign);
         let own_ms = draw(pipelines, &mut unhurried, &turned, start);
         edit(&mut scene, sign);
-        let aimed = super::aimed(&scene, budget_ms);
+        let aimed = with_motion_budget(&scene, budget_ms);
         draw_until(pipelines, &mut hurried, &aimed, true, start, |_| true);
         let whole = |pixels_per_sample| pixels_per_sample == 1;
         let released_ms = draw_until(pipelines, &mut hurried, &aimed, false, start, whole);
@@ -63,7 +67,7 @@ pub fn release(
             ratios.push(released_ms / own_ms);
         }
     }
-    median(ratios)
+    median(&ratios)
 }
 
 /// Gives a scene to a view that is pumped as the page does; milliseconds until a picture is
@@ -134,7 +138,7 @@ fn measured<const N: usize>(
     scene: &Scene,
     edits: [fn(&mut Scene, f64); N],
 ) -> [f64; N] {
-    let mut scene = super::aimed(scene, NO_HURRY_MS);
+    let mut scene = with_motion_budget(scene, NO_HURRY_MS);
     scene.quality.samples = 1;
     pipelines.specialise(&scene);
     let mut view = View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
@@ -151,7 +155,7 @@ fn measured<const N: usize>(
             }
         }
     }
-    times.map(median)
+    times.map(|times| median(&times))
 }
 
 /// Draws a scene; milliseconds from the edit to the picture of all pixels.

@@ -18,7 +18,10 @@ use mandelight::{
     scene::Scene,
 };
 
-use super::{super::load::Load, SIZE_PX, session::Session};
+use super::{
+    super::load::Load,
+    session::{SIZE_PX, Session, with_motion_budget},
+};
 
 /// Between two pumps, as in the page, seconds.
 pub const PUMP_SECS: f64 = 0.004;
@@ -221,7 +224,7 @@ pub fn play(pipelines: &Arc<Pipelines>, session: &Session, budget_ms: f64) -> Re
         shown: Arc::default(),
     };
     let scenes = session.parts.iter().map(|part| {
-        let aimed = part.iter().map(|scene| super::aimed(scene, budget_ms));
+        let aimed = part.iter().map(|scene| with_motion_budget(scene, budget_ms));
         aimed.collect::<Vec<_>>()
     });
     for (part, scenes) in scenes.enumerate() {

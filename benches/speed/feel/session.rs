@@ -8,7 +8,8 @@ use mandelight::{
     ui::navigation::{Navigator, Viewport, World},
 };
 
-use super::SIZE_PX;
+/// The picture's size.
+pub const SIZE_PX: [u32; 2] = [1280, 720];
 
 /// What the pointer holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,4 +206,11 @@ fn played(part: &Part, start: &Scene) -> Vec<Scene> {
         scenes.push(scene.clone());
     }
     scenes
+}
+
+/// The scene with another motion budget, milliseconds.
+pub fn with_motion_budget(scene: &Scene, budget_ms: f64) -> Scene {
+    let mut scene = scene.clone();
+    scene.quality.motion_budget_ms = budget_ms;
+    scene
 }

@@ -2,13 +2,15 @@
 
 use serde::Serialize;
 
+use super::session::SIZE_PX;
+
 /// Side of the squares that structure is compared in, and from one to the next, pixels.
 const WINDOW_PX: usize = 8;
 const STRIDE_PX: usize = 4;
 
 /// What one picture is off from another.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Errors {
+pub struct Difference {
     /// Mean of the channels' differences, in steps of 1/255, sRGB.
     pub mean: f64,
     /// Mean difference in Oklab (Ottosson 2020), times 100: 2 can just be seen.
@@ -17,7 +19,7 @@ pub struct Errors {
     pub structure: f64,
 }
 
-impl Errors {
+impl Difference {
     /// The mean of several.
     pub fn mean_of(all: &[Self]) -> Self {
         let count = all.len().max(1) as f64;
@@ -69,7 +71,7 @@ fn luma(pixel: &[u8; 4]) -> f64 {
 }
 
 fn similarity(a: &[[u8; 4]], b: &[[u8; 4]]) -> f64 {
-    let [width, height] = super::SIZE_PX.map(|side| side as usize);
+    let [width, height] = SIZE_PX.map(|side| side as usize);
     let (mut sum, mut count) = (0.0, 0.0);
     for y in (0..=height - WINDOW_PX).step_by(STRIDE_PX) {
         for x in (0..=width - WINDOW_PX).step_by(STRIDE_PX) {

@@ -5,13 +5,17 @@
 //! than [`HITS_DIFFER`] of the pixels change between hit and miss, and [`DEPTHS_AGREE`] of the
 //! depths move by less than one footprint.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use mandelight::{
-    fractal::{DistanceField, Estimator, Ray, camera_ray, pixel_cone},
-    scene::{Fractal, PrecisePoint, Scene},
+    fractal::{DistanceField, Estimator, Ray},
+    scene::Scene,
 };
 
-use super::{literal::Kindness, statistics};
+use super::{
+    literal::Tuning,
+    pixels::{footprint, pixel_ray, spread, with_iterations},
+    statistics,
+};
 
 /// The cap on a ray's steps.
 const STEPS: u32 = 400;
@@ -23,41 +27,6 @@ const HITS_DIFFER: f64 = 0.002;
 const DEPTHS_AGREE: f64 = 0.99;
 /// About how many pixels are looked at.
 const PIXELS: u32 = 4000;
-
-/// Pixels spread evenly over a picture, about `count` of them.
-pub fn spread(size_px: [u32; 2], count: u32) -> Vec<[u32; 2]> {
-    let [width, height] = size_px;
-    let every = (f64::from(width) * f64::from(height) / f64::from(count)).sqrt().max(1.0);
-    let along = |side: u32| {
-        let places = (f64::from(side) / every).max(1.0) as u32;
-        move |i: u32| ((f64::from(i) + 0.5) * f64::from(side) / f64::from(places)) as u32
-    };
-    let (columns, rows) = ((f64::from(width) / every) as u32, (f64::from(height) / every) as u32);
-    let (x, y) = (along(width), along(height));
-    (0..rows.max(1))
-        .flat_map(|j| (0..columns.max(1)).map(move |i| [i, j]))
-        .map(|[i, j]| [x(i), y(j)])
-        .collect()
-}
-
-/// The ray through a pixel's centre.
-pub fn pixel_ray(scene: &Scene, size_px: [u32; 2], pixel: [u32; 2]) -> Ray {
-    let [width, height] = size_px.map(f64::from);
-    let [x, y] = pixel.map(|v| f64::from(v) + 0.5);
-    let ndc = DVec2::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height);
-    camera_ray(&scene.camera, &PrecisePoint::ORIGIN, ndc, width / height)
-}
-
-/// Radius of a pixel's cone at depth one.
-pub fn footprint(scene: &Scene, size_px: [u32; 2]) -> f64 {
-    let [width, height] = size_px.map(f64::from);
-    pixel_cone(&scene.camera, width / height, height)
-}
-
-/// The fractal with another number of iterations.
-pub fn with_iterations(fractal: &Fractal, iterations: u32) -> Estimator {
-    Estimator::new(&Fractal { iterations, ..fractal.clone() })
-}
 
 /// As `march` in `literal.wgsl`, in f64.
 fn march(estimator: &Estimator, ray: Ray, divergence: f64, epsilon: f64) -> Option<f64> {
@@ -77,7 +46,7 @@ fn march(estimator: &Estimator, ray: Ray, divergence: f64, epsilon: f64) -> Opti
 }
 
 /// Finds them.
-pub fn find(scene: &Scene, size_px: [u32; 2]) -> Kindness {
+pub fn find(scene: &Scene, size_px: [u32; 2]) -> Tuning {
     let pixels = spread(size_px, PIXELS);
     let cone = footprint(scene, size_px);
     let plenty = with_iterations(&scene.fractal, PLENTY);
@@ -100,5 +69,5 @@ pub fn find(scene: &Scene, size_px: [u32; 2]) -> Kindness {
             && statistics::quantile(moved, DEPTHS_AGREE) < epsilon
     };
     let iterations = (2..PLENTY).find(suffices).unwrap_or(PLENTY);
-    Kindness { epsilon, iterations, steps: STEPS }
+    Tuning { epsilon, iterations, steps: STEPS }
 }

@@ -3,13 +3,12 @@
 use serde::Serialize;
 
 use super::{
-    SIZE_PX,
+    super::statistics::nearest_rank,
+    difference::Difference,
     edits::Costs,
-    error::Errors,
-    part_of,
-    picture::Quality,
+    quality::Quality,
     replay::{Frame, Replay},
-    session::PARTS,
+    session::{PARTS, SIZE_PX},
 };
 
 /// What a moving frame may take, in budgets, to count as in time.
@@ -17,7 +16,7 @@ const IN_TIME: f64 = 1.25;
 
 /// All that the replay found.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct Results {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
     /// A twentieth of a full frame, milliseconds.
@@ -52,8 +51,8 @@ pub struct Feel {
     pub pixels_per_sample: f64,
     /// From the release to the picture of all pixels, in a full frame's own time.
     pub release: Option<f64>,
-    /// Errors against the full frame: of what was shown, and of nearest-pixel filling.
-    pub errors: Option<[Errors; 2]>,
+    /// Difference against the full frame: of what was shown, and of nearest-pixel filling.
+    pub errors: Option<[Difference; 2]>,
 }
 
 impl Feel {
@@ -65,18 +64,18 @@ impl Feel {
         let in_time = times.iter().filter(|&&time| time <= IN_TIME).count();
         let mut sparse: Vec<_> =
             frames.iter().map(|frame| f64::from(frame.pixels_per_sample)).collect();
-        let mean = |of: fn(&Quality) -> Errors| {
-            Errors::mean_of(&qualities.iter().map(|quality| of(quality)).collect::<Vec<_>>())
+        let mean = |of: fn(&Quality) -> Difference| {
+            Difference::mean_of(&qualities.iter().map(|quality| of(quality)).collect::<Vec<_>>())
         };
         Self {
             name,
             frames: frames.len(),
-            p50: part_of(&mut times, 0.5),
-            p95: part_of(&mut times, 0.95),
-            max: part_of(&mut times, 1.0),
+            p50: nearest_rank(&mut times, 0.5),
+            p95: nearest_rank(&mut times, 0.95),
+            max: nearest_rank(&mut times, 1.0),
             in_time: in_time as f64 / times.len().max(1) as f64,
-            lag_p95: part_of(&mut in_budgets(|frame| frame.lag_secs), 0.95),
-            pixels_per_sample: part_of(&mut sparse, 0.5),
+            lag_p95: nearest_rank(&mut in_budgets(|frame| frame.lag_secs), 0.95),
+            pixels_per_sample: nearest_rank(&mut sparse, 0.5),
             release: None,
             errors: (!qualities.is_empty())
                 .then(|| [mean(|quality| quality.shown), mean(|quality| quality.nearest)]),
@@ -84,7 +83,7 @@ impl Feel {
     }
 }
 
-impl Report {
+impl Results {
     /// Sums up what was measured.
     pub fn new(
         budget_ms: f64,

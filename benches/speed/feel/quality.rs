@@ -14,17 +14,16 @@ use mandelight::{
 };
 
 use super::{
-    super::{Failure, picture},
-    SIZE_PX,
-    error::Errors,
+    super::{failure::Failure, image_file},
+    difference::Difference,
     replay::Frame,
-    session::Session,
+    session::{SIZE_PX, Session, with_motion_budget},
 };
 
 /// Of the moving pictures of each part so many are looked at.
 const LOOKED_AT: usize = 4;
 
-/// Errors of a moving picture, and of the same lattice filled otherwise.
+/// Difference of a moving picture, and of the same lattice filled otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct Quality {
     /// The part of the session.
@@ -32,9 +31,9 @@ pub struct Quality {
     /// One pixel of so many was computed.
     pub pixels_per_sample: u32,
     /// Of the picture shown.
-    pub shown: Errors,
+    pub shown: Difference,
     /// Of the nearest computed pixel's colour.
-    pub nearest: Errors,
+    pub nearest: Difference,
 }
 
 /// Plays the frames that a replay showed once more, without a clock, and compares.
@@ -53,12 +52,12 @@ pub fn qualities(
     }
     for part in 0..session.parts.len() {
         let frames: Vec<_> = frames.iter().filter(|frame| frame.part == part).collect();
-        let first = super::aimed(&session.parts[part][0], budget_ms);
+        let first = with_motion_budget(&session.parts[part][0], budget_ms);
         settle(&mut moving, &first, start);
         let every = (frames.len() / LOOKED_AT).max(1);
         for (index, frame) in frames.iter().enumerate() {
             let scene = &session.parts[part][frame.tick as usize];
-            move_to(pipelines, &mut moving, &super::aimed(scene, budget_ms), start);
+            move_to(pipelines, &mut moving, &with_motion_budget(scene, budget_ms), start);
             let pixels_per_sample = moving.report().pixels_per_sample;
             if index % every != every / 2 || pixels_per_sample == 1 {
                 continue;
@@ -69,14 +68,14 @@ pub fn qualities(
             if let Some(folder) = keep {
                 let name = |kind| folder.join(format!("feel-{part}-{index:02}-{kind}.png"));
                 for (kind, bytes) in [("shown", &shown), ("full", &full), ("nearest", &nearest)] {
-                    picture::write(&name(kind), SIZE_PX, bytes)?;
+                    image_file::write(&name(kind), SIZE_PX, bytes)?;
                 }
             }
             found.push(Quality {
                 part,
                 pixels_per_sample,
-                shown: Errors::between(&shown, &full),
-                nearest: Errors::between(&nearest, &full),
+                shown: Difference::between(&shown, &full),
+                nearest: Difference::between(&nearest, &full),
             });
         }
     }
