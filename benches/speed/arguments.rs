@@ -1,4 +1,6 @@
-//! What the command line asks for.
+//! The command line.
+//!
+//! In: words. Out: which views and tables to measure, how, and which files to write.
 
 use std::path::PathBuf;
 
@@ -9,58 +11,58 @@ use mandelight::export;
 #[derive(Clone, Debug, Parser)]
 #[command(name = "bench", bin_name = "cargo xtask bench")]
 pub struct Arguments {
-    /// Views and tables to run, by name, separated by commas; all of them unless told
+    /// Names of views and tables to run, separated by commas [default: all]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub views: Vec<String>,
-    /// Draw every view in this size rather than its own, such as 320x180
+    /// Draw every view at this size instead of its own, such as 320x180
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Rounds of one picture by either side; medians are told
+    /// Rounds in which each side draws one picture; results are medians
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
-    /// Of the descent, only places whose names contain one of these, such as streaky-8
+    /// Limit the descent to places whose names contain one of these, such as streaky-8
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub places: Vec<String>,
-    /// Also time the program's passes one by one, each a dispatch over the whole picture
+    /// Also time each of the program's passes over the whole picture
     #[arg(long)]
     pub passes: bool,
-    /// About how many pixels are compared with the reference in f64
+    /// About how many pixels to compare with the reference in f64
     #[arg(long, value_name = "N", default_value_t = 4000)]
     pub error_pixels: u32,
-    /// Also write what both sides draw, as PNG files, to this folder
+    /// Also write both sides' pictures as PNG files to this folder
     #[arg(long, value_name = "FOLDER")]
     pub pictures: Option<PathBuf>,
-    /// Also write everything that was measured to this file, or - for standard output, as JSON
+    /// Also write all results as JSON to this file, or to standard output for -
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Also put the tables into this file, docs/benchmark.md, in place of its own
+    /// Also replace the tables of this file, docs/benchmark.md
     #[arg(long, value_name = "FILE")]
     pub tables: Option<PathBuf>,
-    /// Fail where a picture is not good enough for its ratio to count, or, in the views' own sizes,
-    /// where a limit is broken
+    /// Fail if a ratio does not count or, at the views' own sizes, if a measurement breaks its
+    /// limit
     #[arg(long)]
     pub check: bool,
-    /// Also tighten the limits in this file, benches/speed/limits.txt, to what was measured
+    /// Also tighten the limits of this file, benches/speed/limits.txt, to the results
     #[arg(long, value_name = "FILE", conflicts_with_all = ["size", "places"])]
     pub tighten: Option<PathBuf>,
     /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
-    /// Start once and say how long that took
+    /// Start once and print the times
     #[arg(long, hide = true)]
     pub start_once: bool,
-    /// Cargo says so of every benchmark
+    /// Cargo passes this flag to every benchmark
     #[arg(long, hide = true)]
     pub bench: bool,
 }
 
 impl Arguments {
-    /// True where a view or a table was asked for, or nothing in particular.
+    /// True if a view or table is selected by name, or nothing is.
     pub fn wants(&self, name: &str) -> bool {
         self.views.is_empty() || self.views.iter().any(|wanted| wanted == name)
     }
 
-    /// The wanted adapter's name, where there is one.
+    /// Part of the adapter's name, from the flag or the environment.
     pub fn adapter_name(&self) -> Option<String> {
         let wanted = self.adapter.clone().or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok());
         wanted.filter(|name| !name.is_empty())

@@ -1,4 +1,6 @@
-//! One view by both sides, in turn.
+//! One view drawn by both sides in turn: times, counts and errors.
+//!
+//! In: the arguments, pipelines of both sides, a view. Out: a [`Comparison`].
 
 use std::{collections::HashMap, sync::Arc, time::Instant};
 
@@ -8,7 +10,7 @@ use serde::Serialize;
 use super::{
     arguments::Arguments,
     counts::Counts,
-    errors::{Errors, Shown, Truths},
+    errors::{Errors, ReferencePixels, SideSample},
     failure::Failure,
     image_file,
     literal::{self, Literal, Picture, Tuning},
@@ -20,10 +22,10 @@ use super::{
     views::{View, sampled},
 };
 
-/// How long either side's turn takes at least, seconds.
+/// Least duration of one side's turn, seconds.
 const TURN_SECS: f64 = 0.4;
 
-/// One view by both sides.
+/// The measurements of one view on both sides.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// The view's name.
@@ -34,28 +36,29 @@ pub struct Comparison {
     pub size_px: [u32; 2],
     /// Samples a pixel.
     pub samples: u32,
-    /// How many lights there are.
+    /// Number of lights.
     pub lights: usize,
-    /// Part of the pixels that hit the set, and of the bits that are set, by the reference.
+    /// Fraction of pixels whose reference ray hits the set.
     pub hit: f64,
-    /// As above.
+    /// Fraction of the hit pixels' visibility bits that the reference sets.
     pub lit: f64,
     /// The thesis's algorithm.
     pub literal: Side,
     /// The program.
     pub ours: Side,
-    /// Literal time over ours.
+    /// Literal time divided by the program's time.
     pub ratio: f64,
-    /// The adapter's multiply-adds, measured in the same rounds, GFLOP/s.
+    /// Measured multiply-add throughput of the adapter, median of the same rounds, GFLOP/s.
     pub peak_gflops: f64,
-    /// The program's share of that, 0 to 1: orbit steps as the mathematics needs them, over all of
-    /// its time; none for a power that isn't whole.
+    /// The program's share of [`Self::peak_gflops`], 0 to 1; none for a power that isn't whole.
+    ///
+    /// It divides the operations that the orbit steps need by the whole time of the picture.
     pub peak_share: Option<f64>,
-    /// What keeps the ratio from counting; empty where it counts.
+    /// The reasons why the ratio does not count; empty where it counts.
     pub complaints: Vec<String>,
-    /// What the program's passes take for the first sample of a pixel, and what a later one takes.
+    /// The program's counts per pixel: each pass of the first sample, then a later sample.
     pub our_counts: Vec<(&'static str, Counts)>,
-    /// Times of the program's passes over one sample of each pixel, milliseconds.
+    /// Times of the program's passes over one sample per pixel, milliseconds.
     pub passes_ms: Vec<(&'static str, f64)>,
 }
 
@@ -64,20 +67,21 @@ pub struct Comparison {
 pub struct Side {
     /// Median time, milliseconds.
     pub ms: f64,
-    /// Each round's.
+    /// The time of each round, milliseconds.
     pub rounds_ms: Vec<f64>,
-    /// The part of the machine's processors that drawing kept busy, 0 to 1; 0 where it does not tell.
+    /// Fraction of the machine's processors that drawing kept busy; 0 where the system has
+    /// no figures.
     pub busy: f64,
-    /// Most iterations of an orbit.
+    /// Iteration limit of an orbit.
     pub iterations: u32,
-    /// One sample's errors.
+    /// Errors of one sample.
     pub errors: Errors,
-    /// What a sample of a pixel takes in the mean.
+    /// Mean counts of one sample of a pixel.
     pub counts: Counts,
 }
 
 impl Comparison {
-    /// Tells it to people, and its ratio to scripts.
+    /// Prints a table for people and a `ratio` line for scripts.
     pub fn print(&self) {
         let Self { view, about, size_px: [width, height], samples, lights, .. } = self;
         println!("\n{view}: {about}");
@@ -135,10 +139,10 @@ impl Comparison {
     }
 }
 
-/// Measures a view.
+/// Measures a view on both sides.
 ///
 /// # Errors
-/// Where the device is lost, or a picture can't be written.
+/// If the device is lost, or a picture can't be written.
 pub fn compare(
     arguments: &Arguments,
     pipelines: &Arc<Pipelines>,
@@ -149,18 +153,17 @@ pub fn compare(
     let View { name, about, ref scene, size_px, stride, .. } = *view;
     let samples = scene.quality.samples;
     let tuning = tuning::find(scene, size_px);
-    // The literal kernel knows no anchors.
+    // The literal kernel has no anchors.
     let inputs = Inputs::about(scene, Region::whole(size_px), &RenderSpace::plain());
     let theirs = Picture::new(literal, &inputs, samples, tuning, stride);
 
-    // Errors are those of one sample. Its pictures warm up: pipelines are compiled, and drivers
-    // have seen them.
+    // Errors are those of one sample. These pictures also warm up pipelines and drivers.
     let one_sample = sampled(scene.clone(), 1);
-    let truths = Truths::new(scene, size_px, arguments.error_pixels);
-    let (hit, lit) = truths.coverage();
-    let literal_errors = truths.compare(&literal_shown(literal, &inputs, tuning, &truths)?);
+    let references = ReferencePixels::new(scene, size_px, arguments.error_pixels);
+    let (hit, lit) = references.coverage();
+    let literal_errors = references.compare(&literal_shown(literal, &inputs, tuning, &references)?);
     let (_, shown) = ours::draw_ms(pipelines, &one_sample, size_px);
-    let our_errors = truths.compare(&our_shown(&shown, size_px, &truths)?);
+    let our_errors = references.compare(&our_shown(&shown, size_px, &references)?);
     let complaints = our_errors.complaints(&literal_errors, view.normals_within_deg);
     drop(shown);
 
@@ -178,7 +181,7 @@ pub fn compare(
         let ours = ours::display(pipelines, &shown)?;
         image_file::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
         let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
-        let literal = image_file::developed(&theirs.seen()?, size_px, exposure, white);
+        let literal = image_file::tone_mapped(&theirs.seen()?, size_px, exposure, white);
         image_file::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
     }
     let pixels: f64 = size_px.into_iter().map(f64::from).product();
@@ -189,7 +192,7 @@ pub fn compare(
         .collect();
     let mut our_sum = Counts::default();
     for (name, counts) in &our_counts {
-        // In the mean over the samples.
+        // Weighted so that the sum is the mean over all samples.
         let part = if *name == ours::LATER { samples - 1 } else { 1 };
         our_sum += counts.per(f64::from(samples) / f64::from(part));
     }
@@ -204,7 +207,7 @@ pub fn compare(
     let literal = side(literal_ms, literal_busy, tuning.iterations, literal_errors, literal_counts);
     let ours = side(ours_ms, ours_busy, scene.fractal.iterations, our_errors, our_sum);
     let peak_gflops = median(&gflops);
-    let flop = scene.fractal.integer_power().map(peak::flop_a_step);
+    let flop = scene.fractal.integer_power().map(peak::flop_per_step);
     let steps = ours.counts.steps * pixels * f64::from(samples);
     let peak_share = flop.map(|flop| steps * flop / (ours.ms * 1e-3) / (peak_gflops * 1e9));
     let mut passes_ms = Vec::new();
@@ -230,9 +233,10 @@ pub fn compare(
     })
 }
 
-/// The mean of as many pictures as take [`TURN_SECS`]: where others use the machine too, a side
-/// with short pictures is held up as much as one with long ones. Adds how busy that kept the
-/// processors, where the machine tells.
+/// Mean time of as many pictures as fit [`TURN_SECS`], milliseconds.
+///
+/// Turns of equal length expose both sides to the same load of other programs. Appends the
+/// fraction of the processors that this program used, where the system has figures.
 fn repeated_ms(busy: &mut Vec<f64>, mut draw_ms: impl FnMut() -> f64) -> f64 {
     let (start, before) = (Instant::now(), Load::now());
     let (mut sum_ms, mut pictures) = (0.0, 0.0);
@@ -240,21 +244,22 @@ fn repeated_ms(busy: &mut Vec<f64>, mut draw_ms: impl FnMut() -> f64) -> f64 {
         sum_ms += draw_ms();
         pictures += 1.0;
     }
-    busy.extend(before.zip(Load::now()).map(|(before, now)| now.of_own_since(&before)));
+    busy.extend(before.zip(Load::now()).map(|(before, now)| now.own_share_since(&before)));
     sum_ms / pictures
 }
 
-/// Times the program's passes over one sample of each pixel; the rest is what a sample of the
-/// still takes beyond them.
+/// Times each pass over one sample per pixel, milliseconds.
+///
+/// `rest` is the time of one sample of the still minus the sum of the passes.
 fn passes(
     arguments: &Arguments,
     pipelines: &Pipelines,
     view: &View,
     still_ms: f64,
 ) -> Vec<(&'static str, f64)> {
-    let split = ours::Split::new(pipelines, &view.scene, view.size_px);
-    split.draw_ms();
-    let rounds: Vec<_> = (0..arguments.rounds).map(|_| split.draw_ms()).collect();
+    let runner = ours::PassRunner::new(pipelines, &view.scene, view.size_px);
+    runner.draw_ms();
+    let rounds: Vec<_> = (0..arguments.rounds).map(|_| runner.draw_ms()).collect();
     let mut passes: Vec<_> = rounds[0]
         .iter()
         .enumerate()
@@ -268,35 +273,34 @@ fn passes(
     passes
 }
 
-/// What the literal kernel's centre samples show of the compared pixels.
+/// The literal kernel's first samples of the compared pixels.
 fn literal_shown(
     literal: &Literal,
     inputs: &Inputs,
     tuning: Tuning,
-    truths: &Truths,
-) -> Result<Vec<Shown>, Failure> {
+    references: &ReferencePixels,
+) -> Result<Vec<SideSample>, Failure> {
     let picture = Picture::new(literal, inputs, 1, tuning, 1);
     picture.draw_ms();
     let seen: HashMap<_, _> = picture.seen()?.into_iter().map(|seen| (seen.pixel, seen)).collect();
-    let shown = truths.pixels.iter().filter_map(|pixel| seen.get(pixel)).map(|seen| Shown {
-        depth: seen.depth,
-        normal: seen.normal,
-        visibility: seen.visibility,
+    let shown = references.pixels.iter().filter_map(|pixel| seen.get(pixel)).map(|seen| {
+        SideSample { depth: seen.depth, normal: seen.normal, visibility: seen.visibility }
     });
     Ok(shown.collect())
 }
 
-/// What the program's centre samples show of the compared pixels.
+/// The program's first samples of the compared pixels.
 fn our_shown(
     view: &render::View,
     size_px: [u32; 2],
-    truths: &Truths,
-) -> Result<Vec<Shown>, Failure> {
+    references: &ReferencePixels,
+) -> Result<Vec<SideSample>, Failure> {
     let samples = view.gbuffer()?;
-    let shown = truths.pixels.iter().map(|[x, y]| (y * size_px[0] + x) as usize).map(|i| Shown {
-        depth: samples.depth[i],
-        normal: samples.normal[i],
-        visibility: samples.visibility[i],
-    });
+    let shown =
+        references.pixels.iter().map(|[x, y]| (y * size_px[0] + x) as usize).map(|i| SideSample {
+            depth: samples.depth[i],
+            normal: samples.normal[i],
+            visibility: samples.visibility[i],
+        });
     Ok(shown.collect())
 }

@@ -1,4 +1,6 @@
-//! What both sides do for a picture: distance estimates and orbit steps.
+//! Counts of distance estimates and orbit steps, and the shaders that count them.
+//!
+//! In: a shader module. Out: a copy that counts, and the [`Counts`] that it wrote.
 
 use std::ops::AddAssign;
 
@@ -11,12 +13,12 @@ use serde::Serialize;
 
 use super::instrument::{self, Marks};
 
-/// How much of the formula a picture takes.
+/// Distance estimates and orbit steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Counts {
-    /// Distance estimates, those of normals among them.
+    /// Distance estimates, including those of normals.
     pub estimates: f64,
-    /// Orbit steps of those, and of normals and colours.
+    /// Orbit steps of estimates, normals and colours.
     pub steps: f64,
 }
 
@@ -28,15 +30,15 @@ impl AddAssign for Counts {
 }
 
 impl Counts {
-    /// For each of so many pixels.
+    /// The counts divided by a number of pixels.
     pub fn per(self, pixels: f64) -> Self {
         Self { estimates: self.estimates / pixels, steps: self.steps / pixels }
     }
 
-    /// From the buffer that counting shaders add to.
+    /// Reads the buffer that counting shaders add to.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn read(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Self, ReadbackError> {
         let bytes = Readback::buffer(gpu, buffer).wait(gpu)?;
         let word = |index: usize| {
@@ -47,7 +49,7 @@ impl Counts {
     }
 }
 
-/// The program's modules, whose formula files hold the orbits.
+/// How to count in the program's modules, whose orbits are in `formula/`.
 pub fn marks<'a>(estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
     Marks {
         orbits_in: "formula/",
@@ -59,10 +61,10 @@ pub fn marks<'a>(estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
     }
 }
 
-/// A counting copy of one of the program's modules.
+/// Compiles a copy of a module that counts.
 ///
 /// # Errors
-/// Where its text was written anew in a way that can't be counted.
+/// If a marked function or an orbit loop isn't in the text.
 pub fn counting(
     gpu: &Gpu,
     module: &Module,

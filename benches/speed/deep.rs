@@ -1,8 +1,7 @@
-//! What depth costs: views of one place from ever closer by.
+//! The cost of depth: one place seen from seven distances.
 //!
-//! The first needs hardly more than plain f32, the others skip steps. What a distance estimate takes is a
-//! still's time over the estimates that counting kernels find in it; every view is drawn in turn, in
-//! every round.
+//! In: the program's pipelines. Out: a row per distance. The time of an estimate is the still's
+//! time divided by the estimates that counting kernels find. Each round draws every view once.
 
 use std::sync::Arc;
 
@@ -16,9 +15,9 @@ use super::{
     counts::Counts, descent::PLACES, failure::Failure, ours, statistics::median, views::SIZE_PX,
 };
 
-/// What `--views` calls the table.
+/// The table's name for `--views`.
 pub const NAME: &str = "deep";
-/// How far away the eye is, scene units, and what scripts call it.
+/// Names of the views, and their distances from the eye to the surface, scene units.
 const DISTANCES: [(&str, f64); 7] = [
     ("deep-1e-3", 1e-3),
     ("deep-1e-5", 1e-5),
@@ -32,30 +31,30 @@ const DISTANCES: [(&str, f64); 7] = [
 /// One view.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What scripts call it.
+    /// The view's name in the output.
     pub name: &'static str,
-    /// Whether it is drawn from an anchor.
+    /// True if the renderer uses an anchor.
     pub is_deep: bool,
     /// Median time, milliseconds.
     pub ms: f64,
-    /// What a pixel takes.
+    /// Counts per pixel.
     pub counts: Counts,
-    /// Nanoseconds a distance estimate.
+    /// Time of a distance estimate, nanoseconds.
     pub estimate_ns: f64,
-    /// That over the plain view's.
+    /// [`Self::estimate_ns`] divided by the first view's.
     pub cost: f64,
 }
 
-/// The place of the power-8 bulb that lies in a crevice at every scale.
+/// The place of the power-8 bulb that is a crevice at every scale.
 fn scene(distance: f64) -> Result<Scene, Failure> {
     let place = PLACES.iter().find(|place| place.name == "streaky" && place.set() == "8");
-    place.ok_or("there is no such place")?.scene(distance)
+    place.ok_or("there is no place streaky-8")?.scene(distance)
 }
 
-/// Measures them in turn, so many rounds.
+/// Measures all views, `rounds` times each.
 ///
 /// # Errors
-/// Where the device is lost, or a kernel can't be counted.
+/// If the device is lost, or a kernel can't be counted.
 pub fn measure(
     pipelines: &Arc<Pipelines>,
     rounds: u32,
@@ -69,7 +68,7 @@ pub fn measure(
     for round in 0..=rounds {
         for (scene, times) in scenes.iter().zip(&mut times) {
             let (ms, _) = ours::draw_ms(pipelines, scene, size_px);
-            // The first round warms up.
+            // The first round is a warm-up.
             if round > 0 {
                 times.push(ms);
             }
@@ -90,7 +89,7 @@ pub fn measure(
     Ok(rows)
 }
 
-/// Tells them to people, and what they cost to scripts.
+/// Prints a table for people and `cost` lines for scripts.
 pub fn print(rows: &[Row]) {
     println!("\ndeep: one place from closer and closer by");
     println!(

@@ -1,8 +1,9 @@
-//! The way down: views of several places, from the whole set to the last depth, in half decades.
+//! The cost of depth in half decades: several places, seen from 2e-3 down to 1e-27.
 //!
-//! A view's time is that of its passes over a part of its pixels, single workgroups spread over the whole
-//! picture. Counting kernels find the estimates of the same pixels. Each view is drawn in turn with a
-//! reference: a view of the same place in plain f32.
+//! In: the program's pipelines. Out: a row per place and distance. A view's time is the sum of
+//! its passes over single workgroups that are spread over the picture; counting kernels count
+//! the estimates of the same workgroups. Each round also draws a reference: the same place in
+//! plain f32.
 
 mod places;
 
@@ -21,53 +22,55 @@ use serde::Serialize;
 use super::{
     counts::Counts,
     failure::Failure,
-    ours::{Split, counting_passes},
+    ours::{PassRunner, counting_passes},
     statistics::median,
     views::SIZE_PX,
 };
 
 pub use places::{PLACES, Place};
 
-/// What `--views` calls the table.
+/// The table's name for `--views`.
 pub const NAME: &str = "descent";
 
-/// One workgroup in so many is drawn at the default size, and at others as many pixels as there.
-const SPREAD: u32 = 16;
+/// One of this many workgroups is drawn at the default size; other sizes draw as many pixels.
+const WORKGROUP_STRIDE: u32 = 16;
 
-/// How far away the reference is, scene units.
+/// Distance from the eye to the surface in the reference view, scene units.
 pub const REFERENCE: f64 = 1e-2;
-/// The view whose time of a picture others are compared with.
-const PICTURE_OF: &str = "2e-3";
-/// The deepest view: 1e-27.
+/// The scale of the view that [`Row::picture`] divides by.
+const PICTURE_REFERENCE: &str = "2e-3";
+/// The deepest view is at 10 to the power of minus this.
 const DEEPEST: i32 = 27;
 
 /// One view of a place.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What scripts call it: `descent-<place>-<power>-<scale>`.
+    /// The view's name in the output: `descent-<place>-<power>-<scale>`.
     pub name: String,
     /// The place and the power.
     pub place: String,
-    /// The distance, as names have it.
+    /// The distance as part of a name, such as `3e-5`.
     pub scale: String,
-    /// The pipelines that draw it.
+    /// The key of the pipelines that draw the view.
     pub key: String,
-    /// Nanoseconds a pixel.
+    /// Time of a pixel, nanoseconds.
     pub pixel_ns: f64,
-    /// What a pixel takes.
+    /// Counts per pixel.
     pub counts: Counts,
-    /// Nanoseconds a distance estimate.
+    /// Time of a distance estimate, nanoseconds.
     pub estimate_ns: f64,
-    /// That over the reference's.
+    /// Time of an estimate divided by that of the reference in the same rounds.
     pub cost: f64,
-    /// The time of a picture over the plain view's at [`PICTURE_OF`].
+    /// Time of a picture divided by that of the view at [`PICTURE_REFERENCE`].
     pub picture: f64,
-    /// Times of an estimate and estimates a pixel over those half a decade above, or the reverse
-    /// where that is larger; 1 in the first view.
+    /// Changes from the view half a decade above, as factors of at least 1.
+    ///
+    /// The first is of the time of an estimate, the second of the estimates per pixel; 1 in
+    /// the first view.
     pub changes: [f64; 2],
 }
 
-/// The distances of a descent, scene units, with their names.
+/// Names and distances of all views of a place, scene units.
 pub fn distances() -> Vec<(String, f64)> {
     let mut distances = vec![("2e-3".to_owned(), 2e-3)];
     for half in 2..=2 * DEEPEST {
@@ -81,66 +84,68 @@ pub fn distances() -> Vec<(String, f64)> {
     distances
 }
 
-/// The kernels that draw views, and the copies of them that count.
+/// The settings of a run, and the counting pipelines by key.
 struct Bench<'a> {
     pipelines: &'a Arc<Pipelines>,
     counting: HashMap<PipelineKey, Passes>,
     size_px: [u32; 2],
-    spread: u32,
+    workgroup_stride: u32,
     rounds: u32,
 }
 
 impl Bench<'_> {
-    /// What the pixels of a part of a view take.
-    fn count(&mut self, split: &Split<'_>) -> Result<Counts, Failure> {
-        let key = PipelineKey::of(split.frame());
+    /// Counts the drawn pixels of a view.
+    fn count(&mut self, runner: &PassRunner<'_>) -> Result<Counts, Failure> {
+        let key = PipelineKey::of(runner.frame());
         if !self.counting.contains_key(&key) {
-            self.counting.insert(key, counting_passes(self.pipelines, split)?);
+            self.counting.insert(key, counting_passes(self.pipelines, runner)?);
         }
         let mut counts = Counts::default();
-        for (_, counted) in split.count(&self.counting[&key])? {
+        for (_, counted) in runner.count(&self.counting[&key])? {
             counts += counted;
         }
         Ok(counts)
     }
 
-    /// Draws a view so many rounds, each in turn with `reference`: nanoseconds a pixel, how many
-    /// times those of the reference, and what a pixel takes.
+    /// Draws a view and `reference` in turn, `rounds` times each.
+    ///
+    /// Returns nanoseconds per pixel, the same divided by the reference's, and counts per pixel.
     fn measure(
         &mut self,
         scene: &Scene,
-        reference: &Split<'_>,
+        reference: &PassRunner<'_>,
     ) -> Result<(PipelineKey, [f64; 2], Counts), Failure> {
         let (mut times, mut counts, mut pixels) = ([0.0; 2], Counts::default(), 0.0);
         let mut key = PipelineKey::of(&FrameUniforms::new(scene, Region::whole(self.size_px)));
         for region in regions(self.size_px) {
             let pipelines = self.pipelines;
-            let split = prepared(pipelines, scene, region, self.spread);
-            key = PipelineKey::of(split.frame());
-            let ns = |split: &Split<'_>| -> f64 {
-                split.draw_ms().into_iter().map(|(_, ms)| ms * 1e6).sum()
+            let runner = prepared(pipelines, scene, region, self.workgroup_stride);
+            key = PipelineKey::of(runner.frame());
+            let ns = |runner: &PassRunner<'_>| -> f64 {
+                runner.draw_ms().into_iter().map(|(_, ms)| ms * 1e6).sum()
             };
             let rounds: Vec<_> = (0..self.rounds)
                 .map(|_| {
                     let beside = ns(reference) / reference.pixels();
-                    let here = ns(&split);
+                    let here = ns(&runner);
                     [here, here / beside]
                 })
                 .collect();
             for (sum, k) in times.iter_mut().zip(0..) {
                 *sum += median(&rounds.iter().map(|round| round[k]).collect::<Vec<_>>());
             }
-            pixels += split.pixels();
-            counts += self.count(&split)?;
+            pixels += runner.pixels();
+            counts += self.count(&runner)?;
         }
         Ok((key, times.map(|time| time / pixels), counts.per(pixels)))
     }
 
-    /// Measures all views of a place, from the top down.
-    fn descend(&mut self, place: &Place) -> Result<Vec<Row>, Failure> {
+    /// Measures all views of a place from the largest distance to the smallest.
+    fn measure_place(&mut self, place: &Place) -> Result<Vec<Row>, Failure> {
         let mut rows: Vec<Row> = Vec::new();
         let whole = regions(self.size_px)[0];
-        let reference = prepared(self.pipelines, &place.scene(REFERENCE)?, whole, self.spread);
+        let reference =
+            prepared(self.pipelines, &place.scene(REFERENCE)?, whole, self.workgroup_stride);
         let reference_estimates = self.count(&reference)?.estimates / reference.pixels();
         for (scale, distance) in distances() {
             let (key, [pixel_ns, times], counts) =
@@ -158,30 +163,36 @@ impl Bench<'_> {
                 changes: [1.0; 2],
             });
         }
-        compare(&mut rows);
-        // It is compared with, but no step of the way.
-        rows.retain(|row| row.scale != PICTURE_OF);
+        fill_comparisons(&mut rows);
+        // This view serves as a divisor only.
+        rows.retain(|row| row.scale != PICTURE_REFERENCE);
         Ok(rows)
     }
 }
 
-/// A part of a view, with its pipelines ready and drawn once.
-fn prepared<'a>(pipelines: &'a Pipelines, scene: &Scene, region: Region, spread: u32) -> Split<'a> {
-    let split = Split::spread(pipelines, scene, region, spread);
-    for variant in PipelineVariant::special(split.frame()) {
+/// A part of a view, with compiled pipelines and one warm-up draw.
+fn prepared<'a>(
+    pipelines: &'a Pipelines,
+    scene: &Scene,
+    region: Region,
+    workgroup_stride: u32,
+) -> PassRunner<'a> {
+    let runner = PassRunner::with_stride(pipelines, scene, region, workgroup_stride);
+    for variant in PipelineVariant::special(runner.frame()) {
         pipelines.prepare(variant);
     }
-    split.draw_ms();
-    split
+    runner.draw_ms();
+    runner
 }
 
-/// Fills in what is seen beside other rows.
-fn compare(rows: &mut [Row]) {
-    let picture = rows.iter().find(|row| row.scale == PICTURE_OF).map_or(1.0, |row| row.picture);
+/// Fills in [`Row::picture`] and [`Row::changes`].
+fn fill_comparisons(rows: &mut [Row]) {
+    let picture =
+        rows.iter().find(|row| row.scale == PICTURE_REFERENCE).map_or(1.0, |row| row.picture);
     let mut above: Option<(f64, f64)> = None;
     for row in rows {
         row.picture /= picture;
-        if row.scale == PICTURE_OF {
+        if row.scale == PICTURE_REFERENCE {
             continue;
         }
         let change = |here: f64, above: f64| f64::max(here / above, above / here);
@@ -192,7 +203,7 @@ fn compare(rows: &mut [Row]) {
     }
 }
 
-/// A picture's regions: all of it, or quarters that a view can draw.
+/// The whole picture as one region, or its quarters where it is too large for a view.
 fn regions(size_px: [u32; 2]) -> Vec<Region> {
     let whole = Region::whole(size_px);
     if whole.fits() {
@@ -203,10 +214,10 @@ fn regions(size_px: [u32; 2]) -> Vec<Region> {
     (0..4).map(|i| Region { origin_px: corner(i), size_px: half, ..whole }).collect()
 }
 
-/// Measures every place, so many rounds a view.
+/// Measures every place, `rounds` times a view.
 ///
 /// # Errors
-/// Where the device is lost, or a kernel can't be counted.
+/// If the device is lost, or a kernel can't be counted.
 pub fn measure(
     pipelines: &Arc<Pipelines>,
     rounds: u32,
@@ -215,16 +226,17 @@ pub fn measure(
 ) -> Result<Vec<Row>, Failure> {
     let size_px = size_px.unwrap_or(SIZE_PX);
     let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
-    let spread = u64::from(SPREAD) * pixels(size_px) / pixels(SIZE_PX);
-    let spread = u32::try_from(spread)?.max(1);
-    let mut bench = Bench { pipelines, counting: HashMap::new(), size_px, spread, rounds };
+    let workgroup_stride = u64::from(WORKGROUP_STRIDE) * pixels(size_px) / pixels(SIZE_PX);
+    let workgroup_stride = u32::try_from(workgroup_stride)?.max(1);
+    let mut bench =
+        Bench { pipelines, counting: HashMap::new(), size_px, workgroup_stride, rounds };
     let mut rows = Vec::new();
     for place in PLACES {
         let name = format!("{NAME}-{}-{}", place.name, place.set());
         if !only.is_empty() && !only.iter().any(|part| name.contains(part)) {
             continue;
         }
-        let of_place = bench.descend(place)?;
+        let of_place = bench.measure_place(place)?;
         print_place(&of_place, size_px);
         rows.extend(of_place);
     }
@@ -273,7 +285,7 @@ pub fn worst(rows: &[Row]) -> Option<f64> {
     rows.iter().map(|row| row.cost).reduce(f64::max)
 }
 
-/// Tells the worst of all rows, each with where that is.
+/// Prints the largest value of each column with its view.
 fn print_worst(rows: &[Row]) {
     let worst = |what: &str, value: fn(&Row) -> f64| {
         if let Some(row) = rows.iter().max_by(|a, b| value(a).total_cmp(&value(b))) {

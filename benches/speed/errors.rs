@@ -1,60 +1,63 @@
-//! How far pictures are from the reference.
+//! Errors of pictures against the reference.
+//!
+//! In: a scene and each side's samples. Out: [`Errors`], and the reasons why they are too large.
 
 use glam::{DVec3, Vec3};
 use mandelight::{fractal::Ray, scene::Scene};
 use serde::Serialize;
 
 use super::{
-    pixels::{pixel_ray, spread},
-    reference::{Reference, Truth},
+    pixels::{evenly_spaced, pixel_ray},
+    reference::{Reference, ReferencePixel},
     statistics::{in_parallel, mean, quantile},
 };
 
-/// What 99 % of the depths have to stay within, footprints.
-const DEPTH_P99_WITHIN: f64 = 1.5;
-/// Part of the shadow bits that may differ.
-const SHADOWS_WITHIN: f64 = 0.03;
+/// Bound of the 99th percentile of depth errors, footprints.
+const MAX_DEPTH_P99: f64 = 1.5;
+/// Bound of the fraction of wrong shadow bits.
+const MAX_SHADOW_ERRORS: f64 = 0.03;
 
-/// What one side says of a pixel.
+/// One side's sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
-    /// Depth along the ray; 0 where it met nothing.
+pub struct SideSample {
+    /// Depth along the ray; 0 for a miss.
     pub depth: f32,
     /// Unit normal.
     pub normal: Vec3,
-    /// A bit a light that reaches the point.
+    /// Bit k is set if light k reaches the point.
     pub visibility: u64,
 }
 
-/// One side's errors on the pixels that were compared.
+/// One side's errors over the compared pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Errors {
-    /// Part of the pixels that are hit by one of side and reference only.
+    /// Fraction of pixels that only one of side and reference hits.
     pub hits: f64,
-    /// Depth, footprints: the mean.
+    /// Mean depth error, footprints.
     pub depth_mean: f64,
-    /// What 99 % of the depths stay within.
+    /// 99th percentile of depth errors, footprints.
     pub depth_p99: f64,
-    /// Normals and shadows at the side's own points: what its normal and shadow rays do wrong.
-    pub own: Surface,
-    /// The same against what the reference sees at its own points: what is wrong in the picture.
-    /// Even a part of a footprint's difference in depth turns a normal there.
-    pub there: Surface,
+    /// Errors at the side's own points: those of its normals and shadow rays alone.
+    pub own: SurfaceErrors,
+    /// Errors against the reference's points: those of the whole picture.
+    ///
+    /// A depth error of a fraction of a footprint already turns a fractal's normal.
+    pub there: SurfaceErrors,
 }
 
 /// Errors of normals and shadows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Surface {
-    /// Angle between normals, degrees: the mean.
+pub struct SurfaceErrors {
+    /// Mean angle between normals, degrees.
     pub normal_mean: f64,
-    /// What 95 % of them stay within.
+    /// 95th percentile of the angles, degrees.
     pub normal_p95: f64,
-    /// Part of the bits, one a light and pixel, that differ.
+    /// Fraction of visibility bits, one per light and pixel, that differ.
     pub shadows: f64,
 }
 
 impl Errors {
-    /// Every column by name.
+    /// All columns with their names.
     pub fn columns(&self) -> [(&'static str, f64); 9] {
         [
             ("hit or miss", self.hits),
@@ -69,8 +72,9 @@ impl Errors {
         ]
     }
 
-    /// What keeps a ratio from counting: each column that is worse than the literal kernel's, and
-    /// each limit that is passed.
+    /// The reasons why a ratio does not count.
+    ///
+    /// A column must not be larger than the literal kernel's, nor reach its bound.
     pub fn complaints(&self, literal: &Self, normals_within_deg: f64) -> Vec<String> {
         let worse = self
             .columns()
@@ -79,9 +83,9 @@ impl Errors {
             .filter(|((_, ours), (_, theirs))| ours > theirs)
             .map(|((name, _), _)| format!("{name} is worse than the literal kernel's"));
         let passed = [
-            ("depth p99", self.depth_p99, DEPTH_P99_WITHIN),
+            ("depth p99", self.depth_p99, MAX_DEPTH_P99),
             ("normal mean", self.own.normal_mean, normals_within_deg),
-            ("shadow bits", self.own.shadows, SHADOWS_WITHIN),
+            ("shadow bits", self.own.shadows, MAX_SHADOW_ERRORS),
         ]
         .into_iter()
         .filter(|(_, found, limit)| found >= limit)
@@ -90,37 +94,37 @@ impl Errors {
     }
 }
 
-/// The reference's pixels of a view.
-pub struct Truths {
+/// The reference at the compared pixels of a view.
+pub struct ReferencePixels {
     reference: Reference,
     rays: Vec<Ray>,
     lights: usize,
     /// The compared pixels.
     pub pixels: Vec<[u32; 2]>,
-    truths: Vec<Option<Truth>>,
+    references: Vec<Option<ReferencePixel>>,
 }
 
-impl Truths {
-    /// Looks at about `count` pixels, spread evenly.
+impl ReferencePixels {
+    /// Computes the reference at about `count` pixels, evenly spaced.
     pub fn new(scene: &Scene, size_px: [u32; 2], count: u32) -> Self {
         let reference = Reference::new(scene, size_px);
-        let pixels = spread(size_px, count);
-        let truths = in_parallel(&pixels, |&pixel| reference.look(pixel));
+        let pixels = evenly_spaced(size_px, count);
+        let references = in_parallel(&pixels, |&pixel| reference.pixel(pixel));
         let rays = pixels.iter().map(|&pixel| pixel_ray(scene, size_px, pixel)).collect();
-        Self { reference, rays, lights: scene.lights.environment.len(), pixels, truths }
+        Self { reference, rays, lights: scene.lights.environment.len(), pixels, references }
     }
 
-    /// Part of the pixels that are hit, and part of the bits that are set.
+    /// Fraction of pixels that hit the set, and fraction of their visibility bits that are set.
     pub fn coverage(&self) -> (f64, f64) {
-        let hit: Vec<_> = self.truths.iter().flatten().collect();
+        let hit: Vec<_> = self.references.iter().flatten().collect();
         let lit: u32 = hit.iter().map(|truth| truth.visibility.count_ones()).sum();
         let part = |a: f64, b: usize| a / b.max(1) as f64;
-        (part(hit.len() as f64, self.truths.len()), part(lit.into(), hit.len() * self.lights))
+        (part(hit.len() as f64, self.references.len()), part(lit.into(), hit.len() * self.lights))
     }
 
-    /// Compares what a side shows of [`Self::pixels`].
-    pub fn compare(&self, shown: &[Shown]) -> Errors {
-        let all: Vec<_> = shown.iter().zip(&self.truths).zip(&self.rays).collect();
+    /// Compares one side's samples of [`Self::pixels`].
+    pub fn compare(&self, shown: &[SideSample]) -> Errors {
+        let all: Vec<_> = shown.iter().zip(&self.references).zip(&self.rays).collect();
         let differ = all.iter().filter(|((s, t), _)| (s.depth > 0.0) != t.is_some()).count();
         let both: Vec<_> = all
             .iter()
@@ -143,7 +147,7 @@ impl Truths {
                 .collect();
             let wrong: u32 =
                 pairs().map(|((s, _, _), (_, bits))| (s.visibility ^ bits).count_ones()).sum();
-            Surface {
+            SurfaceErrors {
                 normal_mean: mean(&angles),
                 normal_p95: quantile(angles, 0.95),
                 shadows: f64::from(wrong) / (both.len() * self.lights).max(1) as f64,
@@ -159,7 +163,7 @@ impl Truths {
     }
 }
 
-/// The angle between two vectors, degrees, exact for small ones; 0 where one of them is none.
+/// The angle between two vectors, degrees, exact for small ones; 0 if a vector is zero.
 fn angle_deg(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b)).to_degrees()
 }

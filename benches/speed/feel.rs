@@ -1,9 +1,9 @@
-//! How the page feels in the hand: a recorded session, replayed at 1280x720 against the clock.
+//! Interactive response: a recorded session, replayed at 1280x720 in real time.
 //!
-//! The motion budget is a twentieth of what a full frame takes on this adapter, so that the
-//! figures mean the same on every one. In: an adapter's pipelines. Out: moving frames' times in
-//! budgets, what edits cost next to a camera move, how soon the whole picture follows a release,
-//! and how good moving pictures are.
+//! In: an adapter's pipelines. Out: times of moving frames in motion budgets, costs of edits in
+//! camera moves, times from release to full resolution, and errors of moving pictures. The
+//! motion budget is a twentieth of a full frame's time, so that figures of different adapters
+//! compare.
 
 mod difference;
 mod edits;
@@ -20,27 +20,27 @@ use super::failure::Failure;
 pub use results::Results;
 use session::{Hold, PARTS, Session};
 
-/// What the command line calls it.
+/// The table's name for `--views`.
 pub const NAME: &str = "feel";
 
-/// Budgets in a full frame.
-const BUDGETS: f64 = 20.0;
+/// Motion budgets per full frame.
+const BUDGETS_PER_FULL_FRAME: f64 = 20.0;
 
-/// The part after which the picture is filled with surface: there a full frame is measured.
-const FILLED_AFTER: usize = 1;
+/// The part that ends in a picture filled with surface, where the full frame is measured.
+const FILLED_AFTER_PART: usize = 1;
 
-/// Replays the session. Pictures that were compared go to the folder `pictures`.
+/// Replays the session; writes compared pictures to the folder `pictures`.
 pub fn run(pipelines: &Arc<Pipelines>, pictures: Option<&Path>) -> Result<Results, Failure> {
     let session = Session::record();
-    let costs = edits::costs(pipelines, session.end_of(FILLED_AFTER));
-    let budget_ms = costs.camera_ms / BUDGETS;
+    let costs = edits::costs(pipelines, session.end_of(FILLED_AFTER_PART));
+    let budget_ms = costs.camera_ms / BUDGETS_PER_FULL_FRAME;
     let replay = replay::play(pipelines, &session, budget_ms);
     let releases = PARTS.iter().enumerate().map(|(part, of)| {
         let edit = match of.hold {
             Hold::Orbit | Hold::Dive => edits::move_camera,
             Hold::Light => edits::move_light,
             Hold::Power => edits::raise_power,
-            // Nothing is traced: there is nothing to wait for.
+            // Exposure traces no rays, so there is nothing to refine.
             Hold::Exposure => return None,
         };
         Some(edits::release(pipelines, session.end_of(part), edit, budget_ms))

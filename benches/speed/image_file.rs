@@ -1,13 +1,13 @@
-//! What both sides draw, as PNG files to look at.
+//! PNG files of what both sides draw.
 
 use std::{fs::File, io::BufWriter, path::Path};
 
-use super::literal::Seen;
+use super::literal::LiteralPixel;
 
-/// Writes 8-bit RGBA pixels, rows from the top.
+/// Writes 8-bit RGBA pixels as a PNG file, rows from the top.
 ///
 /// # Errors
-/// Where the file can't be written.
+/// If the file can't be written.
 pub fn write(
     path: &Path,
     size_px: [u32; 2],
@@ -21,11 +21,18 @@ pub fn write(
     Ok(())
 }
 
-/// The literal kernel's film by Reinhard's curve on luminance, as the views' scenes have it; clear
-/// where nothing was drawn.
-pub fn developed(seen: &[Seen], size_px: [u32; 2], exposure: f64, white: f64) -> Vec<u8> {
+/// The literal kernel's film as RGBA by Reinhard's curve on luminance; transparent where
+/// nothing was drawn.
+///
+/// The views' scenes use the same curve.
+pub fn tone_mapped(
+    pixels: &[LiteralPixel],
+    size_px: [u32; 2],
+    exposure: f64,
+    white: f64,
+) -> Vec<u8> {
     let mut rgba = vec![0; 4 * (size_px[0] * size_px[1]) as usize];
-    for Seen { pixel: [x, y], radiance, .. } in seen {
+    for LiteralPixel { pixel: [x, y], radiance, .. } in pixels {
         let exposed = radiance.map(|v| f64::from(v) * exposure.exp2());
         let luminance = 0.2126 * exposed[0] + 0.7152 * exposed[1] + 0.0722 * exposed[2];
         let scale = (1.0 + luminance / (white * white)) / (1.0 + luminance);

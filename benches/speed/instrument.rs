@@ -1,33 +1,33 @@
-//! Shaders that count what they do: the text of a module with counters put in.
+//! Instrumented shaders: a module's text with counters.
 //!
-//! The program's kernels stay what they are; the benchmark compiles a second copy of their text in
-//! which every orbit step and every distance estimate adds one to a counter of its thread's, and
-//! every thread adds its counters to a buffer when it is done. `tests/speed.rs` compares what they
-//! count with orbits in f64.
+//! In: a module's files and [`Marks`]. Out: a second text; the program's own kernels stay as
+//! they are. Each orbit step and each distance estimate increments a counter of its thread, and
+//! each thread adds its counters to a buffer at its end. `tests/speed.rs` compares the counts
+//! with orbits in f64.
 
 /// One file of a module: its path and its text.
 pub type File<'a> = (&'a str, &'a str);
 
-/// What counts as what in a module.
+/// What counts as an orbit step and as an estimate in a module.
 pub struct Marks<'a> {
-    /// Files whose innermost loops are orbits, by how their paths begin.
+    /// Path prefix of the files whose innermost loops are orbits.
     pub orbits_in: &'a str,
-    /// In those files, functions whose loops are something else.
+    /// Functions in those files whose loops are not orbits.
     pub other_loops: &'a [&'a str],
-    /// Functions of which each call is an orbit step, where it comes to its end.
+    /// Functions whose calls count as an orbit step when they reach their end.
     pub steps: &'a [&'a str],
-    /// Functions of which each call is a distance estimate.
+    /// Functions whose calls count as a distance estimate.
     pub estimates: &'a [&'a str],
-    /// Entry points.
+    /// Names of the entry points.
     pub entries: &'a [&'a str],
-    /// A storage buffer that no entry point uses: group and binding.
+    /// Group and binding of a storage buffer that no entry point uses.
     pub buffer: [u32; 2],
 }
 
-/// The joined text of `files` with counters.
+/// The joined text of `files`, with counters.
 ///
 /// # Errors
-/// Where an entry point, an estimate or an orbit isn't found: the text was written anew.
+/// If an entry point, a marked function or an orbit loop isn't in the text.
 pub fn counting(files: &[File<'_>], marks: &Marks<'_>) -> Result<String, String> {
     let [group, binding] = marks.buffer;
     let mut text = format!(
@@ -72,11 +72,11 @@ fn function(text: &str, name: &str) -> Result<usize, String> {
     text.find(&format!("fn {name}(")).ok_or_else(|| missing(name))
 }
 
-/// Counts each full turn of the innermost loops: what a `break` ends early is no step.
+/// Counts each complete iteration of the innermost loops; a `break` leaves its iteration uncounted.
 fn count_orbits(file: &str, other_loops: &[&str]) -> (String, u32) {
     let (mut text, mut found) = (String::new(), 0);
     let mut inside = false;
-    // Of the loops that are open: the line that closes each, and whether it has another in it.
+    // Open loops: the line that closes each, and whether it contains another loop.
     let mut open: Vec<(String, bool)> = Vec::new();
     for line in file.lines() {
         if let Some(rest) = line.strip_prefix("fn ") {
@@ -103,7 +103,7 @@ fn count_orbits(file: &str, other_loops: &[&str]) -> (String, u32) {
     (text, found)
 }
 
-/// Puts an entry point in another's place, which calls it and then adds up.
+/// Replaces an entry point by one that calls it and adds up the counters.
 fn wrap(text: &mut String, name: &str) -> Result<(), String> {
     let start = function(text, name)?;
     let attributes = text[..start].rfind("@compute").ok_or_else(|| missing(name))?;
@@ -111,7 +111,7 @@ fn wrap(text: &mut String, name: &str) -> Result<(), String> {
     let close = open + text[open..].find(") {").ok_or_else(|| missing(name))?;
     let header = text[attributes..start].to_owned();
     let parameters = text[open + 1..close].to_owned();
-    // What follows the attribute: `name: type`.
+    // The part after the attribute: `name: type`.
     let plain: Vec<_> = parameters
         .split(',')
         .filter_map(|parameter| parameter.rsplit_once(')'))

@@ -1,21 +1,21 @@
-//! What measurements must not fall behind: `limits.txt`, and how a run is held to it.
+//! The limits of `limits.txt`, and the check of a run against them.
 //!
-//! A limit is a line that begins as the benchmark's own: a measure, a view, a number. `ratio` has a
-//! floor, all others a ceiling. Counts hardly depend on the machine, so their limits leave a hundredth to
-//! spare; times do.
+//! In: the file's text and a run's measurements. Out: broken limits, or a text with tighter
+//! limits. Each line is a measure, a view and a number, as the benchmark prints them. `ratio`
+//! has a floor; the other measures have a ceiling.
 
 use std::{collections::BTreeMap, fmt};
 
-/// What is measured of a view.
+/// A kind of measurement that has limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Measure {
-    /// The literal kernel's time over the program's.
+    /// The literal kernel's time divided by the program's.
     Ratio,
-    /// The time of an estimate over that of a plain view.
+    /// The time of an estimate divided by that of a plain view.
     Cost,
-    /// Distance estimates a pixel.
+    /// Distance estimates per pixel.
     Estimates,
-    /// Orbit steps a pixel.
+    /// Orbit steps per pixel.
     Steps,
 }
 
@@ -31,8 +31,10 @@ impl Measure {
         }
     }
 
-    /// The limit that a measured value sets. Machines of one kind differ by a factor of two, and the
-    /// program's share of that is larger than the literal kernel's; what both sides of a cost take
+    /// The limit for a measured value.
+    ///
+    /// Counts hardly depend on the machine: 1 % of margin. Machines of one kind differ by a
+    /// factor of two in `ratio`; both sides of `cost` run the same kernels, so `cost`
     /// differs by less.
     fn limit(self, value: f64) -> f64 {
         match self {
@@ -42,7 +44,7 @@ impl Measure {
         }
     }
 
-    /// Whether a value keeps to a limit.
+    /// True if a value is within a limit.
     fn is_within(self, value: f64, limit: f64) -> bool {
         if self == Self::Ratio { value >= limit } else { value <= limit }
     }
@@ -65,15 +67,15 @@ pub struct Measured {
     pub value: f64,
 }
 
-/// The limits, by measure and view.
+/// Limits by measure and view.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Limits(BTreeMap<(Measure, String), f64>);
 
 impl Limits {
-    /// Reads a file of limits; `#` begins a comment.
+    /// Parses a file of limits; `#` starts a comment.
     ///
     /// # Errors
-    /// The first line that is no limit.
+    /// The first line that is not a limit.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut limits = BTreeMap::new();
         for (number, line) in (1..).zip(text.lines()) {
@@ -97,14 +99,14 @@ impl Limits {
         Ok(Self(limits))
     }
 
-    /// How much of a run has no limit yet.
+    /// The number of measurements without a limit.
     pub fn missing(&self, run: &[Measured]) -> usize {
         let has_limit =
             |measured: &&Measured| self.0.contains_key(&(measured.measure, measured.view.clone()));
         run.iter().filter(|measured| !has_limit(measured)).count()
     }
 
-    /// What of a run breaks a limit.
+    /// A message for each measurement that breaks its limit.
     pub fn complaints(&self, run: &[Measured]) -> Vec<String> {
         let complaint = |Measured { measure, view, value }: &Measured| {
             let limit = self.0.get(&(*measure, view.clone()))?;
@@ -114,8 +116,9 @@ impl Limits {
         run.iter().filter_map(complaint).collect()
     }
 
-    /// `text` with limits for what had none, and nearer ones where a run allows for them. Comments
-    /// stay.
+    /// `text` with new limits for measurements without one, and tighter limits where `run` allows.
+    ///
+    /// Comments stay.
     ///
     /// # Errors
     /// As [`Self::parse`].
@@ -127,7 +130,7 @@ impl Limits {
             let words = format!("{measure} {view} ");
             match limits.0.get(&(*measure, view.clone())) {
                 None => lines.push(format!("{words}{limit:.3}")),
-                // It keeps to the old one with room to spare.
+                // The new limit is tighter than the old one.
                 Some(old) if measure.is_within(limit, *old) => {
                     let is_of = |line: &&mut String| {
                         line.split_whitespace().take(2).eq(words.split_whitespace())

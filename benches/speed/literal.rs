@@ -1,8 +1,7 @@
-//! The thesis's own algorithm on the GPU: `literal.wgsl`, and what drives it.
+//! The thesis's own algorithm on the GPU: `literal.wgsl` and its driver.
 //!
-//! In: the program's inputs of a scene, and the settings that `tuning` finds. Out: how
-//! long its pictures take, and what is in them. It shares no kernel with the program. Tone mapping
-//! is left out: it costs the literal side nothing.
+//! In: the program's inputs of a scene, and a [`Tuning`]. Out: times, samples and counts. The
+//! literal kernel shares no shader with the program. Its time excludes tone mapping.
 
 use bytemuck::{Pod, Zeroable};
 use mandelight::{
@@ -21,17 +20,17 @@ use super::{counts::Counts, failure::Failure, instrument};
 
 const TEXT: &str = include_str!("literal.wgsl");
 
-/// llvmpipe stops an invocation after 65,535 turns of all its loops together.
-const LOOP_TURNS: u32 = 60_000;
+/// llvmpipe ends an invocation after 65,535 iterations of all its loops together.
+const MAX_LOOP_ITERATIONS: u32 = 60_000;
 
-/// What one literal picture is made with.
+/// The settings of the literal kernel for one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuning {
-    /// How near to the set counts as on it, scene units.
+    /// Hit distance, scene units.
     pub epsilon: f64,
-    /// Most steps of an orbit.
+    /// Iteration limit of an orbit.
     pub iterations: u32,
-    /// Most steps of a ray.
+    /// Step limit of a ray.
     pub steps: u32,
 }
 
@@ -48,13 +47,13 @@ struct Settings {
     forward: [f32; 3],
     power: f32,
     constant: [f32; 3],
-    divergence: f32,
+    bailout: f32,
     size_px: [u32; 2],
     stride: u32,
     julia: u32,
     max_iterations: u32,
     max_steps: u32,
-    outside: f32,
+    bounding_radius: f32,
     first_light: u32,
     jitter: [f32; 2],
     end_light: u32,
@@ -66,7 +65,7 @@ struct Settings {
     diffuse: f32,
     specular: f32,
     shininess: f32,
-    log_divergence: f32,
+    log_bailout: f32,
     background_top: [f32; 4],
     background_bottom: [f32; 4],
 }
@@ -86,13 +85,13 @@ impl Settings {
             forward: camera.forward,
             power: fractal.power,
             constant: fractal.julia_constant,
-            divergence: fractal.bailout,
+            bailout: fractal.bailout,
             size_px: picture.picture_px,
             stride,
             julia: fractal.julia,
             max_iterations: tuning.iterations,
             max_steps: tuning.steps,
-            outside: fractal.bounding_radius,
+            bounding_radius: fractal.bounding_radius,
             first_light: 0,
             jitter: [0.5; 2],
             end_light: 0,
@@ -104,7 +103,7 @@ impl Settings {
             diffuse: surface.diffuse,
             specular: surface.specular,
             shininess: surface.shininess,
-            log_divergence: fractal.bailout.ln(),
+            log_bailout: fractal.bailout.ln(),
             background_top: background.top,
             background_bottom: background.bottom,
         }
@@ -130,16 +129,16 @@ struct Point {
     colors: [f32; 4],
 }
 
-/// What the literal kernel found for one pixel.
+/// The literal kernel's result for one pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
-    /// The pixel, from the upper left.
+pub struct LiteralPixel {
+    /// Pixel coordinates from the upper left.
     pub pixel: [u32; 2],
-    /// Depth of the newest sample; 0 where it met nothing.
+    /// Depth of the newest sample along its ray; 0 for a miss.
     pub depth: f32,
-    /// Its normal.
+    /// Unit normal of the newest sample.
     pub normal: glam::Vec3,
-    /// A bit a light that reaches it.
+    /// Bit k is set if light k reaches the point.
     pub visibility: u64,
     /// Mean radiance of all samples, linear Rec. 709.
     pub radiance: [f32; 3],
@@ -149,29 +148,29 @@ pub struct Seen {
 pub struct Literal {
     gpu: Gpu,
     layout: wgpu::BindGroupLayout,
-    see: wgpu::ComputePipeline,
+    primary: wgpu::ComputePipeline,
     shadow: wgpu::ComputePipeline,
     shade: wgpu::ComputePipeline,
 }
 
 impl Literal {
-    /// Compiles them.
+    /// Compiles the pipelines.
     pub fn new(gpu: &Gpu) -> Self {
         Self::from_text(gpu, TEXT.into())
     }
 
-    /// Compiles them with counters.
+    /// Compiles pipelines that count.
     ///
     /// # Errors
-    /// Where the text can't be counted.
+    /// If a marked function or an orbit loop isn't in the text.
     pub fn counting(gpu: &Gpu) -> Result<Self, String> {
         let marks = instrument::Marks {
             orbits_in: "literal",
             other_loops: &["march", "six_sample_normal", "is_lit", "shadow", "shade"],
             steps: &[],
             estimates: &["distance_to_set"],
-            entries: &["see", "shadow"],
-            // The film, which these do not touch.
+            entries: &["primary", "shadow"],
+            // The film's binding, which these entry points don't use.
             buffer: [0, 5],
         };
         instrument::counting(&[("literal.wgsl", TEXT)], &marks)
@@ -215,12 +214,12 @@ impl Literal {
                 cache: None,
             })
         };
-        let [see, shadow, shade] = ["see", "shadow", "shade"].map(made);
-        Self { gpu: gpu.clone(), layout, see, shadow, shade }
+        let [primary, shadow, shade] = ["primary", "shadow", "shade"].map(made);
+        Self { gpu: gpu.clone(), layout, primary, shadow, shade }
     }
 }
 
-/// One view, ready to be drawn over and over by the literal kernel.
+/// One view, ready to be drawn repeatedly by the literal kernel.
 pub struct Picture<'a> {
     literal: &'a Literal,
     settings: Settings,
@@ -231,7 +230,7 @@ pub struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    /// Allocates what the view needs. One block of 8x8 pixels in `stride` is drawn, each way.
+    /// Allocates the view's buffers; draws one of `stride` blocks of 8x8 pixels along each axis.
     pub fn new(
         literal: &'a Literal,
         inputs: &Inputs,
@@ -288,9 +287,9 @@ impl<'a> Picture<'a> {
         Self { literal, settings, samples, blocks, buffers, group }
     }
 
-    /// Draws it, every sample from scratch, and says how long that took from the first submit to
-    /// the end of the last, milliseconds, for all pixels of the picture: where blocks are left out,
-    /// their share is added.
+    /// Draws every sample from scratch; milliseconds from the first submit to the end of the last.
+    ///
+    /// Where blocks are left out, the time is scaled up to all pixels.
     pub fn draw_ms(&self) -> f64 {
         let gpu = &self.literal.gpu;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -308,24 +307,24 @@ impl<'a> Picture<'a> {
         start.elapsed().as_secs_f64() * 1e3 / self.share()
     }
 
-    /// Camera rays, normals, shadow rays.
+    /// Records camera rays, normals and shadow rays.
     fn trace(&self, mut settings: Settings) {
-        self.dispatch(&self.literal.see, settings);
-        // As many lights at once as a driver's cap on loops allows.
-        let turns = settings.max_steps * (settings.max_iterations + 1);
-        let at_once = (LOOP_TURNS / turns).max(1);
+        self.dispatch(&self.literal.primary, settings);
+        // As many lights per dispatch as the driver's cap on loops allows.
+        let iterations_per_light = settings.max_steps * (settings.max_iterations + 1);
+        let lights_per_dispatch = (MAX_LOOP_ITERATIONS / iterations_per_light).max(1);
         while settings.end_light < settings.light_count {
             settings.first_light = settings.end_light;
-            settings.end_light = settings.light_count.min(settings.first_light + at_once);
+            settings.end_light =
+                settings.light_count.min(settings.first_light + lights_per_dispatch);
             self.dispatch(&self.literal.shadow, settings);
         }
     }
 
-    /// Counts what one sample of each drawn pixel takes; the pipelines are those of
-    /// [`Literal::counting`].
+    /// Counts one sample of each drawn pixel; needs the pipelines of [`Literal::counting`].
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn count(&self) -> Result<Counts, ReadbackError> {
         let gpu = &self.literal.gpu;
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -336,7 +335,7 @@ impl<'a> Picture<'a> {
         Counts::read(gpu, &self.buffers[5])
     }
 
-    /// The part of the picture's pixels that are drawn.
+    /// Fraction of the picture's pixels that are drawn.
     pub fn share(&self) -> f64 {
         let [width, height] = self.settings.size_px;
         self.pixels().count() as f64 / (f64::from(width) * f64::from(height))
@@ -354,7 +353,7 @@ impl<'a> Picture<'a> {
         gpu.queue.submit([encoder.finish()]);
     }
 
-    /// The pixels that are drawn, with their places in the buffers: as `place_of` has them.
+    /// The drawn pixels and their indices in the buffers, as `pixel_slot` computes them.
     fn pixels(&self) -> impl Iterator<Item = ([u32; 2], usize)> + '_ {
         let ([columns, rows], stride) = (self.blocks, self.settings.stride);
         let blocks = (0..rows).flat_map(move |row| (0..columns).map(move |column| [column, row]));
@@ -369,11 +368,11 @@ impl<'a> Picture<'a> {
         pixels.filter(move |([x, y], _)| *x < width && *y < height)
     }
 
-    /// What was drawn last, reading it back.
+    /// Reads back the last picture.
     ///
     /// # Errors
-    /// Where the device is lost.
-    pub fn seen(&self) -> Result<Vec<Seen>, ReadbackError> {
+    /// If the device is lost.
+    pub fn seen(&self) -> Result<Vec<LiteralPixel>, ReadbackError> {
         let gpu = &self.literal.gpu;
         let read = |index: usize| Readback::buffer(gpu, &self.buffers[index]).wait(gpu);
         let (points, visibility, film) = (read(3)?, read(4)?, read(5)?);
@@ -384,7 +383,7 @@ impl<'a> Picture<'a> {
             .pixels()
             .map(|(pixel, index)| {
                 let ([r, g, b, samples], point) = (film[index], points[index]);
-                Seen {
+                LiteralPixel {
                     pixel,
                     depth: point.depth,
                     normal: point.normal.into(),
@@ -396,10 +395,10 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// The literal kernel's counts for one sample of each pixel of a whole picture.
+/// The literal kernel's counts of one sample of each pixel of a whole picture.
 ///
 /// # Errors
-/// Where the device is lost, or the kernel can't be counted.
+/// If the device is lost, or the kernel can't be counted.
 pub fn counts(gpu: &Gpu, inputs: &Inputs, tuning: Tuning) -> Result<Counts, Failure> {
     let counting = Literal::counting(gpu)?;
     Ok(Picture::new(&counting, inputs, 1, tuning, 1).count()?)

@@ -1,36 +1,36 @@
 //! `cargo xtask bench`: the renderer's speed beside that of the thesis's own algorithm.
 //!
-//! In: the command line. Out: tables for people, lines `ratio <view> <value>` for scripts, and JSON
-//! where it is asked for, of fixed views drawn by both sides in turn on one adapter.
-//! `docs/benchmark.md` tells how to read them.
+//! Both sides draw fixed views in turn on one adapter. In: the command line. Out: tables for people,
+//! lines `ratio <view> <value>` for scripts, and JSON on request. `docs/benchmark.md` explains how
+//! to read them. Each file imports only files above it in this table; this file imports all.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | `failure` | the error of any measurement |
 //! | `arguments` | the command line |
-//! | `views` | what is drawn |
-//! | `compare` | one view by both sides |
-//! | `limits` | what a run is held to |
+//! | `statistics` | medians, quantiles, means |
+//! | `load` | processor load of this program and of others |
+//! | `peak` | the adapter's multiply-add throughput |
+//! | `views` | scenes, sizes and sample counts |
+//! | `limits` | `limits.txt`, and the check against it |
+//! | `pixels` | compared pixels, their rays and cones in f64 |
+//! | `reference` | hits, depths, normals and shadows in f64 |
+//! | `errors` | errors of pictures against the reference |
+//! | `instrument` | shader texts with counters |
+//! | `counts` | counts of distance estimates and orbit steps |
 //! | `literal` | the thesis's algorithm on the GPU |
-//! | `tuning` | its settings for a view |
-//! | `ours` | the program's stills, and its passes one by one |
-//! | `pixels` | compared pixels, their rays and cones |
-//! | `reference` | what a picture should show, in f64 |
-//! | `errors` | how far pictures are from that |
-//! | `counts` | distance estimates and orbit steps of both sides |
-//! | `instrument` | shaders that count what they do |
-//! | `load` | how busy the processors are |
-//! | `peak` | the adapter's multiply-adds |
-//! | `powers` | what an orbit step costs, power by power |
-//! | `deep` | what depth costs |
-//! | `descent` | what every half decade on the way down costs |
-//! | `scaling` | how time grows with what is asked for |
-//! | `start` | how long it takes until there is a picture |
-//! | `feel` | a recorded session against the clock |
-//! | `image_file` | what both sides draw, as files |
-//! | `report` | what was measured, told |
-//! | `tables` | the same for `docs/benchmark.md` |
-//! | `statistics` | medians, quantiles |
+//! | `tuning` | the literal kernel's settings for a view |
+//! | `ours` | the program's stills and single passes |
+//! | `image_file` | PNG files of what both sides draw |
+//! | `compare` | one view drawn by both sides |
+//! | `powers` | the cost of an orbit step for each power |
+//! | `descent` | the cost of depth in half decades |
+//! | `deep` | the cost of depth at one place |
+//! | `scaling` | growth of time with a picture's settings |
+//! | `start` | time to the first picture |
+//! | `feel` | interactive response in a recorded session |
+//! | `report` | the results of a whole run |
+//! | `tables` | the tables of `docs/benchmark.md` |
 
 pub mod arguments;
 pub mod compare;
@@ -68,7 +68,7 @@ use mandelight::{gpu::Gpu, render::Pipelines};
 use report::Report;
 use views::View;
 
-/// The limits of views in their own sizes.
+/// The limits of views at their own sizes.
 const LIMITS: &str = include_str!("limits.txt");
 
 fn main() -> ExitCode {
@@ -77,7 +77,7 @@ fn main() -> ExitCode {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) if !arguments.check => ExitCode::SUCCESS,
         Ok(false) => {
-            eprintln!("bench: a picture, a power or a limit is not as good as it has to be");
+            eprintln!("bench: a picture, a power or a limit failed");
             ExitCode::FAILURE
         }
         Err(failure) => {
@@ -87,12 +87,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// Measures what the arguments ask for and tells it; true where every picture is good enough, every
-/// power as cheap as its products, and nothing breaks its limit.
+/// Measures and prints what the arguments select.
+///
+/// True if every ratio counts, every power is within its fit, and no measurement breaks its limit.
 ///
 /// # Errors
-/// Where a view has no such name, there is no such adapter, its device is lost or reports errors,
-/// or a file can't be written.
+/// If a view or an adapter of that name doesn't exist, the device is lost or reports errors, or a
+/// file can't be written.
 pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     if arguments.start_once {
         return start::once(arguments).map(|()| true);
@@ -106,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         let literal = literal::Literal::new(&gpu);
         let peak = peak::Peak::new(&gpu);
         if gpu.faults() > 0 {
-            return Err("the adapter does not take the literal kernel".into());
+            return Err("the adapter rejects the literal kernel".into());
         }
         for view in &views {
             let comparison = compare::compare(arguments, &pipelines, &literal, &peak, view)?;
@@ -182,7 +183,7 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     }
 }
 
-/// The views that were asked for, in the size that was asked for.
+/// The selected views at the selected size.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
     let tables = [deep::NAME, descent::NAME, powers::NAME, scaling::NAME, start::NAME, feel::NAME];

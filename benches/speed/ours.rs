@@ -1,4 +1,6 @@
-//! The program's own side: stills as `mandelight render` draws them, and its passes one by one.
+//! The program's side: stills as `mandelight render` draws them, and single passes.
+//!
+//! In: pipelines, a scene and a size. Out: times, pictures and counts.
 
 use std::{sync::Arc, time::Instant};
 
@@ -22,8 +24,9 @@ use super::{
     failure::Failure,
 };
 
-/// Draws a still from nothing and says how long that took, milliseconds: from when the view has
-/// its scene until its picture is there, tone mapped. Buffers are allocated before.
+/// Draws a still; milliseconds from setting the scene to the tone-mapped picture.
+///
+/// The time excludes the allocation of buffers.
 pub fn draw_ms(pipelines: &Arc<Pipelines>, scene: &Scene, size_px: [u32; 2]) -> (f64, View) {
     let mut view = View::new(pipelines, Region::whole(size_px), Pace::Still);
     pipelines.gpu.wait();
@@ -36,10 +39,10 @@ pub fn draw_ms(pipelines: &Arc<Pipelines>, scene: &Scene, size_px: [u32; 2]) -> 
     (start.elapsed().as_secs_f64() * 1e3, view)
 }
 
-/// The display picture's bytes, RGBA.
+/// Reads back the display picture, RGBA.
 ///
 /// # Errors
-/// Where the device is lost.
+/// If the device is lost.
 pub fn display(pipelines: &Pipelines, view: &View) -> Result<Vec<u8>, ReadbackError> {
     let texture = view.texture().ok_or(ReadbackError)?;
     let size_px = [texture.width(), texture.height()];
@@ -49,12 +52,12 @@ pub fn display(pipelines: &Pipelines, view: &View) -> Result<Vec<u8>, ReadbackEr
 
 type Record = fn(&mut Recorder<'_>, &Trace, &mandelight::render::lattice::Grid);
 
-/// The passes over centre samples, in the order in which they run.
+/// The passes over first samples, in the order in which they run.
 const PASSES: [(&str, Record); 4] =
-    [MARCHING[0], MARCHING[1], MARCHING[2], ("shade", pass::shade::record)];
+    [COUNTED_PASSES[0], COUNTED_PASSES[1], COUNTED_PASSES[2], ("shade", pass::shade::record)];
 
-/// Those that evaluate the formula, each after what lists its threads.
-const MARCHING: [(&str, Record); 3] = [
+/// The passes that evaluate the formula, each after the passes that fill its work queue.
+const COUNTED_PASSES: [(&str, Record); 3] = [
     ("march", |recorder, trace, grid| {
         pass::camera_cone::record(recorder, trace, grid);
         pass::march::record(recorder, trace, grid);
@@ -64,30 +67,36 @@ const MARCHING: [(&str, Record); 3] = [
     ("shadow", pass::shadow::record),
 ];
 
-/// The program's passes over the samples of a whole picture, each in submits of its own.
-pub struct Split<'a> {
+/// Runs the program's passes over a picture's samples, one submit per pass.
+pub struct PassRunner<'a> {
     pipelines: &'a Pipelines,
     inputs: Inputs,
     targets: Targets,
-    /// One workgroup of the picture in so many is drawn.
-    spread: u32,
+    /// One of this many workgroups is drawn.
+    workgroup_stride: u32,
     counts: wgpu::Buffer,
     counts_layout: wgpu::BindGroupLayout,
     counts_group: wgpu::BindGroup,
 }
 
-impl<'a> Split<'a> {
-    /// The bind group that no marching pass uses: counting copies add to its storage buffer.
+impl<'a> PassRunner<'a> {
+    /// Group and binding of the counters, which no pass of the program uses.
     pub const COUNTS: [u32; 2] = [3, 0];
 
-    /// Allocates the buffers. The power's own pipelines are there already.
+    /// Allocates the buffers of a whole picture; expects specialised pipelines.
     pub fn new(pipelines: &'a Pipelines, scene: &Scene, size_px: [u32; 2]) -> Self {
-        Self::spread(pipelines, scene, Region::whole(size_px), 1)
+        Self::with_stride(pipelines, scene, Region::whole(size_px), 1)
     }
 
-    /// The same of one workgroup in `spread`: work goes through a region in a scattered order, so
-    /// that its first part shows a bit of everything.
-    pub fn spread(pipelines: &'a Pipelines, scene: &Scene, region: Region, spread: u32) -> Self {
+    /// Allocates the buffers of a region of which one of `workgroup_stride` workgroups is drawn.
+    ///
+    /// Workgroups run in a scattered order, so the first ones sample the whole region.
+    pub fn with_stride(
+        pipelines: &'a Pipelines,
+        scene: &Scene,
+        region: Region,
+        workgroup_stride: u32,
+    ) -> Self {
         let inputs = Inputs::new(scene, region);
         let targets = Targets::new(pipelines, region);
         targets.upload(&pipelines.gpu.queue, &inputs);
@@ -121,23 +130,23 @@ impl<'a> Split<'a> {
                 resource: counts.as_entire_binding(),
             }],
         });
-        Self { pipelines, inputs, targets, spread, counts, counts_layout, counts_group }
+        Self { pipelines, inputs, targets, workgroup_stride, counts, counts_layout, counts_group }
     }
 
-    /// What the passes know of the scene.
+    /// The frame's uniforms.
     pub fn frame(&self) -> &FrameUniforms {
         &self.inputs.frame
     }
 
-    /// About how many pixels are drawn: those of workgroups that reach past the region count whole.
+    /// About how many pixels are drawn; workgroups at the region's border count as whole.
     pub fn pixels(&self) -> f64 {
         let grid = Points::Level(0).grid(self.inputs.frame.size_px);
         let pixels: f64 = self.inputs.frame.size_px.into_iter().map(f64::from).product();
         let workgroups = f64::from(grid.workgroups());
-        pixels * f64::from(grid.workgroups().div_ceil(self.spread)) / workgroups
+        pixels * f64::from(grid.workgroups().div_ceil(self.workgroup_stride)) / workgroups
     }
 
-    /// What counting copies bind that either `queued` or `enqueue` passes are of.
+    /// A pipeline layout of counting passes, from the layout of the program's passes.
     pub fn counting_layout(&self, work_queues: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
         let layouts = &self.pipelines.layouts;
         self.pipelines.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -152,11 +161,11 @@ impl<'a> Split<'a> {
         })
     }
 
-    /// Each pass's name and time from submit to end, milliseconds.
+    /// Name and time of each pass, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
         let passes = self.pipelines.passes(&self.inputs.frame);
         let mut ms = PASSES.map(|(name, _)| (name, 0.0));
-        // Lists hold what one piece of work has listed.
+        // A work queue holds one piece of work.
         for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
             for ((_, ms), (_, record)) in ms.iter_mut().zip(PASSES) {
                 let commands = self.recorded(record, &passes, trace);
@@ -169,36 +178,36 @@ impl<'a> Split<'a> {
         ms.to_vec()
     }
 
-    /// What each pass that marches takes for the centre samples, by pipelines that count.
+    /// Counts of each pass over the first samples, by counting pipelines.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn count(&self, passes: &Passes) -> Result<Vec<(&'static str, Counts)>, Failure> {
-        let mut counts = MARCHING.map(|(name, _)| (name, Counts::default()));
+        let mut counts = COUNTED_PASSES.map(|(name, _)| (name, Counts::default()));
         for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
-            for ((_, counts), (_, record)) in counts.iter_mut().zip(MARCHING) {
+            for ((_, counts), (_, record)) in counts.iter_mut().zip(COUNTED_PASSES) {
                 *counts += self.counted(record, passes, trace)?;
             }
         }
         Ok(counts.to_vec())
     }
 
-    /// What later samples of every pixel take, in the mean; [`Self::count`] has marched the centre samples.
+    /// Mean counts of the later samples of all pixels; call [`Self::count`] first.
     ///
     /// # Errors
-    /// Where the device is lost.
+    /// If the device is lost.
     pub fn count_later(&self, passes: &Passes) -> Result<Counts, Failure> {
         let mut counts = Counts::default();
         let points = Points::Samples { first: 1, count: MOST_TOGETHER };
         for trace in self.traces(points, SAMPLE_WORKGROUPS) {
-            for (_, record) in MARCHING {
+            for (_, record) in COUNTED_PASSES {
                 counts += self.counted(record, passes, trace)?;
             }
         }
         Ok(counts.per(f64::from(MOST_TOGETHER)))
     }
 
-    /// What one pass counts.
+    /// Runs one pass and reads its counts.
     fn counted(
         &self,
         record: Record,
@@ -211,10 +220,11 @@ impl<'a> Split<'a> {
         Counts::read(&self.pipelines.gpu, &self.counts)
     }
 
-    /// These points of the whole picture, in pieces of `most` workgroups.
+    /// The work on `points` of the whole picture, in pieces of `most` workgroups.
     fn traces(&self, points: Points, most: u32) -> impl Iterator<Item = Trace> {
         let lights = u64::MAX >> (64 - self.inputs.frame.surface.light_count.clamp(1, 64));
-        let all = points.grid(self.inputs.frame.size_px).workgroups().div_ceil(self.spread);
+        let all =
+            points.grid(self.inputs.frame.size_px).workgroups().div_ceil(self.workgroup_stride);
         (0..all).step_by(most as usize).map(move |first_workgroup| Trace {
             points,
             from: Stage::March,
@@ -224,7 +234,7 @@ impl<'a> Split<'a> {
         })
     }
 
-    /// One pass over some points.
+    /// Records one pass over a piece of work.
     fn recorded(&self, record: Record, passes: &Passes, trace: Trace) -> wgpu::CommandBuffer {
         let grid = trace.points.grid(self.inputs.frame.size_px);
         let mut dispatches = Dispatches::default();
@@ -236,40 +246,40 @@ impl<'a> Split<'a> {
     }
 }
 
-/// What later samples' counts are called.
+/// The name of the later samples' counts.
 pub const LATER: &str = "a later sample";
 
-/// The program's counts for the first sample of each pixel of a whole picture, pass by pass, and
-/// for a later one where there is one.
+/// The program's counts of a whole picture: the first sample by pass, then a later sample.
 ///
 /// # Errors
-/// Where the device is lost, or a kernel can't be counted.
+/// If the device is lost, or a kernel can't be counted.
 pub fn counts(
     pipelines: &Pipelines,
     scene: &Scene,
     size_px: [u32; 2],
 ) -> Result<Vec<(&'static str, Counts)>, Failure> {
-    let split = Split::new(pipelines, scene, size_px);
-    let passes = counting_passes(pipelines, &split)?;
-    let mut counted = split.count(&passes)?;
+    let runner = PassRunner::new(pipelines, scene, size_px);
+    let passes = counting_passes(pipelines, &runner)?;
+    let mut counted = runner.count(&passes)?;
     if scene.quality.samples > 1 {
-        counted.push((LATER, split.count_later(&passes)?));
+        counted.push((LATER, runner.count_later(&passes)?));
     }
     Ok(counted)
 }
 
-/// Copies of the passes that march, for pictures of one form, that count.
+/// Counting copies of the passes that evaluate the formula, for one pipeline key.
 ///
 /// # Errors
-/// Where a kernel can't be counted.
-pub fn counting_passes(pipelines: &Pipelines, split: &Split<'_>) -> Result<Passes, Failure> {
-    let constants = PipelineKey::of(split.frame()).constants();
+/// If a kernel can't be counted.
+pub fn counting_passes(pipelines: &Pipelines, runner: &PassRunner<'_>) -> Result<Passes, Failure> {
+    let constants = PipelineKey::of(runner.frame()).constants();
     let gpu = &pipelines.gpu;
     let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
-        .map(|layout| split.counting_layout(layout));
-    let made =
+        .map(|layout| runner.counting_layout(layout));
+    let create =
         |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
-            let shader = counts::counting(gpu, module, &counts::marks(&[estimate], Split::COUNTS))?;
+            let shader =
+                counts::counting(gpu, module, &counts::marks(&[estimate], PassRunner::COUNTS))?;
             Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(module.label),
                 layout: Some(layout),
@@ -283,11 +293,11 @@ pub fn counting_passes(pipelines: &Pipelines, split: &Split<'_>) -> Result<Passe
             }))
         };
     Ok(Passes {
-        camera_cone: made(&enqueue, &pass::camera_cone::MODULE, "estimate_at")?,
-        march: made(&queued, &pass::march::MODULE, "estimate_at")?,
-        normal: made(&queued, &pass::normal::MODULE, "distance_gradient")?,
-        shadow_cone: made(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
-        shadow: made(&queued, &pass::shadow::MODULE, "estimate_at")?,
-        ..pipelines.passes(split.frame())
+        camera_cone: create(&enqueue, &pass::camera_cone::MODULE, "estimate_at")?,
+        march: create(&queued, &pass::march::MODULE, "estimate_at")?,
+        normal: create(&queued, &pass::normal::MODULE, "distance_gradient")?,
+        shadow_cone: create(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
+        shadow: create(&queued, &pass::shadow::MODULE, "estimate_at")?,
+        ..pipelines.passes(runner.frame())
     })
 }

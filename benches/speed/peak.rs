@@ -1,37 +1,39 @@
-//! The adapter's peak of multiply-adds, and what share of it a picture reaches.
+//! The adapter's measured multiply-add throughput, and the operations of an orbit step.
+//!
+//! In: an adapter. Out: GFLOP/s.
 
 use std::time::Instant;
 
 use mandelight::gpu::Gpu;
 
-/// Turns of the loop, and threads.
-const TURNS: u32 = 4096;
+/// Iterations of the loop, and workgroups of 64 threads.
+const ITERATIONS: u32 = 4096;
 const WORKGROUPS: u32 = 512;
-/// 8 chains of vec4, a multiplication and an addition each.
-const FLOP_A_TURN: f64 = 8.0 * 4.0 * 2.0;
+/// Eight chains of `vec4f`, each one multiplication and one addition.
+const FLOP_PER_ITERATION: f64 = 8.0 * 4.0 * 2.0;
 
 const TEXT: &str = "
 @group(0) @binding(0) var<storage, read_write> data: array<vec4f>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    // Eight chains: one addition need not wait for the last.
+    // Eight independent chains hide the latency of an addition.
     let m = data[0];
     let c = data[1];
     let x = vec4f(f32(id.x));
     var a = x; var b = x + 1.0; var d = x + 2.0; var e = x + 3.0;
     var f = x + 4.0; var g = x + 5.0; var h = x + 6.0; var k = x + 7.0;
-    for (var i = 0u; i < TURNS; i++) {
+    for (var i = 0u; i < ITERATIONS; i++) {
         a = fma(a, m, c); b = fma(b, m, c); d = fma(d, m, c); e = fma(e, m, c);
         f = fma(f, m, c); g = fma(g, m, c); h = fma(h, m, c); k = fma(k, m, c);
     }
     let sum = a + b + d + e + f + g + h + k;
-    // Never so, yet no compiler knows.
+    // Never true, but the compiler can't know, so it keeps the loop.
     if (sum.x == 12345.678) { data[2] = sum; }
 }
 ";
 
-/// A kernel of multiply-adds, ready to run.
+/// A kernel of multiply-adds.
 pub struct Peak {
     gpu: Gpu,
     pipeline: wgpu::ComputePipeline,
@@ -39,12 +41,14 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// Compiles it and runs it once.
+    /// Compiles the kernel and runs it once.
     pub fn new(gpu: &Gpu) -> Self {
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("peak"),
-            source: wgpu::ShaderSource::Wgsl(TEXT.replace("TURNS", &format!("{TURNS}u")).into()),
+            source: wgpu::ShaderSource::Wgsl(
+                TEXT.replace("ITERATIONS", &format!("{ITERATIONS}u")).into(),
+            ),
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("peak"),
@@ -72,7 +76,7 @@ impl Peak {
         peak
     }
 
-    /// Measured multiply-adds, GFLOP/s: an addition and a multiplication count one each.
+    /// Measured throughput, GFLOP/s: a multiply-add counts as two operations.
     pub fn gflops(&self) -> f64 {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -83,16 +87,17 @@ impl Peak {
         let start = Instant::now();
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.wait();
-        let flop = FLOP_A_TURN * f64::from(TURNS) * f64::from(WORKGROUPS * 64);
+        let flop = FLOP_PER_ITERATION * f64::from(ITERATIONS) * f64::from(WORKGROUPS * 64);
         flop / start.elapsed().as_secs_f64() / 1e9
     }
 }
 
-/// Floating-point operations of one orbit step for a whole power n, as the mathematics needs them:
-/// two complex powers of 6 operations a product, and beside them ρ and r (8), the rotor (2), z's
-/// three products and three sums, dr (n rⁿ⁻¹ dr + 1: 3, and a product for each of r's power). Roots
-/// count as one.
-pub fn flop_a_step(power: u32) -> f64 {
+/// Floating-point operations that one orbit step of a whole power n needs.
+///
+/// Two complex powers at 6 operations a product, ρ and r (8), the rotor (2), three products and
+/// three sums of z, and dr = n rⁿ⁻¹ dr + 1 (3, and one for each product of rⁿ⁻¹). A root counts
+/// as one operation.
+pub fn flop_per_step(power: u32) -> f64 {
     let products = f64::from(power.ilog2() + power.count_ones() - 1);
     let of_r = f64::from((power - 1).max(1).ilog2() + (power - 1).count_ones() - 1);
     12.0 * products + of_r + 19.0

@@ -1,6 +1,6 @@
-//! What the searches in f64 share: which pixels they look at, with their rays and cones.
+//! Pixels to compare, and their rays, cones and estimators in f64.
 //!
-//! In: a scene and a picture's size. Out: pixels, rays, footprints, estimators.
+//! In: a scene and a picture's size. Out: what the tuning and the reference both march.
 
 use glam::DVec2;
 use mandelight::{
@@ -8,8 +8,8 @@ use mandelight::{
     scene::{Fractal, PrecisePoint, Scene},
 };
 
-/// Pixels spread evenly over a picture, about `count` of them.
-pub fn spread(size_px: [u32; 2], count: u32) -> Vec<[u32; 2]> {
+/// About `count` pixels, evenly spaced over a picture.
+pub fn evenly_spaced(size_px: [u32; 2], count: u32) -> Vec<[u32; 2]> {
     let [width, height] = size_px;
     let every = (f64::from(width) * f64::from(height) / f64::from(count)).sqrt().max(1.0);
     let along = |side: u32| {
@@ -38,7 +38,7 @@ pub fn footprint(scene: &Scene, size_px: [u32; 2]) -> f64 {
     pixel_cone(&scene.camera, width / height, height)
 }
 
-/// The fractal with another number of iterations.
+/// The estimator of a fractal with another iteration limit.
 pub fn with_iterations(fractal: &Fractal, iterations: u32) -> Estimator {
     Estimator::new(&Fractal { iterations, ..fractal.clone() })
 }

@@ -1,12 +1,11 @@
-//! What a picture should show, in f64: hits, depths, normals, shadows.
+//! The reference in f64: hits, depths, normals and shadows.
 //!
-//! A pixel shows where its ray first comes within the pixel's footprint of the set: what is finer
-//! no pixel can show; and what it is near to for less than half a footprint along the ray is
-//! passed. The reference finds that place by short steps and halving, to a
-//! thousandth of a footprint, with more iterations than anything here needs. The surface has the
-//! estimate's own gradient there as normal. A light reaches it where no way back from outside of
-//! the set to a place two footprints above the surface comes within [`BLOCKS`] footprints of the
-//! set.
+//! In: a scene and a picture's size. Out: a [`ReferencePixel`] per pixel. A hit is where a ray
+//! first comes within the pixel's footprint of the set and stays there for half a footprint;
+//! finer details are below a pixel's size. The reference takes short steps and bisects to a
+//! thousandth of a footprint. The normal is the gradient of the distance estimate. A light
+//! reaches a hit if the ray from outside of the set to a point two footprints above the surface
+//! stays at least [`OCCLUDER_DISTANCE`] footprints away from the set.
 
 use glam::DVec3;
 use mandelight::{
@@ -16,34 +15,36 @@ use mandelight::{
 
 use super::pixels::{footprint, pixel_ray, with_iterations};
 
-/// More iterations than any view needs: `errors` would show it.
+/// More iterations than any view needs.
 const ITERATIONS: u32 = 100;
-/// The part of the careful step that the reference takes.
-const STEP_PART: f64 = 0.25;
-/// Least step of a camera ray, footprints.
+/// Factor on the estimator's conservative step.
+const STEP_FACTOR: f64 = 0.25;
+/// Least step, footprints.
 const LEAST_STEP: f64 = 0.02;
-/// How near the set counts as in the light's way, footprints.
-const BLOCKS: f64 = 0.1;
-/// Where a ray has to be still as near, behind the place where it came near, footprints: at power 2 an
-/// estimate dips for thousandths of a footprint, and which of the dips short steps meet is chance.
-const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
-/// Rays that are still on their way then have all but arrived.
+/// Distance at which the set blocks a shadow ray, footprints.
+const OCCLUDER_DISTANCE: f64 = 0.1;
+/// Distances behind a first hit at which the ray must still be as near, footprints.
+///
+/// At power 2 the estimate has false minima of thousandths of a footprint, and the step length
+/// decides by chance which of them a ray samples.
+const CONFIRMED_AT: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
+/// Step limit of a ray, which then counts as a hit, or as lit.
 const MOST_STEPS: u32 = 100_000;
 
-/// What one pixel should show.
+/// The reference of one pixel.
 #[derive(Clone, Copy, Debug)]
-pub struct Truth {
+pub struct ReferencePixel {
     /// Depth along the ray, scene units.
     pub depth: f64,
-    /// The pixel's footprint there, scene units.
+    /// The pixel's footprint at that depth, scene units.
     pub footprint: f64,
     /// The unit normal.
     pub normal: DVec3,
-    /// A bit a light that reaches the point.
+    /// Bit k is set if light k reaches the point.
     pub visibility: u64,
 }
 
-/// The reference of one scene in one size.
+/// The reference of one scene at one size.
 pub struct Reference {
     scene: Scene,
     size_px: [u32; 2],
@@ -53,7 +54,7 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Prepares it; `lights` are unit vectors toward the scene's lights.
+    /// Prepares the estimator and the lights' directions.
     pub fn new(scene: &Scene, size_px: [u32; 2]) -> Self {
         let lights =
             scene.lights.environment.iter().map(|light| DVec3::from_array(light.direction));
@@ -66,17 +67,17 @@ impl Reference {
         }
     }
 
-    /// What a pixel should show; none where its ray meets nothing.
-    pub fn look(&self, pixel: [u32; 2]) -> Option<Truth> {
+    /// The reference of a pixel; none for a miss.
+    pub fn pixel(&self, pixel: [u32; 2]) -> Option<ReferencePixel> {
         let ray = pixel_ray(&self.scene, self.size_px, pixel);
         let depth = self.march(ray)?;
         let (point, footprint) = (ray.at(depth), self.cone * depth);
         let normal = self.normal(point, footprint);
         let visibility = self.visibility(point, normal, footprint);
-        Some(Truth { depth, footprint, normal, visibility })
+        Some(ReferencePixel { depth, footprint, normal, visibility })
     }
 
-    /// A bit for each light that reaches a point of the surface.
+    /// Visibility of a point of the surface: bit k is set if light k reaches it.
     pub fn visibility(&self, point: DVec3, normal: DVec3, footprint: f64) -> u64 {
         let reaches =
             |light: DVec3| normal.dot(light) > 0.0 && self.is_lit(point, normal, footprint, light);
@@ -93,20 +94,20 @@ impl Reference {
             let (estimate, hit) = (self.estimator.estimate(ray.at(depth)), self.cone * depth);
             let is_near = estimate.distance < hit;
             if is_near && !was_near {
-                let entry = self.halve(ray, before, depth);
+                let entry = self.bisect(ray, before, depth);
                 let lasts = |part: &f64| self.estimator.distance(ray.at(entry + part * hit)) < hit;
-                if STILL.iter().all(lasts) {
+                if CONFIRMED_AT.iter().all(lasts) {
                     return Some(entry);
                 }
             }
             (before, was_near) = (depth, is_near);
-            depth += (STEP_PART * estimate.step).max(LEAST_STEP * hit);
+            depth += (STEP_FACTOR * estimate.step).max(LEAST_STEP * hit);
         }
         Some(depth)
     }
 
-    /// Where between two depths the ray comes within a footprint.
-    fn halve(&self, ray: Ray, mut outside: f64, mut inside: f64) -> f64 {
+    /// The depth between `outside` and `inside` at which the ray comes within a footprint.
+    fn bisect(&self, ray: Ray, mut outside: f64, mut inside: f64) -> f64 {
         while inside - outside > 1e-3 * self.cone * inside {
             let middle = 0.5 * (outside + inside);
             if self.estimator.distance(ray.at(middle)) < self.cone * middle {
@@ -118,7 +119,7 @@ impl Reference {
         inside
     }
 
-    /// The estimate's gradient, by differences so short that the estimate is straight between them.
+    /// The estimate's gradient by central differences, short enough that the estimate is linear.
     pub fn normal(&self, point: DVec3, footprint: f64) -> DVec3 {
         let h = 1e-4 * footprint;
         let along = |axis: DVec3| {
@@ -138,13 +139,14 @@ impl Reference {
                 return true;
             }
             let estimate = self.estimator.estimate(ray.at(s));
-            let is_near = |s: f64| self.estimator.distance(ray.at(s)) < BLOCKS * footprint;
-            if estimate.distance < BLOCKS * footprint
-                && STILL.iter().all(|part| is_near(s - part * footprint))
+            let is_near =
+                |s: f64| self.estimator.distance(ray.at(s)) < OCCLUDER_DISTANCE * footprint;
+            if estimate.distance < OCCLUDER_DISTANCE * footprint
+                && CONFIRMED_AT.iter().all(|part| is_near(s - part * footprint))
             {
                 return false;
             }
-            s -= (STEP_PART * estimate.step).max(LEAST_STEP * footprint);
+            s -= (STEP_FACTOR * estimate.step).max(LEAST_STEP * footprint);
         }
         true
     }

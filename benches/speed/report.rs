@@ -1,4 +1,6 @@
-//! What was measured: for people as it comes, as JSON at the end.
+//! The results of a whole run, as JSON and as measurements with limits.
+//!
+//! In: the results of each view and table. Out: what the limits check.
 
 use serde::Serialize;
 
@@ -10,29 +12,29 @@ use super::{
     powers, scaling, start,
 };
 
-/// Everything that one run measured.
+/// All results of one run.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
     /// The adapter's name and backend.
     pub adapter: String,
-    /// The views, in the order in which they were measured.
+    /// The comparisons, in the order of measurement.
     pub views: Vec<Comparison>,
-    /// What an orbit step costs, power by power.
+    /// The cost of an orbit step for each power.
     pub powers: Option<powers::Table>,
-    /// What depth costs.
+    /// The cost of depth.
     pub deep: Vec<deep::Row>,
-    /// What every half decade on the way down costs.
+    /// The cost of depth in half decades.
     pub descent: Vec<descent::Row>,
-    /// How time grows with what is asked for.
+    /// Growth of a picture's time.
     pub scaling: Vec<scaling::Row>,
-    /// How long it takes until there is a picture.
+    /// Start-up times.
     pub start: Option<start::Starts>,
-    /// The recorded session, where it was asked for.
+    /// The replayed session.
     pub feel: Option<feel::Results>,
 }
 
 impl Report {
-    /// All that has a limit.
+    /// All measurements that can have a limit.
     pub fn measured(&self) -> Vec<Measured> {
         let mut all = Vec::new();
         let mut add = |measure, view: &str, value| {
@@ -60,8 +62,7 @@ impl Report {
         all
     }
 
-    /// True where every picture is good enough for its ratio to count, and every power costs no
-    /// more than its products.
+    /// True if every ratio counts, and every power is within the fit.
     pub fn is_good(&self) -> bool {
         self.views.iter().all(|view| view.complaints.is_empty())
             && self.powers.as_ref().is_none_or(powers::Table::is_good)

@@ -1,4 +1,6 @@
-//! How a picture's time grows with what it is asked for.
+//! Growth of a picture's time when one of its settings doubles.
+//!
+//! In: the program's pipelines. Out: a row per setting.
 
 use std::sync::Arc;
 
@@ -15,27 +17,27 @@ use super::{
     views::{self, light, many_lights, with_lights},
 };
 
-/// What `--views` calls the table.
+/// The table's name for `--views`.
 pub const NAME: &str = "scaling";
-/// The picture that is doubled, unless another size is asked for.
+/// Width and height of the base view, unless another size is chosen.
 const SIZE_PX: [u32; 2] = [640, 360];
 
-/// One picture.
+/// The time of one setting.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What it is asked for.
+    /// The setting.
     pub name: &'static str,
-    /// How many times as much as the row that it is compared with.
+    /// The setting's amount divided by that of the row [`Self::against`].
     pub factor: f64,
-    /// That row.
+    /// The row to compare with.
     pub against: &'static str,
     /// Median time, milliseconds.
     pub ms: f64,
-    /// Over the other row's.
+    /// [`Self::ms`] divided by that of the row [`Self::against`].
     pub growth: f64,
 }
 
-/// The row that others are compared with.
+/// The name of the base view's row.
 const VIEW: &str = "the view";
 
 struct Case {
@@ -46,7 +48,7 @@ struct Case {
     size_px: [u32; 2],
 }
 
-/// The filled view and what is doubled of it, each beside what it is compared with.
+/// The base view, and its settings in pairs of which one has twice as much.
 fn cases(size_px: [u32; 2]) -> Vec<Case> {
     let four = || with_lights(views::filled(), many_lights(4));
     let base = views::filled;
@@ -60,7 +62,7 @@ fn cases(size_px: [u32; 2]) -> Vec<Case> {
     let eight = |four_more: Vec<EnvironmentLight>| {
         with_lights(base(), many_lights(4).into_iter().chain(four_more).collect())
     };
-    // From behind all that the camera sees.
+    // Directions behind all that the camera sees.
     let away = base().camera.forward();
     let from_behind = |k: i32| {
         let aside = DVec3::new(0.05 * f64::from(k), 0.0, 0.0);
@@ -87,14 +89,14 @@ fn cases(size_px: [u32; 2]) -> Vec<Case> {
     ]
 }
 
-/// Measures them in turn, so many rounds.
+/// Measures all rows, `rounds` times each.
 pub fn measure(pipelines: &Arc<Pipelines>, rounds: u32, size_px: Option<[u32; 2]>) -> Vec<Row> {
     let cases = cases(size_px.unwrap_or(SIZE_PX));
     let mut times = vec![Vec::new(); cases.len()];
     for round in 0..=rounds {
         for (case, times) in cases.iter().zip(&mut times) {
             let (ms, _) = ours::draw_ms(pipelines, &case.scene, case.size_px);
-            // The first round warms up.
+            // The first round is a warm-up.
             if round > 0 {
                 times.push(ms);
             }
@@ -115,7 +117,7 @@ pub fn measure(pipelines: &Arc<Pipelines>, rounds: u32, size_px: Option<[u32; 2]
         .collect()
 }
 
-/// Tells them to people.
+/// Prints the table.
 pub fn print(rows: &[Row]) {
     println!("\nscaling: the filled view, each row beside the one that has half as much");
     println!("  {:<20}{:>10}  {:>6}  {:>6}  against", "", "ms", "times", "asked");

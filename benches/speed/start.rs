@@ -1,7 +1,8 @@
-//! How long it takes until there is a picture, and how much of that is shader compilation.
+//! Time from the start of a process to its first picture, and the share of shader compilation.
 //!
-//! Each start is a process of its own. Drivers keep compiled shaders on disk: Mesa is told not to,
-//! and then to, for a first visit and a later one.
+//! In: the arguments. Out: medians of a first visit and of a later one. Each start is a process
+//! of its own, because drivers cache compiled shaders on disk; an environment variable turns
+//! Mesa's cache off for a first visit.
 
 use std::{process::Command, time::Instant};
 
@@ -14,41 +15,43 @@ use serde::{Deserialize, Serialize};
 
 use super::{arguments::Arguments, failure::Failure, statistics::median};
 
-/// What `--views` calls the table.
+/// The table's name for `--views`.
 pub const NAME: &str = "start";
 const SIZE_PX: [u32; 2] = [1280, 720];
 
-/// One start, milliseconds of each part.
+/// The parts of one start, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Start {
-    /// From nothing to a device.
+    /// From the start to a device.
     pub device: f64,
-    /// Making the pipelines that every picture needs.
+    /// Creation of the pipelines that every picture needs.
     pub pipelines: f64,
-    /// From a scene to its first picture on the screen, a sparse lattice filled in.
+    /// From setting the scene to its first picture, a filled sparse lattice.
     pub picture: f64,
-    /// The same once more, in a view of its own: what the first one took longer is compilation
-    /// that the driver had put off until then.
+    /// The same again in a second view.
+    ///
+    /// The difference to [`Self::picture`] is compilation that the driver deferred to the
+    /// first use.
     pub again: f64,
-    /// The power's own pipelines, which the page compiles while it rests.
+    /// Creation of the pipelines specialised for the power, which the page compiles while idle.
     pub special: f64,
-    /// From a scene to every pixel's first sample, all being compiled.
+    /// From setting the scene to the first sample of every pixel, without compilation.
     pub complete: f64,
 }
 
 impl Start {
-    /// Compilation that a first picture waits for.
+    /// Compilation before the first picture.
     fn compilation(&self) -> f64 {
         self.pipelines + (self.picture - self.again).max(0.0)
     }
 
-    /// All that it waits for.
+    /// Total time to the first picture.
     fn all(&self) -> f64 {
         self.device + self.pipelines + self.picture
     }
 }
 
-/// One line of the table: its name, and what of a start it tells.
+/// A line of the table: its name and value.
 type Part = (&'static str, fn(&Start) -> f64);
 
 /// The table's lines.
@@ -61,19 +64,19 @@ pub const PARTS: &[Part] = &[
     ("every pixel's first sample", |start| start.complete),
 ];
 
-/// A first visit and a later one.
+/// Medians of a first visit and of a later one.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Starts {
-    /// Nothing is compiled yet.
+    /// No shader is compiled yet.
     pub first: Start,
-    /// The driver has its shaders on disk; the same where it keeps none.
+    /// The driver has its shaders on disk, if it caches them.
     pub later: Start,
 }
 
-/// Starts once, in this process, and says how long it took as a line of JSON.
+/// Starts once in this process and prints the times as a line of JSON.
 ///
 /// # Errors
-/// Where there is no adapter.
+/// If there is no adapter.
 pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let mut clock = Instant::now();
     let mut lap = || {
@@ -110,21 +113,22 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let compiling = lap();
     drawn_until(has_sample);
     let complete = lap();
-    // What the driver put off again.
+    // Drivers defer a part of this compilation too.
     let special = made + (compiling - complete).max(0.0);
     let start = Start { device, pipelines: compiled, picture, again, special, complete };
     println!("{}", serde_json::to_string(&start)?);
     Ok(())
 }
 
-/// Starts so many times in processes of their own.
+/// Measures starts in processes of their own, `rounds` times each.
 ///
 /// # Errors
-/// Where one of them fails.
+/// If a process fails.
 pub fn measure(arguments: &Arguments) -> Result<Starts, Failure> {
     let runs = |is_cached: bool| -> Result<Start, Failure> {
-        let starts: Vec<_> =
-            (0..arguments.rounds).map(|_| one(arguments, is_cached)).collect::<Result<_, _>>()?;
+        let starts: Vec<_> = (0..arguments.rounds)
+            .map(|_| start_process(arguments, is_cached))
+            .collect::<Result<_, _>>()?;
         let of = |part: fn(&Start) -> f64| median(&starts.iter().map(part).collect::<Vec<_>>());
         Ok(Start {
             device: of(|start| start.device),
@@ -136,12 +140,12 @@ pub fn measure(arguments: &Arguments) -> Result<Starts, Failure> {
         })
     };
     let first = runs(false)?;
-    // Fills the cache.
-    one(arguments, true)?;
+    // Fills the driver's cache.
+    start_process(arguments, true)?;
     Ok(Starts { first, later: runs(true)? })
 }
 
-fn one(arguments: &Arguments, is_cached: bool) -> Result<Start, Failure> {
+fn start_process(arguments: &Arguments, is_cached: bool) -> Result<Start, Failure> {
     let mut process = Command::new(std::env::current_exe()?);
     process.arg("--start-once").env("MESA_SHADER_CACHE_DISABLE", (!is_cached).to_string());
     if let Some(name) = arguments.adapter_name() {
@@ -152,12 +156,12 @@ fn one(arguments: &Arguments, is_cached: bool) -> Result<Start, Failure> {
     }
     let output = process.output()?;
     let text = String::from_utf8_lossy(&output.stdout);
-    let line = text.lines().last().ok_or("a start said nothing")?;
+    let line = text.lines().last().ok_or("a start printed nothing")?;
     Ok(serde_json::from_str(line)?)
 }
 
 impl Starts {
-    /// Tells them to people.
+    /// Prints the table.
     pub fn print(&self) {
         println!("\nstart: milliseconds until there is a picture");
         println!("  {:<34}{:>10}{:>10}", "", "first", "later");

@@ -1,15 +1,16 @@
-//! What was measured, as the tables of `docs/benchmark.md`.
+//! The tables of `docs/benchmark.md`.
 //!
-//! Each table stands between two markers and is put there anew; tables that were not measured stay.
+//! In: the page's text and a report. Out: the text with the report's tables between their
+//! markers. Tables without results in the report stay.
 
 use std::fmt::Write as _;
 
 use super::{compare::Comparison, counts::Counts, descent::Row, report::Report};
 
-/// `text` with the tables that `report` has.
+/// `text` with the tables of `report`.
 ///
 /// # Errors
-/// Where a table's markers are missing.
+/// If a table's markers are missing.
 pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
     let mut tables = Vec::new();
     if !report.views.is_empty() {
@@ -113,7 +114,7 @@ fn deep(report: &Report) -> String {
     table
 }
 
-/// A line a place: of some scales the cost of an estimate and that of a picture, and the worst of all.
+/// A line per place: cost and picture time at some scales, then the largest values.
 fn descent(report: &Report) -> String {
     const SCALES: [&str; 8] = ["3e-3", "1e-3", "1e-4", "1e-5", "1e-9", "1e-13", "1e-20", "1e-27"];
     let mut table = head(&[["place"].as_slice(), &SCALES, &["worst", "largest change"]].concat());

@@ -1,39 +1,40 @@
-//! The views that are measured: scenes, sizes, and how many samples.
+//! The measured views: scenes, sizes and sample counts.
 
 use glam::DVec3;
 use mandelight::scene::{Camera, EnvironmentLight, Lights, Quality, Scene, ToneChannels};
 
-/// One thing to measure.
+/// A measured view.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// What `--views` and the `ratio` lines call it.
+    /// The name for `--views` and in `ratio` lines.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// A description in one line.
     pub about: &'static str,
-    /// The scene, its samples in it.
+    /// The scene, including its number of samples.
     pub scene: Scene,
     /// Width and height, pixels.
     pub size_px: [u32; 2],
-    /// The literal kernel draws one block of 8x8 pixels in so many each way, and its time counts
-    /// for all of them.
+    /// The literal kernel draws one of this many blocks of 8x8 pixels along each axis.
+    ///
+    /// Its time is scaled up to all blocks.
     pub stride: u32,
-    /// How far normals may be off in the mean, degrees.
+    /// Bound of the mean error of normals, degrees.
     pub normals_within_deg: f64,
-    /// It takes long enough that fewer rounds tell as much.
+    /// True if pictures take so long that half the rounds suffice.
     pub is_long: bool,
 }
 
-/// Width and height of most views: what the prototype's figures were measured at.
+/// Width and height of most views, pixels.
 pub const SIZE_PX: [u32; 2] = [960, 540];
 
-/// Every view, in the order in which they are measured.
+/// All views, in the order of measurement.
 pub fn all() -> Vec<View> {
     let lit = |lights: Vec<EnvironmentLight>| with_lights(filled(), lights);
     vec![
         view("whole", "the whole Mandelbulb", whole()),
         view("filled", "a picture filled by it, at a distance of 0.15", filled()),
         deep_view("crevice", "a crevice, partly in shadow, at a distance of 1e-3", crevice()),
-        view("julia", "the Julia key of power 8", julia()),
+        view("julia", "the Julia form of power 8", julia()),
         view("power2", "power 2", powered(2.0, [0.9, -1.75, 1.3], [-0.2, 0.0, 0.0])),
         view("power3", "power 3", powered(3.0, [1.7, -2.3, 1.95], [0.0; 3])),
         view("power16", "power 16", powered(16.0, [1.5, -2.3, 1.2], [0.0; 3])),
@@ -58,7 +59,7 @@ fn view(name: &'static str, about: &'static str, scene: Scene) -> View {
     View { name, about, scene, size_px: SIZE_PX, stride: 1, normals_within_deg, is_long: false }
 }
 
-/// A view at 1e-3 of the surface, where an f32 begins to show its grain.
+/// A view at 1e-3 of the surface, where f32 rounding begins to show in normals.
 fn deep_view(name: &'static str, about: &'static str, scene: Scene) -> View {
     View { normals_within_deg: 3.0, ..view(name, about, scene) }
 }
@@ -94,13 +95,13 @@ fn powered(power: f64, eye: [f64; 3], at: [f64; 3]) -> Scene {
     let mut scene = scene(eye, at, [0.0, 0.0, 1.0]);
     scene.fractal.power = power;
     if power < 2.5 {
-        // With fewer than 18 some rays end too early at 960x540.
+        // With an iteration limit below 18 some rays end too early at 960x540.
         scene.fractal.iterations = 20;
     }
     scene
 }
 
-/// The filled view as the thesis drew its own: 16 samples, each channel tone mapped.
+/// The filled view with the thesis's settings: 16 samples, tone mapped per channel.
 fn job() -> Scene {
     let mut scene = sampled(filled(), 16);
     scene.tone.channels = ToneChannels::PerChannel;
@@ -120,7 +121,7 @@ pub fn with_lights(mut scene: Scene, lights: Vec<EnvironmentLight>) -> Scene {
     scene
 }
 
-/// Lights spread evenly over the sky, as bright as three together.
+/// Lights spread evenly over the sky, with the total intensity of three.
 pub fn many_lights(count: u32) -> Vec<EnvironmentLight> {
     let golden_rad = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let one = |k: u32| {
@@ -141,7 +142,7 @@ pub fn sky() -> Vec<EnvironmentLight> {
     ]
 }
 
-/// A light whose shadows reach through all of the scene, as the thesis's do.
+/// A light whose shadows reach through the whole scene, as in the thesis.
 pub fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
     let direction = DVec3::from_array(direction).normalize().to_array();
     EnvironmentLight { direction, color, intensity, shadow_reach: None, ..Default::default() }

@@ -4,11 +4,11 @@ use anyhow::Result;
 
 use crate::{need, shell};
 
-/// Builds the benchmark and runs it with `options`; `--help` among them tells what there is.
+/// Builds the benchmark and runs it with `options`, such as `--help`.
 ///
-/// It is built as the tests are, which shares all that they have built: the GPU does the work that
-/// is measured. With `--release` among the options it is built as the program is released, which
-/// takes minutes: start-up times are then those that people see.
+/// It uses the tests' profile and shares their build, because the measured work runs on the GPU.
+/// `--release` selects the release profile: the build takes minutes, and start-up times are then
+/// those of the released program.
 pub fn bench(options: &[String]) -> Result<()> {
     need::vulkan_driver()?;
     let (release, options): (Vec<_>, Vec<_>) =

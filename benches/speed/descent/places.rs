@@ -1,7 +1,7 @@
-//! Where the descents lead.
+//! The places that descents lead to.
 //!
-//! A place is a point of the surface, to less than 1e-40, and is looked at along a line that is free
-//! of the set, so that the eye can be at any distance from it.
+//! A place is a point of the surface, exact to less than 1e-40. The straight line from the eye
+//! to that point is free of the set, so the eye can be at any distance.
 
 use glam::DVec3;
 use mandelight::scene::{Camera, EnvironmentLight, Fractal, Precise, PrecisePoint, Scene};
@@ -11,25 +11,27 @@ use super::super::{
     views::{sampled, sky, with_lights},
 };
 
-/// A point of the surface, and from where it is looked at.
+/// A point of the surface and a viewing direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// What scripts call it: after how orbits stretch what is near it.
+    /// The kind of place, by how orbits stretch its neighbourhood.
     pub name: &'static str,
     /// The power.
     pub power: f64,
     /// The constant of the Julia form; none for the Mandelbulb.
     pub julia: Option<[f64; 3]>,
-    /// Decimal coordinates, scene units.
+    /// Decimal coordinates of the point, scene units.
     pub position: [&'static str; 3],
-    /// The direction in which the camera looks; not of unit length.
+    /// The viewing direction; not of unit length.
     pub toward: [f64; 3],
 }
 
-/// All places. Those of powers 8, 12 and 16 called streaky are where a line from outside first meets the set.
-/// The others are points whose orbit runs into a repelling cycle, by Newton's method, 0.1 beside the axis or
-/// anywhere: one that stretches all directions nearly alike, and for the streaky ones, and power 3 by the
-/// axis, some more than others. Their views fill with the set at nearly every distance.
+/// All places; the set fills their views at nearly every distance.
+///
+/// `streaky` places of powers 8, 12 and 16 are the first points of the set on a line from
+/// outside. All others have an orbit that ends in a repelling cycle (found by Newton's method).
+/// The cycle's Jacobian is close to a similarity at `conformal` places, and anisotropic at
+/// `streaky` ones and at `axis` of power 3. `axis` places are 0.1 from the polar axis.
 pub const PLACES: &[Place] = &[
     Place {
         name: "conformal",
@@ -199,16 +201,17 @@ pub const PLACES: &[Place] = &[
 ];
 
 impl Place {
-    /// The power as names have it, or `julia`.
+    /// The power as part of a name, or `julia`.
     pub fn set(&self) -> String {
         if self.julia.is_some() { "julia".to_owned() } else { self.power.to_string() }
     }
 
-    /// The scene that looks at it from `distance` away, scene units, in three lights whose shadows
-    /// reach one view unit.
+    /// The scene seen from `distance`, scene units, in three lights.
+    ///
+    /// Shadows reach one view unit.
     ///
     /// # Errors
-    /// Where a coordinate is no number.
+    /// If a coordinate is not a number.
     pub fn scene(&self, distance: f64) -> Result<Scene, Failure> {
         let [x, y, z] = self.position.map(str::parse::<Precise>);
         let point = PrecisePoint([x?, y?, z?]);

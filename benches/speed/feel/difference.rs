@@ -1,33 +1,33 @@
-//! How far two display pictures are apart.
+//! Differences between two display pictures.
 
 use serde::Serialize;
 
 use super::session::SIZE_PX;
 
-/// Side of the squares that structure is compared in, and from one to the next, pixels.
+/// Side and spacing of the windows of structural similarity, pixels.
 const WINDOW_PX: usize = 8;
 const STRIDE_PX: usize = 4;
 
-/// What one picture is off from another.
+/// The differences between two pictures.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Difference {
-    /// Mean of the channels' differences, in steps of 1/255, sRGB.
+    /// Mean difference of the channels, in steps of 1/255, sRGB.
     pub mean: f64,
-    /// Mean difference in Oklab (Ottosson 2020), times 100: 2 can just be seen.
+    /// Mean distance in Oklab (Ottosson 2020), times 100; 2 is just noticeable.
     pub oklab: f64,
-    /// One less the mean structural similarity of luma (Wang et al. 2004), in even squares.
+    /// One minus the mean structural similarity of luma (Wang et al. 2004), in uniform windows.
     pub structure: f64,
 }
 
 impl Difference {
-    /// The mean of several.
+    /// The mean of several differences.
     pub fn mean_of(all: &[Self]) -> Self {
         let count = all.len().max(1) as f64;
         let mean = |of: fn(&Self) -> f64| all.iter().map(of).sum::<f64>() / count;
         Self { mean: mean(|e| e.mean), oklab: mean(|e| e.oklab), structure: mean(|e| e.structure) }
     }
 
-    /// Compares two pictures of the replay's size, RGBA.
+    /// Compares two RGBA pictures of the replay's size.
     pub fn between(a: &[u8], b: &[u8]) -> Self {
         let pixels = (a.len() / 4).max(1) as f64;
         let (a, b) = (a.as_chunks::<4>().0, b.as_chunks::<4>().0);

@@ -1,6 +1,7 @@
-//! What edits cost at full resolution, next to each other.
+//! The cost of edits at full resolution, and the time from release to full resolution.
 //!
-//! A view with time without end for a moving frame draws each edit whole at once, as one picture.
+//! In: a scene of the session. Out: milliseconds, and multiples of a full frame. A view without
+//! a limit on its motion budget draws each edit at full resolution at once.
 
 use std::{
     sync::Arc,
@@ -21,27 +22,28 @@ use super::{
 };
 
 /// A motion budget that every frame fits, milliseconds.
-const NO_HURRY_MS: f64 = 1e7;
+const UNLIMITED_BUDGET_MS: f64 = 1e7;
 
-/// Rounds after those that teach the view what things cost.
+/// Measured rounds, after the warm-up that trains the view's cost estimates.
 const ROUNDS: u32 = 3;
 const WARM_UP: u32 = 2;
 
-/// Medians of rounds in which each edit has its turn, milliseconds from the edit to the picture.
+/// Median times from an edit to its picture, milliseconds; each round makes each edit once.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Costs {
-    /// A camera move: a full frame's own time.
+    /// A camera move, which costs a full frame.
     pub camera_ms: f64,
-    /// A light of three moved.
+    /// A move of one of three lights.
     pub light_ms: f64,
-    /// The same light's intensity.
+    /// A change of that light's intensity.
     pub intensity_ms: f64,
-    /// Exposure.
+    /// A change of exposure.
     pub exposure_ms: f64,
 }
 
-/// From the release after an edit to the picture of all pixels, in full frames' own time: the median
-/// of rounds in which both have their turn.
+/// Time from the release after an edit to the first picture of all pixels, in full frames.
+///
+/// The median of rounds that draw the full frame in turn with the release.
 pub fn release(
     pipelines: &Arc<Pipelines>,
     scene: &Scene,
@@ -50,19 +52,21 @@ pub fn release(
 ) -> f64 {
     let start = Instant::now();
     let new_view = || View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
-    let (mut hurried, mut unhurried) = (new_view(), new_view());
-    let (mut scene, mut turned) = (scene.clone(), with_motion_budget(scene, NO_HURRY_MS));
-    turned.quality.samples = 1;
+    let (mut budgeted, mut unbudgeted) = (new_view(), new_view());
+    let (mut scene, mut unbudgeted_scene) =
+        (scene.clone(), with_motion_budget(scene, UNLIMITED_BUDGET_MS));
+    unbudgeted_scene.quality.samples = 1;
     let mut ratios = Vec::new();
     for round in 0..WARM_UP + ROUNDS {
         let sign = if round % 2 == 0 { 1.0 } else { -1.0 };
-        move_camera(&mut turned, sign);
-        let own_ms = draw(pipelines, &mut unhurried, &turned, start);
+        move_camera(&mut unbudgeted_scene, sign);
+        let own_ms = draw(pipelines, &mut unbudgeted, &unbudgeted_scene, start);
         edit(&mut scene, sign);
-        let aimed = with_motion_budget(&scene, budget_ms);
-        draw_until(pipelines, &mut hurried, &aimed, true, start, |_| true);
+        let budgeted_scene = with_motion_budget(&scene, budget_ms);
+        draw_until(pipelines, &mut budgeted, &budgeted_scene, true, start, |_| true);
         let whole = |pixels_per_sample| pixels_per_sample == 1;
-        let released_ms = draw_until(pipelines, &mut hurried, &aimed, false, start, whole);
+        let released_ms =
+            draw_until(pipelines, &mut budgeted, &budgeted_scene, false, start, whole);
         if round >= WARM_UP {
             ratios.push(released_ms / own_ms);
         }
@@ -70,40 +74,44 @@ pub fn release(
     median(&ratios)
 }
 
-/// Gives a scene to a view that is pumped as the page does; milliseconds until a picture is
-/// `enough`, one pixel of so many having been computed.
+/// Sets a scene and pumps the view as the page does; milliseconds until a picture is done.
+///
+/// `is_done` gets the picture's pixels per sample.
 fn draw_until(
     pipelines: &Pipelines,
     view: &mut View,
     scene: &Scene,
     moving: bool,
     start: Instant,
-    enough: impl Fn(u32) -> bool,
+    is_done: impl Fn(u32) -> bool,
 ) -> f64 {
-    let given = Instant::now();
+    let edited = Instant::now();
     view.set_scene(scene, moving);
     let before = view.report().pictures;
     let mut pumped = Instant::now();
     view.pump(start.elapsed().as_secs_f64());
     loop {
         std::thread::sleep(Duration::from_micros(200));
-        // Browsers tell by themselves when work is done.
+        // Browsers run the callbacks of completed work on their own.
         pipelines.gpu.poll();
         if pumped.elapsed().as_secs_f64() >= PUMP_SECS {
             pumped = Instant::now();
             view.pump(start.elapsed().as_secs_f64());
         }
         let report = view.report();
-        if report.pictures > before && enough(report.pixels_per_sample) {
-            return given.elapsed().as_secs_f64() * 1e3;
+        if report.pictures > before && is_done(report.pixels_per_sample) {
+            return edited.elapsed().as_secs_f64() * 1e3;
         }
     }
 }
 
-/// Measures the edits on one scene.
+/// Measures the edits of one scene.
 pub fn costs(pipelines: &Arc<Pipelines>, scene: &Scene) -> Costs {
-    let [camera_ms, light_ms, intensity_ms, exposure_ms] =
-        measured(pipelines, scene, [move_camera, move_light, dim_light, expose]);
+    let [camera_ms, light_ms, intensity_ms, exposure_ms] = edit_times_ms(
+        pipelines,
+        scene,
+        [move_camera, move_light, change_intensity, change_exposure],
+    );
     Costs { camera_ms, light_ms, intensity_ms, exposure_ms }
 }
 
@@ -125,20 +133,20 @@ pub fn raise_power(scene: &mut Scene, sign: f64) {
     scene.fractal.power += 0.01 * sign;
 }
 
-fn dim_light(scene: &mut Scene, sign: f64) {
+fn change_intensity(scene: &mut Scene, sign: f64) {
     scene.lights.environment[0].intensity *= (0.02 * sign).exp();
 }
 
-fn expose(scene: &mut Scene, sign: f64) {
+fn change_exposure(scene: &mut Scene, sign: f64) {
     scene.tone.exposure += 0.02 * sign;
 }
 
-fn measured<const N: usize>(
+fn edit_times_ms<const N: usize>(
     pipelines: &Arc<Pipelines>,
     scene: &Scene,
     edits: [fn(&mut Scene, f64); N],
 ) -> [f64; N] {
-    let mut scene = with_motion_budget(scene, NO_HURRY_MS);
+    let mut scene = with_motion_budget(scene, UNLIMITED_BUDGET_MS);
     scene.quality.samples = 1;
     pipelines.specialise(&scene);
     let mut view = View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);

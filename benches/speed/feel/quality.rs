@@ -1,5 +1,7 @@
-//! How good moving pictures are: each against the full frame of its scene, beside what filling
-//! with the nearest computed pixel makes of the same lattice.
+//! Errors of moving pictures against full frames of the same scenes.
+//!
+//! In: the session and a replay's frames. Out: the differences of the shown picture, and those
+//! of nearest-neighbour filling of the same lattice.
 
 use std::{
     path::Path,
@@ -20,44 +22,44 @@ use super::{
     session::{SIZE_PX, Session, with_motion_budget},
 };
 
-/// Of the moving pictures of each part so many are looked at.
-const LOOKED_AT: usize = 4;
+/// Compared pictures per part of the session.
+const PICTURES_PER_PART: usize = 4;
 
-/// Difference of a moving picture, and of the same lattice filled otherwise.
+/// Differences of one moving picture from the full frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Quality {
-    /// The part of the session.
+    /// Index of the session's part.
     pub part: usize,
-    /// One pixel of so many was computed.
+    /// Pixels per computed pixel.
     pub pixels_per_sample: u32,
-    /// Of the picture shown.
+    /// Difference of the shown picture.
     pub shown: Difference,
-    /// Of the nearest computed pixel's colour.
+    /// Difference of nearest-neighbour filling.
     pub nearest: Difference,
 }
 
-/// Plays the frames that a replay showed once more, without a clock, and compares.
+/// Draws a replay's frames again, without the clock, and compares them with full frames.
 pub fn qualities(
     pipelines: &Arc<Pipelines>,
     session: &Session,
     frames: &[Frame],
     budget_ms: f64,
-    keep: Option<&Path>,
+    folder: Option<&Path>,
 ) -> Result<Vec<Quality>, Failure> {
     let mut moving = View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
     let start = Instant::now();
-    let mut found = Vec::new();
-    if let Some(folder) = keep {
+    let mut qualities = Vec::new();
+    if let Some(folder) = folder {
         std::fs::create_dir_all(folder)?;
     }
     for part in 0..session.parts.len() {
         let frames: Vec<_> = frames.iter().filter(|frame| frame.part == part).collect();
         let first = with_motion_budget(&session.parts[part][0], budget_ms);
         settle(&mut moving, &first, start);
-        let every = (frames.len() / LOOKED_AT).max(1);
+        let every = (frames.len() / PICTURES_PER_PART).max(1);
         for (index, frame) in frames.iter().enumerate() {
             let scene = &session.parts[part][frame.tick as usize];
-            move_to(pipelines, &mut moving, &with_motion_budget(scene, budget_ms), start);
+            draw_moving(pipelines, &mut moving, &with_motion_budget(scene, budget_ms), start);
             let pixels_per_sample = moving.report().pixels_per_sample;
             if index % every != every / 2 || pixels_per_sample == 1 {
                 continue;
@@ -65,13 +67,13 @@ pub fn qualities(
             let shown = pixels(pipelines, &moving)?;
             let full = full_frame(pipelines, scene)?;
             let nearest = nearest(&full, pixels_per_sample);
-            if let Some(folder) = keep {
+            if let Some(folder) = folder {
                 let name = |kind| folder.join(format!("feel-{part}-{index:02}-{kind}.png"));
                 for (kind, bytes) in [("shown", &shown), ("full", &full), ("nearest", &nearest)] {
                     image_file::write(&name(kind), SIZE_PX, bytes)?;
                 }
             }
-            found.push(Quality {
+            qualities.push(Quality {
                 part,
                 pixels_per_sample,
                 shown: Difference::between(&shown, &full),
@@ -79,10 +81,10 @@ pub fn qualities(
             });
         }
     }
-    Ok(found)
+    Ok(qualities)
 }
 
-/// Rests on a scene until each pixel has been computed.
+/// Draws a scene at rest until each pixel has a sample.
 fn settle(view: &mut View, scene: &Scene, start: Instant) {
     view.set_scene(scene, false);
     while view.pump(start.elapsed().as_secs_f64()) && view.report().samples_done == 0 {
@@ -92,15 +94,15 @@ fn settle(view: &mut View, scene: &Scene, start: Instant) {
 }
 
 /// Draws one moving picture.
-fn move_to(pipelines: &Pipelines, view: &mut View, scene: &Scene, start: Instant) {
+fn draw_moving(pipelines: &Pipelines, view: &mut View, scene: &Scene, start: Instant) {
     pipelines.gpu.wait();
     view.pump(start.elapsed().as_secs_f64());
     pipelines.gpu.wait();
     view.set_scene(scene, true);
-    let tones = view.dispatches().tone;
-    while view.dispatches().tone == tones {
+    let tone_passes = view.dispatches().tone;
+    while view.dispatches().tone == tone_passes {
         if !view.pump(start.elapsed().as_secs_f64()) {
-            // The scene before it was the same.
+            // The scene equals the one before.
             return;
         }
         pipelines.gpu.wait();
@@ -124,7 +126,7 @@ fn pixels(pipelines: &Pipelines, view: &View) -> Result<Vec<u8>, Failure> {
     Ok(Readback::texture(&pipelines.gpu, texture, SIZE_PX).wait(&pipelines.gpu)?)
 }
 
-/// The picture whose lattice, one pixel in so many, is spread to the pixels that are nearest.
+/// Nearest-neighbour filling of a lattice of one pixel in `pixels_per_sample`.
 fn nearest(full: &[u8], pixels_per_sample: u32) -> Vec<u8> {
     let spacing = 1 << (pixels_per_sample.ilog2() / 2);
     let is_staggered = pixels_per_sample.ilog2() % 2 == 1;

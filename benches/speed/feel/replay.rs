@@ -1,8 +1,9 @@
-//! The session against the clock: a view is fed as the page feeds it.
+//! A replay of the session in real time, with input and pumps as in the page.
 //!
-//! A display ticks once a budget. At a tick the view gets the scene that the hand has got to; at
-//! the tick, and every few milliseconds between two of them as the page's own timer does, the
-//! view is pumped. A view that is behind keeps the newest scene for when it is ready.
+//! In: a session and a motion budget. Out: the moving frames that were shown, and when. A
+//! display ticks once a budget. Each tick sets the session's scene of that time; the view is
+//! pumped at each tick and by a timer of a few milliseconds. A view that is behind keeps the
+//! newest scene.
 
 use std::{
     sync::{
@@ -23,40 +24,41 @@ use super::{
     session::{SIZE_PX, Session, with_motion_budget},
 };
 
-/// Between two pumps, as in the page, seconds.
+/// Interval between two pumps, as in the page, seconds.
 pub const PUMP_SECS: f64 = 0.004;
 
-/// Ticks of rest between two parts: two and a half full frames.
+/// Ticks at rest between two parts: two and a half full frames.
 const REST_TICKS: u32 = 50;
 
-/// Most ticks that a rest is prolonged by until the whole picture is there.
+/// Most additional ticks at rest until all pixels have a sample.
 const MOST_REST_TICKS: u32 = 400;
 
 /// One moving picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// The part of the session.
+    /// Index of the session's part.
     pub part: usize,
-    /// The tick whose scene it shows.
+    /// The tick whose scene the picture shows.
     pub tick: u32,
-    /// From the picture before it, or from its own input where that came later, to its end, seconds.
+    /// From the picture before, or from this picture's input if that is later, to
+    /// completion, seconds.
     pub secs: f64,
-    /// From its own input to its end, seconds.
+    /// From the input to completion, seconds.
     pub lag_secs: f64,
-    /// One pixel of so many was computed.
+    /// Pixels per computed pixel.
     pub pixels_per_sample: u32,
 }
 
-/// What a replay showed.
+/// The results of a replay.
 #[derive(Default)]
 pub struct Replay {
-    /// Its moving pictures.
+    /// The moving frames, in the order of completion.
     pub frames: Vec<Frame>,
-    /// Part of the machine's processors that other programs had meanwhile, where it tells.
+    /// Fraction of the processors that other programs used, where the system has figures.
     pub others: Option<f64>,
 }
 
-/// Runs callbacks of finished work as soon as they are due, as browsers do.
+/// A thread that runs completion callbacks promptly, as browsers do.
 struct Poller {
     stop: Arc<AtomicBool>,
     thread: Option<std::thread::JoinHandle<()>>,
@@ -65,9 +67,9 @@ struct Poller {
 impl Poller {
     fn new(gpu: &Gpu) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
-        let (gpu, told) = (gpu.clone(), stop.clone());
+        let (gpu, should_stop) = (gpu.clone(), stop.clone());
         let thread = std::thread::spawn(move || {
-            while !told.load(Ordering::Relaxed) {
+            while !should_stop.load(Ordering::Relaxed) {
                 gpu.poll();
                 std::thread::sleep(Duration::from_micros(200));
             }
@@ -80,38 +82,38 @@ impl Drop for Poller {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            // A poller that panicked has said so.
+            // A poller that panicked has printed its message.
             let _ = thread.join();
         }
     }
 }
 
-/// A picture that was submitted.
+/// A submitted picture.
 #[derive(Clone, Copy)]
-struct Shown {
+struct ShownPicture {
     part: usize,
     tick: u32,
-    given_secs: f64,
+    input_secs: f64,
     pixels_per_sample: u32,
     moving: bool,
-    /// Of a change, rather than of what refines.
-    opening: bool,
-    /// When it was done.
+    /// True for a change's first picture, false for its refinements.
+    first_of_change: bool,
+    /// Time of completion.
     done_secs: f64,
 }
 
-/// One replay under way.
+/// The state of a replay.
 struct Player {
     gpu: Gpu,
     view: View,
     start: Instant,
     budget_secs: f64,
     next_pump_secs: f64,
-    /// Part, tick, time and movement of what the view was given last, and of what it took.
-    given: (usize, u32, f64, bool),
-    taken: (usize, u32, f64, bool),
-    opening: bool,
-    shown: Arc<Mutex<Vec<Shown>>>,
+    /// Part, tick, time and motion of the input that was set last; then of the one in work.
+    latest_input: (usize, u32, f64, bool),
+    accepted_input: (usize, u32, f64, bool),
+    first_of_change: bool,
+    shown: Arc<Mutex<Vec<ShownPicture>>>,
 }
 
 impl Player {
@@ -119,37 +121,37 @@ impl Player {
         self.start.elapsed().as_secs_f64()
     }
 
-    fn give(&mut self, scene: &Scene, part: usize, tick: u32, moving: bool) {
+    fn set_scene(&mut self, scene: &Scene, part: usize, tick: u32, moving: bool) {
         self.view.set_scene(scene, moving);
-        self.given = (part, tick, self.now_secs(), moving);
+        self.latest_input = (part, tick, self.now_secs(), moving);
     }
 
-    /// Lets the view work, and notes a picture that it submits.
+    /// Pumps the view, and records a picture that it submits.
     fn pump(&mut self) -> bool {
-        let tones = self.view.dispatches().tone;
+        let tone_passes = self.view.dispatches().tone;
         let now_secs = self.now_secs();
         let busy = self.view.pump(now_secs);
         self.next_pump_secs = now_secs + PUMP_SECS;
         let report = self.view.report();
-        // The pump in which a change was taken is the change's own time.
-        if report.elapsed_secs == 0.0 && self.taken != self.given {
-            self.taken = self.given;
-            self.opening = true;
+        // The view accepts a change in the pump that resets its elapsed time.
+        if report.elapsed_secs == 0.0 && self.accepted_input != self.latest_input {
+            self.accepted_input = self.latest_input;
+            self.first_of_change = true;
         }
-        if self.view.dispatches().tone > tones {
-            let (part, tick, given_secs, moving) = self.taken;
-            let opening = std::mem::take(&mut self.opening);
+        if self.view.dispatches().tone > tone_passes {
+            let (part, tick, input_secs, moving) = self.accepted_input;
+            let first_of_change = std::mem::take(&mut self.first_of_change);
             let pixels_per_sample = report.pixels_per_sample;
             let (shown, start) = (self.shown.clone(), self.start);
             self.gpu.queue.on_submitted_work_done(move || {
                 let done_secs = start.elapsed().as_secs_f64();
-                shown.lock().unwrap_or_else(PoisonError::into_inner).push(Shown {
+                shown.lock().unwrap_or_else(PoisonError::into_inner).push(ShownPicture {
                     part,
                     tick,
-                    given_secs,
+                    input_secs,
                     pixels_per_sample,
                     moving,
-                    opening,
+                    first_of_change,
                     done_secs,
                 });
             });
@@ -174,7 +176,7 @@ impl Player {
         }
     }
 
-    /// Plays a part from the tick that comes next until the hand lets go.
+    /// Plays a part from the next tick to the release.
     fn play(&mut self, part: usize, scenes: &[Scene]) {
         let first_secs = self.now_secs();
         let last = scenes.len() as u32 - 1;
@@ -186,19 +188,19 @@ impl Player {
             if tick > last {
                 break;
             }
-            self.give(&scenes[tick as usize], part, tick, true);
+            self.set_scene(&scenes[tick as usize], part, tick, true);
             self.pump();
             self.wait_until(first_secs + f64::from(tick) * self.budget_secs);
         }
-        self.give(&scenes[last as usize], part, last, false);
+        self.set_scene(&scenes[last as usize], part, last, false);
         self.pump();
     }
 
-    /// Rests for a while, and until the whole picture is there.
+    /// Rests for some ticks, and until all pixels have a sample.
     fn rest(&mut self) {
         let mut whole_ticks = 0;
         for tick in 0..REST_TICKS + MOST_REST_TICKS {
-            // The picture of the last pixel is still to come.
+            // The picture of the last pixels is shown some ticks later.
             whole_ticks += u32::from(self.view.report().samples_done > 0);
             if tick >= REST_TICKS && whole_ticks > 4 {
                 break;
@@ -208,7 +210,7 @@ impl Player {
     }
 }
 
-/// Plays the session with a display that ticks every `budget_ms`.
+/// Replays the session on a display that ticks every `budget_ms`.
 pub fn play(pipelines: &Arc<Pipelines>, session: &Session, budget_ms: f64) -> Replay {
     let _poller = Poller::new(&pipelines.gpu);
     let before = Load::now();
@@ -218,18 +220,18 @@ pub fn play(pipelines: &Arc<Pipelines>, session: &Session, budget_ms: f64) -> Re
         start: Instant::now(),
         budget_secs: budget_ms * 1e-3,
         next_pump_secs: 0.0,
-        given: (0, 0, 0.0, false),
-        taken: (0, 0, 0.0, false),
-        opening: false,
+        latest_input: (0, 0, 0.0, false),
+        accepted_input: (0, 0, 0.0, false),
+        first_of_change: false,
         shown: Arc::default(),
     };
     let scenes = session.parts.iter().map(|part| {
-        let aimed = part.iter().map(|scene| with_motion_budget(scene, budget_ms));
-        aimed.collect::<Vec<_>>()
+        let budgeted = part.iter().map(|scene| with_motion_budget(scene, budget_ms));
+        budgeted.collect::<Vec<_>>()
     });
     for (part, scenes) in scenes.enumerate() {
         if part == 0 {
-            player.give(&scenes[0], part, 0, false);
+            player.set_scene(&scenes[0], part, 0, false);
             player.pump();
             player.rest();
             player.rest();
@@ -239,20 +241,20 @@ pub fn play(pipelines: &Arc<Pipelines>, session: &Session, budget_ms: f64) -> Re
     }
     pipelines.gpu.wait();
     let shown = player.shown.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    let others = Load::now().zip(before).map(|(now, before)| now.of_others_since(&before));
+    let others = Load::now().zip(before).map(|(now, before)| now.others_share_since(&before));
     Replay { frames: moving_frames(&shown), others }
 }
 
-fn moving_frames(shown: &[Shown]) -> Vec<Frame> {
+fn moving_frames(shown: &[ShownPicture]) -> Vec<Frame> {
     let mut frames = Vec::new();
     let mut before_secs = f64::NEG_INFINITY;
     for picture in shown {
-        if picture.moving && picture.opening {
+        if picture.moving && picture.first_of_change {
             frames.push(Frame {
                 part: picture.part,
                 tick: picture.tick,
-                secs: picture.done_secs - before_secs.max(picture.given_secs),
-                lag_secs: picture.done_secs - picture.given_secs,
+                secs: picture.done_secs - before_secs.max(picture.input_secs),
+                lag_secs: picture.done_secs - picture.input_secs,
                 pixels_per_sample: picture.pixels_per_sample,
             });
         }

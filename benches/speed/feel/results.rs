@@ -1,4 +1,6 @@
-//! What the session showed, part by part: as text and as plain data.
+//! The results of the session, part by part, as text and as JSON.
+//!
+//! In: costs of edits, a replay, release times, errors. Out: quantiles, means and printed lines.
 
 use serde::Serialize;
 
@@ -11,57 +13,56 @@ use super::{
     session::{PARTS, SIZE_PX},
 };
 
-/// What a moving frame may take, in budgets, to count as in time.
-const IN_TIME: f64 = 1.25;
+/// Longest time of a moving frame that counts as in time, budgets.
+const IN_TIME_BUDGETS: f64 = 1.25;
 
-/// All that the replay found.
+/// All results of the session.
 #[derive(Clone, Debug, Serialize)]
 pub struct Results {
     /// Width and height, pixels.
     pub size_px: [u32; 2],
-    /// A twentieth of a full frame, milliseconds.
+    /// The motion budget: a twentieth of a full frame, milliseconds.
     pub budget_ms: f64,
-    /// What edits cost at full resolution.
+    /// Costs of edits at full resolution.
     pub costs: Costs,
-    /// The parts of the session, then all of it.
-    pub parts: Vec<Feel>,
-    /// Part of the machine's processors that other programs had during the replay, 0 to 1, where
-    /// the machine tells.
+    /// The results of each part, then of the whole session.
+    pub parts: Vec<PartResults>,
+    /// Fraction of the processors that other programs used, where the system has figures.
     pub others: Option<f64>,
 }
 
-/// How a part of the session felt.
+/// The results of one part of the session.
 #[derive(Clone, Debug, Serialize)]
-pub struct Feel {
+pub struct PartResults {
     /// The part's name.
     pub name: &'static str,
-    /// Its moving pictures.
+    /// The number of moving frames.
     pub frames: usize,
-    /// Quantiles of their times, in budgets.
+    /// Median of the frame times, budgets.
     pub p50: f64,
-    /// As above.
+    /// 95th percentile of the frame times, budgets.
     pub p95: f64,
-    /// As above.
+    /// Longest frame time, budgets.
     pub max: f64,
-    /// Part of them that took no more than 1.25 budgets.
+    /// Fraction of the frames that took at most 1.25 budgets.
     pub in_time: f64,
-    /// From a hand's move to its picture, 95 %, in budgets.
+    /// 95th percentile of the time from input to picture, budgets.
     pub lag_p95: f64,
-    /// One pixel of so many was computed, in the median.
+    /// Median of the pixels per computed pixel.
     pub pixels_per_sample: f64,
-    /// From the release to the picture of all pixels, in a full frame's own time.
+    /// Time from release to the first picture of all pixels, in full frames.
     pub release: Option<f64>,
-    /// Difference against the full frame: of what was shown, and of nearest-pixel filling.
+    /// Mean differences from the full frame: of shown pictures, and of nearest-neighbour filling.
     pub errors: Option<[Difference; 2]>,
 }
 
-impl Feel {
+impl PartResults {
     fn new(name: &'static str, frames: &[&Frame], budget_ms: f64, qualities: &[&Quality]) -> Self {
         let in_budgets = |secs: fn(&Frame) -> f64| -> Vec<f64> {
             frames.iter().map(|frame| secs(frame) * 1e3 / budget_ms).collect()
         };
         let mut times = in_budgets(|frame| frame.secs);
-        let in_time = times.iter().filter(|&&time| time <= IN_TIME).count();
+        let in_time = times.iter().filter(|&&time| time <= IN_TIME_BUDGETS).count();
         let mut sparse: Vec<_> =
             frames.iter().map(|frame| f64::from(frame.pixels_per_sample)).collect();
         let mean = |of: fn(&Quality) -> Difference| {
@@ -84,7 +85,7 @@ impl Feel {
 }
 
 impl Results {
-    /// Sums up what was measured.
+    /// Computes the results from the measurements.
     pub fn new(
         budget_ms: f64,
         costs: Costs,
@@ -92,25 +93,25 @@ impl Results {
         releases: &[Option<f64>],
         qualities: &[Quality],
     ) -> Self {
-        let feel = |name, part: Option<usize>| {
+        let part_results = |name, part: Option<usize>| {
             let is_meant = |of: usize| part.is_none_or(|part| part == of);
             let frames: Vec<_> = replay.frames.iter().filter(|it| is_meant(it.part)).collect();
             let qualities: Vec<_> = qualities.iter().filter(|it| is_meant(it.part)).collect();
-            Feel::new(name, &frames, budget_ms, &qualities)
+            PartResults::new(name, &frames, budget_ms, &qualities)
         };
         let mut parts: Vec<_> = PARTS
             .iter()
             .enumerate()
             .map(|(part, of)| {
                 let release = releases.get(part).copied().flatten();
-                Feel { release, ..feel(of.name, Some(part)) }
+                PartResults { release, ..part_results(of.name, Some(part)) }
             })
             .collect();
-        parts.push(feel("all", None));
+        parts.push(part_results("all", None));
         Self { size_px: SIZE_PX, budget_ms, costs, parts, others: replay.others }
     }
 
-    /// Tells it to people, and its figures to scripts.
+    /// Prints tables for people and `feel` lines for scripts.
     pub fn print(&self) {
         let [width, height] = self.size_px;
         let Costs { camera_ms, light_ms, intensity_ms, exposure_ms } = self.costs;
@@ -126,7 +127,7 @@ impl Results {
             "  in budgets      frames  p50    p95    max    in time  lag p95  one pixel of  release"
         );
         for part in &self.parts {
-            let Feel { name, frames, p50, p95, max, in_time, lag_p95, .. } = part;
+            let PartResults { name, frames, p50, p95, max, in_time, lag_p95, .. } = part;
             let release = part.release.map_or(String::new(), |release| format!("{release:.2}"));
             println!(
                 "  {name:15} {frames:6}  {p50:<5.2}  {p95:<5.2}  {max:<5.2}  {:5.1} %  {lag_p95:<7.2}  {:<12}  {release}",
@@ -135,7 +136,7 @@ impl Results {
             );
         }
         println!("  errors (nearest)  steps of 1/255   Oklab x 100      1 - SSIM");
-        for Feel { name, errors, .. } in &self.parts {
+        for PartResults { name, errors, .. } in &self.parts {
             if let Some([shown, nearest]) = errors {
                 println!(
                     "  {name:15}  {:6.2} ({:6.2})  {:6.2} ({:6.2})  {:.3} ({:.3})",
@@ -153,7 +154,7 @@ impl Results {
         {
             println!("feel {edit} {:.3}", ms / camera_ms);
         }
-        for Feel { name, in_time, max, release, .. } in &self.parts {
+        for PartResults { name, in_time, max, release, .. } in &self.parts {
             let release = release.map_or(String::new(), |release| format!(" release {release:.2}"));
             println!("feel {name} in-time {in_time:.3} worst {max:.2}{release}");
         }

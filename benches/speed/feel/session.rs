@@ -1,5 +1,6 @@
-//! A session as a hand left it: where the pointer was at which tick of the display, and what it
-//! held. In: a table. Out: the scene of every tick, the same on every machine.
+//! A recorded session: the pointer's position at each tick of the display, and what it drags.
+//!
+//! In: a table. Out: the scene of every tick, the same on every machine.
 
 use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
@@ -8,18 +9,19 @@ use mandelight::{
     ui::navigation::{Navigator, Viewport, World},
 };
 
-/// The picture's size.
+/// Width and height of the picture, pixels.
 pub const SIZE_PX: [u32; 2] = [1280, 720];
 
-/// What the pointer holds.
+/// The control that the pointer drags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
-    /// The view, to turn about what is under the pointer.
+    /// The view, which turns about the point under the pointer.
     Orbit,
-    /// Nothing, but its wheel comes nearer: the third number is the wheel's travel, in natural
-    /// logarithms of the distance.
+    /// The wheel, which moves the camera closer.
+    ///
+    /// The third number of a stroke is the wheel's travel, in natural logarithms of the distance.
     Dive,
-    /// The first light's ball.
+    /// The ball that turns the first light.
     Light,
     /// The power's slider.
     Power,
@@ -29,16 +31,17 @@ pub enum Hold {
 
 /// A part of the session: a drag, and the rest after it.
 pub struct Part {
-    /// Its name in the results.
+    /// The part's name in the results.
     pub name: &'static str,
-    /// What is held.
+    /// The dragged control.
     pub hold: Hold,
-    /// Tick, pointer x and y in normalised device coordinates; the wheel's travel so far. Places
-    /// between these lie on straight lines.
+    /// Tick, pointer x and y in normalised device coordinates, and the wheel's travel so far.
+    ///
+    /// Values between two entries are interpolated linearly.
     strokes: &'static [(u32, f64, f64, f64)],
 }
 
-/// The session. The hand sets out slowly, hurries, hesitates, turns back and lets go.
+/// The session: each drag starts slowly, speeds up, hesitates, turns back and ends.
 pub const PARTS: [Part; 5] = [
     Part {
         name: "orbit",
@@ -111,12 +114,12 @@ pub const PARTS: [Part; 5] = [
 ];
 
 impl Part {
-    /// Ticks from the first to the last of the drag.
+    /// The number of ticks of the drag.
     pub fn ticks(&self) -> u32 {
         self.strokes.last().map_or(0, |stroke| stroke.0)
     }
 
-    /// Pointer and wheel at a tick.
+    /// Position of the pointer and travel of the wheel at a tick.
     fn pointer(&self, tick: u32) -> (DVec2, f64) {
         let after = self.strokes.iter().position(|stroke| stroke.0 > tick);
         let place = |&(_, x, y, wheel): &(u32, f64, f64, f64)| (DVec2::new(x, y), wheel);
@@ -128,20 +131,20 @@ impl Part {
     }
 }
 
-/// The scene at every tick of each part, the first as it was before.
+/// The scenes of a session at every tick.
 pub struct Session {
-    /// The scenes of each part.
+    /// The scenes of each part; the first is the scene before the drag.
     pub parts: Vec<Vec<Scene>>,
 }
 
 impl Session {
-    /// Plays the table against the page's own navigation.
+    /// Plays the table through the page's own navigation.
     pub fn record() -> Self {
-        let mut scene = opening();
+        let mut scene = first_scene();
         let parts = PARTS
             .iter()
             .map(|part| {
-                let scenes = played(part, &scene);
+                let scenes = play_part(part, &scene);
                 scene = scenes.last().unwrap_or(&scene).clone();
                 scenes
             })
@@ -149,15 +152,15 @@ impl Session {
         Self { parts }
     }
 
-    /// The scene in which a part ends.
+    /// The last scene of a part.
     pub fn end_of(&self, part: usize) -> &Scene {
         let scenes = &self.parts[part];
         &scenes[scenes.len() - 1]
     }
 }
 
-/// The page's first scene, with every light of its three casting shadows.
-fn opening() -> Scene {
+/// The page's first scene, with shadows from each of its three lights.
+fn first_scene() -> Scene {
     let mut scene = Scene::default();
     for light in &mut scene.lights.environment {
         light.casts_shadows = true;
@@ -165,7 +168,7 @@ fn opening() -> Scene {
     scene
 }
 
-fn played(part: &Part, start: &Scene) -> Vec<Scene> {
+fn play_part(part: &Part, start: &Scene) -> Vec<Scene> {
     let [width, height] = SIZE_PX.map(f64::from);
     let viewport =
         Viewport { aspect: width / height, height_px: height, detail: start.quality.detail };
@@ -181,7 +184,7 @@ fn played(part: &Part, start: &Scene) -> Vec<Scene> {
     let mut last_wheel = 0.0;
     for tick in 1..=part.ticks() {
         let (at, wheel) = part.pointer(tick);
-        let gone = at - first;
+        let offset = at - first;
         match part.hold {
             Hold::Orbit => {
                 navigator.drag(&mut scene.camera, world, at);
@@ -190,16 +193,19 @@ fn played(part: &Part, start: &Scene) -> Vec<Scene> {
                 navigator.dolly(&mut scene.camera, world, at, wheel - last_wheel);
             }
             Hold::Light => {
-                let turn = DQuat::from_rotation_z(2.5 * gone.x) * DQuat::from_rotation_x(gone.y);
+                let turn =
+                    DQuat::from_rotation_z(2.5 * offset.x) * DQuat::from_rotation_x(offset.y);
                 let from = DVec3::from_array(start.lights.environment[0].direction);
                 scene.lights.environment[0].direction = (turn * from).normalize().to_array();
             }
-            // As sliders do, in steps that their numbers show.
+            // Sliders round to the digits that they show.
             Hold::Power => {
-                scene.fractal.power = (100.0 * (start.fractal.power + 2.0 * gone.x)).round() * 0.01;
+                scene.fractal.power =
+                    (100.0 * (start.fractal.power + 2.0 * offset.x)).round() * 0.01;
             }
             Hold::Exposure => {
-                scene.tone.exposure = (100.0 * (start.tone.exposure + 2.0 * gone.x)).round() * 0.01;
+                scene.tone.exposure =
+                    (100.0 * (start.tone.exposure + 2.0 * offset.x)).round() * 0.01;
             }
         }
         last_wheel = wheel;
@@ -208,7 +214,7 @@ fn played(part: &Part, start: &Scene) -> Vec<Scene> {
     scenes
 }
 
-/// The scene with another motion budget, milliseconds.
+/// A copy of the scene with another motion budget, milliseconds.
 pub fn with_motion_budget(scene: &Scene, budget_ms: f64) -> Scene {
     let mut scene = scene.clone();
     scene.quality.motion_budget_ms = budget_ms;
