@@ -1,4 +1,4 @@
-//! The cost of depth in half decades: several places, seen from 2e-3 down to 1e-27.
+//! The cost of depth in half decades: several places, seen from 1e-1 down to 1e-27.
 //!
 //! In: the program's pipelines. Out: a row per place and distance. A view's time is the sum of
 //! its passes over single workgroups that are spread over the picture; counting kernels count
