@@ -2,7 +2,7 @@
 //!
 //! In: the arguments, pipelines of both sides, a view. Out: a [`Comparison`].
 
-use std::{collections::HashMap, sync::Arc, time::Instant};
+use std::{collections::HashMap, path::Path, sync::Arc, time::Instant};
 
 use mandelight::render::{self, Pipelines, Region, space::RenderSpace, uniforms::Inputs};
 use serde::Serialize;
@@ -161,9 +161,10 @@ pub fn compare(
     let one_sample = sampled(scene.clone(), 1);
     let references = ReferencePixels::new(scene, size_px, arguments.error_pixels);
     let (hit, lit) = references.coverage();
-    let literal_errors = references.compare(&literal_shown(literal, &inputs, tuning, &references)?);
+    let literal_errors =
+        references.compare(&literal_samples(literal, &inputs, tuning, &references)?);
     let (_, shown) = ours::draw_ms(pipelines, &one_sample, size_px);
-    let our_errors = references.compare(&our_shown(&shown, size_px, &references)?);
+    let our_errors = references.compare(&our_samples(&shown, size_px, &references)?);
     let complaints = our_errors.complaints(&literal_errors, view.normals_within_deg);
     drop(shown);
 
@@ -176,13 +177,7 @@ pub fn compare(
         gflops.push(peak.gflops());
     }
     if let Some(folder) = &arguments.pictures {
-        std::fs::create_dir_all(folder)?;
-        let (_, shown) = ours::draw_ms(pipelines, scene, size_px);
-        let ours = ours::display(pipelines, &shown)?;
-        image_file::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
-        let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
-        let literal = image_file::tone_mapped(&theirs.seen()?, size_px, exposure, white);
-        image_file::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)?;
+        write_pictures(folder, pipelines, view, &theirs)?;
     }
     let pixels: f64 = size_px.into_iter().map(f64::from).product();
     let literal_counts = literal::counts(&pipelines.gpu, &inputs, tuning)?.per(pixels);
@@ -190,12 +185,7 @@ pub fn compare(
         .into_iter()
         .map(|(pass, counts)| (pass, counts.per(pixels)))
         .collect();
-    let mut our_sum = Counts::default();
-    for (name, counts) in &our_counts {
-        // Weighted so that the sum is the mean over all samples.
-        let part = if *name == ours::LATER { samples - 1 } else { 1 };
-        our_sum += counts.per(f64::from(samples) / f64::from(part));
-    }
+    let our_mean = mean_counts(&our_counts, samples);
     let side = |rounds_ms: Vec<f64>, busy: Vec<f64>, iterations, errors, counts| Side {
         ms: median(&rounds_ms),
         rounds_ms,
@@ -205,15 +195,13 @@ pub fn compare(
         counts,
     };
     let literal = side(literal_ms, literal_busy, tuning.iterations, literal_errors, literal_counts);
-    let ours = side(ours_ms, ours_busy, scene.fractal.iterations, our_errors, our_sum);
+    let ours = side(ours_ms, ours_busy, scene.fractal.iterations, our_errors, our_mean);
     let peak_gflops = median(&gflops);
     let flop = scene.fractal.integer_power().map(peak::flop_per_step);
     let steps = ours.counts.steps * pixels * f64::from(samples);
     let peak_share = flop.map(|flop| steps * flop / (ours.ms * 1e-3) / (peak_gflops * 1e9));
-    let mut passes_ms = Vec::new();
-    if arguments.passes {
-        passes_ms = passes(arguments, pipelines, view, ours.ms);
-    }
+    let passes_ms =
+        if arguments.passes { passes(arguments, pipelines, view, ours.ms) } else { Vec::new() };
     Ok(Comparison {
         view: name,
         about,
@@ -231,6 +219,33 @@ pub fn compare(
         our_counts,
         passes_ms,
     })
+}
+
+/// Writes both sides' pictures of a view as PNG files.
+fn write_pictures(
+    folder: &Path,
+    pipelines: &Arc<Pipelines>,
+    view: &View,
+    theirs: &Picture<'_>,
+) -> Result<(), Failure> {
+    let View { name, ref scene, size_px, .. } = *view;
+    std::fs::create_dir_all(folder)?;
+    let (_, shown) = ours::draw_ms(pipelines, scene, size_px);
+    let ours = ours::display(pipelines, &shown)?;
+    image_file::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
+    let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
+    let literal = image_file::tone_mapped(&theirs.seen()?, size_px, exposure, white);
+    image_file::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)
+}
+
+/// The mean over all samples of the program's counts, which [`ours::counts`] lists by pass.
+fn mean_counts(by_pass: &[(&'static str, Counts)], samples: u32) -> Counts {
+    let mut mean = Counts::default();
+    for (name, counts) in by_pass {
+        let weight = if *name == ours::LATER { samples - 1 } else { 1 };
+        mean += counts.per(f64::from(samples) / f64::from(weight));
+    }
+    mean
 }
 
 /// Mean time of as many pictures as fit [`TURN_SECS`], milliseconds.
@@ -274,7 +289,7 @@ fn passes(
 }
 
 /// The literal kernel's first samples of the compared pixels.
-fn literal_shown(
+fn literal_samples(
     literal: &Literal,
     inputs: &Inputs,
     tuning: Tuning,
@@ -290,7 +305,7 @@ fn literal_shown(
 }
 
 /// The program's first samples of the compared pixels.
-fn our_shown(
+fn our_samples(
     view: &render::View,
     size_px: [u32; 2],
     references: &ReferencePixels,

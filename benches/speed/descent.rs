@@ -126,9 +126,9 @@ impl Bench<'_> {
             };
             let rounds: Vec<_> = (0..self.rounds)
                 .map(|_| {
-                    let beside = ns(reference) / reference.pixels();
-                    let here = ns(&runner);
-                    [here, here / beside]
+                    let reference_ns = ns(reference) / reference.pixels();
+                    let view_ns = ns(&runner);
+                    [view_ns, view_ns / reference_ns]
                 })
                 .collect();
             for (sum, k) in times.iter_mut().zip(0..) {

@@ -117,36 +117,47 @@ impl ReferencePixels {
     /// Fraction of pixels that hit the set, and fraction of their visibility bits that are set.
     pub fn coverage(&self) -> (f64, f64) {
         let hit: Vec<_> = self.references.iter().flatten().collect();
-        let lit: u32 = hit.iter().map(|truth| truth.visibility.count_ones()).sum();
-        let part = |a: f64, b: usize| a / b.max(1) as f64;
-        (part(hit.len() as f64, self.references.len()), part(lit.into(), hit.len() * self.lights))
+        let lit: u32 = hit.iter().map(|pixel| pixel.visibility.count_ones()).sum();
+        let fraction = |a: f64, b: usize| a / b.max(1) as f64;
+        (
+            fraction(hit.len() as f64, self.references.len()),
+            fraction(lit.into(), hit.len() * self.lights),
+        )
     }
 
     /// Compares one side's samples of [`Self::pixels`].
-    pub fn compare(&self, shown: &[SideSample]) -> Errors {
-        let all: Vec<_> = shown.iter().zip(&self.references).zip(&self.rays).collect();
-        let differ = all.iter().filter(|((s, t), _)| (s.depth > 0.0) != t.is_some()).count();
+    pub fn compare(&self, samples: &[SideSample]) -> Errors {
+        let all: Vec<_> = samples.iter().zip(&self.references).zip(&self.rays).collect();
+        let differ = all
+            .iter()
+            .filter(|((sample, reference), _)| (sample.depth > 0.0) != reference.is_some())
+            .count();
         let both: Vec<_> = all
             .iter()
-            .filter_map(|((s, t), ray)| Some((**s, (**t)?, **ray)).filter(|_| s.depth > 0.0))
+            .filter(|((sample, _), _)| sample.depth > 0.0)
+            .filter_map(|((sample, reference), ray)| Some((**sample, (**reference)?, **ray)))
             .collect();
         let depths: Vec<_> = both
             .iter()
-            .map(|(s, t, _)| (f64::from(s.depth) - t.depth).abs() / t.footprint)
+            .map(|(sample, reference, _)| {
+                (f64::from(sample.depth) - reference.depth).abs() / reference.footprint
+            })
             .collect();
-        let there: Vec<_> = both.iter().map(|(_, t, _)| (t.normal, t.visibility)).collect();
-        let own = in_parallel(&both, |(s, t, ray)| {
-            let point = ray.at(s.depth.into());
-            let normal = self.reference.normal(point, t.footprint);
-            (normal, self.reference.visibility(point, normal, t.footprint))
+        let there: Vec<_> =
+            both.iter().map(|(_, reference, _)| (reference.normal, reference.visibility)).collect();
+        let own = in_parallel(&both, |(sample, reference, ray)| {
+            let point = ray.at(sample.depth.into());
+            let normal = self.reference.normal(point, reference.footprint);
+            (normal, self.reference.visibility(point, normal, reference.footprint))
         });
         let surface = |expected: &[(DVec3, u64)]| {
             let pairs = || both.iter().zip(expected);
             let angles: Vec<_> = pairs()
-                .map(|((s, _, _), (normal, _))| angle_deg(s.normal.as_dvec3(), *normal))
+                .map(|((sample, _, _), (normal, _))| angle_deg(sample.normal.as_dvec3(), *normal))
                 .collect();
-            let wrong: u32 =
-                pairs().map(|((s, _, _), (_, bits))| (s.visibility ^ bits).count_ones()).sum();
+            let wrong: u32 = pairs()
+                .map(|((sample, _, _), (_, bits))| (sample.visibility ^ bits).count_ones())
+                .sum();
             SurfaceErrors {
                 normal_mean: mean(&angles),
                 normal_p95: quantile(angles, 0.95),

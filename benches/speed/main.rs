@@ -58,7 +58,7 @@ pub mod tables;
 pub mod tuning;
 pub mod views;
 
-use std::process::ExitCode;
+use std::{process::ExitCode, sync::Arc};
 
 use arguments::Arguments;
 use clap::Parser as _;
@@ -103,37 +103,61 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
     let mut report = Report { adapter: gpu.name(), ..Report::default() };
     println!("adapter {}", report.adapter);
     let pipelines = Pipelines::new(&gpu);
-    if !views.is_empty() {
-        let literal = literal::Literal::new(&gpu);
-        let peak = peak::Peak::new(&gpu);
-        if gpu.faults() > 0 {
-            return Err("the adapter rejects the literal kernel".into());
-        }
-        for view in &views {
-            let comparison = compare::compare(arguments, &pipelines, &literal, &peak, view)?;
-            comparison.print();
-            report.views.push(comparison);
-        }
+    compare_views(arguments, &pipelines, &views, &mut report)?;
+    measure_tables(arguments, &pipelines, &mut report)?;
+    write_results(arguments, &report)?;
+    let is_within_limits = check_limits(arguments, &report)?;
+    match gpu.faults() {
+        0 => Ok(report.is_good() && is_within_limits),
+        faults => Err(format!("the device reported {faults} errors").into()),
     }
+}
+
+/// Draws the selected views on both sides.
+fn compare_views(
+    arguments: &Arguments,
+    pipelines: &Arc<Pipelines>,
+    views: &[View],
+    report: &mut Report,
+) -> Result<(), Failure> {
+    if views.is_empty() {
+        return Ok(());
+    }
+    let gpu = &pipelines.gpu;
+    let literal = literal::Literal::new(gpu);
+    let peak = peak::Peak::new(gpu);
+    if gpu.faults() > 0 {
+        return Err("the adapter rejects the literal kernel".into());
+    }
+    for view in views {
+        let comparison = compare::compare(arguments, pipelines, &literal, &peak, view)?;
+        comparison.print();
+        report.views.push(comparison);
+    }
+    Ok(())
+}
+
+/// Measures the selected tables.
+fn measure_tables(
+    arguments: &Arguments,
+    pipelines: &Arc<Pipelines>,
+    report: &mut Report,
+) -> Result<(), Failure> {
+    let &Arguments { rounds, size, ref places, .. } = arguments;
     if arguments.wants(deep::NAME) {
-        report.deep = deep::measure(&pipelines, arguments.rounds, arguments.size)?;
+        report.deep = deep::measure(pipelines, rounds, size)?;
         deep::print(&report.deep);
     }
     if arguments.wants(descent::NAME) {
-        report.descent = descent::measure(
-            &pipelines,
-            arguments.rounds.div_ceil(2),
-            arguments.size,
-            &arguments.places,
-        )?;
+        report.descent = descent::measure(pipelines, rounds.div_ceil(2), size, places)?;
     }
     if arguments.wants(powers::NAME) {
-        let table = powers::measure(&gpu, 3 * arguments.rounds)?;
+        let table = powers::measure(&pipelines.gpu, 3 * rounds)?;
         table.print();
         report.powers = Some(table);
     }
     if arguments.wants(scaling::NAME) {
-        report.scaling = scaling::measure(&pipelines, arguments.rounds, arguments.size);
+        report.scaling = scaling::measure(pipelines, rounds, size);
         scaling::print(&report.scaling);
     }
     if arguments.wants(start::NAME) {
@@ -142,12 +166,17 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         report.start = Some(starts);
     }
     if arguments.wants(feel::NAME) {
-        let feel = feel::run(&pipelines, arguments.pictures.as_deref())?;
+        let feel = feel::run(pipelines, arguments.pictures.as_deref())?;
         feel.print();
         report.feel = Some(feel);
     }
+    Ok(())
+}
+
+/// Writes the report as JSON and as tables, where the arguments name a file.
+fn write_results(arguments: &Arguments, report: &Report) -> Result<(), Failure> {
     if let Some(file) = &arguments.json {
-        let text = serde_json::to_string_pretty(&report)?;
+        let text = serde_json::to_string_pretty(report)?;
         if file.as_os_str() == "-" {
             println!("{text}");
         } else {
@@ -155,32 +184,33 @@ pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
         }
     }
     if let Some(file) = &arguments.tables {
-        let text = tables::updated(std::fs::read_to_string(file)?, &report)?;
+        let text = tables::updated(std::fs::read_to_string(file)?, report)?;
         std::fs::write(file, text)?;
     }
+    Ok(())
+}
+
+/// Compares the report with the limits, and tightens them on request; true if none is broken.
+///
+/// Limits are for the views' own sizes and for all places.
+fn check_limits(arguments: &Arguments, report: &Report) -> Result<bool, Failure> {
     let has_limits = arguments.size.is_none() && arguments.places.is_empty();
-    let run_in_own_sizes = if has_limits { report.measured() } else { Vec::new() };
+    let measured = if has_limits { report.measured() } else { Vec::new() };
     if let Some(file) = &arguments.tighten {
-        let text = Limits::tightened(&std::fs::read_to_string(file)?, &run_in_own_sizes)?;
+        let text = Limits::tightened(&std::fs::read_to_string(file)?, &measured)?;
         std::fs::write(file, text)?;
     }
     let limits = Limits::parse(LIMITS)?;
-    let complaints = limits.complaints(&run_in_own_sizes);
+    let complaints = limits.complaints(&measured);
     if arguments.check && !has_limits {
         println!("limits hold without --size and --places: none was checked");
     } else if arguments.check {
-        println!(
-            "{} measurements have no limit yet: see --tighten",
-            limits.missing(&run_in_own_sizes)
-        );
+        println!("{} measurements have no limit yet: see --tighten", limits.missing(&measured));
     }
     for complaint in complaints.iter().filter(|_| arguments.check) {
         println!("FAIL: {complaint}");
     }
-    match gpu.faults() {
-        0 => Ok(report.is_good() && complaints.is_empty()),
-        faults => Err(format!("the device reported {faults} errors").into()),
-    }
+    Ok(complaints.is_empty())
 }
 
 /// The selected views at the selected size.
