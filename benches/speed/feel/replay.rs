@@ -88,14 +88,22 @@ impl Drop for Poller {
     }
 }
 
+/// A scene that was given to the view.
+#[derive(Clone, Copy, Default, PartialEq)]
+struct Input {
+    part: usize,
+    tick: u32,
+    /// Time of the input.
+    secs: f64,
+    /// True while the pointer drags.
+    moving: bool,
+}
+
 /// A submitted picture.
 #[derive(Clone, Copy)]
 struct ShownPicture {
-    part: usize,
-    tick: u32,
-    input_secs: f64,
+    input: Input,
     pixels_per_sample: u32,
-    moving: bool,
     /// True for a change's first picture, false for its refinements.
     first_of_change: bool,
     /// Time of completion.
@@ -109,9 +117,9 @@ struct Player {
     start: Instant,
     budget_secs: f64,
     next_pump_secs: f64,
-    /// Part, tick, time and motion of the input that was set last; then of the one in work.
-    latest_input: (usize, u32, f64, bool),
-    accepted_input: (usize, u32, f64, bool),
+    latest_input: Input,
+    /// The input that the view works on.
+    accepted_input: Input,
     first_of_change: bool,
     shown: Arc<Mutex<Vec<ShownPicture>>>,
 }
@@ -123,7 +131,7 @@ impl Player {
 
     fn set_scene(&mut self, scene: &Scene, part: usize, tick: u32, moving: bool) {
         self.view.set_scene(scene, moving);
-        self.latest_input = (part, tick, self.now_secs(), moving);
+        self.latest_input = Input { part, tick, secs: self.now_secs(), moving };
     }
 
     /// Pumps the view, and records a picture that it submits.
@@ -139,18 +147,15 @@ impl Player {
             self.first_of_change = true;
         }
         if self.view.dispatches().tone > tone_passes {
-            let (part, tick, input_secs, moving) = self.accepted_input;
+            let input = self.accepted_input;
             let first_of_change = std::mem::take(&mut self.first_of_change);
             let pixels_per_sample = report.pixels_per_sample;
             let (shown, start) = (self.shown.clone(), self.start);
             self.gpu.queue.on_submitted_work_done(move || {
                 let done_secs = start.elapsed().as_secs_f64();
                 shown.lock().unwrap_or_else(PoisonError::into_inner).push(ShownPicture {
-                    part,
-                    tick,
-                    input_secs,
+                    input,
                     pixels_per_sample,
-                    moving,
                     first_of_change,
                     done_secs,
                 });
@@ -220,8 +225,8 @@ pub fn play(pipelines: &Arc<Pipelines>, session: &Session, budget_ms: f64) -> Re
         start: Instant::now(),
         budget_secs: budget_ms * 1e-3,
         next_pump_secs: 0.0,
-        latest_input: (0, 0, 0.0, false),
-        accepted_input: (0, 0, 0.0, false),
+        latest_input: Input::default(),
+        accepted_input: Input::default(),
         first_of_change: false,
         shown: Arc::default(),
     };
@@ -249,12 +254,12 @@ fn moving_frames(shown: &[ShownPicture]) -> Vec<Frame> {
     let mut frames = Vec::new();
     let mut before_secs = f64::NEG_INFINITY;
     for picture in shown {
-        if picture.moving && picture.first_of_change {
+        if picture.input.moving && picture.first_of_change {
             frames.push(Frame {
-                part: picture.part,
-                tick: picture.tick,
-                secs: picture.done_secs - before_secs.max(picture.input_secs),
-                lag_secs: picture.done_secs - picture.input_secs,
+                part: picture.input.part,
+                tick: picture.input.tick,
+                secs: picture.done_secs - before_secs.max(picture.input.secs),
+                lag_secs: picture.done_secs - picture.input.secs,
                 pixels_per_sample: picture.pixels_per_sample,
             });
         }
