@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::Parser;
 use mandelight::export;
 
-/// Measures the renderer beside the thesis's own algorithm, in one run on one adapter.
+/// Compares the renderer with the thesis's own algorithm, in one run on one adapter.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "bench", bin_name = "cargo xtask bench")]
 pub struct Arguments {

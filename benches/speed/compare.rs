@@ -155,7 +155,7 @@ pub fn compare(
     let tuning = tuning::find(scene, size_px);
     // The literal kernel has no anchors.
     let inputs = Inputs::about(scene, Region::whole(size_px), &RenderSpace::plain());
-    let theirs = Picture::new(literal, &inputs, samples, tuning, stride);
+    let literal_picture = Picture::new(literal, &inputs, samples, tuning, stride);
 
     // Errors are those of one sample. These pictures also warm up pipelines and drivers.
     let one_sample = sampled(scene.clone(), 1);
@@ -172,12 +172,12 @@ pub fn compare(
     let (mut literal_busy, mut ours_busy) = (Vec::new(), Vec::new());
     let rounds = if view.is_long { arguments.rounds.div_ceil(2) } else { arguments.rounds };
     for _ in 0..rounds {
-        literal_ms.push(repeated_ms(&mut literal_busy, || theirs.draw_ms()));
+        literal_ms.push(repeated_ms(&mut literal_busy, || literal_picture.draw_ms()));
         ours_ms.push(repeated_ms(&mut ours_busy, || ours::draw_ms(pipelines, scene, size_px).0));
         gflops.push(peak.gflops());
     }
     if let Some(folder) = &arguments.pictures {
-        write_pictures(folder, pipelines, view, &theirs)?;
+        write_pictures(folder, pipelines, view, &literal_picture)?;
     }
     let pixels: f64 = size_px.into_iter().map(f64::from).product();
     let literal_counts = literal::counts(&pipelines.gpu, &inputs, tuning)?.per(pixels);
@@ -226,7 +226,7 @@ fn write_pictures(
     folder: &Path,
     pipelines: &Arc<Pipelines>,
     view: &View,
-    theirs: &Picture<'_>,
+    literal_picture: &Picture<'_>,
 ) -> Result<(), Failure> {
     let View { name, ref scene, size_px, .. } = *view;
     std::fs::create_dir_all(folder)?;
@@ -234,7 +234,7 @@ fn write_pictures(
     let ours = ours::display(pipelines, &shown)?;
     image_file::write(&folder.join(format!("{name}.png")), size_px, &ours)?;
     let (exposure, white) = (scene.tone.exposure, scene.tone.white_point);
-    let literal = image_file::tone_mapped(&theirs.seen()?, size_px, exposure, white);
+    let literal = image_file::tone_mapped(&literal_picture.seen()?, size_px, exposure, white);
     image_file::write(&folder.join(format!("{name}-literal.png")), size_px, &literal)
 }
 

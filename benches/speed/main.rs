@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: the renderer's speed beside that of the thesis's own algorithm.
+//! `cargo xtask bench`: the renderer's speed compared with the thesis's own algorithm.
 //!
 //! Both sides draw fixed views in turn on one adapter. In: the command line. Out: tables for people,
 //! lines `ratio <view> <value>` for scripts, and JSON on request. `docs/benchmark.md` explains how
