@@ -39,7 +39,7 @@
 //! ui ──▶ scene, fractal, render::report     web, the binary ──▶ all
 //! ```
 //!
-//! Arrows only point this way; `tests/layers.rs` holds them.
+//! Arrows only point this way; `tests/source/layers.rs` holds them.
 //!
 //! ```
 //! // A scene is data: it can be made, changed, written and read without any GPU.

@@ -1,9 +1,9 @@
 //! Instrumented shaders: a module's text with counters.
 //!
-//! In: a module's files and [`Marks`]. Out: a second text; the program's own kernels stay as
-//! they are. Each orbit step and each distance estimate increments a counter of its thread, and
-//! each thread adds its counters to a buffer at its end. `tests/speed.rs` compares the counts
-//! with orbits in f64.
+//! The program's kernels stay what they are; the benchmark compiles a second copy of their text in
+//! which every orbit step and every distance estimate adds one to a counter of its thread's, and
+//! every thread adds its counters to a buffer when it is done. `tests/gpu/benchmark.rs` compares what they
+//! count with orbits in f64.
 
 /// One file of a module: its path and its text.
 pub type File<'a> = (&'a str, &'a str);

@@ -6,14 +6,11 @@
 use std::time::Instant;
 
 use mandelight::{
-    gpu::{
-        Gpu,
-        readback::ReadbackError,
-        shader::{File, Module},
-    },
-    render::{Region, pass::probe, uniforms::Inputs},
+    gpu::{Gpu, readback::ReadbackError, shader::File},
+    render::{Region, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
+use mandelight_test_support::probe;
 use serde::Serialize;
 
 use super::{
@@ -83,11 +80,7 @@ pub struct Table {
 /// # Errors
 /// Where the device is lost, or the formula can't be counted.
 pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
-    let last = File { path: "orbits", text: TEXT };
-    let formula = probe::MODULE.files.iter().filter(|file| !file.path.starts_with("pass/"));
-    let files: Vec<File> = formula.copied().chain([last]).collect();
-    // A module's files outlive the program's pipelines: this one is made once a run.
-    let module = Module { label: "orbits", files: files.leak() };
+    let module = probe::with_formula("orbits", File { path: "orbits", text: TEXT });
     let pipelines: Vec<_> = POWERS
         .flat_map(|power| [(power, power), (power, 0)])
         .map(|(power, special)| Kernel::new(gpu, &module.create(&gpu.device), power, special))
@@ -179,20 +172,8 @@ impl Kernel {
         };
         let [sums, counts] = [4 * 64 * WORKGROUPS as usize, 8].map(buffer);
         let [frame, anchor_orbit] = probe::bindings(gpu, &inputs);
-        let group = |index: u32, buffers: &[&wgpu::Buffer]| {
-            let entries: Vec<_> = (0..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("orbits"),
-                layout: &pipeline.get_bind_group_layout(index),
-                entries: &entries,
-            })
-        };
+        let group =
+            |index, buffers: &[&wgpu::Buffer]| probe::bind_group(gpu, &pipeline, index, buffers);
         let groups = vec![group(0, &[&frame, &anchor_orbit]), group(1, &[&sums])];
         Self { gpu: gpu.clone(), pipeline, groups, counts }
     }
@@ -214,14 +195,7 @@ impl Kernel {
 
     /// What a counting kernel counts.
     fn count(mut self) -> Result<Counts, ReadbackError> {
-        self.groups.push(self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("counts"),
-            layout: &self.pipeline.get_bind_group_layout(2),
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: self.counts.as_entire_binding(),
-            }],
-        }));
+        self.groups.push(probe::bind_group(&self.gpu, &self.pipeline, 2, &[&self.counts]));
         self.run_secs();
         Counts::read(&self.gpu, &self.counts)
     }

@@ -9,7 +9,7 @@
 //! along the parallels, is n·|Re wⁿ|/ρ, larger near the polar axis. Steps of the whole estimate pass
 //! thin walls where an orbit came by there. So a second scalar dg grows by the largest of the
 //! three, which is far too careful away from the axis: a ray steps by several times that estimate
-//! ([`step_factor`]), and no more than the first one. `tests/fractal.rs` counts what rays still
+//! ([`step_factor`]), and no more than the first one. `tests/cpu/fractal/properties.rs` counts what rays still
 //! pass, against a march with far shorter steps.
 //!
 //! At power 2, and now and then at 3, orbits that come by the axis early on make hairs: there the

@@ -12,8 +12,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Estimator, deep::iterations_for};
-use crate::scene::{Camera, Fractal, PrecisePoint, Scene};
+use crate::scene::{Camera, PrecisePoint};
 
 /// The least radius of a pixel's cone at the surface, in scene units, where plain f32 pictures hold.
 pub const PLAIN_FOOTPRINT: f64 = 2e-7;
@@ -255,13 +254,4 @@ pub fn camera_ray(camera: &Camera, origin: &PrecisePoint, ndc: DVec2, aspect: f6
 /// width over height is `aspect`.
 pub fn pixel_cone(camera: &Camera, aspect: f64, height_px: f64) -> f64 {
     camera.half_height(aspect) / height_px.max(1.0)
-}
-
-/// Depth of the surface that the picture shows at `ndc`, in scene units; none over the background.
-pub fn pick(scene: &Scene, ndc: DVec2, aspect: f64, height_px: f64) -> Option<f64> {
-    let cone = pixel_cone(&scene.camera, aspect, height_px) * scene.quality.detail;
-    let nearest = Estimator::new(&scene.fractal).clear_distance(scene.camera.position.to_dvec3());
-    let iterations = iterations_for(&scene.fractal, (nearest * cone).max(PLAIN_FOOTPRINT));
-    let field = Estimator::new(&Fractal { iterations, ..scene.fractal.clone() });
-    field.march(camera_ray(&scene.camera, &field.origin(), ndc, aspect), cone, f64::INFINITY)
 }

@@ -20,5 +20,5 @@ pub use deep::{DeepField, Reference};
 pub use estimator::Estimator;
 pub use march::{
     DEEP_FOOTPRINT, DistanceField, Estimate, LEAST_STEP, MAX_MARCH_STEPS, PLAIN_FOOTPRINT, Ray,
-    camera_ray, pick, pixel_cone,
+    camera_ray, pixel_cone,
 };

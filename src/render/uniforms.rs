@@ -1,6 +1,6 @@
 //! What the shaders know of a scene: how the structs shared with WGSL are filled.
 //!
-//! In: a scene, its region, a slice. Out: bytes. `tests/shaders.rs` compares each struct, field
+//! In: a scene, its region, a slice. Out: bytes. `tests/source/shaders.rs` compares each struct, field
 //! by field, with its twin in `shaders/types/`.
 
 mod background;

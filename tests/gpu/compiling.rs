@@ -6,12 +6,15 @@ use std::{
 };
 
 use mandelight::{
-    gpu::{AsyncCompile, Gpu},
+    gpu::AsyncCompile,
     render::{Activity, Pace, Pipelines, Region, View},
     scene::{IndirectKind, Scene},
 };
 
-use crate::harness::{pipelines, sampled};
+use mandelight_test_support::{
+    device::{fresh_gpu, fresh_pipelines, pipelines},
+    view::sampled,
+};
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -42,12 +45,6 @@ mod async_compile {
         flags.iter().for_each(|flag| flag.store(true, Ordering::Release));
         flags.len()
     }
-}
-
-/// Kernels of their own: what others compiled does not count.
-fn fresh_pipelines() -> std::sync::Arc<Pipelines> {
-    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-    Pipelines::new(&gpu)
 }
 
 /// A live view whose every pump is watched.
@@ -209,7 +206,7 @@ fn a_drag_of_the_power_compiles_nothing() {
 /// come once it has nothing else to do.
 #[test]
 fn asynchronous_compilation_blocks_no_frame() {
-    let mut gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
+    let mut gpu = fresh_gpu();
     gpu.async_compile =
         Some(AsyncCompile { begin: async_compile::begin, take: async_compile::take });
     let mut watched = Watched::with(Pipelines::new(&gpu));

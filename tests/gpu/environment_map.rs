@@ -12,7 +12,7 @@ use mandelight::{
     },
 };
 
-use crate::harness::{finished, pipelines, pixels, sampled, settle, still};
+use mandelight_test_support::view::{finished, pipelines, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [64, 48];
 

@@ -6,7 +6,10 @@ use std::{fs, path::PathBuf};
 
 use mandelight::scene::{ColorSource, PointLight, PrecisePoint, Scene};
 
-use crate::harness::{difference, sampled, still};
+use mandelight_test_support::{
+    compare::difference,
+    view::{sampled, still},
+};
 
 const SIZE: [u32; 2] = [160, 100];
 

@@ -5,10 +5,11 @@ use mandelight::{
     scene::{Indirect, IndirectKind, Scene},
 };
 
-use crate::harness::{
-    assert_same, difference, finished, pipelines, pixels, sampled, settle, still,
-};
 use crate::picture::sparse;
+use mandelight_test_support::{
+    compare::{assert_same, difference},
+    view::{finished, pipelines, pixels, sampled, settle, still},
+};
 
 const SIZE: [u32; 2] = [96, 64];
 const KINDS: [IndirectKind; 2] = [IndirectKind::Uniform, IndirectKind::Horizon];

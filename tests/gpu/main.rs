@@ -1,15 +1,22 @@
 //! The kernels on whatever adapter there is (lavapipe will do): what they draw, how much they
 //! run, and whether they agree with pictures and mathematics made elsewhere.
 
+mod benchmark;
 mod compiling;
+mod deep;
+mod depth;
+mod dives;
 mod edits;
 mod environment_map;
+mod exr;
 mod golden;
-mod harness;
 mod indirect;
 mod memory;
 mod moving;
+mod oracle;
 mod picture;
 mod post;
 mod samples;
 mod staleness;
+mod stereo;
+mod still;

@@ -1,18 +1,18 @@
 //! What a view says that it holds of the GPU's memory, and the most that it may.
 
 use mandelight::{
-    gpu::Gpu,
-    render::{Pace, Pipelines, Region, View, memory},
+    render::{Pace, Region, View, memory},
     scene::Scene,
 };
+use mandelight_test_support::device::{fresh_pipelines, pipelines};
 
 /// Table 4.1 of the thesis: its total in single precision, 116.5 MiB.
 const MOST_BYTES: u64 = 116 * 1024 * 1024 + 512 * 1024;
 
 /// A view on a device of its own, with all buffers made, and what that device's allocator counts.
 fn allocated(scene: &Scene, with_environment_map: bool, size: [u32; 2]) -> (u64, u64) {
-    let gpu = pollster::block_on(Gpu::open(None)).expect("a GPU or a software driver");
-    let pipelines = Pipelines::new(&gpu);
+    let pipelines = fresh_pipelines();
+    let gpu = &pipelines.gpu;
     let counted = || {
         let report = gpu.device.generate_allocator_report().expect("a report of the allocator");
         report.allocations.iter().map(|allocation| allocation.size).sum::<u64>()
@@ -50,7 +50,7 @@ fn everything_on_stays_below_the_thesis() {
 fn what_is_off_takes_nothing() {
     let (told, held) = allocated(&Scene::default(), false, [960, 540]);
     let pixels = 960 * 540;
-    let view = View::new(crate::harness::pipelines(), Region::whole([960, 540]), Pace::Still);
+    let view = View::new(pipelines(), Region::whole([960, 540]), Pace::Still);
     let memory = view.report().memory;
     assert_eq!(memory.sample_points, 24 * pixels);
     assert_eq!((memory.film, memory.display), (16 * pixels, 4 * pixels));

@@ -5,8 +5,9 @@ use mandelight::{
     scene::Scene,
 };
 
-use crate::harness::{
-    assert_same, difference, finished, pipelines, pixels, sampled, settle, still,
+use mandelight_test_support::{
+    compare::{assert_same, difference},
+    view::{finished, pipelines, pixels, sampled, settle, still},
 };
 
 /// A scene whose motion budget is so small that only the sparsest of lattices fit, or so many

@@ -15,7 +15,10 @@ use mandelight::{
     scene::{EnvironmentLight, LightFrame, PointLight, PrecisePoint, Scene, ToneCurve},
 };
 
-use crate::harness::{difference, finished, pipelines, pixels, sampled, settle, still};
+use mandelight_test_support::{
+    compare::difference,
+    view::{finished, pipelines, pixels, sampled, settle, still},
+};
 
 const SIZE: [u32; 2] = [120, 80];
 

@@ -6,7 +6,10 @@ use mandelight::{
     scene::{Bloom, BloomOrder, Scene, StereoLayout},
 };
 
-use crate::harness::{assert_same, finished, pipelines, pixels, sampled, settle};
+use mandelight_test_support::{
+    compare::assert_same,
+    view::{finished, pipelines, pixels, sampled, settle},
+};
 
 fn exposed_scene() -> Scene {
     let mut scene = sampled(Scene::default(), 2);

@@ -10,7 +10,7 @@ use mandelight::{
     scene::{Background, Camera, Scene, param},
 };
 
-use crate::harness::{finished, sampled};
+use mandelight_test_support::view::{finished, sampled};
 
 const SIZE: [u32; 2] = [48, 32];
 

@@ -8,7 +8,10 @@ use mandelight::{
     },
 };
 
-use crate::harness::{assert_same, difference, finished, pipelines, pixels, sampled, settle};
+use mandelight_test_support::{
+    compare::{assert_same, difference},
+    view::{finished, pipelines, pixels, sampled, settle},
+};
 
 const SIZE: [u32; 2] = [96, 64];
 

@@ -1,10 +1,13 @@
-//! The interface, driven as people drive it: by pointer, keys and the accessibility tree.
+//! The interface, driven as people drive it: by pointer, keys and the accessibility tree; and the
+//! movements of its camera.
 
 mod controls;
 mod depth;
+mod dive;
 mod environment_map;
 mod fit;
 mod gestures;
 mod hostile;
+mod navigation;
 mod stage;
 mod timeline;

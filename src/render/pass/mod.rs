@@ -14,7 +14,6 @@ pub mod indirect;
 pub mod march;
 pub mod mean;
 pub mod normal;
-pub mod probe;
 pub mod reduce;
 pub mod shade;
 pub mod shadow;
@@ -43,5 +42,4 @@ pub const MODULES: &[&Module] = &[
     &bloom::MODULE,
     &blur::MODULE,
     &tone::MODULE,
-    &probe::MODULE,
 ];

@@ -1,5 +1,5 @@
 //! The structs that are shared with WGSL, their fields in the order of their twins in
-//! `shaders/types/`, which `tests/shaders.rs` compares with them.
+//! `shaders/types/`, which `tests/source/shaders.rs` compares with them.
 //!
 //! Lengths are in the view's unit: that of its [`RenderSpace`](crate::render::space::RenderSpace), the scene's own
 //! but in deep views.

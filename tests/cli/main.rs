@@ -1,0 +1,8 @@
+//! The command line as a script sees it: exit codes, messages, files.
+
+mod frames;
+mod render;
+mod stereo;
+
+/// The built program.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_mandelight");

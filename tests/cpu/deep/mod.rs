@@ -1,0 +1,15 @@
+//! The mathematics of deep views with numbers of 256 bits.
+//!
+//! | file | what it tests |
+//! |---|---|
+//! | `arithmetic` | the numbers |
+//! | `orbit` | their orbits |
+//! | `views` | the views |
+//! | `axis` | the field in f64 hard by the polar axis against the march's estimates |
+//! | `search` | no test: how the views were found |
+
+mod arithmetic;
+mod axis;
+mod orbit;
+mod search;
+mod views;

@@ -1,0 +1,5 @@
+//! `src/fractal` by its properties, and against the oracle in f64.
+
+mod normals;
+mod oracle;
+mod properties;

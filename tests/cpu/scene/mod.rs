@@ -1,0 +1,6 @@
+//! Documents: every parameter's range, paths, the opening scenes and the dives.
+
+mod dives;
+mod document;
+mod path_document;
+mod presets;

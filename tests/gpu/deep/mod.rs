@@ -1,0 +1,9 @@
+//! The kernels' deepest views against a march with numbers of 256 bits.
+//!
+//! | file | what it tests |
+//! |---|---|
+//! | `agree` | the renderer's pictures against the march |
+//! | `along` | the kernels' estimates along rays against the march's |
+
+mod agree;
+mod along;

@@ -1,0 +1,17 @@
+//! The kernels against the oracle in f64.
+//!
+//! | file | what it tests |
+//! |---|---|
+//! | `points` | estimates and gradients at random points, on the axis and inside |
+//! | `pictures` | hits, normals, shadows and shading of whole views |
+//! | `normals_table` | every way to find normals, and the table of `docs/normals.md` |
+//! | `indirect` | indirect light on sample points that were made up |
+//! | `toned` | what the kernels make of a film |
+//! | `film` | no test: films of any colours, given to the kernels |
+
+mod film;
+mod indirect;
+mod normals_table;
+mod pictures;
+mod points;
+mod toned;

@@ -1,0 +1,153 @@
+//! The formula's kernels at given points, against the oracle.
+
+use glam::DVec3;
+use mandelight::{
+    fractal::Estimator,
+    gpu::device::in_parallel,
+    scene::{Fractal, Scene, Variant},
+};
+use mandelight_test_support::{
+    device::gpu,
+    oracle::{estimate, normals},
+    probe,
+    random::Random,
+    statistics::quantile,
+};
+
+#[test]
+fn estimates_at_random_points() {
+    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let mut fractals: Vec<_> =
+        [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 5.5, 6.75, 15.9].map(bulb).into();
+    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
+    fractals.push(Fractal { julia: true, ..bulb(8.0) });
+    fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
+    // As far as an f32 goes.
+    let widest = |power: f64| Fractal { bailout: bulb(power).max_bailout(), ..bulb(power) };
+    fractals.extend([2.0, 3.0, 8.0, 16.0, 5.5].map(widest));
+    for fractal in fractals {
+        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let estimator = Estimator::new(&fractal);
+        let radius = 1.2 * estimator.bounding_radius();
+        let mut random = Random(0x0DDB_1A5E_5BAD_5EED);
+        // Points that an f32 holds exactly: the oracle gets the very same ones.
+        let points: Vec<_> =
+            (0..4096).map(|_| random.in_ball(radius).as_vec3().as_dvec3()).collect();
+        for specialised in [false, true] {
+            let answers = probe::ask(gpu(), &scene, &points, specialised).expect("the answers");
+            let mut away = 0;
+            let mut rounding = Vec::new();
+            for (&point, answer) in points.iter().zip(&answers) {
+                let expected = estimate::distance(&fractal, point);
+                let orbit = estimate::orbit(&fractal, point);
+                let off = (f64::from(answer.distance) - expected).abs() / expected.max(1e-30);
+                if expected > 1e-2 && orbit.r > fractal.bailout {
+                    away += 1;
+                    assert!(off < 1e-4, "{fractal:?} at {point}: {answer:?}, expected {expected}");
+                    // The same steps as on the CPU, whose safety is tested.
+                    let step = estimator.estimate(point).step;
+                    let off = (f64::from(answer.step) - step).abs() / step;
+                    assert!(
+                        off < 2e-4,
+                        "{fractal:?} at {point}: {answer:?}, expected a step of {step}"
+                    );
+                    let smooth = estimate::smooth_iterations(&fractal, point);
+                    assert!((f64::from(answer.smooth_iterations) - smooth).abs() < 1e-3);
+                }
+                if orbit.r > fractal.bailout {
+                    let rounded = f64::from(f32::EPSILON) * estimate::error_growth(&fractal, point);
+                    rounding.push(off / rounded);
+                    rounding.push((f64::from(answer.origin_trap) - orbit.traps[0]).abs() / rounded);
+                    rounding.push((f64::from(answer.axis_trap) - orbit.traps[1]).abs() / rounded);
+                }
+            }
+            assert!(away > 1000, "{away} points away from the surface");
+            // Nearer, estimates and traps are off by no more than rounding that grows along the orbit.
+            let most = quantile(rounding, 0.999);
+            assert!(most < 3.0, "{fractal:?}: {most} roundings");
+        }
+    }
+}
+
+/// On the polar axis the longitude is that of +x, and so it is right beside it.
+#[test]
+fn estimates_on_the_axis() {
+    for power in [2.0, 3.0, 4.0, 7.0, 8.0, 16.0, 5.5] {
+        let scene = Scene { fractal: Fractal { power, ..Fractal::default() }, ..Scene::default() };
+        let radius = Estimator::new(&scene.fractal).bounding_radius();
+        let heights = (0..512).map(|i| radius * (f64::from(i) / 256.0 - 1.0));
+        let on_axis = heights.map(|z| DVec3::new(0.0, 0.0, z).as_vec3().as_dvec3());
+        let points: Vec<_> = on_axis.collect();
+        for specialised in [false, true] {
+            let answers = probe::ask(gpu(), &scene, &points, specialised).expect("the answers");
+            let mut away = 0;
+            for (&point, answer) in points.iter().zip(&answers) {
+                let expected = estimate::distance(&scene.fractal, point);
+                if expected > 1e-2 {
+                    away += 1;
+                    let off = (f64::from(answer.distance) - expected).abs() / expected;
+                    assert!(off < 1e-4, "power {power} at {point}: {answer:?} for {expected}");
+                    assert!(answer.step > 0.0 && answer.step <= answer.distance);
+                } else {
+                    assert!(answer.distance.is_finite() && answer.step.is_finite());
+                }
+            }
+            assert!(away > 20, "power {power}: {away} points away from the surface");
+        }
+    }
+}
+
+/// Gradients by carried derivatives against gradients by differences, at points near and far, on
+/// both sides of the axis and of the seam.
+#[test]
+fn gradients_at_random_points() {
+    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let mut fractals: Vec<_> = [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 6.75, 15.9].map(bulb).into();
+    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
+    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(5.5) });
+    fractals.push(Fractal { julia: true, ..bulb(8.0) });
+    fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
+    for fractal in fractals {
+        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let radius = 1.2 * Estimator::new(&fractal).bounding_radius();
+        let mut random = Random(0xF00D_FACE_5BAD_5EED);
+        let points: Vec<_> =
+            (0..4096).map(|_| random.in_ball(radius).as_vec3().as_dvec3()).collect();
+        let expected = in_parallel(&points, |&point| {
+            let distance = estimate::distance(&fractal, point);
+            (distance > 1e-4).then(|| normals::gradient(&fractal, point, distance)).flatten()
+        });
+        for specialised in [false, true] {
+            let answers = probe::ask(gpu(), &scene, &points, specialised).expect("the answers");
+            let known = answers.iter().zip(&expected).filter_map(|(answer, expected)| {
+                let expected = expected.as_ref().filter(|e| e.uncertain_deg < 1e-4)?;
+                Some(normals::angle_deg(answer.gradient.as_dvec3(), expected.unit))
+            });
+            let off: Vec<_> = known.collect();
+            assert!(off.len() > 2000, "{fractal:?}: {} gradients", off.len());
+            // Rounding grows along the orbit; a few points lie across a real power's seam.
+            let (median, most) = (quantile(off.clone(), 0.5), quantile(off, 0.99));
+            assert!(median < 2e-4 && most < 0.01, "{fractal:?}: off by {median}°, {most}°");
+        }
+    }
+}
+
+/// Where formulas divide by nothing: on the axis, beside it, and at the origin.
+#[test]
+fn gradients_are_tame_on_the_axis_and_inside() {
+    for (power, julia) in [(2.0, false), (3.0, false), (8.0, false), (4.5, false), (7.0, true)] {
+        let mut scene = Scene::default();
+        scene.fractal = Fractal { power, julia, iterations: 100, ..scene.fractal };
+        scene.fractal.julia_constant = [0.0, 0.0, 0.9];
+        for specialised in [false, true] {
+            let heights = (0..512).map(|i| f64::from(i) / 256.0 - 1.0);
+            let beside = |z| [0.0, 1e-30, 1e-12].map(|x| DVec3::new(x, 0.0, z));
+            let points: Vec<_> = heights.flat_map(beside).collect();
+            for answer in probe::ask(gpu(), &scene, &points, specialised).expect("the answers") {
+                assert!(answer.gradient.is_finite(), "power {power}: {answer:?}");
+                let flat = answer.gradient == glam::Vec3::ZERO;
+                assert_eq!(flat, answer.distance == 0.0, "power {power}: {answer:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! The sources themselves: which part may name which, and that the shaders fit their host.
+
+mod layers;
+mod shaders;

@@ -1,0 +1,28 @@
+//! What the tests and the benchmark share, compiled once.
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | `device` | the one device of a test binary, and devices of one's own |
+//! | `view` | short ways to a finished picture and its pixels |
+//! | `compare` | two pictures, region by region |
+//! | `picture` | what a PNG holds |
+//! | `program` | the built program, run as a script runs it |
+//! | `probe` | the formula's kernels at given points |
+//! | `dives`, `stereo` | scenes of several tests |
+//! | `oracle` | the thesis's formulas in f64, written without a look at `src/fractal` or the shaders |
+//! | `deep` | the same with numbers of 256 bits, for the deepest views |
+//! | `random` | numbers that come out the same each time |
+//! | `statistics` | quantiles |
+
+pub mod compare;
+pub mod deep;
+pub mod device;
+pub mod dives;
+pub mod oracle;
+pub mod picture;
+pub mod probe;
+pub mod program;
+pub mod random;
+pub mod statistics;
+pub mod stereo;
+pub mod view;

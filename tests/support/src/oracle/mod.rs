@@ -1,0 +1,20 @@
+//! The oracle: the thesis's formulas, written once more in f64, plainly and without a look at
+//! `src/fractal` or the shaders.
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | `estimate` | orbits, distance estimate, smooth iteration count, orbit traps |
+//! | `rays` | camera rays, march, six-sample normals, shadow rays |
+//! | `normals` | the estimate's gradient, by differences |
+//! | `light` | Blinn-Phong, the gradient of colours, sRGB |
+//! | `tone` | the tone curves |
+//! | `bloom` | light that spreads |
+//! | `views` | the views that pictures are compared on |
+
+pub mod bloom;
+pub mod estimate;
+pub mod light;
+pub mod normals;
+pub mod rays;
+pub mod tone;
+pub mod views;
