@@ -81,14 +81,16 @@ pub struct Table {
 /// Where the device is lost, or the formula can't be counted.
 pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
     let module = probe::with_formula("orbits", File { path: "orbits", text: TEXT });
+    let shader = module.create(&gpu.device);
+    let general = pipeline(gpu, &shader, 0);
     let pipelines: Vec<_> = POWERS
-        .flat_map(|power| [(power, power), (power, 0)])
-        .map(|(power, special)| Kernel::new(gpu, &module.create(&gpu.device), power, special))
+        .flat_map(|power| [(power, pipeline(gpu, &shader, power)), (power, general.clone())])
+        .map(|(power, pipeline)| Kernel::new(gpu, pipeline, power))
         .collect();
     let counting = counts::counting(gpu, &module, &counts::marks(&["estimate"], [2, 0]))?;
     let mut steps = Vec::new();
     for power in POWERS {
-        let found = Kernel::new(gpu, &counting, power, power).count()?.steps;
+        let found = Kernel::new(gpu, pipeline(gpu, &counting, power), power).count()?.steps;
         steps.extend([found, found]);
     }
     let mut times = vec![Vec::new(); pipelines.len()];
@@ -135,6 +137,21 @@ pub fn table(costs: impl Iterator<Item = (u32, [f64; 2])>) -> Table {
     Table { rows, fixed_ns, product_ns, worst }
 }
 
+/// The pipeline of a whole power, or the general one for 0.
+fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, power: u32) -> wgpu::ComputePipeline {
+    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("orbits"),
+        layout: None,
+        module,
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants: &[("POWER", f64::from(power))],
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
 struct Kernel {
     gpu: Gpu,
     pipeline: wgpu::ComputePipeline,
@@ -143,25 +160,13 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// The kernel of a power; `special` is the override's value, 0 for the general kernel.
-    fn new(gpu: &Gpu, module: &wgpu::ShaderModule, power: u32, special: u32) -> Self {
-        let device = &gpu.device;
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("orbits"),
-            layout: None,
-            module,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("POWER", f64::from(special))],
-                ..Default::default()
-            },
-            cache: None,
-        });
+    /// The kernel that follows orbits of `power`.
+    fn new(gpu: &Gpu, pipeline: wgpu::ComputePipeline, power: u32) -> Self {
         let fractal = Fractal { power: power.into(), iterations: ITERATIONS, ..Fractal::default() };
         let scene = Scene { fractal, ..Scene::default() };
         let inputs = Inputs::new(&scene, Region::whole([64, 64]));
         let buffer = |size: usize| {
-            device.create_buffer(&wgpu::BufferDescriptor {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("orbits"),
                 size: size as u64,
                 usage: wgpu::BufferUsages::STORAGE

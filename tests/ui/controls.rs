@@ -255,11 +255,13 @@ fn every_control_has_a_hover_text() {
         .collect();
     assert!(controls.len() > 60, "only {} controls found", controls.len());
     let mut silent = Vec::new();
+    // A pointer at rest is enough: the usual wait of half a second is 30 frames a control.
+    harness.ctx.all_styles_mut(|style| style.interaction.tooltip_delay = 0.0);
     for (label, at) in controls {
         harness.event(egui::Event::PointerGone);
         harness.run_steps(2);
         harness.hover_at(at);
-        harness.run_steps(40);
+        harness.run_steps(12);
         let layers = harness.ctx.memory(|memory| memory.areas().visible_layer_ids());
         if !layers.iter().any(|layer| layer.order == egui::Order::Tooltip) {
             silent.push(label);

@@ -14,7 +14,6 @@ use mandelight_test_support::{
         rays::{Looking, centre},
         views::{self, ANCHORS},
     },
-    device::gpu,
     probe::{self, Answer},
     statistics::quantile,
 };
@@ -64,7 +63,7 @@ fn estimates_agree(power: f64) {
             let space = RenderSpace::of(&scene, Region::whole(views::size(scale)));
             let asked = asked(&scene, &looking, &space);
             let offsets: Vec<_> = asked.iter().map(|asked| asked.offset).collect();
-            let answers = probe::ask_about(gpu(), &scene, &space, &offsets).expect("the answers");
+            let answers = probe::ask_about(&scene, &space, &offsets).expect("the answers");
             let expected =
                 in_parallel(&asked, |Asked { point, .. }| looking.set.estimate(point, scale));
             let pairs: Vec<_> = answers.iter().zip(&expected).collect();

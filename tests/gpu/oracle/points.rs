@@ -7,7 +7,6 @@ use mandelight::{
     scene::{Fractal, Scene, Variant},
 };
 use mandelight_test_support::{
-    device::gpu,
     oracle::{estimate, normals},
     probe,
     random::Random,
@@ -34,7 +33,7 @@ fn estimates_at_random_points() {
         let points: Vec<_> =
             (0..4096).map(|_| random.in_ball(radius).as_vec3().as_dvec3()).collect();
         for specialised in [false, true] {
-            let answers = probe::ask(gpu(), &scene, &points, specialised).expect("the answers");
+            let answers = probe::ask(&scene, &points, specialised).expect("the answers");
             let mut away = 0;
             let mut rounding = Vec::new();
             for (&point, answer) in points.iter().zip(&answers) {
@@ -79,7 +78,7 @@ fn estimates_on_the_axis() {
         let on_axis = heights.map(|z| DVec3::new(0.0, 0.0, z).as_vec3().as_dvec3());
         let points: Vec<_> = on_axis.collect();
         for specialised in [false, true] {
-            let answers = probe::ask(gpu(), &scene, &points, specialised).expect("the answers");
+            let answers = probe::ask(&scene, &points, specialised).expect("the answers");
             let mut away = 0;
             for (&point, answer) in points.iter().zip(&answers) {
                 let expected = estimate::distance(&scene.fractal, point);
@@ -118,7 +117,7 @@ fn gradients_at_random_points() {
             (distance > 1e-4).then(|| normals::gradient(&fractal, point, distance)).flatten()
         });
         for specialised in [false, true] {
-            let answers = probe::ask(gpu(), &scene, &points, specialised).expect("the answers");
+            let answers = probe::ask(&scene, &points, specialised).expect("the answers");
             let known = answers.iter().zip(&expected).filter_map(|(answer, expected)| {
                 let expected = expected.as_ref().filter(|e| e.uncertain_deg < 1e-4)?;
                 Some(normals::angle_deg(answer.gradient.as_dvec3(), expected.unit))
@@ -143,7 +142,7 @@ fn gradients_are_tame_on_the_axis_and_inside() {
             let heights = (0..512).map(|i| f64::from(i) / 256.0 - 1.0);
             let beside = |z| [0.0, 1e-30, 1e-12].map(|x| DVec3::new(x, 0.0, z));
             let points: Vec<_> = heights.flat_map(beside).collect();
-            for answer in probe::ask(gpu(), &scene, &points, specialised).expect("the answers") {
+            for answer in probe::ask(&scene, &points, specialised).expect("the answers") {
                 assert!(answer.gradient.is_finite(), "power {power}: {answer:?}");
                 let flat = answer.gradient == glam::Vec3::ZERO;
                 assert_eq!(flat, answer.distance == 0.0, "power {power}: {answer:?}");

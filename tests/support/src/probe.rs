@@ -1,7 +1,10 @@
 //! Distance estimates, safe steps, gradients and colour data at given points, by the program's own
 //! formula files.
 
-use std::sync::LazyLock;
+use std::{
+    collections::HashMap,
+    sync::{Arc, LazyLock, Mutex, OnceLock},
+};
 
 use glam::{DVec3, Vec3};
 use mandelight::{
@@ -19,6 +22,8 @@ use mandelight::{
     },
     scene::Scene,
 };
+
+use crate::device::gpu;
 
 /// What the formula consists of, below `shaders/`.
 const FORMULA: [&str; 6] = [
@@ -64,29 +69,27 @@ pub struct Answer {
     pub quick_distance: Option<f32>,
 }
 
-/// Asks the formula's kernel about `points` of the scene's set and waits: natively only.
+/// Asks the formula's kernel about `points` of the scene's set and waits, on the tests' shared device.
 /// `specialised` chooses the pipeline of the set's whole power instead of the general one.
 pub fn ask(
-    gpu: &Gpu,
     scene: &Scene,
     points: &[DVec3],
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, &RenderSpace::plain());
     let power = if specialised { PipelineKey::of(&inputs.frame).power } else { 0 };
-    ask_form(gpu, &inputs, points, PipelineKey { power, depth: Depth::Plain })
+    ask_form(&inputs, points, PipelineKey { power, depth: Depth::Plain })
 }
 
 /// The same about points that are given by their offsets from the anchor of `space`, in its units,
 /// as the answers are.
 pub fn ask_about(
-    gpu: &Gpu,
     scene: &Scene,
     space: &RenderSpace,
     offsets: &[DVec3],
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, space);
-    ask_form(gpu, &inputs, offsets, PipelineKey::of(&inputs.frame))
+    ask_form(&inputs, offsets, PipelineKey::of(&inputs.frame))
 }
 
 /// Of the kernel's answer to one point.
@@ -97,23 +100,11 @@ const REGION: Region =
     Region { picture_px: [64; 2], origin_px: [0; 2], size_px: [64; 2], eyes: Eyes::Camera };
 
 fn ask_form(
-    gpu: &Gpu,
     inputs: &Inputs,
     points: &[DVec3],
     key: PipelineKey,
 ) -> Result<Vec<Answer>, ReadbackError> {
-    let device = &gpu.device;
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(MODULE.label),
-        layout: None,
-        module: &MODULE.create(device),
-        entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &key.constants(),
-            ..Default::default()
-        },
-        cache: None,
-    });
+    let (gpu, pipeline) = (gpu(), pipeline(key));
     let questions: Vec<[f32; 4]> =
         points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
     let [picture, anchor_orbit] = bindings(gpu, inputs);
@@ -124,7 +115,7 @@ fn ask_form(
         &vec![0; ANSWER_BYTES * points.len()],
     );
     let group = |index, buffers: &[&wgpu::Buffer]| bind_group(gpu, &pipeline, index, buffers);
-    let mut encoder = device.create_command_encoder(&Default::default());
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
@@ -155,6 +146,29 @@ fn ask_form(
             }
         })
         .collect())
+}
+
+/// The probe's pipeline for `key` on the shared device, compiled once.
+fn pipeline(key: PipelineKey) -> wgpu::ComputePipeline {
+    type Made = HashMap<PipelineKey, Arc<OnceLock<wgpu::ComputePipeline>>>;
+    static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
+    // Others that compile another key need not wait.
+    let one = MADE.lock().expect("the list").entry(key).or_default().clone();
+    let make = || {
+        let device = &gpu().device;
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(MODULE.label),
+            layout: None,
+            module: &MODULE.create(device),
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &key.constants(),
+                ..Default::default()
+            },
+            cache: None,
+        })
+    };
+    one.get_or_init(make).clone()
 }
 
 /// What kernels know of a picture: the first two bindings of group 0.
