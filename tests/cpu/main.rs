@@ -1,5 +1,7 @@
-//! What needs no GPU: documents and their properties, and the mathematics against oracles.
+//! What needs no GPU: documents and their properties, the mathematics against oracles, and how the
+//! tests compare pictures.
 
+mod compare;
 mod deep;
 mod fractal;
 mod property;

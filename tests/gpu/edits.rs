@@ -126,7 +126,7 @@ fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
         fresh.set_scene(&scene, false);
         settle(&mut fresh);
         let what = format!("seed {seed}: {scene:#?}");
-        assert_same(&pixels(&view), &pixels(&fresh), &what);
+        assert_same(&pixels(&view), &pixels(&fresh), view.region().size_px, &what);
     }
 }
 
@@ -151,6 +151,6 @@ fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
         settle(&mut view);
         let after = pixels(&view);
         assert!(after != before, "the edit shows");
-        assert_same(&after, &still(&scene, SIZE), "an edit of lights");
+        assert_same(&after, &still(&scene, SIZE), SIZE, "an edit of lights");
     }
 }

@@ -69,7 +69,7 @@ fn refinement_with_indirect_light_ends_in_the_still() {
         for size in [SIZE, [37, 21]] {
             let refined = pixels(&finished(&scene, size, Pace::Interactive));
             let direct = still(&scene, size);
-            assert_same(&refined, &direct, &format!("{kind:?} {size:?}"));
+            assert_same(&refined, &direct, size, &format!("{kind:?} {size:?}"));
         }
     }
 }

@@ -110,6 +110,6 @@ fn frames_of_the_interface_change_nothing() {
         assert!(start.elapsed().as_secs() < 300, "the view never rests: {:?}", view.report());
     }
     let usual = finished(&scene, size, Pace::Interactive);
-    assert_same(&pixels(&view), &pixels(&usual), "the picture");
+    assert_same(&pixels(&view), &pixels(&usual), size, "the picture");
     assert_eq!(view.report().samples_done, 3);
 }

