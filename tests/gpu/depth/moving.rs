@@ -4,7 +4,12 @@ use std::time::Instant;
 
 use mandelight::{
     fractal::deep::Search,
-    render::{Pace, Region, View, space::RenderSpace, uniforms::Inputs},
+    render::{
+        Pace, Region, View,
+        pipelines::{Depth, PipelineKey, PipelineVariant},
+        space::RenderSpace,
+        uniforms::Inputs,
+    },
     scene::{Fractal, Scene},
 };
 
@@ -35,13 +40,17 @@ fn what_a_dive_shows_is_what_stills_show() {
     let frames = (2e20_f64.ln() / NEARER) as u32;
     let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
     // Frames would wait for pipelines that no other test has had compiled.
-    for index in (0..=frames).step_by(10) {
+    for index in (0..=frames).step_by(3) {
         pipelines().specialise(&frame(index));
     }
-    for index in [120, 0] {
-        view.set_scene(&frame(index), false);
-        settle(&mut view);
+    let normals = Inputs::new(&frame(0), Region::whole(SIZE)).frame.normals;
+    for depth in Depth::DIVE {
+        let key = PipelineKey { power: 8, depth };
+        pipelines().prepare(PipelineVariant::Rays(key));
+        pipelines().prepare(PipelineVariant::Normals(key, normals));
     }
+    view.set_scene(&frame(0), false);
+    settle(&mut view);
     let start = Instant::now();
     let (mut late, mut longest, mut anchors) = (0, 0, 0);
     let (mut waited, mut known) = (0, None);
