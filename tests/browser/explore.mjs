@@ -12,10 +12,9 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
 
-  // The opening view, until its edges are smooth.
+  // What a visitor sees first.
   await v.timed("first_picture", () => page.open());
   await v.timed("first_sample", () => page.sampled(1));
-  await v.timed("four_samples", () => page.sampled(4));
   scenes.opened = await page.scene();
   await v.screenshot("opening-1280x720");
 

@@ -301,7 +301,7 @@ fn measured(measure: Measure, view: &str, value: f64) -> Measured {
 }
 
 #[test]
-fn what_falls_is_named() {
+fn broken_limits_are_named() {
     let limits = Limits::parse("# why\nratio whole 2\ncost deep-1e-5 1.5 # a reason\n\n");
     let limits = limits.expect("limits");
     let good = [measured(Measure::Ratio, "whole", 2.1), measured(Measure::Cost, "deep-1e-5", 1.4)];

@@ -46,7 +46,7 @@ fn lumas(view: &View) -> Vec<f64> {
 }
 
 #[test]
-fn frames_of_such_a_path_are_the_stills_of_their_scenes() {
+fn frames_of_a_flight_down_are_the_stills_of_their_scenes() {
     let project = fall();
     let folder = tempfile::tempdir().unwrap();
     let (document, frames) = (folder.path().join("fall.json"), folder.path().join("frames"));

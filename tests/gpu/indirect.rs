@@ -103,7 +103,7 @@ fn tiles_have_no_seams() {
 
 /// Large pictures gather from a smaller one of all of the scene.
 #[test]
-fn neighbours_of_a_smaller_picture_do_nearly_as_well() {
+fn a_smaller_picture_gives_nearly_the_same_indirect_light() {
     let size = [300, 200];
     let film = |view: &View| view.film().expect("the film's bytes");
     let apart = |a: &View, b: &View| -> f64 {

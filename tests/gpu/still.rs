@@ -86,7 +86,7 @@ fn tiles_share_the_exposure_and_the_bloom_of_the_whole() {
 
 /// Indirect light reaches over the borders of tiles.
 #[test]
-fn tiles_gather_indirect_light_from_the_whole() {
+fn tiles_take_indirect_light_from_the_whole_picture() {
     let size_px = [101, 67];
     for kind in [IndirectKind::Uniform, IndirectKind::Horizon] {
         let indirect = Indirect { kind, radius: 0.2, ..Indirect::default() };
@@ -116,7 +116,7 @@ fn a_large_picture_is_nearly_that_of_the_live_view() {
 }
 
 #[test]
-fn the_smallest_and_the_thinnest_pictures() {
+fn a_picture_may_be_one_pixel_wide_or_high() {
     for size_px in [[1, 1], [1, 40], [40, 1]] {
         let rgb = still(&Scene::default(), options(size_px, 1, [16, 16]));
         assert_eq!(rgb.len(), (size_px[0] * size_px[1] * 3) as usize);

@@ -95,7 +95,7 @@ fn host_structs_match_their_wgsl_twins() {
 
 /// Else it would be all zeros: see `types/frame_uniforms.wgsl`.
 #[test]
-fn every_pass_begins_by_reading_the_picture() {
+fn every_pass_begins_by_reading_the_frame_uniforms() {
     for module in all_modules() {
         let text = module.text();
         let (_, main) = text.split_once("fn main(").expect("an entry point");

@@ -219,7 +219,7 @@ fn a_pointer_over_what_rays_creep_along_takes_little_time() {
 }
 
 #[test]
-fn out_and_back_returns() {
+fn a_dolly_out_and_back_returns() {
     let field = Valley::new();
     for scale in SCALES {
         for ndc in places() {

@@ -385,7 +385,7 @@ fn flying_head_on_into_a_wall_stops_before_it_and_slides_along() {
 }
 
 #[test]
-fn rest_means_rest() {
+fn a_camera_at_rest_does_not_move() {
     let (field, mut camera, mut navigator) = (bulb(), Camera::default(), Navigator::default());
     let before = camera.clone();
     assert!(!navigator.fly(

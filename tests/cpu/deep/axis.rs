@@ -102,7 +102,7 @@ fn field_agrees(fractal: &Fractal, radii: &[f64], name: &str) {
 
 /// Estimates in f64 against those of 256 bits, about points as near to the axis as one likes.
 #[test]
-fn estimates_by_the_axis() {
+fn estimates_beside_the_axis_agree_with_the_march() {
     for power in [4.0, 8.0, 16.0] {
         let fractal = Fractal { power, ..Fractal::default() };
         field_agrees(&fractal, &RADII, &format!("power {power}"));
@@ -111,7 +111,7 @@ fn estimates_by_the_axis() {
 
 /// The same of Julia sets whose constant is by the axis too.
 #[test]
-fn estimates_by_the_axis_of_julia_sets() {
+fn estimates_of_julia_sets_beside_the_axis_agree_with_the_march() {
     for julia_constant in [[0.0, 0.0, 0.4], [3e-6, -4e-6, 0.4]] {
         let fractal = Fractal { power: 8.0, julia: true, julia_constant, ..Fractal::default() };
         field_agrees(&fractal, &RADII, &format!("constant {julia_constant:?}"));
@@ -120,7 +120,7 @@ fn estimates_by_the_axis_of_julia_sets() {
 
 /// Searches end on the surface there, from all scales.
 #[test]
-fn anchors_are_found_by_the_axis() {
+fn anchors_beside_the_axis_lie_on_the_surface() {
     for power in [8.0, 16.0] {
         let fractal = Fractal { power, ..Fractal::default() };
         let set = Set::new(&fractal, 400);

@@ -60,7 +60,7 @@ fn estimates_are_those_of_the_printed_algorithm() {
 
 /// |z| grows alike along both ways of telling, and as differences say.
 #[test]
-fn both_derivatives_say_how_the_radius_grows() {
+fn both_jacobians_give_the_gradient_of_the_radius() {
     for julia in [false, true] {
         let set = Set::new(&Fractal { power: 5.0, julia, ..Fractal::default() }, 4);
         let follow = |p: DVec3| set.follow(&p.to_array().map(Real::from_f64), 1e-100);

@@ -51,7 +51,7 @@ fn estimates_agree_to_rounding() {
 }
 
 #[test]
-fn inside_both_say_zero() {
+fn estimates_inside_are_zero() {
     for fractal in [Fractal::default(), Fractal { power: 2.5, ..Fractal::default() }] {
         let estimator = Estimator::new(&fractal);
         for point in [DVec3::ZERO, DVec3::new(0.2, 0.1, -0.1), DVec3::new(0.0, 0.0, 0.3)] {

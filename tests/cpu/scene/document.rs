@@ -213,7 +213,7 @@ fn errors_name_the_field_and_say_what_is_wrong() {
 }
 
 #[test]
-fn errors_about_the_document_itself() {
+fn a_document_that_is_none_says_so() {
     for (text, beginning) in [
         ("", "line 1, column 0: EOF"),
         ("{\n  \"mandelight\": \"scene\",\n  oops", "line 3, column 3: key must be a string"),

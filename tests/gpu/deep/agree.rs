@@ -116,7 +116,7 @@ fn views_agree(power: f64, julia: bool) {
 
 /// Where an f32 falls short by a digit or two. Frames that turn about the axis are for deeper views.
 #[test]
-fn views_just_below_plain_ones() {
+fn views_just_below_plain_ones_agree_with_the_march() {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.deepest < SHALLOW) {
         let scene = anchor.scene(SHALLOW);
         let space = RenderSpace::of(&scene, Region::whole(size(SHALLOW)));
@@ -128,34 +128,34 @@ fn views_just_below_plain_ones() {
 }
 
 #[test]
-fn views_of_power_2() {
+fn views_of_power_2_agree_with_the_march() {
     views_agree(2.0, false);
 }
 
 #[test]
-fn views_of_power_3() {
+fn views_of_power_3_agree_with_the_march() {
     views_agree(3.0, false);
 }
 
 #[test]
-fn views_of_power_8() {
+fn views_of_power_8_agree_with_the_march() {
     views_agree(8.0, false);
 }
 
 #[test]
-fn views_of_power_16() {
+fn views_of_power_16_agree_with_the_march() {
     views_agree(16.0, false);
 }
 
 #[test]
-fn views_of_the_julia_form() {
+fn views_of_julia_sets_agree_with_the_march() {
     views_agree(8.0, true);
 }
 
 /// Where orbits come by the axis again and again, safe steps are hundreds of times shorter than
 /// estimates: rays that go by these alone have none left before they arrive.
 #[test]
-fn views_of_creeping_rays() {
+fn views_of_creeping_rays_agree_with_the_march() {
     let anchor = Anchor {
         power: 3.0,
         julia: false,
@@ -174,7 +174,7 @@ fn views_of_creeping_rays() {
 
 /// The set with the other sign of the sine.
 #[test]
-fn views_of_the_other_variant() {
+fn views_of_the_negative_sine_agree_with_the_march() {
     for scale in OTHERS {
         let scene = views::MIRRORED.scene(scale);
         view_agrees(&scene, size(scale), false, &format!("other variant at {scale:e}"));
@@ -183,7 +183,7 @@ fn views_of_the_other_variant() {
 
 /// The least bailout and the largest, about which the surface is the same.
 #[test]
-fn views_with_any_bailout() {
+fn views_with_any_bailout_agree_with_the_march() {
     let views = [
         (2.0, "at the equator", &[2.0, 256.0][..]),
         (3.0, "from below", &[2.0, 256.0]),

@@ -122,7 +122,7 @@ fn estimates_agree(power: f64) {
 }
 
 #[test]
-fn estimates_along_rays() {
+fn estimates_along_rays_agree_with_the_march() {
     for power in [2.0, 3.0, 8.0, 16.0] {
         estimates_agree(power);
     }

@@ -74,7 +74,7 @@ fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
 }
 
 #[test]
-fn normals_of_every_kind() {
+fn normals_of_every_kind_agree_with_the_field() {
     for scale in SCALES {
         let mut scene = places::scene(scale);
         let field = places::field(&scene, SIZE);
@@ -173,7 +173,7 @@ fn openness(field: &DeepField, power: f64, origin: DVec3, hit: f64, way: (DVec3,
 }
 
 #[test]
-fn shadows_of_every_light() {
+fn shadows_of_every_light_agree_with_the_field() {
     for scale in SCALES {
         let scene = lit(Fractal::default(), scale);
         let field = places::field(&scene, SIZE);

@@ -150,7 +150,7 @@ fn figures(table: &str) -> Vec<Off> {
 fn the_docs_tell_how_far_off_normals_are() {
     let all = views::all();
     let scene = |name: &str| &all.iter().find(|view| view.name == name).expect("a view").scene;
-    let found: Vec<_> = VIEWS.iter().map(|name| errors(scene(*name))).collect();
+    let found: Vec<_> = VIEWS.iter().map(|name| errors(scene(name))).collect();
     for (name, view) in VIEWS.iter().zip(&found) {
         let [.., six, _, _, analytic] = view[..] else { unreachable!("six ways") };
         assert!(analytic[0] <= six[0] && analytic[1] <= six[1], "{name}: {analytic:?}, {six:?}");

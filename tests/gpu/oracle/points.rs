@@ -14,7 +14,7 @@ use mandelight_test_support::{
 };
 
 #[test]
-fn estimates_at_random_points() {
+fn estimates_at_random_points_agree_with_the_oracle() {
     let bulb = |power: f64| Fractal { power, ..Fractal::default() };
     let mut fractals: Vec<_> =
         [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 5.5, 6.75, 15.9].map(bulb).into();
@@ -70,7 +70,7 @@ fn estimates_at_random_points() {
 
 /// On the polar axis the longitude is that of +x, and so it is right beside it.
 #[test]
-fn estimates_on_the_axis() {
+fn estimates_on_the_axis_agree_with_the_oracle() {
     for power in [2.0, 3.0, 4.0, 7.0, 8.0, 16.0, 5.5] {
         let scene = Scene { fractal: Fractal { power, ..Fractal::default() }, ..Scene::default() };
         let radius = Estimator::new(&scene.fractal).bounding_radius();
@@ -99,7 +99,7 @@ fn estimates_on_the_axis() {
 /// Gradients by carried derivatives against gradients by differences, at points near and far, on
 /// both sides of the axis and of the seam.
 #[test]
-fn gradients_at_random_points() {
+fn gradients_at_random_points_agree_with_the_oracle() {
     let bulb = |power: f64| Fractal { power, ..Fractal::default() };
     let mut fractals: Vec<_> = [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 6.75, 15.9].map(bulb).into();
     fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
@@ -133,7 +133,7 @@ fn gradients_at_random_points() {
 
 /// Where formulas divide by nothing: on the axis, beside it, and at the origin.
 #[test]
-fn gradients_are_tame_on_the_axis_and_inside() {
+fn gradients_are_finite_on_the_axis_and_zero_inside() {
     for (power, julia) in [(2.0, false), (3.0, false), (8.0, false), (4.5, false), (7.0, true)] {
         let mut scene = Scene::default();
         scene.fractal = Fractal { power, julia, iterations: 100, ..scene.fractal };

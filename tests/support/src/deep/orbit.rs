@@ -79,7 +79,7 @@ impl Set {
     pub fn follow(&self, point: &Point, grain: f64) -> End {
         let n = f64::from(self.power);
         let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
-        let mut z = point.clone();
+        let mut z = *point;
         let mut end = End {
             z: rounded(&z),
             dr: 1.0,
@@ -106,12 +106,12 @@ impl Set {
         let square = &(x * x) + &(y * y);
         let (rho, u) = if square.is_zero() {
             let zero = Real::from_f64(0.0);
-            (zero.clone(), Complex { re: Real::from_f64(1.0), im: zero })
+            (zero, Complex { re: Real::from_f64(1.0), im: zero })
         } else {
             let inverse = square.inverse_sqrt();
             (&square * &inverse, Complex { re: x * &inverse, im: y * &inverse })
         };
-        let w = Complex { re: rho, im: z.clone() };
+        let w = Complex { re: rho, im: *z };
         let (mut meridian, parallel) = (w.power(self.power), u.power(self.power));
         let before = Frame::new(&w, &u);
         if self.is_mirrored {
