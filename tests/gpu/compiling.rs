@@ -10,7 +10,6 @@ use mandelight::{
     render::{Activity, Pace, Pipelines, Region, View},
     scene::{IndirectKind, Scene},
 };
-
 use mandelight_test_support::{
     device::{fresh_gpu, fresh_pipelines, pipelines},
     view::sampled,

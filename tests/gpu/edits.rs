@@ -6,10 +6,9 @@ use mandelight::{
     render::{Pace, Pipelines, Region, View},
     scene::{EnvironmentLight, IndirectKind, Normals, PointLight, RigKind, Scene},
 };
-
 use mandelight_test_support::{
     compare::assert_same,
-    view::{pipelines, pixels, sampled, settle, still},
+    view::{finished, pipelines, pixels, sampled, settle, still},
 };
 
 const SIZE: [u32; 2] = [67, 50];
@@ -135,7 +134,7 @@ fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
 fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
     pipelines().specialise(&Scene::default());
     let mut scene = sampled(Scene::default(), 1);
-    let mut view = mandelight_test_support::view::finished(&scene, SIZE, Pace::Interactive);
+    let mut view = finished(&scene, SIZE, Pace::Interactive);
     let edits: [fn(&mut Scene); 4] = [
         |scene| scene.lights.environment[1].direction = [0.0, -1.0, 0.0],
         |scene| scene.lights.environment[0].color = [0.1, 0.9, 0.1],

@@ -11,7 +11,6 @@ use mandelight::{
         environment_map::place_of,
     },
 };
-
 use mandelight_test_support::view::{finished, pipelines, pixels, sampled, settle, still};
 
 const SIZE: [u32; 2] = [64, 48];

@@ -4,7 +4,6 @@ use mandelight::{
     render::{Pace, Region, View},
     scene::Scene,
 };
-
 use mandelight_test_support::{
     compare::{assert_same, difference},
     view::{finished, pipelines, pixels, sampled, settle, still},

@@ -14,7 +14,6 @@ use mandelight::{
     },
     scene::{EnvironmentLight, LightFrame, PointLight, PrecisePoint, Scene, ToneCurve},
 };
-
 use mandelight_test_support::{
     compare::difference,
     view::{finished, pipelines, pixels, sampled, settle, still},

@@ -5,7 +5,6 @@ use mandelight::{
     render::{Eyes, Pace, Region, View, frame::Dispatches, uniforms::Statistics},
     scene::{Bloom, BloomOrder, Scene, StereoLayout},
 };
-
 use mandelight_test_support::{
     compare::assert_same,
     view::{finished, pipelines, pixels, sampled, settle},

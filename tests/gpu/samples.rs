@@ -9,7 +9,6 @@ use mandelight::{
     render::{Pace, lattice},
     scene::{Background, Camera, Scene, param},
 };
-
 use mandelight_test_support::view::{finished, sampled};
 
 const SIZE: [u32; 2] = [48, 32];

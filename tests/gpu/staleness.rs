@@ -7,7 +7,6 @@ use mandelight::{
         ToneCurve, ToneMean,
     },
 };
-
 use mandelight_test_support::{
     compare::{assert_same, difference},
     view::{finished, pipelines, pixels, sampled, settle},

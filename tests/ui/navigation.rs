@@ -11,32 +11,12 @@ use mandelight::{
         fly::{MOST_FALL_PER_SEC, MOST_RISE_PER_SEC},
     },
 };
+use mandelight_test_support::random::Random;
 
 const VIEWPORT: Viewport = Viewport { aspect: 16.0 / 9.0, height_px: 720.0, detail: 1.0 };
 
-/// A small generator of repeatable numbers (xorshift).
-struct Random(u64);
-
-impl Random {
-    fn new() -> Self {
-        Self(0xD1B5_4A32_D192_ED03)
-    }
-
-    /// In −1..1.
-    fn signed(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn ndc(&mut self) -> DVec2 {
-        DVec2::new(self.signed(), self.signed())
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.signed(), self.signed(), self.signed())
-    }
+fn random() -> Random {
+    Random(0xD1B5_4A32_D192_ED03)
 }
 
 /// A wall at y = 0 with a round hole about the origin.
@@ -85,7 +65,7 @@ fn picked(camera: &Camera, field: &Estimator, ndc: DVec2) -> Option<PrecisePoint
 
 #[test]
 fn dolly_keeps_what_is_under_the_pointer_there() {
-    let (field, mut random) = (bulb(), Random::new());
+    let (field, mut random) = (bulb(), random());
     let mut tried = 0;
     for _ in 0..100 {
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
@@ -105,7 +85,7 @@ fn dolly_keeps_what_is_under_the_pointer_there() {
 
 #[test]
 fn pan_keeps_the_held_point_under_the_pointer() {
-    let (field, mut random) = (bulb(), Random::new());
+    let (field, mut random) = (bulb(), random());
     let mut tried = 0;
     for _ in 0..100 {
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
@@ -143,7 +123,7 @@ fn two_fingers_approach_the_held_point() {
 
 #[test]
 fn orbit_keeps_its_radius_its_pivot_in_the_picture_and_the_horizon() {
-    let (field, mut random) = (bulb(), Random::new());
+    let (field, mut random) = (bulb(), random());
     for _ in 0..50 {
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
         let ndc = random.ndc() * 0.3;
@@ -229,7 +209,7 @@ fn assert_free(field: &impl DistanceField, before: DVec3, camera: &Camera, what:
 
 #[test]
 fn no_flight_of_keys_enters_the_surface() {
-    let mut random = Random::new();
+    let mut random = random();
     for fractal in [Fractal::default(), Fractal { power: 3.0, ..Fractal::default() }] {
         let field = Estimator::new(&fractal);
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
@@ -237,7 +217,7 @@ fn no_flight_of_keys_enters_the_surface() {
         for i in 0..4000 {
             if i % 40 == 0 {
                 let inward = camera.rotation().inverse() * -camera.position.to_dvec3().normalize();
-                let travel = DVec3::new(inward.x, inward.y, -inward.z) + random.vector() * 0.6;
+                let travel = DVec3::new(inward.x, inward.y, -inward.z) + random.in_cube() * 0.6;
                 input = FlyInput {
                     travel,
                     roll: random.signed().round(),
@@ -251,7 +231,7 @@ fn no_flight_of_keys_enters_the_surface() {
             assert!(field.distance(eye) > 0.0, "inside at {eye}");
             closest = closest.min(field.distance(eye));
             // The straight way from where it slid to.
-            let way = random.vector().normalize() * field.distance(eye) * 4.0;
+            let way = random.in_cube().normalize() * field.distance(eye) * 4.0;
             let moved = collide::advance(world(&field), &camera, way);
             let gone = Camera { position: PrecisePoint::from(eye + moved), ..camera.clone() };
             assert_free(&field, eye, &gone, "advance");
@@ -262,7 +242,7 @@ fn no_flight_of_keys_enters_the_surface() {
 
 #[test]
 fn no_gesture_enters_the_surface() {
-    let (field, mut random) = (bulb(), Random::new());
+    let (field, mut random) = (bulb(), random());
     let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
     let mut closest = f64::INFINITY;
     for i in 0..1500 {
@@ -419,11 +399,11 @@ fn fly_out(navigator: &mut Navigator, camera: &mut Camera, field: &impl Distance
 
 #[test]
 fn home_is_reached_exactly_and_never_through_the_surface() {
-    let (field, mut random) = (bulb(), Random::new());
+    let (field, mut random) = (bulb(), random());
     let (mut flown, mut cut) = (0, 0);
     for i in 0..60 {
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
-        let eye = random.vector().normalize() * 3.0;
+        let eye = random.in_cube().normalize() * 3.0;
         camera = Camera {
             vertical_fov_deg: 60.0,
             ..Camera::looking_at(eye, DVec3::ZERO, camera.forward())
@@ -449,7 +429,7 @@ fn home_is_reached_exactly_and_never_through_the_surface() {
 
 #[test]
 fn frame_all_fits_the_bounding_sphere_in_any_picture() {
-    let (field, mut random) = (bulb(), Random::new());
+    let (field, mut random) = (bulb(), random());
     for aspect in [0.46, 1.0, 16.0 / 9.0] {
         let world = World { field: &field, viewport: Viewport { aspect, ..VIEWPORT } };
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());

@@ -5,7 +5,6 @@ use mandelight::{
     fractal::{DistanceField, Estimator, Ray, camera_ray, pixel_cone},
     scene::{Camera, Fractal, PrecisePoint, Scene},
 };
-
 use mandelight_test_support::random::Random;
 
 fn random() -> Random {

@@ -7,7 +7,6 @@ use mandelight::{
     render::{Region, pipelines::PipelineKey, space::RenderSpace, uniforms::Inputs},
     scene::{Fractal, Scene},
 };
-
 use mandelight_test_support::{compare::difference, view::still};
 
 use super::places::{self, Drawn, cone, drawn, found};

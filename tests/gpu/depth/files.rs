@@ -21,7 +21,6 @@ use mandelight::{
         path::{Easing, Key},
     },
 };
-
 use mandelight_test_support::{
     picture::Picture,
     view::{finished, finished_in, pipelines, sampled},

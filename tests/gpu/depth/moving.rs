@@ -12,7 +12,6 @@ use mandelight::{
     },
     scene::{Fractal, Scene},
 };
-
 use mandelight_test_support::{
     compare::{Tolerance, assert_within},
     view::{pipelines, pixels, settle, still},

@@ -17,7 +17,6 @@ use mandelight::{
     },
     scene::{Fractal, PrecisePoint, Scene},
 };
-
 use mandelight_test_support::{
     deep::views::{ANCHORS, Anchor},
     device::pipelines,

@@ -13,7 +13,6 @@ use mandelight::{
     },
     scene::{GradientStop, Indirect, IndirectKind, Scene},
 };
-
 use mandelight_test_support::{device::pipelines, oracle::rays, statistics::quantile};
 
 const SIZE: [u32; 2] = [48, 32];

@@ -16,7 +16,6 @@ use mandelight::{
     },
     scene::{Normals, Scene},
 };
-
 use mandelight_test_support::{
     device::pipelines,
     oracle::{normals, rays, views},

@@ -5,7 +5,6 @@ use mandelight::{
     render::{Eyes, Region},
     scene::{Bloom, BloomOrder, Scene, Tone, ToneChannels, ToneCurve, ToneMean},
 };
-
 use mandelight_test_support::{
     oracle::{bloom, light::srgb, tone},
     random::Random,

@@ -1,6 +1,6 @@
 //! Numbers that come out the same each time.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// A small generator of repeatable numbers (xorshift).
 pub struct Random(pub u64);
@@ -12,6 +12,21 @@ impl Random {
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// In −1..1.
+    pub fn signed(&mut self) -> f64 {
+        2.0 * self.unit() - 1.0
+    }
+
+    /// A place of a picture, −1..1 each way.
+    pub fn ndc(&mut self) -> DVec2 {
+        DVec2::new(self.signed(), self.signed())
+    }
+
+    /// Evenly within the cube of side 2 about the origin.
+    pub fn in_cube(&mut self) -> DVec3 {
+        DVec3::new(self.signed(), self.signed(), self.signed())
     }
 
     /// Evenly within the ball of `radius`, and never quite its centre.
