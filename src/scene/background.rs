@@ -1,25 +1,24 @@
-//! What is seen where a ray meets nothing.
+//! The background: the colour of a ray that hits no surface.
 
 use serde::{Deserialize, Serialize};
 
-/// What lies behind the fractal.
+/// The kind of background behind the fractal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BackgroundKind {
-    /// The vertical gradient.
+    /// A vertical gradient.
     #[default]
     Gradient,
-    /// The picture that [`super::PictureRig`] names, turned as it is; the gradient where that is
-    /// not at hand.
+    /// The environment map of [`super::PictureRig`], with its rotation. Without the file, the
+    /// gradient.
     Picture,
 }
 
-/// What is seen behind the fractal: a vertical gradient fixed to the picture, or a picture of
-/// the surroundings.
+/// The background: a vertical gradient fixed to the picture, or an environment map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Background {
-    /// Which of the two.
+    /// Gradient or environment map.
     pub kind: BackgroundKind,
     /// Colour at the picture's upper edge: linear Rec. 709, each channel 0 to 1.
     pub top: [f32; 3],
@@ -28,7 +27,7 @@ pub struct Background {
 }
 
 impl Background {
-    /// A gradient from `top` to `bottom`.
+    /// A gradient background from `top` to `bottom`.
     pub fn gradient(top: [f32; 3], bottom: [f32; 3]) -> Self {
         Self { kind: BackgroundKind::Gradient, top, bottom }
     }

@@ -1,17 +1,17 @@
-//! Light that spreads around what is bright (thesis 4.5, "Bloom").
+//! Bloom: the soft glow around bright pixels (thesis 4.5, "Bloom").
 
 use serde::{Deserialize, Serialize};
 
 use super::param;
 
-/// Where in the order of things bloom is added.
+/// Whether bloom is added before or after the tone curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BloomOrder {
-    /// To the exposed radiance, before the tone curve, as a lens does.
+    /// Added to the exposed radiance, before the tone curve, as a lens does.
     Before,
-    /// To what the tone curve gave, as in the thesis: some of the saturation that the curve
-    /// took comes back.
+    /// Added to the tone curve's output, as in the thesis: restores some of the saturation that
+    /// the curve removed.
     #[default]
     After,
 }
@@ -20,15 +20,15 @@ pub enum BloomOrder {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Bloom {
-    /// How much of the spread light is added, in [`param::BLOOM_STRENGTH`]; 0 is off.
+    /// Factor on the blurred light, range [`param::BLOOM_STRENGTH`]; 0 is off.
     pub strength: f64,
     /// Before or after the tone curve.
     pub order: BloomOrder,
-    /// How far it spreads, in [`param::BLOOM_RADIUS`], as a part of the picture's height.
+    /// Radius of the blur, range [`param::BLOOM_RADIUS`], as a fraction of the picture's height.
     pub radius: f64,
-    /// Luminance above which light spreads, in [`param::BLOOM_THRESHOLD`].
+    /// Luminance above which pixels bloom, range [`param::BLOOM_THRESHOLD`].
     pub threshold: f64,
-    /// How often the uniform kernel is applied, in [`param::BLOOM_PASSES`].
+    /// Number of box blur passes, range [`param::BLOOM_PASSES`].
     pub passes: u32,
 }
 

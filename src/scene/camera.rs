@@ -1,14 +1,14 @@
-//! Where the scene is seen from.
+//! The camera: eye, pivot, orientation, field of view and stereo.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{PrecisePoint, Stereo, param};
 
-/// Least distance from eye to pivot, in scene units: below the deepest zoom that can be drawn.
+/// Smallest distance from eye to pivot, in scene units: below the deepest zoom that renders.
 pub const MIN_VIEW_UNIT: f64 = 1e-30;
 
-/// A rotation in the document: `[x, y, z, w]`, length 1 within 1e-6.
+/// A rotation as the document stores it: `[x, y, z, w]`, length 1 within 1e-6.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Quaternion(pub [f64; 4]);
@@ -25,26 +25,26 @@ impl From<Quaternion> for DQuat {
     }
 }
 
-/// A pinhole camera. In its own frame +X is right, +Y up, and it looks along −Z.
+/// A pinhole camera. In the camera's frame +X is right, +Y is up and −Z is forward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Camera {
     /// The eye, in scene units.
     pub position: PrecisePoint,
-    /// The point that orbiting turns about; its distance to the eye, at least
-    /// [`MIN_VIEW_UNIT`], is the view unit.
+    /// The point that the camera orbits around. The distance from eye to pivot is the view unit,
+    /// at least [`MIN_VIEW_UNIT`].
     pub pivot: PrecisePoint,
     /// Rotation `world_from_camera`.
     pub orientation: Quaternion,
-    /// Angle between the picture's lower and upper edges, in [`param::VERTICAL_FOV`], degrees;
-    /// see [`Self::half_height`] for pictures taller than wide. In stereo the screen decides.
+    /// Angle between the picture's lower and upper edges, range [`param::VERTICAL_FOV`], degrees.
+    /// [`Self::half_height`] handles pictures taller than wide. Unused in stereo.
     pub vertical_fov_deg: f64,
-    /// Both eyes of a picture in stereo.
+    /// The viewer's eyes and screen, for stereo pictures.
     pub stereo: Stereo,
 }
 
 impl Camera {
-    /// A camera at `position` that looks at `pivot` with `up` as near to upward as it can be.
+    /// A camera at `position` that looks at `pivot`, with `up` as close to its +Y as possible.
     pub fn looking_at(position: DVec3, pivot: DVec3, up: DVec3) -> Self {
         let back = (position - pivot).normalize_or(DVec3::Z);
         let right = up.cross(back).try_normalize().unwrap_or_else(|| back.any_orthonormal_vector());
@@ -58,12 +58,12 @@ impl Camera {
         }
     }
 
-    /// `world_from_camera`.
+    /// The rotation `world_from_camera`.
     pub fn rotation(&self) -> DQuat {
         self.orientation.into()
     }
 
-    /// The unit vector that the camera looks along, in world space.
+    /// The unit vector of the viewing direction, in world space.
     pub fn forward(&self) -> DVec3 {
         self.rotation() * DVec3::NEG_Z
     }
@@ -73,10 +73,11 @@ impl Camera {
         (&self.pivot - &self.position).length().max(f64::MIN_POSITIVE)
     }
 
-    /// Half the height, at distance one, of a picture whose width over height is `aspect`:
-    /// `tan(fov/2)`. A picture taller than wide spans the angle across its width instead, so
-    /// that a view framed on a desktop's screen fits a phone's. In stereo it is the screen's,
-    /// whatever the shape.
+    /// Half the picture's height at distance 1, for a width over height of `aspect`.
+    ///
+    /// `tan(fov/2)` for a landscape picture. In a portrait picture the angle spans the width, so
+    /// that a view framed on a desktop's screen fits a phone's. In stereo, the screen's half
+    /// height for every aspect.
     pub fn half_height(&self, aspect: f64) -> f64 {
         if self.stereo.is_on() {
             return self.stereo.half_height();

@@ -1,21 +1,21 @@
 //! Colour arithmetic: the sRGB transfer curve, and the gradient that colours the surface.
 //!
-//! In and out: linear Rec. 709 channels, unless a name says sRGB.
+//! Inputs and outputs are linear Rec. 709 channels, unless a name says sRGB.
 
 use glam::DVec3;
 
 use super::GradientStop;
 
-/// Entries of a gradient's table.
+/// Number of entries in a gradient's lookup table.
 pub const GRADIENT_ENTRIES: usize = 256;
 
-/// Linear light of an sRGB-encoded channel (IEC 61966-2-1); both 0 to 1, and clamped to it.
+/// Linear value of an sRGB-encoded channel (IEC 61966-2-1); both clamped to 0 to 1.
 pub fn linear_from_srgb(encoded: f32) -> f32 {
     let encoded = encoded.clamp(0.0, 1.0);
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// The sRGB encoding of a linear channel (IEC 61966-2-1); both 0 to 1, and clamped to it.
+/// The sRGB encoding of a linear channel (IEC 61966-2-1); both clamped to 0 to 1.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
@@ -26,16 +26,18 @@ pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// The gradient's linear colour at `u`, of which only the fraction counts. Between stops it
-/// blends in linear light; after the last one it blends to the first, across the wrap. Of
-/// stops at one position the later begins there: a hard edge. Without stops it is black.
+/// The gradient's linear colour at `fract(u)`.
+///
+/// The colour is interpolated in linear light between stops, and from the last stop to the
+/// first across the wrap. Two stops at one position make a hard edge: the later one starts
+/// there. Without stops the gradient is black.
 pub fn gradient_at(stops: &[GradientStop], u: f64) -> [f32; 3] {
     let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
         return [0.0; 3];
     };
     let u = if u.is_finite() { u.rem_euclid(1.0) } else { 0.0 };
     let next = stops.partition_point(|stop| stop.position <= u);
-    // The neighbours on both sides, one of them a turn away where the pair spans the wrap.
+    // The stops on both sides of u; a pair that spans the wrap has one stop shifted by 1.
     let (before, before_at) = match next {
         0 => (last, last.position - 1.0),
         _ => (&stops[next - 1], stops[next - 1].position),
@@ -49,8 +51,10 @@ pub fn gradient_at(stops: &[GradientStop], u: f64) -> [f32; 3] {
     std::array::from_fn(|i| before.color[i] + (after.color[i] - before.color[i]) * t)
 }
 
-/// The gradient as a cyclic table: entry `i` is linear RGBA, opaque, at `u = i / 256`. A reader
-/// blends between neighbours, the last entry's being the first.
+/// The gradient as a cyclic lookup table of linear RGBA, opaque.
+///
+/// Entry `i` is the colour at `u = i / 256`. Readers interpolate between neighbours; the last
+/// entry's neighbour is the first.
 pub fn gradient_lut(stops: &[GradientStop]) -> [[f32; 4]; GRADIENT_ENTRIES] {
     std::array::from_fn(|i| {
         let [r, g, b] = gradient_at(stops, i as f64 / GRADIENT_ENTRIES as f64);
@@ -70,8 +74,8 @@ mod tests {
     }
 
     #[test]
-    fn srgb_agrees_with_the_standards_values() {
-        // 8-bit code values and their linear light, from the definition in exact arithmetic.
+    fn srgb_matches_the_values_of_the_standard() {
+        // 8-bit code values and their linear values, from the definition in exact arithmetic.
         for (code, linear) in [
             (0, 0.0),
             (1, 0.000_303_527),
@@ -95,7 +99,7 @@ mod tests {
         assert_eq!(gradient_at(&stops, 0.2), RED);
         assert_eq!(gradient_at(&stops, 0.6), BLUE);
         let near = |u: f64, red: f32| (gradient_at(&stops, u)[0] - red).abs() < 1e-6;
-        // A quarter of the way from red to blue, then half and all but a sixth of the way back.
+        // A quarter from red to blue, then half and five sixths of the way back to red.
         assert!(near(0.3, 0.75) && near(0.9, 0.5) && near(0.1, 5.0 / 6.0));
         assert!(near(7.3, 0.75) && near(-0.7, 0.75));
     }
@@ -109,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_gradients_give_a_color() {
+    fn empty_single_and_unsorted_gradients_give_a_valid_color() {
         assert_eq!(gradient_at(&[], 0.5), [0.0; 3]);
         assert_eq!(gradient_at(&stops(&[(0.7, BLUE)]), 0.1), BLUE);
         assert_eq!(gradient_at(&stops(&[(0.7, BLUE)]), f64::NAN), BLUE);
@@ -120,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_samples_the_gradient() {
+    fn the_lookup_table_samples_the_gradient() {
         let stops = stops(&[(0.0, RED), (0.5, BLUE)]);
         let lut = gradient_lut(&stops);
         assert_eq!(lut[0], [1.0, 0.0, 0.0, 1.0]);

@@ -1,16 +1,15 @@
 //! An equirectangular environment map: linear radiance from every direction.
 //!
-//! In: rows of pixels, or the bytes of a file ([`decode`]). Out: the radiance from a direction,
-//! and the lights that stand for all of it ([`cut`]). A picture keeps at most
-//! [`MAX_SIZE_PX`] pixels: larger ones are brought down as they come in, so that none of their
-//! light is lost.
+//! In: rows of pixels, or the bytes of a file ([`decode`]). Out: the map's pixels, and a few
+//! directional lights that approximate the map ([`cut`]). A map has at most [`MAX_SIZE_PX`]
+//! pixels; [`Downsampler`] shrinks larger files while they are read and keeps their total light.
 //!
-//! Its upper edge is +z and its middle +y; x grows to the right of the middle, as the
-//! surroundings are seen from inside.
+//! The upper edge is +z, the centre is +y, and +x is to the right of the centre: the map as seen
+//! from inside the sphere.
 
 pub mod cut;
 pub mod decode;
-mod gather;
+mod downsample;
 
 use std::{
     f64::consts::{PI, TAU},
@@ -23,16 +22,15 @@ use super::MAX_NAME_CHARS;
 
 pub use cut::CutLight;
 pub use decode::{DecodeError, decode, is_environment_map};
-pub use gather::Gather;
+pub use downsample::Downsampler;
 
-/// Most pixels that are kept, across and down.
+/// Largest size of a map, width and height in pixels.
 pub const MAX_SIZE_PX: [u32; 2] = [2048, 1024];
 
-/// The largest value of a pixel's channel that is kept: that of the shared-exponent format in
-/// which the GPU holds it.
+/// Largest value of a channel: the limit of the GPU's shared-exponent texture format.
 pub const MAX_RADIANCE: f32 = 65_408.0;
 
-/// A picture of all directions.
+/// An equirectangular map of linear radiance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentMap {
     name: String,
@@ -42,11 +40,11 @@ pub struct EnvironmentMap {
     id: u64,
 }
 
-/// Where something lies in a picture: 0 to 1 from its left and its upper edge.
-pub type Place = [f64; 2];
+/// Position in the map: 0 to 1 from the left and from the upper edge.
+pub type Uv = [f64; 2];
 
 impl EnvironmentMap {
-    /// A picture of its mean colour in each direction, as `radiance` gives it for pixel centres.
+    /// A map whose pixels are `radiance` of the directions to the pixel centres.
     pub fn from_fn(
         name: &str,
         size_px: [u32; 2],
@@ -57,11 +55,11 @@ impl EnvironmentMap {
         let pixels = (0..height)
             .flat_map(|y| (0..width).map(move |x| [x, y]))
             .map(|[x, y]| {
-                let place = [
+                let uv = [
                     (f64::from(x) + 0.5) / f64::from(width),
                     (f64::from(y) + 0.5) / f64::from(height),
                 ];
-                clean(radiance(direction_at(place)).as_vec3())
+                clamp_radiance(radiance(direction_from_uv(uv)).as_vec3())
             })
             .collect();
         Self::new(name, size_px, pixels)
@@ -69,17 +67,17 @@ impl EnvironmentMap {
 
     fn new(name: &str, size_px: [u32; 2], pixels: Vec<Vec3>) -> Self {
         static NEXT_ID: AtomicU64 = AtomicU64::new(1);
-        // Scenes name their picture, and a scene's names have an end.
+        // A scene stores the map's name, and a document limits names to this length.
         let name = name.chars().take(MAX_NAME_CHARS).collect();
         Self { name, size_px, pixels, id: NEXT_ID.fetch_add(1, Ordering::Relaxed) }
     }
 
-    /// The name of the file that it came from, at most [`MAX_NAME_CHARS`] characters of it.
+    /// The file's name, cut to [`MAX_NAME_CHARS`] characters.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// A number that no other picture of this process has.
+    /// An identifier, unique among this process's maps.
     pub fn id(&self) -> u64 {
         self.id
     }
@@ -101,36 +99,36 @@ impl EnvironmentMap {
         (polar(y.into()) - polar(f64::from(y) + 1.0)) * TAU / width
     }
 
-    /// Radiance times solid angle, summed over the picture.
+    /// Radiance times solid angle, summed over the map.
     pub fn energy(&self) -> DVec3 {
         let width = self.size_px[0] as usize;
         (0..).zip(self.pixels.chunks_exact(width)).fold(DVec3::ZERO, |sum, (y, row)| {
-            let of_row: DVec3 = row.iter().map(|pixel| pixel.as_dvec3()).sum();
-            sum + of_row * self.pixel_solid_angle(y)
+            let row_sum: DVec3 = row.iter().map(|pixel| pixel.as_dvec3()).sum();
+            sum + row_sum * self.pixel_solid_angle(y)
         })
     }
 
-    /// The `count` lights that stand for the picture, or fewer; see [`cut`].
+    /// At most `count` lights that together carry the map's light; see [`cut`].
     pub fn cut(&self, count: usize) -> Vec<CutLight> {
         cut::median_cut(self, count)
     }
 }
 
-/// A channel that can be reckoned with: what is no number or below zero counts as black.
-fn clean(pixel: Vec3) -> Vec3 {
-    let kept = |v: f32| if v.is_nan() { 0.0 } else { v.clamp(0.0, MAX_RADIANCE) };
-    Vec3::from_array(pixel.to_array().map(kept))
+/// Clamps each channel to 0 to [`MAX_RADIANCE`]; NaN becomes 0.
+fn clamp_radiance(pixel: Vec3) -> Vec3 {
+    let clamped = |v: f32| if v.is_nan() { 0.0 } else { v.clamp(0.0, MAX_RADIANCE) };
+    Vec3::from_array(pixel.to_array().map(clamped))
 }
 
-/// The unit vector toward a place of the picture.
-pub fn direction_at([u, v]: Place) -> DVec3 {
+/// The unit vector toward the map's position `[u, v]`.
+pub fn direction_from_uv([u, v]: Uv) -> DVec3 {
     let (sin_azimuth, cos_azimuth) = ((u - 0.5) * TAU).sin_cos();
     let (sin_polar, cos_polar) = (v * PI).sin_cos();
     DVec3::new(sin_polar * sin_azimuth, sin_polar * cos_azimuth, cos_polar)
 }
 
-/// The place of the picture that `direction`, of any length but 0, points at.
-pub fn place_of(direction: DVec3) -> Place {
+/// The map's position that `direction`, of any length but 0, points at.
+pub fn uv_from_direction(direction: DVec3) -> Uv {
     let azimuth = direction.x.atan2(direction.y);
     let polar = direction.truncate().length().atan2(direction.z);
     [azimuth / TAU + 0.5, polar / PI]

@@ -1,40 +1,42 @@
-//! Undo and redo over whole states, grouped by gesture.
+//! Undo and redo of whole states, grouped by gesture.
 //!
-//! In: the state as it was before each change, a scene or a [`Project`]. Out: the state to go
-//! back or forward to. Pure data: it knows neither keys nor panels, and keeps no clock.
+//! In: the state before each change (a scene or a [`Project`]). Out: the state to restore. This
+//! module is pure data: no keyboard, no panels, no clock.
 
 use std::collections::VecDeque;
 
 use super::Project;
 
-/// The most steps back that are kept; older ones are forgotten.
+/// Maximum number of undo steps; older steps are dropped.
 pub const MAX_STEPS: usize = 200;
 
-/// One gesture, such as a drag from press to release. Changes with the same id that follow
-/// one another are undone together.
+/// Identifier of a gesture, such as a drag from press to release.
+///
+/// Consecutive changes with one identifier are undone together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GestureId(pub u64);
 
-/// The states before and after the present one.
+/// The undo and redo stacks.
 #[derive(Clone, Debug)]
 pub struct History<T = Project> {
-    /// Earlier states, the latest last.
+    /// Earlier states; the most recent is last.
     past: VecDeque<T>,
-    /// States that were undone, the next one last.
+    /// Undone states; the next one to redo is last.
     future: Vec<T>,
-    /// The gesture of the last recorded change, while further changes may join it.
+    /// The gesture of the last recorded change, until an undo or redo closes the gesture.
     open: Option<GestureId>,
 }
 
 impl<T: Clone> History<T> {
-    /// Nothing to undo or redo.
+    /// An empty history.
     pub fn new() -> Self {
         Self { past: VecDeque::new(), future: Vec::new(), open: None }
     }
 
-    /// Notes that `before` is about to change, or just has. Call it for real changes only.
-    /// Within one gesture only the first call counts; without one, every call is a step of its
-    /// own. What was undone can no longer be redone.
+    /// Records `before`, the state before a change, as an undo step.
+    ///
+    /// Call this for real changes only, before or after the change. Within one gesture only the
+    /// first call adds a step; without a gesture every call does. Clears the redo stack.
     pub fn record(&mut self, before: &T, gesture: Option<GestureId>) {
         self.future.clear();
         if gesture.is_some() && gesture == self.open {
@@ -47,7 +49,7 @@ impl<T: Clone> History<T> {
         self.past.push_back(before.clone());
     }
 
-    /// The state one step back, to replace `present`; none at the beginning.
+    /// The previous state, to replace `present`; none at the beginning.
     pub fn undo(&mut self, present: &T) -> Option<T> {
         self.open = None;
         let earlier = self.past.pop_back()?;
@@ -55,7 +57,7 @@ impl<T: Clone> History<T> {
         Some(earlier)
     }
 
-    /// The state one step forward again, to replace `present`; none at the end.
+    /// The next undone state, to replace `present`; none at the end.
     pub fn redo(&mut self, present: &T) -> Option<T> {
         self.open = None;
         let later = self.future.pop()?;
@@ -63,12 +65,12 @@ impl<T: Clone> History<T> {
         Some(later)
     }
 
-    /// Whether there is a step back.
+    /// True if there is a step to undo.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()
     }
 
-    /// Whether there is a step forward.
+    /// True if there is a step to redo.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
     }

@@ -1,19 +1,19 @@
-//! Light that reaches a surface by way of others (thesis 4.5, "Global Illumination").
+//! Indirect light: light reflected from other surfaces (thesis 4.5, "Global Illumination").
 
 use serde::{Deserialize, Serialize};
 
 use super::param;
 
-/// Which screen-space operator approximates it.
+/// The screen-space operator that approximates indirect light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IndirectKind {
-    /// None.
+    /// No indirect light.
     #[default]
     Off,
-    /// All around alike, weighted by the normals (thesis eq. 4.1).
+    /// Uniform sampling of a square, weighted by the normals (thesis eq. 4.1).
     Uniform,
-    /// Horizon-based ambient occlusion that carries colour (thesis Algorithm 2).
+    /// Horizon-based ambient occlusion with colour (thesis Algorithm 2).
     Horizon,
 }
 
@@ -21,20 +21,19 @@ pub enum IndirectKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Indirect {
-    /// Which operator; off by default.
+    /// The operator; off by default.
     pub kind: IndirectKind,
-    /// How far around a point it looks, in [`param::INDIRECT_RADIUS`], as a part of the
+    /// Sampling radius around a pixel, range [`param::INDIRECT_RADIUS`], as a fraction of the
     /// picture's height.
     pub radius: f64,
-    /// How much of it is added, in [`param::INDIRECT_STRENGTH`].
+    /// Factor on the indirect light, range [`param::INDIRECT_STRENGTH`].
     pub strength: f64,
-    /// Light that comes from nowhere in particular, in [`param::INDIRECT_AMBIENT`]: the ambient
-    /// factor of Algorithm 2.
+    /// The ambient factor of Algorithm 2, range [`param::INDIRECT_AMBIENT`].
     pub ambient: f64,
-    /// Directions of Algorithm 2, in [`param::INDIRECT_DIRECTIONS`].
+    /// Directions of Algorithm 2, range [`param::INDIRECT_DIRECTIONS`].
     pub directions: u32,
-    /// Samples a direction of Algorithm 2, or from the middle of eq. 4.1's square to its side, in
-    /// [`param::INDIRECT_SAMPLES`].
+    /// Samples per direction of Algorithm 2, or from the centre of eq. 4.1's square to a side;
+    /// range [`param::INDIRECT_SAMPLES`].
     pub samples: u32,
 }
 

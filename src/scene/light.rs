@@ -1,25 +1,25 @@
-//! What lights the scene (thesis 4.5): light from a direction, light from a point, and a rig.
+//! Lights (thesis 4.5): environment lights, point lights and the rig.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{PrecisePoint, Rig, param};
 
-/// The most lights a scene holds, all kinds together: one visibility bit each.
+/// Maximum number of lights in a scene, all kinds together: one visibility bit each.
 pub const MAX_LIGHTS: usize = 64;
 
-/// What a light's direction is fixed to.
+/// The frame of a light's direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LightFrame {
-    /// The light stays where it is as the camera moves.
+    /// World space: the light stays in place while the camera moves.
     #[default]
     Scene,
-    /// The light moves with the camera: its direction is in the camera's frame.
+    /// Camera space: the light moves with the camera.
     View,
 }
 
-/// Light from infinitely far away in one direction.
+/// A directional light: parallel light from infinitely far away.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EnvironmentLight {
@@ -27,15 +27,15 @@ pub struct EnvironmentLight {
     pub direction: [f64; 3],
     /// Linear Rec. 709, each channel 0 to 1.
     pub color: [f32; 3],
-    /// Strength, in [`param::ENVIRONMENT_INTENSITY`].
+    /// Strength, range [`param::ENVIRONMENT_INTENSITY`].
     pub intensity: f64,
-    /// Whether surfaces block it.
+    /// True if surfaces block the light.
     pub casts_shadows: bool,
-    /// How far a blocker may be, in [`param::SHADOW_REACH`], view units; none for the whole scene.
+    /// Longest shadow ray, range [`param::SHADOW_REACH`], view units; unlimited if none.
     pub shadow_reach: Option<f64>,
-    /// What the direction is fixed to.
+    /// The frame of the direction.
     pub frame: LightFrame,
-    /// Off for now.
+    /// True if the light is switched off.
     pub muted: bool,
     /// While any light is solo, only solo lights shine.
     pub solo: bool,
@@ -56,19 +56,19 @@ impl Default for EnvironmentLight {
     }
 }
 
-/// Light from a point; it falls with the square of the distance.
+/// A point light; its light falls with the square of the distance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PointLight {
-    /// Where it is, in scene units.
+    /// Position, in scene units.
     pub position: PrecisePoint,
     /// Linear Rec. 709, each channel 0 to 1.
     pub color: [f32; 3],
-    /// Strength at one scene unit, in [`param::POINT_INTENSITY`].
+    /// Strength at a distance of one scene unit, range [`param::POINT_INTENSITY`].
     pub intensity: f64,
-    /// Whether surfaces block it.
+    /// True if surfaces block the light.
     pub casts_shadows: bool,
-    /// Off for now.
+    /// True if the light is switched off.
     pub muted: bool,
     /// While any light is solo, only solo lights shine.
     pub solo: bool,
@@ -91,31 +91,31 @@ impl Default for PointLight {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Lights {
-    /// Light from directions.
+    /// Directional lights.
     pub environment: Vec<EnvironmentLight>,
-    /// Light from points.
+    /// Point lights.
     pub point: Vec<PointLight>,
-    /// Lights from directions that are made together.
+    /// Directional lights generated from a sky or an environment map.
     pub rig: Rig,
 }
 
 impl Lights {
-    /// How many there are, all kinds together.
+    /// Number of lights, all kinds together.
     pub fn len(&self) -> usize {
         self.environment.len() + self.point.len() + self.rig.len()
     }
 
-    /// How many lights the rig can have beside those of the lists.
+    /// Maximum number of lights that the rig can have beside the other lights.
     pub fn room_for_rig(&self) -> usize {
         MAX_LIGHTS.saturating_sub(self.environment.len() + self.point.len())
     }
 
-    /// True where there is no light at all.
+    /// True if the scene has no light of any kind.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// True while some light is solo.
+    /// True if any light is solo.
     pub fn any_solo(&self) -> bool {
         self.environment.iter().any(|l| l.solo)
             || self.point.iter().any(|l| l.solo)
@@ -142,8 +142,8 @@ impl Default for Lights {
                     intensity: 1.4,
                     ..Default::default()
                 },
-                // A faint fill that comes along with the camera, so that what the others leave
-                // in shadow keeps its shape at any depth.
+                // A faint fill light fixed to the camera, so that shadowed surfaces keep their
+                // shape at any depth.
                 EnvironmentLight {
                     direction: toward(0.5, 0.35, 0.8),
                     color: [0.5, 0.66, 1.0],

@@ -1,8 +1,8 @@
-//! The scene as an address's fragment: `#s1=` and base64url of deflated JSON.
+//! The scene as a URL fragment: `#s1=` and base64url of deflated JSON.
 //!
-//! In: a scene with its path, or text from an address that may come from anyone. Out: the other one. Fields
-//! that have their default are left out, which keeps links short and makes the defaults part
-//! of the version (see [`super::document`]). The digit is the document's version.
+//! Converts a scene with its path to a fragment, and an untrusted fragment back to a scene.
+//! Fields equal to their default are left out, which keeps links short and makes the defaults
+//! part of the version (see [`super::document`]). The digit is the document's version.
 
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use miniz_oxide::{
@@ -17,18 +17,19 @@ use super::{
     document::{self, DocumentError, value_of},
 };
 
-/// The longest fragment made or read, in bytes.
+/// Maximum length of a fragment, in bytes.
 pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
-/// The most that a fragment may inflate to, in bytes: keys of a path that are much alike deflate
-/// well.
+/// Maximum size of a fragment's inflated JSON, in bytes.
+///
+/// Large compared with [`MAX_FRAGMENT_BYTES`], because similar keys of a path deflate well.
 pub const MAX_INFLATED_BYTES: usize = 1 << 20;
 
-/// What a fragment of this version begins with.
+/// Prefix of a fragment of this version.
 const PREFIX: &str = "s1=";
-/// The best of deflate's levels that miniz has: a scene is small.
+/// miniz's strongest compression level; a scene is small, so speed does not matter.
 const DEFLATE_LEVEL: u8 = 10;
 
-/// Why a scene has no link, or a link no scene.
+/// Why a conversion between scene and link failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
     /// Longer than [`MAX_FRAGMENT_BYTES`].
@@ -36,13 +37,13 @@ pub enum LinkError {
         "the link would be {bytes} characters long, more than the {MAX_FRAGMENT_BYTES} that links may have; save the scene as a file instead"
     )]
     TooLong {
-        /// Its length.
+        /// Length of the fragment.
         bytes: usize,
     },
-    /// Does not begin as a scene's link does.
+    /// The prefix is not that of a scene's link.
     #[error("the address holds no scene")]
     NotAScene,
-    /// Made by another version of the format.
+    /// The link has another version of the format.
     #[error(
         "the link holds a scene of version {found}; this program reads version {}",
         document::VERSION
@@ -51,7 +52,7 @@ pub enum LinkError {
         /// The digits in the link.
         found: String,
     },
-    /// Not base64url, not deflated, or not text: cut short or changed on its way.
+    /// Not base64url, not deflated, or not UTF-8: the link was truncated or altered.
     #[error("the link is damaged or incomplete; copy it again in full")]
     Damaged,
     /// Inflates to more than [`MAX_INFLATED_BYTES`].
@@ -59,25 +60,25 @@ pub enum LinkError {
         "the link unpacks to more than {MAX_INFLATED_BYTES} bytes, more than links may hold; save the scene as a file instead"
     )]
     TooLarge,
-    /// A scene that cannot be used.
+    /// The scene in the link is invalid.
     #[error("the link's scene: {0}")]
     Document(#[from] DocumentError),
 }
 
-/// The fragment that holds `scene`, without its `#`: letters, digits, `=`, `-` and `_` only.
+/// The fragment of `scene`, without `#`: letters, digits, `=`, `-` and `_` only.
 ///
 /// # Errors
 ///
-/// [`LinkError::TooLong`] for scenes with very many different lights.
+/// [`LinkError::TooLong`] for scenes with many different lights.
 pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
     fragment_of(&differences(value_of(scene)))
 }
 
-/// The fragment that holds a scene and its path.
+/// The fragment of a scene and its path, without `#`.
 ///
 /// # Errors
 ///
-/// [`LinkError::TooLong`] or [`LinkError::TooLarge`], as paths of many keys are.
+/// [`LinkError::TooLong`] or [`LinkError::TooLarge`], for paths with many keys.
 pub fn project_to_fragment(project: &Project) -> Result<String, LinkError> {
     let mut payload = differences(value_of(&project.scene));
     if project.path != Path::default() {
@@ -99,16 +100,16 @@ fn fragment_of(payload: &Value) -> Result<String, LinkError> {
     Ok(fragment)
 }
 
-/// Reads a fragment's scene, with or without its `#`.
+/// Reads the scene of a fragment, with or without `#`.
 ///
 /// # Errors
 ///
-/// See [`LinkError`]: a bad path too. The caller's scene is as it was.
+/// See [`LinkError`]. A fragment with an invalid path fails too.
 pub fn from_fragment(fragment: &str) -> Result<Scene, LinkError> {
     Ok(project_from_fragment(fragment)?.scene)
 }
 
-/// Reads a fragment: its scene, and its path where it has one.
+/// Reads the scene and the path of a fragment; without a path, the path is empty.
 ///
 /// # Errors
 ///
@@ -134,12 +135,12 @@ pub fn project_from_fragment(fragment: &str) -> Result<Project, LinkError> {
     let Some((path, scene)) = path else {
         return Ok(document::scene_from_json(&text)?.into());
     };
-    // The path stands among the scene's own fields, for shortness.
+    // A fragment stores the path among the scene's fields, to save bytes.
     let whole = json!({ "mandelight": "scene", "version": document::VERSION, "scene": scene, "path": path });
     Ok(document::project_from_json(&whole.to_string())?)
 }
 
-/// What follows the prefix, where it is this version's.
+/// The text after the prefix of this version.
 fn payload_of(fragment: &str) -> Result<&str, LinkError> {
     if let Some(payload) = fragment.strip_prefix(PREFIX) {
         return Ok(payload);
@@ -155,7 +156,7 @@ fn payload_of(fragment: &str) -> Result<&str, LinkError> {
     }
 }
 
-/// A scene's JSON without the fields that have their default.
+/// A scene's JSON without the fields equal to their default.
 fn differences(mut value: Value) -> Value {
     drop_defaults(&mut value, &value_of(&Scene::default()));
     drop_list_defaults(&mut value, "environment", &EnvironmentLight::default());
@@ -172,7 +173,7 @@ fn drop_list_defaults(scene: &mut Value, list: &str, default: &impl Serialize) {
     lights.iter_mut().for_each(|light| drop_defaults(light, &default));
 }
 
-/// Removes from `value` every field that `default` has alike. Lists stay whole.
+/// Removes every field of `value` that equals the field of `default`. Lists stay complete.
 fn drop_defaults(value: &mut Value, default: &Value) {
     let (Value::Object(fields), Value::Object(defaults)) = (value, default) else {
         return;

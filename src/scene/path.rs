@@ -7,13 +7,13 @@
 //! |---|---|
 //! | `curve` | smooth curves through keys, in any space that has shortest lines |
 //! | `place` | positions that go with the zoom: hyperbolic space |
-//! | `turn` | orientations and directions |
+//! | `rotation` | orientations and directions |
 //! | `blend` | every number of a scene, found by itself |
 
 mod blend;
 mod curve;
 mod place;
-mod turn;
+mod rotation;
 
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
-//! Positions that stay exact at any zoom: decimal numbers of up to 90 digits (299 bits).
+//! Exact positions at any zoom: decimal numbers of up to 90 digits (299 bits).
 //!
-//! An f64 places the eye to 1e-16 of a scene unit, too coarse for a zoom of 1e-27. A
-//! position is kept as the decimal number that the document shows, so that what is saved is
-//! what was seen; differences of positions are small and go on as f64.
+//! An f64 resolves 1e-16 of a scene unit, too coarse for a zoom of 1e-27. A position is stored
+//! as the decimal number that the document contains, so saving does not move the eye. Differences
+//! of positions are small and are rounded to f64.
 
 use std::{fmt, ops::Sub, str::FromStr};
 
@@ -10,20 +10,20 @@ use dashu_float::{DBig, FBig, round::mode};
 use glam::DVec3;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-/// Most significant digits kept.
+/// Maximum number of significant digits.
 pub const MAX_DIGITS: usize = 90;
 /// Largest magnitude of a coordinate, in scene units.
 pub const MAX_COORDINATE: f64 = 100.0;
-/// Longest text accepted for one coordinate.
+/// Maximum length of a coordinate's text, in bytes.
 const MAX_TEXT_BYTES: usize = 120;
-/// The last decimal place kept: 10^−80.
+/// The last stored decimal place: 10^−80.
 const LAST_PLACE: isize = -80;
 
 /// One exact coordinate, in scene units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Precise(DBig);
 
-/// Why a text is no coordinate.
+/// Why a text is not a valid coordinate.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParsePreciseError {
     /// Not a decimal number.
@@ -43,15 +43,16 @@ impl Precise {
         nearest_f64(&self.0)
     }
 
-    /// The nearest binary number of so many bits that is not farther from zero.
+    /// The value rounded toward zero to a binary number of `bits` bits.
     pub fn to_binary(&self, bits: usize) -> FBig<mode::Zero, 2> {
         let number = self.0.clone().with_rounding::<mode::Zero>();
         number.with_base_and_precision::<2>(bits).value()
     }
 
-    /// `self + delta`, rounded to a decimal place no coarser than `grain` (both in scene
-    /// units), so that the digits say no more than a viewer can see. The result is kept
-    /// within [`MAX_COORDINATE`].
+    /// `self + delta`, rounded to a decimal place no coarser than `grain`, both in scene units.
+    ///
+    /// Rounding drops digits too small to be visible. The result is clamped to
+    /// [`MAX_COORDINATE`].
     pub fn moved_by(&self, delta: f64, grain: f64) -> Self {
         let sum = Self(&self.0 + decimal(delta).0);
         if sum.to_f64().abs() >= MAX_COORDINATE {
@@ -62,15 +63,16 @@ impl Precise {
     }
 }
 
-/// The nearest f64, by way of decimal digits: about a hundred times faster than the crate's own
-/// conversion, which divides long numbers.
+/// The nearest f64, converted through decimal text.
+///
+/// About 100 times faster than the crate's own conversion, which divides long numbers.
 fn nearest_f64(value: &DBig) -> f64 {
     let repr = value.repr();
-    // A whole number with an exponent always parses.
+    // An integer with an exponent always parses.
     format!("{}e{}", repr.significand(), repr.exponent()).parse().unwrap_or(0.0)
 }
 
-/// The shortest decimal that reads back as `value`; zero where it isn't finite.
+/// The shortest decimal that parses to `value`; zero for NaN and infinities.
 fn decimal(value: f64) -> Precise {
     let value = if value.is_finite() { value } else { 0.0 };
     // Every finite f64 prints as a decimal number, so the parse cannot fail.
@@ -92,7 +94,7 @@ fn rounded_to_place(value: DBig, place: isize) -> DBig {
     if keep <= 0 {
         return DBig::ZERO.with_precision(MAX_DIGITS).value();
     }
-    // Round first, then allow later sums the full precision again.
+    // `with_precision` also limits later sums, so the full precision is set after rounding.
     value.with_precision((keep as usize).min(MAX_DIGITS)).value().with_precision(MAX_DIGITS).value()
 }
 
@@ -103,8 +105,8 @@ impl FromStr for Precise {
         if text.len() > MAX_TEXT_BYTES {
             return Err(ParsePreciseError::TooLong);
         }
-        // Only plain decimal notation with an optional small exponent: a huge exponent would
-        // ask the next sum for as many digits.
+        // Only plain decimal notation with an optional small exponent: the next sum would need
+        // as many digits as a huge exponent says.
         let plain = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
         if !plain || !text.bytes().any(|b| b.is_ascii_digit()) {
             return Err(ParsePreciseError::NotANumber);
@@ -180,7 +182,7 @@ impl From<DVec3> for PrecisePoint {
 impl Sub for &PrecisePoint {
     type Output = DVec3;
 
-    /// The difference, formed exactly and then rounded once to f64.
+    /// The exact difference, rounded once to f64.
     fn sub(self, other: &PrecisePoint) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|i| nearest_f64(&(&self.0[i].0 - &other.0[i].0))))
     }
@@ -201,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn moves_by_less_than_an_f64_can_hold() {
+    fn a_point_moves_by_less_than_an_f64_can_resolve() {
         let start = precise("1.25");
         let moved = start.moved_by(3e-40, 1e-42);
         let a = PrecisePoint([moved.clone(), start.clone(), start.clone()]);
@@ -227,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_no_coordinate() {
+    fn rejects_texts_that_are_not_coordinates() {
         for text in [
             "",
             "-",
@@ -247,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_keep_full_precision_after_a_short_number() {
+    fn sums_have_full_precision_after_a_rounding_to_few_digits() {
         let moved = precise("1").moved_by(1.0, 0.1).moved_by(1e-30, 1e-33);
         assert_eq!(moved.to_string(), "2.000000000000000000000000000001");
     }

@@ -1,4 +1,4 @@
-//! What a document holds: the scene in view, and the camera path beside it.
+//! The contents of a document: the scene in view and the camera path.
 
 use super::{Path, Scene};
 
@@ -7,7 +7,7 @@ use super::{Path, Scene};
 pub struct Project {
     /// The scene in view.
     pub scene: Scene,
-    /// The path; empty where none was made.
+    /// The camera path; empty by default.
     pub path: Path,
 }
 

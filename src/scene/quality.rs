@@ -1,42 +1,44 @@
-//! How much work a picture is given.
+//! Quality settings: samples, shadows, detail and normals.
 
 use serde::{Deserialize, Serialize};
 
 use super::param;
 
-/// How the surface's normals are found (thesis 3.2, figure 3.3). The grid's spacing is the hit
-/// distance, about the pixel's radius on the surface; `docs/normals.md` has each one's error.
+/// The method that computes surface normals (thesis 3.2, figure 3.3).
+///
+/// The grid's spacing is the hit distance, about the pixel's radius on the surface.
+/// `docs/normals.md` lists the error of each method.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Normals {
-    /// None: every point that light reaches counts as facing it (figure 3.3 a).
+    /// No normals: every lit point counts as facing the light (figure 3.3 a).
     None,
-    /// Differences to the next grid point along each axis (b).
+    /// Forward differences along each axis (b).
     Three,
-    /// Differences across the point along each axis (c), the thesis's choice.
+    /// Central differences along each axis (c), the thesis's choice.
     Six,
-    /// The gradient that fits the 18 grid points nearest best (d): faces and edges of a cube.
+    /// Best fit of a gradient to 18 neighbours (d): faces and edges of a cube.
     Eighteen,
-    /// The same of all 26 around it (e): corners too.
+    /// Best fit of a gradient to 26 neighbours (e): faces, edges and corners of a cube.
     TwentySix,
-    /// The distance estimate's own gradient, exactly.
+    /// The exact gradient of the distance estimate.
     #[default]
     Analytic,
 }
 
-/// Work per picture.
+/// Quality settings of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Quality {
-    /// GPU time of a frame while something moves, in [`param::MOTION_BUDGET`], milliseconds.
+    /// GPU time of a frame during motion, range [`param::MOTION_BUDGET`], milliseconds.
     pub motion_budget_ms: f64,
-    /// Jittered samples a pixel averages at rest, in [`param::SAMPLES`].
+    /// Jittered samples per pixel at rest, range [`param::SAMPLES`].
     pub samples: u32,
-    /// Whether any light casts shadows.
+    /// False switches off the shadows of all lights.
     pub shadows: bool,
-    /// Hit distance in cone radii of a pixel, in [`param::DETAIL`].
+    /// Hit distance in cone radii of a pixel, range [`param::DETAIL`].
     pub detail: f64,
-    /// How normals are found.
+    /// The method that computes normals.
     pub normals: Normals,
 }
 

@@ -1,13 +1,11 @@
-//! A rig: many lights from directions that are made together, from a sky or from a picture of
-//! the surroundings.
+//! A rig: many directional lights generated from a sky or from an environment map.
 //!
-//! In: a scene's rig. Out: its lights, as directions and strengths. A picture's lights stand in
-//! the document themselves, so that a scene or a link is lit the same where the picture is not
-//! at hand.
+//! In: a scene's rig. Out: its lights, as directions and strengths. The document stores an
+//! environment map's lights, so a scene or a link is lit the same without the map's file.
 //!
-//! Strengths are those of [`super::EnvironmentLight`]: 1 lights a white surface that faces the
-//! light to 1, so a light that stands for a part of the surroundings has 1/π of the radiance
-//! integrated over that part's solid angle.
+//! Strengths have the unit of [`super::EnvironmentLight`]: 1 lights a white surface that faces
+//! the light to 1. So a light that represents a solid angle has 1/π of the radiance integrated
+//! over that solid angle.
 
 mod sky;
 
@@ -17,11 +15,11 @@ use serde::{Deserialize, Serialize};
 use super::{BackgroundKind, EnvironmentMap, LightFrame, Scene, param};
 pub use sky::Sky;
 
-/// What a rig's lights are made from.
+/// The source of a rig's lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RigKind {
-    /// Nothing: there are no such lights.
+    /// No source: the rig has no lights.
     #[default]
     None,
     /// A sky with a sun.
@@ -30,30 +28,30 @@ pub enum RigKind {
     Picture,
 }
 
-/// Lights from directions that are made together. They come after those of the lists.
+/// Directional lights generated together; they follow a scene's other lights in order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Rig {
-    /// What they are made from.
+    /// The source of the lights.
     pub kind: RigKind,
-    /// How many a sky has, and how many a picture is cut into; in [`param::RIG_COUNT`].
+    /// Number of lights to generate, range [`param::RIG_COUNT`].
     pub count: u32,
-    /// Factor on all of them and on the picture as background, in [`param::RIG_INTENSITY`].
+    /// Factor on the lights and on the background's environment map, range
+    /// [`param::RIG_INTENSITY`].
     pub intensity: f64,
-    /// Whether surfaces block them.
+    /// True if surfaces block the lights.
     pub casts_shadows: bool,
-    /// How far a blocker may be, in [`param::RIG_SHADOW_REACH`], view units; none for the whole
-    /// scene.
+    /// Longest shadow ray, range [`param::RIG_SHADOW_REACH`], view units; unlimited if none.
     pub shadow_reach: Option<f64>,
-    /// What the directions are fixed to; seen from the camera, z points backward.
+    /// The frame of the directions; in the camera's frame, z points backward.
     pub frame: LightFrame,
-    /// Off for now.
+    /// True if the rig is switched off.
     pub muted: bool,
     /// While any light is solo, only solo lights shine.
     pub solo: bool,
-    /// The sky.
+    /// The sky, used by [`RigKind::Sky`].
     pub sky: Sky,
-    /// The picture.
+    /// The environment map, used by [`RigKind::Picture`] and by the background.
     pub picture: PictureRig,
 }
 
@@ -74,15 +72,15 @@ impl Default for Rig {
     }
 }
 
-/// An environment map, and the lights that it was cut into.
+/// An environment map's name, rotation and lights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PictureRig {
-    /// The name of its file, at most [`MAX_NAME_CHARS`] characters; empty for no picture.
+    /// The file's name, at most [`MAX_NAME_CHARS`] characters; empty for no environment map.
     pub name: String,
-    /// Turns it about z, counterclockwise as seen from above, in [`param::RIG_ROTATION`].
+    /// Rotation about z, counterclockwise from above, range [`param::RIG_ROTATION`], degrees.
     pub rotation_deg: f64,
-    /// Its lights before that turn.
+    /// The map's lights before the rotation.
     pub lights: Vec<RigLight>,
 }
 
@@ -92,12 +90,13 @@ impl Default for PictureRig {
     }
 }
 
-/// The longest name of a picture, in characters.
+/// Maximum length of an environment map's name, in characters.
 pub const MAX_NAME_CHARS: usize = 200;
-/// The strongest light of a rig, a channel.
+/// Maximum strength of a rig light, per channel.
 pub const MAX_RIG_RADIANCE: f32 = 1e6;
-/// How far from 1 the length of a rig light's direction may be: four digits are finer
-/// than any picture.
+/// Tolerance of the length of a rig light's direction, around 1.
+///
+/// Four digits per coordinate are finer than a pixel of the largest environment map.
 pub const RIG_DIRECTION_TOLERANCE: f64 = 1e-3;
 
 /// One light of a rig.
@@ -112,23 +111,24 @@ pub struct RigLight {
 }
 
 impl RigLight {
-    /// A light in the few digits that a document and a link have room for: the direction to
-    /// 1e-5, the strength to 5e-6 of itself.
+    /// A light rounded to few digits, which keeps documents and links short.
+    ///
+    /// The direction's error is at most 1e-5, the strength's relative error at most 5e-6.
     fn rounded(direction: DVec3, strength: DVec3) -> Self {
-        let digits = |value: f64| {
-            // Written with six digits and read again; a number's own text is a number.
+        let six_digits = |value: f64| {
+            // A formatted number always parses.
             let text = format!("{:.5e}", value.clamp(0.0, f64::from(MAX_RIG_RADIANCE)));
             text.parse().unwrap_or(0.0)
         };
         Self {
             direction: direction.to_array().map(|v| ((v * 1e5).round() / 1e5) as f32),
-            strength: strength.to_array().map(digits),
+            strength: strength.to_array().map(six_digits),
         }
     }
 }
 
 impl Rig {
-    /// How many lights it has.
+    /// Number of lights.
     pub fn len(&self) -> usize {
         match self.kind {
             RigKind::None => 0,
@@ -137,18 +137,19 @@ impl Rig {
         }
     }
 
-    /// True where it has no light.
+    /// True if the rig has no lights.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Its lights in its frame: unit vectors toward them, and their strengths with the rig's
-    /// intensity.
+    /// The lights in the rig's frame: unit vectors toward the lights, and strengths.
+    ///
+    /// The strengths include the rig's intensity.
     pub fn lights(&self) -> Vec<(DVec3, DVec3)> {
         let lights = match self.kind {
             RigKind::None => Vec::new(),
             RigKind::Sky => self.sky.lights(self.count),
-            RigKind::Picture => self.picture.turned_lights(),
+            RigKind::Picture => self.picture.rotated_lights(),
         };
         lights
             .into_iter()
@@ -156,8 +157,9 @@ impl Rig {
             .collect()
     }
 
-    /// Makes the picture's lights from `environment_map`: as many as [`Self::count`] says, but at most
-    /// `room`; fewer where the picture cannot be divided so often.
+    /// Replaces the lights by those of `environment_map`: at most [`Self::count`] and `room`.
+    ///
+    /// A map with fewer bright pixels gives fewer lights.
     pub fn light_by(&mut self, environment_map: &EnvironmentMap, room: usize) {
         let count = (self.count as usize).min(room);
         self.kind = RigKind::Picture;
@@ -172,8 +174,10 @@ impl Rig {
 }
 
 impl Scene {
-    /// Lights the scene by `environment_map` and, where it does not name that picture yet, shows it
-    /// behind the fractal. A scene that names it without being lit by it stays as it is.
+    /// Lights the scene by `environment_map`, and shows a new map as the background.
+    ///
+    /// A map is new if the scene does not name it yet. A scene that names the map but has
+    /// another kind of rig stays unchanged.
     pub fn surround_by(&mut self, environment_map: &EnvironmentMap) {
         let is_new = self.lights.rig.picture.name != environment_map.name();
         if is_new {
@@ -187,14 +191,14 @@ impl Scene {
 }
 
 impl PictureRig {
-    fn turned_lights(&self) -> Vec<(DVec3, DVec3)> {
-        let turn = glam::DQuat::from_rotation_z(self.rotation_deg.to_radians());
-        let turned = |light: &RigLight| {
+    fn rotated_lights(&self) -> Vec<(DVec3, DVec3)> {
+        let rotation = glam::DQuat::from_rotation_z(self.rotation_deg.to_radians());
+        let rotated = |light: &RigLight| {
             let [x, y, z] = light.direction.map(f64::from);
             let strength = DVec3::from_array(light.strength.map(f64::from));
-            (turn * DVec3::new(x, y, z).normalize_or(DVec3::Z), strength)
+            (rotation * DVec3::new(x, y, z).normalize_or(DVec3::Z), strength)
         };
-        self.lights.iter().map(turned).collect()
+        self.lights.iter().map(rotated).collect()
     }
 }
 

@@ -1,30 +1,30 @@
-//! How a picture is made for two eyes.
+//! Stereo settings: layout, screen and eyes.
 //!
-//! The lengths are the viewer's, as in the thesis (4.5, "Stereoscopic 3D"): a screen of a known
-//! height at a known distance from eyes a known way apart. The screen stands at the pivot, which
-//! fixes how many scene units a centimetre is; what lies there is seen on the screen itself.
+//! The lengths describe the viewer (thesis 4.5, "Stereoscopic 3D"): screen height, distance from
+//! eyes to screen, and eye separation. The screen is at the pivot, which fixes the number of scene
+//! units per centimetre; objects at the pivot's distance appear on the screen's plane.
 
 use serde::{Deserialize, Serialize};
 
 use super::param;
 
-/// How both eyes' pictures are put together.
+/// The arrangement of both eyes' pictures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StereoLayout {
-    /// One picture, seen from the camera itself.
+    /// No stereo: one picture from the camera's position.
     #[default]
     Off,
-    /// The left eye's picture left of the right one's.
+    /// The left eye's picture on the left, the right eye's on the right.
     SideBySide,
-    /// The left eye's picture above the right one's.
+    /// The left eye's picture on top, the right eye's below.
     TopBottom,
-    /// One picture for glasses with a red glass at the left and a cyan one at the right.
+    /// Both pictures in one, for glasses with red on the left and cyan on the right.
     Anaglyph,
 }
 
 impl StereoLayout {
-    /// Columns and rows of pictures that stand beside each other.
+    /// Number of columns and rows of pictures.
     pub fn grid(self) -> [u32; 2] {
         match self {
             Self::Off | Self::Anaglyph => [1, 1],
@@ -34,20 +34,20 @@ impl StereoLayout {
     }
 }
 
-/// Two eyes in front of a screen.
+/// Stereo settings: the viewer's two eyes in front of a screen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stereo {
-    /// How both pictures are put together; off by default.
+    /// The arrangement of both pictures; off by default.
     pub layout: StereoLayout,
-    /// The screen's height, in [`param::SCREEN_HEIGHT`], centimetres. Its width follows from the
-    /// picture's shape.
+    /// The screen's height, range [`param::SCREEN_HEIGHT`], centimetres. The width follows from
+    /// the picture's aspect ratio.
     pub screen_height_cm: f64,
-    /// From the eyes to the screen, in [`param::EYE_DISTANCE`], centimetres.
+    /// Distance from the eyes to the screen, range [`param::EYE_DISTANCE`], centimetres.
     pub eye_distance_cm: f64,
-    /// From one eye to the other, in [`param::EYE_SEPARATION`], centimetres.
+    /// Distance between the eyes, range [`param::EYE_SEPARATION`], centimetres.
     pub eye_separation_cm: f64,
-    /// Each eye's picture in the place of the other: for pairs that are looked at cross-eyed.
+    /// True swaps both pictures, for cross-eyed viewing.
     pub swap_eyes: bool,
 }
 
@@ -64,18 +64,17 @@ impl Default for Stereo {
 }
 
 impl Stereo {
-    /// True where there are two pictures.
+    /// True if each eye has its own picture.
     pub fn is_on(&self) -> bool {
         self.layout != StereoLayout::Off
     }
 
-    /// Half the screen's height at distance one.
+    /// Half the screen's height at distance 1.
     pub fn half_height(&self) -> f64 {
         0.5 * self.screen_height_cm / self.eye_distance_cm
     }
 
-    /// From the camera to either eye, as a part of the distance to the screen: times the view
-    /// unit it is a length in the scene.
+    /// Distance from the camera to either eye, in view units.
     pub fn half_separation(&self) -> f64 {
         0.5 * self.eye_separation_cm / self.eye_distance_cm
     }

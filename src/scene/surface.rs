@@ -1,36 +1,36 @@
-//! How the surface answers light (Blinn-Phong, thesis 3.2) and where its colour comes from.
+//! Surface material (Blinn-Phong, thesis 3.2) and colouring.
 
 use serde::{Deserialize, Serialize};
 
 use super::param;
 
-/// The most stops a gradient holds.
+/// Maximum number of stops in a gradient.
 pub const MAX_GRADIENT_STOPS: usize = 16;
 
-/// The value that drives the gradient.
+/// The orbit value that selects a colour of the gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ColorSource {
     /// The smooth iteration count (thesis eq. 3.1, for any power).
     Iterations,
-    /// The orbit's least distance from the origin.
+    /// Orbit trap: the smallest distance of the orbit from the origin.
     #[default]
     OriginTrap,
-    /// The orbit's least distance from the z axis.
+    /// Orbit trap: the smallest distance of the orbit from the z axis.
     AxisTrap,
-    /// The orbit's least distance from the plane z = 0.
+    /// Orbit trap: the smallest distance of the orbit from the plane z = 0.
     PlaneTrap,
 }
 
-/// How the driving value runs through the gradient.
+/// The mapping from an orbit value to a position in the gradient.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Coloring {
-    /// The driving value.
+    /// The orbit value.
     pub source: ColorSource,
-    /// Gradient lengths per unit of it, in [`param::COLOR_REPEATS`].
+    /// Repeats of the gradient per unit of the value, range [`param::COLOR_REPEATS`].
     pub repeats: f64,
-    /// Where the gradient starts, in [`param::COLOR_OFFSET`].
+    /// Start position in the gradient, range [`param::COLOR_OFFSET`].
     pub offset: f64,
 }
 
@@ -48,28 +48,28 @@ impl Default for Coloring {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GradientStop {
-    /// Where it lies, 0 to 1.
+    /// Position in the gradient, 0 to 1.
     pub position: f64,
     /// Linear Rec. 709, each channel 0 to 1.
     pub color: [f32; 3],
 }
 
-/// The surface's answer to light.
+/// The surface's material and colouring.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Surface {
-    /// Part of the colour that shows without any light, in [`param::AMBIENT`].
+    /// Fraction of the colour that is visible without light, range [`param::AMBIENT`].
     pub ambient: f64,
-    /// Diffuse reflectance, in [`param::DIFFUSE`].
+    /// Diffuse reflectance, range [`param::DIFFUSE`].
     pub diffuse: f64,
-    /// Specular reflectance, in [`param::SPECULAR`].
+    /// Specular reflectance, range [`param::SPECULAR`].
     pub specular: f64,
-    /// Blinn-Phong exponent, in [`param::SHININESS`].
+    /// Blinn-Phong exponent, range [`param::SHININESS`].
     pub shininess: f64,
-    /// What runs through the gradient.
+    /// The mapping from an orbit value to the gradient.
     pub coloring: Coloring,
-    /// One to [`MAX_GRADIENT_STOPS`] stops, positions not decreasing; after the last it blends
-    /// back to the first.
+    /// 1 to [`MAX_GRADIENT_STOPS`] stops with non-decreasing positions. The gradient wraps: the
+    /// last stop blends to the first.
     pub gradient: Vec<GradientStop>,
 }
 
@@ -82,7 +82,7 @@ impl Default for Surface {
             specular: param::SPECULAR.default,
             shininess: param::SHININESS.default,
             coloring: Coloring::default(),
-            // The last stop leaves room for the blend back to the first.
+            // The last stop is below 1, so the blend back to the first is not abrupt.
             gradient: vec![
                 stop(0.0, [0.10, 0.02, 0.05]),
                 stop(0.3, [0.62, 0.16, 0.06]),

@@ -1,14 +1,14 @@
-//! How scene radiance becomes display values (thesis 4.5, "High Dynamic Range Rendering").
+//! Tone settings: exposure and tone curve (thesis 4.5, "High Dynamic Range Rendering").
 
 use serde::{Deserialize, Serialize};
 
 use super::param;
 
-/// The curve from exposed radiance to what the display shows. `docs/tone.md` has the equations.
+/// The curve from exposed radiance to display values; `docs/tone.md` has the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToneCurve {
-    /// None: values above 1 are cut off.
+    /// No curve: values above 1 are clipped.
     Linear,
     /// Reinhard et al. 2002, eq. 4, which the thesis chose.
     #[default]
@@ -22,25 +22,25 @@ pub enum ToneCurve {
     KhronosNeutral,
 }
 
-/// What Reinhard's curve is applied to.
+/// The quantity that Reinhard's curve maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToneChannels {
     /// The luminance: colours keep their hue and saturation.
     #[default]
     Luminance,
-    /// Red, green and blue each: bright colours go toward white.
+    /// Each of red, green and blue: bright colours shift toward white.
     PerChannel,
 }
 
-/// Which mean of the film auto exposure goes by.
+/// The mean of the film that auto exposure uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToneMean {
     /// The luminance of the mean colour, as in the thesis.
     Arithmetic,
-    /// The mean of the luminance's logarithm, Reinhard et al. 2002, eq. 1: a few bright spots
-    /// weigh little.
+    /// The mean of the luminance's logarithm (Reinhard et al. 2002, eq. 1): small bright spots
+    /// have little influence.
     #[default]
     Logarithmic,
 }
@@ -49,25 +49,24 @@ pub enum ToneMean {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Tone {
-    /// Stops added before the curve, in [`param::EXPOSURE`].
+    /// Exposure before the curve, range [`param::EXPOSURE`], stops.
     pub exposure: f64,
-    /// Whether the film's mean is first brought to [`Self::key`].
+    /// True scales the film's mean to [`Self::key`] before the exposure.
     pub auto_exposure: bool,
-    /// The mean that this goes by.
+    /// The mean that auto exposure uses.
     pub mean: ToneMean,
-    /// What the mean is brought to, in [`param::KEY`].
+    /// Target of auto exposure for the mean, range [`param::KEY`].
     pub key: f64,
-    /// The curve.
+    /// The tone curve.
     pub curve: ToneCurve,
-    /// What Reinhard's curve is applied to.
+    /// The quantity that Reinhard's curve maps.
     pub channels: ToneChannels,
-    /// Exposed luminance that becomes white, in [`param::WHITE_POINT`].
+    /// Exposed luminance that Reinhard's curve maps to white, range [`param::WHITE_POINT`].
     pub white_point: f64,
 }
 
 impl Tone {
-    /// The exposed luminance of a grey that the display shows as white, to within a step of
-    /// 1/255: where the curve reaches 1, or comes as near to it.
+    /// Exposed luminance of the darkest grey that displays as white, within 1/255.
     pub fn white(&self) -> f64 {
         match self.curve {
             ToneCurve::Linear => 1.0,

@@ -8,7 +8,7 @@ use mandelight::{
     render::{Pace, Region, View},
     scene::{
         BackgroundKind, Camera, EnvironmentLight, EnvironmentMap, LightFrame, Rig, RigKind, Scene,
-        environment_map::place_of,
+        environment_map::uv_from_direction,
     },
 };
 use mandelight_test_support::view::{finished, pipelines, pixels, sampled, settle, still};
@@ -45,7 +45,7 @@ fn film(scene: &Scene, environment_map: Option<&Arc<EnvironmentMap>>) -> Vec<[f3
 /// The picture toward `direction`, between its four nearest pixels' centres.
 fn looked_up(environment_map: &EnvironmentMap, direction: DVec3) -> DVec3 {
     let [width, height] = environment_map.size_px().map(|side| side as i64);
-    let [u, v] = place_of(direction);
+    let [u, v] = uv_from_direction(direction);
     let (x, y) = (u * width as f64 - 0.5, v * height as f64 - 0.5);
     let pixel = |dx: i64, dy: i64| {
         let column = (x.floor() as i64 + dx).rem_euclid(width);

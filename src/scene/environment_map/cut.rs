@@ -1,12 +1,11 @@
-//! A picture's light as a few lights from directions, by median cut (Debevec 2005, "A Median Cut
-//! Algorithm for Light Probe Sampling"), for any number of them.
+//! Median cut: an environment map as a few directional lights (Debevec 2005, "A Median Cut
+//! Algorithm for Light Probe Sampling").
 //!
-//! The paper divides every region again and again, which gives powers of two. Here the region
-//! with the most light is divided until there are as many as are wanted. Each cut runs across a
-//! region's longer side, with equal luminance on both sides, every pixel weighted with its solid
-//! angle; a region's light goes to the centre of its light. Regions as small as
-//! [`SMALLEST_DEG`] are divided last of all: several lights on one sun would cast the same
-//! shadow.
+//! The paper divides every region in each round, which gives a power of two. Here each step
+//! divides the region with the most light, so any number of lights is possible. A cut runs across
+//! the region's longer side and leaves equal luminance on both sides; each pixel is weighted by
+//! its solid angle. The light of a region points to the region's luminance centroid. Regions up
+//! to [`SMALLEST_DEG`] are divided last: several lights on one sun cast the same shadow.
 
 use std::{
     f64::consts::{PI, TAU},
@@ -18,39 +17,40 @@ use glam::{DVec2, DVec3};
 use super::EnvironmentMap;
 use crate::scene::color::luminance;
 
-/// A region whose sides are no longer than this is small enough for one shadow, degrees.
+/// Longest side of a region that one shadow represents well enough, degrees.
 pub const SMALLEST_DEG: f64 = 2.0;
 
-/// A part of the picture's light.
+/// A directional light that carries the light of one region of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutLight {
-    /// Unit vector toward the centre of its light.
+    /// Unit vector toward the region's luminance centroid.
     pub direction: DVec3,
-    /// Radiance times solid angle, linear Rec. 709, summed over its region.
+    /// Radiance times solid angle, linear Rec. 709, summed over the region.
     pub energy: DVec3,
 }
 
-/// `count` lights, or fewer where there are not as many pixels that shine, which together carry
-/// the picture's light; in no particular order.
+/// At most `count` lights that together carry the map's light, in no particular order.
+///
+/// A map with fewer bright pixels than `count` gives fewer lights.
 pub fn median_cut(environment_map: &EnvironmentMap, count: usize) -> Vec<CutLight> {
     let table = Table::new(environment_map);
     let [width, height] = environment_map.size_px();
     let mut regions = vec![Region::new(&table, 0..width, 0..height)];
     while regions.len() < count {
-        let by_rank = |a: &Region, b: &Region| {
+        let by_priority = |a: &Region, b: &Region| {
             a.is_large.cmp(&b.is_large).then(a.luminance.total_cmp(&b.luminance))
         };
         let divisible = regions.iter().enumerate().filter(|(_, region)| region.is_divisible());
-        let Some((most, _)) = divisible.max_by(|(_, a), (_, b)| by_rank(a, b)) else { break };
-        let (first, second) = regions.swap_remove(most).divided(&table);
+        let Some((next, _)) = divisible.max_by(|(_, a), (_, b)| by_priority(a, b)) else { break };
+        let (first, second) = regions.swap_remove(next).divided(&table);
         regions.extend([first, second]);
     }
     regions.iter().take(count).filter_map(|region| region.light(environment_map, &table)).collect()
 }
 
-/// What is asked for again and again.
+/// Tables of the map that every cut reads.
 struct Table {
-    /// Sums of luminance times solid angle over every rectangle from the upper left corner.
+    /// Summed-area table of luminance times solid angle.
     sums: Vec<f64>,
     /// The horizontal unit vector toward each column.
     columns: Vec<DVec2>,
@@ -65,12 +65,12 @@ impl Table {
         let rows = environment_map.pixels().chunks_exact(size_px[0] as usize);
         for (y, row) in (0..).zip(rows) {
             let solid_angle = environment_map.pixel_solid_angle(y);
-            let mut of_row = 0.0;
+            let mut row_sum = 0.0;
             sums.push(0.0);
             for pixel in row {
-                of_row += luminance(pixel.as_dvec3()) * solid_angle;
+                row_sum += luminance(pixel.as_dvec3()) * solid_angle;
                 let above = sums[sums.len() - stride];
-                sums.push(above + of_row);
+                sums.push(above + row_sum);
             }
         }
         let width = f64::from(size_px[0]);
@@ -79,22 +79,22 @@ impl Table {
         Self { sums, columns, size_px }
     }
 
-    /// The sum over a rectangle.
-    fn over(&self, x: &Range<u32>, y: &Range<u32>) -> f64 {
+    /// Luminance times solid angle, summed over a rectangle.
+    fn sum_over(&self, x: &Range<u32>, y: &Range<u32>) -> f64 {
         let at =
             |x: u32, y: u32| self.sums[y as usize * (self.size_px[0] as usize + 1) + x as usize];
         at(x.end, y.end) - at(x.start, y.end) - at(x.end, y.start) + at(x.start, y.start)
     }
 }
 
-/// A rectangle of the picture.
+/// A rectangle of the map's pixels.
 struct Region {
     x: Range<u32>,
     y: Range<u32>,
     luminance: f64,
-    /// Its longer side is one across.
+    /// True if the horizontal side is the longer one.
     is_wide: bool,
-    /// Worth more than one light.
+    /// True if the longer side exceeds [`SMALLEST_DEG`].
     is_large: bool,
 }
 
@@ -102,14 +102,14 @@ impl Region {
     fn new(table: &Table, x: Range<u32>, y: Range<u32>) -> Self {
         let [width, height] = table.size_px.map(f64::from);
         let pixels = |range: &Range<u32>| f64::from(range.end - range.start);
-        // Across, the mean of its rows.
+        // The width in radians is the mean over the region's rows.
         let polar_rad = |y: u32| f64::from(y) / height * PI;
         let (top_rad, bottom_rad) = (polar_rad(y.start), polar_rad(y.end));
         let mean_sine = (top_rad.cos() - bottom_rad.cos()) / (bottom_rad - top_rad);
         let across_rad = pixels(&x) / width * TAU * mean_sine;
         let down_rad = bottom_rad - top_rad;
         Self {
-            luminance: table.over(&x, &y),
+            luminance: table.sum_over(&x, &y),
             is_wide: pixels(&y) < 2.0 || (pixels(&x) > 1.0 && across_rad > down_rad),
             is_large: across_rad.max(down_rad) > SMALLEST_DEG.to_radians(),
             x,
@@ -121,15 +121,15 @@ impl Region {
         self.luminance > 0.0 && (self.x.end - self.x.start > 1 || self.y.end - self.y.start > 1)
     }
 
-    /// Its two halves: as near to half of the luminance each as whole pixels allow.
+    /// Two halves of the region, with luminances as equal as whole pixels allow.
     fn divided(self, table: &Table) -> (Self, Self) {
         let Self { x, y, luminance, is_wide, .. } = self;
         let side = if is_wide { x.clone() } else { y.clone() };
         let before = |cut: u32| {
             let part = side.start..cut;
-            if is_wide { table.over(&part, &y) } else { table.over(&x, &part) }
+            if is_wide { table.sum_over(&part, &y) } else { table.sum_over(&x, &part) }
         };
-        // Both halves keep a pixel.
+        // Each half has at least one row or column.
         let (mut low, mut high) = (side.start + 1, side.end - 1);
         while low < high {
             let middle = low + (high - low) / 2;
@@ -139,9 +139,9 @@ impl Region {
                 high = middle;
             }
         }
-        // The first cut past the half, or the one ahead of it.
-        let off = |cut: u32| (before(cut) - luminance / 2.0).abs();
-        let cut = if low > side.start + 1 && off(low - 1) < off(low) { low - 1 } else { low };
+        // `low` is the first cut past half the luminance; the cut before it may be nearer.
+        let error = |cut: u32| (before(cut) - luminance / 2.0).abs();
+        let cut = if low > side.start + 1 && error(low - 1) < error(low) { low - 1 } else { low };
         let (first, second) = (side.start..cut, cut..side.end);
         if is_wide {
             (Self::new(table, first, y.clone()), Self::new(table, second, y))
@@ -150,7 +150,7 @@ impl Region {
         }
     }
 
-    /// The region's light at its centre; none where it is black.
+    /// The region's light, toward its luminance centroid; none for a black region.
     fn light(&self, environment_map: &EnvironmentMap, table: &Table) -> Option<CutLight> {
         let [width, height] = environment_map.size_px();
         let (mut energy, mut toward) = (DVec3::ZERO, DVec3::ZERO);
@@ -164,7 +164,7 @@ impl Region {
                 toward += (table.columns[x as usize] * sin).extend(cos) * luminance(pixel);
             }
         }
-        // All around and evenly bright, light has no centre: up is as good as any direction.
+        // Light that is equal from all sides has no centroid; +z is then an arbitrary choice.
         (energy != DVec3::ZERO)
             .then(|| CutLight { direction: toward.try_normalize().unwrap_or(DVec3::Z), energy })
     }

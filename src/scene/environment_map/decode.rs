@@ -1,7 +1,7 @@
-//! An environment map out of a file: Radiance RGBE (`.hdr`) or OpenEXR (`.exr`).
+//! Decoding of environment maps: Radiance RGBE (`.hdr`) and OpenEXR (`.exr`) files.
 //!
-//! In: bytes that may come from anyone. Out: a picture of which every channel is finite, not
-//! negative and within the GPU's range, or an error that says what is wrong with the file.
+//! In: untrusted bytes. Out: a map whose channels are all finite and within 0 to
+//! [`super::MAX_RADIANCE`], or an error that names the file's fault.
 
 use std::io::Cursor;
 
@@ -9,46 +9,46 @@ use exr::prelude as exr;
 use glam::Vec3;
 use image::{ImageDecoder as _, codecs::hdr::HdrDecoder};
 
-use super::{EnvironmentMap, Gather};
+use super::{Downsampler, EnvironmentMap};
 
-/// Most pixels that a file may have, across and down.
+/// Largest width and height of a file, in pixels.
 pub const MAX_SOURCE_PX: [u32; 2] = [8192, 8192];
-/// Most pixels that a file may have in all.
+/// Largest number of pixels in a file.
 pub const MAX_SOURCE_PIXELS: u64 = 8192 * 4096;
-/// The largest file that is read, in bytes.
+/// Largest file size, in bytes.
 pub const MAX_FILE_BYTES: usize = 512 << 20;
 
 const RADIANCE_SIGNATURE: &[u8] = b"#?";
 const EXR_SIGNATURE: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
 
-/// Why a file gives no environment map.
+/// Why a file cannot be decoded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DecodeError {
     /// Larger than [`MAX_FILE_BYTES`].
-    #[error("the file has more than {} MiB", MAX_FILE_BYTES >> 20)]
+    #[error("the file is larger than {} MiB", MAX_FILE_BYTES >> 20)]
     TooLarge,
     /// Neither format's signature.
     #[error("neither a Radiance picture (.hdr) nor an OpenEXR picture (.exr)")]
     Format,
-    /// A size that is not read.
+    /// Width and height in pixels: 0, or above the limits.
     #[error(
-        "the picture has {}x{} pixels; at most {}x{} and {MAX_SOURCE_PIXELS} in all are read, and none without any",
+        "the picture has {}x{} pixels; the limits are 1x1 to {}x{}, and {MAX_SOURCE_PIXELS} pixels in all",
         .0[0], .0[1], MAX_SOURCE_PX[0], MAX_SOURCE_PX[1]
     )]
     Size([u64; 2]),
-    /// Cut short, damaged, or of a kind that is not read.
+    /// Truncated, damaged, or an unsupported variant of the format.
     #[error("the picture cannot be read: {0}")]
     Unreadable(String),
 }
 
-/// Whether `bytes` begin like a file that [`decode`] reads.
+/// True if `bytes` begin with the signature of a format that [`decode`] reads.
 pub fn is_environment_map(bytes: &[u8]) -> bool {
     bytes.starts_with(RADIANCE_SIGNATURE) || bytes.starts_with(EXR_SIGNATURE)
 }
 
-/// Reads a picture; `name` is what it is called from then on.
+/// Decodes a file's bytes to a map called `name`.
 ///
-/// Of an OpenEXR file it takes the first layer with channels R, G and B. The pixels are taken as
+/// From an OpenEXR file, it reads the first layer with channels R, G and B. The pixels count as
 /// linear Rec. 709.
 ///
 /// # Errors
@@ -57,52 +57,52 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<EnvironmentMap, DecodeError> {
     if bytes.len() > MAX_FILE_BYTES {
         return Err(DecodeError::TooLarge);
     }
-    let gather = if bytes.starts_with(RADIANCE_SIGNATURE) {
+    let downsampler = if bytes.starts_with(RADIANCE_SIGNATURE) {
         radiance(bytes)?
     } else if bytes.starts_with(EXR_SIGNATURE) {
         openexr(bytes)?
     } else {
         return Err(DecodeError::Format);
     };
-    Ok(gather.finish(name))
+    Ok(downsampler.finish(name))
 }
 
 fn unreadable(error: impl std::fmt::Display) -> DecodeError {
-    // An error can quote the file, which can hold anything.
+    // An error can quote the untrusted file at any length.
     DecodeError::Unreadable(error.to_string().chars().take(200).collect())
 }
 
 fn checked_size(size: [u64; 2]) -> Result<[u32; 2], DecodeError> {
     let fits = (0..2).all(|i| (1..=u64::from(MAX_SOURCE_PX[i])).contains(&size[i]))
         && size[0] * size[1] <= MAX_SOURCE_PIXELS;
-    // Within the limits, hence within u32.
+    // The limits are within u32.
     if fits { Ok(size.map(|side| side as u32)) } else { Err(DecodeError::Size(size)) }
 }
 
-fn radiance(bytes: &[u8]) -> Result<Gather, DecodeError> {
-    // Not strictly: pictures that say "#?RGBE" are read too.
+fn radiance(bytes: &[u8]) -> Result<Downsampler, DecodeError> {
+    // The strict decoder rejects files with the signature "#?RGBE".
     let decoder = HdrDecoder::new_nonstrict(Cursor::new(bytes)).map_err(unreadable)?;
     let (width, height) = decoder.dimensions();
     let [width, height] = checked_size([width.into(), height.into()])?;
-    // Some programs scale what they store, and say by how much.
+    // EXPOSURE is the factor by which the writing program scaled the pixels.
     let exposure = decoder.metadata().exposure.unwrap_or(1.0);
     if !(exposure.is_normal() && exposure > 0.0) {
         return Err(unreadable(format!("EXPOSURE={exposure}")));
     }
     let mut pixels = vec![0.0_f32; 3 * width as usize * height as usize];
     decoder.read_image(bytemuck::cast_slice_mut(&mut pixels)).map_err(unreadable)?;
-    let mut gather = Gather::new([width, height]);
+    let mut downsampler = Downsampler::new([width, height]);
     for (y, row) in (0..height).zip(pixels.chunks_exact(3 * width as usize)) {
         for (x, pixel) in (0..width).zip(row.chunks_exact(3)) {
-            gather.add([x, y], Vec3::from_slice(pixel) / exposure);
+            downsampler.add([x, y], Vec3::from_slice(pixel) / exposure);
         }
     }
-    Ok(gather)
+    Ok(downsampler)
 }
 
-fn openexr(bytes: &[u8]) -> Result<Gather, DecodeError> {
+fn openexr(bytes: &[u8]) -> Result<Downsampler, DecodeError> {
     use exr::{ReadChannels as _, ReadLayers as _};
-    // The sizes first: a reader makes room for what a header claims.
+    // Sizes are checked first: the reader allocates the memory that a header claims.
     let pedantic = false;
     let meta =
         exr::MetaData::read_from_buffered(Cursor::new(bytes), pedantic).map_err(unreadable)?;
@@ -110,16 +110,16 @@ fn openexr(bytes: &[u8]) -> Result<Gather, DecodeError> {
         checked_size([header.layer_size.width() as u64, header.layer_size.height() as u64])?;
     }
     let size_of = |size: exr::Vec2<usize>| {
-        // Checked above, for all layers.
-        Gather::new([size.width() as u32, size.height() as u32])
+        // All layers' sizes are checked above.
+        Downsampler::new([size.width() as u32, size.height() as u32])
     };
     let image = exr::read()
         .no_deep_data()
         .largest_resolution_level()
         .rgb_channels(
             move |size, _| size_of(size),
-            |gather: &mut Gather, at, (r, g, b): (f32, f32, f32)| {
-                gather.add([at.x() as u32, at.y() as u32], Vec3::new(r, g, b));
+            |downsampler: &mut Downsampler, at, (r, g, b): (f32, f32, f32)| {
+                downsampler.add([at.x() as u32, at.y() as u32], Vec3::new(r, g, b));
             },
         )
         .first_valid_layer()

@@ -1,4 +1,4 @@
-//! Light that a picture holds, against sums and integrals taken another way; files made by hand.
+//! Tests of an environment map's light against independent sums, and of hand-made files.
 
 use std::io::{Cursor, Write as _};
 
@@ -7,14 +7,14 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// Numbers without a pattern, 0 to 1.
+/// Pseudo-random numbers, 0 to 1.
 fn noise(seed: u64) -> f64 {
     let mut bits = seed.wrapping_add(0x9e37_79b9_7f4a_7c15).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// A picture of no pattern, a few pixels of it a thousand times as bright as the rest.
+/// A map of noise in which 1 % of the pixels are 1000 times as bright.
 fn speckled(size_px: [u32; 2]) -> EnvironmentMap {
     let mut i = 0;
     EnvironmentMap::from_fn("speckled", size_px, |_| {
@@ -24,8 +24,7 @@ fn speckled(size_px: [u32; 2]) -> EnvironmentMap {
     })
 }
 
-/// The energy of a picture from its pixels alone: the solid angle of a pixel as an integral of
-/// the sine, by Simpson's rule.
+/// A map's energy, with each pixel's solid angle integrated by Simpson's rule.
 fn energy_of(environment_map: &EnvironmentMap) -> DVec3 {
     let [width, height] = environment_map.size_px();
     let (step, parts) = (PI / f64::from(height), 64);
@@ -44,39 +43,39 @@ fn energy_of(environment_map: &EnvironmentMap) -> DVec3 {
         .sum()
 }
 
-/// Largest relative difference of a channel.
-fn apart(a: DVec3, b: DVec3) -> f64 {
+/// The largest relative error of a channel of `a` against `b`.
+fn relative_error(a: DVec3, b: DVec3) -> f64 {
     ((a - b) / b).abs().max_element()
 }
 
 #[test]
-fn places_and_directions_are_each_others_inverse() {
-    for (place, direction) in [
+fn uv_and_direction_conversions_are_inverse() {
+    for (uv, direction) in [
         ([0.5, 0.5], DVec3::Y),
         ([0.75, 0.5], DVec3::X),
         ([0.25, 0.5], DVec3::NEG_X),
         ([0.5, 0.0], DVec3::Z),
         ([0.5, 1.0], DVec3::NEG_Z),
     ] {
-        assert!((direction_at(place) - direction).length() < 1e-12, "{place:?}");
+        assert!((direction_from_uv(uv) - direction).length() < 1e-12, "{uv:?}");
     }
     for i in 0..100 {
-        let place = [noise(i), noise(i + 1000) * 0.98 + 0.01];
-        let back = place_of(direction_at(place));
-        assert!((0..2).all(|k| (place[k] - back[k]).abs() < 1e-12), "{place:?} {back:?}");
+        let uv = [noise(i), noise(i + 1000) * 0.98 + 0.01];
+        let back = uv_from_direction(direction_from_uv(uv));
+        assert!((0..2).all(|k| (uv[k] - back[k]).abs() < 1e-12), "{uv:?} {back:?}");
     }
 }
 
 #[test]
-fn a_cut_carries_the_pictures_light_whatever_the_count() {
+fn a_cut_preserves_the_maps_energy_for_every_count() {
     for size_px in [[64, 32], [7, 5], [1, 1], [200, 1], [1, 30]] {
         let environment_map = speckled(size_px);
         let whole = energy_of(&environment_map);
-        assert!(apart(environment_map.energy(), whole) < 1e-6, "{size_px:?}");
+        assert!(relative_error(environment_map.energy(), whole) < 1e-6, "{size_px:?}");
         for count in (1..=64).chain([200, 5000]) {
             let lights = environment_map.cut(count);
             let sum: DVec3 = lights.iter().map(|light| light.energy).sum();
-            assert!(apart(sum, environment_map.energy()) < 1e-5, "{size_px:?} in {count}");
+            assert!(relative_error(sum, environment_map.energy()) < 1e-5, "{size_px:?} in {count}");
             let pixels = (size_px[0] * size_px[1]) as usize;
             assert!(lights.len() == count.min(pixels), "{} of {count}", lights.len());
             assert!(lights.iter().all(|light| (light.direction.length() - 1.0).abs() < 1e-9));
@@ -85,7 +84,7 @@ fn a_cut_carries_the_pictures_light_whatever_the_count() {
 }
 
 #[test]
-fn even_white_lights_every_surface_alike() {
+fn a_white_map_lights_every_orientation_equally() {
     let white = EnvironmentMap::from_fn("white", [256, 128], |_| DVec3::ONE);
     let irradiance = |count: usize, normal: DVec3| {
         let lights = white.cut(count);
@@ -96,21 +95,21 @@ fn even_white_lights_every_surface_alike() {
     };
     let worst = |count: usize| {
         (0..200)
-            .map(|i| direction_at([noise(i), (1.0 - 2.0 * noise(i + 500)).acos() / PI]))
+            .map(|i| direction_from_uv([noise(i), (1.0 - 2.0 * noise(i + 500)).acos() / PI]))
             .map(|normal| (irradiance(count, normal) / PI - 1.0).abs())
             .fold(0.0, f64::max)
     };
-    // π from all sides. A light that rises at once stands for a patch that rises bit by bit:
-    // with few lights the steps are large.
+    // The irradiance is π for every normal. A light crosses the horizon at once, its region
+    // gradually, so few lights have a larger error.
     assert!(worst(64) < 0.03, "{}", worst(64));
     assert!(worst(16) < 0.2, "{}", worst(16));
 }
 
 #[test]
-fn a_small_sun_gets_a_light_of_its_own_within_a_pixel() {
+fn a_small_sun_gets_exactly_one_light_within_a_pixel() {
     let size_px = [512, 256];
     for (x, y) in [(100, 60), (0, 128), (511, 20), (300, 250)] {
-        let sun = direction_at([(f64::from(x) + 0.5) / 512.0, (f64::from(y) + 0.5) / 256.0]);
+        let sun = direction_from_uv([(f64::from(x) + 0.5) / 512.0, (f64::from(y) + 0.5) / 256.0]);
         let environment_map = EnvironmentMap::from_fn("sun", size_px, |direction| {
             let is_sun = direction.dot(sun) > 1.0 - 1e-9;
             DVec3::splat(if is_sun { 50_000.0 } else { 0.2 })
@@ -128,32 +127,32 @@ fn a_small_sun_gets_a_light_of_its_own_within_a_pixel() {
     }
 }
 
-/// Without the sine, a cut would give the poles the light of as many pixels at the equator.
+/// Without the sine, a pixel at a pole would weigh as much as a pixel at the equator.
 #[test]
-fn the_poles_weigh_no_more_than_they_should() {
+fn pixels_near_the_poles_are_weighted_by_their_solid_angle() {
     let white = EnvironmentMap::from_fn("white", [256, 128], |_| DVec3::ONE);
     let near_pole = |lights: &[CutLight]| {
         lights.iter().filter(|l| l.direction.z > 0.866).map(|l| l.energy.x).sum::<f64>()
     };
-    // Within 30 degrees of the pole lie 6.7 % of the sphere, but 16.7 % of the rows.
+    // The cap within 30 degrees of the pole has 6.7 % of the sphere, but 16.7 % of the rows.
     let part = near_pole(&white.cut(64)) / (4.0 * PI);
     assert!((part - 0.067).abs() < 0.035, "{part}");
-    // A bright cap at the pole, against the integral: its light is not its pixels'.
+    // A bright cap's energy must equal the integral, not the share of its pixels.
     let cap = EnvironmentMap::from_fn("cap", [64, 32], |direction| {
         DVec3::splat(if direction.z > 0.9 { 10.0 } else { 0.0 })
     });
     let rows = (0..32).filter(|y| (PI * (f64::from(*y) + 0.5) / 32.0).cos() > 0.9).count() as f64;
     let expected = 10.0 * TAU * (1.0 - (PI * rows / 32.0).cos());
     let sum: DVec3 = cap.cut(16).iter().map(|light| light.energy).sum();
-    assert!(apart(sum, DVec3::splat(expected)) < 1e-5, "{sum} {expected}");
+    assert!(relative_error(sum, DVec3::splat(expected)) < 1e-5, "{sum} {expected}");
 }
 
 #[test]
-fn darkness_gives_no_lights() {
+fn black_pixels_give_no_lights() {
     let black = EnvironmentMap::from_fn("black", [16, 8], |_| DVec3::ZERO);
     assert!(black.cut(16).is_empty());
     let one = EnvironmentMap::from_fn("one", [16, 8], |direction| {
-        if direction.dot(direction_at([8.5 / 16.0, 2.5 / 8.0])) > 0.999 {
+        if direction.dot(direction_from_uv([8.5 / 16.0, 2.5 / 8.0])) > 0.999 {
             DVec3::X
         } else {
             DVec3::ZERO
@@ -164,9 +163,9 @@ fn darkness_gives_no_lights() {
 }
 
 #[test]
-fn a_larger_picture_is_brought_down_without_losing_light() {
+fn downsampling_preserves_the_energy() {
     for source_px in [[4096, 2048], [3000, 1500], [2049, 1025], [2048, 1024], [5000, 3]] {
-        let mut gather = Gather::new(source_px);
+        let mut downsampler = Downsampler::new(source_px);
         let mut expected = DVec3::ZERO;
         for y in 0..source_px[1] {
             let polar = |y: f64| (y / f64::from(source_px[1]) * PI).cos();
@@ -175,19 +174,19 @@ fn a_larger_picture_is_brought_down_without_losing_light() {
             for x in 0..source_px[0] {
                 let seed = u64::from(y) * 8192 + u64::from(x);
                 let pixel = DVec3::new(noise(seed), noise(seed + 1), 1.0).as_vec3();
-                gather.add([x, y], pixel);
+                downsampler.add([x, y], pixel);
                 expected += pixel.as_dvec3() * solid_angle;
             }
         }
-        let environment_map = gather.finish("large");
+        let environment_map = downsampler.finish("large");
         assert!((0..2).all(|i| environment_map.size_px()[i] == source_px[i].min(MAX_SIZE_PX[i])));
-        assert!(apart(environment_map.energy(), expected) < 1e-5, "{source_px:?}");
-        // An even channel stays even: no pixel gets another's share.
+        assert!(relative_error(environment_map.energy(), expected) < 1e-5, "{source_px:?}");
+        // A constant channel stays constant: the weights of every target pixel sum to 1.
         assert!(environment_map.pixels().iter().all(|pixel| (pixel.z - 1.0).abs() < 1e-5));
     }
 }
 
-/// A Radiance file written by hand, its rows not packed, from (mantissas, exponent).
+/// An uncompressed Radiance file from each pixel's mantissas and exponent.
 fn flat_radiance(size_px: [u32; 2], header: &str, pixel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
     let [width, height] = size_px;
     let mut bytes = Vec::new();
@@ -198,7 +197,7 @@ fn flat_radiance(size_px: [u32; 2], header: &str, pixel: impl Fn(u32, u32) -> [u
     bytes
 }
 
-/// Every packing that files of this format may have and the crate writes.
+/// Every OpenEXR compression that the `exr` crate can write.
 const PACKINGS: [Compression; 8] = [
     Compression::Uncompressed,
     Compression::RLE,
@@ -230,7 +229,7 @@ fn exr_file(
 }
 
 #[test]
-fn a_radiance_file_gives_the_values_that_its_bytes_mean() {
+fn a_radiance_file_decodes_to_its_values() {
     // mantissa / 256 · 2^(exponent − 128)
     let bytes = flat_radiance([20, 10], "RADIANCE\nFORMAT=32-bit_rle_rgbe", |x, y| {
         [128, x as u8 * 10, 64, 129 + (y % 3) as u8]
@@ -243,20 +242,20 @@ fn a_radiance_file_gives_the_values_that_its_bytes_mean() {
         let expected = Vec3::new(1.0, x as f32 * 10.0 / 128.0, 0.5) * scale;
         assert!((*pixel - expected).length() < 1e-4 * scale, "{x}, {y}: {pixel} {expected}");
     }
-    // Scaled by 4 as they were stored, and by another signature.
+    // EXPOSURE divides the stored values; the signature RGBE is accepted too.
     let scaled = flat_radiance([2, 1], "RGBE\nEXPOSURE=4", |_, _| [128, 128, 128, 129]);
     assert_eq!(decode("b.hdr", &scaled).unwrap().pixels(), [Vec3::splat(0.25); 2]);
 }
 
 #[test]
-fn an_openexr_file_gives_its_values() {
+fn an_openexr_file_decodes_to_its_values() {
     let value = |x: usize, y: usize| (x as f32 * 0.5, y as f32 + 0.25, 1000.0);
     for packing in PACKINGS {
         let environment_map = decode("a.exr", &exr_file([12, 6], packing, value)).unwrap();
         assert_eq!(environment_map.size_px(), [12, 6]);
         for (i, pixel) in environment_map.pixels().iter().enumerate() {
             let (r, g, b) = value(i % 12, i / 12);
-            // PXR24 keeps 24 bits of each number, DWAA what the eye would notice.
+            // PXR24 keeps 24 bits of each number; DWAA is lossy by perceptual criteria.
             let tolerance = if packing == Compression::DWAA(None) { 30.0 } else { 0.02 };
             let off = (*pixel - Vec3::new(r, g, b)).length();
             assert!(off < tolerance, "{packing}, {i}: {pixel}");
@@ -265,7 +264,7 @@ fn an_openexr_file_gives_its_values() {
 }
 
 #[test]
-fn values_that_are_no_light_count_as_the_nearest_that_is() {
+fn nan_negative_and_infinite_values_are_clamped() {
     let odd = [f32::NAN, -3.0, f32::INFINITY, 2.0];
     let bytes = exr_file([4, 1], Compression::ZIP16, |x, _| (odd[x], odd[x], 1.0));
     let environment_map = decode("odd.exr", &bytes).unwrap();
@@ -280,7 +279,7 @@ fn values_that_are_no_light_count_as_the_nearest_that_is() {
 }
 
 #[test]
-fn files_that_cannot_be_used_say_why() {
+fn decoding_errors_name_the_files_fault() {
     let huge = b"#?RADIANCE\n\n-Y 100000 +X 100000\n";
     assert_eq!(decode("h", huge), Err(DecodeError::Size([100_000, 100_000])));
     assert!(matches!(decode("h", b"#?RADIANCE\n\n-Y 0 +X 7\n"), Err(DecodeError::Size(_))));
@@ -299,7 +298,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn damaged_files_are_refused_or_read_but_never_end_the_program(
+    fn damaged_files_decode_or_fail_without_a_panic(
         packing in 0..2 * PACKINGS.len(),
         length in 0.0..=1.0_f64,
         changes in proptest::collection::vec((0.0..1.0_f64, any::<u8>()), 0..6),

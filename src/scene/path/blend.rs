@@ -13,7 +13,7 @@ use serde_json::{Map, Number, Value};
 use super::{
     curve::{Line, Span},
     place::{Place, Places},
-    turn::{Directions, Turns},
+    rotation::{Directions, Rotations},
 };
 use crate::scene::{
     Camera, MAX_LIGHTS, PrecisePoint, Scene,
@@ -67,7 +67,7 @@ fn camera(keys: Four<&Camera>, span: &Span) -> Option<Camera> {
         })
     });
     let place = span.point(&Places, places.each_ref().map(Option::as_ref))?;
-    let turn: DQuat = span.point(&Turns, turns.each_ref().map(Option::as_ref))?;
+    let turn: DQuat = span.point(&Rotations, turns.each_ref().map(Option::as_ref))?;
     let side = span.point(&Directions, sides.each_ref().map(Option::as_ref))?;
     let eye = place.point.moved_by(turn * side * place.unit, EYE_GRAIN * place.unit);
     Some(Camera {

@@ -1,37 +1,38 @@
-//! Smooth curves through keys, in any space that has shortest lines.
+//! Smooth curves through keys, in any space with geodesics (shortest lines).
 //!
-//! In: the two keys around a time and their neighbours. Out: the point between. A cubic Bézier
-//! curve whose straight lines are the space's shortest lines (de Casteljau's construction, as
-//! Shoemake 1985, "Animating rotation with quaternion curves", has it for rotations) begins and
-//! ends with the velocity that its control points say, in every space alike. So one rule serves
-//! numbers, places and turns.
+//! In: the two keys around a time and their neighbours. Out: the point between the two keys. The
+//! curves are cubic Bézier curves in which de Casteljau's construction runs along geodesics
+//! instead of straight lines (Shoemake 1985, "Animating rotation with quaternion curves", for
+//! rotations). In every space, the control points determine the velocity at both ends. So one
+//! construction serves numbers, zoom positions and rotations.
 
 use glam::DVec4;
 
-/// A space of points with a shortest line between any two.
+/// A space of points with a geodesic between any two.
 pub trait Space {
-    /// A point.
+    /// A point of the space.
     type Point: Clone;
 
-    /// The point at `part`, 0 to 1, of the shortest line from `a` to `b`.
+    /// The point at the fraction `part`, 0 to 1, of the geodesic from `a` to `b`.
     fn between(&self, a: &Self::Point, b: &Self::Point, part: f64) -> Self::Point;
 
-    /// The velocity at `a` of the shortest line that reaches `b` after unit time.
+    /// The logarithm map: the velocity at `a` that reaches `b` after unit time.
     fn velocity(&self, a: &Self::Point, b: &Self::Point) -> DVec4;
 
-    /// The end of the shortest line that leaves `a` with `velocity`, after unit time.
+    /// The exponential map: the point after unit time, from `a` with `velocity`.
     fn after(&self, a: &Self::Point, velocity: DVec4) -> Self::Point;
 }
 
-/// What a curve does where it meets a key.
+/// The condition on a curve's velocity at a key.
+///
+/// `secs` is the duration, in seconds, of the span on the other side of the key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Joint {
-    /// It comes to rest there.
+    /// The velocity is zero.
     Rest,
-    /// It goes through with a velocity between those of both sides; the other side takes so
-    /// many seconds.
+    /// The velocity is a mean of both sides' velocities.
     Through { secs: f64 },
-    /// It takes over the constant velocity of the other side.
+    /// The velocity is the constant velocity of the other side.
     Along { secs: f64 },
 }
 
@@ -44,36 +45,37 @@ impl Joint {
     }
 }
 
-/// The stretch between two keys, and where in it a time lies.
+/// The time span between two keys, and a time within the span.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
-    /// The part of its time that has passed, 0 to 1.
+    /// The elapsed fraction of the span, 0 to 1.
     pub part: f64,
-    /// Whether it is gone through at one speed.
+    /// True if the speed is constant.
     pub is_linear: bool,
-    /// How long it takes, seconds.
+    /// The span's duration, seconds.
     pub secs: f64,
-    /// How it begins.
+    /// The condition at the span's begin.
     pub before: Joint,
-    /// How it ends.
+    /// The condition at the span's end.
     pub after: Joint,
 }
 
 impl Span {
-    /// The point of `space` at this place between the second and the third of `keys`; the first
-    /// and the last are their neighbours, where there are any.
+    /// The point of `space` at this time, between the second and the third of `keys`.
+    ///
+    /// The first and the fourth key are the neighbours; they may be missing.
     pub fn point<S: Space>(&self, space: &S, keys: [Option<&S::Point>; 4]) -> Option<S::Point> {
         let [before, from, to, after] = keys;
         let (from, to) = (from?, to?);
         if self.is_linear {
             return Some(space.between(from, to, self.part));
         }
-        let leaving = self.joined(
+        let leaving = self.velocity_at_key(
             self.before,
             before.map(|before| -space.velocity(from, before)),
             space.velocity(from, to),
         );
-        let arriving = self.joined(
+        let arriving = self.velocity_at_key(
             self.after,
             after.map(|after| space.velocity(to, after)),
             -space.velocity(to, from),
@@ -88,22 +90,25 @@ impl Span {
         Some(bezier(space, &controls, self.part))
     }
 
-    /// The velocity at a key, per second, from the ways on its other side and on this one.
-    fn joined(&self, joint: Joint, beyond: Option<DVec4>, here: DVec4) -> DVec4 {
+    /// The velocity at a key, per second.
+    ///
+    /// `beyond` and `here` are the displacements over the other span and over this span.
+    fn velocity_at_key(&self, joint: Joint, beyond: Option<DVec4>, here: DVec4) -> DVec4 {
         let (Some(beyond), Some(secs)) = (beyond, joint.secs()) else {
             return DVec4::ZERO;
         };
         match joint {
             Joint::Along { .. } => beyond / secs,
-            _ => through(beyond / secs, here / self.secs),
+            _ => harmonic_mean(beyond / secs, here / self.secs),
         }
     }
 }
 
-/// A velocity between two. Its length is their harmonic mean, never more than twice the lesser:
-/// a number then never overshoots a key (Fritsch and Butland 1984), and what rests on one side
-/// comes to rest. Opposite velocities give none.
-fn through(a: DVec4, b: DVec4) -> DVec4 {
+/// The harmonic mean of two velocities, along the sum of their directions.
+///
+/// The mean's length is at most twice the shorter length, so a number never overshoots a key
+/// (Fritsch and Butland 1984). A zero velocity, or opposite velocities, give zero.
+fn harmonic_mean(a: DVec4, b: DVec4) -> DVec4 {
     let (fast, slow) = (a.length(), b.length());
     if fast == 0.0 || slow == 0.0 {
         return DVec4::ZERO;
@@ -120,14 +125,14 @@ fn bezier<S: Space>(space: &S, controls: &[S::Point; 4], part: f64) -> S::Point 
     space.between(&abc, &bcd, part)
 }
 
-/// The plain numbers.
+/// The space of real numbers.
 pub struct Line;
 
 impl Space for Line {
     type Point = f64;
 
     fn between(&self, a: &f64, b: &f64, part: f64) -> f64 {
-        // The same number at both ends stays that number.
+        // Rounding must not change a number that both keys share.
         if a == b { *a } else { a * (1.0 - part) + b * part }
     }
 

@@ -1,23 +1,23 @@
-//! Positions that go with the zoom.
+//! Combined zoom and pan: hyperbolic space.
 //!
-//! A place is a point and the view unit at which it is looked at. Places form the half space
-//! model of hyperbolic space: a step of one view unit aside and a zoom by the factor e are
-//! equally long, at every zoom level, which is how they look. The shortest line between two
-//! places is the smooth zoom and pan of van Wijk and Nuij (2003, "Smooth and efficient zooming
-//! and panning", with ρ = 1): out as far as the way aside asks for, across, and in again.
+//! A place is a point and the view unit of a camera that looks at the point. Places form the half
+//! space model of hyperbolic space: a pan by one view unit is as long as a zoom by the factor e,
+//! at every zoom level, which matches how both look. The geodesic between two places is the smooth
+//! zoom and pan of van Wijk and Nuij (2003, "Smooth and efficient zooming and panning", with
+//! ρ = 1): zoom out, pan, zoom in.
 
 use glam::{DVec3, DVec4};
 
 use super::curve::Space;
 use crate::scene::PrecisePoint;
 
-/// How fine points are kept, in view units: far below a pixel of any picture.
+/// Resolution of points, in view units: far below a pixel of any picture.
 const GRAIN: f64 = 1e-12;
 
-/// Ways aside shorter than this part of a view unit, or of the way in depth, are not told from none.
-const ASIDE: f64 = 1e-9;
+/// Pans shorter than this fraction of a view unit, or of the zoom's length, count as zero.
+const MIN_PAN: f64 = 1e-9;
 
-/// A point and the view unit at which it is looked at.
+/// A point and the view unit of a camera that looks at the point.
 #[derive(Clone, Debug)]
 pub struct Place {
     /// The point, in scene units.
@@ -27,35 +27,36 @@ pub struct Place {
 }
 
 impl Place {
-    /// This place `aside` scene units away, at another view unit.
-    fn moved(&self, aside: DVec3, unit: f64) -> Self {
-        Self { point: self.point.moved_by(aside, GRAIN * unit), unit }
+    /// The place `pan` scene units away, with the view unit `unit`.
+    fn moved(&self, pan: DVec3, unit: f64) -> Self {
+        Self { point: self.point.moved_by(pan, GRAIN * unit), unit }
     }
 }
 
-/// Hyperbolic space.
+/// The hyperbolic space of all places.
 pub struct Places;
 
-/// The shortest line between two places that do not lie above one another: a half circle. With
-/// `s` the length from its beginning and [`Self::begin`] and [`Self::end`] counted from its top,
-/// the place at `s` is (van Wijk and Nuij's u and w, free of cancellation)
+/// The geodesic between two places with different points: a half circle.
 ///
-/// `aside = u₀ sinh s / cosh(s + begin)`, `unit = u₀ cosh begin / cosh(s + begin)`.
+/// `s` is the arc length from the begin. [`Self::begin`] and [`Self::end`] are arc lengths from
+/// the half circle's top. The place at `s` is (van Wijk and Nuij's u and w, without cancellation)
+///
+/// `pan = u₀ sinh s / cosh(s + begin)`, `unit = u₀ cosh begin / cosh(s + begin)`.
 struct Arc {
-    /// Unit vector from the beginning aside to the end.
-    aside: DVec3,
-    /// Length from the half circle's top to the beginning; negative before it.
+    /// Unit vector of the pan from the begin to the end.
+    pan_direction: DVec3,
+    /// Arc length from the top to the begin; negative if the begin is before the top.
     begin: f64,
-    /// The same to the end.
+    /// Arc length from the top to the end; negative if the end is before the top.
     end: f64,
 }
 
 impl Arc {
-    /// The line from `a` to `b`; none where one lies above the other.
+    /// The geodesic from `a` to `b`; none if both have the same point, up to [`MIN_PAN`].
     fn of(a: &Place, b: &Place) -> Option<Self> {
-        let way = &b.point - &a.point;
-        let distance = way.length();
-        if distance <= ASIDE * a.unit.min(b.unit) {
+        let pan = &b.point - &a.point;
+        let distance = pan.length();
+        if distance <= MIN_PAN * a.unit.min(b.unit) {
             return None;
         }
         let from_top = |unit: f64, sign: f64| {
@@ -63,7 +64,7 @@ impl Arc {
             -(squares / (2.0 * unit)).asinh()
         };
         let (begin, end) = (from_top(a.unit, 1.0), from_top(b.unit, -1.0));
-        Some(Self { aside: way / distance, begin, end })
+        Some(Self { pan_direction: pan / distance, begin, end })
     }
 
     fn length(&self) -> f64 {
@@ -71,10 +72,12 @@ impl Arc {
     }
 }
 
-/// The place on a half circle, `length` from `start`, which lies `begin` from the top.
-fn along(start: &Place, aside: DVec3, begin: f64, length: f64) -> Place {
+/// The place on a half circle at the arc length `length` from `start`.
+///
+/// `begin` is the arc length from the half circle's top to `start`.
+fn along(start: &Place, pan_direction: DVec3, begin: f64, length: f64) -> Place {
     let scale = start.unit / (length + begin).cosh();
-    start.moved(aside * (length.sinh() * scale), begin.cosh() * scale)
+    start.moved(pan_direction * (length.sinh() * scale), begin.cosh() * scale)
 }
 
 impl Space for Places {
@@ -85,30 +88,32 @@ impl Space for Places {
             let unit = a.unit * (b.unit / a.unit).powf(part);
             return a.moved((&b.point - &a.point) * part, unit);
         };
-        // From the nearer end: seen from there the numbers are exact to the last digit, and the
-        // other end may lie more digits away than an f64 has.
+        // Computed from the nearer end, because an f64 offset from the other end may be too
+        // coarse for this end's view unit.
         if part <= 0.5 {
-            along(a, arc.aside, arc.begin, part * arc.length())
+            along(a, arc.pan_direction, arc.begin, part * arc.length())
         } else {
-            along(b, -arc.aside, -arc.end, (1.0 - part) * arc.length())
+            along(b, -arc.pan_direction, -arc.end, (1.0 - part) * arc.length())
         }
     }
 
     fn velocity(&self, a: &Place, b: &Place) -> DVec4 {
         match Arc::of(a, b) {
             None => DVec4::new(0.0, 0.0, 0.0, (b.unit / a.unit).ln()),
-            Some(arc) => (arc.aside / arc.begin.cosh()).extend(-arc.begin.tanh()) * arc.length(),
+            Some(arc) => {
+                (arc.pan_direction / arc.begin.cosh()).extend(-arc.begin.tanh()) * arc.length()
+            }
         }
     }
 
     fn after(&self, a: &Place, velocity: DVec4) -> Place {
-        let aside = velocity.truncate();
-        // On a long way out, rounding errors of the direction would grow with the zoom.
-        if aside.length() <= ASIDE * velocity.w.abs() {
+        let pan = velocity.truncate();
+        // During a long zoom out, the direction's rounding errors would grow with the view unit.
+        if pan.length() <= MIN_PAN * velocity.w.abs() {
             return Place { point: a.point.clone(), unit: a.unit * velocity.w.exp() };
         }
-        let begin = (-velocity.w / aside.length()).asinh();
-        along(a, aside.normalize(), begin, velocity.length())
+        let begin = (-velocity.w / pan.length()).asinh();
+        along(a, pan.normalize(), begin, velocity.length())
     }
 }
 
@@ -120,33 +125,33 @@ mod tests {
         Place { point: DVec3::new(x, 0.25, -0.5).into(), unit }
     }
 
-    /// Hyperbolic distance by its usual formula, which only holds for near places in f64.
+    /// Hyperbolic distance by the usual formula, which is accurate in f64 for near places only.
     fn distance(a: &Place, b: &Place) -> f64 {
-        let aside = (&b.point - &a.point).length();
-        let squares = aside.powi(2) + (b.unit - a.unit).powi(2);
+        let pan = (&b.point - &a.point).length();
+        let squares = pan.powi(2) + (b.unit - a.unit).powi(2);
         2.0 * (squares.sqrt() / (2.0 * (a.unit * b.unit).sqrt())).asinh()
     }
 
     #[test]
-    fn lines_are_shortest_and_gone_through_at_one_speed() {
+    fn geodesics_are_shortest_and_have_constant_speed() {
         for (a, b) in [
             (place(0.0, 1.0), place(0.7, 0.02)),
             (place(0.0, 0.1), place(3.0, 0.1)),
             (place(0.0, 0.5), place(0.0, 2.0)),
             (place(1.0, 1e-6), place(-1.0, 1e-3)),
         ] {
-            let whole = distance(&a, &b);
-            assert!((Places.velocity(&a, &b).length() - whole).abs() < 1e-9 * whole);
+            let length = distance(&a, &b);
+            assert!((Places.velocity(&a, &b).length() - length).abs() < 1e-9 * length);
             for part in [0.1, 0.3, 0.5, 0.8] {
                 let middle = Places.between(&a, &b, part);
-                assert!((distance(&a, &middle) - part * whole).abs() < 1e-6 * whole, "{part}");
-                assert!((distance(&middle, &b) - (1.0 - part) * whole).abs() < 1e-6 * whole);
+                assert!((distance(&a, &middle) - part * length).abs() < 1e-6 * length, "{part}");
+                assert!((distance(&middle, &b) - (1.0 - part) * length).abs() < 1e-6 * length);
             }
         }
     }
 
     #[test]
-    fn leaving_with_the_velocity_toward_a_place_arrives_there() {
+    fn after_inverts_velocity() {
         for (a, b) in [
             (place(0.0, 1.0), place(0.7, 0.02)),
             (place(0.0, 0.1), place(3.0, 0.1)),
@@ -158,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn both_ends_are_exact_however_deep() {
+    fn a_deep_end_is_exact() {
         let deep = Place {
             point: PrecisePoint([
                 "0.70000000000000000000000000000000123456789".parse().unwrap(),

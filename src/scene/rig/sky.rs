@@ -1,9 +1,9 @@
-//! A sky: a gradient by height with a sun in it, and the lights that stand for both.
+//! A sky: a vertical gradient with a sun, and the lights that approximate both.
 //!
-//! The lights carry the sky's light exactly: the sphere is divided into bands by height, each
-//! with the same luminous power, and every band's light, integrated in closed form, goes to one
-//! light. A golden angle from one light to the next spreads them all around. So every light
-//! moves evenly as the sky is edited, where a cut through pixels would jump.
+//! The lights carry exactly the sky's light: the sphere is divided by height into bands of equal
+//! luminous power, and each light has the radiance of one band, integrated in closed form. The
+//! azimuth increases by the golden angle from light to light, which spreads the lights evenly.
+//! So a light moves continuously while the sky is edited; a median cut would jump.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,12 +12,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{color::luminance, param};
 
-/// Height, as the sine of the angle below the horizon, over which the ground fades in.
+/// Sine of the angle below the horizon over which the ground's colour fades in.
 const HAZE: f64 = 0.1;
-/// The angle that spreads points best around a circle (Vogel 1979).
+/// The golden angle, which spreads points evenly around a circle (Vogel 1979).
 const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 
-/// A gradient by height, fixed to +z, and a sun.
+/// A vertical gradient from −z to +z, and a sun.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sky {
@@ -31,11 +31,11 @@ pub struct Sky {
     pub sun_direction: [f64; 3],
     /// The sun's colour: linear Rec. 709, each channel 0 to 1.
     pub sun_color: [f32; 3],
-    /// The sun's strength, in [`param::SUN_STRENGTH`]; the sun has no light of its own at 0.
+    /// The sun's strength, range [`param::SUN_STRENGTH`]; at 0 no light represents the sun.
     pub sun_strength: f64,
-    /// How wide the sun is, in [`param::SUN_SIZE`], degrees.
+    /// The sun's angular diameter, range [`param::SUN_SIZE`], degrees.
     pub sun_size_deg: f64,
-    /// How many of the rig's lights make the sun, in [`param::SUN_LIGHTS`].
+    /// Number of the rig's lights that represent the sun, range [`param::SUN_LIGHTS`].
     pub sun_lights: u32,
 }
 
@@ -54,13 +54,13 @@ impl Default for Sky {
     }
 }
 
-/// A band of the sphere, or all of the sphere below some height.
+/// Integrals of the gradient over the part of the sphere below a height.
 #[derive(Clone, Copy)]
-struct Share {
-    /// Radiance integrated over its solid angle.
+struct Integrals {
+    /// ∫ radiance over the solid angle.
     energy: DVec3,
-    /// The same, each direction weighted with its height.
-    raised: DVec3,
+    /// ∫ radiance · z over the solid angle.
+    moment: DVec3,
 }
 
 impl Sky {
@@ -75,38 +75,38 @@ impl Sky {
         }
     }
 
-    /// Directions of length 1, and strengths, of the `count` lights that stand for the sky.
+    /// Unit directions and strengths of the `count` lights that represent the sky.
     pub(super) fn lights(&self, count: u32) -> Vec<(DVec3, DVec3)> {
         let sun_count = self.sun_count(count);
-        let mut lights = self.sun(sun_count);
-        lights.extend(self.gradient(count - sun_count));
+        let mut lights = self.lights_of_sun(sun_count);
+        lights.extend(self.lights_of_gradient(count - sun_count));
         lights
     }
 
-    /// The sun leaves the gradient at least one light.
+    /// Number of lights of the sun; at least one light remains for the gradient.
     fn sun_count(&self, count: u32) -> u32 {
         let wanted = if self.sun_strength > 0.0 { self.sun_lights } else { 0 };
         wanted.min(count.saturating_sub(1))
     }
 
-    /// The sun's light, spread evenly over its disc.
-    fn sun(&self, count: u32) -> Vec<(DVec3, DVec3)> {
+    /// `count` equal lights, spread evenly over the sun's disc.
+    fn lights_of_sun(&self, count: u32) -> Vec<(DVec3, DVec3)> {
         let center = DVec3::from_array(self.sun_direction).normalize_or(DVec3::Z);
         let (right, up) = center.any_orthonormal_pair();
         let radius = (self.sun_size_deg.to_radians() / 2.0).tan();
         let strength = rgb(self.sun_color) * (self.sun_strength / f64::from(count.max(1)));
-        let place = |i: u32| {
-            // A sunflower's seeds (Vogel 1979); a single one is the centre.
-            let outward = if count == 1 { 0.0 } else { (f64::from(i) + 0.5) / f64::from(count) };
+        let light = |i: u32| {
+            // Vogel's spiral (1979); a single light is at the centre.
+            let area = if count == 1 { 0.0 } else { (f64::from(i) + 0.5) / f64::from(count) };
             let (sin, cos) = (f64::from(i) * GOLDEN_ANGLE_RAD).sin_cos();
-            let aside = radius * outward.sqrt();
-            ((center + (right * cos + up * sin) * aside).normalize(), strength)
+            let offset = radius * area.sqrt();
+            ((center + (right * cos + up * sin) * offset).normalize(), strength)
         };
-        (0..count).map(place).collect()
+        (0..count).map(light).collect()
     }
 
-    /// The gradient's light, one light a band of equal luminous power.
-    fn gradient(&self, count: u32) -> Vec<(DVec3, DVec3)> {
+    /// One light for each of `count` bands of equal luminous power.
+    fn lights_of_gradient(&self, count: u32) -> Vec<(DVec3, DVec3)> {
         let edge = |i: u32| self.height_of(f64::from(i) / f64::from(count));
         let band = |i: u32| {
             let (low, high) = (self.below(edge(i)), self.below(edge(i + 1)));
@@ -114,28 +114,28 @@ impl Sky {
             let power = luminance(energy);
             let middle = (edge(i) + edge(i + 1)) / 2.0;
             let height =
-                if power > 0.0 { luminance(high.raised - low.raised) / power } else { middle };
+                if power > 0.0 { luminance(high.moment - low.moment) / power } else { middle };
             let height = height.clamp(-1.0, 1.0);
             let (sin, cos) = (f64::from(i) * GOLDEN_ANGLE_RAD).sin_cos();
-            let aside = (1.0 - height * height).sqrt();
-            (DVec3::new(aside * cos, aside * sin, height), energy / PI)
+            let radius = (1.0 - height * height).sqrt();
+            (DVec3::new(radius * cos, radius * sin, height), energy / PI)
         };
         (0..count).map(band).collect()
     }
 
-    /// The height below which the part `part` of the gradient's luminous power lies.
+    /// The height with the fraction `part` of the gradient's luminous power below.
     fn height_of(&self, part: f64) -> f64 {
         if part <= 0.0 {
             return -1.0;
         }
-        let whole = luminance(self.below(1.0).energy);
-        if part >= 1.0 || whole <= 0.0 {
+        let total = luminance(self.below(1.0).energy);
+        if part >= 1.0 || total <= 0.0 {
             return (2.0 * part - 1.0).min(1.0);
         }
         let (mut low, mut high) = (-1.0, 1.0);
         for _ in 0..52 {
             let middle = (low + high) / 2.0;
-            if luminance(self.below(middle).energy) < part * whole {
+            if luminance(self.below(middle).energy) < part * total {
                 low = middle;
             } else {
                 high = middle;
@@ -144,26 +144,25 @@ impl Sky {
         (low + high) / 2.0
     }
 
-    /// What lies below `height`: the integrals of [`Self::radiance`] over the solid angle 2π·dz,
-    /// colour by colour in closed form.
-    fn below(&self, height: f64) -> Share {
+    /// Integrals of [`Self::radiance`] below `height`, over 2π·dz, in closed form per colour.
+    fn below(&self, height: f64) -> Integrals {
         let [ground, horizon, zenith] = self.colors();
         let (z, b) = (height, HAZE);
         let (low, up) = (z.min(-b), z.max(0.0));
-        // The haze between −b and 0, where the ground's part is −z/b.
+        // In the haze between −b and 0, the ground's weight is −z/b.
         let haze = z.clamp(-b, 0.0);
-        let ground_part = low + 1.0 + (b * b - haze * haze) / (2.0 * b);
-        let ground_raised = (low * low - 1.0) / 2.0 - (haze.powi(3) + b.powi(3)) / (3.0 * b);
-        // Above the horizon the zenith's part is √z.
-        let zenith_part = 2.0 / 3.0 * up.powf(1.5);
-        let zenith_raised = 2.0 / 5.0 * up.powf(2.5);
-        // The three parts make the whole.
-        let horizon_part = z + 1.0 - ground_part - zenith_part;
-        let horizon_raised = (z * z - 1.0) / 2.0 - ground_raised - zenith_raised;
+        let ground_weight = low + 1.0 + (b * b - haze * haze) / (2.0 * b);
+        let ground_moment = (low * low - 1.0) / 2.0 - (haze.powi(3) + b.powi(3)) / (3.0 * b);
+        // Above the horizon, the zenith's weight is √z.
+        let zenith_weight = 2.0 / 3.0 * up.powf(1.5);
+        let zenith_moment = 2.0 / 5.0 * up.powf(2.5);
+        // The three weights sum to 1 at every height.
+        let horizon_weight = z + 1.0 - ground_weight - zenith_weight;
+        let horizon_moment = (z * z - 1.0) / 2.0 - ground_moment - zenith_moment;
         let sum = |g: f64, h: f64, z: f64| (ground * g + horizon * h + zenith * z) * TAU;
-        Share {
-            energy: sum(ground_part, horizon_part, zenith_part),
-            raised: sum(ground_raised, horizon_raised, zenith_raised),
+        Integrals {
+            energy: sum(ground_weight, horizon_weight, zenith_weight),
+            moment: sum(ground_moment, horizon_moment, zenith_moment),
         }
     }
 

@@ -1,4 +1,4 @@
-//! A rig's lights against integrals of what they stand for, taken numerically.
+//! Tests of a rig's lights against numerical integrals of the sky or the environment map.
 
 use std::f64::consts::{PI, TAU};
 
@@ -35,7 +35,7 @@ fn rig(sky: Sky, count: u32) -> Rig {
 }
 
 #[test]
-fn a_skys_lights_carry_its_light_whatever_their_number() {
+fn a_skys_lights_preserve_its_energy_for_every_count() {
     for sky in skies() {
         let sun = DVec3::from_array(sky.sun_color.map(f64::from)) * sky.sun_strength;
         let expected = integral(&sky, |_| 1.0) / PI + sun;
@@ -54,7 +54,7 @@ fn a_skys_lights_carry_its_light_whatever_their_number() {
 }
 
 #[test]
-fn a_surface_in_any_position_is_lit_as_by_the_sky() {
+fn the_lights_approximate_the_skys_irradiance_for_every_normal() {
     let worst = |count| {
         skies()
             .into_iter()
@@ -82,7 +82,7 @@ fn a_surface_in_any_position_is_lit_as_by_the_sky() {
 }
 
 #[test]
-fn a_skys_lights_move_evenly_as_it_is_edited() {
+fn a_skys_lights_move_continuously_while_it_is_edited() {
     let at = |step: u32| {
         let blue = 0.3 + step as f32 * 1e-3;
         rig(Sky { zenith: [0.1, 0.2, blue], ..Sky::default() }, 24).lights()
@@ -107,7 +107,7 @@ fn the_suns_lights_lie_on_its_disc() {
 }
 
 #[test]
-fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
+fn an_environment_maps_lights_are_valid_and_preserve_its_energy() {
     let environment_map = EnvironmentMap::from_fn("studio.hdr", [64, 32], |to| {
         DVec3::new(1.0 + to.z, 0.3, if to.x > 0.8 { 900.0 } else { 0.1 })
     });
@@ -126,11 +126,11 @@ fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
                 < 1e-5
         );
     }
-    // The longest still fits into a link.
+    // The scene with the most lights still fits into a link.
     let link = link::to_fragment(&scene).unwrap();
     assert_eq!(link::from_fragment(&link), Ok(scene.clone()));
     assert!(link.len() < 4096, "{} characters", link.len());
-    // No more than there is room for.
+    // The rig gets at most the lights that the scene has room for.
     scene.lights.rig.count = 64;
     let room = scene.lights.room_for_rig();
     scene.lights.rig.light_by(&environment_map, room);
@@ -139,7 +139,7 @@ fn a_pictures_lights_are_in_the_scene_and_keep_its_light() {
 }
 
 #[test]
-fn a_turned_picture_turns_its_lights() {
+fn rotating_an_environment_map_rotates_its_lights() {
     let mut rig = Rig::default();
     let environment_map = EnvironmentMap::from_fn("one", [64, 32], |to| {
         DVec3::splat(if to.dot(DVec3::Y) > 0.99 { 100.0 } else { 0.0 })

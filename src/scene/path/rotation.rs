@@ -1,13 +1,15 @@
-//! Orientations and directions: shortest arcs on spheres.
+//! Geodesics of rotations and of directions.
 
 use glam::{DQuat, DVec3, DVec4};
 
 use super::curve::Space;
 
-/// Rotations. Both signs of a quaternion are one rotation, so every arc is the shorter one.
-pub struct Turns;
+/// The space of rotations.
+///
+/// Both signs of a quaternion are one rotation; geodesics take the shorter of both arcs.
+pub struct Rotations;
 
-impl Space for Turns {
+impl Space for Rotations {
     type Point = DQuat;
 
     fn between(&self, a: &DQuat, b: &DQuat, part: f64) -> DQuat {
@@ -15,13 +17,13 @@ impl Space for Turns {
     }
 
     fn velocity(&self, a: &DQuat, b: &DQuat) -> DVec4 {
-        let turn = a.inverse() * *b;
-        let turn = if turn.w < 0.0 { -turn } else { turn };
-        let sine = turn.xyz().length();
+        let rotation = a.inverse() * *b;
+        let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
+        let sine = rotation.xyz().length();
         if sine == 0.0 {
             return DVec4::ZERO;
         }
-        (turn.xyz() / sine * (2.0 * sine.atan2(turn.w))).extend(0.0)
+        (rotation.xyz() / sine * (2.0 * sine.atan2(rotation.w))).extend(0.0)
     }
 
     fn after(&self, a: &DQuat, velocity: DVec4) -> DQuat {
@@ -33,7 +35,7 @@ impl Space for Turns {
     }
 }
 
-/// Unit vectors.
+/// The space of unit vectors: the sphere.
 pub struct Directions;
 
 impl Space for Directions {
@@ -44,10 +46,10 @@ impl Space for Directions {
     }
 
     fn velocity(&self, a: &DVec3, b: &DVec3) -> DVec4 {
-        // Between opposite directions any great circle is shortest: one is chosen.
-        let aside = (*b - *a * a.dot(*b)).try_normalize().unwrap_or(a.any_orthonormal_vector());
-        // The angle by halves (Kahan): the arc cosine is coarse for small ones.
-        (aside * (2.0 * (*a - *b).length().atan2((*a + *b).length()))).extend(0.0)
+        // Between opposite directions every great circle is a geodesic; one is chosen.
+        let tangent = (*b - *a * a.dot(*b)).try_normalize().unwrap_or(a.any_orthonormal_vector());
+        // Kahan's formula of the half angle; the arc cosine is inaccurate for small angles.
+        (tangent * (2.0 * (*a - *b).length().atan2((*a + *b).length()))).extend(0.0)
     }
 
     fn after(&self, a: &DVec3, velocity: DVec4) -> DVec3 {

@@ -1,0 +1,104 @@
+//! Downsampling of a picture of any size to a map of at most [`MAX_SIZE_PX`], pixel by pixel.
+//!
+//! Each target pixel is the mean of the source pixels that it covers, weighted by solid angle.
+//! The sum of radiance times solid angle is preserved, and the source need not be in memory as a
+//! whole.
+
+use std::f64::consts::PI;
+
+use glam::{DVec3, Vec3};
+
+use super::{EnvironmentMap, MAX_SIZE_PX, clamp_radiance};
+
+/// Accumulates source pixels into a map of at most [`MAX_SIZE_PX`].
+pub struct Downsampler {
+    source_px: [u32; 2],
+    size_px: [u32; 2],
+    /// Sums of pixels times their solid angle, up to one common factor.
+    sums: Vec<DVec3>,
+}
+
+impl Downsampler {
+    /// A downsampler for a source of `source_px`; a side of 0 counts as 1.
+    pub fn new(source_px: [u32; 2]) -> Self {
+        let source_px = source_px.map(|side| side.max(1));
+        let size_px = std::array::from_fn(|i| source_px[i].min(MAX_SIZE_PX[i]));
+        let sums = vec![DVec3::ZERO; (size_px[0] * size_px[1]) as usize];
+        Self { source_px, size_px, sums }
+    }
+
+    /// Adds a source pixel; ignores positions outside the source.
+    ///
+    /// Channels are clamped to 0 to [`super::MAX_RADIANCE`]; NaN counts as 0.
+    pub fn add(&mut self, [x, y]: [u32; 2], pixel: Vec3) {
+        if x >= self.source_px[0] || y >= self.source_px[1] {
+            return;
+        }
+        let pixel = clamp_radiance(pixel).as_dvec3();
+        let width = self.size_px[0];
+        let height = f64::from(self.source_px[1]);
+        let columns = Overlaps::of(x, self.source_px[0], width);
+        for (row, top, bottom) in Overlaps::of(y, self.source_px[1], self.size_px[1]) {
+            let polar = |part: f64| ((f64::from(y) + part) / height * PI).cos();
+            let weight = polar(top) - polar(bottom);
+            for (column, left, right) in columns.clone() {
+                self.sums[(row * width + column) as usize] += pixel * (weight * (right - left));
+            }
+        }
+    }
+
+    /// The map of the added pixels; pixels that were not added are black.
+    pub fn finish(self, name: &str) -> EnvironmentMap {
+        let [width, height] = self.size_px;
+        // The width of a target pixel in source pixels, the unit of the sums.
+        let pixel_width = f64::from(self.source_px[0]) / f64::from(width);
+        let polar = |y: usize| (y as f64 / f64::from(height) * PI).cos();
+        let pixels = self
+            .sums
+            .chunks_exact(width as usize)
+            .enumerate()
+            .flat_map(|(y, row)| {
+                let weight = pixel_width * (polar(y) - polar(y + 1));
+                row.iter().map(move |sum| clamp_radiance((*sum / weight).as_vec3()))
+            })
+            .collect();
+        EnvironmentMap::new(name, self.size_px, pixels)
+    }
+}
+
+/// The target pixels that a source pixel overlaps, along one axis.
+///
+/// Each item is the target's index and the overlap's begin and end, as fractions of the source
+/// pixel.
+#[derive(Clone)]
+struct Overlaps {
+    index: u32,
+    source: u64,
+    target: u64,
+    next: u64,
+}
+
+impl Overlaps {
+    fn of(index: u32, source: u32, target: u32) -> Self {
+        let (source, target) = (u64::from(source), u64::from(target));
+        Self { index, source, target, next: u64::from(index) * target / source }
+    }
+}
+
+impl Iterator for Overlaps {
+    type Item = (u32, f64, f64);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        // Integers in units of 1 / (source · target), so that edges meet exactly.
+        let begin = u64::from(self.index) * self.target;
+        let end = begin + self.target;
+        let (low, high) = (self.next * self.source, (self.next + 1) * self.source);
+        if low >= end {
+            return None;
+        }
+        let part = |at: u64| (at.clamp(begin, end) - begin) as f64 / self.target as f64;
+        let overlap = (self.next as u32, part(low), part(high));
+        self.next += 1;
+        Some(overlap)
+    }
+}
