@@ -1,8 +1,9 @@
-//! A zip of files, written while they come.
+//! A streaming zip writer.
 //!
-//! In: names and bytes, one file after another. Out: the archive, to a sink that need not seek.
-//! Files are stored as they are: a PNG is packed already. One file at a time stands in memory, so
-//! that its length and checksum can go ahead of it, where every unzipper finds them.
+//! In: names and bytes, one file after another. Out: the archive, to a sink that cannot seek.
+//! Files are stored without compression, because PNGs are already compressed. One file at a time
+//! is buffered, so that its length and checksum precede its content: every unzip tool can read
+//! this form.
 
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
@@ -10,23 +11,23 @@ use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
 use super::ExportError;
 
-/// An archive in the making. Dropped before its end, it leaves the sink with half of one.
+/// A zip archive being written. Dropping it before [`Self::finish`] leaves an incomplete file.
 pub struct Archive<W: Write> {
     zip: ZipWriter<Window<W>>,
 }
 
 impl<W: Write> Archive<W> {
-    /// An archive that goes to `sink`.
+    /// An empty archive that writes to `sink`.
     pub fn new(sink: W) -> Self {
-        let mut zip = ZipWriter::new(Window { sink, passed_on: 0, held: Vec::new(), at: 0 });
+        let mut zip = ZipWriter::new(Window { sink, written: 0, buffer: Vec::new(), cursor: 0 });
         zip.set_flush_on_finish_file(true);
         Self { zip }
     }
 
-    /// Adds a file of at most 4 GiB. Names are all different.
+    /// Adds a file of at most 4 GiB with a unique name.
     ///
     /// # Errors
-    /// [`ExportError::Write`] from the sink, or where a name comes twice.
+    /// [`ExportError::Write`] from the sink, or for a name that the archive already contains.
     pub fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExportError> {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
@@ -35,7 +36,7 @@ impl<W: Write> Archive<W> {
         Ok(self.zip.write_all(bytes)?)
     }
 
-    /// Writes the archive's table of contents and gives the flushed sink back.
+    /// Writes the archive's central directory and returns the flushed sink.
     ///
     /// # Errors
     /// [`ExportError::Write`] from the sink.
@@ -47,60 +48,60 @@ impl<W: Write> Archive<W> {
     }
 }
 
-/// A sink that can seek within what it has not passed on yet.
+/// A writer that can seek within the bytes that are not written to its sink yet.
 struct Window<W> {
     sink: W,
-    /// Bytes that have gone to the sink.
-    passed_on: u64,
-    held: Vec<u8>,
-    /// Where the next byte goes, in `held`; never past its end.
-    at: usize,
+    /// Number of bytes written to the sink.
+    written: u64,
+    buffer: Vec<u8>,
+    /// Position of the next byte in `buffer`; at most the buffer's length.
+    cursor: usize,
 }
 
 impl<W: Write> Write for Window<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let over = bytes.len().min(self.held.len() - self.at);
-        self.held[self.at..self.at + over].copy_from_slice(&bytes[..over]);
-        self.held.extend_from_slice(&bytes[over..]);
-        self.at += bytes.len();
+        let overwritten = bytes.len().min(self.buffer.len() - self.cursor);
+        self.buffer[self.cursor..self.cursor + overwritten].copy_from_slice(&bytes[..overwritten]);
+        self.buffer.extend_from_slice(&bytes[overwritten..]);
+        self.cursor += bytes.len();
         Ok(bytes.len())
     }
 
-    /// Passes everything on. The archive asks for it when a file is complete.
+    /// Writes the buffer to the sink. The zip writer calls this after each complete file.
     fn flush(&mut self) -> io::Result<()> {
-        self.sink.write_all(&self.held)?;
-        self.passed_on += self.held.len() as u64;
-        self.held.clear();
-        self.at = 0;
+        self.sink.write_all(&self.buffer)?;
+        self.written += self.buffer.len() as u64;
+        self.buffer.clear();
+        self.cursor = 0;
         Ok(())
     }
 }
 
-// The archive's type wants it, for archives that are gone on with.
+// `ZipWriter` requires `Read` for archives that it appends to.
 impl<W> Read for Window<W> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let read = (&self.held[self.at..]).read(bytes)?;
-        self.at += read;
+        let read = (&self.buffer[self.cursor..]).read(bytes)?;
+        self.cursor += read;
         Ok(read)
     }
 }
 
 impl<W> Seek for Window<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        let end = self.passed_on + self.held.len() as u64;
-        let wanted = match to {
-            SeekFrom::Start(place) => Some(place),
+        let end = self.written + self.buffer.len() as u64;
+        let target = match to {
+            SeekFrom::Start(position) => Some(position),
             SeekFrom::End(offset) => end.checked_add_signed(offset),
             SeekFrom::Current(offset) => {
-                (self.passed_on + self.at as u64).checked_add_signed(offset)
+                (self.written + self.cursor as u64).checked_add_signed(offset)
             }
         };
-        let place = wanted.filter(|place| (self.passed_on..=end).contains(place)).ok_or(
-            io::Error::new(io::ErrorKind::Unsupported, "that part of the archive has gone out"),
+        let position = target.filter(|position| (self.written..=end).contains(position)).ok_or(
+            io::Error::new(io::ErrorKind::Unsupported, "this part of the archive is written"),
         )?;
-        // Within what is held, which is memory.
-        self.at = (place - self.passed_on) as usize;
-        Ok(place)
+        // A position within the buffer fits a usize.
+        self.cursor = (position - self.written) as usize;
+        Ok(position)
     }
 }
 
@@ -110,7 +111,7 @@ mod tests {
 
     use super::*;
 
-    /// Counts what it gets at once.
+    /// Records all bytes and the largest single write.
     #[derive(Default)]
     struct Sink {
         bytes: Vec<u8>,
@@ -134,14 +135,14 @@ mod tests {
     }
 
     #[test]
-    fn files_come_out_as_they_went_in_and_leave_one_by_one() {
+    fn files_round_trip_and_are_written_one_at_a_time() {
         let mut archive = Archive::new(Sink::default());
         for index in 0..20 {
             archive.add(&format!("f{index}"), &content(index)).unwrap();
         }
         let sink = archive.finish().unwrap();
-        assert!(sink.largest < 12_000, "{} bytes were held", sink.largest);
-        // Lengths and checksums ahead of the content: no bit 3 in any file's flags.
+        assert!(sink.largest < 12_000, "{} bytes were buffered", sink.largest);
+        // Bit 3 of a file's flags is clear if its length and checksum precede its content.
         assert_eq!(sink.bytes[6] & 8, 0);
         assert_eq!(u32::from_le_bytes(sink.bytes[18..22].try_into().unwrap()), 10_000);
         let mut read = zip::ZipArchive::new(Cursor::new(sink.bytes)).unwrap();
@@ -154,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sink_that_refuses_is_an_error() {
+    fn a_failing_sink_is_an_error() {
         struct Full;
         impl Write for Full {
             fn write(&mut self, _: &[u8]) -> io::Result<usize> {

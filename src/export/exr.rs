@@ -1,19 +1,19 @@
-//! Rows of linear radiance with depth, normal and position to an OpenEXR file, written while it is
-//! made; and the scene back out of one.
+//! Streaming OpenEXR writer (radiance, depth, normal, position), and reader of the scene document.
 //!
-//! In: pixels from the top, and the scene document that they show. Out: bytes for a file or a
-//! blob. All channels are 32-bit floats and not compressed: so every row's place in the file is
-//! known ahead, and neither the file nor its index need be held or gone back to.
+//! The writer gets pixels from the top and the scene document, and writes a file's bytes. All
+//! channels are uncompressed 32-bit floats. So every row's file offset is known in advance, and
+//! the writer needs neither seeking nor the whole file in memory.
 //!
-//! | channel | what it holds |
+//! | channel | content |
 //! |---|---|
 //! | `R`, `G`, `B` | mean radiance, linear Rec. 709, before exposure and tone |
-//! | `Z` | distance from the eye along the view's axis, scene units; infinite where nothing was met |
-//! | `N.X`, `N.Y`, `N.Z` | the surface's unit normal in the scene's axes; 0 where nothing was met |
-//! | `P.X`, `P.Y`, `P.Z` | the point on the surface less the anchor, scene units; 0 where nothing was met |
+//! | `Z` | distance from the eye along the view's axis, scene units; infinite for the background |
+//! | `N.X`, `N.Y`, `N.Z` | unit normal of the surface in scene axes; 0 for the background |
+//! | `P.X`, `P.Y`, `P.Z` | surface point minus anchor, scene units; 0 for the background |
 //!
-//! Depth, normal and position are those of the ray through the pixel's centre. The anchor is the
-//! camera's pivot, exact, as decimal numbers in the attributes `mandelight.anchor.x`, `.y`, `.z`.
+//! Depth, normal and position belong to the ray through the pixel's centre. The anchor is the
+//! camera's pivot, stored exactly as decimal numbers in the attributes `mandelight.anchor.x`,
+//! `.y` and `.z`.
 
 use std::io::{BufRead, Write};
 
@@ -33,19 +33,19 @@ use crate::{
     scene::{Camera, Scene, document},
 };
 
-/// The channels, in the order that the format wants: that of their names.
+/// The channels in alphabetical order, which the format requires.
 const CHANNELS: [&str; 10] = ["B", "G", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "R", "Z"];
 
-/// Bytes of one pixel, all channels together.
+/// Bytes per pixel, all channels together.
 pub(super) const PIXEL_BYTES: usize = CHANNELS.len() * size_of::<f32>();
 
 /// The first bytes of every OpenEXR file.
 const SIGNATURE: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// A row's head in the file: its number and its length.
-const ROW_HEAD_BYTES: usize = 8;
+/// Bytes of a row's header in the file: row number and length.
+const ROW_HEADER_BYTES: usize = 8;
 
-/// A file in the making. Dropped before its end, it leaves `sink` with half a file.
+/// An OpenEXR file being written. Dropping it before [`Self::finish`] leaves an incomplete file.
 pub struct ExrStream<W: Write> {
     sink: W,
     width: usize,
@@ -55,24 +55,23 @@ pub struct ExrStream<W: Write> {
 }
 
 impl<W: Write> ExrStream<W> {
-    /// Starts a picture of `size_px` and writes its header, with `scene` in it.
+    /// Starts a picture of `size_px` and writes its header with `scene`.
     ///
     /// # Errors
-    /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] where a side is zero.
+    /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] if a side is zero.
     pub fn new(mut sink: W, size_px: [u32; 2], scene: &Scene) -> Result<Self, ExportError> {
         let mut start = header(size_px, scene)?;
         let width = size_px[0] as usize;
-        let row_bytes = (ROW_HEAD_BYTES + width * PIXEL_BYTES) as u64;
-        let rows_at = (start.len() + 8 * size_px[1] as usize) as u64;
+        let row_bytes = (ROW_HEADER_BYTES + width * PIXEL_BYTES) as u64;
+        let rows_offset = (start.len() + 8 * size_px[1] as usize) as u64;
         for y in 0..u64::from(size_px[1]) {
-            start.extend((rows_at + y * row_bytes).to_le_bytes());
+            start.extend((rows_offset + y * row_bytes).to_le_bytes());
         }
         sink.write_all(&start)?;
         Ok(Self { sink, width, rows: size_px[1], rows_written: 0, row: Vec::new() })
     }
 
-    /// Adds whole rows that follow the last ones: [`PIXEL_BYTES`] a pixel as [`pixel_bytes`]
-    /// makes them.
+    /// Appends whole rows, in the pixel format of this module's `pixel_bytes`.
     ///
     /// # Errors
     /// [`ExportError::Write`] from the sink; [`ExportError::Encode`] past the last row.
@@ -94,10 +93,10 @@ impl<W: Write> ExrStream<W> {
         Ok(())
     }
 
-    /// Gives the flushed sink back.
+    /// Ends the file and returns the flushed sink.
     ///
     /// # Errors
-    /// [`ExportError::Encode`] where rows are missing, [`ExportError::Write`] from the sink.
+    /// [`ExportError::Encode`] if rows are missing, [`ExportError::Write`] from the sink.
     pub fn finish(mut self) -> Result<W, ExportError> {
         if self.rows_written < self.rows {
             return Err(ExportError::Encode("rows are missing".to_owned()));
@@ -107,7 +106,7 @@ impl<W: Write> ExrStream<W> {
     }
 }
 
-/// The bytes of the pixels of a tile of one eye's picture, each [`PIXEL_BYTES`] long with its channels in order.
+/// The pixels of a tile of one eye's picture, as [`PIXEL_BYTES`] each, in [`CHANNELS`] order.
 pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample]) -> Vec<u8> {
     let rays = Rays::new(camera, tile);
     let eye_from_anchor = (&camera.position - &camera.pivot) + rays.eye_from_camera;
@@ -117,11 +116,11 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
         let at = [i % tile.size_px[0], i / tile.size_px[0]];
         let ray = rays.through(std::array::from_fn(|k| tile.origin_px[k] + at[k]));
         let [r, g, b] = pixel.radiance;
-        let met = pixel.depth > 0.0;
+        let is_hit = pixel.depth > 0.0;
         let depth = f64::from(pixel.depth);
-        let point = if met { eye_from_anchor + ray * depth } else { DVec3::ZERO };
-        let z = if met { depth * ray.dot(forward) } else { f64::INFINITY };
-        let [nx, ny, nz] = if met { pixel.normal.to_array() } else { [0.0; 3] };
+        let point = if is_hit { eye_from_anchor + ray * depth } else { DVec3::ZERO };
+        let z = if is_hit { depth * ray.dot(forward) } else { f64::INFINITY };
+        let [nx, ny, nz] = if is_hit { pixel.normal.to_array() } else { [0.0; 3] };
         let [px, py, pz] = point.as_vec3().to_array();
         bytes.extend(
             [b, g, nx, ny, nz, px, py, pz, r, z as f32].iter().flat_map(|v| v.to_le_bytes()),
@@ -130,11 +129,11 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
     bytes
 }
 
-/// The rays through the pixels' centres: the f64 twin of `shaders/lib/camera.wgsl`.
+/// The rays through the pixels' centres: `shaders/lib/camera.wgsl` in f64.
 struct Rays {
-    /// From the camera to the eye, scene units.
+    /// Vector from the camera to the eye, scene units.
     eye_from_camera: DVec3,
-    ahead: DVec3,
+    forward: DVec3,
     right: DVec3,
     up: DVec3,
     picture_px: [f64; 2],
@@ -151,11 +150,11 @@ impl Rays {
             Eyes::Right => -left,
             Eyes::Left | Eyes::Beside | Eyes::Below | Eyes::Anaglyph | Eyes::WideAnaglyph => left,
         };
-        let aside = camera.rotation() * DVec3::X * (side * camera.stereo.half_separation());
+        let eye_offset = camera.rotation() * DVec3::X * (side * camera.stereo.half_separation());
         Self {
-            eye_from_camera: aside * camera.view_unit(),
-            // Both eyes' pictures meet at the screen.
-            ahead: camera.forward() - aside,
+            eye_from_camera: eye_offset * camera.view_unit(),
+            // The frustum is sheared, so that both eyes' pictures coincide at the screen.
+            forward: camera.forward() - eye_offset,
             right: camera.rotation() * DVec3::X * (half_height * aspect),
             up: camera.rotation() * DVec3::Y * half_height,
             picture_px,
@@ -166,11 +165,11 @@ impl Rays {
     fn through(&self, pixel: [u32; 2]) -> DVec3 {
         let [x, y] =
             std::array::from_fn(|i| 2.0 * (f64::from(pixel[i]) + 0.5) / self.picture_px[i] - 1.0);
-        (self.ahead + self.right * x - self.up * y).normalize()
+        (self.forward + self.right * x - self.up * y).normalize()
     }
 }
 
-/// The bytes ahead of the index.
+/// The file's bytes before the offset table.
 fn header(size_px: [u32; 2], scene: &Scene) -> Result<Vec<u8>, ExportError> {
     let channel =
         |name: &&str| exr::ChannelDescription::new(text(name), exr::SampleType::F32, false);
@@ -210,7 +209,9 @@ fn header(size_px: [u32; 2], scene: &Scene) -> Result<Vec<u8>, ExportError> {
     Ok(bytes)
 }
 
-/// Text as the format has it, which knows no letters past Latin-1: others are escaped as in JSON.
+/// Text in the format's encoding: non-ASCII characters are escaped as in JSON.
+///
+/// OpenEXR's text attributes cannot store characters beyond Latin-1.
 fn text(plain: &str) -> exr::Text {
     let mut ascii = String::with_capacity(plain.len());
     for letter in plain.chars() {
@@ -226,16 +227,17 @@ fn text(plain: &str) -> exr::Text {
     exr::Text::new_or_none(ascii).unwrap_or_default()
 }
 
-/// Whether `bytes` start like an OpenEXR file.
+/// True if `bytes` begin with the OpenEXR signature.
 pub fn is_exr(bytes: &[u8]) -> bool {
     bytes.starts_with(&SIGNATURE)
 }
 
-/// The scene document that an OpenEXR file carries; none where it carries none. The pixels are
-/// neither decoded nor read.
+/// The scene document of an OpenEXR file, if it has one.
+///
+/// The pixels are neither read nor decoded.
 ///
 /// # Errors
-/// A text for people: `reader` may hold anything.
+/// A message for the user; the content of `reader` is untrusted.
 pub fn exr_scene_text(reader: impl BufRead) -> Result<Option<String>, String> {
     let unreadable = |error: exr::Error| format!("not a readable OpenEXR file: {error}");
     let meta = exr::MetaData::read_from_buffered(reader, false).map_err(unreadable)?;
@@ -261,9 +263,9 @@ mod tests {
     use super::*;
     use crate::render::uniforms::FrameUniforms;
 
-    /// The rays of the shaders' own numbers, by the shaders' own formula.
+    /// Compares with rays from the shaders' uniforms, by the shaders' formula.
     #[test]
-    fn rays_are_those_of_the_shaders_for_either_eye() {
+    fn rays_match_the_shaders_for_both_eyes() {
         let mut scene = Scene::default();
         for (eyes, swap_eyes) in [
             (Eyes::Camera, false),
@@ -278,16 +280,16 @@ mod tests {
             let FrameUniforms { camera, eyes: shader_eyes, .. } = FrameUniforms::new(&scene, tile);
             let side = shader_eyes.first_side;
             let axis = |axis: [f32; 3]| Vec3::from_array(axis);
-            let aside = axis(camera.right) * (side * shader_eyes.half_separation);
-            assert!((aside.as_dvec3() - rays.eye_from_camera).length() < 1e-6, "{eyes:?}");
+            let eye_offset = axis(camera.right) * (side * shader_eyes.half_separation);
+            assert!((eye_offset.as_dvec3() - rays.eye_from_camera).length() < 1e-6, "{eyes:?}");
             for pixel in [[0, 0], [29, 3], [7, 19]] {
                 let [x, y] = std::array::from_fn(|i| (pixel[i] as f32 + 0.5) / [30.0, 20.0][i]);
                 let right = (2.0 * x - 1.0) * camera.half_height * camera.aspect
                     - side * shader_eyes.half_shift;
                 let up = (1.0 - 2.0 * y) * camera.half_height;
                 let ray = axis(camera.forward) + axis(camera.right) * right + axis(camera.up) * up;
-                let off = ray.normalize().as_dvec3() - rays.through(pixel);
-                assert!(off.length() < 1e-6, "{eyes:?} {pixel:?}: {off}");
+                let error = ray.normalize().as_dvec3() - rays.through(pixel);
+                assert!(error.length() < 1e-6, "{eyes:?} {pixel:?}: {error}");
             }
         }
     }

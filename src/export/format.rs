@@ -1,4 +1,4 @@
-//! What kinds of picture there are, and what each wants to know of a tile.
+//! The file formats of pictures, and the readback and encoder of each.
 
 use std::{io::Write, path::Path};
 
@@ -16,24 +16,24 @@ use crate::{
     scene::{Camera, Scene, document},
 };
 
-/// The kind of a picture's file.
+/// The file format of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureFormat {
-    /// What is seen: 8 bits a channel, sRGB.
+    /// PNG: display values, sRGB, 8 bits per channel.
     #[default]
     Png,
-    /// What the renderer knows: linear radiance, depth, normal and position, 32 bits a channel.
+    /// OpenEXR: linear radiance, depth, normal and position, 32 bits per channel.
     Exr,
 }
 
 impl PictureFormat {
-    /// The format that a file's name asks for: PNG unless it ends in `.exr`.
+    /// The format of a file name: OpenEXR for the extension `.exr`, else PNG.
     pub fn of(path: &Path) -> Self {
-        let is_exr = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
+        let is_exr = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("exr"));
         if is_exr { Self::Exr } else { Self::Png }
     }
 
-    /// How names of such files end, without the dot.
+    /// The format's file extension, without the dot.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -41,7 +41,7 @@ impl PictureFormat {
         }
     }
 
-    /// The files' media type.
+    /// The format's media type.
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Png => "image/png",
@@ -49,7 +49,7 @@ impl PictureFormat {
         }
     }
 
-    /// Bytes of a pixel on its way into a file.
+    /// Bytes per pixel of the encoder's input.
     pub(super) fn pixel_bytes(self) -> usize {
         match self {
             Self::Png => 3,
@@ -57,27 +57,28 @@ impl PictureFormat {
         }
     }
 
-    /// Starts to read a finished tile back. The view may be drawn over at once; none before it
-    /// has a picture.
-    pub(super) fn read(self, gpu: &Gpu, view: &View) -> Option<Arriving> {
+    /// Starts the readback of a complete tile; none if the view has no picture yet.
+    ///
+    /// The view may be overwritten at once.
+    pub(super) fn read(self, gpu: &Gpu, view: &View) -> Option<TileReadback> {
         Some(match self {
             Self::Png => {
                 let size_px = view.region().size_px;
-                Arriving::Display(Readback::texture(gpu, view.texture()?, size_px))
+                TileReadback::Display(Readback::texture(gpu, view.texture()?, size_px))
             }
-            Self::Exr => Arriving::Samples(view.read_samples()),
+            Self::Exr => TileReadback::Samples(view.read_samples()),
         })
     }
 }
 
-/// A tile on its way back from the GPU.
-pub(super) enum Arriving {
+/// A pending readback of a tile from the GPU.
+pub(super) enum TileReadback {
     Display(Readback),
     Samples(SamplesReadback),
 }
 
-impl Arriving {
-    /// The tile's pixels as a file takes them, once they have arrived; none before.
+impl TileReadback {
+    /// The tile's pixels in the encoder's format; none until the copy is complete.
     pub fn take(
         &mut self,
         gpu: &Gpu,
@@ -95,14 +96,14 @@ impl Arriving {
     }
 }
 
-/// A file of either kind in the making.
+/// The encoder of a file of either format.
 pub(super) enum Encoder<W: Write> {
     Png(Box<PngStream<W>>),
     Exr(ExrStream<W>),
 }
 
 impl<W: Write> Encoder<W> {
-    /// Starts a file and writes its header, with `scene` in it.
+    /// Starts a file and writes its header with `scene`.
     pub fn new(
         format: PictureFormat,
         sink: W,
@@ -119,7 +120,7 @@ impl<W: Write> Encoder<W> {
         })
     }
 
-    /// Adds whole rows of pixels.
+    /// Appends whole rows of pixels.
     pub fn write_rows(&mut self, pixels: &[u8]) -> Result<(), ExportError> {
         match self {
             Self::Png(png) => png.write_rgb(pixels),
@@ -127,7 +128,7 @@ impl<W: Write> Encoder<W> {
         }
     }
 
-    /// Writes the end of the file and gives the flushed sink back.
+    /// Writes the end of the file and returns the flushed sink.
     pub fn finish(self) -> Result<W, ExportError> {
         match self {
             Self::Png(png) => png.finish(),

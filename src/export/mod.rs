@@ -1,21 +1,20 @@
-//! Pictures to keep: stills of any size, rendered tile by tile and written as PNG.
+//! Export of pictures: stills of any size, rendered tile by tile to PNG or OpenEXR.
 //!
-//! In: [`crate::render::Pipelines`], a scene, a size in pixels and something to write to. Out:
-//! the file's bytes, in order, while the picture is still being made. Nothing here holds a
-//! whole picture, opens a file, or waits for the GPU (but for [`still::StillJob::run`], which
-//! says so): the same job runs in a page and in a terminal.
+//! In: [`crate::render::Pipelines`], a scene, a size in pixels and a sink. Out: the file's bytes,
+//! written in order during the rendering. No job holds a whole picture, opens a file, or waits
+//! for the GPU (except [`still::StillJob::run`]), so the same job runs in a page and in a terminal.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
-//! | [`still`] | the job: render a tile, read it back, hand its rows on |
+//! | [`still`] | the job of one picture: render a tile, read it back, encode its rows |
 //! | [`sequence`] | the frames of a camera path, one still each |
-//! | [`archive`] | a zip of files, written while they come |
-//! | `sheet` | which pictures one file shows, and where |
-//! | `overview` | what a picture in tiles has to know of itself as a whole |
-//! | `tiles` | how a sheet is cut |
-//! | `format` | the kinds of file, and what each wants of a tile |
-//! | [`mod@exr`] | linear pixels with depth, normal and position to an OpenEXR file |
-//! | [`png`] | rows to a PNG that carries its scene, and the scene out of one |
+//! | [`archive`] | a streaming zip writer |
+//! | `sheet` | the layout of one or both eyes' pictures in a file |
+//! | `overview` | a small whole picture: exposure, bloom and indirect light for all tiles |
+//! | `tiles` | the division of a sheet into tiles |
+//! | `format` | the file formats, and the readback and encoder of each |
+//! | [`mod@exr`] | OpenEXR writer: radiance, depth, normal and position; scene reader |
+//! | [`png`] | PNG writer with the scene document; scene reader |
 
 pub mod archive;
 pub mod exr;
@@ -40,49 +39,49 @@ use crate::scene::Invalid;
 /// Largest width or height of a picture, in pixels.
 pub const MAX_PICTURE_PX: u32 = 16_384;
 
-/// Why a picture was not made.
+/// Why an export failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// A side is zero or above [`MAX_PICTURE_PX`].
     #[error("a picture of {}x{} pixels: both sides must be from 1 to {MAX_PICTURE_PX}", .0[0], .0[1])]
     Size([u32; 2]),
     /// Both eyes' pictures in one file have a side above [`MAX_PICTURE_PX`].
-    #[error("both eyes' pictures of {}x{} pixels make a file of {}x{}: no side may be above {MAX_PICTURE_PX}; a smaller size, or a pair of files, fits", .picture_px[0], .picture_px[1], .sheet_px[0], .sheet_px[1])]
+    #[error("both eyes' pictures of {}x{} pixels make a file of {}x{}, and the limit is {MAX_PICTURE_PX}: choose a smaller size or a pair of files", .picture_px[0], .picture_px[1], .sheet_px[0], .sheet_px[1])]
     Sheet {
         /// Width and height of one eye's picture.
         picture_px: [u32; 2],
-        /// Those of both together.
+        /// Width and height of both pictures together.
         sheet_px: [u32; 2],
     },
-    /// Linear light of both eyes cannot share an OpenEXR file's channels.
+    /// An OpenEXR file's channels cannot store the radiance of both eyes.
     #[error(
-        "a red-cyan anaglyph mixes what both eyes see, and is no OpenEXR file: choose PNG, side by side, top-bottom or a pair"
+        "a red-cyan anaglyph mixes both eyes' pictures, so it cannot be an OpenEXR file: choose PNG, side by side, top-bottom or a pair"
     )]
     RedCyanExr,
-    /// The scene, or the samples asked for, are out of range.
+    /// The scene or the requested samples are out of range.
     #[error(transparent)]
     Scene(#[from] Invalid),
-    /// The path has no keys, or none of the frames asked for.
+    /// The path has no keys, or none of the requested frames.
     #[error("the camera path has no such frames")]
     NoFrames,
-    /// The destination took no more bytes.
+    /// Writing to the sink failed.
     #[error("the picture could not be written: {0}")]
     Write(#[from] std::io::Error),
-    /// The PNG encoder refused its input.
+    /// The PNG encoder rejected the input.
     #[error("the PNG encoder failed: {0}")]
     Encode(String),
     /// The device was lost or reported an error.
     #[error("the GPU failed: {0}")]
     Gpu(String),
-    /// Whoever watched the job ended it.
+    /// The caller cancelled the job.
     #[error("cancelled")]
     Cancelled,
 }
 
-/// `size_px` where both sides are from 1 to [`MAX_PICTURE_PX`].
+/// Returns `size_px` if both sides are from 1 to [`MAX_PICTURE_PX`].
 ///
 /// # Errors
-/// [`ExportError::Size`].
+/// [`ExportError::Size`] otherwise.
 pub fn checked_size(size_px: [u32; 2]) -> Result<[u32; 2], ExportError> {
     if size_px.iter().all(|side| (1..=MAX_PICTURE_PX).contains(side)) {
         Ok(size_px)

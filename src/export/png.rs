@@ -1,7 +1,7 @@
-//! Rows of pixels to a PNG, written while it is made; and the scene back out of a PNG.
+//! Streaming PNG writer with the scene document, and reader of the scene document.
 //!
-//! In: 8-bit RGB rows, sRGB-encoded, from the top; and the scene document that they show. Out:
-//! bytes for a file or a blob. A reader may be handed anything at all: what it keeps is bounded.
+//! The writer gets 8-bit sRGB rows from the top and the scene document, and writes a file's
+//! bytes. The reader accepts untrusted files; its memory is bounded.
 
 use std::{
     io::{self, BufRead, Seek, Write},
@@ -13,19 +13,19 @@ use super::ExportError;
 /// The keyword of the text chunk that holds the scene document.
 pub const SCENE_KEYWORD: &str = "mandelight";
 
-/// Longest scene document that is read out of a PNG, in bytes after inflating.
+/// Maximum size of a scene document in a PNG, in bytes after inflating.
 pub const MAX_TEXT_BYTES: usize = 1 << 20;
 
-/// What the decoder may keep of a file's chunks before the first pixels, in bytes.
+/// The decoder's memory limit for chunks before the first pixels, in bytes.
 const MAX_METADATA_BYTES: usize = 8 * MAX_TEXT_BYTES;
 
-/// Size of the compressed chunks in the file, in bytes.
+/// Size of the file's compressed data chunks, in bytes.
 const IDAT_BYTES: usize = 1 << 16;
 
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// Bytes that the encoder has made and nobody has taken yet.
+/// A shared buffer of the encoder's output.
 #[derive(Clone, Default)]
 struct Outbox(Arc<Mutex<Vec<u8>>>);
 
@@ -46,20 +46,20 @@ impl Write for Outbox {
     }
 }
 
-/// A PNG in the making. Dropped before its end, it leaves `sink` with half a file.
+/// A PNG being written. Dropping it before [`Self::finish`] leaves an incomplete file.
 pub struct PngStream<W: Write> {
-    // The encoder writes its last chunk as it is dropped, where an error would be lost; so it
-    // writes to memory, and this type moves what it wrote to the sink.
+    // The encoder's destructor writes the last chunk and would lose an error. So the encoder
+    // writes to memory, and this type copies the bytes to the sink.
     encoder: png::StreamWriter<'static, Outbox>,
     outbox: Outbox,
     sink: W,
 }
 
 impl<W: Write> PngStream<W> {
-    /// Starts a picture of `size_px` and writes its header, with `document` as its scene.
+    /// Starts a picture of `size_px` and writes its header with the scene `document`.
     ///
     /// # Errors
-    /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] where a side is zero.
+    /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] if a side is zero.
     pub fn new(sink: W, size_px: [u32; 2], document: &str) -> Result<Self, ExportError> {
         let outbox = Outbox::default();
         let mut header = png::Encoder::new(outbox.clone(), size_px[0], size_px[1]);
@@ -69,30 +69,30 @@ impl<W: Write> PngStream<W> {
         header.set_compression(png::Compression::Balanced);
         let software = concat!("Mandelight ", env!("CARGO_PKG_VERSION"));
         header.add_text_chunk("Software".to_owned(), software.to_owned()).map_err(encode)?;
-        // Uncompressed, so that any tool that shows text chunks shows the scene.
+        // The chunk is uncompressed, so that every tool that lists text chunks shows the scene.
         header.add_itxt_chunk(SCENE_KEYWORD.to_owned(), document.to_owned()).map_err(encode)?;
         let encoder = header
             .write_header()
             .and_then(|writer| writer.into_stream_writer_with_size(IDAT_BYTES))
             .map_err(encode)?;
         let mut stream = Self { encoder, outbox, sink };
-        stream.pass_on()?;
+        stream.drain()?;
         Ok(stream)
     }
 
-    /// Adds RGB bytes that follow the last ones: any number of them.
+    /// Appends any number of RGB bytes.
     ///
     /// # Errors
     /// [`ExportError::Write`] from the sink; [`ExportError::Encode`] past the last row.
     pub fn write_rgb(&mut self, rgb: &[u8]) -> Result<(), ExportError> {
         self.encoder.write_all(rgb).map_err(|error| ExportError::Encode(error.to_string()))?;
-        self.pass_on()
+        self.drain()
     }
 
-    /// Writes the end of the file and gives the flushed sink back.
+    /// Writes the end of the file and returns the flushed sink.
     ///
     /// # Errors
-    /// [`ExportError::Encode`] where rows are missing, [`ExportError::Write`] from the sink.
+    /// [`ExportError::Encode`] if rows are missing, [`ExportError::Write`] from the sink.
     pub fn finish(self) -> Result<W, ExportError> {
         let Self { encoder, outbox, mut sink } = self;
         encoder.finish().map_err(encode)?;
@@ -101,7 +101,8 @@ impl<W: Write> PngStream<W> {
         Ok(sink)
     }
 
-    fn pass_on(&mut self) -> Result<(), ExportError> {
+    /// Copies the encoder's output to the sink.
+    fn drain(&mut self) -> Result<(), ExportError> {
         Ok(self.sink.write_all(&self.outbox.take())?)
     }
 }
@@ -110,27 +111,28 @@ fn encode(error: png::EncodingError) -> ExportError {
     ExportError::Encode(error.to_string())
 }
 
-/// Why no text could be read from a PNG.
+/// Why the scene document of a PNG could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum PngError {
-    /// It is no PNG, or a damaged one.
+    /// The file is not a PNG, or is damaged.
     #[error("not a readable PNG: {0}")]
     Unreadable(String),
-    /// The scene's text, or what comes with it, is larger than any scene.
+    /// The text chunks are larger than [`MAX_TEXT_BYTES`] or the decoder's limit.
     #[error("its text is larger than {MAX_TEXT_BYTES} bytes")]
     TooLarge,
 }
 
-/// Whether `bytes` start like a PNG.
+/// True if `bytes` begin with the PNG signature.
 pub fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(&SIGNATURE)
 }
 
-/// The scene document that a PNG carries ahead of its pixels; none where it carries none.
-/// The pixels are neither decoded nor read.
+/// The scene document of a PNG, if it has one before its pixels.
+///
+/// The pixels are neither read nor decoded.
 ///
 /// # Errors
-/// See [`PngError`]: `reader` may hold anything.
+/// See [`PngError`]; the content of `reader` is untrusted.
 pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, PngError> {
     let limits = png::Limits { bytes: MAX_METADATA_BYTES };
     let reader = png::Decoder::new_with_limits(reader, limits).read_info().map_err(decode)?;
@@ -141,7 +143,7 @@ pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, PngErro
         chunk.decompress_text_with_limit(MAX_TEXT_BYTES).map_err(decode)?;
         return capped(chunk.get_text().map_err(decode)?).map(Some);
     }
-    // Programs that save a PNG again turn plain text into the two older kinds.
+    // Programs that re-save a PNG convert plain ASCII text to the two older chunk types.
     if let Some(chunk) =
         info.uncompressed_latin1_text.iter().find(|chunk| chunk.keyword == SCENE_KEYWORD)
     {

@@ -1,42 +1,43 @@
-//! The frames of a camera path: their numbers and names, and all of them in one archive.
+//! The frames of a camera path: file names, and a job that writes all frames to one archive.
 //!
-//! In: a path, a range of frames, a size. Out: one PNG a frame, each the still of its own scene,
-//! made as if no other frame existed: any split of the range gives the same pictures.
+//! In: a path, a range of frames, a size. Out: one PNG per frame. Each frame is an independent
+//! still of its scene, so every split of the range gives the same pictures.
 
 use std::{io::Write, ops::Range, sync::Arc};
 
 use super::{Archive, ExportError, Eye, StillJob, StillOptions, StillStatus};
 use crate::{render::Pipelines, scene::Path};
 
-/// The file of frame `frame`: `frame_000042.png`.
+/// The file name of a frame: `frame_000042.png`.
 pub fn frame_name(frame: u32) -> String {
     file_name(frame, None)
 }
 
-/// The file of a frame, or of one eye's: `frame_000042_left.png`.
+/// The file name of a frame or of one eye's picture: `frame_000042_left.png`.
 fn file_name(frame: u32, eye: Option<Eye>) -> String {
     let suffix = eye.map_or("", Eye::suffix);
     format!("frame_{frame:06}{suffix}.png")
 }
 
-/// Seconds to go, from those that `done` of `all` frames took; `done` counts parts of frames.
-/// None before there is something to judge by.
+/// Estimated remaining seconds, after `done` of `all` frames in `elapsed_secs`.
+///
+/// `done` includes fractions of frames. None until an estimate is possible.
 pub fn remaining_secs(elapsed_secs: f64, done: f64, all: u32) -> Option<f64> {
     let left = (f64::from(all) - done).max(0.0);
     (done > 0.05 && elapsed_secs > 1.0).then(|| elapsed_secs * left / done)
 }
 
-/// A sequence in progress, as a zip of PNGs. Dropping it cancels it.
+/// A sequence in progress, as a zip of PNGs. Dropping the job cancels it.
 pub struct SequenceJob<W: Write> {
     pipelines: Arc<Pipelines>,
     path: Path,
     options: StillOptions,
-    /// Whose pictures each frame has, a file each.
+    /// The eye of each file of a frame.
     eyes: &'static [Option<Eye>],
     frames: Range<u32>,
-    /// The frame under way, or the next one.
+    /// The current frame.
     frame: u32,
-    /// How many files of it are done.
+    /// Number of complete files of the current frame.
     files: u32,
     still: Option<StillJob<Vec<u8>>>,
     archive: Archive<W>,
@@ -44,12 +45,13 @@ pub struct SequenceJob<W: Write> {
 }
 
 impl<W: Write> SequenceJob<W> {
-    /// Starts a sequence of `frames`, cut to those that `path` has, that goes to `sink`: a file a
-    /// frame, or, as a `pair`, one for each eye.
+    /// Starts a sequence of `frames`, clipped to the frames of `path`, to `sink`.
+    ///
+    /// Each frame is one file, or with `pair` one file per eye.
     ///
     /// # Errors
-    /// [`ExportError::NoFrames`] where there is nothing to draw; sizes, samples and scenes out
-    /// of range as in [`StillJob::new`].
+    /// [`ExportError::NoFrames`] if the range is empty; sizes, samples and scenes out of range as
+    /// in [`StillJob::new`].
     pub fn new(
         pipelines: &Arc<Pipelines>,
         path: Path,
@@ -81,7 +83,7 @@ impl<W: Write> SequenceJob<W> {
         })
     }
 
-    /// Does what can be done without waiting, as [`StillJob::step`].
+    /// Does the work that needs no waiting, as [`StillJob::step`].
     ///
     /// # Errors
     /// As [`StillJob::step`].
@@ -123,7 +125,7 @@ impl<W: Write> SequenceJob<W> {
         StillJob::new(&self.pipelines, &scene, options, Vec::new())
     }
 
-    /// Ends the archive and gives the sink back.
+    /// Ends the archive and returns the sink.
     ///
     /// # Errors
     /// [`ExportError::Encode`] before [`StillStatus::Done`], [`ExportError::Write`] from the
@@ -141,15 +143,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_sort_as_frames_do() {
+    fn file_names_sort_in_frame_order() {
         assert_eq!(frame_name(42), "frame_000042.png");
         assert_eq!(file_name(7, Some(Eye::Right)), "frame_000007_right.png");
-        // The most frames that a path can have: an hour at 240 a second.
+        // The longest path is an hour at 240 frames per second.
         assert_eq!(frame_name(864_000).len(), frame_name(0).len());
     }
 
     #[test]
-    fn the_rest_is_foretold_from_what_was_done() {
+    fn the_remaining_time_is_extrapolated_from_the_elapsed_time() {
         assert_eq!(remaining_secs(10.0, 2.0, 6), Some(20.0));
         assert_eq!(remaining_secs(0.5, 0.5, 6), None);
         assert_eq!(remaining_secs(60.0, 0.0, 6), None);

@@ -1,6 +1,7 @@
-//! Which pictures one file shows, and where: one, or both eyes' beside or below each other.
+//! The layout of pictures in one file: one picture, or both eyes' side by side or top-bottom.
 //!
-//! In: a scene's stereo layout and a size. Out: arithmetic; nothing is drawn here.
+//! In: a scene's stereo layout and a size. Out: the sheet's pictures and size. This module does
+//! not render.
 
 use super::{ExportError, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size};
 use crate::{
@@ -8,20 +9,20 @@ use crate::{
     scene::{Scene, StereoLayout},
 };
 
-/// One of a pair of files.
+/// The eye of one file of a stereo pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Eye {
-    /// What the left eye is to see.
+    /// The file for the left eye.
     Left,
-    /// What the right eye is to see.
+    /// The file for the right eye.
     Right,
 }
 
 impl Eye {
-    /// Both, in the order of their files.
+    /// Both eyes, in the order of their files.
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    /// What it adds to a file's name: `_left` or `_right`.
+    /// Suffix of the eye's file name: `_left` or `_right`.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Left => "_left",
@@ -30,29 +31,29 @@ impl Eye {
     }
 }
 
-/// Pictures of one size in columns and rows.
+/// The pictures of one file, all of one size, in columns and rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheet {
     /// Width and height of each picture, pixels.
     pub picture_px: [u32; 2],
-    /// Whose pictures, in reading order.
+    /// The eyes of each picture, in reading order.
     pub pictures: &'static [Eyes],
-    /// How many are beside each other.
+    /// Number of columns.
     pub columns: u32,
 }
 
 impl Sheet {
-    /// One picture of `picture_px`.
+    /// A sheet with one picture of `picture_px`.
     #[cfg(test)]
     pub fn single(picture_px: [u32; 2]) -> Self {
         Self { picture_px, pictures: &[Eyes::Camera], columns: 1 }
     }
 
-    /// What a still with `options` shows of `scene`.
+    /// The sheet of a still of `scene` with `options`.
     ///
     /// # Errors
-    /// [`ExportError::Size`] and [`ExportError::Sheet`] where a side is out of range,
-    /// [`ExportError::RedCyanExr`] where there is no such file.
+    /// [`ExportError::Size`] and [`ExportError::Sheet`] if a side is out of range,
+    /// [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR.
     pub fn new(scene: &Scene, options: &StillOptions) -> Result<Self, ExportError> {
         let picture_px = checked_size(options.size_px)?;
         let layout = scene.camera.stereo.layout;
@@ -76,19 +77,21 @@ impl Sheet {
         Ok(sheet)
     }
 
-    /// How many pictures are below each other.
+    /// Number of rows.
     pub fn rows(&self) -> u32 {
         (self.pictures.len() as u32).div_ceil(self.columns)
     }
 
-    /// Width and height of all, pixels.
+    /// Width and height of the whole sheet, pixels.
     pub fn size_px(&self) -> [u32; 2] {
         let [width, height] = self.picture_px;
         [width * self.columns, height * self.rows()]
     }
 
-    /// Whose pictures are seen to know the sheet as a whole. What each eye sees is part of it
-    /// even where the file shows the other one's: both are to be exposed alike.
+    /// The eyes of the sheet's overview.
+    ///
+    /// One file of a pair has an overview of both eyes too, because both files need the same
+    /// exposure.
     pub fn overview_eyes(&self) -> Eyes {
         match self.pictures {
             [Eyes::Left | Eyes::Right, ..] => Eyes::Beside,
@@ -127,14 +130,14 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_that_is_too_large_is_refused_with_its_size() {
-        let refused = |layout, size_px| {
-            let said = Sheet::new(&scene(layout), &StillOptions::new(size_px)).unwrap_err();
-            said.to_string()
+    fn the_error_of_a_sheet_that_is_too_large_names_its_size() {
+        let error = |layout, size_px| {
+            let error = Sheet::new(&scene(layout), &StillOptions::new(size_px)).unwrap_err();
+            error.to_string()
         };
-        let said = refused(StereoLayout::SideBySide, [9000, 100]);
-        assert!(said.contains("18000x100") && said.contains("16384"), "{said}");
-        assert!(refused(StereoLayout::TopBottom, [100, 8193]).contains("100x16386"));
+        let message = error(StereoLayout::SideBySide, [9000, 100]);
+        assert!(message.contains("18000x100") && message.contains("16384"), "{message}");
+        assert!(error(StereoLayout::TopBottom, [100, 8193]).contains("100x16386"));
         let options = StillOptions::new([16_384, 16_384]);
         assert!(Sheet::new(&scene(StereoLayout::Anaglyph), &options).is_ok());
     }

@@ -1,8 +1,8 @@
-//! One picture, rendered tile by tile and written band by band.
+//! The job of one picture: rendered tile by tile, encoded band by band.
 //!
-//! While one tile is drawn, the last one is on its way back from the GPU, and the rows of the
-//! band before are being packed. So the whole cost in memory is one view of a tile, one tile's
-//! pixels in flight and two bands of rows, whatever the picture's height.
+//! While one tile renders, the previous tile's readback is in flight, and the rows of the previous
+//! band are being encoded. So a job's memory is one tile's view, one tile's pixels in flight and
+//! two bands of rows, for pictures of any height.
 
 use std::{io::Write, ops::ControlFlow, sync::Arc};
 
@@ -10,7 +10,7 @@ use web_time::Instant;
 
 use super::{
     ExportError, Eye, PictureFormat,
-    format::{Arriving, Encoder},
+    format::{Encoder, TileReadback},
     overview::Overview,
     sheet::Sheet,
     tiles::{Tile, Tiling},
@@ -20,41 +20,41 @@ use crate::{
     scene::{Camera, EnvironmentMap, Scene, StereoLayout},
 };
 
-/// Largest tile unless told otherwise, in pixels: wide, so that bands stay thin.
+/// Default maximum size of a tile, in pixels: wide, so that bands are thin.
 const TILE_PX: [u32; 2] = [2048, 256];
 
-/// A band of rows takes at most so much, where its pixels are large.
-const MOST_BAND_BYTES: usize = 32 << 20;
+/// Maximum size of a band of rows, in bytes; reduces the tile's height if pixels are large.
+const MAX_BAND_BYTES: usize = 32 << 20;
 
-/// How many bytes of rows one step packs at most: a few hundredths of a second's work, for a
-/// page has to stay fluid meanwhile.
+/// Maximum number of row bytes that one step encodes: a few hundredths of a second of work,
+/// because a page must stay fluid.
 const BYTES_PER_STEP: usize = 1 << 19;
 
-/// How much of the picture, and how many seconds, before the rest is foretold.
-const FORETELL_FROM: (f64, f64) = (0.02, 1.0);
+/// Fraction of the picture, and seconds, that must pass before a remaining time is estimated.
+const MIN_PART_FOR_ESTIMATE: f64 = 0.02;
+const MIN_SECS_FOR_ESTIMATE: f64 = 1.0;
 
-/// What still to make.
+/// The options of a still: size, eye, samples, tiles, environment map and file format.
 #[derive(Clone, Debug)]
 pub struct StillOptions {
-    /// Width and height of the picture, or of either eye's, in pixels: each 1 to
-    /// [`super::MAX_PICTURE_PX`], which both eyes' together in one file keep to as well.
+    /// Width and height of one eye's picture, in pixels: each 1 to [`super::MAX_PICTURE_PX`].
+    /// The same limit applies to a file with both eyes' pictures.
     pub size_px: [u32; 2],
-    /// The eye whose picture is wanted alone, for one of a pair of files; none for what the
-    /// scene's layout shows.
+    /// The eye, for one file of a stereo pair; none for the scene's stereo layout.
     pub eye: Option<Eye>,
-    /// Samples a pixel, in [`crate::scene::param::SAMPLES`]; none for the scene's own.
+    /// Samples per pixel, range [`crate::scene::param::SAMPLES`]; none for the scene's number.
     pub samples: Option<u32>,
-    /// Largest width and height of a tile. Smaller needs less memory, larger wastes less time
-    /// between tiles; the picture is the same.
+    /// Maximum width and height of a tile. Smaller tiles need less memory, larger tiles less
+    /// time; the picture is the same.
     pub tile_px: [u32; 2],
-    /// The environment map that is at hand.
+    /// The loaded environment map, if any.
     pub environment_map: Option<Arc<EnvironmentMap>>,
-    /// The kind of file.
+    /// The file format.
     pub format: PictureFormat,
 }
 
 impl StillOptions {
-    /// A picture of `size_px` with the scene's own samples.
+    /// Options for a PNG of `size_px` with the scene's number of samples.
     pub fn new(size_px: [u32; 2]) -> Self {
         Self {
             size_px,
@@ -66,8 +66,9 @@ impl StillOptions {
         }
     }
 
-    /// What a still with these options shows when it is asked to show `scene`: this is the scene
-    /// that its file carries. Either file of a pair carries that of both beside each other.
+    /// The scene that a still of `scene` with these options shows and stores in its file.
+    ///
+    /// Each file of a stereo pair stores the scene with the side-by-side layout.
     pub fn shown(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         if let Some(samples) = self.samples {
@@ -79,74 +80,74 @@ impl StillOptions {
         scene
     }
 
-    /// Width and height of the file's picture, all of it, in pixels.
+    /// Width and height of the file, with both eyes' pictures, in pixels.
     ///
     /// # Errors
-    /// [`ExportError::Size`], [`ExportError::Sheet`] and [`ExportError::RedCyanExr`]: what no
-    /// still can be.
+    /// [`ExportError::Size`], [`ExportError::Sheet`] and [`ExportError::RedCyanExr`].
     pub fn sheet_px(&self, scene: &Scene) -> Result<[u32; 2], ExportError> {
         Ok(Sheet::new(scene, self)?.size_px())
     }
 }
 
-/// How far a still is.
+/// Progress of a still.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StillStatus {
-    /// There is more to do: call [`StillJob::step`] again.
+    /// The still is incomplete: call [`StillJob::step`] again.
     Working {
-        /// Part of the work done, 0 to 1; never decreases.
+        /// Completed fraction of the work, 0 to 1; never decreases.
         done: f64,
-        /// Seconds to go, once there is something to judge by.
+        /// Estimated remaining time, seconds; none until an estimate is possible.
         remaining_secs: Option<f64>,
     },
-    /// All bytes have been written: call [`StillJob::finish`].
+    /// All rows are written: call [`StillJob::finish`].
     Done,
 }
 
-/// A still in progress. Dropping it cancels it; what it wrote so far is no complete file.
+/// A still in progress. Dropping the job cancels it and leaves an incomplete file.
 pub struct StillJob<W: Write> {
     pipelines: Arc<Pipelines>,
     overview: Option<Overview>,
     view: View,
     tiling: Tiling,
-    /// The tile being drawn; the count of tiles once all are.
-    drawing: u32,
-    /// The tile on its way back.
-    arriving: Option<(Tile, Arriving)>,
-    /// The band that tiles are put into.
+    /// Index of the tile being rendered; equals the number of tiles after the last one.
+    tile_index: u32,
+    /// The tile whose readback is in flight.
+    readback: Option<(Tile, TileReadback)>,
+    /// The band that collects tiles.
     filling: Band,
-    /// The band that is being packed.
-    packing: Band,
+    /// The band that is being encoded.
+    encoding: Band,
     format: PictureFormat,
     camera: Camera,
-    /// Samples of all pixels.
+    /// Number of samples, summed over all pixels.
     samples: f64,
     encoder: Encoder<W>,
     rows_left: u32,
     started_secs: Option<f64>,
-    furthest: f64,
+    /// The largest reported progress.
+    max_done: f64,
     faults_before: u64,
 }
 
-/// Whole rows of pixels.
+/// One row of tiles, as whole rows of pixels.
 #[derive(Default)]
 struct Band {
     bytes: Vec<u8>,
-    /// All its tiles are in.
+    /// True if the band has all its tiles.
     is_full: bool,
-    /// Bytes that have been packed.
-    packed: usize,
+    /// Number of encoded bytes.
+    encoded: usize,
 }
 
 impl Band {
-    fn is_packed(&self) -> bool {
-        self.packed == self.bytes.len()
+    fn is_encoded(&self) -> bool {
+        self.encoded == self.bytes.len()
     }
 
-    /// Puts a tile's pixels in their place in rows of `sheet_px`, each of so many bytes.
-    fn place(&mut self, tile: Tile, sheet_px: u32, pixels: &[u8], pixel_bytes: usize) {
+    /// Copies a tile's pixels into the band's rows, which are `sheet_width_px` wide.
+    fn copy_tile(&mut self, tile: Tile, sheet_width_px: u32, pixels: &[u8], pixel_bytes: usize) {
         let [width, height] = tile.region.size_px.map(|px| px as usize);
-        let stride = sheet_px as usize * pixel_bytes;
+        let stride = sheet_width_px as usize * pixel_bytes;
         let width = width * pixel_bytes;
         self.bytes.resize(stride * height, 0);
         let left = tile.left_px as usize * pixel_bytes;
@@ -157,12 +158,11 @@ impl Band {
 }
 
 impl<W: Write> StillJob<W> {
-    /// Starts a still of `scene` that goes to `sink` as a file of its format. The header, with the scene
-    /// document, is written at once.
+    /// Starts a still of `scene` and writes the file's header, with the scene, to `sink`.
     ///
     /// # Errors
-    /// [`ExportError::Scene`] where the samples or the scene are out of range, those of
-    /// [`StillOptions::sheet_px`], [`ExportError::Write`] where `sink` refuses.
+    /// [`ExportError::Scene`] if the samples or the scene are out of range, the errors of
+    /// [`StillOptions::sheet_px`], [`ExportError::Write`] if writing to `sink` fails.
     pub fn new(
         pipelines: &Arc<Pipelines>,
         scene: &Scene,
@@ -176,8 +176,8 @@ impl<W: Write> StillJob<W> {
         let sheet_px = sheet.size_px();
         let row_bytes = sheet_px[0] as usize * options.format.pixel_bytes();
         let [tile_width, tile_height] = options.tile_px;
-        let most_rows = (MOST_BAND_BYTES / row_bytes).max(1) as u32;
-        let tiling = Tiling::new(sheet, [tile_width, tile_height.min(most_rows)]);
+        let max_rows = (MAX_BAND_BYTES / row_bytes).max(1) as u32;
+        let tiling = Tiling::new(sheet, [tile_width, tile_height.min(max_rows)]);
         let environment_map = options.environment_map.as_ref();
         let mut view = View::new(pipelines, tiling.tile(0).region, Pace::Still);
         view.set_environment_map(environment_map);
@@ -188,48 +188,50 @@ impl<W: Write> StillJob<W> {
             overview: Overview::new(pipelines, &scene, environment_map, &sheet, options.format),
             view,
             tiling,
-            drawing: 0,
-            arriving: None,
+            tile_index: 0,
+            readback: None,
             filling: Band::default(),
-            packing: Band::default(),
+            encoding: Band::default(),
             format: options.format,
             encoder: Encoder::new(options.format, sink, sheet_px, &scene)?,
             samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera,
             rows_left: sheet_px[1],
             started_secs: None,
-            furthest: 0.0,
+            max_done: 0.0,
             faults_before: pipelines.gpu.faults(),
         })
     }
 
-    /// Does what can be done without waiting: submits GPU work, takes a tile that has come
-    /// back, packs some rows. Call it until it says [`StillStatus::Done`]: once per displayed
-    /// frame in a page, natively with a poll of the device in between. `now_secs` is any
-    /// steady clock.
+    /// Does the work that needs no waiting: submits, takes a readback, encodes some rows.
+    ///
+    /// Call it until it returns [`StillStatus::Done`]: in a page once per displayed frame,
+    /// natively with a device poll between calls. `now_secs` is a monotonic clock.
     ///
     /// # Errors
-    /// [`ExportError::Gpu`] where the device fails, [`ExportError::Write`] where the sink
-    /// does. After an error the job is of no more use.
+    /// [`ExportError::Gpu`] if the device fails, [`ExportError::Write`] if the sink fails. The
+    /// job cannot continue after an error.
     pub fn step(&mut self, now_secs: f64) -> Result<StillStatus, ExportError> {
         let started_secs = *self.started_secs.get_or_insert(now_secs);
-        self.draw(now_secs);
+        self.render(now_secs);
         self.collect()?;
-        self.pack()?;
+        self.encode()?;
         if self.pipelines.gpu.faults() > self.faults_before {
             return Err(ExportError::Gpu("the device reported an error".to_owned()));
         }
         if self.rows_left == 0 {
             return Ok(StillStatus::Done);
         }
-        self.furthest = self.furthest.max(self.part_done());
+        self.max_done = self.max_done.max(self.part_done());
         let elapsed_secs = now_secs - started_secs;
-        let can_tell = self.furthest > FORETELL_FROM.0 && elapsed_secs > FORETELL_FROM.1;
-        let remaining_secs = can_tell.then(|| elapsed_secs * (1.0 - self.furthest) / self.furthest);
-        Ok(StillStatus::Working { done: self.furthest, remaining_secs })
+        let can_estimate =
+            self.max_done > MIN_PART_FOR_ESTIMATE && elapsed_secs > MIN_SECS_FOR_ESTIMATE;
+        let remaining_secs =
+            can_estimate.then(|| elapsed_secs * (1.0 - self.max_done) / self.max_done);
+        Ok(StillStatus::Working { done: self.max_done, remaining_secs })
     }
 
-    /// Ends the file and gives the sink back.
+    /// Ends the file and returns the sink.
     ///
     /// # Errors
     /// [`ExportError::Encode`] before [`StillStatus::Done`], [`ExportError::Write`] from the
@@ -238,27 +240,26 @@ impl<W: Write> StillJob<W> {
         self.encoder.finish()
     }
 
-    /// Draws more of the overview or of the current tile, or sends that on its way and turns to
-    /// the next.
-    fn draw(&mut self, now_secs: f64) {
-        if !self.know_the_whole(now_secs)
-            || self.drawing == self.tiling.count()
+    /// Renders the overview, then the current tile; starts the readback of a complete tile.
+    fn render(&mut self, now_secs: f64) {
+        if !self.finish_overview(now_secs)
+            || self.tile_index == self.tiling.count()
             || self.view.pump(now_secs)
-            || self.arriving.is_some()
+            || self.readback.is_some()
         {
             return;
         }
-        let Some(arriving) = self.format.read(&self.pipelines.gpu, &self.view) else { return };
-        self.arriving = Some((self.tiling.tile(self.drawing), arriving));
-        self.drawing += 1;
-        if self.drawing < self.tiling.count() {
-            // The copy is submitted, so the view may be drawn over.
-            self.view.set_region(self.tiling.tile(self.drawing).region);
+        let Some(readback) = self.format.read(&self.pipelines.gpu, &self.view) else { return };
+        self.readback = Some((self.tiling.tile(self.tile_index), readback));
+        self.tile_index += 1;
+        if self.tile_index < self.tiling.count() {
+            // The copy is submitted, so the next tile may overwrite the view.
+            self.view.set_region(self.tiling.tile(self.tile_index).region);
         }
     }
 
-    /// Sees to it that the tiles are shown as parts of the whole. False while it is not known.
-    fn know_the_whole(&mut self, now_secs: f64) -> bool {
+    /// Renders the overview and lends it to the tiles' view. False while it is incomplete.
+    fn finish_overview(&mut self, now_secs: f64) -> bool {
         let Some(overview) = &mut self.overview else { return true };
         if !overview.is_finished() {
             if !overview.pump(now_secs) {
@@ -269,52 +270,52 @@ impl<W: Write> StillJob<W> {
         true
     }
 
-    /// Puts an arrived tile into its band, and a full band where it is packed.
+    /// Moves a complete readback into its band, and a full band to the encoder.
     fn collect(&mut self) -> Result<(), ExportError> {
         if !self.filling.is_full
-            && let Some((tile, arriving)) = &mut self.arriving
+            && let Some((tile, readback)) = &mut self.readback
         {
-            let arrived = arriving
+            let pixels = readback
                 .take(&self.pipelines.gpu, &self.camera, tile.region)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
-            if let Some(pixels) = arrived {
+            if let Some(pixels) = pixels {
                 let [sheet_width, _] = self.tiling.sheet_px();
-                self.filling.place(*tile, sheet_width, &pixels, self.format.pixel_bytes());
+                self.filling.copy_tile(*tile, sheet_width, &pixels, self.format.pixel_bytes());
                 self.filling.is_full = tile.ends_band;
-                self.arriving = None;
+                self.readback = None;
             }
         }
-        if self.filling.is_full && self.packing.is_packed() {
-            // The packed band's memory is filled again.
-            let Band { mut bytes, .. } = std::mem::take(&mut self.packing);
+        if self.filling.is_full && self.encoding.is_encoded() {
+            // The encoded band's memory is reused for the next band.
+            let Band { mut bytes, .. } = std::mem::take(&mut self.encoding);
             bytes.clear();
-            self.packing = std::mem::replace(&mut self.filling, Band { bytes, ..Band::default() });
+            self.encoding = std::mem::replace(&mut self.filling, Band { bytes, ..Band::default() });
         }
         Ok(())
     }
 
-    /// Packs some rows.
-    fn pack(&mut self) -> Result<(), ExportError> {
-        if self.packing.is_packed() {
+    /// Encodes at most [`BYTES_PER_STEP`] of the band, but at least one row.
+    fn encode(&mut self) -> Result<(), ExportError> {
+        if self.encoding.is_encoded() {
             return Ok(());
         }
         let row_bytes = self.tiling.sheet_px()[0] as usize * self.format.pixel_bytes();
         let rows = (BYTES_PER_STEP / row_bytes).max(1);
-        let waiting = &self.packing.bytes[self.packing.packed..];
+        let waiting = &self.encoding.bytes[self.encoding.encoded..];
         let now = &waiting[..waiting.len().min(rows * row_bytes)];
         self.encoder.write_rows(now)?;
-        self.packing.packed += now.len();
-        // A band has at most the picture's rows, so this fits.
+        self.encoding.encoded += now.len();
+        // A band has at most the picture's rows, so the count fits a u32.
         self.rows_left -= (now.len() / row_bytes) as u32;
         Ok(())
     }
 
-    /// Part of the samples that have been drawn, the overview's among them, 0 to 1.
+    /// Fraction of all samples that are rendered, including the overview's, 0 to 1.
     fn part_done(&self) -> f64 {
         let report = self.view.report();
         let of_tile = f64::from(report.samples_done) / f64::from(report.samples_wanted.max(1));
-        let tiles = f64::from(self.drawing)
-            + if self.drawing < self.tiling.count() { of_tile } else { 0.0 };
+        let tiles = f64::from(self.tile_index)
+            + if self.tile_index < self.tiling.count() { of_tile } else { 0.0 };
         let of_tiles = (tiles / f64::from(self.tiling.count())).min(1.0);
         let Some(overview) = &self.overview else { return of_tiles };
         let done = self.samples * of_tiles + overview.samples() * overview.part_done();
@@ -323,19 +324,20 @@ impl<W: Write> StillJob<W> {
 }
 
 impl<W: Write> StillJob<W> {
-    /// Runs the job to its end, waiting for the GPU: for native programs only. `watch` sees
-    /// every status, and ends the job by breaking.
+    /// Runs the job to its end and waits for the GPU; native only.
+    ///
+    /// `on_status` gets every status, and cancels the job by returning `Break`.
     ///
     /// # Errors
-    /// As [`Self::step`] and [`Self::finish`]; [`ExportError::Cancelled`] where `watch` broke.
+    /// As [`Self::step`] and [`Self::finish`]; [`ExportError::Cancelled`] after `Break`.
     pub fn run(
         mut self,
-        mut watch: impl FnMut(StillStatus) -> ControlFlow<()>,
+        mut on_status: impl FnMut(StillStatus) -> ControlFlow<()>,
     ) -> Result<W, ExportError> {
         let clock = Instant::now();
         loop {
             let status = self.step(clock.elapsed().as_secs_f64())?;
-            if watch(status).is_break() {
+            if on_status(status).is_break() {
                 return Err(ExportError::Cancelled);
             }
             if status == StillStatus::Done {

@@ -1,12 +1,12 @@
-//! How a sheet of pictures is cut into tiles: pure arithmetic, no GPU.
+//! Division of a sheet of pictures into tiles: pure arithmetic, no GPU.
 //!
-//! Tiles come in reading order, so that each row of them (a band) can be written and
-//! forgotten before the next is finished.
+//! Tiles are in reading order, so that each row of tiles (a band) can be written and freed before
+//! the next band is complete.
 
 use super::sheet::Sheet;
 use crate::render::{Region, lattice::WORKGROUP_SIDE};
 
-/// A sheet cut into tiles of nearly equal size, each a part of one picture.
+/// A sheet divided into tiles of nearly equal size. Each tile is a part of one picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tiling {
     sheet: Sheet,
@@ -16,22 +16,23 @@ pub(super) struct Tiling {
     rows: u32,
 }
 
-/// One of them.
+/// One tile of a sheet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tile {
-    /// What it shows.
+    /// The part of the picture that the tile shows.
     pub region: Region,
-    /// How far from the sheet's left edge it lies, pixels.
+    /// Distance from the sheet's left edge, pixels.
     pub left_px: u32,
-    /// Whether it is the last of its band.
+    /// True for the last tile of a band.
     pub ends_band: bool,
 }
 
 impl Tiling {
-    /// Cuts every picture into the fewest tiles that are at most `max_tile_px` large, then makes
-    /// them as equal as whole pixels allow: buffers are made anew only where sizes differ.
-    /// All sides are at least 1. Tiles start where workgroups do, unless they may not be as large
-    /// as one: rays then go in the same bundles as in the whole picture.
+    /// Divides every picture into the fewest tiles of at most `max_tile_px`.
+    ///
+    /// The tiles are as equal as whole pixels allow, because the view reallocates its buffers when
+    /// the size changes. All sides are at least 1. Tiles start at multiples of the workgroup's
+    /// side, so that rays are bundled as in the whole picture; smaller tiles are not aligned.
     pub fn new(sheet: Sheet, max_tile_px: [u32; 2]) -> Self {
         let picture_px = sheet.picture_px;
         let tile_px = std::array::from_fn(|i| {
@@ -40,36 +41,36 @@ impl Tiling {
             let count = picture_px[i].div_ceil(most).max(1);
             picture_px[i].div_ceil(count).next_multiple_of(side)
         });
-        // Equal tiles can be so much larger than needed that one fewer of them is enough.
+        // Rounding up to workgroups can make one tile fewer enough.
         let [columns, rows] = std::array::from_fn(|i| picture_px[i].div_ceil(tile_px[i]));
         Self { sheet, tile_px, columns, rows }
     }
 
-    /// Width and height of all, pixels.
+    /// Width and height of the whole sheet, pixels.
     pub fn sheet_px(&self) -> [u32; 2] {
         self.sheet.size_px()
     }
 
-    /// How many tiles there are.
+    /// Number of tiles.
     pub fn count(&self) -> u32 {
         self.columns * self.rows * self.sheet.pictures.len() as u32
     }
 
     /// Tile `index` in reading order, below [`Self::count`].
     pub fn tile(&self, index: u32) -> Tile {
-        let in_band = self.columns * self.sheet.columns;
-        let (band, place) = (index / in_band, index % in_band);
-        let column_of_pictures = place / self.columns;
-        let picture = band / self.rows * self.sheet.columns + column_of_pictures;
-        let cell = [place % self.columns, band % self.rows];
+        let band_tiles = self.columns * self.sheet.columns;
+        let (band, column) = (index / band_tiles, index % band_tiles);
+        let picture_column = column / self.columns;
+        let picture = band / self.rows * self.sheet.columns + picture_column;
+        let cell = [column % self.columns, band % self.rows];
         let picture_px = self.sheet.picture_px;
         let origin_px = std::array::from_fn(|i| cell[i] * self.tile_px[i]);
         let size_px = std::array::from_fn(|i| self.tile_px[i].min(picture_px[i] - origin_px[i]));
         let eyes = self.sheet.pictures[picture as usize];
         Tile {
             region: Region { picture_px, origin_px, size_px, eyes },
-            left_px: column_of_pictures * picture_px[0] + origin_px[0],
-            ends_band: place == in_band - 1,
+            left_px: picture_column * picture_px[0] + origin_px[0],
+            ends_band: column == band_tiles - 1,
         }
     }
 }
@@ -111,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn common_sizes_divide_into_equal_tiles() {
+    fn common_sizes_are_divided_into_equal_tiles() {
         for (picture_px, tile_px) in
             [([1280, 720], [1280, 240]), ([3840, 2160], [1920, 240]), ([16384, 16384], [2048, 256])]
         {
@@ -133,29 +134,29 @@ mod tests {
         }
     }
 
-    /// Bands of a sheet, one after another, fill it from above without a gap.
+    /// The bands fill a sheet from top to bottom without a gap.
     #[test]
-    fn both_eyes_fill_their_sheet_in_the_order_of_its_rows() {
+    fn tiles_of_both_eyes_fill_their_sheet_in_row_order() {
         for columns in [1, 2] {
             let pictures = &[Eyes::Left, Eyes::Right];
             let sheet = Sheet { picture_px: [101, 67], pictures, columns };
             let tiling = Tiling::new(sheet, [32, 24]);
             let [width, height] = tiling.sheet_px();
-            let (mut across, mut above) = (0, 0);
+            let (mut x, mut y) = (0, 0);
             for tile in (0..tiling.count()).map(|index| tiling.tile(index)) {
                 let Region { picture_px, origin_px, size_px, eyes } = tile.region;
-                assert_eq!(tile.left_px, across);
-                across += size_px[0];
-                let (right, below) = (tile.left_px / 101 == 1, above / 67 == 1);
+                assert_eq!(tile.left_px, x);
+                x += size_px[0];
+                let (right, below) = (tile.left_px / 101 == 1, y / 67 == 1);
                 assert_eq!(eyes, if right || below { Eyes::Right } else { Eyes::Left });
-                assert_eq!(([tile.left_px % 101, above % 67], picture_px), (origin_px, [101, 67]));
-                assert_eq!(tile.ends_band, across == width);
+                assert_eq!(([tile.left_px % 101, y % 67], picture_px), (origin_px, [101, 67]));
+                assert_eq!(tile.ends_band, x == width);
                 if tile.ends_band {
-                    above += size_px[1];
-                    across = 0;
+                    y += size_px[1];
+                    x = 0;
                 }
             }
-            assert_eq!(above, height);
+            assert_eq!(y, height);
         }
     }
 }

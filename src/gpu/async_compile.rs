@@ -1,15 +1,19 @@
-//! Asynchronous pipeline compilation, where the platform has it: wgpu itself has no call for it.
+//! Asynchronous pipeline compilation on platforms that have it; wgpu's API has no such call.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
-/// The platform's asynchronous compilation. Both functions get a device and a closure that asks the device
-/// for one pipeline.
+/// The platform's functions for asynchronous pipeline compilation.
+///
+/// Both functions get a device and a closure that creates one pipeline on the device.
 #[derive(Clone, Copy)]
 pub struct AsyncCompile {
-    /// Starts to compile what the closure asks for, and returns at once. What the closure gets is
-    /// of no use. The flag turns true when [`Self::take`] will not have to wait.
+    /// Starts to compile the closure's pipeline, and returns at once.
+    ///
+    /// The pipeline that the closure creates is a placeholder. The flag turns true when
+    /// [`Self::take`] no longer blocks.
     pub begin: fn(&wgpu::Device, &mut dyn FnMut()) -> Arc<AtomicBool>,
-    /// Gives the closure the pipeline that was compiled for the same label; compiles it now where there is
-    /// none or compilation failed.
+    /// Hands the pipeline compiled for the same label to the closure.
+    ///
+    /// Compiles the pipeline now if [`Self::begin`] was not called or failed.
     pub take: fn(&wgpu::Device, &mut dyn FnMut()),
 }

@@ -1,5 +1,7 @@
-//! The adapter and the device, always with WebGPU's default limits, so that what works on one
-//! adapter fits them all.
+//! The adapter and the device.
+//!
+//! The device always has WebGPU's default limits, so that code that runs on one adapter runs on
+//! all.
 
 use std::sync::{
     Arc,
@@ -8,52 +10,53 @@ use std::sync::{
 
 use super::AsyncCompile;
 
-/// Why there is no usable GPU.
+/// Why no usable GPU was found.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
-    /// No adapter was offered, or none of the wanted name.
+    /// No adapter exists, or none has the requested name.
     #[error(
         "no GPU adapter was found{wanted}: install a Vulkan driver (Mesa's lavapipe will do), or use a browser with WebGPU; found: {found}"
     )]
     NoAdapter {
-        /// ` named "…"` where a name was asked for.
+        /// ` named "…"` if a name was requested, else empty.
         wanted: String,
-        /// What there is, or "none".
+        /// Names of the existing adapters, or "none".
         found: String,
     },
     /// The adapter refused a device with default limits.
-    #[error("the adapter {adapter} gave no device with WebGPU's default limits: {reason}")]
+    #[error("the adapter {adapter} has no device with WebGPU's default limits: {reason}")]
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// What wgpu said.
+        /// wgpu's error message.
         reason: String,
     },
 }
 
-/// A device, its queue and what they came from. Clones share the same device.
+/// A device with its queue, adapter and instance. Clones share the device.
 #[derive(Clone)]
 pub struct Gpu {
-    /// What the adapter came from; a window's surface needs the same one.
+    /// The instance of the adapter; a window's surface must have the same instance.
     pub instance: wgpu::Instance,
-    /// Where the device came from.
+    /// The adapter of the device.
     pub adapter: wgpu::Adapter,
     /// The device, with default limits.
     pub device: wgpu::Device,
-    /// Its queue.
+    /// The device's queue.
     pub queue: wgpu::Queue,
-    /// Asynchronous pipeline compilation, where the platform has it.
+    /// Asynchronous pipeline compilation, if the platform has it.
     pub async_compile: Option<AsyncCompile>,
     faults: Arc<AtomicU64>,
 }
 
 impl Gpu {
-    /// Opens the adapter that the platform prefers, natively the first whose name contains
-    /// `wanted` (any case) where that is given.
+    /// Opens the platform's preferred adapter, or the first one whose name contains `wanted`.
+    ///
+    /// The comparison ignores case. Selection by name works natively only.
     pub async fn open(wanted: Option<&str>) -> Result<Self, GpuError> {
         let mut wanted_instance = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        // The sizes of indirect dispatches are counted by the program's own shaders, from lists that
-        // are never longer than a dispatch may be; to check each would take a dispatch more.
+        // wgpu validates each indirect dispatch with another dispatch. The shaders already keep
+        // dispatch sizes in range: a work queue is never longer than the largest dispatch.
         wanted_instance.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
         let instance = wgpu::Instance::new(wanted_instance);
         let adapter = match wanted {
@@ -89,17 +92,17 @@ impl Gpu {
         Ok(Self { instance, adapter, device, queue, async_compile: None, faults })
     }
 
-    /// The adapter's name and backend, for people: `llvmpipe (LLVM 15.0.6) · Vulkan`.
+    /// The adapter's name and backend for display: `llvmpipe (LLVM 15.0.6) · Vulkan`.
     pub fn name(&self) -> String {
         adapter_name(&self.adapter)
     }
 
-    /// Errors that the device has reported and nothing handled: 0 in a correct program.
+    /// Number of uncaptured device errors: 0 in a correct program.
     pub fn faults(&self) -> u64 {
         self.faults.load(Ordering::Relaxed)
     }
 
-    /// Lets callbacks of finished work run. On the web they run by themselves.
+    /// Runs the callbacks of finished work. On the web the browser runs these callbacks.
     pub fn poll(&self) {
         if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
             log::warn!("polling the GPU: {error}");
@@ -111,7 +114,7 @@ impl Gpu {
         self.poll_for(wgpu::PollType::wait_indefinitely());
     }
 
-    /// Waits until one submit, and what came before it, is done. On the web this returns at once.
+    /// Waits until `submit` and all earlier work are done. On the web this returns at once.
     pub fn wait_for(&self, submit: &wgpu::SubmissionIndex) {
         self.poll_for(wgpu::PollType::Wait {
             submission_index: Some(submit.clone()),
@@ -126,7 +129,7 @@ impl Gpu {
     }
 }
 
-/// Names of all adapters, as [`Gpu::name`] has them. Empty in browsers, which tell only one.
+/// Names of all adapters in [`Gpu::name`]'s format. Empty in browsers, which list no adapters.
 pub async fn adapter_names() -> Vec<String> {
     let instance =
         wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
@@ -148,25 +151,27 @@ async fn named_adapter(instance: &wgpu::Instance, name: &str) -> Result<wgpu::Ad
 
 fn adapter_name(adapter: &wgpu::Adapter) -> String {
     let info = adapter.get_info();
-    // Browsers may keep the name to themselves.
+    // Browsers may hide the name.
     format!("{} · {}", if info.name.is_empty() { "GPU" } else { &info.name }, info.backend)
 }
 
-/// `f` of every item, in order: on as many threads as there are processors, where the platform has any.
+/// Applies `f` to every item on all processor cores; the results are in the items' order.
+///
+/// wasm has one thread.
 pub fn in_parallel<T: Sync, R: Send + Sync>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
     #[cfg(target_arch = "wasm32")]
     return items.iter().map(f).collect();
     #[cfg(not(target_arch = "wasm32"))]
     {
         let next = std::sync::atomic::AtomicUsize::new(0);
-        let found: Vec<_> = items.iter().map(|_| std::sync::OnceLock::new()).collect();
+        let results: Vec<_> = items.iter().map(|_| std::sync::OnceLock::new()).collect();
         let work = || {
-            while let Some((item, found)) = {
+            while let Some((item, result)) = {
                 let index = next.fetch_add(1, Ordering::Relaxed);
-                items.get(index).zip(found.get(index))
+                items.get(index).zip(results.get(index))
             } {
-                // Each index is handed out once.
-                let _ = found.set(f(item));
+                // Each index occurs once, so `set` cannot fail.
+                let _ = result.set(f(item));
             }
         };
         let threads = std::thread::available_parallelism().map_or(1, |count| count.get());
@@ -176,6 +181,6 @@ pub fn in_parallel<T: Sync, R: Send + Sync>(items: &[T], f: impl Fn(&T) -> R + S
             }
             work();
         });
-        found.into_iter().filter_map(std::sync::OnceLock::into_inner).collect()
+        results.into_iter().filter_map(std::sync::OnceLock::into_inner).collect()
     }
 }

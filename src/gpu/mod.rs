@@ -1,4 +1,6 @@
-//! wgpu helpers: device and limits, shader source, asynchronous compilation, readback, timing. Knows no fractals.
+//! wgpu helpers: device, shader source, asynchronous compilation, readback and timing.
+//!
+//! This layer does not depend on fractals or scenes.
 
 pub mod async_compile;
 pub mod device;

@@ -1,4 +1,4 @@
-//! Copies from the GPU that never block: begin, and ask again later.
+//! Non-blocking copies from the GPU: begin a copy, then poll until its bytes arrive.
 
 use std::sync::{
     Arc,
@@ -11,25 +11,26 @@ const PENDING: u8 = 0;
 const MAPPED: u8 = 1;
 const FAILED: u8 = 2;
 
-/// How often to look for bytes that are as good as there.
-const PATIENCE: u32 = 1_000_000;
+/// Number of polls before a finished copy that stays unmapped counts as failed.
+const MAX_POLLS: u32 = 1_000_000;
 
-/// The device was lost, or the copy was refused.
+/// A failed readback: the device was lost, or mapping the buffer failed.
 #[derive(Debug, thiserror::Error)]
-#[error("the GPU did not hand its buffer back")]
+#[error("a buffer could not be read back from the GPU")]
 pub struct ReadbackError;
 
-/// A copy on its way from the GPU.
+/// A pending copy from the GPU to the CPU.
 pub struct Readback {
     buffer: wgpu::Buffer,
     state: Arc<AtomicU8>,
-    /// Bytes of a row that are wanted, and bytes from one row to the next.
+    /// Bytes of a row, without padding.
     row_bytes: usize,
+    /// Bytes from one row's begin to the next row's begin.
     stride_bytes: usize,
 }
 
 impl Readback {
-    /// Starts to copy a whole `Rgba8Unorm` texture's first `size_px`.
+    /// Starts a copy of an `Rgba8Unorm` texture's upper left `size_px` pixels.
     pub fn texture(gpu: &Gpu, texture: &wgpu::Texture, size_px: [u32; 2]) -> Self {
         let row_bytes = 4 * size_px[0];
         let stride_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -51,7 +52,7 @@ impl Readback {
         Self::begin(buffer, row_bytes as usize, stride_bytes as usize)
     }
 
-    /// Starts to copy a whole storage buffer.
+    /// Starts a copy of a whole storage buffer.
     pub fn buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Self {
         let buffer = staging(gpu, source.size());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -70,7 +71,7 @@ impl Readback {
         Self { buffer, state, row_bytes, stride_bytes }
     }
 
-    /// The bytes, rows packed, once they have arrived; none before.
+    /// The bytes, without row padding; none until the copy is complete.
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<u8>>, ReadbackError> {
         gpu.poll();
         match self.state.load(Ordering::Acquire) {
@@ -85,11 +86,11 @@ impl Readback {
         }
     }
 
-    /// Waits for the bytes; natively only, for on the web nothing may wait.
+    /// Waits for the bytes. Native only: a browser's main thread must not block.
     pub fn wait(mut self, gpu: &Gpu) -> Result<Vec<u8>, ReadbackError> {
         gpu.wait();
-        // The work is done, yet another thread's poll may still be about to say so.
-        for _ in 0..PATIENCE {
+        // The GPU's work is done, but another thread's poll may not have run the callback yet.
+        for _ in 0..MAX_POLLS {
             if let Some(bytes) = self.take(gpu)? {
                 return Ok(bytes);
             }

@@ -1,4 +1,4 @@
-//! How long submitted work takes, measured without waiting for it.
+//! GPU time of submitted work, measured without waiting.
 
 use std::{
     collections::VecDeque,
@@ -9,21 +9,21 @@ use web_time::Instant;
 
 use super::Gpu;
 
-/// One submit that has finished.
+/// A finished submit and its GPU time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finished<T> {
-    /// What the submit was marked with.
+    /// The caller's mark of the submit.
     pub mark: T,
-    /// Milliseconds it kept the GPU busy: from its own start, or from the end of the submit
-    /// before it where that came later, to its end.
+    /// GPU time, milliseconds: from the submit, or from the previous submit's end if later, to
+    /// this submit's end.
     pub busy_ms: f64,
 }
 
-/// Watches submits: at most a few are in flight, each with a mark of the caller's. Those of others
-/// that go unnoticed count as part of the next one.
+/// Measures the GPU time of submits, each with a mark of the caller.
 ///
-/// Browsers report the end of work through a promise, Chrome at once, Firefox on a 100 ms
-/// poll; the time is then an upper bound.
+/// A submit that is not registered here counts as part of the next registered one. Browsers
+/// report the end of work through a promise: Chrome at once, Firefox every 100 ms. The measured
+/// time is then an upper bound.
 pub struct Stopwatch<T> {
     in_flight: VecDeque<(T, Instant, Option<wgpu::SubmissionIndex>)>,
     ends: Arc<Mutex<VecDeque<Instant>>>,
@@ -37,23 +37,23 @@ impl<T> Default for Stopwatch<T> {
 }
 
 fn locked(ends: &Mutex<VecDeque<Instant>>) -> MutexGuard<'_, VecDeque<Instant>> {
-    // A queue of instants is valid whatever interrupted its holder.
+    // A panic cannot leave a queue of instants invalid, so poisoning is ignored.
     ends.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<T> Stopwatch<T> {
-    /// Submits that have not been seen to finish.
+    /// Number of submits whose end has not been read yet.
     pub fn in_flight(&self) -> usize {
         self.in_flight.len()
     }
 
-    /// Submits one command buffer, remembered by `mark`.
+    /// Submits one command buffer and measures it under `mark`.
     pub fn submit(&mut self, gpu: &Gpu, commands: wgpu::CommandBuffer, mark: T) {
         let index = gpu.queue.submit([commands]);
         self.watch(gpu, mark, Some(index));
     }
 
-    /// Notes that somebody else has just submitted something, remembered by `mark`.
+    /// Measures work that other code has just submitted, under `mark`.
     pub fn note(&mut self, gpu: &Gpu, mark: T) {
         self.watch(gpu, mark, None);
     }
@@ -64,8 +64,9 @@ impl<T> Stopwatch<T> {
         gpu.queue.on_submitted_work_done(move || locked(&ends).push_back(Instant::now()));
     }
 
-    /// Waits until the oldest submit in flight has finished, so that those behind it keep the GPU
-    /// busy while the next is made; where there is none, until all work is done. On the web this
+    /// Waits for the oldest submit in flight; without one, for all work.
+    ///
+    /// Later submits keep the GPU busy while the caller prepares the next. On the web this
     /// returns at once.
     pub fn wait(&self, gpu: &Gpu) {
         match self.in_flight.front() {
@@ -74,7 +75,7 @@ impl<T> Stopwatch<T> {
         }
     }
 
-    /// The oldest submit that has finished since the last call; none where there is none.
+    /// The oldest finished submit that was not returned yet, if any.
     pub fn next_finished(&mut self) -> Option<Finished<T>> {
         let end = locked(&self.ends).pop_front()?;
         let (mark, submitted, _) = self.in_flight.pop_front()?;

@@ -1,4 +1,4 @@
-//! The stream against the crate's own decoder, and the reader against bad files.
+//! Tests of the writer against the crate's decoder, and of the reader with damaged files.
 
 use std::io::Cursor;
 
@@ -8,7 +8,7 @@ use super::*;
 
 const DOCUMENT: &str = r#"{"name":"Zürich → 雪"}"#;
 
-/// Bytes that neither a filter nor a compressor finds anything in (xorshift32).
+/// Incompressible bytes (xorshift32).
 fn noise(length: usize) -> Vec<u8> {
     let mut state = 0x9E37_79B9_u32;
     std::iter::repeat_with(|| {
@@ -43,14 +43,14 @@ fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     [(data.len() as u32).to_be_bytes().as_slice(), &body, &crc_of(&body).to_be_bytes()].concat()
 }
 
-/// A grey picture's file with `extra` between its header and its pixels.
+/// A grey PNG with the chunks `extra` between its header and its pixels.
 fn file_with(extra: &[u8]) -> Vec<u8> {
     let header = chunk(b"IHDR", &[0, 0, 0, 1, 0, 0, 0, 1, 8, 0, 0, 0, 0]);
     [&SIGNATURE, header.as_slice(), extra, &chunk(b"IDAT", &[0; 4]), &chunk(b"IEND", &[])].concat()
 }
 
 #[test]
-fn rows_come_back_as_they_went_in() {
+fn rows_round_trip() {
     for (size_px, rows_at_once) in [([101, 67], 5), ([1, 1], 1), ([300, 200], 200)] {
         let rgb = noise((size_px[0] * size_px[1] * 3) as usize);
         let file = encoded(size_px, &rgb, rows_at_once);
@@ -66,16 +66,16 @@ fn rows_come_back_as_they_went_in() {
 }
 
 #[test]
-fn bytes_leave_while_the_picture_is_made() {
+fn the_stream_writes_to_the_sink_without_buffering() {
     let size_px = [512, 4096];
     let rgb = noise(512 * 3 * 64);
     let mut stream = PngStream::new(Vec::new(), size_px, DOCUMENT).unwrap();
-    let mut most_waiting = 0;
+    let mut max_waiting = 0;
     for _ in 0..4096 / 64 {
         stream.write_rgb(&rgb).unwrap();
-        most_waiting = most_waiting.max(stream.outbox.0.lock().unwrap().capacity());
+        max_waiting = max_waiting.max(stream.outbox.0.lock().unwrap().capacity());
     }
-    assert_eq!(most_waiting, 0, "everything that the encoder made went to the sink");
+    assert_eq!(max_waiting, 0, "all of the encoder's output is in the sink");
     assert!(stream.sink.len() > 1 << 20);
 }
 
@@ -85,7 +85,7 @@ fn a_missing_row_and_a_full_disk_are_errors() {
     stream.write_rgb(&[0; 4 * 3 * 3]).unwrap();
     assert!(matches!(stream.finish(), Err(ExportError::Encode(_))));
 
-    // The file's last twelve bytes are the ones that a destructor would lose.
+    // The sink fails within the last chunk, whose errors the encoder's destructor would ignore.
     let whole = encoded([4, 4], &[7; 48], 4);
     let mut short = vec![0; whole.len() - 6];
     let mut stream = PngStream::new(short.as_mut_slice(), [4, 4], DOCUMENT).unwrap();
@@ -94,21 +94,21 @@ fn a_missing_row_and_a_full_disk_are_errors() {
 }
 
 #[test]
-fn the_scene_comes_back() {
+fn the_scene_round_trips() {
     let file = encoded([3, 2], &[9; 18], 2);
     assert!(is_png(&file));
     assert_eq!(scene_text(Cursor::new(&file)).unwrap().as_deref(), Some(DOCUMENT));
 }
 
 #[test]
-fn the_scene_is_found_in_each_kind_of_text() {
+fn the_scene_is_read_from_every_type_of_text_chunk() {
     let plain = file_with(&chunk(b"tEXt", b"mandelight\0{}"));
     assert_eq!(scene_text(Cursor::new(plain)).unwrap().as_deref(), Some("{}"));
 
-    let mut packed = b"mandelight\0\0".to_vec();
-    packed.extend(miniz_oxide::deflate::compress_to_vec_zlib(b"{}", 6));
+    let mut compressed = b"mandelight\0\0".to_vec();
+    compressed.extend(miniz_oxide::deflate::compress_to_vec_zlib(b"{}", 6));
     assert_eq!(
-        scene_text(Cursor::new(file_with(&chunk(b"zTXt", &packed)))).unwrap().as_deref(),
+        scene_text(Cursor::new(file_with(&chunk(b"zTXt", &compressed)))).unwrap().as_deref(),
         Some("{}")
     );
 
@@ -117,10 +117,10 @@ fn the_scene_is_found_in_each_kind_of_text() {
 }
 
 #[test]
-fn a_text_that_inflates_beyond_reason_is_refused() {
+fn a_text_that_inflates_beyond_the_limit_is_rejected() {
     let bomb = miniz_oxide::deflate::compress_to_vec_zlib(&vec![b' '; MAX_TEXT_BYTES + 1], 6);
-    let packed = [b"mandelight\0\x01\0\0\0".as_slice(), &bomb].concat();
-    assert!(scene_text(Cursor::new(file_with(&chunk(b"iTXt", &packed)))).is_err());
+    let compressed = [b"mandelight\0\x01\0\0\0".as_slice(), &bomb].concat();
+    assert!(scene_text(Cursor::new(file_with(&chunk(b"iTXt", &compressed)))).is_err());
     let plain = [b"mandelight\0".as_slice(), &vec![b' '; MAX_TEXT_BYTES + 1]].concat();
     assert!(matches!(
         scene_text(Cursor::new(file_with(&chunk(b"tEXt", &plain)))),
@@ -129,15 +129,15 @@ fn a_text_that_inflates_beyond_reason_is_refused() {
 }
 
 #[test]
-fn a_length_without_data_costs_no_memory() {
-    let claims = [b"\x7f\xff\xff\xfftEXtmandelight\0".as_slice(), &[b'x'; 64]].concat();
-    assert!(scene_text(Cursor::new(file_with(&claims))).is_err());
-    let wide = [
+fn a_claimed_length_without_data_allocates_nothing() {
+    let long_chunk = [b"\x7f\xff\xff\xfftEXtmandelight\0".as_slice(), &[b'x'; 64]].concat();
+    assert!(scene_text(Cursor::new(file_with(&long_chunk))).is_err());
+    let huge_picture = [
         &SIGNATURE,
         chunk(b"IHDR", &[0x7f, 255, 255, 255, 0x7f, 255, 255, 255, 16, 6, 0, 0, 0]).as_slice(),
     ]
     .concat();
-    assert!(scene_text(Cursor::new(wide)).is_err());
+    assert!(scene_text(Cursor::new(huge_picture)).is_err());
 }
 
 proptest! {
