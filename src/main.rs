@@ -1,7 +1,7 @@
-//! Mandelight's command line: the page's kernels without a page.
+//! Mandelight's command line: renders with the page's kernels, without a browser.
 //!
-//! The commands stand in a folder of their own, `command/`, which belongs to this binary
-//! alone: the library knows no arguments, terminals or files.
+//! The folder `command/` belongs to this binary only; the library does not depend on arguments,
+//! terminals or files.
 
 #[cfg(not(target_arch = "wasm32"))]
 mod command;

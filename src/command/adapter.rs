@@ -1,4 +1,4 @@
-//! Which GPU, and what became of it.
+//! `--adapter`: the choice of a GPU, and detection of its loss.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -6,16 +6,16 @@ use mandelight::gpu::Gpu;
 
 use super::Failure;
 
-/// The choice of a GPU.
+/// The arguments that choose a GPU.
 #[derive(clap::Args)]
 pub struct AdapterArguments {
-    /// Use the first GPU whose name contains this, in any case [env: WGPU_ADAPTER_NAME]
+    /// Use the first GPU whose name contains this text, ignoring case [env: WGPU_ADAPTER_NAME]
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
 }
 
 impl AdapterArguments {
-    /// The GPU of that name, else the one that the environment names, else the platform's choice.
+    /// Opens the GPU named by the argument, else by `WGPU_ADAPTER_NAME`, else the default GPU.
     pub fn open(self) -> Result<Gpu, Failure> {
         let wanted = self
             .adapter
@@ -25,23 +25,23 @@ impl AdapterArguments {
     }
 }
 
-/// Whether the device is still there.
+/// Detects the loss of the GPU's device.
 pub struct Health(Arc<Mutex<Option<String>>>);
 
 impl Health {
-    /// Watches the device of `gpu` from here on.
+    /// Starts to observe the device of `gpu`.
     pub fn of(gpu: &Gpu) -> Self {
-        let lost = Arc::<Mutex<Option<String>>>::default();
-        let told = lost.clone();
+        let loss = Arc::<Mutex<Option<String>>>::default();
+        let written = loss.clone();
         gpu.device.set_device_lost_callback(move |reason, message| {
             if reason != wgpu::DeviceLostReason::Destroyed {
-                *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
+                *written.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
             }
         });
-        Self(lost)
+        Self(loss)
     }
 
-    /// What the driver said when the device was lost; none while it is there.
+    /// The driver's message about the device's loss, if the device is lost.
     pub fn loss(&self) -> Option<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

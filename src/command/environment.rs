@@ -1,6 +1,4 @@
-//! An environment map from a file, and what it does to a scene.
-//!
-//! In: the arguments. Out: the picture, and scenes that are lit by it.
+//! `--environment`: an environment map from a file, and scenes lit by the map.
 
 use std::{
     fs::File,
@@ -14,28 +12,29 @@ use mandelight::scene::{
     param::{self, Param},
 };
 
-use super::{Failure, tell};
+use super::{Failure, message};
 
-/// The surroundings that were asked for.
+/// The arguments of an environment map.
 #[derive(clap::Args)]
 pub struct EnvironmentArguments {
-    /// Light the scene by an environment map, Radiance (.hdr) or OpenEXR, and show it
+    /// Light the scene by an environment map, Radiance (.hdr) or OpenEXR, and show the map behind
+    /// the fractal
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
-    /// How many lights to divide the picture into, 3 to 64, in place of the scene's own
+    /// Number of lights to divide the environment map into, 3 to 64, instead of the scene's number
     #[arg(long, value_name = "N", value_parser = parse_count, requires = "environment")]
     environment_lights: Option<u32>,
 }
 
-/// A picture that was read, and how many lights it is divided into.
+/// A loaded environment map and its number of lights.
 pub struct Environment {
-    /// The picture.
+    /// The environment map.
     pub environment_map: Arc<EnvironmentMap>,
     count: Option<u32>,
 }
 
 impl EnvironmentArguments {
-    /// Reads the picture, where one was asked for.
+    /// Loads the environment map, if one was requested.
     pub fn read(&self) -> Result<Option<Environment>, Failure> {
         let Some(path) = &self.environment else { return Ok(None) };
         let environment_map = Arc::new(read(path)?);
@@ -44,7 +43,7 @@ impl EnvironmentArguments {
 }
 
 impl Environment {
-    /// Lights a scene by the picture.
+    /// Lights a scene by the environment map.
     pub fn surround(&self, scene: &mut Scene) {
         if let Some(count) = self.count {
             scene.lights.rig.count = count;
@@ -52,7 +51,7 @@ impl Environment {
         scene.surround_by(&self.environment_map);
     }
 
-    /// Lights a scene and every key of its path by the picture.
+    /// Lights a scene and every key of its path by the environment map.
     pub fn surround_all(&self, project: &mut Project) {
         self.surround(&mut project.scene);
         for key in &mut project.path.keys {
@@ -61,12 +60,12 @@ impl Environment {
     }
 }
 
-/// Says which picture `scene` shows, where none was given.
-pub fn tell_of_missing(scene: &Scene) {
+/// Prints a warning if `scene` shows an environment map, whose file was not given.
+pub fn warn_of_missing_map(scene: &Scene) {
     let name = &scene.lights.rig.picture.name;
     if scene.background.kind == BackgroundKind::Picture && !name.is_empty() {
-        tell(&format!(
-            "the background is {name}, which is not kept with the scene: --environment FILE shows it"
+        message(&format!(
+            "the background is {name}, which the scene does not contain: --environment FILE shows it"
         ));
     }
 }
@@ -74,10 +73,10 @@ pub fn tell_of_missing(scene: &Scene) {
 fn read(path: &Path) -> Result<EnvironmentMap, Failure> {
     let shown = path.display();
     let mut bytes = Vec::new();
-    // One byte more than is decoded, so that what is too large is known as such.
-    let most = environment_map::decode::MAX_FILE_BYTES as u64 + 1;
+    // One byte more than the limit, so that the decoder reports a file that is too large.
+    let limit = environment_map::decode::MAX_FILE_BYTES as u64 + 1;
     File::open(path)
-        .and_then(|file| file.take(most).read_to_end(&mut bytes))
+        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
         .map_err(|error| Failure::usage(format!("{shown}: {error}")))?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     environment_map::decode(&name, &bytes)

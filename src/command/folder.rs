@@ -1,9 +1,9 @@
-//! A folder of frames that belong together.
+//! A folder of frames that is bound to one sequence.
 //!
-//! In: a folder and the fingerprint of a sequence. Out: which frames are there, and where the
-//! others go. A file whose name carries the fingerprint binds the folder to its sequence; a
-//! folder that is bound to another one is left alone. Nothing in it is ever written over, and
-//! nothing is locked: any number of processes, on any machines, may fill one folder.
+//! In: a folder and the settings of a sequence. Out: the paths of frames, and whether they exist.
+//! A binding file, whose name contains the sequence's fingerprint, binds the folder to its
+//! sequence. A folder bound to another sequence is rejected. No file is overwritten and no lock
+//! exists, so any number of processes, on any machines, may fill one folder.
 
 use std::{
     fs, io,
@@ -19,33 +19,34 @@ use sha2::{Digest as _, Sha256};
 
 use super::{Failure, output::Output, stereo::file_of};
 
-/// What the name of the binding file begins and ends with.
-const MARK: (&str, &str) = ("sequence-", ".json");
-/// Digits of the fingerprint in a name: 64 bits.
-const DIGITS: usize = 16;
+/// Prefix and suffix of the binding file's name.
+const BINDING_NAME: (&str, &str) = ("sequence-", ".json");
+/// Number of hexadecimal digits of a fingerprint in a name: 64 bits.
+const FINGERPRINT_DIGITS: usize = 16;
 
-/// What decides the frames' pixels.
-pub struct Sequence<'a> {
-    /// The path.
+/// Everything that the pixels of a sequence's frames depend on.
+pub struct SequenceSettings<'a> {
+    /// The camera path.
     pub path: &'a mandelight::scene::Path,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
-    /// Samples a pixel in place of the scenes' own.
+    /// Samples per pixel; none for the scenes' numbers.
     pub samples: Option<u32>,
-    /// The picture behind, where one is at hand.
+    /// The loaded environment map, if any.
     pub environment_map: Option<&'a EnvironmentMap>,
-    /// The kind of the files.
+    /// The file format.
     pub format: PictureFormat,
-    /// Whose pictures each frame has.
+    /// The eye of each file of a frame.
     pub eyes: &'static [Option<Eye>],
 }
 
-/// A frame's number, and the eye whose picture of it a file holds, where it is one of a pair.
+/// A file of a sequence: the frame's number, and the eye for one file of a stereo pair.
 pub type FrameFile = (u32, Option<Eye>);
 
-impl Sequence<'_> {
-    /// A number of everything that the frames depend on, in hexadecimal digits. The document's
-    /// layout, and whatever no key takes from it, have no part in it.
+impl SequenceSettings<'_> {
+    /// A hash of everything that the frames depend on, in hexadecimal digits.
+    ///
+    /// The document's formatting, and the scene beside the path, do not affect the hash.
     fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
         let line = |hash: &mut Sha256, text: String| hash.update(text + "\n");
@@ -65,10 +66,10 @@ impl Sequence<'_> {
             pixel.to_array().iter().for_each(|channel| hash.update(channel.to_le_bytes()));
         }
         let digits: String = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        digits[..DIGITS].to_owned()
+        digits[..FINGERPRINT_DIGITS].to_owned()
     }
 
-    /// What the binding file says to people.
+    /// The content of the binding file, for people.
     fn text(&self) -> String {
         let facts = serde_json::json!({
             "mandelight": "sequence",
@@ -87,64 +88,63 @@ impl Sequence<'_> {
 /// The folder of one sequence.
 pub struct Folder {
     path: PathBuf,
-    ending: &'static str,
+    extension: &'static str,
 }
 
 impl Folder {
-    /// Makes the folder where there is none, and binds it to `sequence` where it isn't yet.
+    /// Creates the folder and binds it to `sequence`, if necessary.
     ///
     /// # Errors
-    /// A folder of another sequence, frames that belong to nobody knows which, or a folder that
-    /// cannot be read or written.
-    pub fn open(path: &Path, sequence: &Sequence<'_>) -> Result<Self, Failure> {
+    /// A folder of another sequence, frames without a binding file, or a folder that cannot be
+    /// read or written.
+    pub fn open(path: &Path, sequence: &SequenceSettings<'_>) -> Result<Self, Failure> {
         let shown = path.display();
         let failed = |error: io::Error| Failure::failed(format!("{shown}: {error}"));
         fs::create_dir_all(path).map_err(failed)?;
-        let mark = format!("{}{}{}", MARK.0, sequence.fingerprint(), MARK.1);
+        let binding = format!("{}{}{}", BINDING_NAME.0, sequence.fingerprint(), BINDING_NAME.1);
         let names = names_in(path).map_err(failed)?;
-        if let Some(other) = names.iter().find(|name| is_mark(name) && **name != mark) {
+        if let Some(other) = names.iter().find(|name| is_binding_name(name) && **name != binding) {
             return Err(other_sequence(path, other));
         }
-        if !names.contains(&mark) {
+        if !names.contains(&binding) {
             if let Some(frame) = names.iter().find(|name| is_frame(name)) {
                 return Err(Failure::usage(format!(
-                    "{shown} has {frame}, but not the file that says which sequence it belongs to; choose an empty folder"
+                    "{shown} contains {frame}, but no file that names its sequence; choose an empty folder"
                 )));
             }
-            let mut output = Output::create(&path.join(&mark)).map_err(failed)?;
+            let mut output = Output::create(&path.join(&binding)).map_err(failed)?;
             output
                 .write_all(sequence.text().as_bytes())
                 .and_then(|()| output.commit())
                 .map_err(failed)?;
-            // Another sequence may have come at the same moment; then neither has the folder.
+            // A process with another sequence may have bound the folder at the same time; then
+            // both processes fail here.
             let names = names_in(path).map_err(failed)?;
-            if let Some(other) = names.iter().find(|name| is_mark(name) && **name != mark) {
+            if let Some(other) =
+                names.iter().find(|name| is_binding_name(name) && **name != binding)
+            {
                 return Err(other_sequence(path, other));
             }
         }
-        let ending = match sequence.format {
-            PictureFormat::Png => "png",
-            PictureFormat::Exr => "exr",
-        };
-        Ok(Self { path: path.to_owned(), ending })
+        Ok(Self { path: path.to_owned(), extension: sequence.format.extension() })
     }
 
-    /// Where a frame is, or goes.
+    /// The path of a frame's file.
     pub fn file(&self, (frame, eye): FrameFile) -> PathBuf {
-        let name = Path::new(&frame_name(frame)).with_extension(self.ending);
+        let name = Path::new(&frame_name(frame)).with_extension(self.extension);
         self.path.join(file_of(&name, eye))
     }
 
-    /// Whether a frame is there; it then is whole.
+    /// True if a frame's file exists; an existing file is complete.
     pub fn has(&self, file: FrameFile) -> bool {
         self.file(file).exists()
     }
 }
 
-fn other_sequence(path: &Path, mark: &str) -> Failure {
+fn other_sequence(path: &Path, binding: &str) -> Failure {
     let shown = path.display();
     Failure::usage(format!(
-        "{shown} holds frames of another scene, size, number of samples, kind or layout ({mark}); choose another folder, or empty this one"
+        "{shown} contains frames of another scene, size, number of samples, file format or stereo layout ({binding}); choose another folder, or empty this one"
     ))
 }
 
@@ -153,10 +153,10 @@ fn names_in(folder: &Path) -> io::Result<Vec<String>> {
     entries.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect()
 }
 
-fn is_mark(name: &str) -> bool {
-    name.strip_prefix(MARK.0)
-        .and_then(|rest| rest.strip_suffix(MARK.1))
-        .is_some_and(|digits| digits.len() == DIGITS)
+fn is_binding_name(name: &str) -> bool {
+    name.strip_prefix(BINDING_NAME.0)
+        .and_then(|rest| rest.strip_suffix(BINDING_NAME.1))
+        .is_some_and(|digits| digits.len() == FINGERPRINT_DIGITS)
 }
 
 fn is_frame(name: &str) -> bool {

@@ -1,7 +1,7 @@
 //! `mandelight frames`: the frames of a camera path.
 //!
-//! Frames that are there are kept, so that the same call goes on where the last one ended, and
-//! calls with other ranges can run beside it.
+//! Existing frames are kept. So the same call continues an interrupted one, and calls with other
+//! ranges can run in parallel.
 
 use std::{
     ops::{ControlFlow, Range},
@@ -26,34 +26,34 @@ use mandelight::{
 use super::{
     Failure,
     adapter::{AdapterArguments, Health},
-    environment::{EnvironmentArguments, tell_of_missing},
-    folder::{Folder, FrameFile, Sequence},
+    environment::{EnvironmentArguments, warn_of_missing_map},
+    folder::{Folder, FrameFile, SequenceSettings},
     input::{self, Change},
+    message,
     output::Output,
     render::{interruption, parse_samples, parse_size, progress_bar, show},
     stereo::StereoArguments,
-    tell,
 };
 
-/// What `mandelight frames` takes.
+/// The arguments of `mandelight frames`.
 #[derive(clap::Args)]
-pub struct Arguments {
+pub struct FramesArguments {
     /// A scene document with a camera path, or - for standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The folder for the frames; frames that are there already are kept
+    /// The folder for the frames; existing frames are kept
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
-    /// Frames A to B, without B: 0..100, 100.., ..50, or a single one; all unless given
+    /// Frames A to B, without B: 0..100, 100.., ..50, or one frame; default: all frames
     #[arg(long, value_name = "A..B", value_parser = parse_frames)]
-    frames: Option<Wanted>,
-    /// Width and height in pixels, each 1 to 16384; in stereo, of either eye's picture
+    frames: Option<FrameRange>,
+    /// Width and height in pixels, each 1 to 16384; in stereo, of one eye's picture
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: [u32; 2],
-    /// Samples a pixel, in place of the scenes' own
+    /// Samples per pixel, instead of the scenes' number
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
-    /// Write OpenEXR files, with linear radiance, depth, normal and position, in place of PNGs
+    /// Write OpenEXR files, with linear radiance, depth, normal and position, instead of PNGs
     #[arg(long)]
     exr: bool,
     /// Change a field in every key, such as quality.detail=0.5, or of the path, such as path.frames_per_second=60
@@ -63,45 +63,45 @@ pub struct Arguments {
     stereo: StereoArguments,
     #[command(flatten)]
     environment: EnvironmentArguments,
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
     adapter: AdapterArguments,
 }
 
-/// A range of frames as it was asked for.
+/// A requested range of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Wanted {
+struct FrameRange {
     first: u32,
-    /// The first frame that is not wanted; none for all there are.
+    /// One past the last frame; none for the path's end.
     end: Option<u32>,
 }
 
-/// Renders the frames that are not there yet.
-pub fn run(arguments: Arguments) -> Result<(), Failure> {
+/// Renders the frames that do not exist yet.
+pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let mut project = input::read_project(&arguments.scene)?;
     let environment = arguments.environment.read()?;
     if let Some(environment) = &environment {
         environment.surround_all(&mut project);
     }
     let mut project = input::changed_project(project, &arguments.set)?;
-    arguments.stereo.lay_out_all(&mut project);
+    arguments.stereo.apply_to_all(&mut project);
     let path = project.path;
     if environment.is_none() && !arguments.quiet {
-        // The frames show the keys' pictures, whatever the scene beside them has.
+        // The keys' scenes decide the background, not the scene beside the path.
         let mut scenes = path.keys.iter().map(|key| &key.scene);
-        let shows_one = |scene: &&Arc<Scene>| scene.background.kind == BackgroundKind::Picture;
-        if let Some(scene) = scenes.find(shows_one) {
-            tell_of_missing(scene);
+        let shows_map = |scene: &&Arc<Scene>| scene.background.kind == BackgroundKind::Picture;
+        if let Some(scene) = scenes.find(shows_map) {
+            warn_of_missing_map(scene);
         }
     }
-    let frames = wanted_of(arguments.frames, &path, &arguments.scene)?;
+    let frames = requested_frames(arguments.frames, &path, &arguments.scene)?;
     let environment_map = environment.map(|environment| environment.environment_map);
-    let Arguments { size, samples, quiet, .. } = arguments;
+    let FramesArguments { size, samples, quiet, .. } = arguments;
     let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
     let eyes = arguments.stereo.eyes();
-    let sequence = Sequence {
+    let sequence = SequenceSettings {
         path: &path,
         size_px: size,
         samples,
@@ -114,19 +114,19 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         let of_eye = StillOptions { eye, ..options.clone() };
         of_eye.sheet_px(&key.scene).map_err(Failure::usage)?;
     }
-    // Before there is a file that an interruption could leave behind.
+    // The handler is set before a file exists that an interruption would leave behind.
     let interrupted = interruption()?;
     let folder = Folder::open(&arguments.output, &sequence)?;
     let files = frames.clone().flat_map(|frame| eyes.iter().map(move |&eye| (frame, eye)));
-    let wanted = frames.len() * eyes.len();
+    let requested = frames.len() * eyes.len();
     let missing: Vec<_> = files.filter(|&file| !folder.has(file)).collect();
-    let say = |text: String| {
+    let report = |text: String| {
         if !quiet {
-            tell(&format!("{}: {text}", arguments.output.display()));
+            message(&format!("{}: {text}", arguments.output.display()));
         }
     };
     if missing.is_empty() {
-        say(format!("all {} are there", counted(wanted, eyes)));
+        report(format!("all {} exist already", counted(requested, eyes)));
         return Ok(());
     }
 
@@ -142,39 +142,43 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         progress: progress_bar(quiet),
     };
     let clock = Instant::now();
-    let made = work.make(&missing);
+    let rendered = work.render_all(&missing);
     work.progress.finish_and_clear();
-    let made = made?;
-    let kept = wanted - made;
+    let rendered = rendered?;
+    let kept = requested - rendered;
     let kept = if kept > 0 { format!(", {kept} kept") } else { String::new() };
     let secs = clock.elapsed().as_secs_f64();
-    let made = counted(made, eyes);
-    say(format!("{made}{kept}, {secs:.1} s on {}", gpu.name()));
+    let rendered = counted(rendered, eyes);
+    report(format!("{rendered}{kept}, {secs:.1} s on {}", gpu.name()));
     Ok(())
 }
 
-/// So many files, in words.
+/// A number of files as text: `1 frame`, `3 pictures`.
 fn counted(files: usize, eyes: &[Option<Eye>]) -> String {
     let kind = if eyes.len() > 1 { "picture" } else { "frame" };
     if files == 1 { format!("1 {kind}") } else { format!("{files} {kind}s") }
 }
 
-/// The frames that were asked for, of those that there are.
-fn wanted_of(wanted: Option<Wanted>, path: &Path, scene: &FilePath) -> Result<Range<u32>, Failure> {
+/// The requested frames, clipped to the frames of `path`.
+fn requested_frames(
+    range: Option<FrameRange>,
+    path: &Path,
+    scene: &FilePath,
+) -> Result<Range<u32>, Failure> {
     let Some(last) = path.frame_count().checked_sub(1) else {
         return Err(Failure::usage(format!(
-            "{}: this scene has no camera path; the page's timeline makes one",
+            "{}: this scene has no camera path; create one with the timeline of the page",
             scene.display()
         )));
     };
-    let Wanted { first, end } = wanted.unwrap_or(Wanted { first: 0, end: None });
+    let FrameRange { first, end } = range.unwrap_or(FrameRange { first: 0, end: None });
     if first > last {
         return Err(Failure::usage(format!("--frames: {first}: the last frame is {last}")));
     }
     Ok(first..end.map_or(last + 1, |end| end.min(last + 1)))
 }
 
-/// What every frame needs.
+/// The inputs that all frames share.
 struct Work<'a> {
     path: &'a Path,
     folder: &'a Folder,
@@ -187,44 +191,46 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Makes those of `missing` that nobody else has made meanwhile, and says how many.
-    fn make(&self, missing: &[FrameFile]) -> Result<usize, Failure> {
+    /// Renders the `missing` files and returns their number.
+    ///
+    /// Skips a file that another process has rendered meanwhile.
+    fn render_all(&self, missing: &[FrameFile]) -> Result<usize, Failure> {
         let (clock, all) = (Instant::now(), missing.len() as u32);
-        let mut made = 0;
-        for (turn, &wanted) in missing.iter().enumerate() {
-            if self.folder.has(wanted) {
+        let mut rendered = 0;
+        for (index, &frame) in missing.iter().enumerate() {
+            if self.folder.has(frame) {
                 continue;
             }
-            let file = self.folder.file(wanted);
-            let whole = self.frame(wanted, &file, |done| {
-                let done = turn as f64 + done;
-                let left = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
-                show(&self.progress, done / f64::from(all), left);
+            let file = self.folder.file(frame);
+            let result = self.render(frame, &file, |done| {
+                let done = index as f64 + done;
+                let remaining = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
+                show(&self.progress, done / f64::from(all), remaining);
             });
-            match whole {
-                Ok(()) => made += 1,
+            match result {
+                Ok(()) => rendered += 1,
                 Err(ExportError::Cancelled) => {
                     let reason = match self.health.loss() {
                         Some(reason) => format!("the GPU was lost: {reason}"),
                         None => "interrupted".to_owned(),
                     };
                     return Err(Failure::failed(format!(
-                        "{reason}; {made} of {} were made; the same command goes on from there",
+                        "{reason}; {rendered} of {} are complete; the same command goes on from there",
                         counted(missing.len(), self.eyes)
                     )));
                 }
                 Err(error) => return Err(Failure::failed(format!("{}: {error}", file.display()))),
             }
         }
-        Ok(made)
+        Ok(rendered)
     }
 
-    /// Makes one frame, or one eye's, there whole or not at all.
-    fn frame(
+    /// Renders one file; the file appears only when it is complete.
+    fn render(
         &self,
         (frame, eye): FrameFile,
         file: &FilePath,
-        tell: impl Fn(f64),
+        on_progress: impl Fn(f64),
     ) -> Result<(), ExportError> {
         let scene = self.path.frame(frame).ok_or(ExportError::NoFrames)?;
         let output = Output::create(file)?;
@@ -232,7 +238,7 @@ impl Work<'_> {
         let job = StillJob::new(&self.pipelines, &scene, options, output)?;
         let result = job.run(|status| {
             if let StillStatus::Working { done, .. } = status {
-                tell(done);
+                on_progress(done);
             }
             if self.health.loss().is_some() || self.interrupted.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
@@ -240,7 +246,7 @@ impl Work<'_> {
                 ControlFlow::Continue(())
             }
         });
-        // A device that goes shows itself in several ways; its own words explain them all.
+        // A lost device causes many different errors; the driver's reason explains all of them.
         let output = result.map_err(|error| match self.health.loss() {
             Some(_) => ExportError::Cancelled,
             None => error,
@@ -250,25 +256,24 @@ impl Work<'_> {
 }
 
 /// Parses `100..200`, `100..`, `..200` and `100`.
-fn parse_frames(text: &str) -> Result<Wanted, String> {
-    let help =
-        "write it as A..B, frames A to B without B, such as 0..100; or A.., ..B, or one frame";
+fn parse_frames(text: &str) -> Result<FrameRange, String> {
+    let help = "write frames A to B, without B, as A..B, such as 0..100; or A.., ..B, or one frame";
     let number = |text: &str| text.trim().parse::<u32>().map_err(|_| help.to_owned());
-    let wanted = match text.split_once("..") {
+    let range = match text.split_once("..") {
         None => {
             let frame = number(text)?;
-            Wanted { first: frame, end: Some(frame.saturating_add(1)) }
+            FrameRange { first: frame, end: Some(frame.saturating_add(1)) }
         }
-        Some((first, end)) => Wanted {
+        Some((first, end)) => FrameRange {
             first: if first.trim().is_empty() { 0 } else { number(first)? },
             end: if end.trim().is_empty() { None } else { Some(number(end)?) },
         },
     };
-    match wanted.end {
-        Some(end) if end <= wanted.first => {
-            Err(format!("{text} holds no frame: the end, {end}, is not one of them"))
+    match range.end {
+        Some(end) if end <= range.first => {
+            Err(format!("{text} holds no frame: the end, {end}, is not included"))
         }
-        _ => Ok(wanted),
+        _ => Ok(range),
     }
 }
 
@@ -277,8 +282,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ranges_are_read_and_checked() {
-        let range = |first, end| Ok(Wanted { first, end });
+    fn ranges_are_parsed_and_checked() {
+        let range = |first, end| Ok(FrameRange { first, end });
         assert_eq!(parse_frames("3..7"), range(3, Some(7)));
         assert_eq!(parse_frames("3.."), range(3, None));
         assert_eq!(parse_frames("..7"), range(0, Some(7)));

@@ -1,4 +1,4 @@
-//! `mandelight info`: which GPU would be used, which there are, and what a view takes of its memory.
+//! `mandelight info`: the GPU, its limits, the other GPUs, and the memory of a view.
 
 use std::fmt::Write;
 
@@ -13,13 +13,13 @@ use serde_json::{Value, json};
 
 use super::{Failure, adapter::AdapterArguments, print};
 
-/// What `mandelight info` takes.
+/// The arguments of `mandelight info`.
 #[derive(clap::Args)]
-pub struct Arguments {
+pub struct InfoArguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Tell what a view of so many pixels holds of the GPU's memory with everything on: stereo,
+    /// Also print the GPU memory of a view of this size in pixels with every effect on: stereo,
     /// 64 lights, indirect light, auto exposure, bloom, an environment map
     #[arg(long, value_name = "WxH", value_parser = super::render::parse_size)]
     size: Option<[u32; 2]>,
@@ -27,8 +27,8 @@ pub struct Arguments {
     adapter: AdapterArguments,
 }
 
-/// Prints the GPU's particulars.
-pub fn run(arguments: Arguments) -> Result<(), Failure> {
+/// Prints the properties of the GPU.
+pub fn run(arguments: InfoArguments) -> Result<(), Failure> {
     let gpu = arguments.adapter.open()?;
     let info = gpu.adapter.get_info();
     let limits = limits_of(&gpu.device.limits());
@@ -61,7 +61,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
 
     let mut text = String::new();
     let mut line = |name: &str, value: &str| {
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = writeln!(text, "{name:<12}{value}");
     };
     line("mandelight", env!("CARGO_PKG_VERSION"));
@@ -85,14 +85,14 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     print(&text)
 }
 
-/// What a view of `size_px` with everything on holds, by making it.
+/// The GPU memory of a view of `size_px` with every effect on, measured by creating the view.
 fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
     let (scene, environment_map) = memory::everything_on();
     let region = Region::whole(size_px).shared_by(scene.camera.stereo.layout);
     if !region.fits() {
         let [width, height] = size_px;
         return Err(Failure::usage(format!(
-            "{width}x{height} is more than one view draws: no side above {MAX_REGION_PX} and no more than {MAX_REGION_PIXELS} pixels"
+            "{width}x{height} is too large for one view: the limits are {MAX_REGION_PX} pixels per side and {MAX_REGION_PIXELS} pixels in all"
         )));
     }
     let mut view = View::new(&Pipelines::new(gpu), region, Pace::Interactive);
@@ -103,7 +103,7 @@ fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
     Ok(view.report().memory)
 }
 
-/// The limits that the device was asked for and the renderer works within, by WebGPU's names.
+/// The device's limits that matter to the renderer, by WebGPU's names.
 fn limits_of(limits: &wgpu::Limits) -> Vec<(&'static str, u64)> {
     vec![
         ("maxTextureDimension2D", limits.max_texture_dimension_2d.into()),
@@ -117,7 +117,7 @@ fn limits_of(limits: &wgpu::Limits) -> Vec<(&'static str, u64)> {
     ]
 }
 
-/// The renderer's texture formats that the adapter can write from a shader.
+/// The renderer's texture formats that shaders can write on this adapter.
 fn formats_of(adapter: &wgpu::Adapter) -> Vec<&'static str> {
     [("rgba8unorm", wgpu::TextureFormat::Rgba8Unorm)]
         .into_iter()

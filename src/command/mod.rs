@@ -1,21 +1,20 @@
-//! What was asked for, and how its outcome is told.
+//! The command line's commands: argument parsing, messages and exit codes.
 //!
-//! In: the arguments. Out: pictures, documents and facts on standard output or in files;
-//! everything said to people on standard error; an exit code: 0 done, 1 failed, 2 wrong usage
-//! or an invalid scene.
+//! In: the arguments. Out: results on standard output or in files, messages for the user on
+//! standard error, and an exit code: 0 success, 1 failure, 2 wrong usage or an invalid scene.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | [`render`] | `mandelight render`: a picture of a scene |
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
 //! | [`info`] | `mandelight info`: the GPU |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
-//! | [`output`] | a file that is there whole or not at all |
-//! | [`folder`] | a folder of frames that belong together |
-//! | [`environment`] | an environment map |
-//! | [`stereo`] | how both eyes' pictures are put together |
-//! | [`adapter`] | which GPU |
+//! | [`output`] | atomic writing of a file |
+//! | [`folder`] | a folder that is bound to one sequence of frames |
+//! | [`environment`] | `--environment`: an environment map |
+//! | [`stereo`] | `--stereo`: the layout of both eyes' pictures |
+//! | [`adapter`] | `--adapter`: the choice of a GPU |
 
 mod adapter;
 mod environment;
@@ -39,7 +38,7 @@ use clap::{Parser, Subcommand};
 /// Draws 3D fractals without a window.
 #[derive(Parser)]
 #[command(name = "mandelight", version, about, long_about = None)]
-struct Arguments {
+struct CommandLine {
     #[command(subcommand)]
     command: Command,
 }
@@ -47,21 +46,21 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Renders a scene to a PNG that carries the scene
-    Render(render::Arguments),
+    Render(render::RenderArguments),
     /// Renders the frames of a scene's camera path to a folder of PNGs
-    Frames(frames::Arguments),
+    Frames(frames::FramesArguments),
     /// Prints a scene document, to edit or to pipe into `render -`
-    Scene(scene::Arguments),
-    /// Tells which GPU would be used, and which there are
-    Info(info::Arguments),
+    Scene(scene::SceneArguments),
+    /// Prints the GPU that would be used, its limits, and the other GPUs
+    Info(info::InfoArguments),
 }
 
-/// Why a command ended without its result.
+/// Why a command failed.
 #[derive(Debug)]
 enum Failure {
-    /// Wrong arguments or an invalid scene: the same call can never succeed.
+    /// Wrong arguments or an invalid scene: exit code 2. The same call can never succeed.
     Usage(String),
-    /// The machine stood in the way.
+    /// A failure of the machine, such as a full disk or a lost GPU: exit code 1.
     Failed(String),
 }
 
@@ -75,19 +74,19 @@ impl Failure {
     }
 
     fn report(&self) -> ExitCode {
-        let (message, code) = match self {
-            Self::Usage(message) => (message, 2),
-            Self::Failed(message) => (message, 1),
+        let (text, code) = match self {
+            Self::Usage(text) => (text, 2),
+            Self::Failed(text) => (text, 1),
         };
-        tell(message);
+        message(text);
         ExitCode::from(code)
     }
 }
 
-/// Runs the command that the arguments name. Wrong ones end the process here, with code 2.
+/// Runs the command that the arguments name. Wrong arguments end the process with code 2.
 pub fn run() -> ExitCode {
     log_errors();
-    let outcome = match Arguments::parse().command {
+    let outcome = match CommandLine::parse().command {
         Command::Render(arguments) => render::run(arguments),
         Command::Frames(arguments) => frames::run(arguments),
         Command::Scene(arguments) => scene::run(arguments),
@@ -99,13 +98,13 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// Says something to people.
-fn tell(message: &str) {
-    // Where standard error is gone there is nobody left to tell.
-    let _ = writeln!(io::stderr(), "mandelight: {message}");
+/// Writes a message for the user to standard error.
+fn message(text: &str) {
+    // If standard error is closed, no user can read the message.
+    let _ = writeln!(io::stderr(), "mandelight: {text}");
 }
 
-/// Writes a command's result. A reader that has seen enough and left is no failure.
+/// Writes a command's result to standard output. A closed pipe is not a failure.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -116,26 +115,26 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Lets the library's warnings reach standard error.
+/// Sends the library's warnings to standard error.
 fn log_errors() {
     struct Log;
 
     impl log::Log for Log {
         fn enabled(&self, metadata: &log::Metadata) -> bool {
-            // wgpu reports to its caller whatever matters here.
+            // wgpu returns its relevant errors to the caller.
             metadata.target().starts_with("mandelight")
         }
 
         fn log(&self, record: &log::Record) {
             if self.enabled(record.metadata()) {
-                tell(&record.args().to_string());
+                message(&record.args().to_string());
             }
         }
 
         fn flush(&self) {}
     }
 
-    // The only logger of this process, so none can be in its place already.
+    // No other code of this process sets a logger, so this cannot fail.
     let _ = log::set_logger(&Log);
     log::set_max_level(log::LevelFilter::Warn);
 }

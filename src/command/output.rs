@@ -1,6 +1,6 @@
-//! A file that is there whole or not at all.
+//! Atomic writing of a file: the path has the old content until the new content is complete.
 //!
-//! In: a path. Out: something to write to; until it is committed the path keeps what it had.
+//! In: a path. Out: a writer, whose bytes replace the path's content on commit.
 
 use std::{
     fs::{self, File, OpenOptions},
@@ -10,36 +10,38 @@ use std::{
     time::{SystemTime, UNIX_EPOCH},
 };
 
-/// Where a picture goes.
+/// The destination of a picture.
 pub enum Output {
-    /// A file under a temporary name beside its final one.
+    /// A file with a temporary name in the folder of its final name.
     File(PartFile),
-    /// Standard output, a device or a named pipe: there is nothing to replace.
+    /// Standard output, a device or a named pipe, which are written directly.
     Stream(Box<dyn Write>),
 }
 
 impl Output {
-    /// Opens `path` for writing; `-` is standard output, where that is no terminal.
+    /// Opens `path` for writing; `-` is standard output, which must not be a terminal.
     pub fn create(path: &Path) -> io::Result<Self> {
         if path == "-" {
             if io::stdout().is_terminal() {
-                return Err(io::Error::other("a picture is not written to a terminal"));
+                return Err(io::Error::other(
+                    "a picture cannot be shown in a terminal; redirect the output to a file",
+                ));
             }
             return Ok(Self::Stream(Box::new(io::stdout().lock())));
         }
         match fs::metadata(path) {
-            Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-            // A rename would put a file in the place of /dev/null.
-            Ok(there) if !there.is_file() => {
+            Ok(existing) if existing.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            // A rename would replace a device such as /dev/null by a file.
+            Ok(existing) if !existing.is_file() => {
                 Ok(Self::Stream(Box::new(OpenOptions::new().write(true).open(path)?)))
             }
-            // Through a link, so that the link stays one.
+            // A rename to the canonical path keeps a symbolic link.
             Ok(_) => Ok(Self::File(PartFile::create(&fs::canonicalize(path)?)?)),
             Err(_) => Ok(Self::File(PartFile::create(path)?)),
         }
     }
 
-    /// Makes what was written final.
+    /// Gives the complete file its final name.
     pub fn commit(self) -> io::Result<()> {
         match self {
             Self::File(part) => part.commit(),
@@ -64,7 +66,7 @@ impl Write for Output {
     }
 }
 
-/// A file that takes its name at the end; dropped before, it is removed.
+/// A file with a temporary name until it is committed. Dropping it earlier removes the file.
 pub struct PartFile {
     file: BufWriter<File>,
     part_path: PathBuf,
@@ -74,11 +76,11 @@ pub struct PartFile {
 impl PartFile {
     fn create(final_path: &Path) -> io::Result<Self> {
         let name = final_path.file_name().ok_or(io::ErrorKind::InvalidFilename)?;
-        // Process numbers repeat, on one machine and between those that share a folder.
-        let moment = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_nanos());
-        let part_name = format!(".{}.{}-{moment:x}.part", name.to_string_lossy(), process::id());
+        // Process ids alone are not unique: they are reused, and machines may share a folder.
+        let nanos = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |t| t.as_nanos());
+        let part_name = format!(".{}.{}-{nanos:x}.part", name.to_string_lossy(), process::id());
         let part_path = final_path.with_file_name(part_name);
-        // Never through a link that someone else has put there.
+        // `create_new` does not follow a symbolic link that another user has placed here.
         let file = OpenOptions::new().write(true).create_new(true).open(&part_path)?;
         Ok(Self { file: BufWriter::new(file), part_path, final_path: final_path.to_owned() })
     }
@@ -92,7 +94,7 @@ impl PartFile {
 
 impl Drop for PartFile {
     fn drop(&mut self) {
-        // After a commit there is nothing under this name.
+        // After a commit the temporary name does not exist, so the error is ignored.
         let _ = fs::remove_file(&self.part_path);
     }
 }
@@ -122,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_there_outlives_a_failure() {
+    fn an_uncommitted_file_leaves_the_old_content() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("out.png");
         fs::write(&path, b"old").unwrap();

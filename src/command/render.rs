@@ -25,30 +25,30 @@ use mandelight::{
 use super::{
     Failure,
     adapter::{AdapterArguments, Health},
-    environment::{EnvironmentArguments, tell_of_missing},
+    environment::{EnvironmentArguments, warn_of_missing_map},
     input::{self, Change},
+    message,
     output::Output,
     stereo::{StereoArguments, file_of},
-    tell,
 };
 
-/// Steps of the progress bar.
+/// Number of steps of the progress bar.
 const BAR_STEPS: u64 = 1000;
 
-/// What `mandelight render` takes.
+/// The arguments of `mandelight render`.
 #[derive(clap::Args)]
-pub struct Arguments {
-    /// A scene document, a picture that carries one, or - for standard input
+pub struct RenderArguments {
+    /// A scene document, a picture that contains one, or - for standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The file to write, a PNG, or an OpenEXR file where its name ends in .exr; or - for a PNG
-    /// on standard output
+    /// The file to write: OpenEXR if the name ends in .exr, else PNG; - for a PNG on standard
+    /// output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Width and height in pixels, each 1 to 16384; in stereo, of either eye's picture
+    /// Width and height in pixels, each 1 to 16384; in stereo, of one eye's picture
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
     size: [u32; 2],
-    /// Samples a pixel, in place of the scene's own
+    /// Samples per pixel, instead of the scene's number
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
@@ -58,28 +58,28 @@ pub struct Arguments {
     stereo: StereoArguments,
     #[command(flatten)]
     environment: EnvironmentArguments,
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
     adapter: AdapterArguments,
 }
 
-/// Renders the scene, and leaves the file or an error.
-pub fn run(arguments: Arguments) -> Result<(), Failure> {
+/// Renders the scene to one file, or to one file per eye.
+pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     let mut scene = input::read_scene(&arguments.scene)?;
     let environment = arguments.environment.read()?;
     if let Some(environment) = &environment {
         environment.surround(&mut scene);
     }
     let mut scene = input::changed(scene, &arguments.set)?;
-    arguments.stereo.lay_out(&mut scene);
+    arguments.stereo.apply(&mut scene);
     if environment.is_none() && !arguments.quiet {
-        tell_of_missing(&scene);
+        warn_of_missing_map(&scene);
     }
     let eyes = arguments.stereo.eyes();
     if arguments.output.as_path() == "-" && eyes.len() > 1 {
-        return Err(Failure::usage("--stereo pair: two files do not go to standard output"));
+        return Err(Failure::usage("--stereo pair: standard output cannot take two files"));
     }
     let options = StillOptions {
         samples: arguments.samples,
@@ -96,7 +96,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         .collect();
     let sizes = files.iter().map(|file| file.options.sheet_px(&scene));
     let sizes: Vec<_> = sizes.collect::<Result<_, _>>().map_err(Failure::usage)?;
-    // Before there is a file that an interruption could leave behind.
+    // The handler is set before a file exists that an interruption would leave behind.
     let interrupted = interruption()?;
     let outputs = files.iter().map(File::create).collect::<Result<Vec<_>, _>>()?;
 
@@ -105,16 +105,16 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     let health = Health::of(&gpu);
     let progress = progress_bar(arguments.quiet);
     let count = files.len() as u32;
-    let mut whole = Vec::new();
-    for ((turn, file), output) in (0..).zip(&files).zip(outputs) {
+    let mut complete = Vec::new();
+    for ((index, file), output) in (0..).zip(&files).zip(outputs) {
         let job = StillJob::new(&pipelines, &scene, file.options.clone(), output)
             .map_err(|error| file.failed(error))?;
         let result = job.run(|status| {
-            if let StillStatus::Working { done, remaining_secs: of_one } = status {
-                let all_done = f64::from(turn) + done;
+            if let StillStatus::Working { done, remaining_secs: of_file } = status {
+                let all_done = f64::from(index) + done;
                 let of_all = remaining_secs(progress.elapsed().as_secs_f64(), all_done, count);
-                let left = if count == 1 { of_one } else { of_all };
-                show(&progress, all_done / f64::from(count), left);
+                let remaining = if count == 1 { of_file } else { of_all };
+                show(&progress, all_done / f64::from(count), remaining);
             }
             if health.loss().is_some() || interrupted.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
@@ -122,31 +122,31 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
                 ControlFlow::Continue(())
             }
         });
-        // A device that goes shows itself in several ways; its own words explain them all.
+        // A lost device causes many different errors; the driver's reason explains all of them.
         let name = names(&files);
         if let Some(reason) = health.loss() {
             progress.finish_and_clear();
             let text = format!("the GPU was lost: {reason}; {name} was not written");
             return Err(Failure::failed(text));
         }
-        whole.push(result.map_err(|error| match error {
+        complete.push(result.map_err(|error| match error {
             ExportError::Cancelled => {
                 Failure::failed(format!("interrupted; {name} was not written"))
             }
             error => file.failed(error),
         })?);
     }
-    let took = progress.elapsed();
+    let elapsed = progress.elapsed();
     progress.finish_and_clear();
-    // Both of a pair, or neither.
-    for (file, output) in files.iter().zip(whole) {
+    // Files are committed after all are complete, so a failed pair leaves no single file.
+    for (file, output) in files.iter().zip(complete) {
         output.commit().map_err(|error| file.failed(error))?;
     }
     if !arguments.quiet {
         let [width, height] = sizes[0];
         let samples = arguments.samples.unwrap_or(scene.quality.samples);
-        let (name, secs) = (names(&files), took.as_secs_f64());
-        tell(&format!(
+        let (name, secs) = (names(&files), elapsed.as_secs_f64());
+        message(&format!(
             "{name}: {width}x{height}, {samples} samples, {secs:.1} s on {}",
             gpu.name()
         ));
@@ -154,7 +154,7 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A file to be written.
+/// A file to write, and the options of its still.
 struct File {
     path: PathBuf,
     options: StillOptions,
@@ -182,7 +182,7 @@ fn names(files: &[File]) -> String {
     files.iter().map(File::name).collect::<Vec<_>>().join(" and ")
 }
 
-/// A flag that Ctrl-C sets. The second time ends the process where it stands.
+/// A flag that Ctrl-C sets. A second Ctrl-C ends the process at once.
 pub(super) fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let set = flag.clone();
@@ -195,23 +195,24 @@ pub(super) fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     Ok(flag)
 }
 
-/// A bar on standard error; hidden where that is no terminal.
+/// A progress bar on standard error; hidden if standard error is not a terminal.
 pub(super) fn progress_bar(quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();
     }
-    // The template is a constant that a run has shown to be well formed.
+    // The template is a constant and well formed, so the default is never used.
     let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}")
         .unwrap_or(ProgressStyle::default_bar());
     ProgressBar::new(BAR_STEPS).with_style(style)
 }
 
+/// Updates the progress bar: the completed fraction, and the estimated remaining time.
 pub(super) fn show(progress: &ProgressBar, done: f64, remaining_secs: Option<f64>) {
     progress.set_position((done * BAR_STEPS as f64) as u64);
     if let Some(secs) = remaining_secs {
-        // More than a year is as good as a year.
-        let left = Duration::from_secs_f64(secs.clamp(0.0, 3.2e7).ceil());
-        progress.set_message(format!("about {} left", HumanDuration(left)));
+        // One year at most: `from_secs_f64` panics for values out of its range.
+        let remaining = Duration::from_secs_f64(secs.clamp(0.0, 3.2e7).ceil());
+        progress.set_message(format!("about {} left", HumanDuration(remaining)));
     }
 }
 
@@ -220,7 +221,7 @@ pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text
         .split_once(['x', 'X'])
         .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-    let sides = sides.ok_or("write it as width x height in pixels, such as 1280x720")?;
+    let sides = sides.ok_or("write the width and height in pixels, such as 1280x720")?;
     export::checked_size(sides).map_err(|error| error.to_string())
 }
 
@@ -239,7 +240,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_are_read_and_checked() {
+    fn sizes_are_parsed_and_checked() {
         assert_eq!(parse_size("1280x720"), Ok([1280, 720]));
         assert_eq!(parse_size("1X16384"), Ok([1, 16384]));
         for text in [
@@ -261,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_are_read_and_checked() {
+    fn sample_counts_are_parsed_and_checked() {
         assert_eq!(parse_samples("16"), Ok(16));
         for text in ["0", "1025", "-1", "2.5", "many", ""] {
             assert!(parse_samples(text).is_err(), "{text:?} was accepted");

@@ -1,4 +1,4 @@
-//! `mandelight scene`: a document to start from.
+//! `mandelight scene`: prints a scene document.
 
 use mandelight::scene::{document, presets};
 
@@ -8,9 +8,9 @@ use super::{
     print,
 };
 
-/// What `mandelight scene` takes.
+/// The arguments of `mandelight scene`.
 #[derive(clap::Args)]
-pub struct Arguments {
+pub struct SceneArguments {
     /// Print this opening scene or dive instead of the first scene
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
@@ -22,8 +22,8 @@ pub struct Arguments {
     set: Vec<Change>,
 }
 
-/// Prints what was asked for.
-pub fn run(arguments: Arguments) -> Result<(), Failure> {
+/// Prints the scene document, or the list of presets.
+pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
     if arguments.list_presets {
         let names: Vec<String> = presets::every().map(|preset| name_of(preset.name)).collect();
         let width = names.iter().map(String::len).max().unwrap_or(0);
@@ -38,13 +38,13 @@ pub fn run(arguments: Arguments) -> Result<(), Failure> {
         .ok_or_else(|| {
             let names: Vec<String> = presets::every().map(|p| name_of(p.name)).collect();
             let wanted = wanted.unwrap_or_default();
-            Failure::usage(format!("--preset: no \"{wanted}\"; there are {}", names.join(", ")))
+            Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
         })?;
     let scene = input::changed((preset.scene)(), &arguments.set)?;
     print(&document::to_json(&scene))
 }
 
-/// A preset's name as it is typed: `coral-reef` for "Coral reef".
+/// A preset's name on the command line: `coral-reef` for "Coral reef".
 fn name_of(name: &str) -> String {
     name.to_lowercase().replace(' ', "-")
 }

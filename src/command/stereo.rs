@@ -1,6 +1,6 @@
-//! How both eyes' pictures are put together, as a command was asked.
+//! `--stereo`: the layout of both eyes' pictures.
 //!
-//! In: the arguments. Out: scenes with that layout, and which files there are to be.
+//! In: the arguments. Out: scenes with the layout, and the files of each picture.
 
 use std::{
     path::{Path, PathBuf},
@@ -12,37 +12,37 @@ use mandelight::{
     scene::{Project, Scene, StereoLayout},
 };
 
-/// The layout that was asked for.
+/// The arguments of the stereo layout.
 #[derive(Clone, Copy, clap::Args)]
 pub struct StereoArguments {
-    /// How both eyes' pictures are put together, in place of the scene's own layout; pair writes a
-    /// file for each eye, _left and _right added to its name
+    /// Layout of both eyes' pictures, instead of the scene's layout; pair writes one file per eye,
+    /// with _left and _right added to the name
     #[arg(long, value_name = "LAYOUT")]
     stereo: Option<Layout>,
 }
 
-/// What `--stereo` takes.
+/// The values of `--stereo`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Layout {
-    /// One picture, seen from the camera itself
+    /// No stereo: one picture from the camera's position
     Off,
-    /// The left eye's picture left of the right one's
+    /// The left eye's picture on the left, the right eye's on the right
     SideBySide,
-    /// The left eye's picture above the right one's
+    /// The left eye's picture on top, the right eye's below
     TopBottom,
     /// One picture for red-cyan glasses
     Anaglyph,
-    /// A file for each eye
+    /// One file per eye
     Pair,
 }
 
 impl StereoArguments {
-    /// Gives a scene the layout.
-    pub fn lay_out(self, scene: &mut Scene) {
+    /// Sets the layout of a scene.
+    pub fn apply(self, scene: &mut Scene) {
         let layout = match self.stereo {
             None => return,
             Some(Layout::Off) => StereoLayout::Off,
-            // So that a frame of a pair is the same whatever layout the scene had.
+            // One layout for pairs makes their files independent of the scene's layout.
             Some(Layout::SideBySide | Layout::Pair) => StereoLayout::SideBySide,
             Some(Layout::TopBottom) => StereoLayout::TopBottom,
             Some(Layout::Anaglyph) => StereoLayout::Anaglyph,
@@ -50,15 +50,15 @@ impl StereoArguments {
         scene.camera.stereo.layout = layout;
     }
 
-    /// Gives it to a scene and every key of its path.
-    pub fn lay_out_all(self, project: &mut Project) {
-        self.lay_out(&mut project.scene);
+    /// Sets the layout of a scene and of every key of its path.
+    pub fn apply_to_all(self, project: &mut Project) {
+        self.apply(&mut project.scene);
         for key in &mut project.path.keys {
-            self.lay_out(Arc::make_mut(&mut key.scene));
+            self.apply(Arc::make_mut(&mut key.scene));
         }
     }
 
-    /// The files that a picture becomes: one, or one for each eye.
+    /// The eye of each file of a picture: one file, or one per eye.
     pub fn eyes(self) -> &'static [Option<Eye>] {
         if self.stereo == Some(Layout::Pair) {
             &[Some(Eye::Left), Some(Eye::Right)]
@@ -68,14 +68,14 @@ impl StereoArguments {
     }
 }
 
-/// The file of one of a pair: `out_left.png` of `out.png`.
+/// The path of one file of a stereo pair: `out_left.png` for `out.png`.
 pub fn file_of(path: &Path, eye: Option<Eye>) -> PathBuf {
     let Some(eye) = eye else { return path.to_owned() };
     let mut name = path.file_stem().unwrap_or_default().to_owned();
     name.push(eye.suffix());
-    if let Some(ending) = path.extension() {
+    if let Some(extension) = path.extension() {
         name.push(".");
-        name.push(ending);
+        name.push(extension);
     }
     path.with_file_name(name)
 }
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_of_a_pair_has_its_name() {
+    fn each_file_of_a_pair_has_its_suffix() {
         let named = |path: &str, eye| file_of(Path::new(path), eye);
         assert_eq!(named("a/out.png", None), Path::new("a/out.png"));
         assert_eq!(named("a/out.png", Some(Eye::Left)), Path::new("a/out_left.png"));
