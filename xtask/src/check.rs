@@ -4,8 +4,9 @@ use anyhow::{Result, bail};
 
 use crate::{need, shell};
 
-/// Formatting of every crate; clippy natively on every target, and on the library for wasm32.
-/// All are run, so that one visit shows all there is to mend.
+/// Checks the formatting of every crate, and runs clippy natively and for wasm32.
+///
+/// All checks run even after a failure, so that one call shows every problem.
 pub fn check() -> Result<()> {
     need::wasm_target()?;
     let passes: [&[&str]; 3] = [

@@ -1,7 +1,7 @@
-//! `cargo xtask …`: builds, serves, tests and packs Mandelight.
+//! `cargo xtask …`: builds, serves, tests and packages Mandelight.
 //!
-//! In: the command line. Out: the exit code, 0 when all went well, 1 when something failed, 2 for a
-//! command line that makes no sense. Each command gets what it needs by itself (see `need.rs`).
+//! In: the command line. Out: the exit code: 0 success, 1 failure, 2 an invalid command line. Each
+//! command installs the tools that it needs (see `need.rs`).
 
 mod bench;
 mod check;
@@ -17,19 +17,19 @@ use std::process::ExitCode;
 const HELP: &str = "\
 Usage: cargo xtask <command>
 
-  serve [--port N]  build the page and serve it on 127.0.0.1 (from port 8080 on)
-  test              everything: check, the page, unit, GPU and browser tests
+  serve [--port N]  build the page and serve it on 127.0.0.1 (first free port from 8080)
+  test              run everything: check, the page, unit, GPU and browser tests
   dist              write dist/, a folder that any static host can serve
-  check             formatting and lints, native and wasm32, warnings denied
-  bless             make the golden pictures again from what the renderer draws now
-  bench [OPTION…]   measure the renderer beside the thesis's algorithm; --help tells the options
-  pictures [NAME…]  draw the pictures of the README and the docs again
-  help              this text
+  check             check formatting and lints, native and wasm32, warnings denied
+  bless             replace the golden pictures by the renderer's current output
+  bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
+  pictures [NAME…]  render the pictures of the README and the docs again
+  help              print this text
 ";
 
-/// What the command line asks for.
+/// A parsed command line.
 #[derive(Debug, PartialEq)]
-enum Wish {
+enum Command {
     Serve { port: u16 },
     Test,
     Dist,
@@ -42,22 +42,22 @@ enum Wish {
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let wish = match wish_of(&words) {
-        Ok(wish) => wish,
-        Err(complaint) => {
-            eprint!("{complaint}\n\n{HELP}");
+    let command = match parse(&words) {
+        Ok(command) => command,
+        Err(message) => {
+            eprint!("{message}\n\n{HELP}");
             return ExitCode::from(2);
         }
     };
-    let result = match wish {
-        Wish::Serve { port } => serve::serve(port),
-        Wish::Test => test::test(),
-        Wish::Dist => page::dist().map(drop),
-        Wish::Check => check::check(),
-        Wish::Bless => test::bless(),
-        Wish::Bench { options } => bench::bench(&options),
-        Wish::Pictures { names } => pictures::pictures(&names),
-        Wish::Help => {
+    let result = match command {
+        Command::Serve { port } => serve::serve(port),
+        Command::Test => test::test(),
+        Command::Dist => page::dist().map(drop),
+        Command::Check => check::check(),
+        Command::Bless => test::bless(),
+        Command::Bench { options } => bench::bench(&options),
+        Command::Pictures { names } => pictures::pictures(&names),
+        Command::Help => {
             print!("{HELP}");
             Ok(())
         }
@@ -71,27 +71,27 @@ fn main() -> ExitCode {
     }
 }
 
-/// Reads the command line; the error is a sentence for the person who typed it.
-fn wish_of(words: &[String]) -> Result<Wish, String> {
+/// Parses the command line; the error is a message for the user.
+fn parse(words: &[String]) -> Result<Command, String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words.as_slice() {
-        [] | ["help" | "-h" | "--help", ..] => Ok(Wish::Help),
-        ["serve"] => Ok(Wish::Serve { port: serve::FIRST_PORT }),
+        [] | ["help" | "-h" | "--help", ..] => Ok(Command::Help),
+        ["serve"] => Ok(Command::Serve { port: serve::FIRST_PORT }),
         ["serve", "--port", port] => port
             .parse()
-            .map(|port| Wish::Serve { port })
-            .map_err(|_| format!("--port wants a number from 0 to 65535, not {port:?}")),
-        ["test"] => Ok(Wish::Test),
-        ["dist"] => Ok(Wish::Dist),
-        ["check"] => Ok(Wish::Check),
-        ["bless"] => Ok(Wish::Bless),
-        ["bench", options @ ..] => {
-            Ok(Wish::Bench { options: options.iter().map(|&option| option.to_owned()).collect() })
-        }
+            .map(|port| Command::Serve { port })
+            .map_err(|_| format!("--port must be a number from 0 to 65535, not {port:?}")),
+        ["test"] => Ok(Command::Test),
+        ["dist"] => Ok(Command::Dist),
+        ["check"] => Ok(Command::Check),
+        ["bless"] => Ok(Command::Bless),
+        ["bench", options @ ..] => Ok(Command::Bench {
+            options: options.iter().map(|&option| option.to_owned()).collect(),
+        }),
         ["pictures", names @ ..] => {
-            Ok(Wish::Pictures { names: names.iter().map(|&name| name.to_owned()).collect() })
+            Ok(Command::Pictures { names: names.iter().map(|&name| name.to_owned()).collect() })
         }
-        other => Err(format!("there is no `cargo xtask {}`", other.join(" "))),
+        other => Err(format!("unknown command `cargo xtask {}`", other.join(" "))),
     }
 }
 
@@ -99,23 +99,23 @@ fn wish_of(words: &[String]) -> Result<Wish, String> {
 mod tests {
     use super::*;
 
-    fn parsed(line: &str) -> Result<Wish, String> {
-        wish_of(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+    fn parsed(line: &str) -> Result<Command, String> {
+        parse(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
     }
 
     #[test]
-    fn commands_are_understood() {
-        assert_eq!(parsed("serve"), Ok(Wish::Serve { port: 8080 }));
-        assert_eq!(parsed("serve --port 9000"), Ok(Wish::Serve { port: 9000 }));
-        assert_eq!(parsed("test"), Ok(Wish::Test));
+    fn commands_are_parsed() {
+        assert_eq!(parsed("serve"), Ok(Command::Serve { port: 8080 }));
+        assert_eq!(parsed("serve --port 9000"), Ok(Command::Serve { port: 9000 }));
+        assert_eq!(parsed("test"), Ok(Command::Test));
         let options = vec!["--views".into(), "whole,filled".into()];
-        assert_eq!(parsed("bench --views whole,filled"), Ok(Wish::Bench { options }));
-        assert_eq!(parsed("pictures bloom"), Ok(Wish::Pictures { names: vec!["bloom".into()] }));
-        assert_eq!(parsed(""), Ok(Wish::Help));
+        assert_eq!(parsed("bench --views whole,filled"), Ok(Command::Bench { options }));
+        assert_eq!(parsed("pictures bloom"), Ok(Command::Pictures { names: vec!["bloom".into()] }));
+        assert_eq!(parsed(""), Ok(Command::Help));
     }
 
     #[test]
-    fn nonsense_is_named() {
+    fn errors_name_the_invalid_argument() {
         assert!(parsed("serve --port 70000").unwrap_err().contains("70000"));
         assert!(parsed("tset").unwrap_err().contains("tset"));
         assert!(parsed("dist now").unwrap_err().contains("dist now"));

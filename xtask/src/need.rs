@@ -1,8 +1,8 @@
-//! What the commands need from the machine, and how it is got.
+//! The tools that the commands need, and their installation.
 //!
-//! Each function makes sure of one thing: it returns at once where the thing is there, gets it where
-//! that can be done without asking (rustup, apt as root, npm inside the checkout), and otherwise fails
-//! with one line that says what to install.
+//! Each function ensures that one tool exists. It returns at once if the tool is installed,
+//! installs the tool if no user interaction is necessary (rustup, apt as root, npm inside the
+//! checkout), and otherwise fails with one line that says what to install.
 
 use std::{
     fs,
@@ -14,17 +14,18 @@ use anyhow::{Context as _, Result, bail};
 
 use crate::shell;
 
-/// What the page is compiled for.
+/// The compilation target of the page.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
-/// The oldest Node.js that the browser driver and wasm-opt are tried with.
+/// The oldest major version of Node.js that is tested with the browser driver and wasm-opt.
 const OLDEST_NODE: u32 = 20;
 
-/// The environment variable that names the browser to test with.
+/// The environment variable with the path of the browser for tests.
 pub const BROWSER_VARIABLE: &str = "MANDELIGHT_CHROMIUM";
 
-/// Names under which a browser that can be driven goes. Ubuntu's `chromium` is a stub that only
-/// advertises a snap, hence each is asked for its version first.
+/// Program names of browsers that can be automated.
+///
+/// Ubuntu's `chromium` may be a stub that only recommends a snap, so [`runs`] checks each one.
 const BROWSERS: [&str; 6] = [
     "chromium",
     "google-chrome-stable",
@@ -34,42 +35,42 @@ const BROWSERS: [&str; 6] = [
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
 ];
 
-/// What the tests are given.
+/// The programs that the tests need.
 pub struct Tools {
     /// The browser's program.
     pub chromium: PathBuf,
 }
 
-/// A thing that Debian and Ubuntu have packages for.
-struct Thing {
+/// A tool that Debian and Ubuntu have packages for.
+struct Tool {
     name: &'static str,
     packages: &'static [&'static str],
-    is_there: fn() -> bool,
+    is_installed: fn() -> bool,
 }
 
-const VULKAN: Thing = Thing {
+const VULKAN: Tool = Tool {
     name: "a Vulkan software driver (Mesa's lavapipe)",
     packages: &["libvulkan1", "mesa-vulkan-drivers"],
-    is_there: has_software_vulkan,
+    is_installed: has_software_vulkan,
 };
-const BROWSER: Thing = Thing {
+const BROWSER: Tool = Tool {
     name: "Chromium or Chrome (or set MANDELIGHT_CHROMIUM to its path)",
     packages: &["chromium", "fonts-liberation"],
-    is_there: || find_browser().is_some(),
+    is_installed: || find_browser().is_some(),
 };
-const NODE: Thing = Thing {
+const NODE: Tool = Tool {
     name: "Node.js 20 or newer, with npm",
     packages: &["nodejs", "npm"],
-    is_there: has_node,
+    is_installed: has_node,
 };
-const OPENEXR: Thing = Thing {
+const OPENEXR: Tool = Tool {
     name: "OpenEXR's tools",
     packages: &["openexr"],
-    // Older ones have no way to run well without a file.
-    is_there: || Command::new("exrheader").output().is_ok(),
+    // Old versions of exrheader have no successful call without a file.
+    is_installed: || Command::new("exrheader").output().is_ok(),
 };
 
-/// The standard library for [`WASM_TARGET`].
+/// Ensures the standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
     let has_it = || {
         let ask = ["--print", "target-libdir", "--target", WASM_TARGET];
@@ -87,28 +88,28 @@ pub fn wasm_target() -> Result<()> {
     Ok(())
 }
 
-/// Everything that `cargo xtask test` needs.
+/// Ensures all tools that `cargo xtask test` needs.
 pub fn test_tools() -> Result<Tools> {
     wasm_target()?;
     if is_set(BROWSER_VARIABLE) && find_browser().is_none() {
-        bail!("{BROWSER_VARIABLE} names a browser that does not run");
+        bail!("{BROWSER_VARIABLE} names a program that does not run; set it to Chromium's path");
     }
-    machine_has(&[VULKAN, BROWSER, NODE, OPENEXR])?;
+    ensure_installed(&[VULKAN, BROWSER, NODE, OPENEXR])?;
     node_packages()?;
-    Ok(Tools { chromium: find_browser().context("the browser went away")? })
+    Ok(Tools { chromium: find_browser().context("the browser cannot be found any more")? })
 }
 
-/// A Vulkan driver that needs no graphics card.
+/// Ensures a Vulkan driver that needs no graphics card.
 pub fn vulkan_driver() -> Result<()> {
-    machine_has(&[VULKAN])
+    ensure_installed(&[VULKAN])
 }
 
-/// The packages of package-lock.json, in node_modules/.
+/// Ensures the packages of package-lock.json, in node_modules/.
 pub fn node_packages() -> Result<()> {
-    machine_has(&[NODE])?;
+    ensure_installed(&[NODE])?;
     let root = shell::root()?;
     let lock = fs::read(root.join("package-lock.json")).context("package-lock.json")?;
-    // npm's own record of what it installed has another form, so a copy of the lock tells.
+    // npm's record of installed packages has another format, so a copy of the lock is compared.
     let installed = root.join("node_modules/.installed-lock.json");
     if fs::read(&installed).is_ok_and(|old| old == lock) {
         return Ok(());
@@ -118,14 +119,14 @@ pub fn node_packages() -> Result<()> {
     fs::write(&installed, lock).with_context(|| installed.display().to_string())
 }
 
-/// Makes sure of `things`, by apt where it may.
-fn machine_has(things: &[Thing]) -> Result<()> {
-    let missing = || things.iter().filter(|thing| !(thing.is_there)()).collect::<Vec<_>>();
-    let wanted = missing();
-    if wanted.is_empty() {
+/// Installs the missing ones of `tools` by apt, if permitted; fails if a tool is still missing.
+fn ensure_installed(tools: &[Tool]) -> Result<()> {
+    let missing = || tools.iter().filter(|tool| !(tool.is_installed)()).collect::<Vec<_>>();
+    let missing_before = missing();
+    if missing_before.is_empty() {
         return Ok(());
     }
-    let packages: Vec<_> = wanted.iter().flat_map(|thing| thing.packages).collect();
+    let packages: Vec<_> = missing_before.iter().flat_map(|tool| tool.packages).collect();
     if let Some(apt_get) = apt_get() {
         shell::run(apt_get().arg("update"))?;
         let install = ["install", "--yes", "--no-install-recommends"];
@@ -133,19 +134,19 @@ fn machine_has(things: &[Thing]) -> Result<()> {
     }
     let missing = missing();
     if !missing.is_empty() {
-        bail!("{}", complaint(&missing));
+        bail!("{}", install_message(&missing));
     }
     Ok(())
 }
 
 /// One line that says what to install.
-fn complaint(missing: &[&Thing]) -> String {
-    let names: Vec<_> = missing.iter().map(|thing| thing.name).collect();
-    let packages: Vec<_> = missing.iter().flat_map(|thing| thing.packages).copied().collect();
+fn install_message(missing: &[&Tool]) -> String {
+    let names: Vec<_> = missing.iter().map(|tool| tool.name).collect();
+    let packages: Vec<_> = missing.iter().flat_map(|tool| tool.packages).copied().collect();
     format!("install {} (on Debian: apt-get install {})", names.join(", and "), packages.join(" "))
 }
 
-/// A maker of `apt-get` commands, where this user may run them without being asked for a password.
+/// A constructor of `apt-get` commands, if this user may run `apt-get` without a password.
 fn apt_get() -> Option<fn() -> Command> {
     shell::output(Command::new("apt-get").arg("--version"))?;
     if shell::output(Command::new("id").arg("-u"))? == "0" {
@@ -163,8 +164,10 @@ fn apt_get() -> Option<fn() -> Command> {
     })
 }
 
-/// True where the Vulkan loader and a software driver's manifest are there, or someone has chosen a
-/// driver by hand. Only Linux tests on Vulkan: macOS has Metal, and Windows brings its own.
+/// True if the Vulkan loader and a software driver's manifest exist.
+///
+/// Also true if an environment variable selects a driver, and on macOS and Windows, whose tests
+/// do not need a Vulkan driver.
 fn has_software_vulkan() -> bool {
     if !cfg!(target_os = "linux") {
         return true;
@@ -202,12 +205,12 @@ fn find_browser() -> Option<PathBuf> {
     BROWSERS.iter().find_map(|name| in_path(name).filter(|file| runs(file)))
 }
 
-/// Whether a browser answers with its version. On Windows asking opens a window instead.
+/// True if a browser prints its version. On Windows `--version` opens a window, so it is not run.
 fn runs(browser: &Path) -> bool {
     cfg!(windows) || shell::output(Command::new(browser).arg("--version")).is_some()
 }
 
-/// The full path of a program that PATH holds, or of one that is named by a full path.
+/// The full path of a program in a folder of PATH, or of a program given by its full path.
 fn in_path(name: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())
@@ -222,15 +225,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn versions_are_read() {
+    fn versions_are_parsed() {
         assert_eq!(major("v20.20.2"), Some(20));
         assert_eq!(major("9"), Some(9));
         assert_eq!(major("none"), None);
     }
 
     #[test]
-    fn what_cannot_be_got_is_named_in_one_line() {
-        let line = complaint(&[&VULKAN, &NODE]);
+    fn missing_tools_are_named_in_one_line() {
+        let line = install_message(&[&VULKAN, &NODE]);
         assert!(line.contains("lavapipe") && line.contains("Node.js 20"), "{line}");
         assert!(
             line.ends_with("apt-get install libvulkan1 mesa-vulkan-drivers nodejs npm)"),

@@ -1,7 +1,7 @@
-//! From the library to the folder that a browser loads.
+//! Build of the page: from the library to the folder that a browser loads.
 //!
-//! In: the crate, `www/`. Out: a folder of `index.html` and files whose names carry a hash of their
-//! content, so that a host may let browsers keep them for ever. All addresses are relative.
+//! In: the crate and `www/`. Out: a folder of `index.html` and files whose names contain a hash of
+//! their content, so that browsers may cache these files forever. All URLs are relative.
 
 use std::{
     fs,
@@ -17,17 +17,19 @@ use wasm_bindgen_cli_support::Bindgen;
 
 use crate::{need, shell};
 
-/// What is done to the module after it is compiled.
+/// The optimisation of the module after its compilation.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Finish {
-    /// Nothing more: for trying things out.
-    Quick,
-    /// Optimised by Binaryen and stripped of names: for publishing.
-    Small,
+pub enum Optimization {
+    /// None: for development.
+    None,
+    /// By Binaryen, without debug names: for publishing.
+    Binaryen,
 }
 
-/// Features that Rust's wasm32 target may use, for a module that no longer lists its own.
-/// Fast maths stays off: what the page computes on the CPU has to match the native program.
+/// Options of Binaryen's wasm-opt.
+///
+/// The features are those of Rust's wasm32 target, because the bound module does not list its
+/// features. Fast maths stays off: the page's results on the CPU must equal the native program's.
 const WASM_OPT_FLAGS: [&str; 9] = [
     "-O3",
     "--strip-debug",
@@ -40,28 +42,30 @@ const WASM_OPT_FLAGS: [&str; 9] = [
     "--enable-multivalue",
 ];
 
-/// Where boot.js keeps the module's size, for its progress: a host that compresses doesn't tell it.
-const SIZE_MARK: &str = "const WASM_BYTES = 0;";
+/// The placeholder of the module's size in boot.js.
+///
+/// boot.js shows the download's progress, and a host that compresses does not send the size.
+const SIZE_PLACEHOLDER: &str = "const WASM_BYTES = 0;";
 
-/// Digits of the hash in a file name: 48 bits, plenty for a handful of files.
+/// Hexadecimal digits of the hash in a file name: 48 bits.
 const HASH_DIGITS: usize = 12;
 
-/// Builds the folder for publishing, and returns it.
+/// Builds the folder for publishing and returns its path.
 pub fn dist() -> Result<PathBuf> {
     let folder = shell::root()?.join("dist");
-    build(&folder, Finish::Small)?;
+    build(&folder, Optimization::Binaryen)?;
     Ok(folder)
 }
 
-/// Builds the page into `folder`, whose old content goes.
-pub fn build(folder: &Path, finish: Finish) -> Result<()> {
+/// Builds the page into `folder` and deletes the old content.
+pub fn build(folder: &Path, optimization: Optimization) -> Result<()> {
     need::wasm_target()?;
-    if finish == Finish::Small {
+    if optimization == Optimization::Binaryen {
         need::node_packages()?;
     }
     let bound = bind(&compile()?)?;
     let module = bound.join("mandelight_bg.wasm");
-    if finish == Finish::Small {
+    if optimization == Optimization::Binaryen {
         optimise(&module)?;
     }
     let page = link(parts(&bound, &shell::root()?.join("www"))?)?;
@@ -79,7 +83,7 @@ fn compile() -> Result<PathBuf> {
     Ok(target.join(need::WASM_TARGET).join("web/mandelight.wasm"))
 }
 
-/// Writes the module that browsers load and its JavaScript half, and returns their folder.
+/// Writes the module for browsers and its JavaScript glue, and returns their folder.
 fn bind(wasm: &Path) -> Result<PathBuf> {
     let folder = shell::target()?.join("page-parts");
     clear(&folder)?;
@@ -89,7 +93,7 @@ fn bind(wasm: &Path) -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// Runs Binaryen's wasm-opt over the module.
+/// Optimises the module with Binaryen's wasm-opt.
 fn optimise(module: &Path) -> Result<()> {
     let mut node = Command::new("node");
     node.current_dir(shell::root()?).arg("node_modules/binaryen/bin/wasm-opt");
@@ -99,12 +103,12 @@ fn optimise(module: &Path) -> Result<()> {
 
 /// One file of the page.
 struct Part {
-    /// Its name, with `/` between folders; others refer to it as `./name`.
+    /// Path with `/` between folders; other parts refer to this part as `./name`.
     name: String,
     bytes: Vec<u8>,
 }
 
-/// Gathers the page's files, each after all those that it refers to.
+/// Reads the page's files in an order in which every file follows those that it refers to.
 fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     let read = |folder: &Path, name: &str| -> Result<Part> {
         let file = folder.join(name);
@@ -120,7 +124,8 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     parts.push(module);
     parts.push(read(bound, "mandelight.js")?);
     let mut boot = read(www, "boot.js")?;
-    boot.bytes = replaced(&boot.bytes, SIZE_MARK, &size).context("boot.js lost its size mark")?;
+    boot.bytes = replaced(&boot.bytes, SIZE_PLACEHOLDER, &size)
+        .with_context(|| format!("boot.js does not contain `{SIZE_PLACEHOLDER}`"))?;
     parts.push(boot);
     for name in ["favicon.svg", "style.css", "index.html"] {
         parts.push(read(www, name)?);
@@ -128,7 +133,7 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     Ok(parts)
 }
 
-/// The scripts that wasm-bindgen takes out of the crates (`#[wasm_bindgen(inline_js)]`).
+/// The scripts that wasm-bindgen extracts from the crates (`#[wasm_bindgen(inline_js)]`).
 fn snippets(bound: &Path) -> Result<Vec<String>> {
     let mut names = Vec::new();
     let mut folders = vec!["snippets".to_owned()];
@@ -144,7 +149,7 @@ fn snippets(bound: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Gives each part but the page itself a name with its hash, in every part that refers to it.
+/// Adds a hash to the name of each part except `index.html`, and updates all references.
 fn link(parts: Vec<Part>) -> Result<Vec<Part>> {
     let mut linked: Vec<Part> = Vec::new();
     let mut names: Vec<(String, String, bool)> = Vec::new();
@@ -168,24 +173,24 @@ fn link(parts: Vec<Part>) -> Result<Vec<Part>> {
     Ok(linked)
 }
 
-/// `style.css` becomes `style-0123456789ab.css`.
+/// The name with a hash of the content: `style-0123456789ab.css` for `style.css`.
 fn hashed_name(name: &str, bytes: &[u8]) -> String {
     let digest = Sha256::digest(bytes);
     let hash: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
     let hash = &hash[..HASH_DIGITS];
     match name.rsplit_once('.') {
-        Some((stem, ending)) => format!("{stem}-{hash}.{ending}"),
+        Some((stem, extension)) => format!("{stem}-{hash}.{extension}"),
         None => format!("{name}-{hash}"),
     }
 }
 
-/// `text` with every `old` made `new`; nothing where it is no text or has no `old`.
+/// `text` with every `old` replaced by `new`; none if `text` is not UTF-8 or has no `old`.
 fn replaced(text: &[u8], old: &str, new: &str) -> Option<Vec<u8>> {
     let text = std::str::from_utf8(text).ok()?;
     text.contains(old).then(|| text.replace(old, new).into_bytes())
 }
 
-/// Writes the page's files into `folder` and nothing else.
+/// Writes the page's files into the emptied `folder`.
 fn write(folder: &Path, page: &[Part]) -> Result<()> {
     clear(folder)?;
     for part in page {
@@ -197,7 +202,7 @@ fn write(folder: &Path, page: &[Part]) -> Result<()> {
     Ok(())
 }
 
-/// Empties `folder`, which must be one that this program made.
+/// Empties `folder`, which must be a folder of this program.
 fn clear(folder: &Path) -> Result<()> {
     if folder.exists() {
         fs::remove_dir_all(folder).with_context(|| folder.display().to_string())?;
@@ -205,7 +210,7 @@ fn clear(folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| folder.display().to_string())
 }
 
-/// Says how large each file is, as it is and as a host sends it.
+/// Prints the size of each file, uncompressed and with gzip.
 fn print_sizes(folder: &Path, page: &[Part]) -> Result<()> {
     let mut sum = (0, 0);
     let line = |name: &str, raw: usize, gzip: usize| {
@@ -241,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn names_follow_content() {
+    fn a_hashed_name_depends_on_the_content() {
         let (one, two) = (names_of("a {}"), names_of("b {}"));
         assert_eq!(one, names_of("a {}"));
         assert_eq!(one[..2], two[..2], "a style sheet does not rename scripts");
@@ -252,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_below_renames_everything_above() {
+    fn a_changed_file_renames_all_files_that_refer_to_it() {
         let names = |module: &str| {
             let boot = part("boot.js", "import('./module.js')");
             let page = part("index.html", "./boot.js");
@@ -265,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_nothing_loads_is_refused() {
+    fn a_file_without_references_is_an_error() {
         let parts = vec![part("lost.css", ""), part("index.html", "")];
         let error = link(parts).map(|_| ()).unwrap_err();
         assert!(error.to_string().contains("lost.css"), "{error}");

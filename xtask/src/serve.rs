@@ -1,7 +1,7 @@
-//! `cargo xtask serve`: the page on 127.0.0.1.
+//! `cargo xtask serve`: serves the page on 127.0.0.1.
 //!
-//! The built folder is read into memory once, so a request can only ever name what was built: there is
-//! no path to climb out of.
+//! The server loads the built folder into memory once. Requests are looked up in a map of its
+//! files, so a path such as `/..` cannot reach other files.
 
 use std::{
     collections::BTreeMap,
@@ -18,26 +18,26 @@ use tiny_http::{Header, Method, Response, Server};
 
 use crate::{page, shell};
 
-/// Where `serve` begins to look for a free port.
+/// The first port that `serve` tries by default.
 pub const FIRST_PORT: u16 = 8080;
 
-/// How many ports it tries.
+/// Number of ports that `serve` tries.
 const PORTS_TRIED: u16 = 50;
 
-/// Requests answered at once; a browser opens six connections to a host.
+/// Number of concurrent requests; a browser opens six connections to a host.
 const WORKERS: usize = 6;
 
 /// Builds the page and serves it until the program is stopped.
 pub fn serve(first_port: u16) -> Result<()> {
     let folder = shell::target()?.join("page");
-    page::build(&folder, page::Finish::Quick)?;
+    page::build(&folder, page::Optimization::None)?;
     let site = Arc::new(Site::load(&folder)?);
 
     let listener = listen(first_port)?;
     let address = listener.local_addr().context("the server's address")?;
     let server = Server::from_listener(listener, None).map_err(|error| anyhow!("{error}"))?;
     println!("Mandelight is at http://{address}/");
-    // The line is what the caller waits for, also where standard output is a pipe.
+    // A caller waits for this line; a pipe would buffer the line without the flush.
     std::io::stdout().flush().context("standard output")?;
 
     let server = Arc::new(server);
@@ -52,7 +52,7 @@ pub fn serve(first_port: u16) -> Result<()> {
     Ok(())
 }
 
-/// Takes `first_port`, or the next one that is free.
+/// Listens on the first free port from `first_port` on.
 fn listen(first_port: u16) -> Result<TcpListener> {
     let last_port = first_port.saturating_add(PORTS_TRIED - 1);
     for port in first_port..=last_port {
@@ -74,20 +74,20 @@ fn answer_all(server: &Server, site: &Site) {
             ("X-Content-Type-Options", "nosniff"),
         ];
         for (name, value) in headers {
-            // Fixed ASCII text on both sides: always a header.
+            // Names and values are constant ASCII texts, which are valid headers.
             response.add_header(Header::from_bytes(name, value).expect("a header"));
         }
-        // A browser that has gone away before its answer is no trouble of ours.
+        // A browser may close the connection before the response; this is not an error.
         let _ = request.respond(response);
     }
 }
 
-/// The built page, each file by the path that asks for it (`/index.html`).
+/// The built page: each file by its URL path (`/index.html`).
 struct Site {
     files: BTreeMap<String, Vec<u8>>,
 }
 
-/// What goes back to the browser.
+/// A response to the browser.
 struct Answer {
     status: u16,
     mime: &'static str,
@@ -114,14 +114,14 @@ impl Site {
         Ok(Self { files })
     }
 
-    /// Answers `GET` and `HEAD` for the page's own files; everything else is refused.
+    /// The response to a request: a file of the page for `GET` and `HEAD`, else an error.
     fn answer(&self, method: &Method, url: &str) -> Answer {
         let plain = |status, text: &str| Answer {
             status,
             mime: "text/plain; charset=utf-8",
             body: text.as_bytes().to_vec(),
         };
-        // tiny_http leaves the body out of the answer to HEAD by itself.
+        // tiny_http omits the body of a response to HEAD.
         if !matches!(method, Method::Get | Method::Head) {
             return plain(405, "only GET and HEAD\n");
         }
@@ -134,9 +134,9 @@ impl Site {
     }
 }
 
-/// The media type of a file of the page. Browsers compile wasm while it arrives only under its own.
+/// The media type of a file; browsers need `application/wasm` for streaming compilation.
 fn mime_of(path: &str) -> &'static str {
-    match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
+    match path.rsplit_once('.').map_or("", |(_, extension)| extension) {
         "html" => "text/html; charset=utf-8",
         "js" => "text/javascript; charset=utf-8",
         "css" => "text/css; charset=utf-8",
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn files_come_with_their_media_type() {
+    fn files_have_their_media_type() {
         for (url, mime) in [
             ("/", "text/html; charset=utf-8"),
             ("/?test", "text/html; charset=utf-8"),
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn only_reading_is_allowed() {
+    fn only_get_and_head_are_allowed() {
         assert_eq!(site().answer(&Method::Head, "/").status, 200);
         for method in [Method::Post, Method::Put, Method::Delete, Method::Options] {
             assert_eq!(site().answer(&method, "/").status, 405, "{method}");
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn a_taken_port_is_passed_over() {
+    fn a_taken_port_is_skipped() {
         let taken = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
         let port = taken.local_addr().unwrap().port();
         let next = listen(port).unwrap().local_addr().unwrap();

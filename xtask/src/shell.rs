@@ -1,4 +1,4 @@
-//! Running other programs. In: a command. Out: success, or an error that shows the command.
+//! Execution of other programs. In: a command. Out: success, or an error with the command line.
 
 use std::{
     path::PathBuf,
@@ -7,14 +7,14 @@ use std::{
 
 use anyhow::{Context as _, Result, bail};
 
-/// The repository's top folder. Cargo tells it at run time, so a moved checkout needs no rebuild.
+/// The repository's top folder, read at run time so that a moved checkout needs no rebuild.
 pub fn root() -> Result<PathBuf> {
     let xtask = std::env::var_os("CARGO_MANIFEST_DIR").context("start this as `cargo xtask`")?;
     let root = PathBuf::from(xtask).join("..");
     root.canonicalize().with_context(|| format!("no folder {}", root.display()))
 }
 
-/// Cargo's output folder, where `CARGO_TARGET_DIR` says or in the usual place.
+/// Cargo's output folder: `CARGO_TARGET_DIR` or `target/`.
 pub fn target() -> Result<PathBuf> {
     Ok(match std::env::var_os("CARGO_TARGET_DIR") {
         Some(folder) => root()?.join(folder),
@@ -22,7 +22,7 @@ pub fn target() -> Result<PathBuf> {
     })
 }
 
-/// The cargo that runs this program, standing in the top folder.
+/// A command of the cargo that runs this program, in the top folder.
 pub fn cargo() -> Result<Command> {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(root()?);
@@ -40,13 +40,13 @@ pub fn run(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Runs `command` silently and gives its standard output, or nothing where it could not run or failed.
+/// Runs `command` silently; its standard output, or none if the command failed.
 pub fn output(command: &mut Command) -> Option<String> {
     let done = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
     done.status.success().then(|| String::from_utf8_lossy(&done.stdout).trim().to_owned())
 }
 
-/// The command as it would be typed, with the program's folder left out.
+/// The command line as typed, without the program's folder.
 fn line_of(command: &Command) -> String {
     let program = PathBuf::from(command.get_program());
     let program = program.file_name().unwrap_or(command.get_program()).to_string_lossy();
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_failing_command_is_shown() {
+    fn the_error_of_a_failing_command_shows_its_command_line() {
         let error = run(Command::new("cargo").arg("no-such-subcommand")).unwrap_err();
         assert!(error.to_string().contains("cargo no-such-subcommand"), "{error}");
     }

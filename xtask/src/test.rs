@@ -4,11 +4,11 @@ use anyhow::{Result, bail};
 
 use crate::{check, need, page, shell};
 
-/// Runs everything there is, to the end, and fails where anything failed.
+/// Runs all checks and tests to the end, and fails if any failed.
 ///
-/// The package's own tests come last, so that a good run ends on the test runner's closing line.
-/// Tests learn from the environment where the built page (`MANDELIGHT_DIST`) and the browser
-/// (`MANDELIGHT_CHROMIUM`) are.
+/// The package's tests run last, so that a successful run ends with the test runner's summary.
+/// Environment variables name the built page (`MANDELIGHT_DIST`) and the browser
+/// (`MANDELIGHT_CHROMIUM`) for the tests.
 pub fn test() -> Result<()> {
     let tools = need::test_tools()?;
     let mut failures = Vec::new();
@@ -20,7 +20,7 @@ pub fn test() -> Result<()> {
     };
 
     note(check::check());
-    // A page that could not be built must not leave an old one for the browser test to pass on.
+    // If the build fails, the browser test must not run with an old page.
     let dist = page::dist();
     let folder = dist.as_ref().ok().cloned();
     note(dist.map(drop));
@@ -46,7 +46,7 @@ pub fn test() -> Result<()> {
     Ok(())
 }
 
-/// Makes the golden pictures again. What they should look like is for a person to judge.
+/// Replaces the golden pictures by current renders. A person must review the new pictures.
 pub fn bless() -> Result<()> {
     need::vulkan_driver()?;
     let mut cargo = shell::cargo()?;

@@ -1,6 +1,6 @@
-//! Pixels: read from the renderer's files, put side by side, and written.
+//! Composition of pictures: reads the renderer's files, and writes montages.
 //!
-//! In: PNG and OpenEXR files. Out: PNG files, 8 bits a channel with alpha.
+//! In: PNG and OpenEXR files. Out: PNG files, RGBA, 8 bits per channel.
 
 use std::{fs::File, io::BufReader, path::Path};
 
@@ -16,12 +16,12 @@ pub struct Image {
 }
 
 impl Image {
-    /// One that can be seen through everywhere.
-    fn clear(size_px: [u32; 2]) -> Self {
+    /// A transparent picture.
+    fn transparent(size_px: [u32; 2]) -> Self {
         Self { size_px, pixels: vec![[0; 4]; (size_px[0] * size_px[1]) as usize] }
     }
 
-    /// Reads a PNG as the renderer writes it: RGB, 8 bits a channel.
+    /// Reads a PNG of the renderer: RGB, 8 bits per channel.
     pub fn read_png(file: &Path) -> Result<Self> {
         let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
         let mut bytes = vec![0; reader.output_buffer_size().context("it is too large")?];
@@ -34,9 +34,10 @@ impl Image {
         Ok(Self { size_px: [info.width, info.height], pixels })
     }
 
-    /// Shows what an OpenEXR file of the renderer holds beside colour: near bright and far dark, or
-    /// normals with each axis from −1 to 1 as a channel from 0 to full. Where nothing was met it is
-    /// clear.
+    /// Reads the depth or the normals of an OpenEXR file of the renderer.
+    ///
+    /// Near points are bright, far points dark. A normal's axes from −1 to 1 become channels from
+    /// 0 to 255. The background is transparent.
     pub fn read_exr(file: &Path, layer: Layer) -> Result<Self> {
         let image = exr::prelude::read_first_flat_layer_from_file(file)?;
         let size = image.layer_data.size;
@@ -48,8 +49,8 @@ impl Image {
         };
         let depth = channel("Z")?;
         let normal = [channel("N.X")?, channel("N.Y")?, channel("N.Z")?];
-        let met = || depth.iter().copied().filter(|depth| depth.is_finite());
-        let (near, far) = (met().fold(f32::MAX, f32::min), met().fold(f32::MIN, f32::max));
+        let hits = || depth.iter().copied().filter(|depth| depth.is_finite());
+        let (near, far) = (hits().fold(f32::MAX, f32::min), hits().fold(f32::MIN, f32::max));
         let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         let show = |i: usize| match layer {
             _ if !depth[i].is_finite() => [0; 4],
@@ -80,7 +81,7 @@ impl Image {
         Ok(writer.finish()?)
     }
 
-    fn put(&mut self, part: &Image, [left, top]: [u32; 2]) {
+    fn paste(&mut self, part: &Image, [left, top]: [u32; 2]) {
         let [width, height] = part.size_px;
         for y in 0..height {
             let from = (y * width) as usize;
@@ -91,15 +92,15 @@ impl Image {
     }
 }
 
-/// Panels of one size in rows of `across`, `gap_px` between them.
-pub fn montage(panels: &[Image], across: u32, gap_px: u32) -> Image {
+/// Panels of one size in rows of `columns`, with gaps of `gap_px`.
+pub fn montage(panels: &[Image], columns: u32, gap_px: u32) -> Image {
     let [width, height] = panels.first().map_or([0, 0], |panel| panel.size_px);
-    let rows = (panels.len() as u32).div_ceil(across);
-    let whole = |side: u32, count: u32| side * count + gap_px * (count - 1);
-    let mut picture = Image::clear([whole(width, across), whole(height, rows)]);
+    let rows = (panels.len() as u32).div_ceil(columns);
+    let total = |side: u32, count: u32| side * count + gap_px * (count - 1);
+    let mut picture = Image::transparent([total(width, columns), total(height, rows)]);
     for (i, panel) in panels.iter().enumerate() {
-        let (column, row) = (i as u32 % across, i as u32 / across);
-        picture.put(panel, [column * (width + gap_px), row * (height + gap_px)]);
+        let (column, row) = (i as u32 % columns, i as u32 / columns);
+        picture.paste(panel, [column * (width + gap_px), row * (height + gap_px)]);
     }
     picture
 }
@@ -109,13 +110,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn panels_stand_in_rows_with_clear_gaps() {
+    fn panels_are_in_rows_with_transparent_gaps() {
         let plain = |level| Image { size_px: [2, 1], pixels: vec![[level, 0, 0, 255]; 2] };
         let picture = montage(&[plain(1), plain(2), plain(3), plain(4)], 2, 1);
         assert_eq!(picture.size_px, [5, 3]);
         let levels: Vec<u8> = picture.pixels.iter().map(|pixel| pixel[0]).collect();
         assert_eq!(levels, [1, 1, 0, 2, 2, 0, 0, 0, 0, 0, 3, 3, 0, 4, 4]);
-        let clear = picture.pixels.iter().filter(|pixel| pixel[3] == 0).count();
-        assert_eq!(clear, 15 - 8);
+        let transparent = picture.pixels.iter().filter(|pixel| pixel[3] == 0).count();
+        assert_eq!(transparent, 15 - 8);
     }
 }

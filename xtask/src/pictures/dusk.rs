@@ -1,21 +1,21 @@
-//! A dusk over water between hills: surroundings to light pictures by.
+//! A procedural environment map: a dusk over water between hills.
 //!
-//! In: nothing. Out: an equirectangular picture in Radiance's format, its upper edge +z and its
-//! middle +y, as the renderer reads one.
+//! Out: an equirectangular map in Radiance's format. The upper edge is +z and the centre is +y, as
+//! the renderer expects.
 
 use std::f64::consts::{PI, TAU};
 
 const WIDTH: usize = 2048;
 const HEIGHT: usize = 1024;
 
-/// Where the sun stands: to the left of the picture's middle, a little above the hills.
+/// The sun's position: left of the map's centre, slightly above the hills.
 const SUN_AZIMUTH_RAD: f64 = -0.35;
 const SUN_HEIGHT_RAD: f64 = 0.16;
 const SUN_RADIUS_RAD: f64 = 0.02;
 
 type Color = [f64; 3];
 
-/// The picture as a file: Radiance's RGBE, not run-length encoded.
+/// The map as a Radiance RGBE file, not run-length encoded.
 pub fn radiance_file() -> Vec<u8> {
     let mut file = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n".to_vec();
     file.extend(format!("-Y {HEIGHT} +X {WIDTH}\n").bytes());
@@ -40,7 +40,7 @@ fn rgbe(color: Color) -> [u8; 4] {
     [r, g, b, (exponent + 128) as u8]
 }
 
-/// Linear Rec. 709 from this direction: azimuth from the middle, to the right.
+/// Linear Rec. 709 radiance from a direction; the azimuth increases to the right of the centre.
 fn radiance(azimuth_rad: f64, height_rad: f64) -> Color {
     for (layer, color) in
         [[0.012, 0.012, 0.02], [0.05, 0.036, 0.055], [0.15, 0.085, 0.1]].iter().enumerate()
@@ -53,19 +53,19 @@ fn radiance(azimuth_rad: f64, height_rad: f64) -> Color {
     if height_rad >= 0.0 {
         return sky(azimuth_rad, height_rad);
     }
-    // Water: the sky upside down, broken by ripples, less of it the steeper one looks.
+    // Water reflects the mirrored sky with ripples, and less at steeper viewing angles.
     let near = 1.0 / (0.02 - height_rad);
     let ripple = noise(azimuth_rad * 40.0 * (1.0 - height_rad), near * 14.0) - 0.5;
     let mirrored_rad = (-height_rad + 0.10 * ripple * (1.0 + height_rad / 2.0)).max(0.02);
-    let share = 0.12 + 0.6 * (1.0 + height_rad.sin()).powi(4);
+    let reflectance = 0.12 + 0.6 * (1.0 + height_rad.sin()).powi(4);
     let [r, g, b] = sky(azimuth_rad, mirrored_rad);
-    [r * share + 0.002, g * share + 0.006, b * share + 0.01]
+    [r * reflectance + 0.002, g * reflectance + 0.006, b * reflectance + 0.01]
 }
 
-/// How high the hills of a layer stand, the nearest first.
+/// The height of a layer of hills above the horizon, radians; layer 0 is the nearest.
 fn ridge(azimuth_rad: f64, layer: usize) -> f64 {
     let far = layer as f64;
-    // Around the whole horizon, and closed where it meets itself.
+    // Noise on a circle is continuous across azimuth ±π.
     let around = (azimuth_rad + far * 1.7).sin() * 0.5 + 0.5;
     let circle = [azimuth_rad.cos(), azimuth_rad.sin()].map(|side| 3.0 * (1.0 + far) * side + 9.0);
     let rough = clouds(circle[0], circle[1] + 30.0 * far);
@@ -89,7 +89,7 @@ fn sky(azimuth_rad: f64, height_rad: f64) -> Color {
     let glow = 5.0 * (-away_rad / 0.09).exp() + 0.8 * (-away_rad / 0.35).exp();
     color = add(color, [1.0, 0.5, 0.18], glow);
 
-    // Clouds on a plane overhead, lit from below where the sun is near.
+    // Clouds on a horizontal plane, lit from below near the sun.
     let reach = 1.0 / (here[2] + 0.12);
     let thick = clouds(here[0] * reach * 1.1 + 40.0, here[1] * reach * 2.2 + 40.0);
     let cover = ((thick - 0.48) / 0.22).clamp(0.0, 1.0) * (here[2] * 6.0).clamp(0.0, 1.0);
@@ -108,7 +108,7 @@ fn add(a: Color, b: Color, part: f64) -> Color {
     [0, 1, 2].map(|i| a[i] + b[i] * part)
 }
 
-/// Noise of several sizes, 0 to 1.
+/// Fractal noise of six octaves, 0 to 1.
 fn clouds(x: f64, y: f64) -> f64 {
     let octave = |level: i32| {
         let scale = 2f64.powi(level);
@@ -117,7 +117,7 @@ fn clouds(x: f64, y: f64) -> f64 {
     (0..6).map(octave).sum::<f64>() / (2.0 - 1.0 / 32.0)
 }
 
-/// Smooth noise with one value on each point of a grid, 0 to 1.
+/// Value noise on an integer grid with smooth interpolation, 0 to 1.
 fn noise(x: f64, y: f64) -> f64 {
     let (cell_x, cell_y) = (x.floor(), y.floor());
     let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
@@ -128,7 +128,7 @@ fn noise(x: f64, y: f64) -> f64 {
     lower + (upper - lower) * t
 }
 
-/// A number from 0 to 1 that looks like chance, the same for the same place.
+/// A pseudo-random number of a grid point, 0 to 1.
 fn hashed(x: i64, y: i64) -> f64 {
     let mut bits = (x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (y as u64).rotate_left(32);
     // Steele, Lea, Flood: the finalizer of SplitMix64.

@@ -1,8 +1,8 @@
-//! `cargo xtask pictures`: draws every picture that the README and the docs show.
+//! `cargo xtask pictures`: renders every picture of the README and the docs.
 //!
-//! In: the table in `table.rs`. Out: `docs/pictures/*.png`, drawn by the native renderer through its
-//! command line, as anyone would. A picture of one panel is the renderer's own file and carries its
-//! scene; one of several is put together here.
+//! In: the table in `table.rs`. Out: `docs/pictures/*.png`, rendered by the command line program.
+//! A picture of one panel is the renderer's file and contains its scene. A picture of several
+//! panels is a montage without a scene.
 
 mod compose;
 mod dusk;
@@ -20,28 +20,28 @@ use table::{Layer, Panel, Picture};
 
 use crate::{need, shell};
 
-/// Where the pictures are, from the repository's top folder.
+/// The pictures' folder, relative to the repository's top folder.
 const FOLDER: &str = "docs/pictures";
 
-/// Pixels between the panels of a picture. They are left transparent.
+/// Width of the transparent gaps between the panels of a picture, pixels.
 const GAP_PX: u32 = 4;
 
-/// Draws the pictures of these names, all where none is given.
+/// Renders the pictures of these names; without names, all pictures.
 pub fn pictures(names: &[String]) -> Result<()> {
-    let wanted = wanted(names)?;
+    let selected = selected(names)?;
     need::vulkan_driver()?;
-    let studio = Studio::open()?;
-    for picture in &wanted {
+    let painter = Painter::new()?;
+    for picture in &selected {
         eprintln!("{FOLDER}/{}.png: {}", picture.name, picture.caption);
-        studio.draw(picture).with_context(|| format!("the picture {:?}", picture.name))?;
+        painter.paint(picture).with_context(|| format!("the picture {:?}", picture.name))?;
     }
     Ok(())
 }
 
-fn wanted(names: &[String]) -> Result<Vec<Picture>> {
+fn selected(names: &[String]) -> Result<Vec<Picture>> {
     let mut pictures = table::pictures();
-    if let Some(stranger) = names.iter().find(|name| pictures.iter().all(|p| p.name != **name)) {
-        bail!("no picture is named {stranger:?}; the table is xtask/src/pictures/table.rs");
+    if let Some(unknown) = names.iter().find(|name| pictures.iter().all(|p| p.name != **name)) {
+        bail!("no picture is named {unknown:?}; the table is xtask/src/pictures/table.rs");
     }
     if !names.is_empty() {
         pictures.retain(|picture| names.iter().any(|name| name == picture.name));
@@ -49,29 +49,30 @@ fn wanted(names: &[String]) -> Result<Vec<Picture>> {
     Ok(pictures)
 }
 
-/// What drawing takes: the renderer, and a folder for parts.
-struct Studio {
+/// Renders pictures with the command line program.
+struct Painter {
     renderer: PathBuf,
     docs: PathBuf,
+    /// Folder for temporary files.
     parts: PathBuf,
-    /// A picture of surroundings, made here so that the repository need not carry one.
-    surroundings: PathBuf,
+    /// An environment map, generated so that the repository needs no large file.
+    environment_map: PathBuf,
 }
 
-impl Studio {
-    fn open() -> Result<Self> {
+impl Painter {
+    fn new() -> Result<Self> {
         shell::run(shell::cargo()?.args(["build", "--release", "--bin", "mandelight"]))?;
         let target = shell::target()?;
         let parts = target.join("pictures");
         fs::create_dir_all(&parts)?;
-        let surroundings = parts.join("dusk.hdr");
-        fs::write(&surroundings, dusk::radiance_file())?;
+        let environment_map = parts.join("dusk.hdr");
+        fs::write(&environment_map, dusk::radiance_file())?;
         let renderer =
             target.join("release").join(format!("mandelight{}", std::env::consts::EXE_SUFFIX));
-        Ok(Self { renderer, docs: shell::root()?.join("docs"), parts, surroundings })
+        Ok(Self { renderer, docs: shell::root()?.join("docs"), parts, environment_map })
     }
 
-    fn draw(&self, picture: &Picture) -> Result<()> {
+    fn paint(&self, picture: &Picture) -> Result<()> {
         let file = shell::root()?.join(FOLDER).join(format!("{}.png", picture.name));
         let size_px = picture.panel_px(GAP_PX);
         if let [panel] = picture.panels.as_slice()
@@ -81,19 +82,19 @@ impl Studio {
         }
         let panels = picture.panels.iter().map(|panel| self.panel(panel, size_px));
         let panels: Vec<Image> = panels.collect::<Result<_>>()?;
-        compose::montage(&panels, picture.across, GAP_PX).write(&file)
+        compose::montage(&panels, picture.columns, GAP_PX).write(&file)
     }
 
-    /// A panel as pixels.
+    /// Renders a panel and reads its pixels.
     fn panel(&self, panel: &Panel, size_px: [u32; 2]) -> Result<Image> {
         if let Some(frame) = panel.frame {
-            // Frames that are there are kept, even those of another scene's.
+            // The renderer keeps existing frames and rejects a folder of another scene.
             let folder = self.parts.join("frames");
             if folder.exists() {
                 fs::remove_dir_all(&folder)?;
             }
-            let mut renderer = self.start("frames", panel, size_px, &folder)?;
-            self.finish(renderer.args(["--frames", &frame.to_string()]), panel)?;
+            let mut renderer = self.command("frames", panel, size_px, &folder)?;
+            self.run(renderer.args(["--frames", &frame.to_string()]), panel)?;
             return Image::read_png(&folder.join(format!("frame_{frame:06}.png")));
         }
         if panel.layer == Layer::Color {
@@ -107,11 +108,11 @@ impl Studio {
     }
 
     fn render(&self, panel: &Panel, size_px: [u32; 2], file: &Path) -> Result<()> {
-        self.finish(&mut self.start("render", panel, size_px, file)?, panel)
+        self.run(&mut self.command("render", panel, size_px, file)?, panel)
     }
 
-    /// The renderer with everything but the scene's name.
-    fn start(
+    /// The renderer's command line without the scene.
+    fn command(
         &self,
         verb: &str,
         panel: &Panel,
@@ -122,8 +123,8 @@ impl Studio {
         let samples = panel.samples.to_string();
         renderer.args([verb, "--quiet", "--samples", &samples]).arg("--output").arg(output);
         renderer.args(["--size", &format!("{width}x{height}")]);
-        if panel.surrounded {
-            renderer.arg("--environment").arg(&self.surroundings);
+        if panel.has_environment_map {
+            renderer.arg("--environment").arg(&self.environment_map);
         }
         for change in &panel.changes {
             renderer.args(["--set", change]);
@@ -131,15 +132,16 @@ impl Studio {
         Ok(renderer)
     }
 
-    /// Names the scene, and runs the renderer. Where a change is for a field that the preset has
-    /// not, the renderer says so.
-    fn finish(&self, renderer: &mut Command, panel: &Panel) -> Result<()> {
+    /// Adds the scene to the command line and runs the renderer.
+    ///
+    /// The renderer reports changes of fields that the scene does not have.
+    fn run(&self, renderer: &mut Command, panel: &Panel) -> Result<()> {
         let scene = if panel.scene.ends_with(".json") {
             self.docs.join(panel.scene)
         } else {
             let mut printer = Command::new(&self.renderer);
             let text = shell::output(printer.args(["scene", "--preset", panel.scene]))
-                .with_context(|| format!("no opening scene is named {:?}", panel.scene))?;
+                .with_context(|| format!("no preset is named {:?}", panel.scene))?;
             let file = self.parts.join("scene.json");
             fs::write(&file, text)?;
             file
@@ -163,7 +165,7 @@ mod tests {
         entries.filter(|path| path.extension().is_some_and(|found| found == extension)).collect()
     }
 
-    /// The README and every page of docs/, each with its path from the top folder.
+    /// The texts of the README and of every page of docs/.
     fn pages() -> Vec<String> {
         let mut files = files_in(&root().join("docs"), "md");
         files.push(root().join("README.md"));
@@ -171,15 +173,15 @@ mod tests {
     }
 
     #[test]
-    fn the_folder_has_the_pictures_of_the_table_and_no_others() {
-        let there: BTreeSet<String> = fs::read_dir(root().join(FOLDER))
+    fn the_folder_has_exactly_the_pictures_of_the_table() {
+        let existing: BTreeSet<String> = fs::read_dir(root().join(FOLDER))
             .unwrap()
             .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
             .collect();
         let named: Vec<String> =
             table::pictures().iter().map(|picture| format!("{}.png", picture.name)).collect();
-        assert_eq!(there, named.iter().cloned().collect(), "draw with `cargo xtask pictures`");
-        assert_eq!(there.len(), named.len(), "a name is in the table twice");
+        assert_eq!(existing, named.iter().cloned().collect(), "run `cargo xtask pictures`");
+        assert_eq!(existing.len(), named.len(), "a name is in the table twice");
     }
 
     #[test]
@@ -187,15 +189,15 @@ mod tests {
         let pages = pages();
         for Picture { name, caption, .. } in table::pictures() {
             let html = format!("pictures/{name}.png\" width=\"320\" alt=\"{caption}\"");
-            let ways = [
+            let forms = [
                 html,
                 format!("![{caption}](docs/pictures/{name}.png)"),
                 format!("![{caption}](pictures/{name}.png)"),
             ];
             assert!(
-                pages.iter().any(|page| ways.iter().any(|way| page.contains(way))),
+                pages.iter().any(|page| forms.iter().any(|form| page.contains(form))),
                 "neither the README nor a page of docs/ shows {name} as\n{}",
-                ways.join("\n")
+                forms.join("\n")
             );
         }
     }
@@ -221,17 +223,17 @@ mod tests {
                 png::Decoder::new(std::io::BufReader::new(fs::File::open(&file).unwrap()));
             let size = decoder.read_info().unwrap().info().size();
             let [width, height] = picture.panel_px(GAP_PX);
-            let (columns, rows) = (picture.across, picture.panels.len() as u32 / picture.across);
-            let whole = |panel, count| panel * count + GAP_PX * (count - 1);
-            // A sheet of both eyes is twice as wide.
+            let (columns, rows) = (picture.columns, picture.panels.len() as u32 / picture.columns);
+            let total = |panel, count| panel * count + GAP_PX * (count - 1);
+            // A side-by-side stereo picture has twice the width.
             let sheet = picture.panels[0].changes.contains(&"camera.stereo.layout=side_by_side");
             let width = if sheet { 2 * width } else { width };
-            assert_eq!(size, (whole(width, columns), whole(height, rows)), "{}", picture.name);
+            assert_eq!(size, (total(width, columns), total(height, rows)), "{}", picture.name);
         }
     }
 
     #[test]
-    fn scenes_in_files_are_there() {
+    fn the_scene_files_of_the_table_exist() {
         for panel in table::pictures().iter().flat_map(|picture| &picture.panels) {
             if panel.scene.ends_with(".json") {
                 assert!(root().join("docs").join(panel.scene).is_file(), "{}", panel.scene);
@@ -240,9 +242,9 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_is_not_there_is_named() {
-        let error = wanted(&["mandelbulb".into(), "teapot".into()]).err().unwrap();
+    fn the_error_names_an_unknown_picture() {
+        let error = selected(&["mandelbulb".into(), "teapot".into()]).err().unwrap();
         assert!(error.to_string().contains("teapot"), "{error}");
-        assert_eq!(wanted(&["mandelbulb".into()]).unwrap().len(), 1);
+        assert_eq!(selected(&["mandelbulb".into()]).unwrap().len(), 1);
     }
 }

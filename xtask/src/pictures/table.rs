@@ -1,28 +1,28 @@
-//! The pictures, one line each.
+//! The table of all pictures of the README and the docs.
 //!
-//! In: nothing. Out: what to draw. `cargo xtask pictures` draws it, and a test wants each shown in
-//! the README or the docs with its caption.
+//! `cargo xtask pictures` renders the table. A test checks that the README or the docs show each
+//! picture with its caption.
 
 /// A picture of the README or the docs.
 pub struct Picture {
     /// The file's name in docs/pictures/, without `.png`.
     pub name: &'static str,
-    /// What it shows, as its alternative text says it.
+    /// The caption, equal to the alternative text.
     pub caption: &'static str,
-    /// About how large it is; panels are whole pixels.
+    /// Approximate width and height; panels are rounded down to whole pixels.
     pub size_px: [u32; 2],
-    /// Panels in a row.
-    pub across: u32,
-    /// What it is made of, row by row; full rows.
+    /// Number of panels in a row.
+    pub columns: u32,
+    /// The panels, row by row; all rows are full.
     pub panels: Vec<Panel>,
 }
 
 impl Picture {
-    /// The size of each panel, `gap_px` between them.
+    /// The size of each panel, with gaps of `gap_px`.
     pub fn panel_px(&self, gap_px: u32) -> [u32; 2] {
-        let down = self.panels.len() as u32 / self.across;
-        let side = |whole: u32, count: u32| (whole - gap_px * (count - 1)) / count;
-        [side(self.size_px[0], self.across), side(self.size_px[1], down)]
+        let rows = self.panels.len() as u32 / self.columns;
+        let side = |total: u32, count: u32| (total - gap_px * (count - 1)) / count;
+        [side(self.size_px[0], self.columns), side(self.size_px[1], rows)]
     }
 
     fn sized(self, size_px: [u32; 2]) -> Self {
@@ -30,36 +30,36 @@ impl Picture {
     }
 }
 
-/// One render.
+/// A panel of a picture: one rendering.
 #[derive(Clone)]
 pub struct Panel {
-    /// The name of an opening scene, or a document's file in docs/.
+    /// The name of a preset, or a document's path in docs/.
     pub scene: &'static str,
-    /// Changes to it, as `--set` takes them.
+    /// Changes of the scene, in the format of `--set`.
     pub changes: Vec<&'static str>,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
-    /// The frame of the scene's path to show; none for the scene itself.
+    /// The frame of the scene's path; none for the scene itself.
     pub frame: Option<u32>,
-    /// Whether the picture of a dusk lights it.
-    pub surrounded: bool,
-    /// What of the render is shown.
+    /// True if the environment map lights the scene.
+    pub has_environment_map: bool,
+    /// The shown layer of the rendering.
     pub layer: Layer,
 }
 
-/// What a render knows of each pixel.
+/// A layer of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layer {
-    /// Its colour.
+    /// The display colour.
     Color,
-    /// How far away the surface is.
+    /// The distance of the surface.
     Depth,
-    /// Where the surface faces.
+    /// The normal of the surface.
     Normal,
 }
 
 impl Panel {
-    /// Whether the renderer's own PNG is what is wanted.
+    /// True if the panel is a PNG of `mandelight render`.
     pub fn is_still(&self) -> bool {
         self.frame.is_none() && self.layer == Layer::Color
     }
@@ -77,8 +77,8 @@ impl Panel {
         Self { frame: Some(frame), ..self }
     }
 
-    fn surrounded(self) -> Self {
-        Self { surrounded: true, ..self }
+    fn with_environment_map(self) -> Self {
+        Self { has_environment_map: true, ..self }
     }
 
     fn layer(self, layer: Layer) -> Self {
@@ -86,7 +86,7 @@ impl Panel {
     }
 }
 
-/// All of them.
+/// All pictures.
 pub fn pictures() -> Vec<Picture> {
     vec![
         single("mandelbulb", "The power-8 Mandelbulb, as the page opens on it", of("Mandelbulb"))
@@ -123,7 +123,7 @@ pub fn pictures() -> Vec<Picture> {
         single(
             "surroundings",
             "A bulb lit by the picture of a dusk that stands behind it",
-            of("Mandelbulb").with(DUSK).surrounded(),
+            of("Mandelbulb").with(DUSK).with_environment_map(),
         ),
         picture(
             "normals",
@@ -190,7 +190,7 @@ pub fn pictures() -> Vec<Picture> {
             ],
         ),
         single("anaglyph", "A bulb for red-cyan glasses", marble("camera.stereo.layout=anaglyph")),
-        // Side by side, each eye has the size that is asked for.
+        // The size is that of one eye's picture.
         single(
             "stereo",
             "The views of the two eyes, side by side",
@@ -217,7 +217,7 @@ pub fn pictures() -> Vec<Picture> {
         single(
             "everything",
             "Everything at once: 64 lights of a picture, indirect light, auto exposure, bloom and stereo",
-            marble("camera.stereo.layout=anaglyph").surrounded().with(DUSK).with(&[
+            marble("camera.stereo.layout=anaglyph").with_environment_map().with(DUSK).with(&[
                 r#"camera.position=["2.7", "-3.24", "-0.3"]"#,
                 "camera.orientation=[0.69182, 0.25047, 0.23055, 0.63679]",
                 "lights.rig.count=64",
@@ -264,11 +264,11 @@ pub fn pictures() -> Vec<Picture> {
     ]
 }
 
-/// Lights of a sky alone.
+/// A sky as the only light.
 const SKY: &[&str] =
     &["lights.environment=[]", "lights.rig.kind=sky", "lights.rig.count=32", "tone.exposure=0.3"];
 
-/// Before the dusk, its sun to the left.
+/// The environment map as the only light and as the background, with the sun on the left.
 const DUSK: &[&str] = &[
     "lights.environment=[]",
     "lights.rig.count=48",
@@ -284,7 +284,7 @@ fn reef() -> Panel {
     of("Coral reef")
 }
 
-/// Overhangs that light hardly reaches.
+/// Overhangs with little direct light.
 fn cave(change: &'static str) -> Panel {
     reef().with(&["camera.vertical_fov_deg=30", "indirect.radius=0.12", change])
 }
@@ -297,7 +297,7 @@ fn lamp(change: &'static str) -> Panel {
     of("Lantern").with(&["tone.exposure=1.6", change])
 }
 
-/// A bulb before strong lights, most of it dark.
+/// A mostly dark bulb in front of strong lights.
 fn rim() -> Panel {
     of("Four petals").with(&[
         r#"lights.environment=[
@@ -310,7 +310,7 @@ fn rim() -> Panel {
     ])
 }
 
-/// A pale bulb: strong colours would reach one eye only through red-cyan glasses.
+/// A pale bulb: red-cyan glasses hide a strong colour from one eye.
 fn marble(change: &'static str) -> Panel {
     of("Mandelbulb").with(&[
         r#"surface.gradient=[
@@ -337,18 +337,18 @@ fn of(scene: &'static str) -> Panel {
         changes: Vec::new(),
         samples: 16,
         frame: None,
-        surrounded: false,
+        has_environment_map: false,
         layer: Layer::Color,
     }
 }
 
 fn picture<const N: usize>(
     name: &'static str,
-    across: u32,
+    columns: u32,
     caption: &'static str,
     panels: [Panel; N],
 ) -> Picture {
-    Picture { name, caption, size_px: [320, 200], across, panels: panels.into() }
+    Picture { name, caption, size_px: [320, 200], columns, panels: panels.into() }
 }
 
 fn single(name: &'static str, caption: &'static str, panel: Panel) -> Picture {
