@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{Align2, Color32, Margin, Panel, Rect, Ui, vec2};
 
 use super::{
-    Action, Inputs, Notice,
+    Action, DisplayInputs, Notice,
     editor::Editor,
     handles,
     home::HomeTarget,
@@ -137,7 +137,7 @@ impl Interface {
 
     /// Draws one frame over all of `ui` and returns what the shell is to do. The scene, the
     /// view's size and [`Self::is_moving`] are up to date afterwards.
-    pub fn show(&mut self, ui: &mut Ui, inputs: &Inputs<'_>) -> Vec<Action> {
+    pub fn show(&mut self, ui: &mut Ui, inputs: &DisplayInputs<'_>) -> Vec<Action> {
         let now_secs = ui.input(|i| i.time);
         let (pressed, held) =
             ui.input(|i| (i.pointer.any_pressed(), i.pointer.any_down() || i.any_touches()));
@@ -181,7 +181,7 @@ impl Interface {
     fn panels(
         &mut self,
         ui: &mut Ui,
-        inputs: &Inputs<'_>,
+        inputs: &DisplayInputs<'_>,
         wide: bool,
         commands: &mut Vec<Command>,
         actions: &mut Vec<Action>,
@@ -234,7 +234,7 @@ impl Interface {
         }
     }
 
-    fn status(&mut self, ui: &mut Ui, inputs: &Inputs<'_>) {
+    fn status(&mut self, ui: &mut Ui, inputs: &DisplayInputs<'_>) {
         let frame = egui::Frame::new().fill(theme::PANEL);
         let status = status::Status {
             report: inputs.report,
@@ -254,7 +254,13 @@ impl Interface {
     }
 
     /// The picture and what moves its camera.
-    fn view(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, wide: bool, commands: &mut Vec<Command>) {
+    fn view(
+        &mut self,
+        ui: &mut Ui,
+        inputs: &DisplayInputs<'_>,
+        wide: bool,
+        commands: &mut Vec<Command>,
+    ) {
         let area = ui.available_rect_before_wrap();
         let (rect, size_px) = view::snap_to_pixels(area, ui.ctx().pixels_per_point());
         self.view_px = size_px;

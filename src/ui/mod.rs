@@ -1,22 +1,22 @@
-//! The interface: panels, the view's pointer and keys, the status line.
+//! The user interface: panels, input in the view, the status line.
 //!
-//! In: what the renderer reports and the picture's texture. Out: an edited [`Scene`], the size
-//! the picture should have, whether it is in motion, and [`Action`]s for the shell to perform.
-//! This layer draws with egui alone: it touches no GPU, no file, no browser.
+//! In: the renderer's report and the picture's texture. Out: an edited
+//! [`Scene`](crate::scene::Scene), the picture's size, whether the view is in motion, and
+//! [`Action`]s for the shell. This layer draws with egui only; it accesses no GPU, file or browser.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | `interface` | one frame: layout, dispatch, undo |
-//! | `panel/` | the panels, one a file |
-//! | `widgets/` | sliders of the parameter table, the light ball, the gradient |
-//! | `view`, `pilot`, `handles` | the picture, what moves its camera, its point lights |
-//! | `field` | the distance field that the camera moves in |
-//! | `home` | where Home leads |
-//! | [`navigation`] | the camera's movements themselves, free of egui |
-//! | [`shortcuts`] | the one table of keys, dispatched and listed in help |
-//! | [`editor`] | the scene and the path under edit, and their history |
-//! | `timeline` | the playhead: which moment of the path is in view |
-//! | `status`, [`theme`], `icon`, [`rects`] | the status line, the look, drawn icons, widgets' places |
+//! | `panel/` | the panels, one per file |
+//! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
+//! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
+//! | `field` | the distance field for the camera's movements |
+//! | `home` | the target of the Home button |
+//! | [`navigation`] | the camera's movements, independent of egui |
+//! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
+//! | [`editor`] | the edited scene and path, and their history |
+//! | `timeline` | the playhead: the time of the path that is in view |
+//! | `status`, [`theme`], `icon`, [`rects`] | the status line, style, icons, widget positions |
 
 mod field;
 mod handles;
@@ -43,82 +43,82 @@ pub use status::zoom;
 
 use crate::render::report::Report;
 
-/// What the interface shows of the rest of the program, each frame.
+/// The data of one frame that the interface displays.
 #[derive(Clone, Copy, Debug)]
-pub struct Inputs<'a> {
+pub struct DisplayInputs<'a> {
     /// The newest picture; none before the first.
-    pub picture: Option<Picture>,
-    /// What the renderer says of itself.
+    pub picture: Option<ViewTexture>,
+    /// The renderer's report.
     pub report: &'a Report,
-    /// The export in progress; none where there is none.
+    /// The export in progress, if any.
     pub export: Option<ExportProgress>,
-    /// What the shell has to say; none where there is nothing.
+    /// The shell's message, if any.
     pub notice: Option<&'a Notice>,
-    /// The name of the device that draws.
+    /// The name of the GPU adapter.
     pub adapter: &'a str,
 }
 
-/// A picture as egui can draw it.
+/// The rendered picture as an egui texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Picture {
-    /// Its texture: sRGB-encoded, opaque.
+pub struct ViewTexture {
+    /// The texture: sRGB-encoded, opaque.
     pub texture: egui::TextureId,
-    /// Its width and height in pixels.
+    /// Width and height in pixels.
     pub size_px: [u32; 2],
 }
 
-/// How far an export is.
+/// Progress of an export.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExportProgress {
-    /// The part done, 0 to 1.
+    /// Completed fraction, 0 to 1.
     pub done: f32,
-    /// Estimated seconds left; none while there is no telling.
+    /// Estimated remaining seconds; none until an estimate is possible.
     pub remaining_secs: Option<f64>,
 }
 
-/// A line from the shell: a file that could not be read, a link that was copied.
+/// A message of the shell, such as "the file could not be read" or "link copied".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// The line.
+    /// The message.
     pub text: String,
-    /// Whether something failed.
+    /// True for an error.
     pub is_error: bool,
 }
 
-/// What the interface asks the shell to do.
+/// A request of the interface to the shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Render the view at this size and hand it out as a PNG or an OpenEXR file.
+    /// Render the view at this size and save it as PNG or OpenEXR.
     SavePicture {
-        /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`]; in stereo, of either
-        /// eye's picture.
+        /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`]; in stereo, of one eye's
+        /// picture.
         size_px: [u32; 2],
-        /// Whether as OpenEXR.
+        /// True for OpenEXR, false for PNG.
         exr: bool,
-        /// Whether as a file for each eye.
+        /// True for one file per eye.
         pair: bool,
     },
-    /// Render frames of the camera path at this size and hand them out as a zip of PNGs.
+    /// Render frames of the camera path at this size and save them as a zip of PNGs.
     SaveSequence {
         /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
         size_px: [u32; 2],
-        /// The first frame, and the first one after it that is not wanted.
+        /// The first frame, and one past the last frame.
         frames: [u32; 2],
-        /// Whether with a file for each eye.
+        /// True for one file per eye.
         pair: bool,
     },
-    /// Stop the export in progress.
+    /// Cancel the export in progress.
     CancelExport,
-    /// Hand out the scene document.
+    /// Save the scene document.
     SaveScene,
-    /// Ask for a scene document, or a PNG that carries one, and load it.
+    /// Open a file dialog for a scene document, or a picture that contains one, and load it.
     LoadScene,
-    /// Ask for an environment map, for [`Interface::use_environment_map`].
+    /// Open a file dialog for an environment map, for [`Interface::use_environment_map`].
     ChoosePicture,
-    /// Copy the address that shares this view.
+    /// Copy a link to this view.
     CopyLink,
-    /// Fill the screen, or leave it.
+    /// Enter or leave fullscreen.
     ToggleFullscreen,
-    /// The notice was read.
+    /// Close the notice.
     DismissNotice,
 }

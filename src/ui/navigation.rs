@@ -1,35 +1,34 @@
-//! Moving the camera: orbit, pan, dolly, fly, home and frame-all.
+//! Movements of the camera: orbit, pan, dolly, fly, home and frame-all.
 //!
-//! In: a [`Camera`], what surrounds it (a [`DistanceField`] and the picture's shape), pointer
-//! positions and time steps. Out: the same camera, moved. Nothing here knows egui, and nothing
-//! moves unless a method is called.
+//! In: a [`Camera`], a [`DistanceField`], the picture's size, pointer positions and time steps.
+//! Out: the moved camera. This module does not depend on egui and keeps no clock.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
-//! | this one | the surroundings, and the pointer's gestures |
-//! | [`collide`] | how far the eye may go, and how it slides along what stops it |
-//! | [`turn`] | rotations that keep the horizon |
-//! | [`fly`] | travel by keys, at a speed that follows the distance to the surface |
-//! | [`flight`] | eased journeys: home, frame-all, level |
-//! | `route` | the ways they take |
+//! | `navigation.rs` | the world around the camera, and the pointer's gestures |
+//! | [`collide`] | collision of the eye with the surface, and sliding along it |
+//! | [`turntable`] | rotations that keep the horizon level |
+//! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
+//! | [`flight`] | animated flights: home, frame-all, level |
+//! | `route` | collision-free routes of flights |
 //!
-//! Pointer positions are normalised device coordinates: −1 to 1, x right, y up. Amounts of
-//! zoom are natural logarithms: +1 comes nearer by a factor of e.
+//! Pointer positions are normalised device coordinates: −1 to 1, x right, y up. Zoom amounts are
+//! natural logarithms: +1 reduces the distance by a factor of e.
 //!
-//! The rules that hold for every movement:
-//! - the eye never passes the surface, and stays [`World::clearance`] away from it;
-//! - it comes no nearer to what it looks at than [`World::nearest`], where pictures still hold,
-//!   and goes no farther from the scene's origin than [`FARTHEST_EYE`];
-//! - positions are rounded to 10⁻⁴ of a pixel at the distance of the surface, so that a scene
-//!   says no more than can be seen;
-//! - nothing is measured in absolute f64 coordinates: places are exact points, and what is near
-//!   them is a vector from the field's own origin, so that every scale feels the same.
+//! Rules of every movement:
+//! - the eye never passes the surface, and stays [`World::clearance`] away from the surface;
+//! - the eye comes no nearer to its target than [`World::nearest`], the limit of the renderer's
+//!   precision, and goes no farther from the scene's origin than [`MAX_EYE_DISTANCE`];
+//! - positions are rounded to 10⁻⁴ of a pixel at the surface's distance, so that documents have
+//!   no invisible digits;
+//! - no measurement uses absolute f64 coordinates: positions are exact points, and nearby positions
+//!   are vectors from the field's origin, so that all zoom levels behave alike.
 
 pub mod collide;
 pub mod flight;
 pub mod fly;
 mod route;
-pub mod turn;
+pub mod turntable;
 
 use std::ops::RangeInclusive;
 
@@ -42,29 +41,30 @@ use crate::{
 use flight::Flight;
 pub use fly::FlyInput;
 use fly::FlySpeed;
-use turn::Turntable;
+use turntable::Turntable;
 
-/// The farthest that the eye goes from the scene's origin, in scene units.
-pub const FARTHEST_EYE: f64 = 90.0;
-/// Most steps of a ray that looks for what is under the pointer: a hand does not wait for more.
+/// Maximum distance of the eye from the scene's origin, in scene units.
+pub const MAX_EYE_DISTANCE: f64 = 90.0;
+/// Maximum steps of a picking ray, so that the pointer responds at once.
 const PICK_STEPS: u32 = 400;
-/// What the eye keeps from any surface, in parts of [`World::nearest`].
+/// Minimum distance of the eye from any surface, as a fraction of [`World::nearest`].
 const CLEARANCE: f64 = 0.25;
-/// Nearest distances within which the eye is said to be at the limit: what it looks at is farther
-/// than what is nearest, and the estimate is one.
+/// Distance to the surface, in units of [`World::nearest`], up to which the eye is at the limit.
+///
+/// Above 1, because the target is farther than the nearest surface, and distances are estimates.
 const AT_LIMIT: f64 = 2.0;
-/// The same where the pivot itself is at the limit.
-const FAR_OFF: f64 = 100.0;
-/// The coarseness of positions, in pixels at the surface's distance.
+/// As [`AT_LIMIT`], if the pivot is at the limit.
+const AT_LIMIT_OF_PIVOT: f64 = 100.0;
+/// Rounding of positions, in pixels at the surface's distance.
 const GRAIN_PX: f64 = 1e-4;
-/// The same for the pivot, in view units.
+/// Rounding of the pivot, in view units.
 const PIVOT_GRAIN: f64 = 1e-6;
-/// How near and far the pivot is while something is approached, in parts of its depth.
+/// Range of the pivot's distance during a dolly, as a fraction of the target's depth.
 const PIVOT_PARTS: RangeInclusive<f64> = 0.02..=50.0;
-/// How far a drag over half the picture's height turns, in radians.
+/// Rotation for a drag over half the picture's height, in radians.
 const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
-/// The picture's shape.
+/// The picture's aspect, height and hit distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewport {
     /// Width over height.
@@ -75,28 +75,28 @@ pub struct Viewport {
     pub detail: f64,
 }
 
-/// What surrounds the camera.
+/// The surface around the camera, and the viewport.
 #[derive(Clone, Copy)]
 pub struct World<'a> {
-    /// The surface.
+    /// The surface's distance field.
     pub field: &'a dyn DistanceField,
-    /// The picture through which it is seen.
+    /// The picture's aspect, height and hit distance.
     pub viewport: Viewport,
 }
 
-/// Distance and precision at a camera, for the status line.
+/// The camera's distance to the surface and its precision, for the status line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraStatus {
     /// Estimated distance from the eye to the nearest surface, in scene units.
     pub distance: f64,
-    /// Radius of a pixel's cone at that distance, in scene units.
+    /// Radius of a pixel's cone at the estimated distance, in scene units.
     pub footprint: f64,
-    /// True where coming nearer would show rounding instead of detail.
+    /// True if a nearer eye would show rounding errors instead of detail.
     pub at_precision_limit: bool,
 }
 
 impl World<'_> {
-    /// Where the eye is, in the field's coordinates.
+    /// The eye's position, in the field's coordinates.
     pub fn eye(&self, camera: &Camera) -> DVec3 {
         self.field.local(&camera.position)
     }
@@ -111,22 +111,23 @@ impl World<'_> {
         camera_ray(camera, &self.field.origin(), ndc, self.viewport.aspect)
     }
 
-    /// The least depth of a point that the camera looks at, in scene units.
+    /// Minimum depth of a point that the camera looks at, in scene units.
     pub fn nearest(&self, camera: &Camera) -> f64 {
         self.field.finest_footprint() / self.cone(camera)
     }
 
-    /// The least distance between eye and surface, in scene units.
+    /// Minimum distance between eye and surface, in scene units.
     pub fn clearance(&self, camera: &Camera) -> f64 {
         CLEARANCE * self.nearest(camera)
     }
 
-    /// Status of `camera`.
+    /// The distance and precision of `camera`.
     pub fn camera_status(&self, camera: &Camera) -> CameraStatus {
         let distance = self.field.clear_distance(self.eye(camera));
         let nearest = self.nearest(camera);
-        // At low powers the estimate is often many times too large.
-        let pivot_at_limit = camera.view_unit() <= nearest && distance <= FAR_OFF * nearest;
+        // At low powers, the distance estimate is often many times too large.
+        let pivot_at_limit =
+            camera.view_unit() <= nearest && distance <= AT_LIMIT_OF_PIVOT * nearest;
         CameraStatus {
             distance,
             footprint: distance * self.cone(camera),
@@ -134,23 +135,24 @@ impl World<'_> {
         }
     }
 
-    /// The vector from the eye to the surface seen at `ndc`; none over the background.
+    /// The vector from the eye to the surface at `ndc`; none for the background.
     pub fn pick(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
         let ray = self.ray(camera, ndc);
-        let found = self.field.trace(ray, self.hit_cone(camera), f64::INFINITY, PICK_STEPS);
-        // What a ray creeps along for so long is as good as hit.
-        let depth = found.unwrap_or_else(Some)?;
+        let result = self.field.trace(ray, self.hit_cone(camera), f64::INFINITY, PICK_STEPS);
+        // A ray that runs out of steps is close to the surface, so its end counts as a hit.
+        let depth = result.unwrap_or_else(Some)?;
         Some(ray.direction * depth.max(self.nearest(camera)))
     }
 
-    /// The vector from the eye to what `ndc` points at: the surface or, over the background,
-    /// the place on that ray that comes closest to it. Never zero.
+    /// The vector from the eye to the target at `ndc`; never zero.
+    ///
+    /// The target is the surface or, for the background, the ray's point closest to the surface.
     fn target(&self, camera: &Camera, ndc: DVec2) -> DVec3 {
         self.pick(camera, ndc).unwrap_or_else(|| {
             let ray = self.ray(camera, ndc);
-            let least = self.field.clear_distance(ray.origin).max(self.nearest(camera));
+            let min = self.field.clear_distance(ray.origin).max(self.nearest(camera));
             ray.direction
-                * self.field.closest_approach(ray, f64::INFINITY).clamp(least, 2.0 * FARTHEST_EYE)
+                * self.field.closest_approach(ray, f64::INFINITY).clamp(min, 2.0 * MAX_EYE_DISTANCE)
         })
     }
 
@@ -158,23 +160,24 @@ impl World<'_> {
         self.cone(camera) * self.viewport.detail
     }
 
-    /// How coarse positions may be here, in scene units.
+    /// Rounding of positions at the camera, in scene units.
     fn grain(&self, camera: &Camera) -> f64 {
         self.grain_after(camera, DVec3::ZERO)
     }
 
-    /// The same once the eye has gone `moved` from here: coarser, it could round it into the
-    /// surface that stopped it.
+    /// Rounding of positions after a movement by `moved`, in scene units.
+    ///
+    /// The grain before the movement could round the eye into the surface that stopped the eye.
     fn grain_after(&self, camera: &Camera, moved: DVec3) -> f64 {
         self.grain_at(camera, self.field.clear_distance(self.eye(camera) + moved))
     }
 
-    /// How coarse positions may be for a picture of what is `depth` away.
+    /// Rounding of positions for a surface at `depth`, in scene units.
     fn grain_at(&self, camera: &Camera, depth: f64) -> f64 {
         GRAIN_PX * 2.0 * self.cone(camera) * depth.max(self.clearance(camera))
     }
 
-    /// Where in the picture the point at `offset` from the eye appears; none behind the eye.
+    /// The picture position of the point at `offset` from the eye; none behind the eye.
     fn ndc_of(&self, camera: &Camera, offset: DVec3) -> Option<DVec2> {
         let seen = camera.rotation().inverse() * offset;
         let scale = camera.half_height(self.viewport.aspect) * -seen.z;
@@ -186,10 +189,10 @@ impl World<'_> {
 #[derive(Clone, Debug)]
 enum Gesture {
     Orbit { last: DVec2, turntable: Turntable },
-    Pan { held: PrecisePoint },
+    Pan { grabbed: PrecisePoint },
 }
 
-/// The state that movements carry from one event to the next.
+/// The state of movements between events.
 #[derive(Clone, Debug, Default)]
 pub struct Navigator {
     gesture: Option<Gesture>,
@@ -203,9 +206,10 @@ impl Navigator {
         self.gesture.is_some() || self.flight.is_some()
     }
 
-    /// Begins turning about the surface under the pointer, which becomes the pivot. Over the
-    /// background the pivot stays where it is if it is in the picture; otherwise it moves to
-    /// where the pointer's ray comes closest to the surface.
+    /// Begins an orbit around the surface point under the pointer, which becomes the pivot.
+    ///
+    /// Over the background, a pivot inside the picture stays. A pivot outside the picture moves
+    /// to the point of the pointer's ray closest to the surface.
     pub fn begin_orbit(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) {
         self.cancel();
         let pivot_in_picture = world
@@ -222,11 +226,11 @@ impl Navigator {
         self.gesture = Some(Gesture::Orbit { last: ndc, turntable: Turntable::of(camera) });
     }
 
-    /// Begins dragging the surface under the pointer, which [`Self::drag`] then keeps there.
+    /// Begins a pan: [`Self::drag`] keeps the grabbed surface point under the pointer.
     pub fn begin_pan(&mut self, camera: &Camera, world: World<'_>, ndc: DVec2) {
         self.cancel();
-        let held = camera.position.moved_by(world.target(camera, ndc), world.grain(camera));
-        self.gesture = Some(Gesture::Pan { held });
+        let grabbed = camera.position.moved_by(world.target(camera, ndc), world.grain(camera));
+        self.gesture = Some(Gesture::Pan { grabbed });
     }
 
     /// Continues the gesture with the pointer at `ndc`. Returns whether the camera changed.
@@ -238,10 +242,10 @@ impl Navigator {
                     * DVec2::new(world.viewport.aspect, 1.0)
                     * TURN_PER_HALF_HEIGHT_RAD;
                 *last = ndc;
-                // The scene follows the pointer, so the eye goes the other way.
+                // The scene follows the pointer, so the eye moves in the opposite direction.
                 turntable.orbit(camera, world, DVec2::new(-moved.x, moved.y));
             }
-            Some(Gesture::Pan { held }) => pan(camera, world, held, ndc),
+            Some(Gesture::Pan { grabbed }) => pan(camera, world, grabbed, ndc),
             None => {}
         }
         *camera != before
@@ -252,17 +256,18 @@ impl Navigator {
         self.gesture = None;
     }
 
-    /// Stops whatever is in progress, a flight included; the camera stays where it is.
+    /// Cancels the gesture, flying and the flight; the camera stays in place.
     pub fn cancel(&mut self) {
         self.gesture = None;
         self.flight = None;
-        self.fly_speed.rest();
+        self.fly_speed.reset();
     }
 
-    /// Comes nearer to what is under the pointer by a factor of `exp(amount)`, or recedes from it
-    /// where `amount` is negative, along the pointer's ray: what is under the pointer stays there.
-    /// During a pan (two fingers) it is the held point that is approached. The pivot keeps its
-    /// place in the picture. Returns whether the camera changed.
+    /// Moves the eye toward the target under the pointer, nearer by a factor of `exp(amount)`.
+    ///
+    /// The target keeps its place in the picture, and so does the pivot. A negative `amount` moves
+    /// the eye away. During a pan (two fingers), the target is the grabbed point. Returns whether
+    /// the camera changed.
     pub fn dolly(
         &mut self,
         camera: &mut Camera,
@@ -271,9 +276,9 @@ impl Navigator {
         amount: f64,
     ) -> bool {
         self.flight = None;
-        self.fly_speed.rest();
+        self.fly_speed.reset();
         let target = match &self.gesture {
-            Some(Gesture::Pan { held }) => held - &camera.position,
+            Some(Gesture::Pan { grabbed }) => grabbed - &camera.position,
             _ => world.target(camera, ndc),
         };
         let depth = target.length();
@@ -282,38 +287,39 @@ impl Navigator {
         }
         let wanted = depth * (-amount.clamp(-20.0, 20.0)).exp();
         let nearest = world.nearest(camera).min(depth);
-        let way = target * ((depth - wanted.max(nearest)) / depth);
-        let moved = collide::advance(world, camera, way);
-        // All else scales about the target as the eye's own distance does.
-        let left = (target - moved).length();
+        let displacement = target * ((depth - wanted.max(nearest)) / depth);
+        let moved = collide::advance(world, camera, displacement);
+        // The pivot's offset scales by the same factor as the target's depth.
+        let new_depth = (target - moved).length();
         let grain = world.grain(camera).min(world.grain_after(camera, moved));
-        let pivot_offset = (&camera.pivot - &camera.position) * (left / depth);
-        // A pivot far nearer or farther than what is approached says nothing of the view, and
-        // would go past every limit.
+        let pivot_offset = (&camera.pivot - &camera.position) * (new_depth / depth);
+        // A pivot much nearer or farther than the target gives a useless view unit, and would
+        // exceed all limits after enough steps.
         let pivot_distance = pivot_offset
             .length()
-            .clamp(PIVOT_PARTS.start() * left, PIVOT_PARTS.end() * left)
+            .clamp(PIVOT_PARTS.start() * new_depth, PIVOT_PARTS.end() * new_depth)
             .max(world.clearance(camera));
         let before = camera.clone();
-        camera.position = camera.position.moved_by(moved, grain.min(world.grain_at(camera, left)));
+        camera.position =
+            camera.position.moved_by(moved, grain.min(world.grain_at(camera, new_depth)));
         let pivot_offset = pivot_offset.normalize_or(camera.forward()) * pivot_distance;
         place_pivot(camera, pivot_offset, grain);
         *camera != before
     }
 }
 
-/// Moves the camera in its own plane until `held` appears at `ndc`.
-fn pan(camera: &mut Camera, world: World<'_>, held: &PrecisePoint, ndc: DVec2) {
+/// Moves the camera parallel to the image plane until `grabbed` appears at `ndc`.
+fn pan(camera: &mut Camera, world: World<'_>, grabbed: &PrecisePoint, ndc: DVec2) {
     let rotation = camera.rotation();
-    let seen = rotation.inverse() * (held - &camera.position);
+    let seen = rotation.inverse() * (grabbed - &camera.position);
     let depth = -seen.z;
     if depth <= 0.0 {
         return;
     }
     let half_height = camera.half_height(world.viewport.aspect);
     let wanted = DVec2::new(ndc.x * world.viewport.aspect, ndc.y) * half_height * depth;
-    let way = rotation * DVec3::new(seen.x - wanted.x, seen.y - wanted.y, 0.0);
-    let moved = collide::slide(world, camera, way);
+    let displacement = rotation * DVec3::new(seen.x - wanted.x, seen.y - wanted.y, 0.0);
+    let moved = collide::slide(world, camera, displacement);
     shift(camera, world, moved);
 }
 
@@ -325,7 +331,7 @@ fn shift(camera: &mut Camera, world: World<'_>, moved: DVec3) {
     place_pivot(camera, pivot_offset, grain);
 }
 
-/// Puts the pivot at `offset` from the eye, rounded to `grain`, and finer where it is very near.
+/// Places the pivot at `offset` from the eye, rounded to `grain` or, if near, more finely.
 fn place_pivot(camera: &mut Camera, offset: DVec3, grain: f64) {
     camera.pivot = camera.position.moved_by(offset, grain.min(PIVOT_GRAIN * offset.length()));
 }

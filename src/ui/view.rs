@@ -1,14 +1,15 @@
-//! The picture's area: what is drawn there, and its size in pixels.
+//! The picture's area: drawing of the picture, and its size in pixels.
 
 use egui::{Color32, Rect, Sense, Ui, pos2};
 
-use super::{Picture, pilot::Frame, theme};
+use super::{ViewTexture, pilot::Frame, theme};
 
-/// Largest width or height asked of the renderer, in pixels (WebGPU's default texture limit).
+/// Maximum width or height of the view, in pixels (WebGPU's default texture limit).
 pub const MAX_VIEW_SIDE_PX: u32 = 8192;
 
-/// The area snapped to whole pixels, and its size in pixels: at least 1, at most
-/// [`MAX_VIEW_SIDE_PX`] on a side.
+/// The area rounded to whole pixels, and its size in pixels.
+///
+/// Each side has 1 to [`MAX_VIEW_SIDE_PX`] pixels.
 pub fn snap_to_pixels(area: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
     let snap = |v: f32| (v * pixels_per_point).round();
     let (left, top) = (snap(area.left()), snap(area.top()));
@@ -21,8 +22,8 @@ pub fn snap_to_pixels(area: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
     (rect, [side(right - left), side(bottom - top)])
 }
 
-/// Draws the picture over `frame` and senses the pointer on it.
-pub fn show(ui: &Ui, frame: Frame, picture: Option<Picture>) -> egui::Response {
+/// Draws the picture over `frame` and returns the area's pointer response.
+pub fn show(ui: &Ui, frame: Frame, picture: Option<ViewTexture>) -> egui::Response {
     let painter = ui.painter().with_clip_rect(frame.rect);
     painter.rect_filled(frame.rect, 0.0, theme::BACKGROUND);
     if let Some(picture) = picture {
@@ -41,8 +42,9 @@ pub fn show(ui: &Ui, frame: Frame, picture: Option<Picture>) -> egui::Response {
     response
 }
 
-/// The middle part of a picture that has the area's shape: until a picture of a new size comes,
-/// the old one fills the area undistorted.
+/// The central part of a picture with the area's aspect, in texture coordinates.
+///
+/// After a change of size, the old picture fills the area undistorted until the new one exists.
 fn visible_part(size_px: [u32; 2], aspect: f64) -> Rect {
     let [width, height] = size_px.map(|side| f64::from(side.max(1)));
     let ratio = (width / height / aspect) as f32;
@@ -60,7 +62,7 @@ mod tests {
     use egui::vec2;
 
     #[test]
-    fn areas_cover_whole_pixels() {
+    fn areas_are_rounded_to_whole_pixels() {
         let area = Rect::from_min_size(pos2(0.0, 0.0), vec2(361.3, 640.7));
         for scale in [0.75, 1.0, 1.25, 1.5, 2.0, 2.625, 3.0] {
             let (rect, size) = snap_to_pixels(area, scale);
@@ -70,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn no_area_is_empty_or_too_large() {
+    fn areas_are_neither_empty_nor_too_large() {
         let empty = Rect::from_min_size(pos2(10.0, 10.0), vec2(0.0, -5.0));
         assert_eq!(snap_to_pixels(empty, 1.0).1, [1, 1]);
         let huge = Rect::from_min_size(pos2(0.0, 0.0), vec2(20_000.0, 9_000.0));
@@ -78,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn an_old_picture_is_cut_not_stretched() {
+    fn an_old_picture_is_cropped_not_stretched() {
         assert_eq!(
             visible_part([800, 600], 4.0 / 3.0),
             Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0))

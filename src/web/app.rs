@@ -16,7 +16,7 @@ use crate::{
     export::PictureFormat,
     gpu::Gpu,
     scene::document,
-    ui::{Action, Inputs, theme},
+    ui::{Action, DisplayInputs, theme},
 };
 
 /// The app on one device.
@@ -51,8 +51,8 @@ impl eframe::App for App {
         let now_secs = page::now_secs();
         let notice_secs = session.expire_notice(now_secs);
 
-        let inputs = Inputs {
-            picture: engine.picture(),
+        let inputs = DisplayInputs {
+            picture: engine.shown(),
             report: &session.status.report,
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),

@@ -86,9 +86,9 @@ impl Engine {
         engine
     }
 
-    /// The picture for egui; `None` before the first one.
-    pub fn picture(&self) -> Option<ui::Picture> {
-        self.view.shown()
+    /// The picture to show, once there is one.
+    pub fn shown(&self) -> Option<ui::ViewTexture> {
+        self.picture.shown()
     }
 
     /// Applies this frame's scene and view size, and starts the work. Returns the seconds until the

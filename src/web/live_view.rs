@@ -29,8 +29,7 @@ pub struct LiveView {
 
 /// The texture that egui shows.
 struct Shown {
-    picture: ui::Picture,
-    /// The view's texture generation.
+    picture: ui::ViewTexture,
     generation: u64,
 }
 
@@ -40,8 +39,8 @@ impl LiveView {
         Self { pipelines, render_state, view: None, shown: None, pending_region: None }
     }
 
-    /// The picture for egui; `None` before the first one.
-    pub fn shown(&self) -> Option<ui::Picture> {
+    /// The picture to show, once there is one.
+    pub fn shown(&self) -> Option<ui::ViewTexture> {
         self.shown.as_ref().map(|shown| shown.picture)
     }
 
@@ -153,7 +152,7 @@ impl LiveView {
         let filter = wgpu::FilterMode::Linear;
         let mut renderer = self.render_state.renderer.write();
         let id = match &self.shown {
-            Some(Shown { picture: ui::Picture { texture: id, .. }, .. }) => {
+            Some(Shown { picture: ui::ViewTexture { texture: id, .. }, .. }) => {
                 renderer.update_egui_texture_from_wgpu_texture(device, &texture_view, filter, *id);
                 *id
             }
@@ -161,7 +160,7 @@ impl LiveView {
         };
         let stretch = view.region().eyes.pixel_aspect();
         let size_px = [texture.width() * stretch, texture.height()];
-        let picture = ui::Picture { texture: id, size_px };
+        let picture = ui::ViewTexture { texture: id, size_px };
         self.shown = Some(Shown { picture, generation });
     }
 }

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
     fractal::{DEEP_FOOTPRINT, DistanceField, pixel_cone},
     scene::{Camera, PrecisePoint},
-    ui::navigation::{FlyInput, Navigator, Viewport, World, flight::MOST_ZOOM_PER_SEC},
+    ui::navigation::{FlyInput, Navigator, Viewport, World, flight::MAX_ZOOM_PER_SEC},
 };
 
 const VIEWPORT: Viewport = Viewport { aspect: 16.0 / 9.0, height_px: 1000.0, detail: 1.0 };
@@ -345,7 +345,7 @@ fn flown(navigator: &mut Navigator, camera: &mut Camera, field: &Valley) -> Vec<
 fn assert_even(units: &[f64]) {
     let zooms: Vec<f64> = units.windows(2).map(|pair| (pair[1] / pair[0]).ln()).collect();
     let most = zooms.iter().fold(0.0_f64, |most, zoom| most.max(zoom.abs()));
-    assert!(most < MOST_ZOOM_PER_SEC / 60.0 * 1.02, "a frame zooms by {most}");
+    assert!(most < MAX_ZOOM_PER_SEC / 60.0 * 1.02, "a frame zooms by {most}");
     // Between setting off and coming to rest; turning and rounding the ball take their share.
     let middle = &zooms[zooms.len() / 4..zooms.len() / 2];
     let least = middle.iter().fold(f64::MAX, |least, zoom| least.min(zoom.abs()));

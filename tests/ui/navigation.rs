@@ -6,9 +6,9 @@ use mandelight::{
     fractal::{DistanceField, Estimator, PLAIN_FOOTPRINT, camera_ray, pixel_cone},
     scene::{Camera, Fractal, PrecisePoint},
     ui::navigation::{
-        FARTHEST_EYE, FlyInput, Navigator, Viewport, World, collide,
-        flight::{FLIGHT_SECS, MOST_ZOOM_PER_SEC},
-        fly::{MOST_FALL_PER_SEC, MOST_RISE_PER_SEC},
+        FlyInput, MAX_EYE_DISTANCE, Navigator, Viewport, World, collide,
+        flight::{FLIGHT_SECS, MAX_ZOOM_PER_SEC},
+        fly::{MAX_FALL_PER_SEC, MAX_RISE_PER_SEC},
     },
 };
 use mandelight_test_support::random::Random;
@@ -311,9 +311,9 @@ fn the_eye_stays_where_coordinates_are_allowed() {
         let away = FlyInput { travel: DVec3::NEG_Z, faster: true, ..FlyInput::default() };
         navigator.fly(&mut camera, world(&field), away, 0.1);
         // Positions are rounded to what the view can show.
-        assert!(camera.position.to_dvec3().length() <= FARTHEST_EYE * (1.0 + 1e-8));
+        assert!(camera.position.to_dvec3().length() <= MAX_EYE_DISTANCE * (1.0 + 1e-8));
     }
-    assert!(camera.position.to_dvec3().length() > 0.9 * FARTHEST_EYE);
+    assert!(camera.position.to_dvec3().length() > 0.9 * MAX_EYE_DISTANCE);
 }
 
 #[test]
@@ -341,7 +341,7 @@ fn speed_changes_smoothly_past_a_hole_and_never_dies() {
     assert!(camera.position.to_dvec3().x > 1.0, "it has passed the hole");
     for pair in speeds.windows(2) {
         let change = (pair[1] / pair[0]).ln();
-        let allowed = -MOST_FALL_PER_SEC * dt_secs - 1e-9..=MOST_RISE_PER_SEC * dt_secs + 1e-9;
+        let allowed = -MAX_FALL_PER_SEC * dt_secs - 1e-9..=MAX_RISE_PER_SEC * dt_secs + 1e-9;
         assert!(allowed.contains(&change), "{change}");
     }
     let (slowest, fastest) =
@@ -418,7 +418,7 @@ fn home_is_reached_exactly_and_never_through_the_surface() {
             frames => {
                 flown += 1;
                 // Turns and ways around are worth a zoom by e¹⁰ at most.
-                let secs = FLIGHT_SECS + (zoom.ln().abs() + 10.0) / MOST_ZOOM_PER_SEC;
+                let secs = FLIGHT_SECS + (zoom.ln().abs() + 10.0) / MAX_ZOOM_PER_SEC;
                 assert!(f64::from(frames) <= secs * 60.0 + 2.0, "{frames} frames");
             }
         }

@@ -5,7 +5,7 @@ use egui_kittest::{Harness, Node, kittest::Queryable as _};
 use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
-    ui::{Action, ExportProgress, Inputs, Interface, Notice, Sections, Settings, theme},
+    ui::{Action, DisplayInputs, ExportProgress, Interface, Notice, Sections, Settings, theme},
 };
 
 /// What the harness carries from frame to frame.
@@ -58,7 +58,7 @@ pub fn stage(
         .with_context_setup(theme::install)
         .build_ui_state(
             |ui, stage: &mut Stage| {
-                let inputs = Inputs {
+                let inputs = DisplayInputs {
                     picture: None,
                     report: &stage.report,
                     export: stage.export,

@@ -1,109 +1,113 @@
-//! How far the eye may go.
+//! Collision of the eye with the surface.
 //!
-//! A movement is walked in steps that the distance estimate allows, half as long as a camera
-//! ray's, and every place it would stop at is looked at before it is taken. An eye that is too
-//! near already (the fractal was changed around it) may only move to where there is more room;
-//! one that is inside moves freely until it is out.
+//! A movement is divided into steps of at most half a camera ray's step, and the distance estimate
+//! is checked at the end of every step. An eye that is too near already (because the fractal was
+//! edited) may only move to where the distance is larger. An eye inside the fractal moves freely
+//! until it is outside.
 
 use glam::DVec3;
 
-use super::{FARTHEST_EYE, World};
+use super::{MAX_EYE_DISTANCE, World};
 use crate::{
     fractal::{DistanceField, LEAST_STEP},
     scene::Camera,
 };
 
-/// Part of a camera ray's step that the eye takes: it must not pass what rays would hit.
+/// Fraction of a camera ray's step that the eye takes, so that it cannot pass a visible surface.
 const STEP_PART: f64 = 0.5;
-/// Part of the distance that a step is tried with where there is no room to come nearer.
-const BOLD: f64 = 0.25;
-/// Part of a slide that leads away from the surface, so that a hollow one does not stop it.
+/// Fraction of the distance for a trial step if the eye has no room to come nearer.
+const TRIAL_STEP: f64 = 0.25;
+/// Fraction of a slide that leads away from the surface, so that a concave surface does not block.
 const LIFT: f64 = 0.05;
-/// Most steps of one movement.
+/// Maximum number of steps of one movement.
 const MAX_STEPS: u32 = 256;
-/// A step shorter than this part of the clearance means that the eye has arrived.
+/// Step length, as a fraction of the clearance, below which the eye has arrived.
 const ARRIVED: f64 = 1e-3;
-/// The least clearance, in parts of a place's distance from the field's origin: closer by, f64
-/// coordinates say nothing of the surface. A field with a nearer origin lets the eye go on.
+/// Minimum clearance, as a fraction of a point's distance from the field's origin.
+///
+/// Below, f64 coordinates do not resolve the surface. A field with a nearer origin has a smaller
+/// minimum.
 const RESOLVED: f64 = 1e-12;
-/// How often a movement may be turned along the surface.
+/// Maximum number of slides of one movement.
 const MAX_SLIDES: u32 = 3;
 
-/// The part of `way` that the eye may go straight on.
-pub fn advance(world: World<'_>, camera: &Camera, way: DVec3) -> DVec3 {
-    sweep(world.field, world.eye(camera), within_limit(camera, way), world.clearance(camera))
+/// The straight part of `displacement` that the surface does not block.
+pub fn advance(world: World<'_>, camera: &Camera, displacement: DVec3) -> DVec3 {
+    let displacement = within_limit(camera, displacement);
+    sweep(world.field, world.eye(camera), displacement, world.clearance(camera))
 }
 
-/// Where the eye gets to by going `way`, turned along the surface where that stops it.
-pub fn slide(world: World<'_>, camera: &Camera, way: DVec3) -> DVec3 {
+/// The eye's movement for `displacement`, which slides along a surface that blocks it.
+pub fn slide(world: World<'_>, camera: &Camera, displacement: DVec3) -> DVec3 {
     let clearance = world.clearance(camera);
     let start = world.eye(camera);
-    let mut gone = DVec3::ZERO;
-    let mut left = within_limit(camera, way);
+    let mut total = DVec3::ZERO;
+    let mut left = within_limit(camera, displacement);
     for _ in 0..=MAX_SLIDES {
-        let moved = sweep(world.field, start + gone, left, clearance);
-        gone += moved;
+        let moved = sweep(world.field, start + total, left, clearance);
+        total += moved;
         left -= moved;
         if left.length() <= ARRIVED * clearance {
             break;
         }
-        let eye = start + gone;
+        let eye = start + total;
         let spacing = 0.5 * world.field.distance(eye).clamp(0.1 * clearance, clearance);
         let normal = world.field.normal(eye, spacing);
         left -= normal * (left.dot(normal).min(0.0) - LIFT * left.length());
     }
-    gone
+    total
 }
 
-/// True where the eye may go straight from `from` to `to`, both in the field's coordinates.
+/// True if no surface blocks the line from `from` to `to`, both in the field's coordinates.
 pub fn is_free(field: &dyn DistanceField, from: DVec3, to: DVec3, clearance: f64) -> bool {
-    let way = to - from;
-    sweep(field, from, way, clearance) == way
+    let displacement = to - from;
+    sweep(field, from, displacement, clearance) == displacement
 }
 
-/// The part of `way` from `from` that keeps `clearance`: all of `way` itself where it is free.
-fn sweep(field: &dyn DistanceField, from: DVec3, way: DVec3, clearance: f64) -> DVec3 {
-    let length = way.length();
+/// The part of `displacement` that keeps `clearance`; equal to `displacement` if nothing blocks.
+fn sweep(field: &dyn DistanceField, from: DVec3, displacement: DVec3, clearance: f64) -> DVec3 {
+    let length = displacement.length();
     let mut here = field.clear_estimate(from);
     if here.distance <= 0.0 || length == 0.0 || !length.is_finite() {
-        return if length.is_finite() { way } else { DVec3::ZERO };
+        return if length.is_finite() { displacement } else { DVec3::ZERO };
     }
-    let direction = way / length;
-    let mut gone = 0.0;
+    let direction = displacement / length;
+    let mut travelled = 0.0;
     for _ in 0..MAX_STEPS {
-        // Along a surface there is no room to come nearer, yet the way may be free: a bold step
-        // first, then one that the room allows.
-        let clearance = clearance.max(RESOLVED * (from + direction * gone).length());
+        // A movement along a surface may be free although there is no room to come nearer. So a
+        // trial step comes first, then a step within the room.
+        let clearance = clearance.max(RESOLVED * (from + direction * travelled).length());
         let room = here.distance - clearance;
-        let longest = here.step.max(LEAST_STEP * clearance);
-        let steps = [room.max(BOLD * here.distance), room].map(|it| STEP_PART * it.min(longest));
+        let max_step = here.step.max(LEAST_STEP * clearance);
+        let steps =
+            [room.max(TRIAL_STEP * here.distance), room].map(|it| STEP_PART * it.min(max_step));
         let taken = steps.into_iter().filter(|&step| step > ARRIVED * clearance).find_map(|step| {
-            let reached = (gone + step).min(length);
-            // The estimate is no bound, so the place itself has the last word.
+            let reached = (travelled + step).min(length);
+            // The estimate is not a lower bound, so the distance is checked at the step's end.
             let next = field.clear_estimate(from + direction * reached);
             (next.distance > 0.0 && next.distance >= clearance.min(here.distance))
                 .then_some((reached, next))
         });
         match taken {
             None => break,
-            Some((reached, _)) if reached >= length => return way,
-            Some(place) => (gone, here) = place,
+            Some((reached, _)) if reached >= length => return displacement,
+            Some(step) => (travelled, here) = step,
         }
     }
-    direction * gone
+    direction * travelled
 }
 
-/// `way`, shortened so that it does not lead out of the sphere that the eye is kept in.
-fn within_limit(camera: &Camera, way: DVec3) -> DVec3 {
-    // The limit is far from any surface: here an f64 of the whole scene will do.
+/// `displacement`, shortened so that the eye stays within [`MAX_EYE_DISTANCE`].
+fn within_limit(camera: &Camera, displacement: DVec3) -> DVec3 {
+    // The limit is far from any surface, so f64 scene coordinates are precise enough.
     let eye = camera.position.to_dvec3();
-    let end = eye + way;
-    if end.length() <= FARTHEST_EYE || end.length() <= eye.length() {
-        return way;
+    let end = eye + displacement;
+    if end.length() <= MAX_EYE_DISTANCE || end.length() <= eye.length() {
+        return displacement;
     }
-    // Solve |eye + t·way| = limit for the larger t, at most 1 here.
-    let (a, b) = (way.length_squared(), eye.dot(way));
-    let c = eye.length_squared() - FARTHEST_EYE * FARTHEST_EYE;
+    // Solve |eye + t·displacement| = limit for the larger t, which is at most 1.
+    let (a, b) = (displacement.length_squared(), eye.dot(displacement));
+    let c = eye.length_squared() - MAX_EYE_DISTANCE * MAX_EYE_DISTANCE;
     let t = ((b * b - a * c).max(0.0).sqrt() - b) / a;
-    way * t.clamp(0.0, 1.0)
+    displacement * t.clamp(0.0, 1.0)
 }

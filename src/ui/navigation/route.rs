@@ -1,10 +1,10 @@
-//! The way of a journey: from where the camera is to where it was asked to go, free of the surface.
+//! Routes of flights: collision-free legs from one camera to another.
 //!
-//! In: two cameras and the field about the first. Out: legs, each with an even zoom. Where a
-//! straight line is free, that is the way. Otherwise the eye backs out of the bounding sphere
-//! along free rays, turns about the sphere's centre and comes in the same way; while it backs out
-//! it looks at what it leaves. A leg's ends are exact points, and what lies between is measured
-//! from the end that is nearer to the surface: twenty-seven orders of magnitude are one leg.
+//! In: two cameras and the field around the first. Out: legs, each with a constant zoom rate. A
+//! free straight line is the first choice. Otherwise the eye moves backward out of the bounding
+//! sphere along free rays, moves around the sphere's centre, and enters in the same manner. While
+//! it moves out, it looks at its start. A leg's ends are exact points, and positions on the leg are
+//! offsets from the end with the smaller view unit, so one leg can span 27 orders of magnitude.
 
 use glam::{DQuat, DVec3};
 
@@ -14,132 +14,139 @@ use crate::{
     scene::{Camera, PrecisePoint},
 };
 
-/// Straight pieces that a line is tried in.
-const TRIED_PIECES: u32 = 48;
-/// Farthest that a line may lead, in the larger of its ends' view units: from one deep place to
-/// another one goes out and in again.
-const STRAIGHT_MOST: f64 = 16.0;
-/// Room around the bounding sphere, outside of which the eye turns about its centre.
+/// Number of pieces of a straight line that are checked for collision.
+const LINE_PIECES: u32 = 48;
+/// Maximum length of a straight line, in the larger view unit of its ends.
+///
+/// A longer route, such as from one deep view to another, zooms out and in again.
+const MAX_LINE: f64 = 16.0;
+/// Factor on the bounding sphere's radius, outside of which the eye moves around the centre.
 pub(super) const ROOM: f64 = 1.04;
-/// What a ray out keeps from the surface, in parts of the way gone.
+/// Minimum distance of an outward ray from the surface, as a fraction of its travelled length.
 const FREE_CONE: f64 = 0.01;
-/// Rays that are tried at one place.
-const TRIED_RAYS: u32 = 48;
-/// Places from which rays are tried, where none leads out at once.
-const MAX_PLACES: u32 = 40;
-/// A step of such a ray, in parts of the estimated distance, and its least, in parts of the way gone:
-/// it is looked at where it leads, and need not find every hair.
+/// Number of rays to try at each waypoint.
+const RAYS: u32 = 48;
+/// Maximum number of waypoints on the way out.
+const MAX_WAYPOINTS: u32 = 40;
+/// Step of an outward ray, as a fraction of the estimated distance.
+///
+/// The ray is checked at its steps only, so it may miss thin features.
 const STEP: f64 = 0.7;
-const LEAST_STEP: f64 = 0.08;
-/// Part of the longest free ray that leads to the next such place.
+/// Minimum step of an outward ray, as a fraction of its travelled length.
+const MIN_STEP: f64 = 0.08;
+/// Fraction of the longest free ray at which the next waypoint is placed.
 const ONWARD: f64 = 0.5;
-/// How coarse the eye's places on the way are, in view units.
+/// Rounding of the eye's positions, in view units.
 const GRAIN: f64 = 1e-10;
-/// Ways shorter than this, in parts of a place's f64 coordinates, say nothing of the surface.
+/// Length, as a fraction of a point's f64 coordinates, that does not resolve the surface.
 const UNRESOLVED: f64 = 1e-10;
 
-/// A camera on its way, without its lens.
+/// A camera's position, view unit and rotation on a route.
 #[derive(Clone, Debug)]
-pub(super) struct Stop {
+pub(super) struct Waypoint {
     pub eye: PrecisePoint,
     /// The view unit.
     pub unit: f64,
     pub rotation: DQuat,
 }
 
-impl Stop {
+impl Waypoint {
     pub fn of(camera: &Camera) -> Self {
         Self { eye: camera.position.clone(), unit: camera.view_unit(), rotation: camera.rotation() }
     }
 
-    /// The stop `way` from here, from which this one is in view.
-    fn onward(&self, way: DVec3) -> Self {
+    /// The waypoint at `displacement`, which looks back at this waypoint.
+    fn onward(&self, displacement: DVec3) -> Self {
         let forward = self.rotation * DVec3::NEG_Z;
-        let length = way.length();
-        let turn = DQuat::from_rotation_arc(forward, -way / length);
+        let length = displacement.length();
+        let turn = DQuat::from_rotation_arc(forward, -displacement / length);
         let unit = self.unit + length;
         Self {
-            eye: self.eye.moved_by(way, GRAIN * self.unit),
+            eye: self.eye.moved_by(displacement, GRAIN * self.unit),
             unit,
             rotation: (turn * self.rotation).normalize(),
         }
     }
 }
 
+/// The curve of a leg.
 #[derive(Clone, Debug)]
 enum Shape {
-    /// A line by this vector.
+    /// A straight line with this displacement.
     Line(DVec3),
-    /// Around a centre, from one vector about it to another.
-    Around { center: PrecisePoint, ends: [DVec3; 2] },
+    /// A spherical arc around a centre, between two vectors from the centre.
+    Arc { center: PrecisePoint, ends: [DVec3; 2] },
 }
 
-/// A part of a journey.
+/// A part of a route.
 #[derive(Clone, Debug)]
 pub(super) struct Leg {
-    ends: [Stop; 2],
+    ends: [Waypoint; 2],
     shape: Shape,
-    /// How long it looks: logarithms of zoom, view units aside and radians together.
+    /// Perceived length: natural logarithm of the zoom + pan in view units + rotation in radians.
     pub length: f64,
 }
 
 impl Leg {
-    fn line(from: Stop, to: Stop) -> Self {
-        let way = &to.eye - &from.eye;
-        let aside = way.length() / from.unit.max(to.unit);
-        Self::new([from, to], Shape::Line(way), aside)
+    fn line(from: Waypoint, to: Waypoint) -> Self {
+        let displacement = &to.eye - &from.eye;
+        let pan = displacement.length() / from.unit.max(to.unit);
+        Self::new([from, to], Shape::Line(displacement), pan)
     }
 
-    fn around(center: PrecisePoint, from: Stop, to: Stop) -> Self {
+    fn arc(center: PrecisePoint, from: Waypoint, to: Waypoint) -> Self {
         let ends = [&from.eye - &center, &to.eye - &center];
-        let aside = ends[0].angle_between(ends[1]);
-        let aside = if aside.is_finite() { aside } else { 0.0 };
-        Self::new([from, to], Shape::Around { center, ends }, aside)
+        let angle = ends[0].angle_between(ends[1]);
+        let angle = if angle.is_finite() { angle } else { 0.0 };
+        Self::new([from, to], Shape::Arc { center, ends }, angle)
     }
 
-    fn new(ends: [Stop; 2], shape: Shape, aside: f64) -> Self {
+    fn new(ends: [Waypoint; 2], shape: Shape, pan: f64) -> Self {
         let turn = ends[0].rotation.angle_between(ends[1].rotation);
-        let length = growth(&ends).abs() + aside + turn;
+        let length = growth(&ends).abs() + pan + turn;
         Self { ends, shape, length }
     }
 
-    /// The stop at `part` of the leg, 0 to 1; the zoom changes evenly.
-    pub fn at(&self, part: f64) -> Stop {
+    /// The waypoint at the fraction `part` of the leg, 0 to 1; the zoom rate is constant.
+    pub fn at(&self, part: f64) -> Waypoint {
         let [from, to] = &self.ends;
         let growth = growth(&self.ends);
         let unit = from.unit * (growth * part).exp();
         let grain = GRAIN * unit;
         let eye = match &self.shape {
-            // From the end with the closer view: seen from there, every digit is there.
-            Shape::Line(way) if growth >= 0.0 => {
-                from.eye.moved_by(*way * geometric(part, growth), grain)
+            // Offsets start at the end with the smaller view unit, where digits matter most.
+            Shape::Line(displacement) if growth >= 0.0 => {
+                from.eye.moved_by(*displacement * geometric(part, growth), grain)
             }
-            Shape::Line(way) => to.eye.moved_by(*way * -geometric(1.0 - part, -growth), grain),
-            Shape::Around { center, ends: [a, b] } => {
+            Shape::Line(displacement) => {
+                to.eye.moved_by(*displacement * -geometric(1.0 - part, -growth), grain)
+            }
+            Shape::Arc { center, ends: [a, b] } => {
                 let [near, far] = [a, b].map(|end| end.length().max(f64::MIN_POSITIVE));
                 let [a, b] = [a, b].map(|end| end.normalize_or(DVec3::Z));
                 let radius = near * (far / near).powf(part);
                 center.moved_by(a.slerp(b, part) * radius, grain)
             }
         };
-        Stop { eye, unit, rotation: from.rotation.slerp(to.rotation, part) }
+        Waypoint { eye, unit, rotation: from.rotation.slerp(to.rotation, part) }
     }
 }
 
-/// The logarithm of how much larger the view unit is at the second end.
-fn growth(ends: &[Stop; 2]) -> f64 {
+/// Natural logarithm of the ratio of the second end's view unit to the first end's.
+fn growth(ends: &[Waypoint; 2]) -> f64 {
     (ends[1].unit / ends[0].unit).ln()
 }
 
-/// The part of a line covered at `part` of its time if each step is as large as the view unit,
-/// which grows by `exp(growth)` along it.
+/// The covered fraction of a line at the fraction `part` of its duration.
+///
+/// The speed is proportional to the view unit, which grows by `exp(growth)` along the line.
 fn geometric(part: f64, growth: f64) -> f64 {
     if growth.abs() < 1e-3 { part } else { (growth * part).exp_m1() / growth.exp_m1() }
 }
 
-/// The way from one camera to another; none where the surface bars every one that was tried.
+/// The route from one camera to another; none if the surface blocks every tried route.
 pub(super) fn plan(world: World<'_>, from: &Camera, to: &Camera) -> Option<Vec<Leg>> {
-    let (start, end) = (Stop::of(from), Stop::of(to));
+    let (start, end) = (Waypoint::of(from), Waypoint::of(to));
     let straight = Leg::line(start.clone(), end.clone());
     if is_free(world, from, &straight) {
         return Some(vec![straight]);
@@ -149,68 +156,69 @@ pub(super) fn plan(world: World<'_>, from: &Camera, to: &Camera) -> Option<Vec<L
     let (out, back) = (way_out(field, start)?, way_out(field, end)?);
     let (outside, entry) = (out.last()?.clone(), back.last()?.clone());
     let mut legs = lines(out);
-    legs.push(Leg::around(centre, outside, entry));
+    legs.push(Leg::arc(centre, outside, entry));
     let inward = back.into_iter().rev().collect();
     legs.extend(lines(inward));
     Some(legs)
 }
 
-fn lines(stops: Vec<Stop>) -> Vec<Leg> {
-    stops.windows(2).map(|pair| Leg::line(pair[0].clone(), pair[1].clone())).collect()
+fn lines(waypoints: Vec<Waypoint>) -> Vec<Leg> {
+    waypoints.windows(2).map(|pair| Leg::line(pair[0].clone(), pair[1].clone())).collect()
 }
 
 fn is_free(world: World<'_>, camera: &Camera, leg: &Leg) -> bool {
-    let Shape::Line(way) = leg.shape else { return false };
+    let Shape::Line(displacement) = leg.shape else { return false };
     let [from, to] = &leg.ends;
-    if way.length() > STRAIGHT_MOST * from.unit.max(to.unit) {
+    if displacement.length() > MAX_LINE * from.unit.max(to.unit) {
         return false;
     }
     let room = |eye: &PrecisePoint| world.field.clear_distance(world.field.local(eye));
-    let least_room = room(&from.eye).min(room(&to.eye));
-    let clearance = world.clearance(camera).min(0.5 * least_room);
-    let places: Vec<_> = (0..=TRIED_PIECES)
-        .map(|i| world.field.local(&leg.at(f64::from(i) / f64::from(TRIED_PIECES)).eye))
+    let min_room = room(&from.eye).min(room(&to.eye));
+    let clearance = world.clearance(camera).min(0.5 * min_room);
+    let points: Vec<_> = (0..=LINE_PIECES)
+        .map(|i| world.field.local(&leg.at(f64::from(i) / f64::from(LINE_PIECES)).eye))
         .collect();
-    places.windows(2).all(|pair| collide::is_free(world.field, pair[0], pair[1], clearance))
+    points.windows(2).all(|pair| collide::is_free(world.field, pair[0], pair[1], clearance))
 }
 
-/// Stops from `start` to one outside the bounding sphere, with free lines between them.
-fn way_out(field: &dyn DistanceField, start: Stop) -> Option<Vec<Stop>> {
-    let mut stops = vec![start];
-    for _ in 0..MAX_PLACES {
-        let stop = stops.last()?;
-        let eye = field.local(&stop.eye);
+/// Waypoints from `start` to the outside of the bounding sphere, with free lines in between.
+fn way_out(field: &dyn DistanceField, start: Waypoint) -> Option<Vec<Waypoint>> {
+    let mut waypoints = vec![start];
+    for _ in 0..MAX_WAYPOINTS {
+        let waypoint = waypoints.last()?;
+        let eye = field.local(&waypoint.eye);
         let radius = field.bounding_radius() * ROOM;
         if eye.distance(field.center()) >= field.bounding_radius() {
-            return Some(stops);
+            return Some(waypoints);
         }
-        let (direction, free) = freest(field, eye, stop);
+        let (direction, free) = longest_free_ray(field, eye, waypoint);
         let (_, exit) = Ray { origin: eye, direction }.sphere_span(field.center(), radius)?;
         let length = if free < exit { ONWARD * free } else { exit };
-        // Out of a hollow it has to get larger each time.
+        // A waypoint must be farther than the surface, else the route is stuck in a cavity.
         if length <= field.clear_distance(eye) && free < exit {
             return None;
         }
-        let onward = stop.onward(direction * length);
-        stops.push(onward);
+        let onward = waypoint.onward(direction * length);
+        waypoints.push(onward);
     }
     None
 }
 
-/// The first direction in which a ray leads out, those first that go backward; else the one in
-/// which it goes farthest; and how far it goes.
-fn freest(field: &dyn DistanceField, eye: DVec3, stop: &Stop) -> (DVec3, f64) {
-    let backward = stop.rotation * DVec3::Z;
+/// The direction of the longest free ray, and its length.
+///
+/// Backward directions come first, and the first ray that leaves the bounding sphere is taken.
+fn longest_free_ray(field: &dyn DistanceField, eye: DVec3, waypoint: &Waypoint) -> (DVec3, f64) {
+    let backward = waypoint.rotation * DVec3::Z;
     let unresolved = UNRESOLVED * eye.length();
     let spacing = 0.5 * field.clear_distance(eye).max(unresolved);
-    let mut directions: Vec<_> = (0..TRIED_RAYS).map(spread_direction).collect();
+    let mut directions: Vec<_> = (0..RAYS).map(spread_direction).collect();
     directions.sort_by(|a, b| b.dot(backward).total_cmp(&a.dot(backward)));
     let likely = [backward, field.normal(eye, spacing)];
     let mut best = (backward, 0.0);
     for direction in likely.into_iter().chain(directions) {
-        // Where the field's coordinates are too coarse for this place, from where they are not.
-        let origin = if stop.unit < unresolved { eye + direction * unresolved } else { eye };
-        let free = free_way(field, Ray { origin, direction });
+        // If the field's coordinates are too coarse at the eye, the ray starts farther away.
+        let origin = if waypoint.unit < unresolved { eye + direction * unresolved } else { eye };
+        let free = free_length(field, Ray { origin, direction });
         if free > best.1 {
             best = (direction, free);
         }
@@ -221,27 +229,27 @@ fn freest(field: &dyn DistanceField, eye: DVec3, stop: &Stop) -> (DVec3, f64) {
     best
 }
 
-/// How far a ray goes before it comes close to the surface; without end where it leads out.
-fn free_way(field: &dyn DistanceField, ray: Ray) -> f64 {
+/// The length of a ray until it is close to the surface; infinite if it leaves the sphere.
+fn free_length(field: &dyn DistanceField, ray: Ray) -> f64 {
     let Some((_, exit)) = ray.sphere_span(field.center(), field.bounding_radius()) else {
         return f64::INFINITY;
     };
-    let mut gone = 0.0;
-    while gone < exit {
-        let distance = field.clear_distance(ray.at(gone));
-        if distance.is_nan() || distance <= FREE_CONE * gone {
-            return gone;
+    let mut travelled = 0.0;
+    while travelled < exit {
+        let distance = field.clear_distance(ray.at(travelled));
+        if distance.is_nan() || distance <= FREE_CONE * travelled {
+            return travelled;
         }
-        gone += (STEP * distance).max(LEAST_STEP * gone);
+        travelled += (STEP * distance).max(MIN_STEP * travelled);
     }
     f64::INFINITY
 }
 
-/// The `index`-th of [`TRIED_RAYS`] directions, spread evenly on a golden spiral.
+/// The `index`-th of [`RAYS`] directions, spread evenly on a golden spiral.
 fn spread_direction(index: u32) -> DVec3 {
     const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
-    let z = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(TRIED_RAYS);
+    let z = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(RAYS);
     let (sin, cos) = (GOLDEN_RAD * f64::from(index)).sin_cos();
-    let ring = (1.0 - z * z).sqrt();
-    DVec3::new(ring * cos, ring * sin, z)
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * cos, radius * sin, z)
 }

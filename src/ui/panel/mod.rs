@@ -22,7 +22,7 @@ use egui::{Frame, Margin, RichText, ScrollArea, Ui};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Action, Inputs,
+    Action, DisplayInputs,
     editor::Editor,
     icon::{Icon, icon_button},
     navigation::CameraStatus,
@@ -112,7 +112,7 @@ pub(super) struct Context<'a> {
     pub rects: &'a mut Rects,
     pub commands: &'a mut Vec<Command>,
     pub actions: &'a mut Vec<Action>,
-    pub inputs: &'a Inputs<'a>,
+    pub inputs: &'a DisplayInputs<'a>,
     /// Set where the histogram is in sight.
     pub histogram_shown: &'a mut bool,
     /// The environment map that is at hand.

@@ -1,51 +1,52 @@
-//! Rotations that keep the horizon.
+//! Turntable rotations, which keep the horizon level.
 //!
-//! A camera that stands upright (its right vector level) turns as on a turntable: about the
-//! scene's z axis, and up or down to half a degree from the poles, where it stops and never
-//! flips. A camera that is rolled turns about its own axes and has no poles. Which of the two it
-//! is gets decided when a gesture begins.
+//! An upright camera (its right vector is horizontal) rotates as on a turntable: about the scene's
+//! z axis, and up or down until half a degree from the poles. A rolled camera rotates about its
+//! own axes and has no poles. Each gesture chooses the mode at its begin.
 
 use glam::{DQuat, DVec2, DVec3};
 
 use super::{World, collide, place_pivot, shift};
 use crate::scene::Camera;
 
-/// Steepest look up or down of an upright camera.
-const STEEPEST_RAD: f64 = 89.5 * std::f64::consts::PI / 180.0;
-/// Largest vertical part of an upright camera's right vector.
+/// Maximum elevation of an upright camera, up or down.
+const MAX_ELEVATION_RAD: f64 = 89.5 * std::f64::consts::PI / 180.0;
+/// Maximum z component of an upright camera's right vector.
 const LEVEL: f64 = 1e-3;
-/// Longest arc that is taken as one straight step.
+/// Longest arc that counts as one straight step.
 const ARC_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
-/// Most arc steps of one call: a whole turn.
+/// Maximum number of arc steps of one call: a full circle.
 const MAX_ARC_STEPS: f64 = 180.0;
 
-/// What a gesture turns about.
+/// The rotation axes of a gesture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turntable {
-    /// The scene's z axis and the camera's right.
+    /// The scene's z axis and the camera's right vector.
     Upright,
-    /// The camera's own up and right.
+    /// The camera's up and right vectors.
     Free,
 }
 
 impl Turntable {
-    /// How `camera` turns.
+    /// The rotation axes for `camera`.
     pub fn of(camera: &Camera) -> Self {
         let rotation = camera.rotation();
         let level = (rotation * DVec3::X).z.abs() <= LEVEL && (rotation * DVec3::Y).z >= -LEVEL;
         if level { Self::Upright } else { Self::Free }
     }
 
-    /// The rotation, in world space, that turns `camera` by `turn` radians (left about the
-    /// vertical, then up), as far as the poles allow.
+    /// The rotation of `camera` by `turn` radians, left and up, in world space.
+    ///
+    /// The rotation of an upright camera stops at the poles.
     fn rotation(self, camera: &Camera, turn: DVec2) -> DQuat {
         let rotation = camera.rotation();
         let right = rotation * DVec3::X;
         match self {
             Self::Upright => {
-                let steepness = camera.forward().z.clamp(-1.0, 1.0).asin();
-                let (low, high) = (steepness.min(-STEEPEST_RAD), steepness.max(STEEPEST_RAD));
-                let up = (steepness + turn.y).clamp(low, high) - steepness;
+                let elevation = camera.forward().z.clamp(-1.0, 1.0).asin();
+                let low = elevation.min(-MAX_ELEVATION_RAD);
+                let high = elevation.max(MAX_ELEVATION_RAD);
+                let up = (elevation + turn.y).clamp(low, high) - elevation;
                 DQuat::from_rotation_z(turn.x) * DQuat::from_axis_angle(right, up)
             }
             Self::Free => {
@@ -55,7 +56,7 @@ impl Turntable {
         }
     }
 
-    /// Turns the camera on the spot by `turn` radians: left, then up. Its pivot turns with it.
+    /// Rotates the camera and its pivot about the eye by `turn` radians, left and up.
     pub fn look(self, camera: &mut Camera, turn: DVec2, grain: f64) {
         let rotation = self.rotation(camera, turn);
         let pivot_offset = &camera.pivot - &camera.position;
@@ -63,8 +64,9 @@ impl Turntable {
         place_pivot(camera, rotation * pivot_offset, grain);
     }
 
-    /// Turns eye and view about the pivot by `turn` radians, the eye keeping its distance to it.
-    /// Where the surface is in the way it goes on with the part of the turn that is free.
+    /// Rotates the eye and the view about the pivot by `turn` radians, at constant distance.
+    ///
+    /// If the surface blocks a step, the horizontal or the vertical part of the step is tried.
     pub fn orbit(self, camera: &mut Camera, world: World<'_>, turn: DVec2) {
         if !turn.is_finite() {
             return;
@@ -82,16 +84,16 @@ impl Turntable {
         }
     }
 
-    /// One straight step of an orbit; false, and nothing done, where the surface is in the way.
+    /// Makes one straight step of an orbit. False, without a change, if the surface blocks it.
     fn orbit_step(self, camera: &mut Camera, world: World<'_>, turn: DVec2) -> bool {
         let rotation = self.rotation(camera, turn);
         let arm = &camera.position - &camera.pivot;
-        let way = rotation * arm - arm;
-        if collide::advance(world, camera, way) != way {
+        let displacement = rotation * arm - arm;
+        if collide::advance(world, camera, displacement) != displacement {
             return false;
         }
         let pivot = camera.pivot.clone();
-        shift(camera, world, way);
+        shift(camera, world, displacement);
         camera.pivot = pivot;
         camera.orientation = (rotation * camera.rotation()).normalize().into();
         true
