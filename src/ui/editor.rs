@@ -1,8 +1,8 @@
-//! The scene and the path under edit, and their undo history.
+//! The edited scene and path, and their undo history.
 //!
-//! Panels change them in place. Once a frame the session compares them with the frame's
-//! start and records what changed; all changes of one gesture (a drag, a flight, a run of
-//! wheel notches) become one step.
+//! Panels change the project in place. Once per frame, the editor compares the project with its
+//! state at the frame's begin and records a change. All changes of one gesture (a drag, a flight, a
+//! sequence of wheel notches) become one step.
 
 use crate::scene::{
     Project, Scene,
@@ -19,7 +19,7 @@ pub struct Editor {
 }
 
 impl Editor {
-    /// A session that starts at `project`, with nothing to undo.
+    /// An editor of `project` with an empty history.
     pub fn new(project: Project) -> Self {
         Self {
             project,
@@ -29,40 +29,41 @@ impl Editor {
         }
     }
 
-    /// The scene and the path as they are now.
+    /// The current scene and path.
     pub fn project(&self) -> &Project {
         &self.project
     }
 
-    /// The scene as it is now.
+    /// The current scene.
     pub fn scene(&self) -> &Scene {
         &self.project.scene
     }
 
-    /// The scene, for the panels; [`Self::note_changes`] must follow in the same frame.
+    /// The scene, for panels; [`Self::record_changes`] must follow in the same frame.
     pub(super) fn scene_mut(&mut self) -> &mut Scene {
         &mut self.project.scene
     }
 
-    /// Scene and path, for the timeline; as [`Self::scene_mut`].
+    /// The scene and the path; [`Self::record_changes`] must follow in the same frame.
     pub(super) fn project_mut(&mut self) -> &mut Project {
         &mut self.project
     }
 
-    /// Puts a moment of the path in view. Where the view before `can_be_made_again` from the
-    /// path, nothing is lost and there is nothing to undo; otherwise it is a step of the history,
-    /// or a part of the gesture under way.
-    pub(super) fn show(&mut self, scene: Scene, can_be_made_again: bool) {
+    /// Replaces the scene in view by a scene of the path.
+    ///
+    /// If the old scene `was_on_path`, the path can restore it, so no undo step is necessary.
+    /// Otherwise the old scene becomes an undo step, or a part of the current gesture.
+    pub(super) fn show(&mut self, scene: Scene, was_on_path: bool) {
         if scene == self.project.scene {
             return;
         }
-        if !can_be_made_again {
+        if !was_on_path {
             self.history.record(&self.project, Some(self.gesture));
         }
         self.project.scene = scene;
     }
 
-    /// Puts another project in its place, as one step that can be undone.
+    /// Replaces the project as one undo step.
     pub fn replace(&mut self, project: Project) {
         if project != self.project {
             self.next_gesture();
@@ -71,8 +72,8 @@ impl Editor {
         }
     }
 
-    /// Records what has changed since `before`. Changes made `during_gesture` join one step.
-    pub(super) fn note_changes(&mut self, before: &Project, during_gesture: bool, now_secs: f64) {
+    /// Records the changes since `before`. Changes `during_gesture` join one undo step.
+    pub(super) fn record_changes(&mut self, before: &Project, during_gesture: bool, now_secs: f64) {
         if self.project != *before {
             self.history.record(before, Some(self.gesture));
             self.last_change_secs = now_secs;
@@ -82,17 +83,17 @@ impl Editor {
         }
     }
 
-    /// Ends the step that later changes would have joined.
+    /// Ends the current undo step; later changes start a new step.
     pub(super) fn next_gesture(&mut self) {
         self.gesture.0 += 1;
     }
 
-    /// Seconds since the last change made by hand.
+    /// Seconds since the user's last change.
     pub(super) fn secs_since_change(&self, now_secs: f64) -> f64 {
         now_secs - self.last_change_secs
     }
 
-    /// Goes one step back, where there is one.
+    /// Undoes one step, if any.
     pub fn undo(&mut self) {
         self.next_gesture();
         if let Some(project) = self.history.undo(&self.project) {
@@ -100,7 +101,7 @@ impl Editor {
         }
     }
 
-    /// Goes one step forward again, where there is one.
+    /// Redoes one step, if any.
     pub fn redo(&mut self) {
         self.next_gesture();
         if let Some(project) = self.history.redo(&self.project) {
@@ -108,12 +109,12 @@ impl Editor {
         }
     }
 
-    /// Whether there is a step back.
+    /// True if there is a step to undo.
     pub fn can_undo(&self) -> bool {
         self.history.can_undo()
     }
 
-    /// Whether there is a step forward.
+    /// True if there is a step to redo.
     pub fn can_redo(&self) -> bool {
         self.history.can_redo()
     }

@@ -1,7 +1,7 @@
-//! Point lights as handles in the view.
+//! Handles of point lights in the view.
 //!
-//! A drag moves a light in the plane through it that is parallel to the screen; with Shift it
-//! moves along its ray, upward away from the eye. Lights behind the eye have no handle.
+//! A drag moves the light parallel to the screen. A drag with Shift moves the light along its ray;
+//! upward is away from the eye. Lights behind the eye have no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
@@ -9,17 +9,18 @@ use glam::DVec3;
 use super::{panel::LightRef, pilot::Frame, theme};
 use crate::scene::{Camera, MIN_VIEW_UNIT, Scene};
 
-/// Side of the square that can be grabbed, in points.
+/// Side of a handle's sensitive square, in points.
 const GRIP: f32 = 30.0;
-/// Natural logarithm of the distance per point of a drag with Shift.
+/// Change of the distance per point of a drag with Shift, as a natural logarithm.
 const DEPTH_PER_POINT: f64 = 0.01;
-/// Nearest and farthest a drag puts a light, in scene units from the eye.
+/// Range of a dragged light's distance from the eye, in scene units.
 const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
-/// How coarsely positions are rounded, in pixels at the light's depth.
+/// Rounding of positions, in pixels at the light's depth.
 const GRAIN_PX: f64 = 1e-2;
 
-/// Draws the handles of all point lights over the view and moves those that are dragged.
-/// Returns the light that was clicked or dragged.
+/// Draws the handles of all point lights and moves a dragged light.
+///
+/// Returns the clicked or dragged light.
 pub fn point_lights(
     ui: &Ui,
     frame: Frame,
@@ -48,8 +49,8 @@ pub fn point_lights(
             touched = Some(this);
         }
         if response.dragged() {
-            let away = ui.input(|i| i.modifiers.shift);
-            let moved = displacement(&scene.camera, frame, offset, response.drag_delta(), away);
+            let in_depth = ui.input(|i| i.modifiers.shift);
+            let moved = displacement(&scene.camera, frame, offset, response.drag_delta(), in_depth);
             let grain = offset.length() * scene.camera.half_height(frame.aspect()) * 2.0
                 / f64::from(frame.height_px.max(1))
                 * GRAIN_PX;
@@ -58,13 +59,14 @@ pub fn point_lights(
         let shines = !light.muted && (!any_solo || light.solo);
         let lit = response.hovered() || response.dragged() || selected == Some(this);
         paint(ui, at, theme::display_color(light.color), shines, lit);
-        response.on_hover_text("Drag to move this light; with Shift toward or away from you.");
+        response.on_hover_text(
+            "Drag to move this light. With Shift, it moves toward or away from you.",
+        );
     }
     touched
 }
 
-/// Where in the window the point at `offset` from the eye appears, within a margin around the
-/// picture; none behind the eye.
+/// The window position of the point at `offset` from the eye; none outside the picture.
 fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
     let seen = camera.rotation().inverse() * offset;
     if seen.z >= -f64::MIN_POSITIVE {
@@ -76,9 +78,17 @@ fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
     frame.rect.contains(at).then_some(at)
 }
 
-/// How far a drag by `delta` points moves the point at `offset` from the eye, in scene units.
-fn displacement(camera: &Camera, frame: Frame, offset: DVec3, delta: Vec2, away: bool) -> DVec3 {
-    if away {
+/// The displacement, in scene units, of the point at `offset` from the eye by a drag.
+///
+/// `delta` is the drag in points; `in_depth` moves the point along its ray.
+fn displacement(
+    camera: &Camera,
+    frame: Frame,
+    offset: DVec3,
+    delta: Vec2,
+    in_depth: bool,
+) -> DVec3 {
+    if in_depth {
         let distance = offset.length().max(f64::MIN_POSITIVE);
         let wanted = distance * (-f64::from(delta.y) * DEPTH_PER_POINT).exp();
         return offset * (wanted.clamp(*DEPTHS.start(), *DEPTHS.end()) / distance - 1.0);
@@ -138,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn with_shift_a_light_keeps_its_place_in_the_picture() {
+    fn a_drag_with_shift_moves_a_light_along_its_ray() {
         let camera = Camera::default();
         let frame = Frame {
             rect: Rect::from_min_size(Pos2::ZERO, Vec2::new(800.0, 600.0)),

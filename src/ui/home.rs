@@ -1,39 +1,39 @@
-//! Where Home leads: to the scene's opening view, and out of one that is deep itself.
+//! The target of the Home button: the scene's opening view, or the whole fractal.
 //!
-//! In: the camera and the opening one. Out: the way, and what its button shows. Moves nothing.
+//! In: the current camera and the opening camera. Out: the target, and the button's content.
 
 use super::{icon::Icon, status::zoom};
 use crate::scene::Camera;
 
-/// An opening view at least this much larger than a new scene's is itself a place to come out of.
+/// Zoom from which on an opening view counts as deep: Home then also leads out of it.
 const DEEP_ZOOM: f64 = 10.0;
 
-/// Where Home leads.
+/// The target of Home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum HomeTarget {
-    /// To the scene's opening view.
+    /// The scene's opening view.
     Opening,
-    /// From a deep opening view, such as a dive's, out to all of the fractal.
+    /// The whole fractal, from a deep opening view such as a dive's.
     Whole,
 }
 
 impl HomeTarget {
-    /// Where Home leads from `camera`; none from an opening view that shows the whole already.
+    /// The target from `camera`; none at an opening view that is not deep.
     pub fn of(camera: &Camera, home: &Camera) -> Option<Self> {
-        // Stereo is of the screen that one sits before, not of the place.
-        let is_there = *camera == Camera { stereo: camera.stereo.clone(), ..home.clone() };
-        match is_there {
+        // Stereo settings describe the viewer's screen, not the view, so they are ignored.
+        let is_home = *camera == Camera { stereo: camera.stereo.clone(), ..home.clone() };
+        match is_home {
             false => Some(Self::Opening),
             true if zoom(home) >= DEEP_ZOOM => Some(Self::Whole),
             true => None,
         }
     }
 
-    /// The icon, the name and the explanation of its button.
+    /// The icon, the name and the hover text of the button.
     pub fn button(self) -> (Icon, (&'static str, &'static str)) {
         match self {
-            Self::Opening => (Icon::Home, ("Home", "Back to the scene's opening view (H)")),
-            Self::Whole => (Icon::Whole, ("Out", "Out to all of the fractal (H)")),
+            Self::Opening => (Icon::Home, ("Home", "Fly back to the scene's first view (H)")),
+            Self::Whole => (Icon::Whole, ("Out", "Fly out until the whole fractal is visible (H)")),
         }
     }
 }

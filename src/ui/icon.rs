@@ -1,45 +1,45 @@
-//! Small drawn icons: the bundled fonts lack most symbols, and lines stay crisp at any scale.
+//! Icons drawn as shapes: the bundled fonts lack most symbols, and shapes are sharp at any scale.
 
 use egui::{Button, Color32, Painter, Pos2, Response, Sense, Stroke, Ui, Vec2, vec2};
 
-/// What is drawn, in a box of about 16 points.
+/// An icon, designed for a box of 16 points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
     /// An arrow that turns back.
     Undo,
     /// An arrow that turns forward.
     Redo,
-    /// A question mark's place: help.
+    /// A question mark.
     Help,
     /// Three sliders.
     Controls,
-    /// Points down or, turned by the openness, sideways.
+    /// A chevron that points down.
     ChevronDown,
-    /// Points up.
+    /// A chevron that points up.
     ChevronUp,
-    /// Points right.
+    /// A chevron that points right.
     ChevronRight,
     /// A diagonal cross.
     Cross,
     /// Four corners.
     Fullscreen,
-    /// A triangle: time runs.
+    /// A triangle.
     Play,
     /// Two bars.
     Pause,
-    /// Back to a bar.
+    /// A triangle that points left to a bar.
     Previous,
-    /// On to a bar.
+    /// A triangle that points right to a bar.
     Next,
-    /// Diamonds on a line: the timeline.
+    /// Diamonds on a line.
     Timeline,
     /// A house.
     Home,
-    /// A ball in a frame: all of the fractal.
+    /// A ball in a frame: the whole fractal.
     Whole,
 }
 
-/// A square button with an icon, named for those who cannot see it.
+/// A square button with an icon; `name` is for screen readers.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, hover: &str) -> Response {
     let side = ui.spacing().interact_size.y.max(26.0);
     let response = ui
@@ -61,7 +61,7 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, hover: &str) -> Response
     response
 }
 
-/// Draws `icon` about `center`, `size` points large.
+/// Draws `icon` around `center`, `size` points large.
 pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Color32) {
     let stroke = Stroke::new(1.5, color);
     let at = |x: f32, y: f32| center + vec2(x, y) * (size / 16.0);

@@ -151,7 +151,7 @@ impl Interface {
         let mut actions = Vec::new();
 
         let wide = ui.available_width() >= theme::WIDE_FROM;
-        theme::fit_to_hand(ui, !wide || ui.input(|i| i.has_touch_screen()));
+        theme::set_row_sizes(ui, !wide || ui.input(|i| i.has_touch_screen()));
         self.panels(ui, inputs, wide, &mut commands, &mut actions);
         self.status(ui, inputs);
         self.view(ui, inputs, wide, &mut commands);
@@ -162,7 +162,7 @@ impl Interface {
         for command in commands.iter().copied().filter(|&command| in_sight(command)) {
             self.timeline.command(command, self.editor.project_mut(), now_secs);
         }
-        self.note_changes(ui, &before, now_secs, held);
+        self.record_changes(ui, &before, now_secs, held);
         if !commands.is_empty() {
             // What they change is drawn by now.
             ui.ctx().request_repaint();
@@ -170,7 +170,7 @@ impl Interface {
         for command in commands {
             self.dispatch(command, wide, &mut actions);
         }
-        self.timeline.follow(&mut self.editor, &before, now_secs);
+        self.timeline.end_frame(&mut self.editor, &before, now_secs);
         self.moving |= self.timeline.is_moving();
         if self.timeline.is_playing() {
             ui.ctx().request_repaint();
@@ -221,7 +221,7 @@ impl Interface {
             None
         };
         if let Some(shown) = shown {
-            cx.rects.note("panel", &shown.response);
+            cx.rects.record("panel", &shown.response);
         }
         if timeline_open {
             let margin = Margin { left: 12, right: 8, top: 6, bottom: 8 };
@@ -230,7 +230,7 @@ impl Interface {
             let shown = strip.show(ui, |ui| {
                 panel::strip(ui, &mut cx, &mut project.path, &mut self.timeline);
             });
-            cx.rects.note("timeline", &shown.response);
+            cx.rects.record("timeline", &shown.response);
         }
     }
 
@@ -250,7 +250,7 @@ impl Interface {
             .show(ui, |ui| {
                 status::status_line(ui, &status);
             });
-        self.rects.note("status", &shown.response);
+        self.rects.record("status", &shown.response);
     }
 
     /// The picture and what moves its camera.
@@ -267,7 +267,7 @@ impl Interface {
         let frame = Frame { rect, height_px: size_px[1] };
         let scene = self.editor.scene_mut();
         let response = view::show(ui, frame, inputs.picture);
-        self.rects.note("view", &response);
+        self.rects.record("view", &response);
         // The pilot takes this frame's commands below.
         if let Some(way) = HomeTarget::of(&scene.camera, &self.home) {
             let side = button_side(ui);
@@ -275,7 +275,7 @@ impl Interface {
             let at = rect.left_bottom() + vec2(beside, -10.0 - side);
             let (icon, hover) = way.button();
             let button = floating_button(ui, at, icon, hover);
-            self.rects.note("home", &button);
+            self.rects.record("home", &button);
             if button.clicked() {
                 commands.push(Command::Home);
             }
@@ -295,7 +295,7 @@ impl Interface {
             let at = rect.right_top() + vec2(-10.0 - button_side(ui), 10.0);
             let hover = ("Show panel", "Show the panel (P)");
             let button = floating_button(ui, at, Icon::Controls, hover);
-            self.rects.note("panel toggle", &button);
+            self.rects.record("panel toggle", &button);
             if button.clicked() {
                 commands.push(Command::TogglePanel);
             }
@@ -304,7 +304,7 @@ impl Interface {
             let at = rect.left_bottom() + vec2(10.0, -10.0 - button_side(ui));
             let hover = ("Show timeline", "Key frames: a path for the camera and all else (T)");
             let button = floating_button(ui, at, Icon::Timeline, hover);
-            self.rects.note("timeline toggle", &button);
+            self.rects.record("timeline toggle", &button);
             if button.clicked() {
                 commands.push(Command::ToggleTimeline);
             }
@@ -322,14 +322,14 @@ impl Interface {
     }
 
     /// Records the frame's changes, and whether more of them are on their way.
-    fn note_changes(&mut self, ui: &Ui, before: &Project, now_secs: f64, held: bool) {
+    fn record_changes(&mut self, ui: &Ui, before: &Project, now_secs: f64, held: bool) {
         let changed = before != self.project();
         if changed && ui.input(stepped_by_key) {
             self.pilot.extend_run(ui.ctx());
         }
         let still_down = ui.input(|i| i.pointer.any_down() || i.any_touches());
         let gesture = (held && still_down) || self.pilot.is_moving(now_secs);
-        self.editor.note_changes(before, gesture, now_secs);
+        self.editor.record_changes(before, gesture, now_secs);
         self.moving = gesture && self.editor.secs_since_change(now_secs) < STILL_SECS;
         if self.moving {
             ui.ctx().request_repaint_after_secs(STILL_SECS as f32);

@@ -286,7 +286,7 @@ impl Pilot {
 
     /// Flies on while keys are held or the pointer looks around.
     fn travel(&mut self, ui: &Ui, view: &Response, camera: &mut Camera, world: World<'_>) {
-        self.keys.follow(ui.ctx());
+        self.keys.update(ui.ctx());
         if !self.flying {
             return;
         }

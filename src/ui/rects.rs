@@ -1,5 +1,4 @@
-//! Where the key widgets stand: for tests that drive the page from outside, where no
-//! accessibility tree exists.
+//! Positions of named widgets, for browser tests: a page has no accessibility tree.
 
 use std::collections::BTreeMap;
 
@@ -10,22 +9,22 @@ use egui::{Rect, Response};
 pub struct Rects(BTreeMap<&'static str, Rect>);
 
 impl Rects {
-    /// Forgets the last frame.
+    /// Removes the last frame's rectangles.
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// Notes where a widget is; it may lie outside the window where it is scrolled away.
-    pub(super) fn note(&mut self, name: &'static str, response: &Response) {
+    /// Stores the rectangle of a widget, which may be scrolled out of the window.
+    pub(super) fn record(&mut self, name: &'static str, response: &Response) {
         self.0.insert(name, response.rect);
     }
 
-    /// The widget's rectangle; none where it isn't shown.
+    /// The widget's rectangle, if the widget is shown.
     pub fn get(&self, name: &str) -> Option<Rect> {
         self.0.get(name).copied()
     }
 
-    /// All of them, by name.
+    /// All widgets and their rectangles, ordered by name.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, Rect)> + '_ {
         self.0.iter().map(|(&name, &rect)| (name, rect))
     }

@@ -1,80 +1,79 @@
-//! The keyboard, in one table: what the program does on a key is what its help says.
+//! Keyboard shortcuts: one table for dispatch and for the help window.
 //!
-//! In: this frame's key events. Out: commands. Keys in [`FLIGHT`] are read by their place on the
-//! keyboard, so that W A S D lie under the same fingers on every layout; all others by what
-//! is printed on them.
+//! In: this frame's key events. Out: commands. The keys of [`FLIGHT`] are physical keys, so that
+//! W A S D have the same positions on every keyboard layout. All other keys are logical keys.
 
 use std::collections::BTreeSet;
 
 use egui::{Context, Event, Key, Modifiers};
 
-/// What a key can ask for.
+/// A command of a key or a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Command {
-    /// One step back.
+    /// Undo one step.
     Undo,
-    /// One step forward again.
+    /// Redo one step.
     Redo,
-    /// Save the picture as a PNG.
+    /// Save the picture as PNG or OpenEXR.
     SavePicture,
     /// Save the scene document.
     SaveScene,
     /// Open a scene document.
     LoadScene,
-    /// Copy the address that shares this view.
+    /// Copy a link to this view.
     CopyLink,
-    /// The scene of this index among the opening scenes and the dives.
+    /// Open the preset of this index: the opening scenes, then the dives.
     Preset(usize),
-    /// The camera of a new scene.
+    /// Fly to the scene's opening view, or out of a deep one.
     Home,
-    /// The whole fractal in view.
+    /// Show the whole fractal.
     FrameAll,
-    /// Fly mode on or off.
+    /// Switch fly mode on or off.
     ToggleFlight,
-    /// Leave fly mode, or close what is open.
+    /// Close the help window, or leave fly mode.
     Leave,
-    /// Panel shown or hidden.
+    /// Show or hide the panel.
     TogglePanel,
-    /// Help shown or hidden.
+    /// Show or hide the help window.
     ToggleHelp,
-    /// The whole screen for the picture, or no longer.
+    /// Enter or leave fullscreen.
     ToggleFullscreen,
-    /// Timeline shown or hidden.
+    /// Show or hide the timeline.
     ToggleTimeline,
-    /// The path plays or stops.
+    /// Play or pause the path.
     PlayPause,
-    /// The view becomes a key of the path.
+    /// Add the view to the path as a key.
     AddKey,
-    /// The view takes the place of the key at the playhead.
+    /// Replace the key at the playhead by the view.
     UpdateKey,
-    /// The selected key goes.
+    /// Delete the selected key.
     DeleteKey,
-    /// To the key before the playhead.
+    /// Move to the key before the playhead.
     PreviousKey,
-    /// To the key after the playhead.
+    /// Move to the key after the playhead.
     NextKey,
-    /// Turn about the pivot: right and up, in steps.
+    /// Orbit around the pivot: right and up, in steps.
     Orbit(i8, i8),
-    /// Move the view: right and up, in steps.
+    /// Pan the view: right and up, in steps.
     Pan(i8, i8),
-    /// Closer (positive) or farther, in steps.
+    /// Move closer (positive) or farther, in steps.
     Dolly(i8),
 }
 
-/// One line of the table.
+/// One row of the shortcut table.
 #[derive(Clone, Copy, Debug)]
 pub struct Shortcut {
-    /// The modifiers that must be held; `COMMAND` is Ctrl, on a Mac the command key.
+    /// The modifiers of the shortcut; `COMMAND` is Ctrl, on macOS the command key.
     pub modifiers: Modifiers,
     /// The key.
     pub key: Key,
-    /// What it does.
+    /// The command.
     pub command: Command,
-    /// The same for people; none where the line before speaks for both.
+    /// Keys and description for the help window; none if an earlier row's help covers this row.
     pub help: Option<(&'static str, &'static str)>,
 }
 
-const fn line(
+const fn row(
     modifiers: Modifiers,
     key: Key,
     command: Command,
@@ -94,9 +93,9 @@ const COMMAND: Modifiers = Modifiers::COMMAND;
 const COMMAND_SHIFT: Modifiers =
     Modifiers { alt: false, ctrl: false, shift: true, mac_cmd: false, command: true };
 
-/// Every shortcut, in the order in which help lists them.
+/// All shortcuts, in the order of the help window.
 pub const SHORTCUTS: &[Shortcut] = &[
-    line(NONE, Key::Num1, Command::Preset(0), "1 … 8", "Opening scenes"),
+    row(NONE, Key::Num1, Command::Preset(0), "1 … 8", "Opening scenes"),
     also(NONE, Key::Num2, Command::Preset(1)),
     also(NONE, Key::Num3, Command::Preset(2)),
     also(NONE, Key::Num4, Command::Preset(3)),
@@ -104,39 +103,39 @@ pub const SHORTCUTS: &[Shortcut] = &[
     also(NONE, Key::Num6, Command::Preset(5)),
     also(NONE, Key::Num7, Command::Preset(6)),
     also(NONE, Key::Num8, Command::Preset(7)),
-    line(NONE, Key::ArrowLeft, Command::Orbit(-1, 0), "Arrows", "Orbit"),
+    row(NONE, Key::ArrowLeft, Command::Orbit(-1, 0), "Arrows", "Orbit"),
     also(NONE, Key::ArrowRight, Command::Orbit(1, 0)),
     also(NONE, Key::ArrowUp, Command::Orbit(0, 1)),
     also(NONE, Key::ArrowDown, Command::Orbit(0, -1)),
-    line(SHIFT, Key::ArrowLeft, Command::Pan(-1, 0), "Shift + arrows", "Pan"),
+    row(SHIFT, Key::ArrowLeft, Command::Pan(-1, 0), "Shift + arrows", "Pan"),
     also(SHIFT, Key::ArrowRight, Command::Pan(1, 0)),
     also(SHIFT, Key::ArrowUp, Command::Pan(0, 1)),
     also(SHIFT, Key::ArrowDown, Command::Pan(0, -1)),
-    line(NONE, Key::Plus, Command::Dolly(1), "+  −", "Closer, farther"),
+    row(NONE, Key::Plus, Command::Dolly(1), "+  −", "Closer, farther"),
     also(SHIFT, Key::Plus, Command::Dolly(1)),
     also(NONE, Key::Equals, Command::Dolly(1)),
     also(NONE, Key::Minus, Command::Dolly(-1)),
-    line(NONE, Key::H, Command::Home, "H", "Home: the opening view, or out of a deep one"),
-    line(NONE, Key::A, Command::FrameAll, "A", "Frame all of the fractal"),
-    line(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
-    line(NONE, Key::Escape, Command::Leave, "Esc", "Leave fly mode, close help"),
-    line(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),
-    line(COMMAND_SHIFT, Key::Z, Command::Redo, "Ctrl Shift Z, Ctrl Y", "Redo"),
+    row(NONE, Key::H, Command::Home, "H", "Home: back to the first view, or out of a deep one"),
+    row(NONE, Key::A, Command::FrameAll, "A", "Show the whole fractal"),
+    row(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
+    row(NONE, Key::Escape, Command::Leave, "Esc", "Leave fly mode, close help"),
+    row(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),
+    row(COMMAND_SHIFT, Key::Z, Command::Redo, "Ctrl Shift Z, Ctrl Y", "Redo"),
     also(COMMAND, Key::Y, Command::Redo),
-    line(COMMAND, Key::S, Command::SavePicture, "Ctrl S", "Save the picture (PNG)"),
-    line(COMMAND_SHIFT, Key::S, Command::SaveScene, "Ctrl Shift S", "Save the scene (JSON)"),
-    line(COMMAND, Key::O, Command::LoadScene, "Ctrl O", "Open a scene or a picture's scene"),
-    line(NONE, Key::L, Command::CopyLink, "L", "Copy a link to this view"),
-    line(NONE, Key::T, Command::ToggleTimeline, "T", "Show or hide the timeline"),
-    line(NONE, Key::K, Command::AddKey, "K", "Add the view to the path as a key"),
-    line(NONE, Key::U, Command::UpdateKey, "U", "Update the key at the playhead"),
-    line(NONE, Key::Delete, Command::DeleteKey, "Del", "Delete the selected key"),
-    line(NONE, Key::Comma, Command::PreviousKey, ",  .", "To the key before, to the next key"),
+    row(COMMAND, Key::S, Command::SavePicture, "Ctrl S", "Save the picture (PNG)"),
+    row(COMMAND_SHIFT, Key::S, Command::SaveScene, "Ctrl Shift S", "Save the scene (JSON)"),
+    row(COMMAND, Key::O, Command::LoadScene, "Ctrl O", "Open a scene or a picture's scene"),
+    row(NONE, Key::L, Command::CopyLink, "L", "Copy a link to this view"),
+    row(NONE, Key::T, Command::ToggleTimeline, "T", "Show or hide the timeline"),
+    row(NONE, Key::K, Command::AddKey, "K", "Add the view to the path as a key"),
+    row(NONE, Key::U, Command::UpdateKey, "U", "Replace the key at the playhead by the view"),
+    row(NONE, Key::Delete, Command::DeleteKey, "Del", "Delete the selected key"),
+    row(NONE, Key::Comma, Command::PreviousKey, ",  .", "Go to the previous, to the next key"),
     also(NONE, Key::Period, Command::NextKey),
-    line(NONE, Key::Space, Command::PlayPause, "Space", "Play the path, or stop"),
-    line(NONE, Key::P, Command::TogglePanel, "P", "Show or hide the panel"),
-    line(SHIFT, Key::F, Command::ToggleFullscreen, "Shift F", "Fill the screen"),
-    line(NONE, Key::Questionmark, Command::ToggleHelp, "?", "This help"),
+    row(NONE, Key::Space, Command::PlayPause, "Space", "Play or pause the path"),
+    row(NONE, Key::P, Command::TogglePanel, "P", "Show or hide the panel"),
+    row(SHIFT, Key::F, Command::ToggleFullscreen, "Shift F", "Fill the screen"),
+    row(NONE, Key::Questionmark, Command::ToggleHelp, "?", "Show or hide this help"),
     also(SHIFT, Key::Questionmark, Command::ToggleHelp),
     also(NONE, Key::F1, Command::ToggleHelp),
 ];
@@ -144,15 +143,15 @@ pub const SHORTCUTS: &[Shortcut] = &[
 /// A key of fly mode.
 #[derive(Clone, Copy, Debug)]
 pub struct FlightKey {
-    /// The key that a US keyboard has in its place.
+    /// The physical key, by its name on a US keyboard.
     pub key: Key,
-    /// Where it leads: right, up, forward.
+    /// The direction of movement: right, up, forward.
     pub direction: [f64; 3],
-    /// The keys and what they do, for people; none where the line before speaks for both.
+    /// Keys and description for the help window; none if an earlier row's help covers this row.
     pub help: Option<(&'static str, &'static str)>,
 }
 
-const fn flies(
+const fn flight_key(
     key: Key,
     direction: [f64; 3],
     help: Option<(&'static str, &'static str)>,
@@ -162,27 +161,29 @@ const fn flies(
 
 /// The keys of fly mode.
 pub const FLIGHT: &[FlightKey] = &[
-    flies(Key::W, [0.0, 0.0, 1.0], Some(("W  S", "Fly forward, back"))),
-    flies(Key::S, [0.0, 0.0, -1.0], None),
-    flies(Key::A, [-1.0, 0.0, 0.0], Some(("A  D", "Fly left, right"))),
-    flies(Key::D, [1.0, 0.0, 0.0], None),
-    flies(Key::E, [0.0, 1.0, 0.0], Some(("E  Q", "Fly up, down"))),
-    flies(Key::Q, [0.0, -1.0, 0.0], None),
+    flight_key(Key::W, [0.0, 0.0, 1.0], Some(("W  S", "Fly forward, back"))),
+    flight_key(Key::S, [0.0, 0.0, -1.0], None),
+    flight_key(Key::A, [-1.0, 0.0, 0.0], Some(("A  D", "Fly left, right"))),
+    flight_key(Key::D, [1.0, 0.0, 0.0], None),
+    flight_key(Key::E, [0.0, 1.0, 0.0], Some(("E  Q", "Fly up, down"))),
+    flight_key(Key::Q, [0.0, -1.0, 0.0], None),
 ];
 
-/// What the pointer does in the view: the gesture, and what it does.
+/// The pointer's gestures in the view, each with its effect.
 pub const GESTURES: &[(&str, &str)] = &[
-    ("Drag", "Orbit about the point under the pointer"),
+    ("Drag", "Orbit around the point under the pointer"),
     ("Right drag, Shift + drag", "Pan"),
-    ("Wheel, pinch", "Closer and farther, toward the pointer"),
+    ("Wheel, pinch", "Move closer or farther, toward the pointer"),
     ("Two fingers", "Pan and zoom"),
-    ("Drag a light's handle", "Move a point light; with Shift toward or away"),
+    ("Drag a light's handle", "Move a point light; with Shift toward or away from you"),
     ("Drag in fly mode", "Look around"),
-    ("Double click a slider", "Back to its default"),
+    ("Double click a slider", "Reset to its default"),
 ];
 
-/// Commands of this frame's key presses. Silent while text is typed; keys that a focused widget
-/// uses (arrows, digits) are left to it, and keys that fly are left to the flight.
+/// The commands of this frame's key presses.
+///
+/// No commands while text is typed. A focused widget keeps the keys that it uses (arrows, Space,
+/// Escape, Delete), and fly mode keeps its keys.
 pub fn commands(ctx: &Context, flying: bool) -> Vec<Command> {
     let typing = ctx.text_edit_focused();
     let focused = ctx.egui_wants_keyboard_input();
@@ -213,7 +214,7 @@ fn find(key: Key, modifiers: Modifiers) -> Option<Command> {
         .map(|shortcut| shortcut.command)
 }
 
-/// Whether holding the key down asks again and again.
+/// True if the command repeats while the key is held down.
 fn repeats(command: Command) -> bool {
     matches!(
         command,
@@ -221,7 +222,7 @@ fn repeats(command: Command) -> bool {
     )
 }
 
-/// Keys that sliders, buttons and the light ball answer while they have the focus.
+/// True for keys that sliders, buttons and the direction ball use while focused.
 fn is_widget_key(key: Key) -> bool {
     use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Delete, Escape, Space};
     matches!(key, ArrowLeft | ArrowRight | ArrowUp | ArrowDown | Escape | Space | Delete)
@@ -231,13 +232,16 @@ fn is_flight_key(key: Key) -> bool {
     FLIGHT.iter().any(|flight| flight.key == key)
 }
 
-/// The flight keys that are held down, by their place on the keyboard.
+/// The physical keys of fly mode that are held down.
 #[derive(Clone, Debug, Default)]
 pub struct HeldKeys(BTreeSet<Key>);
 
 impl HeldKeys {
-    /// Follows this frame's key events. Typing, a modifier and a lost window let go of all.
-    pub fn follow(&mut self, ctx: &Context) {
+    /// Updates the set by this frame's key events.
+    ///
+    /// Text input and a loss of the window's focus release all keys; keys with Ctrl or Alt do not
+    /// count.
+    pub fn update(&mut self, ctx: &Context) {
         let typing = ctx.text_edit_focused();
         ctx.input(|input| {
             for event in &input.events {
@@ -261,7 +265,7 @@ impl HeldKeys {
         }
     }
 
-    /// Where the held keys lead: right, up, forward, each −1 to 1.
+    /// The direction of the held keys: right, up, forward, each −1 to 1.
     pub fn direction(&self) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for flight in FLIGHT {
@@ -280,7 +284,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_two_lines_share_a_key() {
+    fn no_two_rows_share_a_key() {
         for (i, a) in SHORTCUTS.iter().enumerate() {
             for b in &SHORTCUTS[i + 1..] {
                 assert!(
@@ -295,10 +299,10 @@ mod tests {
     }
 
     #[test]
-    fn every_line_is_found_by_its_key() {
+    fn every_row_is_found_by_its_key() {
         for shortcut in SHORTCUTS {
             let mut pressed = shortcut.modifiers;
-            // What a browser reports for Ctrl on other systems than a Mac.
+            // Except on macOS, a browser reports Ctrl as both `ctrl` and `command`.
             pressed.ctrl = pressed.command;
             assert_eq!(find(shortcut.key, pressed), Some(shortcut.command), "{:?}", shortcut.key);
         }

@@ -1,43 +1,43 @@
-//! The look: one dark palette, roomy spacing, and touch-sized rows where fingers are at work.
+//! The style: a dark palette, spacing, and larger rows for touch screens.
 //!
-//! In: an egui context once, and a `Ui` each frame. Out: their style. Knows no scene.
+//! In: an egui context once, and a `Ui` each frame. Out: their style.
 
 use egui::{
     Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle,
     Theme, Ui, Vec2, style::WidgetVisuals, vec2,
 };
 
-/// Behind everything.
+/// Background of the window.
 pub const BACKGROUND: Color32 = Color32::from_rgb(0x0b, 0x0d, 0x12);
-/// Panels.
+/// Background of panels.
 pub const PANEL: Color32 = Color32::from_rgb(0x14, 0x18, 0x22);
-/// Wells: slider rails, text fields.
+/// Background of slider rails and text fields.
 pub const WELL: Color32 = Color32::from_rgb(0x0d, 0x10, 0x17);
 /// Buttons at rest.
 pub const RAISED: Color32 = Color32::from_rgb(0x22, 0x28, 0x36);
 /// Buttons under the pointer.
 pub const RAISED_HOVER: Color32 = Color32::from_rgb(0x2d, 0x35, 0x47);
-/// Hairlines between parts.
+/// Thin lines between parts.
 pub const LINE: Color32 = Color32::from_rgb(0x25, 0x2b, 0x39);
 /// Text.
 pub const TEXT: Color32 = Color32::from_rgb(0xdf, 0xe4, 0xee);
-/// Text that steps back: labels, captions. 4.5:1 or better on [`PANEL`].
+/// Secondary text: labels, captions. The contrast on [`PANEL`] is at least 4.5:1.
 pub const TEXT_DIM: Color32 = Color32::from_rgb(0x97, 0xa1, 0xb5);
-/// What is chosen, and what acts.
+/// Selected items and primary buttons.
 pub const ACCENT: Color32 = Color32::from_rgb(0xe8, 0xa1, 0x3c);
 /// Text on [`ACCENT`].
 pub const ON_ACCENT: Color32 = Color32::from_rgb(0x1a, 0x12, 0x06);
 /// Errors.
 pub const ERROR: Color32 = Color32::from_rgb(0xff, 0x7a, 0x6b);
 
-/// Windows at least this wide, in points, have the panel at the side; narrower ones below.
+/// Minimum width of a window with a side panel, in points; narrower windows have a bottom sheet.
 pub const WIDE_FROM: f32 = 700.0;
 /// Width of the side panel, in points.
 pub const PANEL_WIDTH: f32 = 304.0;
-/// Corner radius of buttons and wells, in points.
+/// Corner radius of buttons, rails and fields, in points.
 pub const RADIUS: u8 = 6;
 
-/// Gives the context the palette and the text sizes. Call it once, before the first frame.
+/// Sets the context's palette, text sizes and spacing. Call it once, before the first frame.
 pub fn install(ctx: &Context) {
     ctx.set_theme(Theme::Dark);
     ctx.all_styles_mut(|style| {
@@ -45,12 +45,12 @@ pub fn install(ctx: &Context) {
         colors(style);
         spacing(style);
     });
-    // Ctrl +/− belong to the browser's own zoom.
+    // Ctrl +/− is the browser's zoom.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 
-/// Sizes the rows of this `Ui` for a finger or for a pointer.
-pub fn fit_to_hand(ui: &mut Ui, touch: bool) {
+/// Sets the row sizes of this `Ui`: larger for touch screens.
+pub fn set_row_sizes(ui: &mut Ui, touch: bool) {
     let spacing = ui.spacing_mut();
     if touch {
         spacing.interact_size.y = 44.0;
@@ -134,12 +134,12 @@ fn spacing(style: &mut Style) {
     style.animation_time = 0.08;
 }
 
-/// `text` in characters that the bundled fonts have.
+/// `text` with characters replaced that the bundled fonts lack.
 pub fn printable(text: &str) -> String {
     text.replace('ⁿ', "^n").replace('→', "->")
 }
 
-/// A linear Rec. 709 colour as the display shows it; channels outside 0 to 1 are cut off.
+/// The display colour of a linear Rec. 709 colour; channels are clamped to 0 to 1.
 pub fn display_color(linear: [f32; 3]) -> Color32 {
     let [r, g, b] = linear.map(|v| v.clamp(0.0, 1.0));
     egui::Rgba::from_rgb(r, g, b).into()

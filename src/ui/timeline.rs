@@ -1,8 +1,8 @@
-//! The playhead: which moment of the camera path is in view, and what keys do with it.
+//! The playhead: the time of the camera path that is in view, and commands on keys.
 //!
-//! In: the project under edit and the wishes of panel and keyboard. Out: an edited path, and the
-//! scene of the moment in view. Whenever the playhead moves, the view follows it; a view of one's
-//! own that it replaces is a step that undo brings back. Knows no widgets.
+//! In: the edited project, and commands of the panel and the keyboard. Out: an edited path, and the
+//! scene at the playhead. When the playhead moves, the view shows the path's scene; a replaced view
+//! that is not on the path becomes an undo step. This module does not depend on widgets.
 
 use std::sync::Arc;
 
@@ -12,74 +12,74 @@ use crate::scene::{
     path::{Easing, KEY_TIME, Key},
 };
 
-/// From the last key to one that is added after it, seconds.
+/// Time from the last key to a key that is added after it, seconds.
 const NEXT_KEY_SECS: f64 = 3.0;
-/// The longest that playing goes on at once after a pause of the page, seconds.
-const LONGEST_STEP_SECS: f64 = 0.25;
+/// Maximum playback step after a pause of the page, seconds.
+const MAX_STEP_SECS: f64 = 0.25;
 
-/// The playhead and the selected key. They belong to no scene.
+/// The playhead and the selected key, which are not part of a scene.
 #[derive(Debug, Default)]
 pub(super) struct Timeline {
-    /// Where the playhead stands, seconds.
+    /// The playhead's time, seconds.
     secs: f64,
-    /// Since when it plays, on egui's clock.
+    /// Time of the last playback step on egui's clock, seconds; none if paused.
     played_secs: Option<f64>,
-    /// Whether the pointer drags the playhead or a key.
+    /// True while the pointer drags the playhead or a key.
     pub held: bool,
-    /// The key under edit.
+    /// Index of the selected key.
     selected: Option<usize>,
     /// First and last frame of the sequence to save; none for all.
     pub frames: Option<[u32; 2]>,
-    /// Whether the view is to show the playhead's moment.
+    /// True if the view must show the path's scene at the end of this frame.
     follows: bool,
-    /// What the path has at the playhead, as last looked up.
-    moment: Option<Moment>,
-    /// Whether the view showed the playhead's moment when this frame began.
+    /// The last computed scene of the path.
+    cached: Option<CachedScene>,
+    /// True if the view showed the path's scene when this frame began.
     was_on_path: bool,
-    /// Whether scene and path were replaced as a whole.
+    /// True if the whole project was replaced.
     was_restored: bool,
 }
 
-/// A looked-up moment.
+/// The scene of a path at a time.
 #[derive(Debug)]
-struct Moment {
+struct CachedScene {
     path: Path,
     secs: f64,
     scene: Scene,
 }
 
 impl Timeline {
-    /// Where the playhead stands, seconds.
+    /// The playhead's time, seconds.
     pub fn secs(&self) -> f64 {
         self.secs
     }
 
-    /// Whether time runs.
+    /// True during playback.
     pub fn is_playing(&self) -> bool {
         self.played_secs.is_some()
     }
 
-    /// Whether the view is on its way through the path.
+    /// True during playback, or while the pointer drags the playhead or a key.
     pub fn is_moving(&self) -> bool {
         self.held || self.is_playing()
     }
 
-    /// The key under edit, where the path has it.
+    /// Index of the selected key, if the path has this key.
     pub fn selected(&self, path: &Path) -> Option<usize> {
         self.selected.filter(|&index| index < path.keys.len())
     }
 
-    /// Puts the playhead at the frame nearest to `secs`; the view follows.
+    /// Moves the playhead to the frame nearest to `secs`; the view follows.
     pub fn seek(&mut self, path: &Path, secs: f64) {
         let last_secs = path.frame_secs(path.frame_count().saturating_sub(1));
         let secs = path.frame_secs(path.nearest_frame(secs.clamp(0.0, last_secs)));
-        // A key that lies off the frames is met all the same.
+        // A key may lie between two frames; the playhead then takes the key's exact time.
         self.secs = path.key_at(secs).map_or(secs, |index| path.keys[index].time_secs);
         self.selected = path.key_at(self.secs).or(self.selected);
         self.follows = true;
     }
 
-    /// Selects a key and goes there.
+    /// Selects a key and moves the playhead to the key.
     pub fn select(&mut self, path: &Path, index: usize) {
         if let Some(key) = path.keys.get(index) {
             self.secs = key.time_secs;
@@ -88,8 +88,9 @@ impl Timeline {
         }
     }
 
-    /// Moves a key, as far as its neighbours let it, to the frame nearest to `secs`. A playhead
-    /// on it goes along.
+    /// Moves a key to the frame nearest to `secs`, between its neighbours.
+    ///
+    /// A playhead at the key moves with the key.
     pub fn retime(&mut self, path: &mut Path, index: usize, secs: f64) {
         let frame_secs = path.frame_secs(1);
         let low = index.checked_sub(1).and_then(|before| path.keys.get(before));
@@ -100,40 +101,43 @@ impl Timeline {
         let Some(key) = path.keys.get_mut(index).filter(|_| secs.is_finite() && low <= high) else {
             return;
         };
-        let went_along = (self.secs - key.time_secs).abs() < 1e-9;
+        let playhead_at_key = (self.secs - key.time_secs).abs() < 1e-9;
         key.time_secs = secs.clamp(low, high);
-        if went_along {
+        if playhead_at_key {
             self.secs = key.time_secs;
         }
     }
 
-    /// Whether the view shows the playhead's moment.
+    /// True if the view shows the path's scene at the playhead.
     fn is_on_path(&mut self, project: &Project) -> bool {
-        self.moment(&project.path).is_some_and(|scene| *scene == project.scene)
+        self.path_scene(&project.path).is_some_and(|scene| *scene == project.scene)
     }
 
-    fn moment(&mut self, path: &Path) -> Option<&Scene> {
-        let known = self.moment.as_ref().is_some_and(|m| m.secs == self.secs && m.path == *path);
-        if !known {
+    /// The path's scene at the playhead.
+    fn path_scene(&mut self, path: &Path) -> Option<&Scene> {
+        let is_valid = self.cached.as_ref().is_some_and(|c| c.secs == self.secs && c.path == *path);
+        if !is_valid {
             let scene = path.at(self.secs);
-            self.moment = scene.map(|scene| Moment { path: path.clone(), secs: self.secs, scene });
+            self.cached =
+                scene.map(|scene| CachedScene { path: path.clone(), secs: self.secs, scene });
         }
-        self.moment.as_ref().map(|moment| &moment.scene)
+        self.cached.as_ref().map(|cached| &cached.scene)
     }
 
-    /// Begins a frame of the interface. What the path has at the playhead is only looked up
-    /// where somebody sees it.
+    /// Begins a frame of the interface.
+    ///
+    /// The path's scene is computed only if the timeline is `open`.
     pub fn begin(&mut self, project: &Project, open: bool) {
         self.held = false;
         self.was_on_path = open && self.is_on_path(project);
     }
 
-    /// Whether the view showed the playhead's moment when this frame began.
+    /// True if the view showed the path's scene when this frame began.
     pub fn was_on_path(&self) -> bool {
         self.was_on_path
     }
 
-    /// Does what a key or a button asks for.
+    /// Executes a command of a keyboard key or a button.
     pub fn command(&mut self, command: Command, project: &mut Project, now_secs: f64) {
         let path = &project.path;
         match command {
@@ -173,7 +177,7 @@ impl Timeline {
         }
     }
 
-    /// Keeps the view as a key: at the playhead or, where there is a key already, after the last.
+    /// Adds the view as a key at the playhead, or after the last key if the playhead is at a key.
     fn add_key(&mut self, project: &mut Project) {
         let path = &mut project.path;
         let secs = match path.key_at(self.secs) {
@@ -183,7 +187,7 @@ impl Timeline {
         let secs = path.frame_secs(path.nearest_frame(secs)).min(KEY_TIME.max);
         let scene = Arc::new(project.scene.clone());
         let key = Key { time_secs: secs, easing: Easing::default(), scene };
-        // Beyond the longest path there is no room for another.
+        // At the maximum time there is no room for another key.
         if path.key_at(secs).is_none()
             && let Some(index) = path.insert(key)
         {
@@ -192,40 +196,40 @@ impl Timeline {
         }
     }
 
-    /// Ends a frame of the interface that began with `before`: plays on, and puts the playhead's
-    /// moment in view where it has moved, or where the path has changed under a view that was
-    /// on it.
-    pub fn follow(&mut self, editor: &mut Editor, before: &Project, now_secs: f64) {
+    /// Ends a frame of the interface: advances the playback and updates the view.
+    ///
+    /// `before` is the project at the frame's begin. The view shows the path's scene if the
+    /// playhead has moved, or if the path has changed and the view was on the path.
+    pub fn end_frame(&mut self, editor: &mut Editor, before: &Project, now_secs: f64) {
         let project = editor.project();
-        let by_hand = project.scene != before.scene;
+        let scene_edited = project.scene != before.scene;
         self.selected = self.selected(&project.path);
-        if project.path.is_empty() || (by_hand && !self.follows) {
+        if project.path.is_empty() || (scene_edited && !self.follows) {
             self.played_secs = None;
         }
         if let Some(played_secs) = self.played_secs {
-            let step_secs = (now_secs - played_secs).clamp(0.0, LONGEST_STEP_SECS);
+            let step_secs = (now_secs - played_secs).clamp(0.0, MAX_STEP_SECS);
             self.secs = looped(self.secs + step_secs, project.path.duration_secs());
             self.played_secs = Some(now_secs);
             self.follows = true;
         }
         let was_restored = std::mem::take(&mut self.was_restored);
         if was_restored {
-            self.meet(project);
+            self.sync_to(project);
         }
-        // What undo brings back is shown as it was.
-        let edited = !was_restored && project.path != before.path;
-        let carried = self.was_on_path && !by_hand && edited;
-        if std::mem::take(&mut self.follows) || carried {
-            let can_be_made_again = self.was_on_path;
-            if let Some(scene) = self.moment(&project.path).cloned() {
-                editor.show(scene, can_be_made_again);
+        // A restored project shows its scene without a change.
+        let path_edited = !was_restored && project.path != before.path;
+        let path_changed_below = self.was_on_path && !scene_edited && path_edited;
+        if std::mem::take(&mut self.follows) || path_changed_below {
+            let was_on_path = self.was_on_path;
+            if let Some(scene) = self.path_scene(&project.path).cloned() {
+                editor.show(scene, was_on_path);
             }
         }
     }
 
-    /// Puts the playhead at the key whose scene is in view, if one is, and onto the path in any
-    /// case.
-    fn meet(&mut self, project: &Project) {
+    /// Moves the playhead to the key whose scene is in view, and within the path's duration.
+    fn sync_to(&mut self, project: &Project) {
         let keys = &project.path.keys;
         self.secs = self.secs.min(project.path.duration_secs());
         if let Some(index) = keys.iter().position(|key| *key.scene == project.scene) {
@@ -234,7 +238,7 @@ impl Timeline {
         }
     }
 
-    /// Scene and path were replaced: nothing plays on.
+    /// Stops the playback after the whole project was replaced.
     pub fn stop(&mut self) {
         self.played_secs = None;
         self.follows = false;
@@ -242,7 +246,7 @@ impl Timeline {
     }
 }
 
-/// `secs` on a path that begins anew after `duration_secs`.
+/// `secs` on a path that repeats after `duration_secs`.
 fn looped(secs: f64, duration_secs: f64) -> f64 {
     if secs <= duration_secs { secs } else { (secs - duration_secs).min(duration_secs) }
 }

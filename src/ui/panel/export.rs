@@ -103,7 +103,7 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     let response = ui
         .add_sized(size, Button::new(text).fill(theme::ACCENT))
         .on_hover_text(format!("Renders the view as {kind} of {extent} that carries its scene (Ctrl S). Other sizes: More, Export."));
-    cx.rects.note("save picture", &response);
+    cx.rects.record("save picture", &response);
     if response.clicked() {
         cx.commands.push(Command::SavePicture);
     }
@@ -118,7 +118,7 @@ pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress
         ui.label(RichText::new(left).small().color(theme::TEXT_DIM));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let cancel = ui.button("Cancel").on_hover_text("Stop saving; nothing is written");
-            cx.rects.note("cancel export", &cancel);
+            cx.rects.record("cancel export", &cancel);
             if cancel.clicked() {
                 cx.actions.push(Action::CancelExport);
             }
@@ -142,7 +142,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             (0, "Typed", "A size of your own"),
         ],
     );
-    cx.rects.note("picture size", &response);
+    cx.rects.record("picture size", &response);
     if export.times == 0 {
         typed(ui, export);
     }
@@ -159,7 +159,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             ),
         ],
     );
-    cx.rects.note("picture format", &response);
+    cx.rects.record("picture format", &response);
     let layout = cx.scene.camera.stereo.layout;
     if layout != StereoLayout::Off {
         let response = choice(
@@ -171,7 +171,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
                 (true, "Two files", "A file for each eye: left and right"),
             ],
         );
-        cx.rects.note("picture pair", &response);
+        cx.rects.record("picture pair", &response);
     }
     ui.label(RichText::new(export.text(cx.view_px, layout)).small().color(theme::TEXT_DIM))
         .on_hover_text("The width and height of the picture that Save picture writes");

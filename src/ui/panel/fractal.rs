@@ -21,7 +21,7 @@ const QUICK_POWERS: [u32; 8] = [2, 3, 4, 5, 6, 7, 8, 9];
 pub(super) fn power(ui: &mut Ui, cx: &mut Context<'_>) {
     let fractal = &mut cx.scene.fractal;
     let slider = param_slider(ui, &param::POWER, &mut fractal.power);
-    cx.rects.note("power", &slider);
+    cx.rects.record("power", &slider);
     let gap = 4.0;
     let count = QUICK_POWERS.len() as f32;
     let size =

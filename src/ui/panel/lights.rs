@@ -51,7 +51,7 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
         let camera = &cx.scene.camera;
         ui.horizontal(|ui| {
             let response = light::direction_ball(ui, 84.0, light, camera);
-            cx.rects.note("light ball", &response);
+            cx.rects.record("light ball", &response);
             ui.vertical(|ui| {
                 ui.add_space(4.0);
                 ui.label(
@@ -67,7 +67,7 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
         });
     }
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
-    cx.rects.note("exposure", &response);
+    cx.rects.record("exposure", &response);
 }
 
 /// All lights and the selected one's properties.
@@ -82,7 +82,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             let camera = &cx.scene.camera;
             if let Some(light) = cx.scene.lights.environment.get_mut(index) {
                 let ball = light::environment(ui, light, camera);
-                cx.rects.note("light ball", &ball);
+                cx.rects.record("light ball", &ball);
             }
         }
         Some(LightRef::Point(index)) => {
@@ -203,8 +203,8 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
             "Add point light",
             "Add light from a point, at first between you and the fractal",
         );
-        cx.rects.note("add light", &environment);
-        cx.rects.note("add point light", &point);
+        cx.rects.record("add light", &environment);
+        cx.rects.record("add point light", &point);
         let Context { scene, selection, .. } = cx;
         if environment.clicked() {
             scene.lights.environment.push(new_environment(&scene.camera));

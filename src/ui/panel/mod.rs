@@ -206,7 +206,7 @@ fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
             let icon = if open && cx.settings.panel_open && !narrow { Icon::Cross } else { icon };
             let toggle =
                 icon_button(ui, icon, if open { "Hide panel" } else { "Show panel" }, hover);
-            cx.rects.note("panel toggle", &toggle);
+            cx.rects.record("panel toggle", &toggle);
             if toggle.clicked() {
                 cx.commands.push(Command::TogglePanel);
             }
@@ -227,7 +227,7 @@ fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
             let undo = ui.add_enabled_ui(cx.can_undo, |ui| {
                 icon_button(ui, Icon::Undo, "Undo", "Undo (Ctrl Z)")
             });
-            cx.rects.note("undo", &undo.inner);
+            cx.rects.record("undo", &undo.inner);
             if undo.inner.clicked() {
                 cx.commands.push(Command::Undo);
             }
@@ -265,7 +265,7 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
                 lights::show(ui, cx);
             },
         );
-        cx.rects.note("lights section", &lights);
+        cx.rects.record("lights section", &lights);
         section(
             ui,
             "Surface",
@@ -310,9 +310,9 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
                 export::show(ui, cx);
             },
         );
-        cx.rects.note("export section", &export);
+        cx.rects.record("export section", &export);
         cx.settings.sections = sections;
     });
-    cx.rects.note("more", &response);
+    cx.rects.record("more", &response);
     cx.settings.more_open = open;
 }

@@ -27,12 +27,12 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             (RigKind::Picture, "Picture", "Lights taken from a 360° picture (an environment map)"),
         ],
     );
-    cx.rects.note("rig", &chosen);
+    cx.rects.record("rig", &chosen);
     let come_along = light_here(ui, &cx.scene.lights);
     if come_along.clicked() {
         tie_to_view(&mut cx.scene.lights);
     }
-    cx.rects.note("light here", &come_along);
+    cx.rects.record("light here", &come_along);
     let turned_on = cx.scene.lights.rig.kind != before;
     match cx.scene.lights.rig.kind {
         RigKind::None => {}
@@ -123,7 +123,7 @@ fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
         if response.changed() {
             sky.sun_direction = light::from_view(toward, rig.frame, camera);
         }
-        cx.rects.note("sun ball", &response);
+        cx.rects.record("sun ball", &response);
         ui.vertical(|ui| {
             let mut row = |name: &str, hover: &str, value: &mut [f32; 3]| {
                 ui.horizontal(|ui| {
@@ -145,7 +145,7 @@ fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
 
 fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     let response = choose(ui);
-    cx.rects.note("choose picture", &response);
+    cx.rects.record("choose picture", &response);
     if response.clicked() {
         cx.actions.push(Action::ChoosePicture);
     }

@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             let text = RichText::new(*heading).small();
             let response = ui.add(Button::selectable(index == chosen, text)).on_hover_text(*help);
             if index == 1 {
-                cx.rects.note("dives", &response);
+                cx.rects.record("dives", &response);
             }
             if response.clicked() {
                 chosen = index;
@@ -68,7 +68,7 @@ fn buttons(
             let response = button.on_hover_text(hover);
             if index == 0 {
                 let name = if first == 0 { "first scene" } else { "first dive" };
-                cx.rects.note(name, &response);
+                cx.rects.record(name, &response);
             }
             if response.clicked() {
                 cx.commands.push(Command::Preset(first + index));

@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     );
     ui.add_space(4.0);
     let bar = gradient(ui, &mut surface.gradient, &mut cx.selection.stop);
-    cx.rects.note("gradient", &bar);
+    cx.rects.record("gradient", &bar);
     stop(ui, cx);
     let coloring = &mut cx.scene.surface.coloring;
     param_slider(ui, &param::COLOR_REPEATS, &mut coloring.repeats);

@@ -61,7 +61,7 @@ pub(in crate::ui) fn strip(
         });
     });
     let response = track::show(ui, strip.path, strip.timeline, on_path);
-    strip.cx.rects.note("timeline track", &response);
+    strip.cx.rects.record("timeline track", &response);
     if wide {
         ui.horizontal(|ui| {
             strip.key_under_edit(ui);
@@ -110,7 +110,7 @@ impl Strip<'_, '_> {
             (Icon::Play, "Play", "Play the path, over and over (Space)")
         };
         let play = button(ui, icon, name, hover, Command::PlayPause, two);
-        self.cx.rects.note("play", &play);
+        self.cx.rects.record("play", &play);
         button(ui, Icon::Next, "Next key", "To the next key (.)", Command::NextKey, some);
         ui.add_space(4.0);
         let text = if some {
@@ -151,7 +151,7 @@ impl Strip<'_, '_> {
             let response = ui.add_enabled(enabled, button);
             let response = response.on_hover_text(hover).on_disabled_hover_text(hover);
             if command == Command::AddKey {
-                self.cx.rects.note("add key", &response);
+                self.cx.rects.record("add key", &response);
             }
             if response.clicked() {
                 self.cx.commands.push(command);
@@ -246,7 +246,7 @@ impl Strip<'_, '_> {
         let response = ui.add(button).on_hover_text(format!(
             "Renders {count} frames of {extent} as PNGs in one zip. Other sizes: More, Export."
         ));
-        self.cx.rects.note("save sequence", &response);
+        self.cx.rects.record("save sequence", &response);
         if response.clicked() {
             self.cx.actions.push(Action::SaveSequence {
                 size_px: export.resolve(view_px, layout),
