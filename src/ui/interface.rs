@@ -21,14 +21,14 @@ use super::{
 };
 use crate::scene::{Camera, EnvironmentMap, Project, Scene, presets};
 
-/// A movement that pauses for this long, while the hand still holds on, gets a full picture.
+/// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
-/// Highest part of a narrow window that the sheet covers.
+/// Fraction of a narrow window's height that the open sheet covers.
 const SHEET_PART: f32 = 0.55;
 /// Height of the sheet's heading, in points.
 const SHEET_HEADING: f32 = 54.0;
 
-/// The interface and the scene it edits.
+/// The user interface and the edited project.
 #[derive(Debug)]
 pub struct Interface {
     editor: Editor,
@@ -36,7 +36,7 @@ pub struct Interface {
     selection: Selection,
     pilot: Pilot,
     timeline: Timeline,
-    /// The camera that Home returns to.
+    /// The target of Home.
     home: Camera,
     help_open: bool,
     camera_status: Option<CameraStatus>,
@@ -44,12 +44,12 @@ pub struct Interface {
     view_px: [u32; 2],
     moving: bool,
     histogram_shown: bool,
-    /// The environment map that is at hand.
+    /// The loaded environment map, if any.
     environment_map: Option<Arc<EnvironmentMap>>,
 }
 
 impl Interface {
-    /// An interface to a scene, or one with its path, seen exactly from where it says.
+    /// An interface that edits a scene or a project; the view starts at the scene's camera.
     pub fn new(project: impl Into<Project>, settings: Settings) -> Self {
         let project = project.into();
         Self {
@@ -69,18 +69,17 @@ impl Interface {
         }
     }
 
-    /// The scene as it is now.
+    /// The current scene.
     pub fn scene(&self) -> &Scene {
         self.editor.scene()
     }
 
-    /// The scene and its path as they are now.
+    /// The current scene and path.
     pub fn project(&self) -> &Project {
         self.editor.project()
     }
 
-    /// Puts a loaded scene, with its path, in place of the present ones, which undo brings back.
-    /// Its camera becomes home.
+    /// Replaces the project as one undo step. The new camera becomes the target of Home.
     pub fn replace_project(&mut self, project: impl Into<Project>) {
         let project = project.into();
         self.home = project.scene.camera.clone();
@@ -89,9 +88,9 @@ impl Interface {
         self.timeline.stop();
     }
 
-    /// Takes an environment map. A scene that does not name it yet is lit by it from
-    /// now on and shows it, which undo takes back; one that is lit by it already is lit by what
-    /// it holds now.
+    /// Lights the scene by a loaded environment map, as one undo step.
+    ///
+    /// [`Scene::surround_by`] describes the changes of the scene.
     pub fn use_environment_map(&mut self, environment_map: Arc<EnvironmentMap>) {
         let mut project = self.project().clone();
         project.scene.surround_by(&environment_map);
@@ -99,44 +98,45 @@ impl Interface {
         self.environment_map = Some(environment_map);
     }
 
-    /// The environment map that is at hand, where the scene names it.
+    /// The loaded environment map, if the scene names it.
     pub fn environment_map(&self) -> Option<&Arc<EnvironmentMap>> {
         let name = &self.scene().lights.rig.picture.name;
         self.environment_map.as_ref().filter(|environment_map| environment_map.name() == name)
     }
 
-    /// Width and height that the picture should have, in pixels.
+    /// Width and height of the view, in pixels.
     pub fn view_size_px(&self) -> [u32; 2] {
         self.view_px
     }
 
-    /// Whether more changes are expected at once: a drag, a flight, a run of wheel notches.
+    /// True if further changes are expected: during a drag, a flight, or wheel notches.
     pub fn is_moving(&self) -> bool {
         self.moving
     }
 
-    /// Whether the film's histogram is in sight: only then need it be made.
+    /// True if the film's histogram is visible and must be computed.
     pub fn wants_histogram(&self) -> bool {
         self.histogram_shown
     }
 
-    /// Where the key widgets are.
+    /// The positions of named widgets.
     pub fn rects(&self) -> &Rects {
         &self.rects
     }
 
-    /// What is to be remembered until the next visit.
+    /// The settings to store until the next visit.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The session, for undo and redo from outside.
+    /// The editor, for undo and redo by the shell.
     pub fn editor_mut(&mut self) -> &mut Editor {
         &mut self.editor
     }
 
-    /// Draws one frame over all of `ui` and returns what the shell is to do. The scene, the
-    /// view's size and [`Self::is_moving`] are up to date afterwards.
+    /// Draws one frame over all of `ui` and returns the requests to the shell.
+    ///
+    /// Afterwards the scene, the view's size and [`Self::is_moving`] are up to date.
     pub fn show(&mut self, ui: &mut Ui, inputs: &DisplayInputs<'_>) -> Vec<Action> {
         let now_secs = ui.input(|i| i.time);
         let (pressed, held) =
@@ -158,13 +158,13 @@ impl Interface {
         notice(ui, inputs.notice, self.rects.get("view"), &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open);
 
-        let in_sight = |command| self.settings.timeline_open || command == Command::AddKey;
-        for command in commands.iter().copied().filter(|&command| in_sight(command)) {
+        let applies = |command| self.settings.timeline_open || command == Command::AddKey;
+        for command in commands.iter().copied().filter(|&command| applies(command)) {
             self.timeline.command(command, self.editor.project_mut(), now_secs);
         }
         self.record_changes(ui, &before, now_secs, held);
         if !commands.is_empty() {
-            // What they change is drawn by now.
+            // The panels are drawn before the commands run, so the result needs another frame.
             ui.ctx().request_repaint();
         }
         for command in commands {
@@ -236,7 +236,7 @@ impl Interface {
 
     fn status(&mut self, ui: &mut Ui, inputs: &DisplayInputs<'_>) {
         let frame = egui::Frame::new().fill(theme::PANEL);
-        let status = status::Status {
+        let status = status::StatusInputs {
             report: inputs.report,
             scene: self.editor.scene(),
             adapter: inputs.adapter,
@@ -253,7 +253,7 @@ impl Interface {
         self.rects.record("status", &shown.response);
     }
 
-    /// The picture and what moves its camera.
+    /// Draws the picture and applies input to its camera.
     fn view(
         &mut self,
         ui: &mut Ui,
@@ -268,23 +268,23 @@ impl Interface {
         let scene = self.editor.scene_mut();
         let response = view::show(ui, frame, inputs.picture);
         self.rects.record("view", &response);
-        // The pilot takes this frame's commands below.
-        if let Some(way) = HomeTarget::of(&scene.camera, &self.home) {
+        // The button precedes the pilot, which executes this frame's commands.
+        if let Some(target) = HomeTarget::of(&scene.camera, &self.home) {
             let side = button_side(ui);
-            let beside = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
-            let at = rect.left_bottom() + vec2(beside, -10.0 - side);
-            let (icon, hover) = way.button();
+            let left = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
+            let at = rect.left_bottom() + vec2(left, -10.0 - side);
+            let (icon, hover) = target.button();
             let button = floating_button(ui, at, icon, hover);
             self.rects.record("home", &button);
             if button.clicked() {
                 commands.push(Command::Home);
             }
         }
-        // A drag stays with the eye's picture that it began in.
+        // A drag belongs to the eye's picture in which it began.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
-        self.pilot.measure_by(inputs.report.reference.as_ref(), &scene.fractal);
-        self.pilot.steer(ui, &response, frame, scene, &self.home, commands);
+        self.pilot.set_reference(inputs.report.reference.as_ref(), &scene.fractal);
+        self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
         if !self.pilot.is_flying()
             && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)
         {
@@ -302,7 +302,7 @@ impl Interface {
         }
         if !self.settings.timeline_open {
             let at = rect.left_bottom() + vec2(10.0, -10.0 - button_side(ui));
-            let hover = ("Show timeline", "Key frames: a path for the camera and all else (T)");
+            let hover = ("Show timeline", "Animate the camera and all settings with keys (T)");
             let button = floating_button(ui, at, Icon::Timeline, hover);
             self.rects.record("timeline toggle", &button);
             if button.clicked() {
@@ -321,11 +321,11 @@ impl Interface {
         ui.allocate_rect(area, egui::Sense::hover());
     }
 
-    /// Records the frame's changes, and whether more of them are on their way.
+    /// Records the frame's changes, and updates [`Self::is_moving`].
     fn record_changes(&mut self, ui: &Ui, before: &Project, now_secs: f64, held: bool) {
         let changed = before != self.project();
         if changed && ui.input(stepped_by_key) {
-            self.pilot.extend_run(ui.ctx());
+            self.pilot.extend_step(ui.ctx());
         }
         let still_down = ui.input(|i| i.pointer.any_down() || i.any_touches());
         let gesture = (held && still_down) || self.pilot.is_moving(now_secs);
@@ -369,7 +369,7 @@ impl Interface {
             Command::ToggleTimeline => self.toggle_timeline(wide),
             Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
             Command::ToggleHelp => self.help_open = !self.help_open,
-            // The pilot and the timeline have seen to these.
+            // The pilot and the timeline execute these commands.
             Command::PlayPause
             | Command::AddKey
             | Command::UpdateKey
@@ -384,7 +384,7 @@ impl Interface {
         }
     }
 
-    /// Shows or hides the timeline. A narrow window has room for it or for the open sheet.
+    /// Shows or hides the timeline. A narrow window has room for either timeline or open sheet.
     fn toggle_timeline(&mut self, wide: bool) {
         let open = &mut self.settings.timeline_open;
         let hidden_by_sheet = !wide && self.settings.panel_open;
@@ -397,8 +397,9 @@ impl Interface {
         }
     }
 
-    /// Opens a preset. How much work pictures get stays as this machine's owner chose it, and so
-    /// does the path: a preset can become one of its keys.
+    /// Opens a preset, but keeps the quality settings and the path.
+    ///
+    /// Quality depends on the user's machine, and a preset may become a key of the path.
     fn choose_preset(&mut self, index: usize) {
         if let Some(preset) = presets::every().nth(index) {
             let mut scene = (preset.scene)();
@@ -415,7 +416,7 @@ fn button_side(ui: &Ui) -> f32 {
     ui.spacing().interact_size.y.max(34.0)
 }
 
-/// An icon over the picture: what is left of something hidden.
+/// An icon button over the picture.
 fn floating_button(
     ui: &mut Ui,
     at: egui::Pos2,
@@ -427,7 +428,7 @@ fn floating_button(
     ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
 }
 
-/// Whether this frame's keys nudge a value: a run of such presses is one step of the history.
+/// True if this frame's keys step a value: repeated presses are one undo step.
 fn stepped_by_key(input: &egui::InputState) -> bool {
     use egui::Key;
     let keys =
@@ -435,7 +436,7 @@ fn stepped_by_key(input: &egui::InputState) -> bool {
     keys.into_iter().any(|key| input.key_pressed(key))
 }
 
-/// The shell's line, over the view's upper edge.
+/// The shell's message, at the view's upper edge.
 fn notice(ui: &mut Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut Vec<Action>) {
     let (Some(notice), Some(view)) = (notice, view) else {
         return;

@@ -1,7 +1,7 @@
-//! From pointer, fingers and keys to the camera's movements.
+//! The pilot: input of pointer, touch and keys to movements of the camera.
 //!
-//! In: the view's response and this frame's commands. Out: a moved camera, by way of
-//! [`Navigator`]. Knows which gesture means what; how a camera moves is the navigator's.
+//! In: the view's response and this frame's commands. Out: a moved camera. The pilot interprets
+//! gestures; the [`Navigator`] moves the camera.
 
 use std::sync::Arc;
 
@@ -19,52 +19,53 @@ use crate::{
     scene::{Camera, Fractal, Scene, StereoLayout},
 };
 
-/// Natural logarithm of the approach per point of wheel travel; a notch is about 100 points.
+/// Dolly per point of wheel travel, as a natural logarithm; a notch is about 100 points.
 const WHEEL_PER_POINT: f64 = 0.002;
-/// The same for one press of the plus key.
+/// Dolly per press of the plus key, as a natural logarithm.
 const KEY_DOLLY: f64 = 0.2;
-/// Turn of one arrow key press, in half heights of the picture: five degrees.
+/// Orbit per arrow key press, in half heights of the picture: 5 degrees.
 const KEY_ORBIT: f64 = 1.0 / 18.0;
-/// Shift of one arrow key press, in half heights of the picture.
+/// Pan per arrow key press, in half heights of the picture.
 const KEY_PAN: f64 = 0.1;
-/// Notches closer together than this belong to one step of the history.
-const RUN_SECS: f64 = 0.5;
-/// The same in frames, where those come more slowly, and the most that it comes to, in seconds.
-const RUN_FRAMES: f64 = 2.5;
-const MOST_RUN_SECS: f64 = 3.0;
+/// Maximum pause between notches of one undo step.
+const STEP_SECS: f64 = 0.5;
+/// Maximum pause between notches in frames, for low frame rates.
+const STEP_FRAMES: f64 = 2.5;
+/// Upper limit of the pause that [`STEP_FRAMES`] gives.
+const MAX_STEP_SECS: f64 = 3.0;
 
-/// Who moves the camera.
+/// The camera's input state.
 #[derive(Debug, Default)]
 pub struct Pilot {
     navigator: Navigator,
     keys: HeldKeys,
     flying: bool,
-    /// Whether two fingers hold the view.
+    /// True during a two-finger gesture.
     pinching: bool,
-    /// Whether a drag of the view looks around.
+    /// True while a drag looks around in fly mode.
     looking: bool,
-    /// Until when further notches join the gesture, on egui's clock.
-    run_until_secs: f64,
+    /// Time until which further notches join the undo step, on egui's clock.
+    step_until_secs: f64,
     fields: Fields,
 }
 
-/// The picture's place in the window.
+/// The picture's rectangle in the window.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Its rectangle, in points.
+    /// The rectangle, in points.
     pub rect: Rect,
-    /// Its height in pixels.
+    /// The picture's height in pixels.
     pub height_px: u32,
 }
 
 impl Frame {
-    /// The window position in normalised device coordinates.
+    /// A window position in normalised device coordinates of the picture.
     pub fn ndc(&self, at: egui::Pos2) -> DVec2 {
         let part = (at - self.rect.min) / self.rect.size().max(egui::Vec2::splat(1.0));
         DVec2::new(f64::from(part.x) * 2.0 - 1.0, 1.0 - f64::from(part.y) * 2.0)
     }
 
-    /// The eye's picture under `at`, or the first one, where two share this frame.
+    /// The frame of the eye's picture at `at`; without `at`, of the first picture.
     pub fn of_eye(self, layout: StereoLayout, at: Option<egui::Pos2>) -> Self {
         let Rect { min, max } = self.rect;
         let center = self.rect.center();
@@ -94,49 +95,50 @@ impl Frame {
 }
 
 impl Pilot {
-    /// Whether keys fly.
+    /// True in fly mode.
     pub fn is_flying(&self) -> bool {
         self.flying
     }
 
-    /// The speed of flight, in scene units per second; zero at rest.
+    /// The flying speed, in scene units per second; 0 at rest.
     pub fn speed(&self) -> f64 {
         self.navigator.speed().unwrap_or(0.0)
     }
 
-    /// Turns fly mode on or off.
+    /// Switches fly mode on or off.
     pub fn set_flying(&mut self, flying: bool) {
         self.flying = flying;
         self.navigator.cancel();
         self.looking = false;
     }
 
-    /// Drops whatever is in progress: the scene was replaced.
+    /// Cancels gestures and flights, because the scene was replaced.
     pub fn cancel(&mut self) {
         self.navigator.cancel();
         self.pinching = false;
-        self.run_until_secs = 0.0;
+        self.step_until_secs = 0.0;
     }
 
-    /// True while changes at `now_secs` belong to the movement before them.
+    /// True if changes at `now_secs` continue the last movement.
     pub fn is_moving(&self, now_secs: f64) -> bool {
-        self.navigator.is_active() || now_secs < self.run_until_secs
+        self.navigator.is_active() || now_secs < self.step_until_secs
     }
 
-    /// Lets further changes join the present step of the history for a while: for some frames at
-    /// least, where those take long.
-    pub fn extend_run(&mut self, ctx: &Context) {
+    /// Lets changes of the next [`STEP_SECS`] join the current undo step.
+    ///
+    /// At low frame rates, changes of the next [`STEP_FRAMES`] join the step.
+    pub fn extend_step(&mut self, ctx: &Context) {
         let (now_secs, frame_secs) = ctx.input(|i| (i.time, f64::from(i.stable_dt)));
-        self.run_until_secs = now_secs + RUN_SECS.max(RUN_FRAMES * frame_secs).min(MOST_RUN_SECS);
+        let pause_secs = STEP_SECS.max(STEP_FRAMES * frame_secs).min(MAX_STEP_SECS);
+        self.step_until_secs = now_secs + pause_secs;
     }
 
-    /// Measures movements in `fractal` about this reference's anchor from now on, where it is one of
-    /// that set; none where there is none.
-    pub fn measure_by(&mut self, reference: Option<&Arc<Reference>>, fractal: &Fractal) {
+    /// Sets the deep reference for the distance field; ignored if it is not of `fractal`.
+    pub fn set_reference(&mut self, reference: Option<&Arc<Reference>>, fractal: &Fractal) {
         self.fields.set_reference(reference, fractal);
     }
 
-    /// Where the camera stands, for the camera panel.
+    /// The camera's distance to the surface and its precision.
     pub fn camera_status(&mut self, scene: &Scene, frame: Frame) -> CameraStatus {
         let viewport = viewport(scene, frame);
         let field = self.fields.choose(scene, viewport);
@@ -144,7 +146,7 @@ impl Pilot {
     }
 
     /// Moves the scene's camera by this frame's input.
-    pub fn steer(
+    pub fn move_camera(
         &mut self,
         ui: &Ui,
         view: &Response,
@@ -161,12 +163,12 @@ impl Pilot {
         for &command in commands {
             self.command(command, &mut camera, world, home, ctx);
         }
-        self.fingers(ui, &mut camera, world, frame);
+        self.touch(ui, &mut camera, world, frame);
         if !self.pinching {
             self.drag(ui, view, &mut camera, world, frame);
         }
         self.wheel(ui, view, &mut camera, world, frame);
-        self.travel(ui, view, &mut camera, world);
+        self.fly(ui, view, &mut camera, world);
         let dt_secs = f64::from(ctx.input(|i| i.stable_dt));
         if self.navigator.advance(&mut camera, dt_secs) {
             ctx.request_repaint();
@@ -194,24 +196,24 @@ impl Pilot {
                 self.navigator.begin_orbit(camera, world, DVec2::ZERO);
                 self.navigator.drag(camera, world, -steps(right, up) * KEY_ORBIT);
                 self.navigator.end();
-                self.extend_run(ctx);
+                self.extend_step(ctx);
             }
             Command::Pan(right, up) => {
                 self.navigator.begin_pan(camera, world, DVec2::ZERO);
                 self.navigator.drag(camera, world, -steps(right, up) * KEY_PAN);
                 self.navigator.end();
-                self.extend_run(ctx);
+                self.extend_step(ctx);
             }
             Command::Dolly(steps) => {
                 self.navigator.dolly(camera, world, DVec2::ZERO, f64::from(steps) * KEY_DOLLY);
-                self.extend_run(ctx);
+                self.extend_step(ctx);
             }
             _ => {}
         }
     }
 
-    /// Two fingers pan and pinch; what is between them stays there.
-    fn fingers(&mut self, ui: &Ui, camera: &mut Camera, world: World<'_>, frame: Frame) {
+    /// Two fingers pan and zoom; the point between the fingers stays there.
+    fn touch(&mut self, ui: &Ui, camera: &mut Camera, world: World<'_>, frame: Frame) {
         let touch = ui.input(|i| i.multi_touch());
         let Some(touch) =
             touch.filter(|touch| self.pinching || frame.rect.contains(touch.start_pos))
@@ -251,7 +253,7 @@ impl Pilot {
                 self.navigator.begin_orbit(camera, world, ndc);
             }
         }
-        // Where frames take long, the last of a drag comes together with its end.
+        // At low frame rates, a drag's last movement and its end arrive in one frame.
         if (view.dragged() || view.drag_stopped())
             && !self.looking
             && let Some(at) = view.interact_pointer_pos()
@@ -280,12 +282,12 @@ impl Pilot {
         let amount = f64::from(scrolled) * WHEEL_PER_POINT + f64::from(zoomed.max(1e-3)).ln();
         if amount != 0.0 {
             self.navigator.dolly(camera, world, frame.ndc(at), amount);
-            self.extend_run(ui.ctx());
+            self.extend_step(ui.ctx());
         }
     }
 
-    /// Flies on while keys are held or the pointer looks around.
-    fn travel(&mut self, ui: &Ui, view: &Response, camera: &mut Camera, world: World<'_>) {
+    /// Flies while keys are held or the pointer looks around.
+    fn fly(&mut self, ui: &Ui, view: &Response, camera: &mut Camera, world: World<'_>) {
         self.keys.update(ui.ctx());
         if !self.flying {
             return;
@@ -301,10 +303,10 @@ impl Pilot {
         let (faster, dt_secs) = ui.input(|i| (i.modifiers.shift, f64::from(i.stable_dt)));
         let travel = DVec3::from_array(self.keys.direction());
         let input = FlyInput { travel, roll: 0.0, look_rad, faster };
-        // A call without any wish lets the speed come to rest.
+        // A call with empty input resets the speed.
         self.navigator.fly(camera, world, input, dt_secs);
         if travel != DVec3::ZERO {
-            self.extend_run(ui.ctx());
+            self.extend_step(ui.ctx());
             ui.ctx().request_repaint();
         }
     }
@@ -332,7 +334,7 @@ mod tests {
             let at = pos2(x, y);
             frame.of_eye(layout, Some(at)).ndc(at).to_array()
         };
-        // The middles of the halves are the middles of the pictures.
+        // The centres of the halves are the centres of the pictures.
         assert_eq!(ndc(StereoLayout::Off, 300.0, 150.0), [0.0, 0.0]);
         assert_eq!(ndc(StereoLayout::Anaglyph, 300.0, 150.0), [0.0, 0.0]);
         for x in [200.0, 400.0] {
@@ -343,13 +345,13 @@ mod tests {
         }
         assert_eq!(ndc(StereoLayout::SideBySide, 300.0, 50.0), [-1.0, 1.0]);
         assert_eq!(ndc(StereoLayout::TopBottom, 500.0, 150.0), [1.0, 1.0]);
-        // Each has the shape that it is drawn in, and its own pixels.
-        let shape = |layout, at| {
+        // Each eye's frame has the aspect and the height of one picture.
+        let aspect_and_height = |layout, at| {
             let of_eye = frame.of_eye(layout, at);
             (of_eye.aspect(), of_eye.height_px)
         };
-        assert_eq!(shape(StereoLayout::Off, None), (2.0, 400));
-        assert_eq!(shape(StereoLayout::SideBySide, None), (1.0, 400));
-        assert_eq!(shape(StereoLayout::TopBottom, Some(rect.max)), (4.0, 200));
+        assert_eq!(aspect_and_height(StereoLayout::Off, None), (2.0, 400));
+        assert_eq!(aspect_and_height(StereoLayout::SideBySide, None), (1.0, 400));
+        assert_eq!(aspect_and_height(StereoLayout::TopBottom, Some(rect.max)), (4.0, 200));
     }
 }

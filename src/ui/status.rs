@@ -1,6 +1,6 @@
-//! The status line: what the renderer does, in words that fit the width.
+//! The status line: the renderer's activity, zoom and picture size.
 //!
-//! In: the renderer's report and the camera. Out: text. Knows nothing of how pictures are made.
+//! In: the renderer's report and the camera. Out: text that fits the available width.
 
 use egui::{Rect, RichText, Sense, Ui, pos2};
 
@@ -13,27 +13,28 @@ use crate::{
 
 /// Height of the line, in points.
 pub const HEIGHT: f32 = 24.0;
-/// Lines narrower than this, in points, say less.
+/// Width below which all texts are short, in points.
 const SHORT_BELOW: f32 = 560.0;
-/// Those narrower than this, in points, say the least of what ends a dive.
-const TERSE_BELOW: f32 = 860.0;
-/// What the line speaks of.
+/// Width below which the text of the precision limit is short, in points.
+const SHORT_LIMIT_BELOW: f32 = 860.0;
+
+/// The data that the status line displays.
 #[derive(Clone, Copy, Debug)]
-pub struct Status<'a> {
-    /// What the renderer says of itself.
+pub struct StatusInputs<'a> {
+    /// The renderer's report.
     pub report: &'a Report,
-    /// What is seen, and from where.
+    /// The current scene.
     pub scene: &'a Scene,
-    /// The device that draws.
+    /// The name of the GPU adapter.
     pub adapter: &'a str,
-    /// Where the camera stands; none before the first frame.
+    /// The camera's distance and precision; none before the first frame.
     pub camera_status: Option<CameraStatus>,
-    /// In fly mode, the speed in scene units per second, zero at rest.
+    /// In fly mode, the speed in scene units per second; 0 at rest.
     pub flight: Option<f64>,
 }
 
 /// Draws the line over the width of `ui`.
-pub fn status_line(ui: &mut Ui, status: &Status<'_>) {
+pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
     let report = status.report;
     let size = egui::vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -77,11 +78,11 @@ pub fn status_line(ui: &mut Ui, status: &Status<'_>) {
             line(ui, limit_help(status.scene).to_owned());
         }
         line(ui, format!("GPU time of the last frame: {:.1} ms", report.frame_ms));
-        line(ui, format!("Drawn by {}", status.adapter));
+        line(ui, format!("Rendered by {}", status.adapter));
     });
 }
 
-/// A hairline along the top that fills with the samples.
+/// A thin progress bar at the upper edge: the completed fraction of the samples.
 fn progress(painter: &egui::Painter, rect: Rect, report: &Report) {
     painter.hline(rect.x_range(), rect.top() + 0.5, egui::Stroke::new(1.0, theme::LINE));
     if report.activity == Activity::Refining && report.samples_wanted > 0 {
@@ -91,7 +92,7 @@ fn progress(painter: &egui::Painter, rect: Rect, report: &Report) {
     }
 }
 
-/// What the renderer is doing, in words.
+/// The renderer's activity as text.
 pub fn activity_text(report: &Report, short: bool) -> String {
     match &report.activity {
         Activity::Idle if report.pictures == 0 => "Starting".to_owned(),
@@ -105,7 +106,7 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         Activity::Moving if short => format!("Moving, 1/{}", report.pixels_per_sample),
         Activity::Moving => format!("Moving: one pixel of {}", report.pixels_per_sample),
         Activity::Refining if report.samples_done == 0 => {
-            // All is never said of what is still under way.
+            // Rounding must not show 100 % before the sample is complete.
             let percent = (report.samples_so_far * 100.0).clamp(0.0, 99.0).floor();
             if short {
                 format!("Sharpening, {percent} %")
@@ -129,7 +130,7 @@ pub fn activity_text(report: &Report, short: bool) -> String {
     }
 }
 
-fn right_text(status: &Status<'_>, width: f32) -> String {
+fn right_text(status: &StatusInputs<'_>, width: f32) -> String {
     let [width_px, height_px] = status.report.size_px;
     let zoom = zoom_text(zoom(&status.scene.camera));
     let mut parts = Vec::new();
@@ -143,37 +144,37 @@ fn right_text(status: &Status<'_>, width: f32) -> String {
     parts.join("  ·  ")
 }
 
-fn is_at_limit(status: &Status<'_>) -> bool {
+fn is_at_limit(status: &StatusInputs<'_>) -> bool {
     status.camera_status.is_some_and(|camera_status| camera_status.at_precision_limit)
 }
 
-/// Why it goes no nearer, in a line `width` points wide.
+/// The reason why the eye cannot come nearer, for a line `width` points wide.
 fn limit_text(deep: bool, width: f32) -> &'static str {
     match (deep, width) {
         (true, ..SHORT_BELOW) => "deepest",
-        (true, _) => "as deep as it goes",
+        (true, _) => "maximum zoom",
         (false, ..SHORT_BELOW) => "limit",
-        (false, ..TERSE_BELOW) => "single precision ends here",
-        (false, _) => "single precision ends here; whole powers go deeper",
+        (false, ..SHORT_LIMIT_BELOW) => "maximum zoom",
+        (false, _) => "maximum zoom; whole powers zoom deeper",
     }
 }
 
-/// The same in full.
+/// The reason why the eye cannot come nearer, for the hover text.
 fn limit_help(scene: &Scene) -> &'static str {
     if has_depth(&scene.fractal) {
-        "The dive ends here: nearer by, the numbers that pictures are made of run out of exponents."
+        "Maximum zoom: at a smaller scale, the GPU's numbers would underflow."
     } else {
-        "Single precision ends here: nearer by, rounding would show instead of detail. Whole powers go deeper."
+        "Maximum zoom: nearer, you would see rounding errors of single precision instead of detail. Whole powers zoom deeper."
     }
 }
 
-/// How much larger things appear at the pivot than from where a new scene is seen.
+/// Magnification at the pivot, relative to a new scene.
 pub fn zoom(camera: &Camera) -> f64 {
     let height = |camera: &Camera| camera.view_unit() * camera.half_height(1.0);
     height(&Camera::default()) / height(camera).max(f64::MIN_POSITIVE)
 }
 
-/// A zoom as `1.5×`, from ten thousand on as a power of ten: `3.2 × 10⁵`.
+/// A zoom as text: `1.5×`, from 10000 on `3.2 × 10⁵`.
 pub fn zoom_text(zoom: f64) -> String {
     if !zoom.is_finite() || zoom <= 0.0 {
         return "–".to_owned();
@@ -188,7 +189,7 @@ pub fn zoom_text(zoom: f64) -> String {
         };
         return format!("{zoom:.places$}×");
     }
-    // A mantissa that rounds to 10.0 belongs to the next power.
+    // A mantissa that rounds to 10.0 becomes 1.0 with the next exponent.
     let exponent = zoom.log10().floor();
     let mantissa = (zoom / 10f64.powf(exponent) * 10.0).round() / 10.0;
     let (mantissa, exponent) =
@@ -201,7 +202,7 @@ fn superscript(number: i32) -> String {
     number.to_string().chars().map(|c| c.to_digit(10).map_or(c, |d| DIGITS[d as usize])).collect()
 }
 
-/// A time as people say it: `0.8 s`, `1 min 05 s`, `2 h 10 min`.
+/// A duration as text: `0.8 s`, `1 min 05 s`, `2 h 10 min`.
 pub fn duration_text(secs: f64) -> String {
     if !secs.is_finite() || secs < 0.0 {
         return "–".to_owned();
@@ -224,7 +225,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zooms_read_well() {
+    fn zooms_are_formatted() {
         assert_eq!(zoom_text(1.0), "1.0×");
         assert_eq!(zoom_text(0.054), "0.05×");
         assert_eq!(zoom_text(812.3), "812×");
@@ -240,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn durations_read_well() {
+    fn durations_are_formatted() {
         assert_eq!(duration_text(0.84), "0.8 s");
         assert_eq!(duration_text(42.4), "42 s");
         assert_eq!(duration_text(65.0), "1 min 05 s");
@@ -249,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn the_activity_counts_from_one() {
+    fn the_activity_text_counts_samples_from_one() {
         let mut report = Report {
             activity: Activity::Refining,
             samples_done: 4,

@@ -1,4 +1,4 @@
-//! Light that spreads around what is bright.
+//! The bloom panel.
 
 use egui::Ui;
 
@@ -8,7 +8,7 @@ use crate::{
     ui::widgets::{choice, param_slider, param_slider_count},
 };
 
-/// Strength, radius, threshold, passes, and where in the order of things it is added.
+/// Strength, radius, threshold, passes, and the order relative to the tone curve.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let bloom = &mut cx.scene.bloom;
     param_slider(ui, &param::BLOOM_STRENGTH, &mut bloom.strength);
@@ -20,11 +20,15 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         "Added",
         &mut bloom.order,
         &[
-            (BloomOrder::Before, "Before curve", "Added to the light, as a lens does"),
+            (
+                BloomOrder::Before,
+                "Before curve",
+                "Adds the glow to the light, as in a camera's lens",
+            ),
             (
                 BloomOrder::After,
                 "After curve",
-                "Added to what the tone curve gave: some of the colour that it took comes back",
+                "Adds the glow to the finished picture: colours become stronger",
             ),
         ],
     );

@@ -1,4 +1,4 @@
-//! Keys and gestures, listed from the tables that the program itself obeys.
+//! The help window: keys and gestures, from the tables of [`crate::ui::shortcuts`].
 
 use egui::{Align2, Grid, RichText, ScrollArea, Ui, vec2};
 
@@ -8,7 +8,7 @@ use crate::ui::{
     widgets::caption,
 };
 
-/// The help window, in the middle of the screen while `open`.
+/// Shows the help window in the centre of the screen if `open`.
 pub(in crate::ui) fn help_window(ctx: &egui::Context, open: &mut bool) {
     let screen = ctx.content_rect();
     let width = (screen.width() - 40.0).min(420.0);
@@ -24,7 +24,7 @@ pub(in crate::ui) fn help_window(ctx: &egui::Context, open: &mut bool) {
                 table(ui, "gestures", width, GESTURES.iter().copied());
                 caption(ui, "Keys");
                 table(ui, "keys", width, SHORTCUTS.iter().filter_map(|shortcut| shortcut.help));
-                caption(ui, "In fly mode, by their place on the keyboard");
+                caption(ui, "In fly mode (keys by position, as on a US keyboard)");
                 let faster = [("Shift", "Fly faster")];
                 table(
                     ui,

@@ -1,4 +1,4 @@
-//! The lights: a list, and the selected one's properties.
+//! The lights panel: a list of lights, and the selected light's properties.
 
 use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
@@ -12,17 +12,17 @@ use crate::{
     },
 };
 
-/// One light of a scene.
+/// A reference to a light of the scene, by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui) enum LightRef {
-    /// Light from a direction.
+    /// A directional light.
     Environment(usize),
-    /// Light from a point.
+    /// A point light.
     Point(usize),
 }
 
 impl LightRef {
-    /// Whether the scene has it.
+    /// True if the scene has this light.
     pub(in crate::ui) fn exists(self, lights: &Lights) -> bool {
         match self {
             Self::Environment(index) => index < lights.environment.len(),
@@ -38,16 +38,16 @@ impl LightRef {
     }
 }
 
-/// The first things to try: the key light's direction, and the exposure.
+/// The essential controls of light: the key light's direction and colour, and the exposure.
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     caption(ui, "Light");
-    // With all lights unfolded below, the ball stands there.
-    let unfolded = cx.settings.more_open && cx.settings.sections.lights;
+    // The open section of all lights has its own ball.
+    let section_open = cx.settings.more_open && cx.settings.sections.lights;
     let key = match cx.selection.light {
         Some(LightRef::Environment(index)) => index,
         _ => 0,
     };
-    if !unfolded && let Some(light) = cx.scene.lights.environment.get_mut(key) {
+    if !section_open && let Some(light) = cx.scene.lights.environment.get_mut(key) {
         let camera = &cx.scene.camera;
         ui.horizontal(|ui| {
             let response = light::direction_ball(ui, 84.0, light, camera);
@@ -62,7 +62,7 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
                     .color(theme::TEXT_DIM),
                 );
                 ui.add_space(4.0);
-                color(ui, "Key light colour", "The light's colour", &mut light.color);
+                color(ui, "Key light colour", "The colour of this light", &mut light.color);
             });
         });
     }
@@ -93,7 +93,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         }
         None if cx.scene.lights.is_empty() => {
             ui.label(
-                RichText::new("There is no light: only the ambient part shows.")
+                RichText::new("There is no light: only the ambient light is visible.")
                     .color(theme::TEXT_DIM),
             );
         }
@@ -137,7 +137,7 @@ fn row(
     ui.push_id((this.name(), "row"), |ui| {
         ui.horizontal(|ui| {
             let height = ui.spacing().interact_size.y;
-            color(ui, &format!("{name} colour"), "The light's colour", linear);
+            color(ui, &format!("{name} colour"), "The colour of this light", linear);
             let width = (ui.available_width()
                 - 2.0 * (height.max(30.0) + ui.spacing().item_spacing.x))
                 .max(40.0);
@@ -152,7 +152,7 @@ fn row(
             {
                 *selected = Some(this);
             }
-            toggle(ui, "M", &format!("Mute {name}"), "Mute: switch this light off for now", muted);
+            toggle(ui, "M", &format!("Mute {name}"), "Mute: switch this light off", muted);
             toggle(
                 ui,
                 "S",
@@ -180,7 +180,7 @@ fn toggle(ui: &mut Ui, letter: &str, name: &str, hover: &str, on: &mut bool) {
 
 fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
     let room = cx.scene.lights.len() < MAX_LIGHTS;
-    let full = format!("A scene holds at most {MAX_LIGHTS} lights.");
+    let full = format!("A scene has at most {MAX_LIGHTS} lights.");
     let size = |ui: &Ui| {
         vec2(
             (ui.available_width() - ui.spacing().item_spacing.x) / 2.0,
@@ -197,12 +197,8 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
                 .on_disabled_hover_text(&full)
         };
         let environment =
-            add(ui, "Add light", "Add light from a direction, at first over your left shoulder");
-        let point = add(
-            ui,
-            "Add point light",
-            "Add light from a point, at first between you and the fractal",
-        );
+            add(ui, "Add light", "Add parallel light, like the sun's, from your upper left");
+        let point = add(ui, "Add point light", "Add a lamp between you and the fractal");
         cx.rects.record("add light", &environment);
         cx.rects.record("add point light", &point);
         let Context { scene, selection, .. } = cx;
@@ -254,7 +250,7 @@ fn duplicated(lights: &mut Lights, light: LightRef) -> LightRef {
     }
 }
 
-/// Removes `light` and returns its neighbour.
+/// Removes `light` and returns a neighbour to select.
 fn removed(lights: &mut Lights, light: LightRef) -> Option<LightRef> {
     let neighbour = match light {
         LightRef::Environment(index) if index < lights.environment.len() => {
@@ -265,7 +261,7 @@ fn removed(lights: &mut Lights, light: LightRef) -> Option<LightRef> {
             lights.point.remove(index);
             LightRef::Point(index.min(lights.point.len().saturating_sub(1)))
         }
-        gone => gone,
+        missing => missing,
     };
     if neighbour.exists(lights) { Some(neighbour) } else { first(lights) }
 }
@@ -276,13 +272,14 @@ fn new_environment(camera: &Camera) -> EnvironmentLight {
     light
 }
 
-/// A point light that reaches the pivot with about the strength of an environment light. It
-/// stands up and left in the view, halfway to its edge, whatever the field of view.
+/// A new point light, at the upper left of the view, halfway to the edge.
+///
+/// Its strength at the pivot is about that of an environment light.
 fn new_point(camera: &Camera) -> PointLight {
     let unit = camera.view_unit();
     let depth = 0.6;
-    let aside = 0.5 * depth * camera.half_height(1.0);
-    let offset = camera.rotation() * (DVec3::new(-aside, aside, -depth) * unit);
+    let shift = 0.5 * depth * camera.half_height(1.0);
+    let offset = camera.rotation() * (DVec3::new(-shift, shift, -depth) * unit);
     let distance = 0.5 * unit;
     PointLight {
         position: camera.position.moved_by(offset, unit * 1e-4),
@@ -297,7 +294,7 @@ mod tests {
     use crate::scene::Scene;
 
     #[test]
-    fn a_new_point_light_stands_in_the_view() {
+    fn a_new_point_light_is_in_the_view() {
         for fov in [param::VERTICAL_FOV.min, param::VERTICAL_FOV.default, param::VERTICAL_FOV.max] {
             let camera = Camera { vertical_fov_deg: fov, ..Camera::default() };
             let offset = &new_point(&camera).position - &camera.position;
@@ -332,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_removed_light_leaves_a_light_selected_while_there_is_one() {
+    fn removing_a_light_selects_a_remaining_light() {
         let mut lights = Lights {
             environment: vec![EnvironmentLight::default()],
             point: vec![PointLight::default(); 2],

@@ -1,5 +1,7 @@
-//! The panels, one a file. Each draws itself into a `Ui`, edits the scene in place, and leaves
-//! what it cannot do itself as a [`Command`] or an [`Action`].
+//! The panels, one per file.
+//!
+//! A panel draws into a `Ui`, edits the scene in place, and emits a [`Command`] or an [`Action`]
+//! for everything else.
 
 mod bloom;
 mod camera;
@@ -36,17 +38,17 @@ pub(super) use help::help_window;
 pub(super) use lights::LightRef;
 pub(super) use timeline::strip;
 
-/// What the interface remembers from one visit to the next. It belongs to no scene.
+/// Settings that are stored between visits and are not part of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// Whether the panel is shown.
+    /// True if the panel is shown.
     pub panel_open: bool,
-    /// Whether the timeline is shown.
+    /// True if the timeline is shown.
     pub timeline_open: bool,
-    /// Whether the panel shows more than the first things.
+    /// True if the section "More" is open.
     pub more_open: bool,
-    /// What is unfolded.
+    /// The open sections within "More".
     pub sections: Sections,
     /// The size of saved pictures.
     pub export: export::ExportSize,
@@ -64,7 +66,7 @@ impl Default for Settings {
     }
 }
 
-/// Which sections are unfolded.
+/// The open sections of the panel.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 #[expect(missing_docs, reason = "each field is the section of its name")]
@@ -81,7 +83,7 @@ pub struct Sections {
 }
 
 impl Sections {
-    /// All unfolded.
+    /// All sections open.
     pub fn all() -> Self {
         Self {
             fractal: true,
@@ -97,14 +99,14 @@ impl Sections {
     }
 }
 
-/// What is selected for editing; it belongs to no scene either.
+/// The selected light and gradient stop, which are not part of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Selection {
     pub light: Option<LightRef>,
     pub stop: usize,
 }
 
-/// What the panels work on.
+/// The data that the panels show and edit.
 pub(super) struct Context<'a> {
     pub scene: &'a mut Scene,
     pub settings: &'a mut Settings,
@@ -113,11 +115,11 @@ pub(super) struct Context<'a> {
     pub commands: &'a mut Vec<Command>,
     pub actions: &'a mut Vec<Action>,
     pub inputs: &'a DisplayInputs<'a>,
-    /// Set where the histogram is in sight.
+    /// Output: true if the histogram is visible.
     pub histogram_shown: &'a mut bool,
-    /// The environment map that is at hand.
+    /// The loaded environment map, if any.
     pub environment_map: Option<&'a EnvironmentMap>,
-    /// Where the camera stood in the last frame.
+    /// The camera's distance and precision in the last frame.
     pub camera_status: Option<CameraStatus>,
     /// Size of the view in the last frame, in pixels.
     pub view_px: [u32; 2],
@@ -127,13 +129,13 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// Whether there is something to undo and to redo.
+    /// Whether an undo and a redo are possible.
     pub(super) fn history_of(editor: &Editor) -> (bool, bool) {
         (editor.can_undo(), editor.can_redo())
     }
 }
 
-/// The panel at the window's side: heading above, saving below, the rest scrolls between.
+/// The panel at the window's side: heading at the top, saving at the bottom, the rest scrolls.
 pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
     let margin = Margin { left: 14, right: 8, top: 8, bottom: 6 };
     egui::Panel::top("heading")
@@ -144,10 +146,10 @@ pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
     scrolled(ui, cx, false);
 }
 
-/// Least height of a sheet that has room for saving below what scrolls, in points.
+/// Minimum height of a sheet with a fixed area for saving, in points.
 const TALL_SHEET: f32 = 320.0;
 
-/// The sheet at the window's lower edge: the same, but in a low one saving scrolls too.
+/// The panel as a sheet at the window's lower edge. In a low sheet, saving scrolls too.
 pub(super) fn sheet(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
     egui::Panel::top("heading")
         .frame(
@@ -235,7 +237,7 @@ fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
     });
 }
 
-/// What a first-time visitor needs: scenes, power, light.
+/// The controls for first-time users: scenes, power, light.
 fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
     scenes::show(ui, cx);
     ui.add_space(8.0);
@@ -244,16 +246,16 @@ fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
     lights::key_light(ui, cx);
 }
 
-/// The rest, folded away.
+/// All other controls, in sections.
 fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_space(8.0);
     let mut open = cx.settings.more_open;
-    let response = section(ui, "More", "Everything else that can be set", &mut open, |ui| {
+    let response = section(ui, "More", "All other settings", &mut open, |ui| {
         let mut sections = cx.settings.sections.clone();
-        section(ui, "Fractal", "Form, iterations, bailout", &mut sections.fractal, |ui| {
+        section(ui, "Fractal", "The fractal's form and its detail", &mut sections.fractal, |ui| {
             fractal::show(ui, cx)
         });
-        section(ui, "Camera", "Field of view, home, fly mode", &mut sections.camera, |ui| {
+        section(ui, "Camera", "Field of view, stereo, fly mode", &mut sections.camera, |ui| {
             camera::show(ui, cx)
         });
         let lights = section(
@@ -269,7 +271,7 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
         section(
             ui,
             "Surface",
-            "How the surface answers light, and its colours",
+            "Highlights, brightness and colours of the surface",
             &mut sections.surface,
             |ui| {
                 surface::show(ui, cx);
@@ -278,33 +280,29 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
         section(
             ui,
             "Indirect light",
-            "Light that reaches the surface by way of others",
+            "Light that bounces from one surface to another",
             &mut sections.indirect,
             |ui| indirect::show(ui, cx),
         );
         section(
             ui,
             "Tone and background",
-            "The tone curve and what lies behind",
+            "Brightness, contrast and the background",
             &mut sections.tone,
             |ui| {
                 tone::show(ui, cx);
             },
         );
-        section(
-            ui,
-            "Bloom",
-            "Light that spreads around what is bright",
-            &mut sections.bloom,
-            |ui| bloom::show(ui, cx),
-        );
-        section(ui, "Quality", "How much work a picture is given", &mut sections.quality, |ui| {
+        section(ui, "Bloom", "A soft glow around bright spots", &mut sections.bloom, |ui| {
+            bloom::show(ui, cx)
+        });
+        section(ui, "Quality", "Sharper pictures against speed", &mut sections.quality, |ui| {
             quality::show(ui, cx)
         });
         let export = section(
             ui,
             "Export",
-            "The size of saved pictures, and scene files",
+            "Size and format of saved pictures, scene files and links",
             &mut sections.export,
             |ui| {
                 export::show(ui, cx);
