@@ -54,7 +54,7 @@ fn without_its_picture_a_rig_keeps_its_lights() {
     lit.surround_by(&environment_map("garden.hdr"));
     let mut harness = stage(lit.clone(), unfolded(), [1280.0, 4000.0]);
     harness.run();
-    harness.get_by_label_contains("garden.hdr is not at hand");
+    harness.get_by_label_contains("garden.hdr is not loaded");
     let rail = harness.get_by_role_and_label(Role::Slider, "Rig lights");
     assert!(rail.accesskit_node().is_disabled());
     assert_eq!(*scene(&harness), lit);

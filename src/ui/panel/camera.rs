@@ -1,4 +1,4 @@
-//! Where the scene is seen from.
+//! The camera panel.
 
 use egui::{RichText, Ui};
 
@@ -13,9 +13,9 @@ use crate::{
     },
 };
 
-/// Field of view, stereo, ways home, fly mode, and where the eye is.
+/// Field of view, stereo, home, frame all, fly mode, and the eye's position.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    // In stereo the screen's height and distance decide.
+    // In stereo, the screen's height and distance determine the field of view.
     if !cx.scene.camera.stereo.is_on() {
         param_slider(ui, &param::VERTICAL_FOV, &mut cx.scene.camera.vertical_fov_deg);
     }
@@ -25,14 +25,28 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             let ui: &mut Ui = &mut columns[index];
             let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
             let chosen = command == Command::ToggleFlight && cx.flying;
-            let button = egui::Button::selectable(chosen, name).fill(if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED });
+            let button = egui::Button::selectable(chosen, name).fill(if chosen {
+                ui.visuals().selection.bg_fill
+            } else {
+                theme::RAISED
+            });
             if ui.add_sized(size, button.truncate()).on_hover_text(hover).clicked() {
                 cx.commands.push(command);
             }
         };
-        button(0, "Home", "Back to the scene's opening view; from a deep one, out to all of the fractal (H)", Command::Home);
+        button(
+            0,
+            "Home",
+            "Fly back to the scene's first view; from a deep one, out to the whole fractal (H)",
+            Command::Home,
+        );
         button(1, "Frame all", "Show the whole fractal from this side (A)", Command::FrameAll);
-        button(2, "Fly", "Fly with W A S D and E Q by their place on the keyboard; Shift is faster, a drag looks around (F)", Command::ToggleFlight);
+        button(
+            2,
+            "Fly",
+            "Fly with the keys W A S D and E Q; Shift is faster, a drag looks around (F)",
+            Command::ToggleFlight,
+        );
     });
     let camera = &cx.scene.camera;
     let mut line = |name: &str, value: String, hover: &str| {
@@ -51,16 +65,12 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         format!("{:.5}, {:.5}, {:.5}", eye.x, eye.y, eye.z),
         "The eye's position in scene units: x, y, z",
     );
-    line(
-        "Zoom",
-        zoom_text(zoom(camera)),
-        "How much larger things appear than from where a new scene is seen",
-    );
+    line("Zoom", zoom_text(zoom(camera)), "The magnification, compared with a new scene");
     if let Some(camera_status) = cx.camera_status {
         line(
             "To the surface",
             format!("{} u", significant(camera_status.distance)),
-            "Estimated distance from the eye to the nearest surface, in scene units; the speed of flight follows it",
+            "The eye's estimated distance to the nearest surface, in scene units. You fly slower when it is small.",
         );
     }
 }

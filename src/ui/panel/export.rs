@@ -1,4 +1,4 @@
-//! Saving: the picture at its size, and the scene as a file or a link.
+//! The export panel: saving of pictures, scene files and links.
 
 use egui::{Button, ProgressBar, RichText, Ui, vec2};
 use serde::{Deserialize, Serialize};
@@ -18,10 +18,10 @@ use crate::{
     },
 };
 
-/// Largest width or height of a saved picture, in pixels.
+/// Maximum width or height of a saved picture, in pixels.
 pub const MAX_EXPORT_SIDE_PX: u32 = 16384;
 
-/// A side of a typed size. It belongs to no scene, so it stands here and not in the scene's table.
+/// A side of a typed size; a setting of the interface, so not in the scene's table.
 const SIDE: Param = Param {
     path: "export.side_px",
     label: "Side",
@@ -34,17 +34,17 @@ const SIDE: Param = Param {
     help: "One side of the saved picture, in pixels.",
 };
 
-/// How large pictures are saved.
+/// Size and format of saved pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ExportSize {
-    /// Times the view's size: 1, 2 or 4; 0 for the typed size.
+    /// Factor on the view's size: 1, 2 or 4; 0 for the typed size.
     pub times: u32,
     /// The typed width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
     pub typed_px: [u32; 2],
-    /// Whether pictures are saved as OpenEXR rather than PNG.
+    /// True for OpenEXR, false for PNG.
     pub exr: bool,
-    /// Whether a picture in stereo is saved as a file for each eye.
+    /// True to save a stereo picture as one file per eye.
     pub pair: bool,
 }
 
@@ -55,37 +55,38 @@ impl Default for ExportSize {
 }
 
 impl ExportSize {
-    /// Width and height in pixels of the saved picture, or of either eye's, of which a view that
-    /// shows both holds half; a view too large for its factor keeps its shape.
+    /// Width and height of the saved picture, or of one eye's picture, in pixels.
+    ///
+    /// If the size exceeds the limit, both sides shrink and keep the view's aspect.
     pub fn resolve(&self, view_px: [u32; 2], layout: StereoLayout) -> [u32; 2] {
-        let in_file = self.in_file(layout);
-        let limit = in_file.map(|pictures| f64::from(MAX_EXPORT_SIDE_PX / pictures));
+        let grid_in_file = self.grid_in_file(layout);
+        let limit = grid_in_file.map(|pictures| f64::from(MAX_EXPORT_SIDE_PX / pictures));
         let side = |axis: usize, length: f64| length.round().clamp(1.0, limit[axis]) as u32;
         if self.times == 0 {
             return std::array::from_fn(|axis| side(axis, f64::from(self.typed_px[axis])));
         }
         let grid = layout.grid();
-        let shown_px: [f64; 2] =
+        let picture_px: [f64; 2] =
             std::array::from_fn(|axis| f64::from((view_px[axis] / grid[axis]).max(1)));
-        let most = (limit[0] / shown_px[0]).min(limit[1] / shown_px[1]);
-        let times = f64::from(self.times.min(16)).min(most);
-        std::array::from_fn(|axis| side(axis, shown_px[axis] * times))
+        let max_times = (limit[0] / picture_px[0]).min(limit[1] / picture_px[1]);
+        let times = f64::from(self.times.min(16)).min(max_times);
+        std::array::from_fn(|axis| side(axis, picture_px[axis] * times))
     }
 
-    /// Whether there is a file for each eye.
+    /// True if each eye's picture is a separate file.
     pub fn is_pair(&self, layout: StereoLayout) -> bool {
         self.pair && layout != StereoLayout::Off
     }
 
-    /// Columns and rows of pictures in one file.
-    fn in_file(&self, layout: StereoLayout) -> [u32; 2] {
+    /// Number of columns and rows of pictures in one file.
+    fn grid_in_file(&self, layout: StereoLayout) -> [u32; 2] {
         if self.pair { [1, 1] } else { layout.grid() }
     }
 
-    /// The size of what is saved, in words.
+    /// The size of the saved file as text.
     pub fn text(&self, view_px: [u32; 2], layout: StereoLayout) -> String {
-        let (picture_px, in_file) = (self.resolve(view_px, layout), self.in_file(layout));
-        let [width, height] = [0, 1].map(|axis| picture_px[axis] * in_file[axis]);
+        let (picture_px, grid) = (self.resolve(view_px, layout), self.grid_in_file(layout));
+        let [width, height] = [0, 1].map(|axis| picture_px[axis] * grid[axis]);
         let pair = if self.is_pair(layout) { ", one for each eye" } else { "" };
         format!("{width} × {height} pixels{pair}")
     }
@@ -102,13 +103,14 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     let text = RichText::new("Save picture").size(15.0).color(theme::ON_ACCENT);
     let response = ui
         .add_sized(size, Button::new(text).fill(theme::ACCENT))
-        .on_hover_text(format!("Renders the view as {kind} of {extent} that carries its scene (Ctrl S). Other sizes: More, Export."));
+        .on_hover_text(format!("Renders the view as {kind} of {extent} (Ctrl S). You can open the file again as a scene. For other sizes, see More, Export."));
     cx.rects.record("save picture", &response);
     if response.clicked() {
         cx.commands.push(Command::SavePicture);
     }
 }
 
+/// The progress of an export, with a button to cancel.
 pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress) {
     let left = match progress.remaining_secs {
         Some(secs) => format!("Saving, {} left", duration_text(secs)),
@@ -117,7 +119,7 @@ pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress
     ui.horizontal(|ui| {
         ui.label(RichText::new(left).small().color(theme::TEXT_DIM));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let cancel = ui.button("Cancel").on_hover_text("Stop saving; nothing is written");
+            let cancel = ui.button("Cancel").on_hover_text("Stop the export; no file is saved");
             cx.rects.record("cancel export", &cancel);
             if cancel.clicked() {
                 cx.actions.push(Action::CancelExport);
@@ -128,7 +130,7 @@ pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress
     ui.add(ProgressBar::new(done).desired_height(6.0).corner_radius(3.0).fill(theme::ACCENT));
 }
 
-/// The picture's size, and the scene's file and link.
+/// The picture's size and format, and the scene's file and link.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let export = &mut cx.settings.export;
     let response = choice(
@@ -136,10 +138,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         "Picture size",
         &mut export.times,
         &[
-            (1, "View", "As many pixels as the view shows"),
+            (1, "View", "The view's width and height"),
             (2, "2×", "Twice the view's width and height"),
             (4, "4×", "Four times the view's width and height"),
-            (0, "Typed", "A size of your own"),
+            (0, "Typed", "Any width and height"),
         ],
     );
     cx.rects.record("picture size", &response);
@@ -151,11 +153,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         "File",
         &mut export.exr,
         &[
-            (false, "PNG", "What is seen, in 8 bits a channel"),
+            (false, "PNG", "The picture as you see it"),
             (
                 true,
                 "EXR",
-                "Linear light before exposure and tone, with depth, normal and position, in 32 bits a channel",
+                "For other programs: light before exposure and tone, depth, normals and positions, 32 bits per channel",
             ),
         ],
     );
@@ -167,14 +169,14 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             "Both eyes",
             &mut export.pair,
             &[
-                (false, "One file", "Put together as the view shows them"),
-                (true, "Two files", "A file for each eye: left and right"),
+                (false, "One file", "Both pictures in one file, as in the view"),
+                (true, "Two files", "One file for the left eye, one for the right eye"),
             ],
         );
         cx.rects.record("picture pair", &response);
     }
     ui.label(RichText::new(export.text(cx.view_px, layout)).small().color(theme::TEXT_DIM))
-        .on_hover_text("The width and height of the picture that Save picture writes");
+        .on_hover_text("The size of the file of Save picture");
     caption(ui, "Scene");
     ui.columns(3, |columns| {
         let mut button = |index: usize, name: &str, hover: &str, command: Command| {
@@ -188,10 +190,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         button(
             1,
             "Open…",
-            "Open a scene file, or a picture that carries one (Ctrl O)",
+            "Open a scene file, or a saved picture with its scene (Ctrl O)",
             Command::LoadScene,
         );
-        button(2, "Copy link", "Copy an address that shares this view (L)", Command::CopyLink);
+        button(2, "Copy link", "Copy a link to this view (L)", Command::CopyLink);
     });
 }
 
@@ -223,13 +225,13 @@ mod tests {
     }
 
     #[test]
-    fn too_large_a_view_keeps_its_shape() {
+    fn a_size_at_the_limit_keeps_the_aspect() {
         let export = ExportSize { times: 4, ..Default::default() };
         assert_eq!(export.resolve([8192, 4096], StereoLayout::Off), [16384, 8192]);
     }
 
     #[test]
-    fn remembered_nonsense_does_no_harm() {
+    fn invalid_stored_settings_are_clamped() {
         let export = ExportSize { times: 0, typed_px: [0, u32::MAX], ..Default::default() };
         assert_eq!(export.resolve([800, 600], StereoLayout::Off), [1, MAX_EXPORT_SIDE_PX]);
         let export = ExportSize { times: u32::MAX, typed_px: [1, 1], ..Default::default() };

@@ -1,4 +1,4 @@
-//! Light that reaches a surface by way of others.
+//! The indirect light panel.
 
 use egui::Ui;
 
@@ -8,7 +8,7 @@ use crate::{
     ui::widgets::{choice, param_slider, param_slider_count},
 };
 
-/// Which operator, how far it looks, how much of it is added, how finely it samples.
+/// The operator, its radius, strength and sampling.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let indirect = &mut cx.scene.indirect;
     choice(
@@ -16,16 +16,16 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         "Indirect light",
         &mut indirect.kind,
         &[
-            (IndirectKind::Off, "Off", "Only light that comes straight from its source"),
+            (IndirectKind::Off, "Off", "Only light directly from the lights"),
             (
                 IndirectKind::Uniform,
                 "Uniform",
-                "Light from all around on the screen, most from what faces the same way",
+                "Adds light from nearby surfaces, mostly those that face the same way",
             ),
             (
                 IndirectKind::Horizon,
                 "Horizon",
-                "Crevices darken, and take the colour of what encloses them",
+                "Darkens crevices and adds the colours of the surfaces around them",
             ),
         ],
     );

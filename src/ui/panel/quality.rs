@@ -1,4 +1,4 @@
-//! How much work a picture is given.
+//! The quality panel.
 
 use egui::{RichText, Ui};
 
@@ -12,7 +12,7 @@ use crate::{
     },
 };
 
-/// What the picture holds of the GPU's memory, with each purpose in the hover text.
+/// The GPU memory of the view, with each purpose in the hover text.
 fn memory(ui: &mut Ui, cx: &Context<'_>) {
     let memory = cx.inputs.report.memory;
     let text = format!("GPU memory: {}", mebibytes(memory.total()));
@@ -24,10 +24,10 @@ fn memory(ui: &mut Ui, cx: &Context<'_>) {
         for (purpose, bytes) in memory.purposes().into_iter().filter(|(_, bytes)| *bytes > 0) {
             line(ui, purpose, bytes);
         }
-        ui.label(RichText::new("Not counted in it:").small());
+        ui.label(RichText::new("In addition:").small());
         let window = ui.ctx().content_rect().size() * ui.ctx().pixels_per_point();
-        // Two pictures of four bytes a pixel: one is shown, one is drawn.
-        line(ui, "the window's own pictures, about", 8 * (window.x * window.y) as u64);
+        // The window has two buffers of 4 bytes per pixel.
+        line(ui, "the window's buffers, about", 8 * (window.x * window.y) as u64);
         let textures = ui.ctx().tex_manager();
         let interface: usize = textures.read().allocated().map(|(_, meta)| meta.bytes_used()).sum();
         line(ui, "the interface's textures", interface as u64);
@@ -45,16 +45,15 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         "Normals",
         &mut quality.normals,
         &[
-            (Normals::None, "None", "Light as if every point faced it: shows what it could reach"),
-            (Normals::Three, "3", "One neighbour along each axis: fast, and wrong on most sides"),
-            (Normals::Six, "6", "Two neighbours along each axis"),
-            (Normals::Eighteen, "18", "Neighbours along axes and their diagonals: slow, soft"),
-            (Normals::TwentySix, "26", "All neighbours of a cube: slowest, softest"),
-            (Normals::Analytic, "Exact", "The distance's own gradient: sharpest, and fast"),
+            (Normals::None, "None", "No shading: lit points are equally bright"),
+            (Normals::Three, "3", "From 3 neighbours: fast, and wrong on most sides"),
+            (Normals::Six, "6", "From 6 neighbours: two along each axis"),
+            (Normals::Eighteen, "18", "From 18 neighbours: slow, soft"),
+            (Normals::TwentySix, "26", "From 26 neighbours: slowest, softest"),
+            (Normals::Analytic, "Exact", "From the formula: sharpest, and fast"),
         ],
     );
-    ui.checkbox(&mut quality.shadows, "Shadows").on_hover_text(
-        "Whether any light casts shadows. Off is faster; each light keeps its own setting.",
-    );
+    ui.checkbox(&mut quality.shadows, "Shadows")
+        .on_hover_text("Shadows of all lights. Off is faster; each light keeps its own setting.");
     memory(ui, cx);
 }

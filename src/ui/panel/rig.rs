@@ -1,4 +1,4 @@
-//! The rig: many lights made together, from a sky or from an environment map.
+//! The rig panel: many lights, generated from a sky or from an environment map.
 
 use egui::{Button, Response, RichText, Ui, vec2};
 use glam::DVec3;
@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// What the rig is made from, and what belongs to that.
+/// The rig's source and its settings.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let before = cx.scene.lights.rig.kind;
     let chosen = choice(
@@ -22,26 +22,26 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         "Rig",
         &mut cx.scene.lights.rig.kind,
         &[
-            (RigKind::None, "None", "No lights beside those of the list"),
-            (RigKind::Sky, "Sky", "Lights that stand for a sky with a sun"),
-            (RigKind::Picture, "Picture", "Lights taken from a 360° picture (an environment map)"),
+            (RigKind::None, "None", "Only the lights of the list above"),
+            (RigKind::Sky, "Sky", "Adds the light of a sky with a sun"),
+            (RigKind::Picture, "Picture", "Adds the light of a 360° picture (environment map)"),
         ],
     );
     cx.rects.record("rig", &chosen);
-    let come_along = light_here(ui, &cx.scene.lights);
-    if come_along.clicked() {
-        tie_to_view(&mut cx.scene.lights);
+    let light_here = light_view_button(ui, &cx.scene.lights);
+    if light_here.clicked() {
+        attach_to_view(&mut cx.scene.lights);
     }
-    cx.rects.record("light here", &come_along);
+    cx.rects.record("light here", &light_here);
     let turned_on = cx.scene.lights.rig.kind != before;
     match cx.scene.lights.rig.kind {
         RigKind::None => {}
         RigKind::Sky => sky(ui, cx),
         RigKind::Picture => picture(ui, cx),
     }
-    // A scene can show its picture and be lit by something else.
+    // A scene can show an environment map and be lit by another source.
     if !cx.scene.lights.rig.picture.name.is_empty() {
-        behind(ui, &mut cx.scene.background);
+        background(ui, &mut cx.scene.background);
     }
     if cx.scene.lights.rig.kind != RigKind::None && !cx.scene.lights.rig.is_empty() {
         common(ui, &mut cx.scene.lights.rig, &cx.scene.camera);
@@ -49,29 +49,30 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     keep_within_room(&mut cx.scene.lights, cx.environment_map, turned_on.then_some(before));
 }
 
-/// Asks for light that comes along.
-fn light_here(ui: &mut Ui, lights: &Lights) -> Response {
-    let (room, least) = (lights.room_for_rig(), param::RIG_COUNT.min as usize);
+/// The button that attaches the rig to the view.
+fn light_view_button(ui: &mut Ui, lights: &Lights) -> Response {
+    let (room, min) = (lights.room_for_rig(), param::RIG_COUNT.min as usize);
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     let button = Button::new("Light what is in view").truncate();
-    ui.add_enabled_ui(room >= least && !is_tied_to_view(&lights.rig), |ui| ui.add_sized(size, button))
+    ui.add_enabled_ui(room >= min && !is_attached_to_view(&lights.rig), |ui| ui.add_sized(size, button))
         .inner
-        .on_hover_text("A sky that comes along with you, and in which only what is near casts shadows: it lights any place, however deep")
-        .on_disabled_hover_text(if room < least {
-            "The scene has no room for further lights"
+        .on_hover_text("Lights what you see, at any zoom: a sky that moves with the camera, with shadows of near surfaces only")
+        .on_disabled_hover_text(if room < min {
+            "The scene has no room for more lights"
         } else {
-            "The rig comes along with you already, with near shadows"
+            "The rig already moves with the camera, with shadows of near surfaces only"
         })
 }
 
-fn is_tied_to_view(rig: &Rig) -> bool {
+fn is_attached_to_view(rig: &Rig) -> bool {
     let near_shadows = !rig.casts_shadows || rig.shadow_reach.is_some();
     !rig.is_empty() && rig.frame == LightFrame::View && near_shadows && !rig.muted
 }
 
-/// Makes the rig one that comes along with the camera and is shaded by what is near. A sky keeps
-/// its colours; its sun moves behind the viewer's left shoulder.
-fn tie_to_view(lights: &mut Lights) {
+/// Fixes the rig to the camera's frame and limits its shadows to near surfaces.
+///
+/// A sky keeps its colours; its sun moves behind the viewer's left shoulder.
+fn attach_to_view(lights: &mut Lights) {
     let room = lights.room_for_rig();
     let rig = &mut lights.rig;
     if rig.is_empty() {
@@ -86,8 +87,9 @@ fn tie_to_view(lights: &mut Lights) {
     rig.muted = false;
 }
 
-/// Sees to it that the scene has no more lights than it can hold; where there is no room for a
-/// rig at all, it stays what it was `before`.
+/// Reduces the rig to the number of lights that the scene has room for.
+///
+/// Without room for a rig, its kind is reset to `before`.
 fn keep_within_room(
     lights: &mut Lights,
     environment_map: Option<&EnvironmentMap>,
@@ -99,12 +101,10 @@ fn keep_within_room(
     }
     match lights.rig.kind {
         RigKind::Sky if room >= param::RIG_COUNT.min as usize => lights.rig.count = room as u32,
-        RigKind::Picture => {
-            match environment_map.filter(|at_hand| is_named(&lights.rig, at_hand)) {
-                Some(environment_map) => lights.rig.light_by(environment_map, room),
-                None => lights.rig.kind = before.unwrap_or_default(),
-            }
-        }
+        RigKind::Picture => match environment_map.filter(|loaded| is_named(&lights.rig, loaded)) {
+            Some(environment_map) => lights.rig.light_by(environment_map, room),
+            None => lights.rig.kind = before.unwrap_or_default(),
+        },
         _ => lights.rig.kind = before.unwrap_or_default(),
     }
 }
@@ -131,8 +131,8 @@ fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
                     ui.label(RichText::new(name).color(theme::TEXT_DIM));
                 });
             };
-            row("Sun", "The sun's colour", &mut sky.sun_color);
-            row("Zenith", "The sky's colour straight up", &mut sky.zenith);
+            row("Sun", "The colour of the sun's light", &mut sky.sun_color);
+            row("Zenith", "The sky's colour overhead", &mut sky.zenith);
             row("Horizon", "The sky's colour at the horizon", &mut sky.horizon);
             row("Ground", "The colour of the light from below", &mut sky.ground);
         });
@@ -151,24 +151,27 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     let room = cx.scene.lights.room_for_rig();
     let rig = &mut cx.scene.lights.rig;
-    let at_hand = cx.environment_map.filter(|environment_map| is_named(rig, environment_map));
-    let text = match (rig.picture.name.as_str(), at_hand) {
-        ("", _) => "A Radiance (.hdr) or OpenEXR (.exr) picture of all directions. It can be dropped on the page, too.".to_owned(),
+    let loaded = cx.environment_map.filter(|environment_map| is_named(rig, environment_map));
+    let text = match (rig.picture.name.as_str(), loaded) {
+        ("", _) => {
+            "A 360° picture, Radiance (.hdr) or OpenEXR (.exr). You can also drop it on the page."
+                .to_owned()
+        }
         (name, Some(environment_map)) => {
             let [width, height] = environment_map.size_px();
             format!("{name}, {width} × {height}, as {} lights", rig.picture.lights.len())
         }
         (name, None) => format!(
-            "{name} is not at hand: its {} lights are kept. Choose it again to divide it anew or to see it.",
+            "{name} is not loaded; its {} lights still shine. Choose the file again to show it or to change the number of lights.",
             rig.picture.lights.len()
         ),
     };
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
     let before = rig.count;
-    ui.add_enabled_ui(at_hand.is_some(), |ui| {
+    ui.add_enabled_ui(loaded.is_some(), |ui| {
         param_slider_count(ui, &param::RIG_COUNT, &mut rig.count)
     });
-    if let Some(environment_map) = at_hand
+    if let Some(environment_map) = loaded
         && rig.count != before
     {
         rig.light_by(environment_map, room);
@@ -179,37 +182,37 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
 fn choose(ui: &mut Ui) -> Response {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     ui.add_sized(size, Button::new("Choose picture…").truncate())
-        .on_hover_text("Choose a Radiance (.hdr) or OpenEXR (.exr) environment map")
+        .on_hover_text("Choose a 360° picture, Radiance (.hdr) or OpenEXR (.exr)")
 }
 
-/// Whether the picture is seen behind the fractal.
-fn behind(ui: &mut Ui, background: &mut Background) {
+/// The switch that shows the environment map behind the fractal.
+fn background(ui: &mut Ui, background: &mut Background) {
     let mut shown = background.kind == BackgroundKind::Picture;
     let response = ui
         .checkbox(&mut shown, "Show it behind the fractal")
-        .on_hover_text("Shows the environment map as the background");
+        .on_hover_text("Shows the 360° picture instead of the background colours");
     if response.changed() {
         background.kind = if shown { BackgroundKind::Picture } else { BackgroundKind::Gradient };
     }
 }
 
-/// What all rigs have.
+/// The settings of every kind of rig.
 fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
     param_slider(ui, &param::RIG_INTENSITY, &mut rig.intensity);
     ui.horizontal_wrapped(|ui| {
         ui.checkbox(&mut rig.casts_shadows, "Rig shadows")
-            .on_hover_text("Whether surfaces block the rig's lights");
+            .on_hover_text("The rig's lights cast shadows");
         let mut limited = rig.shadow_reach.is_some();
         let reach = egui::Checkbox::new(&mut limited, "Limit rig reach");
-        let reach = ui.add_enabled(rig.casts_shadows, reach).on_hover_text(
-            "Let only near surfaces cast shadows from the rig; otherwise the whole scene does",
-        );
+        let reach = ui
+            .add_enabled(rig.casts_shadows, reach)
+            .on_hover_text("Only near surfaces cast shadows from the rig. Brightens the picture.");
         if reach.changed() {
             rig.shadow_reach = limited.then_some(param::RIG_SHADOW_REACH.default);
         }
-        ui.checkbox(&mut rig.muted, "Mute rig").on_hover_text("Switch the rig off for now");
+        ui.checkbox(&mut rig.muted, "Mute rig").on_hover_text("Switch all lights of the rig off");
         ui.checkbox(&mut rig.solo, "Solo rig")
-            .on_hover_text("While anything is solo, only solo lights shine");
+            .on_hover_text("While any light is solo, only solo lights shine");
     });
     if let Some(reach) = &mut rig.shadow_reach {
         ui.add_enabled_ui(rig.casts_shadows, |ui| {
@@ -222,12 +225,12 @@ fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
         "Rig fixed to",
         &mut rig.frame,
         &[
-            (LightFrame::Scene, "Scene", "The rig stays where it is as the camera moves"),
+            (LightFrame::Scene, "Scene", "The rig stays in place while the camera moves"),
             (LightFrame::View, "View", "The rig moves with the camera"),
         ],
     );
     if rig.frame != before {
-        // Fixed to something else, the sun still shines from where it shone.
+        // The sun keeps its current direction in the new frame.
         let sun = light::in_view(rig.sky.sun_direction, before, camera);
         rig.sky.sun_direction = light::from_view(sun, rig.frame, camera);
     }

@@ -1,4 +1,4 @@
-//! The opening scenes, and the dives.
+//! The scenes panel: opening scenes and dives.
 
 use egui::{Button, Id, RichText, Ui, vec2};
 
@@ -8,17 +8,17 @@ use crate::{
     ui::{shortcuts::Command, status::zoom, theme},
 };
 
-/// A scene that opens this much larger than a new one is taken for a dive.
+/// Zoom from which on the list of dives is shown first.
 const DIVE_ZOOM: f64 = 1e4;
 
-/// A button for each scene of a list, under the lists' headings, of which one is chosen.
+/// The headings of both lists, and a button for each scene of the chosen list.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let lists = [
-        ("Scenes", "Whole sets and views close to them", presets::all(), 0),
-        ("Dives", "Places far below the surface", presets::dives(), presets::all().len()),
+        ("Scenes", "Whole fractals and near views", presets::all(), 0),
+        ("Dives", "Views at very deep zooms", presets::dives(), presets::all().len()),
     ];
     let id = Id::unique("list of scenes");
-    // Who comes by a link to a dive finds the others beside it.
+    // A user who opens a link to a dive sees the list of dives.
     let opening = usize::from(zoom(&cx.scene.camera) >= DIVE_ZOOM);
     let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
     ui.horizontal(|ui| {
@@ -43,8 +43,9 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     }
 }
 
-/// Two in a row, or four where rows are as high as fingers. `first` is the first one's number among
-/// all.
+/// Buttons of a list, two per row, or four per row on touch screens.
+///
+/// `first` is the index of the list's first preset among all presets.
 fn buttons(
     ui: &mut Ui,
     cx: &mut Context<'_>,
@@ -60,7 +61,7 @@ fn buttons(
     egui::Grid::new(heading).spacing([gap, 5.0]).min_col_width(size.x).show(ui, |ui| {
         for (index, preset) in presets.iter().enumerate() {
             let button = ui.add_sized(size, Button::new(preset.name).truncate());
-            // The first list has keys.
+            // The presets of the first list have number keys.
             let hover = match first {
                 0 => format!("{} ({})", preset.blurb, index + 1),
                 _ => preset.blurb.to_owned(),

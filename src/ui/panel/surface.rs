@@ -1,4 +1,4 @@
-//! How the surface answers light, and its colours.
+//! The surface panel: material, gradient and colouring.
 
 use egui::{Button, Ui};
 
@@ -8,7 +8,7 @@ use crate::{
     ui::widgets::{choice, color, gradient, move_stop, param_slider},
 };
 
-/// Reflectance, the gradient, and what drives it.
+/// Reflectance, the gradient, and the value that selects its colours.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let surface = &mut cx.scene.surface;
     param_slider(ui, &param::AMBIENT, &mut surface.ambient);
@@ -24,11 +24,23 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             (
                 ColorSource::Iterations,
                 "Steps",
-                "The smooth iteration count: how soon the orbit escapes",
+                "Colours by the number of formula steps until a point escapes",
             ),
-            (ColorSource::OriginTrap, "Origin", "The orbit's least distance from the origin"),
-            (ColorSource::AxisTrap, "Axis", "The orbit's least distance from the z axis"),
-            (ColorSource::PlaneTrap, "Plane", "The orbit's least distance from the plane z = 0"),
+            (
+                ColorSource::OriginTrap,
+                "Origin",
+                "Colours by how near a point's orbit comes to the centre (orbit trap)",
+            ),
+            (
+                ColorSource::AxisTrap,
+                "Axis",
+                "Colours by how near a point's orbit comes to the z axis (orbit trap)",
+            ),
+            (
+                ColorSource::PlaneTrap,
+                "Plane",
+                "Colours by how near a point's orbit comes to the plane z = 0 (orbit trap)",
+            ),
         ],
     );
     ui.add_space(4.0);
@@ -40,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider(ui, &param::COLOR_OFFSET, &mut coloring.offset);
 }
 
-/// The selected stop: its place, its colour, its removal.
+/// The selected stop: position, colour and removal.
 fn stop(ui: &mut Ui, cx: &mut Context<'_>) {
     let stops = &mut cx.scene.surface.gradient;
     let selected = &mut cx.selection.stop;
@@ -53,14 +65,14 @@ fn stop(ui: &mut Ui, cx: &mut Context<'_>) {
         move_stop(stops, *selected, position);
     }
     ui.horizontal(|ui| {
-        color(ui, "Stop colour", "The stop's colour", &mut stops[*selected].color);
+        color(ui, "Stop colour", "The colour of the selected stop", &mut stops[*selected].color);
         ui.label(format!("Stop {} of {}", *selected + 1, stops.len()));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let removable = stops.len() > 1;
             let remove = ui
                 .add_enabled(removable, Button::new("Remove stop"))
                 .on_hover_text("Remove the selected stop")
-                .on_disabled_hover_text("A gradient keeps at least one stop.");
+                .on_disabled_hover_text("A gradient needs at least one stop.");
             if remove.clicked() {
                 stops.remove(*selected);
                 *selected = selected.saturating_sub(1);

@@ -1,4 +1,4 @@
-//! The camera path as a strip: a ruler to scrub, keys to drag, and what is done with them.
+//! The timeline panel: a ruler to scrub, keys to drag, and commands on keys.
 
 use egui::{Button, Response, RichText, Ui, vec2};
 
@@ -21,10 +21,10 @@ use crate::{
 
 mod track;
 
-/// Strips at least this wide, in points, have all buttons above the track.
+/// Minimum width of a strip with all buttons in one row, in points.
 const ONE_ROW_FROM: f32 = 740.0;
 
-/// A frame's number; the most are an hour at the highest rate.
+/// A frame's number, at most that of the longest path at the highest frame rate.
 const FRAME: Param = Param {
     path: "export.frame",
     label: "Frame",
@@ -64,7 +64,7 @@ pub(in crate::ui) fn strip(
     strip.cx.rects.record("timeline track", &response);
     if wide {
         ui.horizontal(|ui| {
-            strip.key_under_edit(ui);
+            strip.selected_key(ui);
             strip.rate(ui);
             strip.frames(ui);
             strip.save(ui);
@@ -72,7 +72,7 @@ pub(in crate::ui) fn strip(
     } else {
         ui.horizontal_wrapped(|ui| strip.keys(ui));
         if strip.timeline.selected(strip.path).is_some() {
-            ui.horizontal(|ui| strip.key_under_edit(ui));
+            ui.horizontal(|ui| strip.selected_key(ui));
         }
         ui.horizontal(|ui| {
             strip.rate(ui);
@@ -90,7 +90,7 @@ struct Strip<'a, 'b> {
 }
 
 impl Strip<'_, '_> {
-    /// To the keys, to play, and where the playhead is.
+    /// Buttons for previous key, play and next key, and the playhead's time.
     fn transport(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 3.0;
         let mut button = |ui: &mut Ui, icon, name, hover, command, enabled| {
@@ -102,16 +102,16 @@ impl Strip<'_, '_> {
             response
         };
         let (some, two) = (!self.path.is_empty(), self.path.keys.len() > 1);
-        let hover = "To the key before (,)";
+        let hover = "Go to the previous key (,)";
         button(ui, Icon::Previous, "Previous key", hover, Command::PreviousKey, some);
         let (icon, name, hover) = if self.timeline.is_playing() {
-            (Icon::Pause, "Pause", "Stop here (Space)")
+            (Icon::Pause, "Pause", "Pause (Space)")
         } else {
-            (Icon::Play, "Play", "Play the path, over and over (Space)")
+            (Icon::Play, "Play", "Play the path in a loop (Space)")
         };
         let play = button(ui, icon, name, hover, Command::PlayPause, two);
         self.cx.rects.record("play", &play);
-        button(ui, Icon::Next, "Next key", "To the next key (.)", Command::NextKey, some);
+        button(ui, Icon::Next, "Next key", "Go to the next key (.)", Command::NextKey, some);
         ui.add_space(4.0);
         let text = if some {
             let frame = self.path.nearest_frame(self.timeline.secs());
@@ -121,24 +121,24 @@ impl Strip<'_, '_> {
             "No keys yet".to_owned()
         };
         let hover = if !some {
-            "Move the view, then add it as a key; the path goes from key to key"
+            "Move the view, then add it as a key. Playback moves from key to key."
         } else if self.on_path {
-            "The playhead's time. The view shows this moment of the path"
+            "The playhead's time. The view shows the path at this time."
         } else {
-            "The view has left this moment of the path: add it as a key, update the key here, or move the playhead to come back"
+            "The view differs from the path at this time. Add it as a key, update the key, or move the playhead to return to the path."
         };
         let color = if some && !self.on_path { theme::ACCENT } else { theme::TEXT_DIM };
         ui.label(RichText::new(text).small().color(color)).on_hover_text(hover);
         ui.add_space(6.0);
     }
 
-    /// What can be done with the view and the keys.
+    /// Buttons to add, update and delete keys.
     fn keys(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 4.0;
         let here = self.path.key_at(self.timeline.secs());
         let full = self.path.keys.len() >= MAX_KEYS;
-        let add = "Keep the view as a key: at the playhead or, where there is a key, 3 seconds after the last one (K)";
-        let update = "Put the view in place of the key at the playhead (U)";
+        let add = "Add the view and all settings as a key at the playhead. If a key is there, the new key follows the last one after 3 seconds (K).";
+        let update = "Replace the key at the playhead by the view (U)";
         let delete = "Delete the selected key (Del)";
         let selected = self.timeline.selected(self.path).is_some();
         for (name, hover, command, enabled) in [
@@ -160,13 +160,13 @@ impl Strip<'_, '_> {
     }
 
     /// The selected key's time and easing.
-    fn key_under_edit(&mut self, ui: &mut Ui) {
+    fn selected_key(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 4.0;
         if let Some(index) = self.timeline.selected(self.path) {
-            label(ui, &format!("Key {}", index + 1), "The key under edit: the one selected last");
+            label(ui, &format!("Key {}", index + 1), "The selected key");
             let mut secs = self.path.keys[index].time_secs;
             let time = short_number(ui, 58.0, &KEY_TIME, &mut secs)
-                .on_hover_text("When this key is reached, in seconds; between its neighbours");
+                .on_hover_text("The time of this key, in seconds; between its neighbours");
             if time.changed() {
                 self.timeline.retime(self.path, index, secs);
             }
@@ -175,10 +175,10 @@ impl Strip<'_, '_> {
                 (
                     Easing::Smooth,
                     "Smooth",
-                    "On to the next key without a stop; from rest at the path's ends",
+                    "Moves smoothly through the keys; starts and stops gently at the path's ends",
                 ),
-                (Easing::Linear, "Linear", "On to the next key at one speed"),
-                (Easing::Hold, "Hold", "Stay until the next key, then cut"),
+                (Easing::Linear, "Linear", "Moves to the next key at constant speed"),
+                (Easing::Hold, "Hold", "Stays until the next key, then jumps"),
             ] {
                 let chosen = key.easing == easing;
                 let fill = if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED };
@@ -198,21 +198,21 @@ impl Strip<'_, '_> {
         label(ui, "Frame rate", FRAME_RATE.help);
         let mut rate = f64::from(self.path.frames_per_second);
         if short_number(ui, 40.0, &FRAME_RATE, &mut rate).on_hover_text(FRAME_RATE.help).changed() {
-            // The field keeps to whole numbers of the range.
+            // The field only accepts whole numbers in the range.
             self.path.frames_per_second = rate as u32;
         }
         ui.add_space(8.0);
     }
 
-    /// Which frames to save.
+    /// The range of frames to save.
     fn frames(&mut self, ui: &mut Ui) {
         let Some(last) = self.path.frame_count().checked_sub(1) else { return };
         let [mut first, mut end] = self.timeline.frames.unwrap_or([0, last]).map(|f| f.min(last));
-        label(ui, "Frames", "The frames that Save sequence renders, from the first to the last");
+        label(ui, "Frames", "The first and the last frame that Save sequence renders");
         let edges = [("First frame", &mut first), ("Last frame", &mut end)];
         for (name, frame) in edges {
             if name == "Last frame" {
-                label(ui, "to", "The last frame that is rendered");
+                label(ui, "to", "The last frame to render");
             }
             let param = Param { label: name, max: f64::from(last), ..FRAME };
             let mut value = f64::from(*frame);
@@ -226,7 +226,7 @@ impl Strip<'_, '_> {
         ui.add_space(8.0);
     }
 
-    /// The button that saves them; while something is saved, how far it is.
+    /// The button that saves the frames, or the progress of an export.
     fn save(&mut self, ui: &mut Ui) {
         if let Some(progress) = self.cx.inputs.export {
             ui.allocate_ui(vec2(ui.available_width().clamp(120.0, 320.0), 40.0), |ui| {
@@ -244,7 +244,7 @@ impl Strip<'_, '_> {
         let height_pt = ui.spacing().interact_size.y;
         let button = Button::new(text).fill(theme::ACCENT).min_size(vec2(0.0, height_pt));
         let response = ui.add(button).on_hover_text(format!(
-            "Renders {count} frames of {extent} as PNGs in one zip. Other sizes: More, Export."
+            "Renders {count} frames of {extent} as PNGs in one zip file. For other sizes, see More, Export."
         ));
         self.cx.rects.record("save sequence", &response);
         if response.clicked() {
@@ -257,7 +257,7 @@ impl Strip<'_, '_> {
     }
 }
 
-/// A number in a row of several, `width` points wide.
+/// A number field, `width` points wide.
 fn short_number(ui: &mut Ui, width: f32, param: &Param, value: &mut f64) -> Response {
     let size = vec2(width, ui.spacing().interact_size.y);
     ui.push_id(param.label, |ui| ui.allocate_ui(size, |ui| number(ui, param, value)).inner).inner

@@ -1,4 +1,4 @@
-//! How radiance becomes display values, and what lies behind the fractal.
+//! The tone panel: histogram, exposure, tone curve and background.
 
 use egui::Ui;
 
@@ -7,11 +7,11 @@ use crate::{
     scene::{Tone, ToneChannels, ToneCurve, ToneMean, param},
     ui::{
         theme,
-        widgets::{Window, choice, color, histogram, param_slider},
+        widgets::{DisplayRange, choice, color, histogram, param_slider},
     },
 };
 
-/// Exposure, the tone curve, the background's two colours.
+/// The histogram, exposure, the tone curve, and the background's two colours.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     histogram_of(ui, cx);
     let tone = &mut cx.scene.tone;
@@ -24,39 +24,39 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             color(
                 ui,
                 "Background bottom",
-                "The colour at the picture's lower edge",
+                "The background's colour at the lower edge",
                 &mut background.bottom,
             );
             color(
                 ui,
                 "Background top",
-                "The colour at the picture's upper edge",
+                "The background's colour at the upper edge",
                 &mut background.top,
             );
         });
     });
 }
 
-/// The display's darkest step but one, linear: what is below shows as black.
+/// Linear value of the 8-bit code 1; smaller values display as black.
 const BLACK: f64 = 1.0 / 255.0 / 12.92;
 
-/// The film's histogram, with the part that exposure and curve bring to the display.
+/// The film's histogram, with the range that the display can show.
 fn histogram_of(ui: &mut Ui, cx: &mut Context<'_>) {
     let tone = &cx.scene.tone;
-    let known = cx.inputs.report.histogram.as_ref();
-    let automatic = known.filter(|_| tone.auto_exposure).map_or(0.0, |known| known.adapted_stops);
-    let exposure = tone.exposure + f64::from(automatic);
+    let report = cx.inputs.report.histogram.as_ref();
+    let adapted = report.filter(|_| tone.auto_exposure).map_or(0.0, |report| report.adapted_stops);
+    let exposure = tone.exposure + f64::from(adapted);
     let stops = |exposed: f64| exposed.log2() - exposure;
-    let window = Window { black: stops(BLACK), grey: stops(0.18), white: stops(tone.white()) };
-    let drawn = histogram(ui, known, window);
-    *cx.histogram_shown |= ui.is_rect_visible(drawn.rect);
+    let range = DisplayRange { black: stops(BLACK), grey: stops(0.18), white: stops(tone.white()) };
+    let response = histogram(ui, report, range);
+    *cx.histogram_shown |= ui.is_rect_visible(response.rect);
     ui.add_space(4.0);
 }
 
-/// How bright the picture is before the curve.
+/// Auto exposure and its mean.
 fn exposure(ui: &mut Ui, tone: &mut Tone) {
     ui.checkbox(&mut tone.auto_exposure, "Auto exposure")
-        .on_hover_text("Brings the picture's mean to the key, then adds the exposure set below.");
+        .on_hover_text("Chooses the picture's brightness by itself. The exposure is added.");
     if tone.auto_exposure {
         choice(
             ui,
@@ -66,31 +66,27 @@ fn exposure(ui: &mut Ui, tone: &mut Tone) {
                 (
                     ToneMean::Logarithmic,
                     "Logarithmic",
-                    "The mean as the eye sees it: a few bright spots weigh little",
+                    "Small bright spots hardly change the brightness",
                 ),
-                (ToneMean::Arithmetic, "Arithmetic", "The luminance of the mean colour"),
+                (ToneMean::Arithmetic, "Arithmetic", "Small bright spots darken the picture"),
             ],
         );
         param_slider(ui, &param::KEY, &mut tone.key);
     }
 }
 
-/// The curve, and what Reinhard's takes.
+/// The tone curve, and the settings of Reinhard's curve.
 fn curve(ui: &mut Ui, tone: &mut Tone) {
     choice(
         ui,
         "Tone curve",
         &mut tone.curve,
         &[
-            (ToneCurve::Reinhard, "Reinhard", "Rolls highlights off smoothly"),
-            (ToneCurve::Aces, "ACES", "Film's contrast: dark shadows, bright colours go to white"),
-            (ToneCurve::Agx, "AgX", "Soft contrast over many stops; bright colours fade early"),
-            (
-                ToneCurve::KhronosNeutral,
-                "Neutral",
-                "Khronos PBR Neutral: colours stay as they are below the highlights",
-            ),
-            (ToneCurve::Linear, "Linear", "None: what is brighter than 1 is cut off"),
+            (ToneCurve::Reinhard, "Reinhard", "Compresses highlights smoothly"),
+            (ToneCurve::Aces, "ACES", "High contrast like film; bright colours become white"),
+            (ToneCurve::Agx, "AgX", "Low contrast; bright colours fade early"),
+            (ToneCurve::KhronosNeutral, "Neutral", "Khronos PBR Neutral: only highlights change"),
+            (ToneCurve::Linear, "Linear", "No curve: values above 1 become flat white"),
         ],
     );
     if tone.curve == ToneCurve::Reinhard {
@@ -100,7 +96,7 @@ fn curve(ui: &mut Ui, tone: &mut Tone) {
             &mut tone.channels,
             &[
                 (ToneChannels::Luminance, "Luminance", "Colours keep their saturation"),
-                (ToneChannels::PerChannel, "Each channel", "Bright colours go toward white"),
+                (ToneChannels::PerChannel, "Each channel", "Bright colours become white"),
             ],
         );
         param_slider(ui, &param::WHITE_POINT, &mut tone.white_point);

@@ -1,8 +1,8 @@
-//! A lit ball on which a light's direction is dragged.
+//! A lit ball that edits a light's direction by dragging.
 //!
-//! The direction is in the view's frame: +X right, +Y up, +Z toward the viewer. A filled dot is
-//! a light in front, a hollow one a light behind. Dragged past the rim, the light goes round to
-//! the other side.
+//! The direction is in the camera's frame: +X right, +Y up, +Z toward the viewer. A filled dot is a
+//! light in front of the fractal, a hollow dot a light behind it. A drag past the rim moves the
+//! light to the other side.
 
 use egui::{
     Color32, EventFilter, Key, Mesh, Pos2, Response, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
@@ -12,14 +12,16 @@ use glam::{DQuat, DVec2, DVec3};
 
 use crate::ui::theme;
 
-/// Rings of the drawn ball, and corners of each ring.
+/// Number of rings of the ball's mesh.
 const RINGS: usize = 14;
+/// Number of vertices per ring.
 const CORNERS: usize = 48;
-/// Radians that an arrow key turns the light; a tenth of it with Shift.
+/// Rotation per arrow key press, radians; with Shift a tenth.
 const KEY_TURN_RAD: f64 = 0.087_266_462_599_716_48;
 
-/// A ball `diameter` points wide, lit in `linear` colour from the unit vector `toward_light`,
-/// which is dragged on it or turned by the arrow keys.
+/// A ball, `diameter` points wide, that shows and edits the unit vector `toward_light`.
+///
+/// `linear` is the light's colour. A drag or the arrow keys change the direction.
 pub fn ball(
     ui: &mut Ui,
     name: &str,
@@ -41,23 +43,26 @@ pub fn ball(
         paint(ui, &response, rect.center(), radius, linear, *toward_light);
     }
     response.on_hover_text(
-        "Drag to move the light around the view; past the rim it goes behind (hollow dot). Arrow keys turn it by 5 degrees, with Shift by half a degree.",
+        "Drag to change where the light comes from. Past the rim, it comes from behind (hollow dot). Arrow keys turn it by 5 degrees, with Shift by half a degree.",
     )
 }
 
-/// The direction for a point of the ball, in radii from its centre with y up. `side` is 1 where
-/// the drag began in front and −1 where it began behind; beyond the rim it is the other one.
-pub fn direction_at(point: DVec2, side: f64) -> DVec3 {
+/// The direction for a point of the ball, in radii from the centre with y up.
+///
+/// `side` is 1 if the drag began in front, −1 if behind. Beyond the rim, the side is reversed.
+pub fn direction_from_point(point: DVec2, side: f64) -> DVec3 {
     let r = point.length();
     let (r_on_ball, side) = if r <= 1.0 { (r, side) } else { ((2.0 - r).max(0.0), -side) };
     let flat = point.normalize_or_zero() * r_on_ball;
     flat.extend(side * (1.0 - r_on_ball * r_on_ball).max(0.0).sqrt()).normalize()
 }
 
-/// A drag: how far the pointer is from the dot, in radii, and the side that it began on.
+/// The state of a drag.
 #[derive(Clone, Copy)]
 struct Grab {
+    /// The dot's position relative to the pointer, in radii.
     offset: DVec2,
+    /// 1 if the drag began in front, −1 if behind.
     side: f64,
 }
 
@@ -79,7 +84,7 @@ fn drag(ui: &Ui, response: &Response, center: Pos2, radius: f32, toward_light: &
             side: if on_dot && toward_light.z < 0.0 { -1.0 } else { 1.0 },
         };
         ui.data_mut(|data| data.insert_temp(id, grab));
-        // A press on the dot alone must not move it.
+        // A press on the dot without a movement must not change the direction.
         if on_dot {
             return;
         }
@@ -88,7 +93,7 @@ fn drag(ui: &Ui, response: &Response, center: Pos2, radius: f32, toward_light: &
     if let Some(grab) = ui.data(|data| data.get_temp::<Grab>(id))
         && moved
     {
-        *toward_light = direction_at(at + grab.offset, grab.side);
+        *toward_light = direction_from_point(at + grab.offset, grab.side);
     }
 }
 
@@ -125,7 +130,7 @@ fn paint(
     let painter = ui.painter();
     let mut mesh = Mesh::default();
     let vertex = |mesh: &mut Mesh, ring: usize, corner: usize| {
-        // Rings lie closer together near the rim, where the shading turns fastest.
+        // Rings are closer together near the rim, where the shading changes fastest.
         let r = (std::f64::consts::FRAC_PI_2 * ring as f64 / RINGS as f64).sin();
         let angle = std::f64::consts::TAU * corner as f64 / CORNERS as f64;
         let (x, y) = (r * angle.cos(), r * angle.sin());
@@ -174,7 +179,7 @@ fn paint(
     }
 }
 
-/// What the ball's surface shows where it faces `normal`: a soft preview, not the renderer's.
+/// The ball's colour at `normal`: a simple preview, not the renderer's shading.
 fn shade(normal: DVec3, toward_light: DVec3, linear: [f32; 3]) -> Color32 {
     let diffuse = normal.dot(toward_light).max(0.0);
     let half = (toward_light + DVec3::Z).normalize_or_zero();
@@ -191,22 +196,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rim_joins_front_and_back() {
+    fn the_direction_is_continuous_across_the_rim() {
         for angle in [0.0, 1.0, 2.5, 4.0] {
             let out = DVec2::from_angle(angle);
-            let inside = direction_at(out * (1.0 - 1e-9), 1.0);
-            let outside = direction_at(out * (1.0 + 1e-9), 1.0);
+            let inside = direction_from_point(out * (1.0 - 1e-9), 1.0);
+            let outside = direction_from_point(out * (1.0 + 1e-9), 1.0);
             assert!((inside - outside).length() < 1e-3, "a jump at the rim: {inside} {outside}");
             assert!(inside.z > 0.0 && outside.z < 0.0);
         }
     }
 
     #[test]
-    fn every_point_gives_a_unit_vector_over_itself() {
+    fn every_point_gives_the_unit_vector_above_the_point() {
         for i in 0..200 {
             let point = DVec2::from_angle(f64::from(i)) * (f64::from(i) * 0.02);
             for side in [1.0, -1.0] {
-                let direction = direction_at(point, side);
+                let direction = direction_from_point(point, side);
                 assert!((direction.length() - 1.0).abs() < 1e-12);
                 if point.length() <= 1.0 {
                     assert!(

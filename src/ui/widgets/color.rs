@@ -1,8 +1,8 @@
-//! A colour as a button that opens a picker: saturation and brightness in a square, hue on a bar,
-//! and the value to type.
+//! A colour button that opens a picker: a square of saturation and brightness, a hue bar, and a
+//! text field.
 //!
-//! Colours are linear Rec. 709; the picker works in hue, saturation and value of the sRGB
-//! encoding, which is how the square looks even.
+//! Colours are linear Rec. 709. The picker uses hue, saturation and value of the sRGB encoding,
+//! because the square is perceptually more uniform in this encoding.
 
 use egui::{
     Color32, EventFilter, Key, Mesh, Popup, PopupCloseBehavior, Rect, Response, Sense, Shape,
@@ -16,9 +16,9 @@ use crate::{
 
 /// Width of the picker, in points.
 const WIDTH: f32 = 232.0;
-/// Cells of the drawn square and bar, along a side.
+/// Number of mesh cells along a side of the square and the bar.
 const CELLS: usize = 24;
-/// Part of its range that an arrow key moves a value.
+/// Change of a value per arrow key press, as a fraction of its range.
 const KEY_STEP: f32 = 0.02;
 
 /// Hue, saturation and value of an sRGB-encoded colour, each 0 to 1.
@@ -29,8 +29,9 @@ struct Hsv {
     v: f32,
 }
 
-/// A button in the colour (linear Rec. 709), which opens a picker. `name` is for those who
-/// cannot see it, `hover` for those who point at it.
+/// A button in the colour `linear` (Rec. 709) that opens a picker.
+///
+/// `name` is the accessible name, `hover` the hover text.
 pub fn color(ui: &mut Ui, name: &str, hover: &str, linear: &mut [f32; 3]) -> Response {
     let size = vec2(ui.spacing().interact_size.x.max(32.0), ui.spacing().interact_size.y);
     let (rect, mut response) = ui.allocate_exact_size(size, Sense::click());
@@ -48,7 +49,7 @@ fn paint_button(ui: &Ui, rect: Rect, response: &Response, linear: [f32; 3]) {
     if !ui.is_rect_visible(rect) {
         return;
     }
-    // The outline keeps a dark colour from vanishing into the panel.
+    // The outline makes a dark colour visible on the panel.
     let lit = response.hovered() || response.has_focus();
     let outline = if lit { theme::ACCENT } else { theme::RAISED_HOVER };
     let painter = ui.painter();
@@ -56,13 +57,13 @@ fn paint_button(ui: &Ui, rect: Rect, response: &Response, linear: [f32; 3]) {
     painter.rect_stroke(rect, theme::RADIUS, Stroke::new(1.0, outline), StrokeKind::Inside);
 }
 
-/// The picker's parts; true where the colour changed.
+/// The picker's content; true if the colour changed.
 fn picker(ui: &mut Ui, id: egui::Id, linear: &mut [f32; 3]) -> bool {
     ui.set_width(WIDTH);
-    // A grey has no hue of its own: the one that was last chosen is kept beside it.
+    // A grey has no hue, so the last hue is stored with the colour.
     let memory = id.with("hsv");
-    let known = ui.data(|data| data.get_temp::<([f32; 3], Hsv)>(memory));
-    let mut hsv = match known {
+    let stored = ui.data(|data| data.get_temp::<([f32; 3], Hsv)>(memory));
+    let mut hsv = match stored {
         Some((color, hsv)) if color == *linear => hsv,
         _ => hsv_from_linear(*linear),
     };
@@ -79,7 +80,7 @@ fn picker(ui: &mut Ui, id: egui::Id, linear: &mut [f32; 3]) -> bool {
     changed
 }
 
-/// Saturation to the right, brightness upward.
+/// The square: saturation to the right, brightness upward.
 fn square(ui: &mut Ui, hsv: &mut Hsv) {
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, 140.0), Sense::click_and_drag());
     let name = "Saturation and brightness";
@@ -87,7 +88,7 @@ fn square(ui: &mut Ui, hsv: &mut Hsv) {
     let [right, up] = steps(ui, &response, true);
     hsv.s = (hsv.s + right).clamp(0.0, 1.0);
     hsv.v = (hsv.v + up).clamp(0.0, 1.0);
-    if let Some(part) = held_part(&response, rect) {
+    if let Some(part) = pressed_position(&response, rect) {
         (hsv.s, hsv.v) = (part.x, 1.0 - part.y);
     }
     let hue = hsv.h;
@@ -96,7 +97,7 @@ fn square(ui: &mut Ui, hsv: &mut Hsv) {
     ui.painter().circle(at, 6.0, encoded_color(*hsv), Stroke::new(2.0, Color32::WHITE));
     ui.painter().circle_stroke(at, 7.5, Stroke::new(1.0, Color32::from_black_alpha(160)));
     focus_ring(ui, rect, &response);
-    response.on_hover_text("Drag: more saturated to the right, brighter upward.");
+    response.on_hover_text("Drag right for a stronger colour, upward for a brighter one.");
 }
 
 fn hue_bar(ui: &mut Ui, hsv: &mut Hsv) {
@@ -105,7 +106,7 @@ fn hue_bar(ui: &mut Ui, hsv: &mut Hsv) {
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, ui.is_enabled(), "Hue"));
     let [right, _] = steps(ui, &response, false);
     hsv.h = (hsv.h + right).clamp(0.0, 1.0);
-    if let Some(part) = held_part(&response, rect) {
+    if let Some(part) = pressed_position(&response, rect) {
         hsv.h = part.x;
     }
     ui.painter().add(grid(rect, CELLS, |x, _| encoded_color(Hsv { h: x, s: 1.0, v: 1.0 })));
@@ -117,7 +118,7 @@ fn hue_bar(ui: &mut Ui, hsv: &mut Hsv) {
     response.on_hover_text("Drag to choose the hue.");
 }
 
-/// The colour as `#rrggbb`; true where another one was typed.
+/// The text field of the colour as `#rrggbb`; true if a new colour was typed.
 fn hex_field(ui: &mut Ui, id: egui::Id, linear: &mut [f32; 3]) -> bool {
     let shown = hex_text(*linear);
     let draft = id.with("hex");
@@ -143,13 +144,13 @@ fn hex_field(ui: &mut Ui, id: egui::Id, linear: &mut [f32; 3]) -> bool {
     typed.is_some()
 }
 
-/// Where in `rect` the pointer holds, 0 to 1 each way; none while it doesn't.
-fn held_part(response: &Response, rect: Rect) -> Option<Vec2> {
+/// The pressed pointer's position in `rect`, 0 to 1 in x and y; none if not pressed.
+fn pressed_position(response: &Response, rect: Rect) -> Option<Vec2> {
     let at = response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on())?;
     Some(((at - rect.min) / rect.size()).clamp(Vec2::ZERO, Vec2::splat(1.0)))
 }
 
-/// What the arrow keys ask for while `response` has the focus: right and up.
+/// The steps of the arrow keys, right and up, while `response` is focused.
 fn steps(ui: &Ui, response: &Response, vertical: bool) -> [f32; 2] {
     if !response.has_focus() {
         return [0.0; 2];
@@ -171,7 +172,7 @@ fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     }
 }
 
-/// A rectangle in the colours of `color`, a function of the place in it, 0 to 1 each way.
+/// A rectangle with the colours `color(x, y)`, with x and y from 0 to 1.
 fn grid(rect: Rect, cells: usize, color: impl Fn(f32, f32) -> Color32) -> Shape {
     let mut mesh = Mesh::default();
     let side = cells + 1;
@@ -195,7 +196,7 @@ fn encoded_color(hsv: Hsv) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// The sRGB-encoded channels.
+/// The sRGB-encoded channels of an HSV colour.
 fn encoded_from_hsv(Hsv { h, s, v }: Hsv) -> [f32; 3] {
     let channel = |offset: f32| {
         let k = (offset + h * 6.0).rem_euclid(6.0);
@@ -229,7 +230,7 @@ fn hex_text(linear: [f32; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// The colour of a text such as `#e8a13c`, with or without its sign; none where it is no colour.
+/// The colour of a text such as `#e8a13c` or `e8a13c`; none for other texts.
 fn linear_from_hex(text: &str) -> Option<[f32; 3]> {
     let digits = text.trim().trim_start_matches('#');
     let plain = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
@@ -242,7 +243,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hues_are_where_they_belong() {
+    fn hues_give_the_primary_colours() {
         let hue = |h| encoded_from_hsv(Hsv { h, s: 1.0, v: 1.0 }).map(|v| (v * 255.0).round());
         assert_eq!(hue(0.0), [255.0, 0.0, 0.0]);
         assert_eq!(hue(1.0 / 3.0), [0.0, 255.0, 0.0]);
@@ -251,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_survive_the_picker() {
+    fn colours_round_trip_through_hsv() {
         for i in 0..216u32 {
             let linear = [i % 6, i / 6 % 6, i / 36].map(|v| v as f32 / 5.0);
             let back = linear_from_hsv(hsv_from_linear(linear));
@@ -262,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn typed_colours_are_read_and_nonsense_is_not() {
+    fn typed_colours_are_parsed_and_other_texts_rejected() {
         assert_eq!(linear_from_hex("#ffffff"), Some([1.0; 3]));
         assert_eq!(hex_text(linear_from_hex("e8A13c").expect("a colour")), "#e8a13c");
         for text in ["", "#", "#fff", "#gggggg", "+12345", "#1234567", "ééé"] {

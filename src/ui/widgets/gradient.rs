@@ -1,4 +1,4 @@
-//! The gradient editor: a bar of the colours, and a handle for each stop.
+//! The gradient editor: a bar of colours, and a handle for each stop.
 
 use egui::{
     Color32, Key, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
@@ -10,14 +10,17 @@ use crate::{
     ui::theme,
 };
 
-/// Height of the colours and of the handles below, in points.
+/// Height of the bar, in points.
 const BAR_HEIGHT: f32 = 26.0;
+/// Height of the handles below the bar, in points.
 const HANDLE_HEIGHT: f32 = 18.0;
-/// Colours drawn along the bar.
+/// Number of colour samples along the bar.
 const SAMPLES: usize = 96;
 
-/// The gradient with its stops' handles. A click on the bar adds a stop, a drag moves one
-/// between its neighbours; `selected` is the stop under edit. The response is the bar's.
+/// Shows the gradient with its stops' handles, and returns the bar's response.
+///
+/// A click on the bar adds a stop; a drag of a handle moves a stop between its neighbours.
+/// `selected` is the index of the selected stop.
 pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize) -> Response {
     let size = vec2(ui.available_width(), BAR_HEIGHT + HANDLE_HEIGHT);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -40,14 +43,14 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
     }
     let full = stops.len() >= MAX_GRADIENT_STOPS;
     let hover = if full {
-        "The gradient holds no more stops."
+        "The gradient is full. Remove a stop before you add another."
     } else {
         "Click to add a stop. Drag the handles below to move stops."
     };
     response.on_hover_text(hover)
 }
 
-/// Adds a stop at `position` in the colour that is there; none where the gradient is full.
+/// Adds a stop at `position` with the gradient's colour there; none if the gradient is full.
 pub fn add_stop(stops: &mut Vec<GradientStop>, position: f64) -> Option<usize> {
     if stops.len() >= MAX_GRADIENT_STOPS || !position.is_finite() {
         return None;
@@ -59,7 +62,7 @@ pub fn add_stop(stops: &mut Vec<GradientStop>, position: f64) -> Option<usize> {
     Some(index)
 }
 
-/// Moves a stop as far as its neighbours let it.
+/// Moves a stop to `position`, clamped to its neighbours' positions.
 pub fn move_stop(stops: &mut [GradientStop], index: usize, position: f64) {
     if index >= stops.len() || !position.is_finite() {
         return;
@@ -112,7 +115,7 @@ fn handle(
         }
     }
     paint_handle(ui, tip, stops[index].color, *selected == index, response.hovered());
-    response.on_hover_text("Drag to move this stop; its colour and place are edited below.");
+    response.on_hover_text("Drag to move this stop. Edit its colour and position below.");
     stops[index].position != before
 }
 
@@ -140,7 +143,7 @@ fn paint_bar(ui: &Ui, bar: Rect, stops: &[GradientStop]) {
     let mut mesh = Mesh::default();
     for i in 0..=SAMPLES {
         let t = i as f32 / SAMPLES as f32;
-        // The gradient closes on itself: its very end is drawn just short of 1.
+        // The gradient wraps at 1, so the last sample is just below 1.
         let color = theme::display_color(gradient_at(stops, f64::from(t.min(0.9999))));
         let x = lerp(bar.x_range(), t);
         mesh.colored_vertex(pos2(x, bar.top()), color);
@@ -171,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_stop_goes_between_its_neighbours_and_changes_no_colour() {
+    fn a_new_stop_is_sorted_and_keeps_the_colours() {
         let mut gradient = stops(&[0.0, 0.5, 1.0]);
         let before = gradient_at(&gradient, 0.25);
         assert_eq!(add_stop(&mut gradient, 0.25), Some(1));
@@ -180,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_full_gradient_takes_no_more() {
+    fn a_full_gradient_rejects_new_stops() {
         let mut gradient = stops(&[0.5; MAX_GRADIENT_STOPS]);
         assert_eq!(add_stop(&mut gradient, 0.7), None);
         assert_eq!(gradient.len(), MAX_GRADIENT_STOPS);

@@ -1,6 +1,4 @@
-//! The film's histogram, and the part of it that the display can show.
-//!
-//! In: counts by luminance and the window of exposure. Out: drawing alone.
+//! The film's luminance histogram, with the range that the display can show.
 
 use egui::{Color32, Rect, Response, Sense, Stroke, Ui, WidgetInfo, accesskit::Role, pos2, vec2};
 
@@ -12,25 +10,26 @@ use crate::{
 /// Height of the drawing, in points.
 const HEIGHT: f32 = 64.0;
 
-/// What exposure and the tone curve make of the film's luminances, each as its log2.
+/// The film luminances, as log2, that exposure and tone curve map to black, grey and white.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
-    /// What the display shows as black.
+pub struct DisplayRange {
+    /// Luminance that displays as black.
     pub black: f64,
-    /// What becomes middle grey, 0.18, before the curve.
+    /// Luminance that becomes middle grey, 0.18, before the curve.
     pub grey: f64,
-    /// What becomes white.
+    /// Luminance that displays as white.
     pub white: f64,
 }
 
-/// Draws the histogram over the full width: dark at the left, bright at the right. What lies
-/// outside of the window is dimmed, and a line stands at middle grey.
-pub fn histogram(ui: &mut Ui, histogram: Option<&Histogram>, window: Window) -> Response {
+/// Draws the histogram over the full width, from dark on the left to bright on the right.
+///
+/// Bars outside `range` are dimmed; a line marks middle grey.
+pub fn histogram(ui: &mut Ui, histogram: Option<&Histogram>, range: DisplayRange) -> Response {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Histogram"));
     if ui.is_rect_visible(rect) {
-        paint(ui, rect, histogram, window);
+        paint(ui, rect, histogram, range);
     }
     let text = match (histogram, response.hover_pos()) {
         (Some(histogram), Some(pointer)) => {
@@ -40,11 +39,11 @@ pub fn histogram(ui: &mut Ui, histogram: Option<&Histogram>, window: Window) -> 
         _ => String::new(),
     };
     response.on_hover_text(format!(
-        "The picture's pixels by luminance, dark to bright, one notch a stop. The lighter part is what the display can show; the line is middle grey.{text}"
+        "How many pixels are dark (left) or bright (right). Each tick doubles the light. The lighter area is the range that the screen can show; the line is middle grey.{text}"
     ))
 }
 
-/// How much of the picture lies in a bin.
+/// The luminance of a bin, and its share of the picture, as text.
 fn describe(histogram: &Histogram, bin: usize) -> String {
     let total: f64 = histogram.bins.iter().map(|&count| f64::from(count)).sum();
     let part = 100.0 * f64::from(histogram.bins.get(bin).copied().unwrap_or(0)) / total.max(1.0);
@@ -52,16 +51,16 @@ fn describe(histogram: &Histogram, bin: usize) -> String {
     format!("\nLuminance {:.2e}: {part:.1} % of the picture", stops.exp2())
 }
 
-/// How tall each bin's bar is, 0 to 1. The root of the count shows rare pixels too; the first and
-/// the last bin hold what lies beyond them, and set no scale.
+/// Heights of the bars, 0 to 1: the square root of the counts, so that rare pixels are visible.
+///
+/// The first and the last bin also count all values beyond, so they do not affect the scale.
 fn heights(bins: &[u32]) -> Vec<f32> {
     let inner = bins.get(1..bins.len().saturating_sub(1)).unwrap_or_default();
-    let most = inner.iter().copied().max().unwrap_or(0).max(1) as f32;
-    bins.iter().map(|&count| (count as f32 / most).sqrt().min(1.0)).collect()
+    let max = inner.iter().copied().max().unwrap_or(0).max(1) as f32;
+    bins.iter().map(|&count| (count as f32 / max).sqrt().min(1.0)).collect()
 }
 
-/// Where a log2 of luminance lies between the first bin's left edge, 0, and the last one's right
-/// edge, 1.
+/// Position of a log2 luminance: 0 at the first bin's left edge, 1 at the last bin's right edge.
 fn fraction(stops: f64) -> f64 {
     let span = HISTOGRAM_BINS as f64 / HISTOGRAM_BINS_PER_STOP;
     ((stops - HISTOGRAM_LOW_STOPS) / span).clamp(0.0, 1.0)
@@ -71,10 +70,10 @@ fn fraction_at(rect: Rect, x: f32) -> f64 {
     f64::from((x - rect.left()) / rect.width().max(1.0)).clamp(0.0, 1.0)
 }
 
-fn paint(ui: &Ui, rect: Rect, histogram: Option<&Histogram>, window: Window) {
+fn paint(ui: &Ui, rect: Rect, histogram: Option<&Histogram>, range: DisplayRange) {
     let painter = ui.painter().with_clip_rect(rect);
     let x = |stops: f64| rect.left() + rect.width() * fraction(stops) as f32;
-    let shown = Rect::from_x_y_ranges(x(window.black)..=x(window.white), rect.y_range());
+    let shown = Rect::from_x_y_ranges(x(range.black)..=x(range.white), rect.y_range());
     painter.rect_filled(rect, theme::RADIUS, theme::BACKGROUND);
     painter.rect_filled(shown, 0.0, theme::RAISED);
     if let Some(histogram) = histogram {
@@ -93,10 +92,10 @@ fn paint(ui: &Ui, rect: Rect, histogram: Option<&Histogram>, window: Window) {
         let notch = rect.bottom() - if stop % 5 == 0 { 5.0 } else { 2.5 };
         painter.vline(at, notch..=rect.bottom(), Stroke::new(1.0, theme::LINE));
     }
-    painter.vline(x(window.grey), rect.y_range(), Stroke::new(1.5, theme::ACCENT));
+    painter.vline(x(range.grey), rect.y_range(), Stroke::new(1.5, theme::ACCENT));
 }
 
-/// One bar from the lower edge; neighbours join without a seam.
+/// Draws one bar from the lower edge; adjacent bars touch.
 fn bar(painter: &egui::Painter, rect: Rect, bin: usize, height: f32, color: Color32) {
     let x = |bin: usize| rect.left() + rect.width() * bin as f32 / HISTOGRAM_BINS as f32;
     if height > 0.0 {
@@ -111,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bins_outside_set_no_scale() {
+    fn the_outer_bins_do_not_affect_the_scale() {
         let mut bins = [0; HISTOGRAM_BINS];
         (bins[0], bins[40], bins[41]) = (1_000_000, 100, 25);
         let heights = heights(&bins);
@@ -120,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn middle_grey_lies_in_its_bin() {
+    fn middle_grey_is_in_its_bin() {
         let bin = (fraction(0.18_f64.log2()) * HISTOGRAM_BINS as f64) as usize;
         // Eleven and a half stops above the first bin's start.
         assert_eq!(bin, 57);

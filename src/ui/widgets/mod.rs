@@ -1,4 +1,4 @@
-//! Widgets that egui lacks: each takes a plain value and returns a `Response`.
+//! Widgets that egui does not have. Each takes a plain value and returns a `Response`.
 
 mod ball;
 mod color;
@@ -11,6 +11,6 @@ mod section;
 pub use ball::ball;
 pub use color::color;
 pub use gradient::{gradient, move_stop};
-pub use histogram::{Window, histogram};
+pub use histogram::{DisplayRange, histogram};
 pub use param::{number, param_slider, param_slider_count};
 pub use section::{caption, choice, section};

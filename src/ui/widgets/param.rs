@@ -1,7 +1,7 @@
-//! One row for any number of the parameter table: its name, a slider, and the value to type.
+//! A row for a parameter of the table: name, slider and number field.
 //!
-//! In: a [`Param`] and the value. Out: the value, always accepted by the param where it was
-//! before, and a `Response` that says whether it changed.
+//! In: a [`Param`] and a value. Out: the edited value, which the parameter accepts, and a
+//! `Response`.
 
 use egui::{
     Button, DragValue, EventFilter, Key, NumExt as _, Rect, Response, Sense, TextEdit, Ui, Vec2,
@@ -10,21 +10,25 @@ use egui::{
     vec2,
 };
 
-use super::scale::{at_fraction, format_value, fraction, is_logarithmic, tidy, tidy_typed};
+use super::scale::{
+    at_fraction, clamp_typed, format_value, fraction, is_logarithmic, round_dragged,
+};
 use crate::{
     scene::param::{Param, Scale, Unit},
     ui::theme,
 };
 
-/// Width of the value at a row's right end, in points.
+/// Width of the number field at a row's right end, in points.
 const VALUE_WIDTH: f32 = 64.0;
 /// Radius of a slider's handle, in points.
 const HANDLE_RADIUS: f32 = 7.0;
-/// Part of the rail that one arrow key moves a logarithmic value.
+/// Step of an arrow key for a logarithmic value, as a fraction of the rail.
 const LOG_KEY_FRACTION: f64 = 0.01;
 
-/// A row with the param's name, a slider over its range, and its value. A double click on the
-/// slider or the name resets it; arrow keys step it while it has the focus.
+/// A row with the parameter's name, a slider, and a number field.
+///
+/// A double click on the slider or the name resets the value; arrow keys step the value while
+/// the slider is focused.
 pub fn param_slider(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     let before = *value;
     let height = ui.spacing().interact_size.y;
@@ -57,16 +61,16 @@ pub fn param_slider(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     response
 }
 
-/// [`param_slider`] for a whole number.
+/// A row as [`param_slider`], for a whole number.
 pub fn param_slider_count(ui: &mut Ui, param: &Param, value: &mut u32) -> Response {
     let mut float = f64::from(*value);
     let response = param_slider(ui, param, &mut float);
-    // The tidied value is whole and within the param's range, which fits a u32.
+    // The value is whole and within the parameter's range, which fits a u32.
     *value = float as u32;
     response
 }
 
-/// The value as a button that turns into a text field; what is typed is clamped to the range.
+/// The value as a button that becomes a text field. A typed value is clamped to the range.
 pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     let id = ui.next_auto_id();
     let size =
@@ -83,13 +87,13 @@ pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
             .min_size(size);
         let mut response = ui.add(field).accessible_name(name);
         if typed != *value && typed.is_finite() {
-            *value = tidy_typed(param, typed);
+            *value = clamp_typed(param, typed);
             response.mark_changed();
         }
         return response;
     }
     let shown = format!("{}{}", format_value(param, *value), param.unit.suffix());
-    // Added directly, so that the field that takes the button's place has the same id.
+    // The button must be the next widget, so that the field that replaces it has the same id.
     let text = egui::RichText::new(shown).color(theme::TEXT);
     let button = Button::new("").right_text(text).frame_when_inactive(false);
     let response = ui.add(button.min_size(size).truncate());
@@ -104,7 +108,7 @@ pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     response.accessible_name(name)
 }
 
-/// What the parameter does, its unit, range and default, for a hover text.
+/// The parameter's hover text: help, unit, range and default.
 pub fn hover_text(param: &Param) -> String {
     let unit = match param.unit {
         Unit::None => String::new(),
@@ -138,7 +142,7 @@ fn rail_ui(ui: &mut Ui, rect: Rect, param: &Param, value: &mut f64) -> Response 
     let travel = rect.shrink2(vec2(HANDLE_RADIUS + 1.0, 0.0)).x_range();
     let handle_x = |value: f64| lerp(travel.min..=travel.max, fraction(param, value) as f32);
 
-    // Under a finger only the handle drags, so that the panel can be scrolled across its rails.
+    // On touch screens only the handle drags, so that a finger can scroll the panel on a rail.
     let touch = ui.input(|i| i.has_touch_screen());
     let id = ui.scope_id().with("rail");
     let sense = if touch { Sense::click() } else { Sense::click_and_drag() };
@@ -167,7 +171,7 @@ fn rail_ui(ui: &mut Ui, rect: Rect, param: &Param, value: &mut f64) -> Response 
     rail
 }
 
-/// Moves the value with the pointer; a handle that was grabbed off its centre does not jump.
+/// Moves the value with the pointer. A handle grabbed beside its centre does not jump.
 fn follow_pointer(
     ui: &Ui,
     rail: &Response,
@@ -190,7 +194,7 @@ fn follow_pointer(
         return;
     }
     let position = f64::from((pointer.x + offset - travel.min) / travel.span().at_least(1.0));
-    *value = tidy(param, at_fraction(param, position.clamp(0.0, 1.0)));
+    *value = round_dragged(param, at_fraction(param, position.clamp(0.0, 1.0)));
 }
 
 fn keyboard(ui: &Ui, rail: &Response, param: &Param, value: &mut f64) {
@@ -208,13 +212,13 @@ fn keyboard(ui: &Ui, rail: &Response, param: &Param, value: &mut f64) {
     }
     ui.input(|i| {
         use accesskit::{Action, ActionData};
-        let asked = |action| i.num_accesskit_action_requests(rail.id, action) as f64;
-        steps += asked(Action::Increment) - asked(Action::Decrement);
+        let requests = |action| i.num_accesskit_action_requests(rail.id, action) as f64;
+        steps += requests(Action::Increment) - requests(Action::Decrement);
         for request in i.accesskit_action_requests(rail.id, Action::SetValue) {
             if let Some(ActionData::NumericValue(new)) = request.data
                 && new.is_finite()
             {
-                *value = tidy(param, new);
+                *value = round_dragged(param, new);
             }
         }
     });
@@ -224,7 +228,7 @@ fn keyboard(ui: &Ui, rail: &Response, param: &Param, value: &mut f64) {
         } else {
             *value + steps * param.step
         };
-        *value = tidy(param, moved);
+        *value = round_dragged(param, moved);
     }
 }
 

@@ -1,13 +1,13 @@
-//! How a parameter's range lies along a slider's rail, and how its values are rounded and written.
+//! Mapping of a parameter's range to a slider's rail, rounding and formatting of values.
 //!
-//! In: a [`Param`] and numbers. Out: numbers and text. Knows no egui.
+//! In: a [`Param`] and numbers. Out: numbers and text. This module does not depend on egui.
 
 use crate::scene::param::{Param, Scale};
 
-/// Values of a logarithmic range below this are written with an exponent.
+/// Limit below which values of a logarithmic range are formatted with an exponent.
 const TINY: f64 = 1e-5;
 
-/// Whether equal lengths of the rail are equal ratios.
+/// True if equal lengths of the rail are equal ratios.
 pub fn is_logarithmic(param: &Param) -> bool {
     match param.scale {
         Scale::Linear => false,
@@ -16,8 +16,9 @@ pub fn is_logarithmic(param: &Param) -> bool {
     }
 }
 
-/// Where `value` lies along the rail, 0 to 1. A logarithmic range that starts at zero is linear
-/// below its step.
+/// Position of `value` on the rail, 0 to 1.
+///
+/// A logarithmic range that starts at 0 is approximately linear below its step.
 pub fn fraction(param: &Param, value: f64) -> f64 {
     let value = value.clamp(param.min, param.max);
     let fraction = if !is_logarithmic(param) {
@@ -30,7 +31,7 @@ pub fn fraction(param: &Param, value: f64) -> f64 {
     fraction.clamp(0.0, 1.0)
 }
 
-/// The value at a fraction of the rail: the inverse of [`fraction`].
+/// The value at a position of the rail: the inverse of [`fraction`].
 pub fn at_fraction(param: &Param, fraction: f64) -> f64 {
     if !is_logarithmic(param) {
         param.min + fraction * (param.max - param.min)
@@ -41,9 +42,10 @@ pub fn at_fraction(param: &Param, fraction: f64) -> f64 {
     }
 }
 
-/// `value` within the range, at the precision that a hand on a slider means: a multiple of the
-/// step, or three significant digits where the range is logarithmic.
-pub fn tidy(param: &Param, value: f64) -> f64 {
+/// `value` clamped to the range and rounded to the precision of a drag.
+///
+/// Linear ranges round to a multiple of the step, logarithmic ranges to three significant digits.
+pub fn round_dragged(param: &Param, value: f64) -> f64 {
     let rounded = match param.scale {
         Scale::Integer => value.round(),
         Scale::Linear => {
@@ -54,13 +56,13 @@ pub fn tidy(param: &Param, value: f64) -> f64 {
     rounded.clamp(param.min, param.max)
 }
 
-/// A typed value within the range; only whole numbers are rounded.
-pub fn tidy_typed(param: &Param, value: f64) -> f64 {
+/// A typed value, clamped to the range; only integer ranges are rounded.
+pub fn clamp_typed(param: &Param, value: f64) -> f64 {
     let value = if param.scale == Scale::Integer { value.round() } else { value };
     value.clamp(param.min, param.max)
 }
 
-/// The value as a row shows it, without its unit.
+/// The value as text, without its unit.
 pub fn format_value(param: &Param, value: f64) -> String {
     if param.scale == Scale::Logarithmic && value != 0.0 && value.abs() < TINY {
         return format!("{value:.2e}");
@@ -77,7 +79,7 @@ pub fn format_value(param: &Param, value: f64) -> String {
     text
 }
 
-/// Decimal places of a step such as 0.05.
+/// Number of decimal places of a step such as 0.05.
 fn decimals(step: f64) -> usize {
     (0..6)
         .find(|&places| {
@@ -86,12 +88,12 @@ fn decimals(step: f64) -> usize {
         .unwrap_or(6) as usize
 }
 
-/// Decimal places, four at most, that tell `value` from its neighbours as typed.
+/// Number of decimal places of `value`, at most four.
 fn needed_decimals(value: f64) -> usize {
     decimals(value).min(4)
 }
 
-/// Decimal places that leave three significant digits.
+/// Number of decimal places for three significant digits.
 fn significant_decimals(value: f64) -> usize {
     if value == 0.0 || !value.is_finite() {
         return 0;
@@ -110,7 +112,7 @@ mod tests {
     use crate::scene::param;
 
     #[test]
-    fn the_rail_runs_from_end_to_end_and_back() {
+    fn rail_positions_and_values_are_inverse_and_increasing() {
         for param in param::ALL {
             assert_eq!(fraction(param, param.min), 0.0, "{}", param.path);
             assert_eq!(fraction(param, param.max), 1.0, "{}", param.path);
@@ -118,7 +120,7 @@ mod tests {
             for i in 0..=100 {
                 let f = f64::from(i) / 100.0;
                 let value = at_fraction(param, f);
-                assert!(value > last, "{}: the rail runs one way", param.path);
+                assert!(value > last, "{}: values increase along the rail", param.path);
                 assert!((fraction(param, value) - f).abs() < 1e-9, "{}", param.path);
                 last = value;
             }
@@ -126,14 +128,15 @@ mod tests {
     }
 
     #[test]
-    fn tidied_values_are_accepted() {
+    fn rounded_values_are_accepted() {
         for param in param::ALL {
             for i in 0..=1000 {
-                let value = tidy(param, at_fraction(param, f64::from(i) / 1000.0));
+                let value = round_dragged(param, at_fraction(param, f64::from(i) / 1000.0));
                 assert!(param.accepts(value), "{}: {value}", param.path);
             }
             assert!(
-                param.accepts(tidy(param, 1e300)) && param.accepts(tidy(param, -1e300)),
+                param.accepts(round_dragged(param, 1e300))
+                    && param.accepts(round_dragged(param, -1e300)),
                 "{}",
                 param.path
             );
@@ -143,18 +146,18 @@ mod tests {
     #[test]
     fn defaults_can_be_reached_by_dragging() {
         for param in param::ALL {
-            assert_eq!(tidy(param, param.default), param.default, "{}", param.path);
+            assert_eq!(round_dragged(param, param.default), param.default, "{}", param.path);
         }
     }
 
     #[test]
-    fn small_intensities_get_their_share_of_the_rail() {
+    fn the_intensity_one_is_near_the_middle_of_the_rail() {
         let one = fraction(&param::ENVIRONMENT_INTENSITY, 1.0);
-        assert!((0.25..0.6).contains(&one), "1 lies at {one} of the rail");
+        assert!((0.25..0.6).contains(&one), "1 is at {one} of the rail");
     }
 
     #[test]
-    fn values_read_without_noise() {
+    fn values_are_formatted_without_trailing_digits() {
         assert_eq!(format_value(&param::POWER, 8.0), "8.0");
         assert_eq!(format_value(&param::POWER, 2.25), "2.25");
         assert_eq!(format_value(&param::SAMPLES, 16.0), "16");
@@ -162,6 +165,6 @@ mod tests {
         assert_eq!(format_value(&param::ENVIRONMENT_INTENSITY, 2.6), "2.6");
         assert_eq!(format_value(&param::POINT_INTENSITY, 2.5e-41), "2.50e-41");
         assert_eq!(format_value(&param::POINT_INTENSITY, 0.0), "0");
-        assert_eq!(tidy(&param::POWER, 2.299_999_9), 2.3);
+        assert_eq!(round_dragged(&param::POWER, 2.299_999_9), 2.3);
     }
 }

@@ -1,4 +1,4 @@
-//! Headings that fold, captions, and a choice between a few words.
+//! Collapsible sections, captions, and choices between a few options.
 
 use egui::{
     Button, Response, RichText, Sense, Ui, WidgetInfo, accesskit::Role,
@@ -10,8 +10,9 @@ use crate::ui::{
     theme,
 };
 
-/// A heading over the full width that folds what `body` adds; `open` is flipped by a click.
-/// Returns the heading's response.
+/// A collapsible section: a heading over the full width, and `body` if `open`.
+///
+/// A click toggles `open`. Returns the heading's response.
 pub fn section(
     ui: &mut Ui,
     title: &str,
@@ -60,13 +61,15 @@ pub fn caption(ui: &mut Ui, text: &str) {
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
 }
 
-/// Most buttons of a choice in one row; more than four go into rows of three.
-const MOST_IN_A_ROW: usize = 4;
-const IN_A_FULL_ROW: usize = 3;
+/// Maximum number of options in a single row.
+const MAX_IN_SINGLE_ROW: usize = 4;
+/// Number of options per row if one row is not enough.
+const COLUMNS: usize = 3;
 
-/// A caption, and buttons side by side of which one is chosen: `(value, name, hover text)` each.
-/// To those who cannot see it a button is called `caption: name`. The union of their responses
-/// says whether the choice changed.
+/// A caption, and a row of buttons of which one is selected.
+///
+/// Each option is `(value, name, hover text)`. A button's accessible name is `caption: name`.
+/// Returns the union of the buttons' responses, marked as changed if the value changed.
 pub fn choice<T: PartialEq + Copy>(
     ui: &mut Ui,
     title: &str,
@@ -74,14 +77,14 @@ pub fn choice<T: PartialEq + Copy>(
     options: &[(T, &str, &str)],
 ) -> Response {
     caption(ui, title);
-    let columns = if options.len() > MOST_IN_A_ROW { IN_A_FULL_ROW } else { options.len().max(1) };
+    let columns = if options.len() > MAX_IN_SINGLE_ROW { COLUMNS } else { options.len().max(1) };
     let rows = options.chunks(columns).map(|row| choice_row(ui, title, value, row, columns));
     rows.flatten()
         .reduce(|all, row| all.union(row))
         .unwrap_or_else(|| ui.allocate_response(egui::Vec2::ZERO, Sense::hover()))
 }
 
-/// One row of a choice, its buttons as wide as if there were `columns` of them.
+/// One row of a choice; each button has the width of one of `columns`.
 fn choice_row<T: PartialEq + Copy>(
     ui: &mut Ui,
     title: &str,

@@ -1,4 +1,4 @@
-//! The track: a ruler to scrub along, and the keys as diamonds to drag.
+//! The timeline's track: a ruler to scrub, and keys as diamonds to drag.
 
 use egui::{
     Align2, Color32, FontId, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui,
@@ -10,32 +10,33 @@ use crate::{
     ui::{theme, timeline::Timeline},
 };
 
-/// Height of the ruler and of the keys' lane below it, in points.
+/// Height of the ruler, in points.
 const RULER_HEIGHT: f32 = 18.0;
+/// Height of the keys' lane below the ruler, in points.
 const LANE_HEIGHT: f32 = 28.0;
-/// Room at both ends, so that the outer keys can be seized, in points.
+/// Margin at both ends, so that the outer keys can be grabbed, in points.
 const MARGIN: f32 = 14.0;
 /// Half the width of a diamond, in points.
 const DIAMOND: f32 = 6.5;
-/// A playhead so close to a key, in points, is put on it.
+/// Distance within which the playhead snaps to a key, in points.
 const SNAP: f32 = 4.0;
-/// Least distance between the ruler's numbers, in points.
+/// Minimum distance between the ruler's numbers, in points.
 const TICK_GAP: f32 = 64.0;
-/// Steps of the ruler, seconds.
+/// Possible distances between the ruler's numbers, seconds.
 const TICKS: [f64; 13] =
     [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0];
-/// The least time that the track spans, seconds.
-const LEAST_SPAN_SECS: f64 = 5.0;
+/// Minimum time span of the track, seconds.
+const MIN_SPAN_SECS: f64 = 5.0;
 
-/// Where times lie.
+/// The mapping from times to x coordinates.
 #[derive(Clone, Copy)]
-struct Scale {
+struct TimeScale {
     left: f32,
     width: f32,
     secs: f64,
 }
 
-impl Scale {
+impl TimeScale {
     fn x(self, secs: f64) -> f32 {
         self.left + self.width * (secs / self.secs) as f32
     }
@@ -45,8 +46,9 @@ impl Scale {
     }
 }
 
-/// Draws the track; scrubbing moves the playhead, dragging a diamond its key. The response is
-/// the track's own.
+/// Draws the track and returns its response.
+///
+/// Scrubbing moves the playhead; dragging a diamond moves its key.
 pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool) -> Response {
     let size = vec2(ui.available_width(), RULER_HEIGHT + LANE_HEIGHT);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -74,21 +76,21 @@ pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool
         diamond(ui, &response, pos2(0.0, lane_y), scale, path, timeline, index);
     }
     playhead(&painter, rect, scale.x(timeline.secs()), on_path, !path.is_empty());
-    // Beside the pointer: at the track's corner it would cover the buttons above.
-    response.on_hover_text_at_pointer("Drag to move through the path; drag a key to another time")
+    // At the track's corner, the text would cover the buttons above.
+    response.on_hover_text_at_pointer("Drag to move in time. Drag a key to change its time.")
 }
 
-/// The scale: the path and some room after it. It stays while something is dragged.
-fn scale_of(ui: &Ui, response: &Response, rect: Rect, path: &Path) -> Scale {
+/// The time scale: the path plus 12 %. The scale is constant during a drag.
+fn scale_of(ui: &Ui, response: &Response, rect: Rect, path: &Path) -> TimeScale {
     let id = response.id.with("span");
-    let wanted = (path.duration_secs() * 1.12).max(LEAST_SPAN_SECS);
+    let wanted = (path.duration_secs() * 1.12).max(MIN_SPAN_SECS);
     let held = ui.input(|i| i.pointer.any_down());
     let secs = ui.data(|data| data.get_temp(id)).filter(|_| held).unwrap_or(wanted);
     ui.data_mut(|data| data.insert_temp(id, secs));
-    Scale { left: rect.left() + MARGIN, width: (rect.width() - 2.0 * MARGIN).max(1.0), secs }
+    TimeScale { left: rect.left() + MARGIN, width: (rect.width() - 2.0 * MARGIN).max(1.0), secs }
 }
 
-/// Arrow keys go from frame to frame while the track has the focus.
+/// Moves the playhead by frames with the arrow keys while the track is focused.
 fn step_by_keys(ui: &Ui, response: &Response, path: &Path, timeline: &mut Timeline) {
     if !response.has_focus() {
         return;
@@ -114,11 +116,11 @@ fn describe(ui: &Ui, response: &Response, path: &Path, timeline: &Timeline) {
     });
 }
 
-fn ruler(painter: &Painter, rect: Rect, scale: Scale) {
+fn ruler(painter: &Painter, rect: Rect, scale: TimeScale) {
     let least = scale.secs_at(scale.left + TICK_GAP);
     let step = TICKS.into_iter().find(|&step| step >= least).unwrap_or(TICKS[12]);
     let small = Stroke::new(1.0, theme::LINE);
-    // As many as fit, whatever the numbers: the track is finite.
+    // The loop is bounded, because the track's time span is finite.
     for i in 0..=(scale.secs / step).ceil() as u32 * 5 {
         let secs = f64::from(i) * step / 5.0;
         let x = scale.x(secs);
@@ -137,14 +139,14 @@ fn ruler(painter: &Painter, rect: Rect, scale: Scale) {
     }
 }
 
-/// `45` or `2:05`.
+/// A time as text: `45 s` or `2:05`.
 fn clock(secs: f64) -> String {
     let whole = secs.round() as u64;
     if whole < 60 { format!("{whole} s") } else { format!("{}:{:02}", whole / 60, whole % 60) }
 }
 
-/// What joins the keys: a line as thick as the way is smooth, and none where it is cut.
-fn lines(painter: &Painter, y: f32, scale: Scale, path: &Path) {
+/// Lines between keys: thick for smooth easing, thin for linear, none for hold.
+fn lines(painter: &Painter, y: f32, scale: TimeScale, path: &Path) {
     for pair in path.keys.windows(2) {
         let xs = scale.x(pair[0].time_secs)..=scale.x(pair[1].time_secs);
         let (width, color) = match pair[0].easing {
@@ -160,7 +162,7 @@ fn diamond(
     ui: &Ui,
     track: &Response,
     lane: Pos2,
-    scale: Scale,
+    scale: TimeScale,
     path: &mut Path,
     timeline: &mut Timeline,
     index: usize,
@@ -190,12 +192,12 @@ fn diamond(
     let corners = corners.map(|(x, y)| center + vec2(x, y) * DIAMOND).to_vec();
     let painter = ui.painter().with_clip_rect(track.rect);
     painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, outline)));
-    response.on_hover_text(format!("{name}. Drag to another time."));
+    response.on_hover_text(format!("{name}. Drag to change its time."));
 }
 
-/// A line with a grip; hollow where the view is not what the path has there.
-fn playhead(painter: &Painter, rect: Rect, x: f32, on_path: bool, is_there: bool) {
-    let color = if is_there { Color32::WHITE } else { theme::TEXT_DIM };
+/// Draws the playhead: a line with a grip, hollow if the view differs from the path.
+fn playhead(painter: &Painter, rect: Rect, x: f32, on_path: bool, has_path: bool) {
+    let color = if has_path { Color32::WHITE } else { theme::TEXT_DIM };
     painter.vline(x, rect.y_range(), Stroke::new(1.0, color.gamma_multiply(0.8)));
     let corners = [(-5.0, 0.0), (5.0, 0.0), (5.0, 6.0), (0.0, 11.0), (-5.0, 6.0)];
     let corners = corners.map(|(dx, dy)| pos2(x + dx, rect.top() + dy)).to_vec();
