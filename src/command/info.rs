@@ -19,8 +19,8 @@ pub struct InfoArguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Also print the GPU memory of a view of this size in pixels with every effect on: stereo,
-    /// 64 lights, indirect light, auto exposure, bloom, an environment map
+    /// Also print the GPU memory of a view of this size with every effect on: stereo, 64 lights,
+    /// indirect light, auto exposure, bloom, an environment map
     #[arg(long, value_name = "WxH", value_parser = super::render::parse_size)]
     size: Option<[u32; 2]>,
     #[command(flatten)]
@@ -85,7 +85,7 @@ pub fn run(arguments: InfoArguments) -> Result<(), Failure> {
     print(&text)
 }
 
-/// The GPU memory of a view of `size_px` with every effect on, measured by creating the view.
+/// Creates a view of `size_px` with every effect on and measures its GPU memory.
 fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
     let (scene, environment_map) = memory::everything_on();
     let region = Region::whole(size_px).shared_by(scene.camera.stereo.layout);

@@ -48,7 +48,7 @@ impl<W: Write> Archive<W> {
     }
 }
 
-/// A writer that can seek within the bytes that are not written to its sink yet.
+/// A buffered writer that can seek within its buffer.
 struct Window<W> {
     sink: W,
     /// Number of bytes written to the sink.

@@ -66,9 +66,10 @@ impl StillOptions {
         }
     }
 
-    /// The scene that a still of `scene` with these options shows and stores in its file.
+    /// The scene that a still of `scene` shows and stores in its file.
     ///
-    /// Each file of a stereo pair stores the scene with the side-by-side layout.
+    /// Samples and stereo layout follow these options. Each file of a stereo pair stores the scene
+    /// with the side-by-side layout.
     pub fn shown(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         if let Some(samples) = self.samples {

@@ -37,8 +37,8 @@ impl Tiling {
         let picture_px = sheet.picture_px;
         let tile_px = std::array::from_fn(|i| {
             let side = if max_tile_px[i] < WORKGROUP_SIDE { 1 } else { WORKGROUP_SIDE };
-            let most = (max_tile_px[i].max(1) / side) * side;
-            let count = picture_px[i].div_ceil(most).max(1);
+            let max_px = (max_tile_px[i].max(1) / side) * side;
+            let count = picture_px[i].div_ceil(max_px).max(1);
             picture_px[i].div_ceil(count).next_multiple_of(side)
         });
         // Rounding up to workgroups can make one tile fewer enough.

@@ -1,6 +1,6 @@
 //! An equirectangular environment map: linear radiance from every direction.
 //!
-//! In: rows of pixels, or the bytes of a file ([`decode`]). Out: the map's pixels, and a few
+//! In: rows of pixels, or the bytes of a file ([`decode()`]). Out: the map's pixels, and a few
 //! directional lights that approximate the map ([`cut`]). A map has at most [`MAX_SIZE_PX`]
 //! pixels; [`Downsampler`] shrinks larger files while they are read and keeps their total light.
 //!

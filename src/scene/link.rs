@@ -136,8 +136,8 @@ pub fn project_from_fragment(fragment: &str) -> Result<Project, LinkError> {
         return Ok(document::scene_from_json(&text)?.into());
     };
     // A fragment stores the path among the scene's fields, to save bytes.
-    let whole = json!({ "mandelight": "scene", "version": document::VERSION, "scene": scene, "path": path });
-    Ok(document::project_from_json(&whole.to_string())?)
+    let document = json!({ "mandelight": "scene", "version": document::VERSION, "scene": scene, "path": path });
+    Ok(document::project_from_json(&document.to_string())?)
 }
 
 /// The text after the prefix of this version.

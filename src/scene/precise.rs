@@ -49,10 +49,10 @@ impl Precise {
         number.with_base_and_precision::<2>(bits).value()
     }
 
-    /// `self + delta`, rounded to a decimal place no coarser than `grain`, both in scene units.
+    /// `self + delta`, rounded to a decimal place no coarser than `grain`.
     ///
-    /// Rounding drops digits too small to be visible. The result is clamped to
-    /// [`MAX_COORDINATE`].
+    /// `delta` and `grain` are in scene units. Rounding drops digits too small to be visible. The
+    /// result is clamped to [`MAX_COORDINATE`].
     pub fn moved_by(&self, delta: f64, grain: f64) -> Self {
         let sum = Self(&self.0 + decimal(delta).0);
         if sum.to_f64().abs() >= MAX_COORDINATE {

@@ -19,7 +19,7 @@ pub enum StereoLayout {
     SideBySide,
     /// The left eye's picture on top, the right eye's below.
     TopBottom,
-    /// Both pictures in one, for glasses with red on the left and cyan on the right.
+    /// Both pictures in one, for glasses with red left and cyan right.
     Anaglyph,
 }
 

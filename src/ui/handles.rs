@@ -78,9 +78,10 @@ fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
     frame.rect.contains(at).then_some(at)
 }
 
-/// The displacement, in scene units, of the point at `offset` from the eye by a drag.
+/// The displacement, in scene units, of a dragged point.
 ///
-/// `delta` is the drag in points; `in_depth` moves the point along its ray.
+/// `offset` is the vector from the eye to the point, `delta` the drag in points. `in_depth` moves
+/// the point along its ray.
 fn displacement(
     camera: &Camera,
     frame: Frame,

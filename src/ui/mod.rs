@@ -76,7 +76,7 @@ pub struct ExportProgress {
     pub remaining_secs: Option<f64>,
 }
 
-/// A message of the shell, such as "the file could not be read" or "link copied".
+/// A message of the shell to the user, such as "link copied".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     /// The message.
@@ -98,7 +98,7 @@ pub enum Action {
         /// True for one file per eye.
         pair: bool,
     },
-    /// Render frames of the camera path at this size and save them as a zip of PNGs.
+    /// Render frames of the camera path and save a zip of PNGs.
     SaveSequence {
         /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
         size_px: [u32; 2],
@@ -111,7 +111,7 @@ pub enum Action {
     CancelExport,
     /// Save the scene document.
     SaveScene,
-    /// Open a file dialog for a scene document, or a picture that contains one, and load it.
+    /// Open a file dialog for a scene document or a picture with its scene.
     LoadScene,
     /// Open a file dialog for an environment map, for [`Interface::use_environment_map`].
     ChoosePicture,

@@ -49,7 +49,7 @@ pub const MAX_EYE_DISTANCE: f64 = 90.0;
 const PICK_STEPS: u32 = 400;
 /// Minimum distance of the eye from any surface, as a fraction of [`World::nearest`].
 const CLEARANCE: f64 = 0.25;
-/// Distance to the surface, in units of [`World::nearest`], up to which the eye is at the limit.
+/// Maximum distance of an eye at the limit, in units of [`World::nearest`].
 ///
 /// Above 1, because the target is farther than the nearest surface, and distances are estimates.
 const AT_LIMIT: f64 = 2.0;
@@ -331,7 +331,9 @@ fn shift(camera: &mut Camera, world: World<'_>, moved: DVec3) {
     place_pivot(camera, pivot_offset, grain);
 }
 
-/// Places the pivot at `offset` from the eye, rounded to `grain` or, if near, more finely.
+/// Places the pivot at `offset` from the eye, rounded to at most `grain`.
+///
+/// A pivot near the eye is rounded to [`PIVOT_GRAIN`] of its distance.
 fn place_pivot(camera: &mut Camera, offset: DVec3, grain: f64) {
     camera.pivot = camera.position.moved_by(offset, grain.min(PIVOT_GRAIN * offset.length()));
 }

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use egui::{Rect, Response};
 
-/// Named widgets of the last frame and their rectangles, in points from the window's upper left.
+/// Rectangles of named widgets in the last frame, in points.
+///
+/// The origin is the window's upper left corner.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rects(BTreeMap<&'static str, Rect>);
 

@@ -177,7 +177,9 @@ impl Timeline {
         }
     }
 
-    /// Adds the view as a key at the playhead, or after the last key if the playhead is at a key.
+    /// Adds the view as a key at the playhead.
+    ///
+    /// If the playhead is at a key, the new key follows the last key.
     fn add_key(&mut self, project: &mut Project) {
         let path = &mut project.path;
         let secs = match path.key_at(self.secs) {
@@ -228,7 +230,9 @@ impl Timeline {
         }
     }
 
-    /// Moves the playhead to the key whose scene is in view, and within the path's duration.
+    /// Moves the playhead to the key whose scene is in view, if any.
+    ///
+    /// Otherwise clamps the playhead to the path's duration.
     fn sync_to(&mut self, project: &Project) {
         let keys = &project.path.keys;
         self.secs = self.secs.min(project.path.duration_secs());

@@ -210,7 +210,7 @@ fn runs(browser: &Path) -> bool {
     cfg!(windows) || shell::output(Command::new(browser).arg("--version")).is_some()
 }
 
-/// The full path of a program in a folder of PATH, or of a program given by its full path.
+/// The full path of a program in a folder of PATH; a full path stays as it is.
 fn in_path(name: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path).map(|folder| folder.join(name)).find(|file| file.is_file())

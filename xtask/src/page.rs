@@ -108,7 +108,7 @@ struct Part {
     bytes: Vec<u8>,
 }
 
-/// Reads the page's files in an order in which every file follows those that it refers to.
+/// Reads the page's files; each file follows the files that it refers to.
 fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     let read = |folder: &Path, name: &str| -> Result<Part> {
         let file = folder.join(name);

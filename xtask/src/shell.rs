@@ -7,7 +7,9 @@ use std::{
 
 use anyhow::{Context as _, Result, bail};
 
-/// The repository's top folder, read at run time so that a moved checkout needs no rebuild.
+/// The repository's top folder.
+///
+/// The path is read at run time, so that a moved checkout needs no rebuild.
 pub fn root() -> Result<PathBuf> {
     let xtask = std::env::var_os("CARGO_MANIFEST_DIR").context("start this as `cargo xtask`")?;
     let root = PathBuf::from(xtask).join("..");

@@ -1,4 +1,4 @@
-//! Downsampling of a picture of any size to a map of at most [`MAX_SIZE_PX`], pixel by pixel.
+//! Downsampling of a picture to a map of at most [`MAX_SIZE_PX`], pixel by pixel.
 //!
 //! Each target pixel is the mean of the source pixels that it covers, weighted by solid angle.
 //! The sum of radiance times solid angle is preserved, and the source need not be in memory as a

@@ -14,7 +14,7 @@ fn noise(seed: u64) -> f64 {
     ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// A map of noise in which 1 % of the pixels are 1000 times as bright.
+/// A map of noise; 1 % of its pixels are 1000 times as bright.
 fn speckled(size_px: [u32; 2]) -> EnvironmentMap {
     let mut i = 0;
     EnvironmentMap::from_fn("speckled", size_px, |_| {
@@ -127,7 +127,7 @@ fn a_small_sun_gets_exactly_one_light_within_a_pixel() {
     }
 }
 
-/// Without the sine, a pixel at a pole would weigh as much as a pixel at the equator.
+/// A pixel at a pole has a smaller solid angle than a pixel at the equator.
 #[test]
 fn pixels_near_the_poles_are_weighted_by_their_solid_angle() {
     let white = EnvironmentMap::from_fn("white", [256, 128], |_| DVec3::ONE);

@@ -13,7 +13,7 @@ pub trait Space {
     /// A point of the space.
     type Point: Clone;
 
-    /// The point at the fraction `part`, 0 to 1, of the geodesic from `a` to `b`.
+    /// The point at `part`, 0 to 1, of the geodesic from `a` to `b`.
     fn between(&self, a: &Self::Point, b: &Self::Point, part: f64) -> Self::Point;
 
     /// The logarithm map: the velocity at `a` that reaches `b` after unit time.

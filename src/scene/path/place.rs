@@ -14,7 +14,9 @@ use crate::scene::PrecisePoint;
 /// Resolution of points, in view units: far below a pixel of any picture.
 const GRAIN: f64 = 1e-12;
 
-/// Pans shorter than this fraction of a view unit, or of the zoom's length, count as zero.
+/// Minimum pan, as a fraction of a view unit or of the zoom's length.
+///
+/// Shorter pans count as zero.
 const MIN_PAN: f64 = 1e-9;
 
 /// A point and the view unit of a camera that looks at the point.

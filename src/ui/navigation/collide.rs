@@ -13,11 +13,15 @@ use crate::{
     scene::Camera,
 };
 
-/// Fraction of a camera ray's step that the eye takes, so that it cannot pass a visible surface.
+/// The eye's step as a fraction of a camera ray's step.
+///
+/// Below 1, so that the eye cannot pass a surface that rays hit.
 const STEP_PART: f64 = 0.5;
-/// Fraction of the distance for a trial step if the eye has no room to come nearer.
+/// Trial step without room to come nearer, as a fraction of the distance.
 const TRIAL_STEP: f64 = 0.25;
-/// Fraction of a slide that leads away from the surface, so that a concave surface does not block.
+/// Fraction of a slide that leads away from the surface.
+///
+/// Without it, a concave surface would block the slide.
 const LIFT: f64 = 0.05;
 /// Maximum number of steps of one movement.
 const MAX_STEPS: u32 = 256;
@@ -58,7 +62,9 @@ pub fn slide(world: World<'_>, camera: &Camera, displacement: DVec3) -> DVec3 {
     total
 }
 
-/// True if no surface blocks the line from `from` to `to`, both in the field's coordinates.
+/// True if no surface blocks the line from `from` to `to`.
+///
+/// Both points are in the field's coordinates.
 pub fn is_free(field: &dyn DistanceField, from: DVec3, to: DVec3, clearance: f64) -> bool {
     let displacement = to - from;
     sweep(field, from, displacement, clearance) == displacement

@@ -1,6 +1,6 @@
 //! Animated flights of the camera to a target: home, frame-all, level.
 //!
-//! A flight follows the route of [`super::route`]. If the surface blocks every route, the camera
+//! A flight follows the route of the module `route`. If the surface blocks every route, the camera
 //! jumps to the target, so no flight shows the inside. The zoom changes by equal factors in equal
 //! times, except for the acceleration at the begin and the deceleration at the end. Long flights
 //! take more time.

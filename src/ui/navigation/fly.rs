@@ -22,7 +22,7 @@ const TIME_CONSTANT_SECS: f64 = 0.25;
 pub const MAX_RISE_PER_SEC: f64 = 3.0;
 /// Maximum fall of the speed: natural logarithm per second.
 pub const MAX_FALL_PER_SEC: f64 = 8.0;
-/// Maximum time step, so that the eye does not jump after a pause of the program.
+/// Maximum time step; prevents a jump after a pause of the program.
 const MAX_STEP_SECS: f64 = 0.1;
 
 /// The user's input during one time step.

@@ -22,7 +22,7 @@ const LINE_PIECES: u32 = 48;
 const MAX_LINE: f64 = 16.0;
 /// Factor on the bounding sphere's radius, outside of which the eye moves around the centre.
 pub(super) const ROOM: f64 = 1.04;
-/// Minimum distance of an outward ray from the surface, as a fraction of its travelled length.
+/// Minimum distance between outward ray and surface, as a fraction of the travelled length.
 const FREE_CONE: f64 = 0.01;
 /// Number of rays to try at each waypoint.
 const RAYS: u32 = 48;

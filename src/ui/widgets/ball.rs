@@ -47,9 +47,10 @@ pub fn ball(
     )
 }
 
-/// The direction for a point of the ball, in radii from the centre with y up.
+/// The light's direction for a point of the ball.
 ///
-/// `side` is 1 if the drag began in front, −1 if behind. Beyond the rim, the side is reversed.
+/// `point` is in radii from the centre, with y up. `side` is 1 if the drag began in front, −1 if
+/// behind. Beyond the rim, the side is reversed.
 pub fn direction_from_point(point: DVec2, side: f64) -> DVec3 {
     let r = point.length();
     let (r_on_ball, side) = if r <= 1.0 { (r, side) } else { ((2.0 - r).max(0.0), -side) };

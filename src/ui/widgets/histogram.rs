@@ -10,7 +10,7 @@ use crate::{
 /// Height of the drawing, in points.
 const HEIGHT: f32 = 64.0;
 
-/// The film luminances, as log2, that exposure and tone curve map to black, grey and white.
+/// The film luminances that display as black, grey and white, as log2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayRange {
     /// Luminance that displays as black.
@@ -21,7 +21,7 @@ pub struct DisplayRange {
     pub white: f64,
 }
 
-/// Draws the histogram over the full width, from dark on the left to bright on the right.
+/// Draws the histogram over the full width, dark left, bright right.
 ///
 /// Bars outside `range` are dimmed; a line marks middle grey.
 pub fn histogram(ui: &mut Ui, histogram: Option<&Histogram>, range: DisplayRange) -> Response {

@@ -268,7 +268,7 @@ pub fn pictures() -> Vec<Picture> {
 const SKY: &[&str] =
     &["lights.environment=[]", "lights.rig.kind=sky", "lights.rig.count=32", "tone.exposure=0.3"];
 
-/// The environment map as the only light and as the background, with the sun on the left.
+/// The environment map as the only light and as the background.
 const DUSK: &[&str] = &[
     "lights.environment=[]",
     "lights.rig.count=48",

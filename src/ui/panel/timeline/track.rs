@@ -117,8 +117,8 @@ fn describe(ui: &Ui, response: &Response, path: &Path, timeline: &Timeline) {
 }
 
 fn ruler(painter: &Painter, rect: Rect, scale: TimeScale) {
-    let least = scale.secs_at(scale.left + TICK_GAP);
-    let step = TICKS.into_iter().find(|&step| step >= least).unwrap_or(TICKS[12]);
+    let min_step = scale.secs_at(scale.left + TICK_GAP);
+    let step = TICKS.into_iter().find(|&step| step >= min_step).unwrap_or(TICKS[12]);
     let small = Stroke::new(1.0, theme::LINE);
     // The loop is bounded, because the track's time span is finite.
     for i in 0..=(scale.secs / step).ceil() as u32 * 5 {
