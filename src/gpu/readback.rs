@@ -25,7 +25,7 @@ pub struct Readback {
     state: Arc<AtomicU8>,
     /// Bytes of a row, without padding.
     row_bytes: usize,
-    /// Bytes from one row's begin to the next row's begin.
+    /// Bytes from the start of a row to the start of the next row.
     stride_bytes: usize,
 }
 

@@ -1,7 +1,7 @@
 //! The edited scene and path, and their undo history.
 //!
 //! Panels change the project in place. Once per frame, the editor compares the project with its
-//! state at the frame's begin and records a change. All changes of one gesture (a drag, a flight, a
+//! state at the frame's start and records a change. All changes of one gesture (a drag, a flight, a
 //! sequence of wheel notches) become one step.
 
 use crate::scene::{

@@ -201,7 +201,7 @@ pub struct Navigator {
 }
 
 impl Navigator {
-    /// True between the begin and the end of a gesture, or during a flight.
+    /// True between the start and the end of a gesture, or during a flight.
     pub fn is_active(&self) -> bool {
         self.gesture.is_some() || self.flight.is_some()
     }

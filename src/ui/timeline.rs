@@ -200,7 +200,7 @@ impl Timeline {
 
     /// Ends a frame of the interface: advances the playback and updates the view.
     ///
-    /// `before` is the project at the frame's begin. The view shows the path's scene if the
+    /// `before` is the project at the frame's start. The view shows the path's scene if the
     /// playhead has moved, or if the path has changed and the view was on the path.
     pub fn end_frame(&mut self, editor: &mut Editor, before: &Project, now_secs: f64) {
         let project = editor.project();

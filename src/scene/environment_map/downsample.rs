@@ -68,7 +68,7 @@ impl Downsampler {
 
 /// The target pixels that a source pixel overlaps, along one axis.
 ///
-/// Each item is the target's index and the overlap's begin and end, as fractions of the source
+/// Each item is the target's index and the overlap's start and end, as fractions of the source
 /// pixel.
 #[derive(Clone)]
 struct Overlaps {

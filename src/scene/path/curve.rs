@@ -54,7 +54,7 @@ pub struct Span {
     pub is_linear: bool,
     /// The span's duration, seconds.
     pub secs: f64,
-    /// The condition at the span's begin.
+    /// The condition at the span's start.
     pub before: Joint,
     /// The condition at the span's end.
     pub after: Joint,

@@ -40,14 +40,14 @@ pub struct Places;
 
 /// The geodesic between two places with different points: a half circle.
 ///
-/// `s` is the arc length from the begin. [`Self::begin`] and [`Self::end`] are arc lengths from
+/// `s` is the arc length from the start. [`Self::begin`] and [`Self::end`] are arc lengths from
 /// the half circle's top. The place at `s` is (van Wijk and Nuij's u and w, without cancellation)
 ///
 /// `pan = u₀ sinh s / cosh(s + begin)`, `unit = u₀ cosh begin / cosh(s + begin)`.
 struct Arc {
-    /// Unit vector of the pan from the begin to the end.
+    /// Unit vector of the pan from the start to the end.
     pan_direction: DVec3,
-    /// Arc length from the top to the begin; negative if the begin is before the top.
+    /// Arc length from the top to the start; negative if the start is before the top.
     begin: f64,
     /// Arc length from the top to the end; negative if the end is before the top.
     end: f64,

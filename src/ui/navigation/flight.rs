@@ -2,7 +2,7 @@
 //!
 //! A flight follows the route of the module `route`. If the surface blocks every route, the camera
 //! jumps to the target, so no flight shows the inside. The zoom changes by equal factors in equal
-//! times, except for the acceleration at the begin and the deceleration at the end. Long flights
+//! times, except for the acceleration at the start and the deceleration at the end. Long flights
 //! take more time.
 
 use glam::{DQuat, DVec3};

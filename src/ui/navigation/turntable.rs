@@ -2,7 +2,7 @@
 //!
 //! An upright camera (its right vector is horizontal) rotates as on a turntable: about the scene's
 //! z axis, and up or down until half a degree from the poles. A rolled camera rotates about its
-//! own axes and has no poles. Each gesture chooses the mode at its begin.
+//! own axes and has no poles. Each gesture chooses the mode at its start.
 
 use glam::{DQuat, DVec2, DVec3};
 
