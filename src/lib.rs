@@ -35,7 +35,7 @@
 //! # Layers
 //!
 //! ```text
-//! scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
+//! formula ◀── scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
 //! ui ──▶ scene, fractal, render::report     web, the binary ──▶ all
 //! ```
 //!
@@ -45,14 +45,16 @@
 //! // A scene is data: it can be made, changed, written and read without any GPU.
 //! use mandelight::scene::{Scene, document};
 //! let mut scene = Scene::default();
-//! scene.fractal.power = 5.0;
+//! scene.fractal.set("power", 5.0);
 //! let text = document::to_json(&scene);
 //! assert_eq!(document::from_json(&text).unwrap(), scene);
 //! ```
 
 pub mod export;
+pub mod formula;
 pub mod fractal;
 pub mod gpu;
+pub mod precise;
 pub mod render;
 pub mod scene;
 pub mod ui;

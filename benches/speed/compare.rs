@@ -4,7 +4,11 @@
 
 use std::{collections::HashMap, path::Path, sync::Arc, time::Instant};
 
-use mandelight::render::{self, Pipelines, Region, space::RenderSpace, uniforms::Inputs};
+use mandelight::{
+    formula::mandelbulb::Mandelbulb,
+    fractal::FractalModel,
+    render::{self, Pipelines, Region, space::RenderSpace, uniforms::Inputs},
+};
 use serde::Serialize;
 
 use super::{
@@ -154,7 +158,11 @@ pub fn compare(
     let samples = scene.quality.samples;
     let tuning = tuning::find(scene, size_px);
     // The literal kernel has no anchors.
-    let inputs = Inputs::about(scene, Region::whole(size_px), &RenderSpace::plain());
+    let inputs = Inputs::about(
+        scene,
+        Region::whole(size_px),
+        &RenderSpace::plain(&FractalModel::new(&scene.fractal)),
+    );
     let literal_picture = Picture::new(literal, &inputs, samples, tuning, stride);
 
     // Errors are those of one sample. These pictures also warm up pipelines and drivers.
@@ -197,7 +205,7 @@ pub fn compare(
     let literal = side(literal_ms, literal_busy, tuning.iterations, literal_errors, literal_counts);
     let ours = side(ours_ms, ours_busy, scene.fractal.iterations, our_errors, our_mean);
     let peak_gflops = median(&gflops);
-    let flop = scene.fractal.integer_power().map(peak::flop_per_step);
+    let flop = Mandelbulb::of(&scene.fractal).integer_power().map(peak::flop_per_step);
     let steps = ours.counts.steps * pixels * f64::from(samples);
     let peak_share = flop.map(|flop| steps * flop / (ours.ms * 1e-3) / (peak_gflops * 1e9));
     let passes_ms =

@@ -52,7 +52,7 @@ impl Counts {
 /// How to count in the program's modules, whose orbits are in `formula/`.
 pub fn marks<'a>(estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
     Marks {
-        orbits_in: "formula/",
+        orbits_in: "mandelbulb/",
         other_loops: &[],
         steps: &["near_step"],
         estimates,

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use mandelight::{
+    fractal::FractalModel,
     render::{Pipelines, Region, space::wants_anchor},
     scene::Scene,
 };
@@ -83,7 +84,8 @@ pub fn measure(
         let ms = median(times);
         let estimate_ns = ms * 1e6 / (counts.estimates * pixels);
         let plain_ns = rows.first().map_or(estimate_ns, |plain| plain.estimate_ns);
-        let is_deep = wants_anchor(scene, Region::whole(size_px));
+        let is_deep =
+            wants_anchor(&FractalModel::new(&scene.fractal), scene, Region::whole(size_px));
         rows.push(Row { name, is_deep, ms, counts, estimate_ns, cost: estimate_ns / plain_ns });
     }
     Ok(rows)

@@ -7,14 +7,14 @@
 
 mod places;
 
-use std::{collections::HashMap, sync::Arc};
+use std::{
+    collections::{HashMap, hash_map::Entry},
+    sync::Arc,
+};
 
 use mandelight::{
-    render::{
-        Pipelines, Region,
-        pipelines::{Passes, PipelineKey, PipelineVariant},
-        uniforms::FrameUniforms,
-    },
+    formula::{Kernel, mandelbulb::variant::Variant},
+    render::{Pipelines, Region, pipeline_set, pipelines::FramePipelines},
     scene::Scene,
 };
 use serde::Serialize;
@@ -87,18 +87,18 @@ pub fn distances() -> Vec<(String, f64)> {
 /// The settings of a run, and the counting pipelines by key.
 struct Bench<'a> {
     pipelines: &'a Arc<Pipelines>,
-    counting: HashMap<PipelineKey, Passes>,
+    counting: HashMap<Kernel, FramePipelines<'a>>,
     size_px: [u32; 2],
     workgroup_stride: u32,
     rounds: u32,
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
     /// Counts the drawn pixels of a view.
     fn count(&mut self, runner: &PassRunner<'_>) -> Result<Counts, Failure> {
-        let key = PipelineKey::of(runner.frame());
-        if !self.counting.contains_key(&key) {
-            self.counting.insert(key, counting_passes(self.pipelines, runner)?);
+        let key = runner.kernel();
+        if let Entry::Vacant(entry) = self.counting.entry(key) {
+            entry.insert(counting_passes(self.pipelines, runner)?);
         }
         let mut counts = Counts::default();
         for (_, counted) in runner.count(&self.counting[&key])? {
@@ -114,13 +114,13 @@ impl Bench<'_> {
         &mut self,
         scene: &Scene,
         reference: &PassRunner<'_>,
-    ) -> Result<(PipelineKey, [f64; 2], Counts), Failure> {
+    ) -> Result<(Kernel, [f64; 2], Counts), Failure> {
         let (mut times, mut counts, mut pixels) = ([0.0; 2], Counts::default(), 0.0);
-        let mut key = PipelineKey::of(&FrameUniforms::new(scene, Region::whole(self.size_px)));
+        let mut kernels = Vec::new();
         for region in regions(self.size_px) {
             let pipelines = self.pipelines;
             let runner = prepared(pipelines, scene, region, self.workgroup_stride);
-            key = PipelineKey::of(runner.frame());
+            kernels.push(runner.kernel());
             let ns = |runner: &PassRunner<'_>| -> f64 {
                 runner.draw_ms().into_iter().map(|(_, ms)| ms * 1e6).sum()
             };
@@ -137,7 +137,9 @@ impl Bench<'_> {
             pixels += runner.pixels();
             counts += self.count(&runner)?;
         }
-        Ok((key, times.map(|time| time / pixels), counts.per(pixels)))
+        // A picture has at least one part.
+        let kernel = kernels.pop().expect("a region");
+        Ok((kernel, times.map(|time| time / pixels), counts.per(pixels)))
     }
 
     /// Measures all views of a place from the largest distance to the smallest.
@@ -148,13 +150,13 @@ impl Bench<'_> {
             prepared(self.pipelines, &place.scene(REFERENCE)?, whole, self.workgroup_stride);
         let reference_estimates = self.count(&reference)?.estimates / reference.pixels();
         for (scale, distance) in distances() {
-            let (key, [pixel_ns, times], counts) =
+            let (kernel, [pixel_ns, times], counts) =
                 self.measure(&place.scene(distance)?, &reference)?;
             rows.push(Row {
                 name: format!("{NAME}-{}-{}-{scale}", place.name, place.set()),
                 place: format!("{} {}", place.name, place.set()),
                 scale,
-                key: key.to_string(),
+                key: Variant::from_number(kernel.variant).to_string(),
                 pixel_ns,
                 counts,
                 estimate_ns: pixel_ns / counts.estimates,
@@ -178,9 +180,7 @@ fn prepared<'a>(
     workgroup_stride: u32,
 ) -> PassRunner<'a> {
     let runner = PassRunner::with_stride(pipelines, scene, region, workgroup_stride);
-    for variant in PipelineVariant::special(runner.frame()) {
-        pipelines.prepare(variant);
-    }
+    pipelines.prepare_together(&pipeline_set::specialized(runner.inputs()));
     runner.draw_ms();
     runner
 }

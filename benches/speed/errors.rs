@@ -3,7 +3,7 @@
 //! In: a scene and each side's samples. Out: [`Errors`], and the reasons why they are too large.
 
 use glam::{DVec3, Vec3};
-use mandelight::{fractal::Ray, scene::Scene};
+use mandelight::{formula::Ray, scene::Scene};
 use serde::Serialize;
 
 use super::{

@@ -5,8 +5,10 @@
 
 use bytemuck::{Pod, Zeroable};
 use mandelight::{
+    formula::mandelbulb,
     gpu::{
         Gpu,
+        host_shared::HostShared,
         readback::{Readback, ReadbackError},
     },
     render::{
@@ -73,7 +75,8 @@ struct Settings {
 impl Settings {
     fn new(inputs: &Inputs, tuning: Tuning, stride: u32) -> Self {
         let picture = &inputs.frame;
-        let (camera, fractal) = (&picture.camera, &picture.fractal);
+        let (camera, march) = (&picture.camera, &picture.march);
+        let fractal = mandelbulb::uniforms::Fractal::read(&inputs.formula.uniforms);
         let (surface, background) = (&picture.surface, &picture.background);
         Self {
             eye: camera.origin,
@@ -91,7 +94,7 @@ impl Settings {
             julia: fractal.julia,
             max_iterations: tuning.iterations,
             max_steps: tuning.steps,
-            bounding_radius: fractal.bounding_radius,
+            bounding_radius: march.bounding_radius,
             first_light: 0,
             jitter: [0.5; 2],
             end_light: 0,

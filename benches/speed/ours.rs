@@ -5,14 +5,16 @@
 use std::{sync::Arc, time::Instant};
 
 use mandelight::{
-    gpu::{readback::ReadbackError, shader::Module},
+    formula::Kernel,
+    gpu::readback::ReadbackError,
     render::{
         Pace, Pipelines, Region, View,
-        frame::{Dispatches, Recorder},
         lattice::MOST_TOGETHER,
-        pass,
-        pipelines::{Passes, PipelineKey},
+        pass::{self, Pass},
+        pipelines::FramePipelines,
+        recorder::{Dispatches, Recorder},
         schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
+        shaders,
         targets::Targets,
         uniforms::{FrameUniforms, Inputs},
     },
@@ -98,7 +100,7 @@ impl<'a> PassRunner<'a> {
         workgroup_stride: u32,
     ) -> Self {
         let inputs = Inputs::new(scene, region);
-        let targets = Targets::new(pipelines, region);
+        let targets = Targets::new(&pipelines.layouts, region);
         targets.upload(&pipelines.gpu.queue, &inputs);
         let device = &pipelines.gpu.device;
         let counts = device.create_buffer(&wgpu::BufferDescriptor {
@@ -161,9 +163,19 @@ impl<'a> PassRunner<'a> {
         })
     }
 
+    /// The kernel that draws the picture.
+    pub fn kernel(&self) -> Kernel {
+        self.inputs.formula.kernel
+    }
+
+    /// The picture's inputs.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
     /// Name and time of each pass, milliseconds.
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
-        let passes = self.pipelines.passes(&self.inputs.frame);
+        let passes = self.pipelines.of_frame(&self.inputs);
         let mut ms = PASSES.map(|(name, _)| (name, 0.0));
         // A work queue holds one piece of work.
         for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
@@ -182,7 +194,10 @@ impl<'a> PassRunner<'a> {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn count(&self, passes: &Passes) -> Result<Vec<(&'static str, Counts)>, Failure> {
+    pub fn count(
+        &self,
+        passes: &FramePipelines<'_>,
+    ) -> Result<Vec<(&'static str, Counts)>, Failure> {
         let mut counts = COUNTED_PASSES.map(|(name, _)| (name, Counts::default()));
         for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
             for ((_, counts), (_, record)) in counts.iter_mut().zip(COUNTED_PASSES) {
@@ -196,7 +211,7 @@ impl<'a> PassRunner<'a> {
     ///
     /// # Errors
     /// If the device is lost.
-    pub fn count_later(&self, passes: &Passes) -> Result<Counts, Failure> {
+    pub fn count_later(&self, passes: &FramePipelines<'_>) -> Result<Counts, Failure> {
         let mut counts = Counts::default();
         let points = Points::Samples { first: 1, count: MOST_TOGETHER };
         for trace in self.traces(points, SAMPLE_WORKGROUPS) {
@@ -211,7 +226,7 @@ impl<'a> PassRunner<'a> {
     fn counted(
         &self,
         record: Record,
-        passes: &Passes,
+        passes: &FramePipelines<'_>,
         trace: Trace,
     ) -> Result<Counts, ReadbackError> {
         let queue = &self.pipelines.gpu.queue;
@@ -235,11 +250,21 @@ impl<'a> PassRunner<'a> {
     }
 
     /// Records one pass over a piece of work.
-    fn recorded(&self, record: Record, passes: &Passes, trace: Trace) -> wgpu::CommandBuffer {
+    fn recorded(
+        &self,
+        record: Record,
+        passes: &FramePipelines<'_>,
+        trace: Trace,
+    ) -> wgpu::CommandBuffer {
         let grid = trace.points.grid(self.inputs.frame.size_px);
         let mut dispatches = Dispatches::default();
-        let mut recorder =
-            Recorder::new(self.pipelines, passes, &self.targets, &self.inputs, &mut dispatches);
+        let mut recorder = Recorder::new(
+            &self.pipelines.layouts,
+            passes,
+            &self.targets,
+            &self.inputs,
+            &mut dispatches,
+        );
         recorder.bind(Self::COUNTS[0], &self.counts_group);
         record(&mut recorder, &trace, &grid);
         recorder.finish()
@@ -271,17 +296,24 @@ pub fn counts(
 ///
 /// # Errors
 /// If a kernel can't be counted.
-pub fn counting_passes(pipelines: &Pipelines, runner: &PassRunner<'_>) -> Result<Passes, Failure> {
-    let constants = PipelineKey::of(runner.frame()).constants();
+pub fn counting_passes<'a>(
+    pipelines: &'a Pipelines,
+    runner: &PassRunner<'_>,
+) -> Result<FramePipelines<'a>, Failure> {
+    let kernel = runner.kernel();
+    let constants = kernel.overrides();
     let gpu = &pipelines.gpu;
     let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
         .map(|layout| runner.counting_layout(layout));
     let create =
-        |layout: &wgpu::PipelineLayout, module: &Module, estimate: &str| -> Result<_, Failure> {
-            let shader =
-                counts::counting(gpu, module, &counts::marks(&[estimate], PassRunner::COUNTS))?;
+        |layout: &wgpu::PipelineLayout, pass: &Pass, estimate: &str| -> Result<_, Failure> {
+            let shader = counts::counting(
+                gpu,
+                &shaders::module(pass.name, Some(kernel)),
+                &counts::marks(&[estimate], PassRunner::COUNTS),
+            )?;
             Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(module.label),
+                label: Some(pass.name),
                 layout: Some(layout),
                 module: &shader,
                 entry_point: Some("main"),
@@ -292,12 +324,15 @@ pub fn counting_passes(pipelines: &Pipelines, runner: &PassRunner<'_>) -> Result
                 cache: None,
             }))
         };
-    Ok(Passes {
-        camera_cone: create(&enqueue, &pass::camera_cone::MODULE, "estimate_at")?,
-        march: create(&queued, &pass::march::MODULE, "estimate_at")?,
-        normal: create(&queued, &pass::normal::MODULE, "distance_gradient")?,
-        shadow_cone: create(&enqueue, &pass::shadow_cone::MODULE, "estimate_at")?,
-        shadow: create(&queued, &pass::shadow::MODULE, "estimate_at")?,
-        ..pipelines.passes(runner.frame())
-    })
+    let mut passes = pipelines.of_frame(&runner.inputs);
+    for (pass, layout, estimate) in [
+        (&pass::camera_cone::PASS, &enqueue, "estimate_at"),
+        (&pass::march::PASS, &queued, "estimate_at"),
+        (&pass::normal::PASS, &queued, "distance_gradient"),
+        (&pass::shadow_cone::PASS, &enqueue, "estimate_at"),
+        (&pass::shadow::PASS, &queued, "estimate_at"),
+    ] {
+        passes.replace(pass, create(layout, pass, estimate)?);
+    }
+    Ok(passes)
 }

@@ -4,8 +4,12 @@
 
 use glam::DVec2;
 use mandelight::{
-    fractal::{Estimator, Ray, camera_ray, pixel_cone},
-    scene::{Fractal, PrecisePoint, Scene},
+    formula::{
+        Ray,
+        mandelbulb::{Mandelbulb, estimator::Estimator},
+    },
+    fractal::{camera_ray, pixel_cone},
+    scene::{PrecisePoint, Scene},
 };
 
 /// About `count` pixels, evenly spaced over a picture.
@@ -39,6 +43,6 @@ pub fn footprint(scene: &Scene, size_px: [u32; 2]) -> f64 {
 }
 
 /// The estimator of a fractal with another iteration limit.
-pub fn with_iterations(fractal: &Fractal, iterations: u32) -> Estimator {
-    Estimator::new(&Fractal { iterations, ..fractal.clone() })
+pub fn with_iterations(fractal: &Mandelbulb, iterations: u32) -> Estimator {
+    Estimator::new(&Mandelbulb { iterations, ..fractal.clone() })
 }

@@ -6,9 +6,16 @@
 use std::time::Instant;
 
 use mandelight::{
-    gpu::{Gpu, readback::ReadbackError, shader::File},
-    render::{Region, uniforms::Inputs},
-    scene::{Fractal, Scene},
+    formula::{
+        self, FormulaRef,
+        mandelbulb::{
+            MANDELBULB, Mandelbulb,
+            variant::{Steps, Variant},
+        },
+    },
+    gpu::{Gpu, readback::ReadbackError},
+    render::{Region, shaders, uniforms::Inputs},
+    scene::Scene,
 };
 use mandelight_test_support::probe;
 use serde::Serialize;
@@ -31,12 +38,13 @@ const WORKGROUPS: u32 = 128;
 const WITHIN: f64 = 1.3;
 
 /// Near the origin every power's orbits stay.
-const TEXT: &str = "
+const TEXT: &str = "// uses: formula, types/frame_uniforms
+
 @group(1) @binding(0) var<storage, read_write> sums: array<f32>;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
-    let fractal = frame_uniforms.fractal;
+    let fractal = frame_uniforms.formula.fractal;
     var sum = 0.0;
     for (var k = 0u; k < 32u; k++) {
         let part = f32(id.x * 32u + k) * 1e-7;
@@ -80,7 +88,7 @@ pub struct Table {
 /// # Errors
 /// Where the device is lost, or the formula can't be counted.
 pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
-    let module = probe::with_formula("orbits", File { path: "orbits", text: TEXT });
+    let module = shaders::joined("orbits", Some(kernel(0)), TEXT);
     let shader = module.create(&gpu.device);
     let general = pipeline(gpu, &shader, 0);
     let pipelines: Vec<_> = POWERS
@@ -145,11 +153,17 @@ fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, power: u32) -> wgpu::Compute
         module,
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &[("POWER", f64::from(power))],
+            constants: &kernel(power).overrides(),
             ..Default::default()
         },
         cache: None,
     })
+}
+
+/// The formula's plain kernel of a whole power, or the general one for 0.
+fn kernel(power: u32) -> formula::Kernel {
+    let variant = Variant { power, steps: Steps::Plain }.number();
+    formula::Kernel { formula: FormulaRef(&MANDELBULB), variant }
 }
 
 struct Kernel {
@@ -162,7 +176,8 @@ struct Kernel {
 impl Kernel {
     /// The kernel that follows orbits of `power`.
     fn new(gpu: &Gpu, pipeline: wgpu::ComputePipeline, power: u32) -> Self {
-        let fractal = Fractal { power: power.into(), iterations: ITERATIONS, ..Fractal::default() };
+        let fractal =
+            Mandelbulb { power: power.into(), iterations: ITERATIONS, ..Default::default() }.into();
         let scene = Scene { fractal, ..Scene::default() };
         let inputs = Inputs::new(&scene, Region::whole([64, 64]));
         let buffer = |size: usize| {
@@ -176,10 +191,10 @@ impl Kernel {
             })
         };
         let [sums, counts] = [4 * 64 * WORKGROUPS as usize, 8].map(buffer);
-        let [frame, anchor_orbit] = probe::bindings(gpu, &inputs);
+        let bindings = probe::bindings(gpu, &inputs);
         let group =
             |index, buffers: &[&wgpu::Buffer]| probe::bind_group(gpu, &pipeline, index, buffers);
-        let groups = vec![group(0, &[&frame, &anchor_orbit]), group(1, &[&sums])];
+        let groups = vec![group(0, &bindings.iter().collect::<Vec<_>>()), group(1, &[&sums])];
         Self { gpu: gpu.clone(), pipeline, groups, counts }
     }
 

@@ -9,7 +9,10 @@
 
 use glam::DVec3;
 use mandelight::{
-    fractal::{Estimator, Ray},
+    formula::{
+        Ray,
+        mandelbulb::{Mandelbulb, estimator::Estimator},
+    },
     scene::Scene,
 };
 
@@ -61,7 +64,7 @@ impl Reference {
         Self {
             scene: scene.clone(),
             size_px,
-            estimator: with_iterations(&scene.fractal, ITERATIONS),
+            estimator: with_iterations(&Mandelbulb::of(&scene.fractal), ITERATIONS),
             cone: footprint(scene, size_px),
             lights: lights.collect(),
         }

@@ -3,9 +3,9 @@
 pub use mandelight::gpu::device::in_parallel;
 use mandelight_test_support::statistics;
 
-/// The value below which `part` (0 to 1) of `values` lie; 0 of none.
-pub fn quantile(values: Vec<f64>, part: f64) -> f64 {
-    statistics::quantile_of_any(values, part).unwrap_or(0.0)
+/// The quantile of `values` at `fraction` (0 to 1); 0 if there are none.
+pub fn quantile(values: Vec<f64>, fraction: f64) -> f64 {
+    statistics::quantile_of_any(values, fraction).unwrap_or(0.0)
 }
 
 /// The median; 0 if there are no values.

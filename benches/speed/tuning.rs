@@ -8,7 +8,10 @@
 
 use glam::DVec3;
 use mandelight::{
-    fractal::{DistanceField, Estimator, Ray},
+    formula::{
+        DistanceField, Ray,
+        mandelbulb::{Mandelbulb, estimator::Estimator},
+    },
     scene::Scene,
 };
 
@@ -50,13 +53,13 @@ fn march(estimator: &Estimator, ray: Ray, bailout: f64, epsilon: f64) -> Option<
 pub fn find(scene: &Scene, size_px: [u32; 2]) -> Tuning {
     let pixels = evenly_spaced(size_px, PIXELS);
     let cone = footprint(scene, size_px);
-    let ample = with_iterations(&scene.fractal, AMPLE_ITERATIONS);
+    let ample = with_iterations(&Mandelbulb::of(&scene.fractal), AMPLE_ITERATIONS);
     let depths = statistics::in_parallel(&pixels, |&pixel| {
         ample.march(pixel_ray(scene, size_px, pixel), cone, f64::INFINITY)
     });
     let epsilon = cone * statistics::quantile(depths.into_iter().flatten().collect(), 0.5);
     let depths_with = |iterations: u32| {
-        let estimator = with_iterations(&scene.fractal, iterations);
+        let estimator = with_iterations(&Mandelbulb::of(&scene.fractal), iterations);
         statistics::in_parallel(&pixels, |&pixel| {
             march(&estimator, pixel_ray(scene, size_px, pixel), scene.fractal.bailout, epsilon)
         })

@@ -87,13 +87,13 @@ fn crevice() -> Scene {
 
 fn julia() -> Scene {
     let mut scene = scene([1.6, -2.7, 1.45], [0.0; 3], [0.0, 0.0, 1.0]);
-    scene.fractal.julia = true;
+    scene.fractal.set("julia", true);
     scene
 }
 
 fn powered(power: f64, eye: [f64; 3], at: [f64; 3]) -> Scene {
     let mut scene = scene(eye, at, [0.0, 0.0, 1.0]);
-    scene.fractal.power = power;
+    scene.fractal.set("power", power);
     if power < 2.5 {
         // With an iteration limit below 18 some rays end too early at 960x540.
         scene.fractal.iterations = 20;

@@ -1,5 +1,5 @@
 // Complex numbers as vec2f (real, imaginary), numbers p + i q √a as vec2f(p, q), and their whole
-// powers by squaring. With a constant exponent only its own products remain.
+// powers by squaring. A constant exponent leaves only its own products in the compiled code.
 
 fn complex_product(v: vec2f, w: vec2f) -> vec2f {
     return vec2f(v.x * w.x - v.y * w.y, v.x * w.y + v.y * w.x);
@@ -9,7 +9,7 @@ fn complex_square(v: vec2f) -> vec2f {
     return vec2f((v.x - v.y) * (v.x + v.y), (v.x + v.x) * v.y);
 }
 
-// One step of left-to-right binary powering: v², times w where the exponent's next bit is set.
+// One step of left-to-right binary powering: v², times w if the exponent's next bit is set.
 fn complex_power_bit(v: vec2f, w: vec2f, bit: u32) -> vec2f {
     let squared = complex_square(v);
     if (bit != 0u) { return complex_product(squared, w); }

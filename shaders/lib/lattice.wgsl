@@ -1,10 +1,11 @@
-// Which sample of which pixel a thread works on. Threads run over a grid that is a lattice of the region:
-// every 2^shift-th pixel, every other one of those in staggered rows, and so on.
+// The pixel and sample of each thread. Threads run over a grid, a lattice of the region: every 2^shift-th
+// pixel, or every other one of those in staggered rows, and so on.
+// uses: types/frame_uniforms, types/slice
 
 const WORKGROUP_SIDE = 8u;
 const WORKGROUP_THREADS = 64u;
 
-// A thread's place in its 8x8 workgroup: 4x2 tiles, so that neighbours in a SIMD group are
+// A thread's position in its 8x8 workgroup: 4x2 tiles, so that neighbours in a SIMD group are
 // neighbours in the picture.
 fn place_in_workgroup(local_index: u32) -> vec2u {
     let x = (local_index & 3u) | ((local_index >> 1u) & 4u);
@@ -12,9 +13,9 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
     return vec2u(x, y);
 }
 
-// A workgroup's threads in the order of their index make eight blocks: rays of one go in one
-// bundle. Of single samples a block has four by two pixels; of samples that are computed together, all
-// those of two by two, of two, or of a single pixel.
+// A workgroup's threads form eight blocks, in the order of their index; a block's rays march as one
+// bundle. With single samples a block covers four by two pixels; with several samples per pixel it
+// covers all samples of two by two pixels, of two pixels, or of one.
 const BLOCKS = 8u;
 const BLOCK_THREADS = 8u;
 
@@ -23,13 +24,13 @@ fn block_shift() -> vec2u {
     return vec2u(2u - (slice.samples_shift + 1u) / 2u, 1u - slice.samples_shift / 2u);
 }
 
-// A block's first pixel in its workgroup.
+// Offset of a block's first pixel in its workgroup.
 fn place_of_block(block: u32) -> vec2u {
     return vec2u(block & 1u, block >> 1u) << block_shift();
 }
 
-// What is left of `a` over `b`, both below 2^27, and b > 0. CPUs divide integers one lane at a time: here
-// the quotient comes by way of f32, whose error of one at most is put right.
+// a mod b, for a and b below 2^27 and b > 0. CPUs divide integers one lane at a time, so the quotient
+// is computed in f32 and its error of at most one corrected.
 fn remainder(a: vec2u, b: vec2u) -> vec2u {
     let quotient = vec2u(vec2f(a) / vec2f(b));
     let rest = bitcast<vec2i>(a - quotient * b);
@@ -37,23 +38,23 @@ fn remainder(a: vec2u, b: vec2u) -> vec2u {
     return vec2u(select(low, low - vec2i(b), low >= vec2i(b)));
 }
 
-// The place of a workgroup's first thread in the lattice's grid.
+// Position of a workgroup's first thread in the lattice's grid.
 fn workgroup_corner(workgroup: u32) -> vec2u {
     let id = slice.first_workgroup + workgroup;
     let column = remainder(vec2u(id), slice.workgroups).x;
-    // Without a rest, this division is exact enough.
+    // The division has no remainder, so f32 is exact enough.
     let row = u32(round(f32(id - column) / f32(slice.workgroups.x)));
-    // Each column begins elsewhere: a row at a time would show as stripes.
+    // Each column starts at another row: whole rows in turn would show as stripes.
     let across = remainder(vec2u(column * slice.scatter.x), slice.workgroups).x;
     let down = remainder(vec2u((row + across) * slice.scatter.y), slice.workgroups).y;
     return vec2u(across, down) * (vec2u(2u, 4u) << block_shift());
 }
 
-// A block of a trace.
+// A block of the dispatch.
 struct Block {
-    // Counted from the trace's first.
+    // Counted from the first block of the dispatch.
     index: u32,
-    // The place of its first pixel in the lattice's grid.
+    // Position of the block's first pixel in the lattice's grid.
     corner: vec2u,
 }
 
@@ -62,25 +63,25 @@ fn block_at(index: u32) -> Block {
 }
 
 struct PixelBox {
-    // The pixels at its upper left and its lower right.
+    // The upper left and the lower right pixel.
     first: vec2u,
     last: vec2u,
 }
 
-// The pixels that hold those of a block; they may lie outside of the region.
+// The bounding box of a block's pixels; it may extend past the region.
 fn block_box(block: Block) -> PixelBox {
     let first = block.corner * slice.step + slice.offset;
     let last = first + ((vec2u(1u) << block_shift()) - 1u) * slice.step + vec2u(slice.stagger, 0u);
     return PixelBox(first << vec2u(slice.shift), last << vec2u(slice.shift));
 }
 
-// The pixel in the region at a place of the lattice's grid; it may lie outside of it.
+// The pixel at a position of the lattice's grid; it may lie outside the region.
 fn pixel_at(place: vec2u) -> vec2u {
     let shifted = slice.stagger * ((place.y + slice.row_phase) & 1u);
     return (place * slice.step + slice.offset + vec2u(shifted, 0u)) << vec2u(slice.shift);
 }
 
-// The pixel of a thread where each has one of its own; it may lie outside of the region.
+// The pixel of a thread, with one thread per pixel; it may lie outside the region.
 fn lattice_pixel(workgroup: u32, local_index: u32) -> vec2u {
     return pixel_at(workgroup_corner(workgroup) + place_in_workgroup(local_index));
 }
@@ -89,23 +90,23 @@ fn inside_region(pixel: vec2u) -> bool {
     return all(pixel < frame.size_px);
 }
 
-// The element of film arrays that belongs to a pixel.
+// The index of a pixel in film arrays.
 fn pixel_index(pixel: vec2u) -> u32 {
     return pixel.y * frame.size_px.x + pixel.x;
 }
 
-// A sample: what a thread of a block computes.
+// A sample, which one thread of a block computes.
 struct Site {
-    // Whether there is one: a pixel of the region, and no more of its samples than are asked for.
+    // False for pixels outside the region and for samples past the requested number.
     is_there: bool,
     pixel: vec2u,
-    // Which of those that are computed together.
+    // Index among the samples of the pixel that are computed together.
     sample: u32,
-    // Its element of G-buffer arrays.
+    // Index in G-buffer arrays.
     index: u32,
 }
 
-// A block's sample, 0 to 7: the pixels of a block come first, then their next samples.
+// A block's sample, 0 to 7: first one sample of each of the block's pixels, then their next samples.
 fn block_site(block: Block, place: u32) -> Site {
     let pixels_shift = 3u - slice.samples_shift;
     let sample = place >> pixels_shift;
@@ -118,7 +119,7 @@ fn block_site(block: Block, place: u32) -> Site {
     return Site(inside_region(pixel) && sample < slice.samples, pixel, sample, index);
 }
 
-// The first sample of the pixel of a thread that goes through all samples of one pixel.
+// The first sample of a pixel whose thread loops over all samples of the pixel.
 fn pixel_site(thread: u32) -> Site {
     let pixels_shift = 3u - slice.samples_shift;
     let block = thread >> pixels_shift;
@@ -133,7 +134,7 @@ fn sample_site(first: Site, sample: u32) -> Site {
     return Site(first.is_there, first.pixel, sample, first.index + on);
 }
 
-// Where in its pixel a sample lies, 0 to 1.
+// A sample's position in its pixel, 0 to 1.
 fn place_in_pixel(sample: u32) -> vec2f {
     return fract(slice.jitter + f32(sample) * slice.jitter_step);
 }

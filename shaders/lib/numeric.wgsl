@@ -1,12 +1,12 @@
-// Elementary functions at full f32 accuracy. WGSL promises its own only to 2^-11 (sin, cos),
+// Elementary functions at full f32 accuracy. WGSL guarantees its own only to 2^-11 (sin, cos),
 // 4096 ulp (atan2) and 2^-21 absolute (log2), too coarse for orbits of a real power.
-// The polynomials have the least greatest error of their degree, and are summed in pairs (Estrin):
-// several short chains of operations instead of a long one.
+// The polynomials have the least maximum error of their degree and are summed in pairs (Estrin):
+// several short chains of operations instead of one long chain.
 
 // log2(x) for normal x > 0, about 1 ulp: exponent plus an atanh series on [sqrt(1/2), sqrt(2)).
 fn accurate_log2(x: f32) -> f32 {
     let bits = bitcast<u32>(x);
-    // Move the split from 1 to sqrt(1/2) = 0x3f3504f3.
+    // Moves the split from 1 to sqrt(1/2) = 0x3f3504f3.
     let exponent = (i32(bits) - 0x3f3504f3) >> 23u;
     let mantissa = bitcast<f32>(bits - (u32(exponent) << 23u));
     let s = (mantissa - 1.0) / (mantissa + 1.0);
@@ -15,7 +15,7 @@ fn accurate_log2(x: f32) -> f32 {
     return f32(exponent) + s * series;
 }
 
-// 2^x for x up to 127, about 2 ulp; 2^-126 for all that is smaller.
+// 2^x for x up to 127, about 2 ulp; 2^-126 for all x below -126.
 fn accurate_exp2(x: f32) -> f32 {
     let within = max(x, -126.0);
     let whole = round(within);
@@ -26,8 +26,8 @@ fn accurate_exp2(x: f32) -> f32 {
     return (low + q * q * high) * bitcast<f32>(u32(i32(whole) + 127) << 23u);
 }
 
-// (cos, sin) of an angle given in turns, absolute error about 1e-7. Quarter turns leave an eighth
-// of a turn on either side for the series.
+// (cos, sin) of an angle in turns, absolute error about 1e-7. Reduction to the nearest quarter turn leaves
+// at most an eighth of a turn on either side for the series.
 fn cos_sin_turns(turns: f32) -> vec2f {
     let quarter = round(turns * 4.0);
     let t = turns * 4.0 - quarter;
@@ -39,7 +39,7 @@ fn cos_sin_turns(turns: f32) -> vec2f {
     return select(turned, -turned, (k & 2) != 0);
 }
 
-// The angle of (x, y), which is not the origin, in turns, in [-1/2, 1/2]. Absolute error about 2e-8.
+// The angle of (x, y) in turns, -1/2 to 1/2; not for the origin. Absolute error about 2e-8.
 fn angle_turns(y: f32, x: f32) -> f32 {
     let steep = abs(y) > abs(x);
     let t = select(abs(y), abs(x), steep) / select(abs(x), abs(y), steep);

@@ -1,5 +1,5 @@
 // Unit vectors in 32 bits (Cigolle et al., "A Survey of Efficient Representations for
-// Independent Unit Vectors", JCGT 2014): largest error about 0.003 degrees at 16 bits a side.
+// Independent Unit Vectors", JCGT 2014): maximum error about 0.003 degrees at 16 bits a component.
 
 fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));

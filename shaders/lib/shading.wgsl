@@ -1,6 +1,8 @@
-// Light and colour of a sample. No ray is marched here: visibility is a bit.
+// Light and colour of a sample. Shading marches no ray: it reads visibility bits.
+// uses: lib/camera, lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/film
+// uses: types/frame_uniforms, types/light, types/slice
 
-// Whether this pipeline shows the environment map: 0 no, 1 yes, -1 as the picture says.
+// Whether this pipeline shows the environment map: 0 no, 1 yes, -1 reads it from the uniforms.
 override HAS_ENVIRONMENT_MAP: i32 = -1;
 
 fn has_environment_map() -> bool {
@@ -13,7 +15,7 @@ const SOURCE_ORIGIN_TRAP = 1u;
 const SOURCE_AXIS_TRAP = 2u;
 
 const GRADIENT_ENTRIES = 256u;
-// The surface's colour gradient, linear Rec. 709, closed on itself.
+// The surface's colour gradient, linear Rec. 709, periodic.
 @group(0) @binding(4) var<uniform> gradient: array<vec4f, GRADIENT_ENTRIES>;
 
 fn gradient_color(u: f32) -> vec3f {
@@ -27,7 +29,7 @@ fn surface_color(data: vec2u) -> vec3f {
     let second = unpack2x16unorm(data.y) * 2.0;
     var value = second.y;
     if (frame.surface.color_source == SOURCE_ITERATIONS) {
-        value = first.x * f32(frame.fractal.iterations + 1u);
+        value = first.x * f32(frame.march.iterations + 1u);
     } else if (frame.surface.color_source == SOURCE_ORIGIN_TRAP) {
         value = first.y * 2.0;
     } else if (frame.surface.color_source == SOURCE_AXIS_TRAP) {
@@ -37,12 +39,12 @@ fn surface_color(data: vec2u) -> vec3f {
 }
 
 // Blinn-Phong (Blinn 1977) summed over the lights that reach the point. Without normals (thesis
-// fig. 3.3 a) every point faces them, and there is nothing that a highlight could lie on.
+// fig. 3.3 a) every point faces every light, and there are no highlights.
 fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
     var sum = color * frame.surface.ambient;
     for (var k = 0u; k < frame.surface.light_count; k++) {
         let light = lights[k];
-        // Nobody marched toward a light without light, or without shadows: their bits mean nothing.
+        // Black lights and lights without shadows have no shadow rays: their visibility bits are undefined.
         if (all(light.color == vec3f(0.0))) { continue; }
         if (light.casts_shadows != 0u && !has_light(bits, light)) { continue; }
         var toward_light = light.vector;
@@ -66,7 +68,7 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
     return sum;
 }
 
-// What a ray sees that meets nothing, `height` below the picture's upper edge.
+// The background that a ray without a hit sees; `height` is 0 at the picture's upper edge, 1 at the lower.
 fn background(direction: vec3f, height: f32) -> vec3f {
     let behind = frame.background;
     if (!has_environment_map()) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
@@ -75,7 +77,7 @@ fn background(direction: vec3f, height: f32) -> vec3f {
     return behind.picture_gain * environment_at(in_picture);
 }
 
-// Light straight from its source that a sample sends to the eye.
+// Direct light that a sample reflects to the eye.
 fn direct_radiance(site: Site) -> vec3f {
     let ray = camera_ray(site);
     let seen = surface[site.index];
@@ -86,7 +88,7 @@ fn direct_radiance(site: Site) -> vec3f {
     return reflected(point, n, -ray.direction, surface_color(color_data[site.index]), visibility[site.index]);
 }
 
-// Adds the sum of a pixel's samples to it, or replaces what there is.
+// Adds the sum of a pixel's samples to the film, or replaces the film's value.
 fn put_on_film(pixel: vec2u, sum: vec3f) {
     let at = pixel_index(pixel);
     let blue_weight = vec2f(sum.b, f32(slice.samples));

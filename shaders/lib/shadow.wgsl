@@ -1,23 +1,18 @@
-// Where shadow rays start and what blocks them.
+// Where shadow rays start, and the distance at which a surface blocks them.
+// uses: lib/camera, lib/lattice, lib/octahedral, types/frame_uniforms, types/slice
 
-// A blocker counts once it fills this cone about the ray, in radius for distance to the point:
-// half the sun's own size in the sky.
-const SHADOW_CONE = 0.004;
-
-// How near the surface may come to a ray, `s` before its point.
-fn blocking_distance(fractal: Fractal, s: f32, surface_distance: f32) -> f32 {
-    // At low powers the estimate is small far around hairs.
-    let low = saturate(4.0 - fractal.power);
-    return max(mix(SHADOW_CONE, 0.5 * SHADOW_CONE, low) * s, mix(0.5, 0.15, low) * surface_distance);
+// Distance to the surface below which a shadow ray is blocked, `s` before the point.
+fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
+    return max(frame.march.shadow_cone * s, frame.march.shadow_margin * surface_distance);
 }
 
-// A sample's point as shadow rays see it.
+// A sample's point as the target of shadow rays.
 struct Receiver {
-    // Lifted off the surface, so that the point's own neighbourhood does not shade it.
+    // Lifted off the surface, so that the surface near the point does not shade it.
     point: vec3f,
-    // Its hit distance.
+    // The point's hit distance.
     surface_distance: f32,
-    // Whether there is a point, and it faces the slice's light.
+    // True if the sample has a surface point that faces the slice's light.
     faces: bool,
 }
 
@@ -25,7 +20,7 @@ fn receiver(site: Site) -> Receiver {
     let seen = surface[site.index];
     let t = bitcast<f32>(seen.x);
     let n = octahedral_unpack(seen.y);
-    let surface_distance = hit_distance(frame.camera, frame.fractal, t);
+    let surface_distance = hit_distance(frame.camera, t);
     let ray = camera_ray(site);
     let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
     let toward = select(slice.light_vector, slice.light_vector - point, slice.light_kind == LIGHT_POINT);
@@ -33,7 +28,7 @@ fn receiver(site: Site) -> Receiver {
     return Receiver(point, surface_distance, faces);
 }
 
-// The slice's light among a sample's visibility bits.
+// The word and the mask of the slice's light in a sample's visibility bits.
 fn light_word() -> u32 {
     return slice.light_bit >> 5u;
 }

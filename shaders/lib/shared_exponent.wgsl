@@ -1,4 +1,4 @@
-// Colours in 32 bits: nine for each channel and five for an exponent that they share (the format
+// Colours in 32 bits: nine bits per channel and a shared exponent of five bits (the format
 // rgb9e5ufloat). The largest channel keeps a relative precision of 1/512.
 
 fn shared_exponent_pack(color: vec3f) -> u32 {
@@ -6,7 +6,7 @@ fn shared_exponent_pack(color: vec3f) -> u32 {
     let largest = max(max(inside.r, inside.g), inside.b);
     // The bits of an f32 hold its exponent.
     var exponent = max(i32(bitcast<u32>(largest) >> 23u) - 127, -16) + 16;
-    // Rounding up may take one more.
+    // Rounding up may need the next exponent.
     if (round(largest * exp2(f32(24 - exponent))) >= 512.0) { exponent += 1; }
     let mantissas = vec3u(round(inside * exp2(f32(24 - exponent))));
     return mantissas.r | (mantissas.g << 9u) | (mantissas.b << 18u) | (u32(exponent) << 27u);

@@ -1,49 +1,48 @@
-// Where a ray is inside the sphere that holds the whole set.
+// The interval of a ray inside the set's bounding sphere.
+// uses: types/frame_uniforms
 
-// A point of the view in scene units from the set's centre: squares of lengths that a deep view
-// counts in its own unit may be past what an f32 holds.
+// A render-space point as scene units from the set's centre. Squares of lengths in a deep view's
+// small unit may overflow an f32.
 fn in_scene(point: vec3f) -> vec3f {
-    if (DEEP) { return frame.fractal.anchor + frame.fractal.scale * point; }
-    return point;
+    return frame.march.anchor + frame.march.scale * point;
 }
 
-// A length in scene units in those of the view.
+// A length in scene units, converted to render space.
 fn in_view(length: f32) -> f32 {
-    if (DEEP) { return length / frame.fractal.scale; }
-    return length;
+    return length / frame.march.scale;
 }
 
-// Distances of entry and exit along a unit direction; exit < entry where the ray passes by.
+// Distances of entry and exit along a unit direction; exit < entry if the ray misses the sphere.
 fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
-    // The closest approach itself, rather than |origin|² - b²: no cancellation from afar.
+    // The closest approach itself instead of |origin|² - b²: no cancellation for a far origin.
     let closest = from_center - b * direction;
-    let half_chord_squared = frame.fractal.bounding_radius * frame.fractal.bounding_radius
+    let half_chord_squared = frame.march.bounding_radius * frame.march.bounding_radius
         - dot(closest, closest);
     if (half_chord_squared <= 0.0) { return vec2f(1.0, -1.0); }
     let half_chord = sqrt(half_chord_squared);
     return vec2f(in_view(max(-b - half_chord, 0.0)), in_view(half_chord - b));
 }
 
-// How far along a unit direction the last of the rays leaves whose origins are `width` from one
-// at most.
+// The distance along a unit direction at which the last ray of a bundle leaves the sphere. The rays'
+// origins are at most `width` from the axis through `origin`.
 fn bounding_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
-    let aside = max(length(from_center - b * direction) - frame.fractal.scale * width, 0.0);
-    let radius = frame.fractal.bounding_radius;
+    let aside = max(length(from_center - b * direction) - frame.march.scale * width, 0.0);
+    let radius = frame.march.bounding_radius;
     return in_view(sqrt(max(radius * radius - aside * aside, 0.0)) - b);
 }
 
-// The least distance at which a ray from `origin` enters the sphere whose unit direction differs
-// from `axis` by `spread` at most; negative where none of them does.
+// The least distance at which a ray from `origin` enters the sphere, among rays whose unit directions
+// differ from `axis` by at most `spread`; negative if all rays miss.
 fn bounding_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
-    // The direction among them that comes nearest to the centre.
+    // The direction among them that passes nearest to the centre.
     let from_center = in_scene(origin);
     let toward = -from_center / max(length(from_center), 1e-30);
     let aside = toward - dot(toward, axis) * axis;
-    // A little more than there is, for the arc is longer than its tangent.
+    // Slightly more than `spread`, since the arc is longer than its tangent.
     let edge = normalize(axis + 1.01 * spread / max(length(aside), 1e-30) * aside);
     let nearest = select(edge, toward, distance(toward, axis) <= spread);
     let interval = bounding_interval(origin, nearest);

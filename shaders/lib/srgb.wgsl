@@ -1,4 +1,5 @@
-// Linear light to display values, and what hides their steps.
+// Linear light to sRGB display values, and the dither that hides their steps.
+// uses: lib/noise
 
 // IEC 61966-2-1.
 fn srgb_from_linear(linear: vec3f) -> vec3f {
@@ -7,8 +8,8 @@ fn srgb_from_linear(linear: vec3f) -> vec3f {
     return select(high, low, linear <= vec3f(0.0031308));
 }
 
-// Noise from -1/2 to 1/2: one dither step keeps dark gradients free of bands. A function of the
-// whole picture's pixel, so that tiles join.
+// Noise from -1/2 to 1/2: one dither step avoids bands in dark gradients. A function of the pixel's
+// position in the whole picture, so that tiles join.
 fn dither(pixel: vec2u) -> f32 {
     return fract(interleaved(vec2f(pixel))) - 0.5;
 }

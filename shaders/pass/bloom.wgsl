@@ -1,7 +1,9 @@
-// What spreads: the finest mip level of the light above the threshold, before or after the tone
+// The light that blooms: the finest mip level of the light above the threshold, before or after the tone
 // curve.
+// uses: lib/curve, lib/exposure, lib/lattice, lib/luminance, lib/mip, types/film
+// uses: types/frame_uniforms, types/post
 
-// The part of a colour's light above the threshold: nothing jumps where it is crossed.
+// The part of a colour's light above the threshold; continuous at the threshold.
 fn above_threshold(color: vec3f) -> vec3f {
     let l = luminance(color);
     return color * (max(l - frame.bloom.threshold, 0.0) / max(l, 1e-12));

@@ -1,7 +1,8 @@
 // One direction of a uniform kernel over a mip level (thesis 4.5): along x from the level to
-// `half_blurred`, along y back. The kernel is as wide as it is, not as wide as whole elements are:
-// those at its ends count for the part that it covers. It is normalised by the pixels inside the
-// eye's part of the film, so that nothing darkens toward the borders or reaches the other eye.
+// `half_blurred`, along y back. The kernel's width is exact, not rounded to whole elements: the elements
+// at its ends are weighted by the part that it covers. The kernel is normalised by the pixels inside
+// the eye's part of the film, so that borders do not darken and no light reaches the other eye.
+// uses: lib/mip, types/frame_uniforms, types/post, types/slice
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {

@@ -1,7 +1,9 @@
-// How far all rays of a block go before any of them may hit, and which blocks have any that may:
-// these are queued for marching, and the others' samples meet nothing.
+// Computes how far all rays of a block go before any of them may hit. Queues the blocks with rays that
+// may hit; the samples of the other blocks miss.
+// uses: lib/bundle, lib/camera, lib/eye, lib/lattice, lib/sphere, types/enqueue
+// uses: types/frame_uniforms, types/gbuffer, types/slice
 
-// How deep all rays of a block may go; negative where all of them miss.
+// The depth that all rays of a block may go to; negative if all of them miss.
 fn clear_block(fractal: Fractal, block: Block) -> f32 {
     let box = block_box(block);
     if (is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
@@ -23,7 +25,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     if (thread.x >= slice.blocks) { return; }
     let block = block_at(thread.x);
-    let clear = clear_block(frame.fractal, block);
+    let clear = clear_block(frame.formula.fractal, block);
     if (clear >= 0.0) {
         enqueue_ray(block.index, clear);
         return;

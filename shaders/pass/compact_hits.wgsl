@@ -1,4 +1,5 @@
 // Queues the blocks that have a surface point.
+// uses: lib/lattice, types/enqueue, types/frame_uniforms, types/gbuffer, types/slice
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {

@@ -1,7 +1,8 @@
-// Auto exposure: from the last mip level, `slice.mip_level`, to the stops that bring the mean to
-// the key (Reinhard et al. 2002, eq. 2). Level 0 stands for the mean that is known already.
+// Auto exposure: computes, from the last mip level `slice.mip_level`, the stops that bring the mean to
+// the key (Reinhard et al. 2002, eq. 2). Level 0 reuses the mean in the statistics.
+// uses: lib/luminance, lib/mip, types/frame_uniforms, types/post, types/slice
 
-// Neither a black film nor a blinding one is exposed by more, stops.
+// Limit of auto exposure, stops: for a black film and for a very bright one.
 const MOST_STOPS = 20.0;
 
 @compute @workgroup_size(64)
@@ -9,7 +10,7 @@ fn main(@builtin(local_invocation_index) local_index: u32) {
     frame = frame_uniforms;
     if (local_index != 0u) { return; }
     if (slice.mip_level != 0u) {
-        // One element for each eye.
+        // The last level has one element per eye.
         let levels = film_levels();
         let first = mip_start(levels, slice.mip_level);
         let all = 0.5 * (mips[first] + mips[first + levels.eyes.x * levels.eyes.y - 1u]);
@@ -19,7 +20,7 @@ fn main(@builtin(local_invocation_index) local_index: u32) {
     let arithmetic = log2(max(luminance(statistics.mean), 1e-12));
     let mean_stops = select(arithmetic, statistics.mean_log2, frame.tone.logarithmic != 0u);
     let goal = clamp(log2(frame.tone.key) - mean_stops, -MOST_STOPS, MOST_STOPS);
-    // At its end the goal itself, whatever the rounding.
+    // At the end the exact goal, without rounding.
     let nearer = mix(statistics.adapted_stops, goal, slice.adapt);
     statistics.adapted_stops = select(nearer, goal, slice.adapt >= 1.0);
 }

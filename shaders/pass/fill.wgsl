@@ -1,8 +1,9 @@
-// Fills the pixels between those of a sparse lattice, one lattice level a dispatch. Each new
+// Fills the pixels between those of a sparse lattice, one lattice level per dispatch. Each new
 // pixel has four known neighbours in two opposite pairs; the pair that differs less lies along
-// the edge, and counts more.
+// the edge and gets more weight.
+// uses: lib/eye, lib/lattice, lib/luminance, types/film, types/frame_uniforms, types/slice
 
-// Contrast as the eye sees it: the difference of the tone-compressed luminances.
+// Perceived contrast: the difference of the tone-compressed luminances.
 fn contrast(a: vec3f, b: vec3f) -> f32 {
     let la = luminance(a);
     let lb = luminance(b);
@@ -17,13 +18,13 @@ fn in_region(position: vec2i) -> bool {
     return all(position >= vec2i(0)) && all(position < vec2i(frame.size_px));
 }
 
-// Whether there is a pixel of the same eye.
+// True if `position` is a pixel of the region and of the same eye as `at`.
 fn is_neighbor(at: vec2i, position: vec2i) -> bool {
     return in_region(position) && is_second_eye(vec2u(position)) == is_second_eye(vec2u(at));
 }
 
-// The known colours on both sides of a new pixel. At the border of the eye's part the one that is
-// missing is replaced by the other, and where both are, by `sure`.
+// The known colours on both sides of a new pixel. At the border of the eye's part the colour of the
+// opposite side replaces a missing one; `sure` replaces both if both are missing.
 fn pair(at: vec2i, offset: vec2i, sure: vec3f) -> array<vec3f, 2> {
     let ahead = is_neighbor(at, at + offset);
     let behind = is_neighbor(at, at - offset);
@@ -42,9 +43,9 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     if (!inside_region(pixel)) { return; }
     let at = vec2i(pixel);
     let s = i32(slice.spacing);
-    // Staggered levels have neighbours beside and above, the others on the diagonals. One of
-    // those toward the origin is always there: a staggered pixel of the first column lies in
-    // an odd row. It may be of the other eye, which has to do only where there is no other.
+    // Staggered levels have neighbours beside and above, other levels on the diagonals. One neighbour
+    // toward the origin always exists: a staggered pixel of the first column lies in an odd row. A
+    // neighbour of the other eye is used only if no neighbour is of the same eye.
     let staggered = slice.stagger != 0u;
     let one = select(vec2i(s, s), vec2i(s, 0), staggered);
     let other = select(vec2i(-s, s), vec2i(0, s), staggered);
@@ -59,7 +60,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let fallback = film_at(sure);
     let first = pair(at, one, fallback);
     let second = pair(at, other, fallback);
-    // Squared: the better pair wins clearly, without a visible switch.
+    // Squared: the better pair clearly dominates, without a visible switch.
     let along_first = 1.0 / (contrast(first[0], first[1]) + 0.01);
     let along_second = 1.0 / (contrast(second[0], second[1]) + 0.01);
     let w1 = along_first * along_first;

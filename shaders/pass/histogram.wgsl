@@ -1,5 +1,6 @@
-// How many of the film's pixels have which luminance, in equal steps of its logarithm. What lies
-// beyond the first or the last bin counts there. The bins are zero before.
+// Counts the film's pixels by luminance, in equal steps of its logarithm. Luminances outside the bins
+// count in the first or the last bin. The bins must be zero before the pass.
+// uses: lib/lattice, lib/luminance, lib/mip, types/film, types/frame_uniforms, types/post
 
 var<workgroup> own_bins: array<atomic<u32>, HISTOGRAM_BINS>;
 

@@ -1,20 +1,23 @@
-// Indirect light from what is around a sample on the screen, added to its direct light (thesis
+// Indirect light from a sample's neighbours on the screen, added to its direct light (thesis
 // 4.5, "Global Illumination"). Neighbours are centre samples, all of them or those of a lattice
-// level; what lies outside the picture or shows the background has no part in it.
+// level; pixels outside the picture and background pixels contribute nothing.
+// uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/shading
+// uses: lib/shared_exponent, types/direct, types/frame_uniforms, types/indirect, types/sample
+// uses: types/slice
 
 struct Neighbour {
-    // 0 where there is none, less than 1 where it lies far before or behind.
+    // 0 without a neighbour, less than 1 if the neighbour is far in front or behind.
     weight: f32,
-    // From the sample to it.
+    // From the sample to the neighbour.
     offset: vec3f,
     normal: vec3f,
-    // Its direct light.
+    // The neighbour's direct light.
     radiance: vec3f,
 }
 
 const NOBODY = Neighbour(0.0, vec3f(0.0), vec3f(0.0), vec3f(0.0));
 
-// The pixel of the slice's lattice level that is nearest to a pixel of an eye's picture.
+// The pixel of the slice's lattice level nearest to a pixel of an eye's picture.
 fn on_lattice(at: vec2i) -> vec2i {
     let shift = vec2u(slice.neighbour_level / 2u);
     let half_way = (vec2i(1) << shift) / 2;
@@ -24,13 +27,13 @@ fn on_lattice(at: vec2i) -> vec2i {
     return cell << shift;
 }
 
-// What is seen `aside` of a pixel's sample, in parts of the picture's height. `reach` is how far
-// the operator looks, at the sample's own depth: what is farther away than that belongs to something
-// else, and counts less and less.
+// The neighbour `aside` of a pixel's sample, in parts of the picture's height. `reach` is the operator's
+// radius at the sample's own depth: a neighbour farther away belongs to another surface, and its weight
+// falls to 0.
 fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
     let eye_px = frame.indirect.source_px;
     let middle = eye_position(site.pixel, place_in_pixel(site.sample)) * vec2f(eye_px);
-    // Heights to pixels, which need not be square.
+    // Converts heights to pixels, which need not be square.
     let px = vec2f(f32(eye_px.x) / frame.camera.aspect, f32(eye_px.y));
     let at = on_lattice(vec2i(floor(middle + aside * px)));
     if (any(at < vec2i(0)) || any(at >= vec2i(eye_px))) { return NOBODY; }
@@ -46,16 +49,16 @@ fn neighbour(site: Site, point: vec3f, aside: vec2f, reach: f32) -> Neighbour {
     return Neighbour(weight, offset, octahedral_unpack(seen.y), shared_exponent_unpack(direct[index]));
 }
 
-// Noise from 0 to 1, other for each sample of a pixel.
+// Noise from 0 to 1, different for each sample of a pixel.
 fn noise(site: Site, salt: f32) -> f32 {
     let place = vec2f(frame.origin_px + eye_pixel(site.pixel)) + salt;
     let shift = dot(place_in_pixel(site.sample), vec2f(1.0));
     return fract(interleaved(place) + shift);
 }
 
-// Eq. 4.1 over a square of half width `radius`: the mean of the neighbours' light, each by the
-// cosine of its normal to the sample's, negative ones clamped. Where the square has more pixels
-// than samples they lie on a grid, one at a noisy place of each of its cells.
+// Eq. 4.1 over a square of half width `radius`: the mean of the neighbours' light, weighted by the
+// cosine between the two normals, clamped at 0. If the square has more pixels than samples, the samples
+// lie on a grid, one at a noisy position in each cell.
 fn uniform_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     let count = i32(frame.indirect.samples);
     let stride = frame.indirect.radius / (f32(count) + 0.5);
@@ -72,10 +75,10 @@ fn uniform_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     return sum / max(total, 1e-6);
 }
 
-// Algorithm 2: along each direction on the screen every neighbour that rises above the horizon so
-// far adds its light and the ambient factor, the less the higher it stands. Printed, the horizon
-// is never lowered between directions, and a sum of nothing is divided by nothing: here each
-// direction begins with its own, and a sample without neighbours gets the ambient light alone.
+// Algorithm 2: along each direction on the screen, every neighbour above the horizon so far adds
+// its light and the ambient factor, with less weight the higher it stands. As printed, the algorithm never
+// resets the horizon between directions, and divides an empty sum by zero: here each direction
+// starts with its own horizon, and a sample without neighbours gets the ambient light alone.
 fn horizon_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     let ambient = vec3f(frame.indirect.ambient);
     let turn = noise(site, 0.0);
@@ -90,7 +93,7 @@ fn horizon_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
             let part = (f32(k) + along) / f32(frame.indirect.samples);
             let other = neighbour(site, point, direction * (part * frame.indirect.radius), reach);
             let distance = length(other.offset);
-            // Pixels so near that they may be the sample's own tell nothing.
+            // Skips pixels so near that they may be the sample's own.
             if (other.weight <= 0.0 || distance < 0.02 * part * reach) { continue; }
             let height = saturate(dot(n, other.offset / distance));
             if (height < horizon) { continue; }
@@ -103,7 +106,7 @@ fn horizon_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
     return sum / total;
 }
 
-// All light that a sample sends to the eye.
+// All light that a sample reflects to the eye.
 fn radiance_of(site: Site) -> vec3f {
     let radiance = direct_radiance(site);
     let seen = surface[site.index];

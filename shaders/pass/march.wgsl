@@ -1,26 +1,28 @@
-// Camera rays to surface points: depth and colour data of each sample.
+// Marches camera rays to surface points: writes depth and colour data of each sample.
+// uses: formula, lib/camera, lib/estimate_next, lib/over_relaxation, lib/sphere
+// uses: types/frame_uniforms, types/gbuffer, types/work_queues
 
-// No step is shorter than this part of the hit distance: what is thinner may be passed.
+// Least step, in hit distances; rays may pass thinner parts of the surface.
 const LEAST_STEP = 0.25;
-// The same where a hit has to last anyway.
+// Least step, in hit distances, if hits are checked.
 const LEAST_STEP_WITH_HIT_CHECK = 0.4;
 
-// Sphere tracing (Hart 1996) with a hit distance that follows the pixel's cone, from a depth that
-// is known to be clear. 0 on a miss.
+// Sphere tracing (Hart 1996) with a hit distance proportional to the pixel's cone, from the depth `clear`
+// up to which the ray is known to be clear. 0 on a miss.
 fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
-    var over = over_relaxation(fractal.power);
-    // Depth of the last point and what was left to its hit.
+    var over = over_relaxation();
+    // Depth of the last point, and the distance that was missing to a hit there.
     var before = t;
     var left = 0.0;
-    let checks_hits = needs_hit_check(fractal);
+    let checks_hits = needs_hit_check();
     let least_step = select(LEAST_STEP, LEAST_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
-        for (; i < fractal.march_steps; i++) {
+        for (; i < frame.march.march_steps; i++) {
             let is_looking = checks_hits && crossing.looks > 0u;
             let is_inside = t <= interval.y || is_looking;
             var ahead = Estimate(0.0, 0.0);
@@ -28,7 +30,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
                 ahead = estimate_next(&pending, fractal, ray.origin + t * ray.direction, ray.direction);
             }
             if (pending.is_needed) { break; }
-            ahead.step = max(ahead.step, step_escalation(i, fractal.march_steps) * ahead.distance);
+            ahead.step = max(ahead.step, step_escalation(i, frame.march.march_steps) * ahead.distance);
             if (!is_looking) {
                 let back = step_back(&over, ahead.step);
                 if (back > 0.0) {
@@ -37,14 +39,14 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
                 }
                 if (!is_inside) { return 0.0; }
             }
-            let hit = hit_distance(camera, fractal, t);
+            let hit = hit_distance(camera, t);
             if (checks_hits && (is_looking || ahead.distance < hit)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
                 if (crossing.looks > LOOKS) { return max(t, 1e-30); }
                 if (crossing.looks > 0u) { continue; }
             }
             if (ahead.distance < hit) {
-                // Where on the last step the hit was, about: wherever its two ends were.
+                // Interpolates the crossing of the hit distance on the last step.
                 let past = hit - ahead.distance;
                 return max(mix(before, t, left / max(left + past, 1e-30)), 1e-30);
             }
@@ -55,7 +57,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
         if (!pending.is_needed) { break; }
         pending.estimate = careful_estimate(fractal, ray.origin + t * ray.direction, ray.direction);
     }
-    // Out of steps while creeping along the surface: closer than any pixel can tell.
+    // Out of steps while creeping along the surface: closer than a pixel resolves.
     return t;
 }
 
@@ -65,7 +67,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }
-    let fractal = frame.fractal;
+    let fractal = frame.formula.fractal;
     let ray = camera_ray(site);
     let t = march(frame.camera, fractal, ray, queued.clear);
     surface[site.index].x = bitcast<u32>(t);
@@ -73,7 +75,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let point = ray.origin + t * ray.direction;
     let colors = orbit_colors(fractal, point);
     color_data[site.index] = vec2u(
-        pack2x16unorm(vec2f(colors.smooth_iterations / f32(fractal.iterations + 1u), colors.traps.x * 0.5)),
+        pack2x16unorm(vec2f(colors.smooth_iterations / f32(frame.march.iterations + 1u), colors.traps.x * 0.5)),
         pack2x16unorm(colors.traps.yz * 0.5),
     );
 }

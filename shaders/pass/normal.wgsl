@@ -1,6 +1,7 @@
-// Normals of the surface points, in one of the ways of thesis 3.2, fig. 3.3, or exactly.
+// Normals of the surface points: analytic, or one of the sampled kinds of thesis 3.2, fig. 3.3.
+// uses: formula, lib/camera, lib/octahedral, types/frame_uniforms, types/gbuffer, types/work_queues
 
-// The kind that this pipeline is specialised for; -1 reads it from the picture.
+// The kind that this pipeline is specialised for; -1 reads the kind from the uniforms.
 override NORMALS: i32 = -1;
 
 fn normals_kind() -> u32 {
@@ -8,9 +9,9 @@ fn normals_kind() -> u32 {
     return frame.normals;
 }
 
-// The grid points that are sampled, the nearest ones of a 3x3x3 grid about the point.
+// True for the sampled grid points, among the 3x3x3 grid about the point.
 fn is_sampled(offset: vec3f) -> bool {
-    // 0 the point itself, 1 on the axes, 2 on the faces' diagonals, 3 at the corners.
+    // 0: the point itself; 1: on the axes; 2: on the faces' diagonals; 3: at the corners.
     let axes = dot(abs(offset), vec3f(1.0));
     switch normals_kind() {
         case NORMALS_THREE: { return axes <= 1.0 && all(offset >= vec3f(0.0)); }
@@ -20,8 +21,8 @@ fn is_sampled(offset: vec3f) -> bool {
     }
 }
 
-// The gradient, of any length, of the linear function that fits the samples best (least squares):
-// by symmetry the sum of each value times its offset. With three, differences to the point itself.
+// The gradient, not normalised, of the linear function that fits the samples best (least squares):
+// by symmetry the sum of each value times its offset. Three samples use differences to the point itself.
 fn sampled_gradient(fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
     var gradient = vec3f(0.0);
     for (var k = 0u; k < 27u; k++) {
@@ -33,7 +34,7 @@ fn sampled_gradient(fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
     return gradient;
 }
 
-// Toward the eye where there is no gradient, as inside, and where none is asked for.
+// Points toward the eye if the gradient is zero, as inside the set, or if normals are off.
 fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
     var gradient = vec3f(0.0);
     if (normals_kind() == NORMALS_ANALYTIC) {
@@ -41,7 +42,7 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
     } else if (normals_kind() != NORMALS_NONE) {
         gradient = sampled_gradient(fractal, point, spacing);
     }
-    // Its square may be past what an f32 holds.
+    // The square of the gradient's length may overflow an f32.
     let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
     if (largest <= 0.0) { return toward_eye; }
     return normalize(gradient / largest);
@@ -56,7 +57,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (t == 0.0) { return; }
     let ray = camera_ray(site);
     let point = ray.origin + t * ray.direction;
-    let fractal = frame.fractal;
-    let spacing = hit_distance(frame.camera, fractal, t);
+    let fractal = frame.formula.fractal;
+    let spacing = hit_distance(frame.camera, t);
     surface[site.index].y = octahedral_pack(surface_normal(fractal, point, spacing, -ray.direction));
 }

@@ -1,5 +1,6 @@
-// A mip level from the next finer one, `slice.mip_level`: each element is the mean of the two by
-// two below it, weighted by the pixels that those are made of, so that odd sizes count right.
+// Computes a mip level from the next finer one, `slice.mip_level`: each element is the mean of the two by
+// two elements below it, weighted by their pixel counts, so that odd sizes are exact.
+// uses: lib/mip, types/frame_uniforms, types/post, types/slice
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {

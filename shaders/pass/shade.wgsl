@@ -1,6 +1,8 @@
-// Light and colour of each sample, onto the film, or to where indirect light is made of it.
+// Light and colour of each sample: to the film, or to `direct` as the source of indirect light.
+// uses: lib/lattice, lib/shading, lib/shared_exponent, types/direct, types/frame_uniforms
+// uses: types/gbuffer, types/slice
 
-// Whether this pipeline is for single samples: a loop of one turn is dear on llvmpipe.
+// True if this pipeline shades single samples: a loop of one turn is slow on llvmpipe.
 override SINGLE: bool = false;
 
 @compute @workgroup_size(64)
@@ -14,7 +16,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (frame.indirect.kind == INDIRECT_OFF) {
         put_on_film(first.pixel, sum);
     } else {
-        // Of centre samples alone.
+        // Centre samples only.
         direct[pixel_index(first.pixel)] = shared_exponent_pack(sum);
     }
 }

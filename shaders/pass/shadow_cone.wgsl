@@ -1,10 +1,12 @@
-// How far all rays of a block to the slice's light go unblocked, and which blocks face it: these
-// are queued for shadow rays. Every point is dark until one of those finds it lit.
+// Computes how far all rays of a block toward the slice's light are unblocked. Queues the blocks that face
+// the light for shadow rays. Clears every point's bit; a shadow ray sets it if the light reaches the point.
+// uses: formula, lib/bundle, lib/estimate_next, lib/lattice, lib/shadow, lib/sphere, types/enqueue
+// uses: types/frame_uniforms, types/gbuffer, types/slice, types/work_queues
 
 var<private> points: array<vec4f, BLOCK_THREADS>;
 
-// Of the points with w > 0, their hit distances: how far along the light's direction the plane lies that
-// rays to all of them come to unblocked.
+// Position along the light's direction of the plane that rays to all points reach unblocked. Points with
+// w = 0 do not count; w is a point's hit distance.
 fn clear_plane(fractal: Fractal) -> f32 {
     let direction = slice.light_vector;
     var low = vec3f(1e30);
@@ -26,26 +28,26 @@ fn clear_plane(fractal: Fractal) -> f32 {
         width = max(width, length(offset - along * direction));
         extent = max(extent, along);
     }
-    // Where the last of the rays leaves the bounding sphere, or where shadows end.
+    // Starts where the last of the rays leaves the bounding sphere, or at the end of the light's reach.
     let height = dot(center, direction);
     let leaves = bounding_exit(center, direction, width);
-    let part = ball_part(fractal.power);
+    let part = frame.march.ball_part;
     var s = min(leaves, slice.light_reach + extent);
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < BUNDLE_STEPS; i++) {
-            let ahead = estimate_next(&pending, fractal, center + s * direction, frame.series.widest);
+            let ahead = estimate_next(&pending, fractal, center + s * direction, bundle_direction());
             if (pending.is_needed) { break; }
-            // No point is farther than this from the plane through `s`.
-            let blocks = blocking_distance(fractal, s + extent, surface_distance);
+            // No point is farther than this from the plane at `s`.
+            let blocks = blocking_distance(s + extent, surface_distance);
             let ball = min(part * ahead.step, MOST_BALL) - blocks;
             let advance = sqrt(max(ball * ball - width * width, 0.0));
             if (ball <= width || advance <= width) { break; }
             s -= advance;
         }
         if (!pending.is_needed) { break; }
-        pending.estimate = careful_estimate(fractal, center + s * direction, frame.series.widest);
+        pending.estimate = careful_estimate(fractal, center + s * direction, bundle_direction());
     }
     return height + s;
 }
@@ -68,6 +70,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     }
     if (!any_faces) { return; }
     var clear = 1e30;
-    if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(frame.fractal); }
+    if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(frame.formula.fractal); }
     enqueue_ray(block.index, clear);
 }

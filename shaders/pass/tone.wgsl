@@ -1,6 +1,8 @@
 // Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
+// uses: lib/curve, lib/exposure, lib/eye, lib/lattice, lib/mip, lib/srgb, types/film
+// uses: types/frame_uniforms, types/post, types/slice
 
-// What this pipeline is specialised for: 0 no, 1 yes, -1 as the picture says.
+// What this pipeline is specialised for: 0 no, 1 yes, -1 reads it from the uniforms.
 override BLOOM: i32 = -1;
 override ANAGLYPH: i32 = -1;
 override SPARSE: i32 = -1;
@@ -22,16 +24,16 @@ fn is_sparse() -> bool {
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
 
-// The film beside a pixel, or the pixel's own where that is outside of the region or of another eye.
+// The film at `offset` from a pixel; the pixel's own value outside the region or in another eye's part.
 fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
     let inside = vec2u(clamp(vec2i(pixel) + offset, vec2i(0), vec2i(frame.size_px) - 1));
     let same_eye = is_second_eye(inside) == is_second_eye(pixel);
     return film_mean(pixel_index(select(pixel, inside, same_eye)));
 }
 
-// What the film says of a pixel. On a sparse lattice a lone sample can be brighter or darker
-// than all that was filled in around it along the edges; it would stand out as a dot, and is
-// held to its neighbours' range.
+// The film's value of a pixel. On a sparse lattice a lone sample can be brighter or darker than all
+// pixels that were filled in around it along edges. The clamp to its neighbours' range keeps
+// the sample from standing out as a dot.
 fn reconstructed(pixel: vec2u) -> vec3f {
     let own = film_mean(pixel_index(pixel));
     if (!is_sparse()) { return own; }
@@ -46,8 +48,8 @@ fn mip_element(width: u32, cell: vec2u) -> vec3f {
     return mips[statistics.bloom_start + cell.y * width + cell.x].rgb;
 }
 
-// The light that has spread to a pixel. What spreads was blurred for the picture as a whole: the
-// pixel is looked up by its place in its own eye's part, whatever region this is.
+// The bloom at a pixel. The blurred mip level covers the whole picture, so the lookup uses the pixel's
+// position in its own eye's part, for any region.
 fn bloom_at(pixel: vec2u) -> vec3f {
     let levels = Levels(statistics.eye_px, sheet_eyes());
     let level = statistics.bloom_level;
@@ -83,7 +85,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     var encoded = shown(pixel);
     if (is_anaglyph()) {
         if (is_second_eye(pixel)) { return; }
-        // The left glass is red and lets the left eye's red through, the right one all but red.
+        // The left glass is red and passes the left eye's red; the right glass passes green and blue.
         encoded = vec3f(encoded.r, shown(pixel + frame.eyes.second_at).gb);
     }
     let dithered = encoded + dither(frame.origin_px + eye_pixel(pixel)) / 255.0;

@@ -1,5 +1,7 @@
-// The samples of a sparse lattice to display values, before they are spread over the picture. For
-// one eye, without exposure of its own and without bloom.
+// Tone maps the samples of a sparse lattice to display values, before they are upsampled. Only for
+// one eye, without auto exposure and without bloom.
+// uses: lib/curve, lib/lattice, lib/srgb, types/film, types/frame_uniforms, types/slice
+// uses: types/tonemap_sparse
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {

@@ -1,20 +1,21 @@
-// A sparse lattice to a whole picture, in display values: each pixel lies in a cell of four
-// samples, a square or, where the lattice is staggered, one that stands on its corner. Cells are
-// halved along a diagonal, and each half is interpolated linearly. The diagonal whose ends differ
-// less is how an edge would run through the cell (Su and Willis 2004): it counts more.
+// Upsamples a sparse lattice to a whole picture, in display values. Each pixel lies in a cell of four
+// samples: a square, which stands on its corner if the lattice is staggered. A diagonal halves the
+// cell, and each half is interpolated linearly. The diagonal whose ends differ less follows an edge
+// through the cell (Su and Willis 2004) and gets more weight.
+// uses: lib/lattice, lib/srgb, types/frame_uniforms, types/slice, types/tonemap_sparse
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
 
-// What two samples may differ by as if they were of one colour, in display values.
+// Difference of two samples that counts as the same colour, in display values.
 const SAME = 0.024;
 
-// Where a cell of the lattice hangs over the region's border, the sample within it that comes next.
+// The nearest sample inside the region, for a cell that extends past the region's border.
 fn within(cell: vec2i) -> vec2u {
     let cells = vec2i(((frame.size_px - 1u) >> vec2u(slice.shift)) + 1u);
     let back = 1 + i32(slice.stagger);
     var inside = cell + select(vec2i(0), vec2i(back), cell < vec2i(0));
     inside -= select(vec2i(0), vec2i(back), inside >= cells);
-    // A region narrower than a cell still has its corner.
+    // A region narrower than a cell uses its corner sample.
     return vec2u(select(vec2i(0), inside, all(inside >= vec2i(0)) && all(inside < cells)));
 }
 
@@ -29,7 +30,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     if (!inside_region(pixel)) { return; }
     let place = vec2f(pixel) / f32(1u << slice.shift);
     let staggered = slice.stagger != 0u;
-    // Cells have whole corners in these.
+    // Coordinates in which cells have integer corners.
     let turned = select(place, 0.5 * vec2f(place.x + place.y, place.x - place.y), staggered);
     let corner = floor(turned);
     let part = turned - corner;
@@ -43,7 +44,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let c11 = sample_at(origin + along + across);
     let main_differs = dot(abs(c00 - c11), vec3f(0.3, 0.6, 0.1));
     let other_differs = dot(abs(c10 - c01), vec3f(0.3, 0.6, 0.1));
-    // Either half of the main diagonal, then of the other.
+    // The cell halved along the main diagonal, then along the other one.
     let in_first = part.x >= part.y;
     let by_main = select(
         c00 + part.y * (c01 - c00) + part.x * (c11 - c01),
@@ -57,7 +58,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         c00 + part.x * (c10 - c00) + part.y * (c01 - c00),
         before,
     );
-    // Squared: the better one wins clearly, without a visible switch.
+    // Squared: the better one clearly dominates, without a visible switch.
     let ratio = (other_differs + SAME) / (main_differs + SAME);
     let color = mix(by_other, by_main, ratio * ratio / (ratio * ratio + 1.0));
     textureStore(display, pixel, vec4f(color + dither(frame.origin_px + pixel) / 255.0, 1.0));

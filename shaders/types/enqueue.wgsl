@@ -1,4 +1,5 @@
-// For passes that write a queue: the workgroups of the passes that read it.
+// For passes that write a work queue: the workgroup counts of the passes that read the queue.
+// uses: lib/lattice, types/slice, types/work_queues
 
 struct Workgroups {
     x: atomic<u32>,
@@ -7,11 +8,11 @@ struct Workgroups {
     z: u32,
 }
 
-// Of the queue of hits: at a thread for each of a block's points, and at a thread a block. Of ray
-// queues: one each, at a thread a ray.
+// Bound for hits: entry 0 with one thread per point of a block, entry 1 with one thread per block. Bound
+// for rays: one entry per ray queue, with one thread per ray.
 @group(2) @binding(1) var<storage, read_write> workgroups_for: array<Workgroups, RAY_QUEUES>;
 
-// One more of what goes into workgroups of so many.
+// Counts one more entry; `in_each` entries fill a workgroup.
 fn count_workgroup(which: u32, entry: u32, in_each: u32) {
     if (entry % in_each == 0u) { atomicAdd(&workgroups_for[which].x, 1u); }
 }

@@ -5,8 +5,8 @@
 // Blue, number of samples.
 @group(2) @binding(1) var<storage, read_write> film_bw: array<vec2f>;
 
-// What a pixel adds to something that many pixels are part of: one that is no number must not
-// make all of it none.
+// A pixel's contribution to a sum over many pixels. NaN, negative and infinite values count as 0: one NaN
+// would spoil the whole sum.
 fn film_part(index: u32) -> vec3f {
     let color = film_mean(index);
     return select(vec3f(0.0), color, (color >= vec3f(0.0)) & (color < vec3f(1e30)));

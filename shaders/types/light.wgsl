@@ -1,27 +1,25 @@
-// One light as the shaders see it. Host twin: `render::uniforms::Light`.
+// One light. Host twin: `render::uniforms::Light`.
 
 struct Light {
-    // Environment: unit vector toward the light. Point: its position. World space.
+    // Environment light: unit vector toward the light. Point light: position. World space.
     vector: vec3f,
     // 0 environment, 1 point.
     kind: u32,
     // Linear radiance; black while muted.
     color: vec3f,
-    // 1 where surfaces block it.
+    // 1 if surfaces block the light.
     casts_shadows: u32,
-    // How far a blocker may be, in the view's unit.
+    // Greatest distance of a blocker from the point, in render space.
     shadow_reach: f32,
-    // Which visibility bit is its own.
+    // Index of the light's visibility bit.
     bit: u32,
-    unused_a: u32,
-    unused_b: u32,
 }
 
 const MAX_LIGHTS = 64u;
 
 @group(0) @binding(3) var<uniform> lights: array<Light, MAX_LIGHTS>;
 
-// Whether a light's bit is among these.
+// True if a light's bit is set in `bits`.
 fn has_light(bits: vec2u, light: Light) -> bool {
     return ((bits[light.bit >> 5u] >> (light.bit & 31u)) & 1u) != 0u;
 }

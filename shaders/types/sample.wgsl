@@ -1,4 +1,4 @@
-// The G-buffer for passes that only read it: as `types/gbuffer.wgsl` otherwise.
+// The G-buffer for passes that only read it; packed as in `types/gbuffer.wgsl`.
 
 @group(1) @binding(0) var<storage, read> surface: array<vec2u>;
 @group(1) @binding(1) var<storage, read> color_data: array<vec2u>;

@@ -1,11 +1,13 @@
-// Display values of a sparse lattice's samples, row by row, where jittered samples have their
-// visibility bits at other times: 11, 11 and 10 bits of red, green and blue, sRGB.
+// Display values of a sparse lattice's samples, row by row: 11, 11 and 10 bits of red, green and blue,
+// sRGB. They reuse the buffer of the jittered samples' visibility bits.
+// uses: types/frame_uniforms, types/slice
+
 @group(1) @binding(2) var<storage, read_write> developed: array<u32>;
 
 const DEVELOPED_STEPS = vec3f(2047.0, 2047.0, 1023.0);
 
-// Lattice points in a row, in cells of `spacing` pixels. Staggered lattices leave every other
-// one of a row out.
+// Lattice points in a row, in cells of `spacing` pixels. A staggered lattice leaves out every other
+// point of a row.
 fn developed_columns() -> u32 {
     return ((frame.size_px.x - 1u) >> slice.shift) + 1u;
 }

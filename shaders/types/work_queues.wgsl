@@ -1,15 +1,16 @@
-// Blocks of threads that a later pass has work for. Host twin: `render::work_queues`.
+// Work queues: the blocks of threads that a later pass has work for. Host twin: `render::work_queues`.
+// uses: lib/lattice, types/slice
 
-// The camera's rays, and those to each of 64 lights.
+// One queue for camera rays, and one for the rays to each of 64 lights.
 const RAY_QUEUES = 65u;
 
 struct WorkQueues {
-    // How many blocks with surface points there are.
+    // Number of blocks with surface points.
     hits: atomic<u32>,
-    // How many blocks with rays to march, in each queue.
+    // Number of blocks with rays to march, in each queue.
     rays: array<atomic<u32>, RAY_QUEUES>,
-    // In thirds: the blocks of `hits`; those of the ray queue in use, for each is read before
-    // the next is written; how far their rays are known to be clear.
+    // In thirds: the blocks of `hits`; the blocks of the ray queue in use, since each queue is read before
+    // the next is written; the distances up to which these rays are clear.
     entries: array<u32>,
 }
 
@@ -22,11 +23,11 @@ fn most_blocks() -> u32 {
 // A sample of a queued block.
 struct QueuedSample {
     site: Site,
-    // How far its block's rays are known to be clear; of ray queues only.
+    // Distance up to which the block's rays are known to be clear; for ray queues only.
     clear: f32,
 }
 
-// A thread's sample of the block at an entry: each entry's eight threads come one after the other.
+// A thread's sample of the block at an entry; each entry has eight consecutive threads.
 fn queued(is_there: bool, entry: u32, thread: u32, clear: u32) -> QueuedSample {
     let block = select(0u, work_queues.entries[entry], is_there);
     var site = block_site(block_at(block), thread % BLOCK_THREADS);

@@ -13,7 +13,7 @@ use std::{
 use mandelight::{
     export,
     scene::{
-        Project, Scene,
+        Fractal, Project, Scene,
         document::{self, DocumentError},
     },
 };
@@ -108,6 +108,17 @@ fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Fail
         let field = field_mut(parent, path)
             .ok_or_else(|| Failure::usage(format!("--set: {path}: there is no such field")))?;
         *field = value_like(field, text);
+        if path == "fractal.formula" {
+            // The new formula has parameters of its own, with their defaults.
+            let formula = field.clone();
+            let fractal = parent.get_mut("fractal").and_then(Value::as_object_mut);
+            if let (Some(fractal), Ok(new)) = (fractal, formula_defaults(formula)) {
+                fractal.retain(|name, _| SHARED.contains(&name.as_str()));
+                for (name, value) in new {
+                    fractal.entry(name).or_insert(value);
+                }
+            }
+        }
     }
     document::project_from_json(&json.to_string()).map_err(|error| match error {
         // Lines and columns of a text that nobody has seen say nothing.
@@ -116,6 +127,15 @@ fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Fail
         }
         other => Failure::usage(format!("--set: {other}")),
     })
+}
+
+/// Fields that every formula has.
+const SHARED: [&str; 3] = ["formula", "iterations", "bailout"];
+
+/// All fields of the formula of this name, with their defaults.
+fn formula_defaults(formula: Value) -> Result<serde_json::Map<String, Value>, serde_json::Error> {
+    let fractal: Fractal = serde_json::from_value(serde_json::json!({ "formula": formula }))?;
+    serde_json::from_value(serde_json::to_value(fractal)?)
 }
 
 /// `text` as JSON, or as a plain string where it is none or replaces one.
@@ -161,8 +181,8 @@ mod tests {
             "camera.position[2]=1.25",
         ])
         .unwrap();
-        assert_eq!(scene.fractal.power, 3.0);
-        assert_eq!(scene.fractal.variant, mandelight::scene::Variant::NegativeSine);
+        assert_eq!(scene.fractal.number("power"), Some(3.0));
+        assert_eq!(scene.fractal.get("variant"), Some(&"negative_sine".into()));
         assert_eq!(scene.background.top, [0.0, 0.5, 1.0]);
         assert_eq!(scene.lights.environment[1].intensity, 7.5);
         assert_eq!(scene.lights.environment[0].shadow_reach, Some(2.0));

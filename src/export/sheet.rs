@@ -3,33 +3,11 @@
 //! In: a scene's stereo layout and a size. Out: the sheet's pictures and size. This module does
 //! not render.
 
-use super::{ExportError, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size};
+use super::{ExportError, Eye, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size};
 use crate::{
     render::Eyes,
     scene::{Scene, StereoLayout},
 };
-
-/// The eye of one file of a stereo pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Eye {
-    /// The file for the left eye.
-    Left,
-    /// The file for the right eye.
-    Right,
-}
-
-impl Eye {
-    /// Both eyes, in the order of their files.
-    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
-
-    /// Suffix of the eye's file name: `_left` or `_right`.
-    pub fn suffix(self) -> &'static str {
-        match self {
-            Self::Left => "_left",
-            Self::Right => "_right",
-        }
-    }
-}
 
 /// The pictures of one file, all of one size, in columns and rows.
 #[derive(Clone, Copy, Debug)]

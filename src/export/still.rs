@@ -9,7 +9,7 @@ use std::{io::Write, ops::ControlFlow, sync::Arc};
 use web_time::Instant;
 
 use super::{
-    ExportError, Eye, PictureFormat,
+    ExportError, PictureFormat, StillOptions,
     format::{Encoder, TileReadback},
     overview::Overview,
     sheet::Sheet,
@@ -17,11 +17,8 @@ use super::{
 };
 use crate::{
     render::{Pace, Pipelines, View},
-    scene::{Camera, EnvironmentMap, Scene, StereoLayout},
+    scene::{Camera, Scene},
 };
-
-/// Default maximum size of a tile, in pixels: wide, so that bands are thin.
-const TILE_PX: [u32; 2] = [2048, 256];
 
 /// Maximum size of a band of rows, in bytes; reduces the tile's height if pixels are large.
 const MAX_BAND_BYTES: usize = 32 << 20;
@@ -34,53 +31,7 @@ const BYTES_PER_STEP: usize = 1 << 19;
 const MIN_PART_FOR_ESTIMATE: f64 = 0.02;
 const MIN_SECS_FOR_ESTIMATE: f64 = 1.0;
 
-/// The options of a still: size, eye, samples, tiles, environment map and file format.
-#[derive(Clone, Debug)]
-pub struct StillOptions {
-    /// Width and height of one eye's picture, in pixels: each 1 to [`super::MAX_PICTURE_PX`].
-    /// The same limit applies to a file with both eyes' pictures.
-    pub size_px: [u32; 2],
-    /// The eye, for one file of a stereo pair; none for the scene's stereo layout.
-    pub eye: Option<Eye>,
-    /// Samples per pixel, range [`crate::scene::param::SAMPLES`]; none for the scene's number.
-    pub samples: Option<u32>,
-    /// Maximum width and height of a tile. Smaller tiles need less memory, larger tiles less
-    /// time; the picture is the same.
-    pub tile_px: [u32; 2],
-    /// The loaded environment map, if any.
-    pub environment_map: Option<Arc<EnvironmentMap>>,
-    /// The file format.
-    pub format: PictureFormat,
-}
-
 impl StillOptions {
-    /// Options for a PNG of `size_px` with the scene's number of samples.
-    pub fn new(size_px: [u32; 2]) -> Self {
-        Self {
-            size_px,
-            eye: None,
-            samples: None,
-            tile_px: TILE_PX,
-            environment_map: None,
-            format: PictureFormat::default(),
-        }
-    }
-
-    /// The scene that a still of `scene` shows and stores in its file.
-    ///
-    /// Samples and stereo layout follow these options. Each file of a stereo pair stores the scene
-    /// with the side-by-side layout.
-    pub fn shown(&self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
-        if let Some(samples) = self.samples {
-            scene.quality.samples = samples;
-        }
-        if self.eye.is_some() {
-            scene.camera.stereo.layout = StereoLayout::SideBySide;
-        }
-        scene
-    }
-
     /// Width and height of the file, with both eyes' pictures, in pixels.
     ///
     /// # Errors

@@ -1,24 +1,18 @@
-//! The fractal's mathematics on the CPU, in f64: what picking, speed and collision need.
+//! A scene's fractal, prepared for interface, navigation and renderer.
 //!
-//! In: a [`Fractal`](crate::scene::Fractal) and points in scene units. Out: distances, hits
-//! and normals. This layer knows no GPU and no user interface; the kernels in `shaders/`
-//! follow the same formulas, and tests hold both to an oracle written from the thesis.
+//! In: a [`Scene`](crate::scene::Scene). Out: its prepared fractal, rays through its pixels, anchors for
+//! deep views. This layer uses neither GPU nor user interface; formulas are in [`crate::formula`].
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
-//! | [`power`] | zⁿ, without trigonometry where n is a whole number |
-//! | [`estimator`] | the distance estimate (thesis Algorithm 1), its safe step, the bounding sphere |
-//! | [`deep`] | the set about an anchor, at any depth: perturbation |
-//! | [`march`] | rays against any [`DistanceField`], normals, what lies under a pixel |
+//! | [`model`] | a fractal's distance fields, made once per edit |
+//! | [`camera_ray`](mod@camera_ray) | camera rays through a picture's pixels |
+//! | [`search`] | finds the anchor of a view |
 
-pub mod deep;
-pub mod estimator;
-pub mod march;
-pub mod power;
+pub mod camera_ray;
+pub mod model;
+pub mod search;
 
-pub use deep::{DeepField, Reference};
-pub use estimator::Estimator;
-pub use march::{
-    DEEP_FOOTPRINT, DistanceField, Estimate, LEAST_STEP, MAX_MARCH_STEPS, PLAIN_FOOTPRINT, Ray,
-    camera_ray, pixel_cone,
-};
+pub use camera_ray::{camera_ray, pixel_cone};
+pub use model::{FractalModel, SharedModel};
+pub use search::Search;

@@ -4,6 +4,7 @@
 
 pub mod async_compile;
 pub mod device;
+pub mod host_shared;
 pub mod readback;
 pub mod shader;
 pub mod timing;

@@ -1,8 +1,8 @@
-//! The anchors of a view that moves: one at hand, and the next on its way.
+//! The anchors of a moving view: the current anchor, and a search for the next.
 //!
-//! In: scenes as they come. Out: the [`RenderSpace`] of each. A search is made in pieces beside the
-//! frames, and begins before it is needed: an anchor serves views some hundred times as fine as the
-//! one that it was found for, and is replaced long before.
+//! In: successive scenes. Out: the [`RenderSpace`] of each. A search runs in steps between
+//! frames and begins before its anchor is needed: an anchor serves views some hundred times as fine as
+//! the view that it was found for, and is replaced long before.
 
 use std::sync::Arc;
 
@@ -14,23 +14,23 @@ use super::{
     space::{RenderSpace, plain_footprint, wants_anchor},
 };
 use crate::{
-    fractal::{
-        Reference,
-        deep::{self, Search},
-    },
+    formula::{ReferenceOrbit, contract::COARSEST_FOOTPRINT},
+    fractal::{FractalModel, Search},
     scene::{PrecisePoint, Scene},
 };
 
-/// The time that a frame has for a search, milliseconds.
+/// Time for the search in one frame, milliseconds.
 const BUDGET_MS: f64 = 2.0;
-/// A search begins once the eye has moved by so much of the depth that the anchor was found at.
+/// Movement of the eye that starts a new search, in depths of the anchor.
+///
+/// The depth is the anchor's distance from the eye when it was found.
 const RENEWED_AFTER: f64 = 0.5;
-/// The anchor is no good any more where it is so many times as far from the eye as what is seen.
+/// Greatest distance of a usable anchor, in distances from the eye to the surface.
 const MOST_AWAY: f64 = 300.0;
-/// Plain views have an anchor ready whose pixels are so many times as large as those that want one.
+/// Greatest footprint of plain views that search for an anchor, over [`COARSEST_FOOTPRINT`].
 const AHEAD: f64 = 30.0;
 
-/// The anchors of one view.
+/// The anchors of one view: the current one, and the search for the next.
 #[derive(Default)]
 pub struct Anchors {
     at_hand: Option<Found>,
@@ -38,74 +38,87 @@ pub struct Anchors {
     took_ms: f64,
 }
 
-/// An anchor, and where it was looked for.
+/// An anchor, and the eye position for which it was found.
 struct Found {
-    reference: Arc<Reference>,
+    reference: Arc<dyn ReferenceOrbit>,
     eye: PrecisePoint,
 }
 
 impl Found {
-    /// How far the eye is from where the anchor was found, in depths of the anchor then.
+    /// Movement of the eye since the anchor was found, in depths of the anchor.
     fn moved(&self, scene: &Scene) -> f64 {
         let depth = (&self.eye - self.reference.anchor()).length();
         (&scene.camera.position - &self.eye).length() / depth.max(f64::MIN_POSITIVE)
     }
 
-    fn serves(&self, scene: &Scene) -> bool {
+    fn serves(&self, model: &FractalModel, scene: &Scene) -> bool {
         if !self.reference.is_of(&scene.fractal) {
             return false;
         }
-        let space = RenderSpace::about(self.reference.clone(), scene);
+        let space = RenderSpace::about(model, self.reference.clone(), scene);
         let nearest = space.nearest(scene);
         self.moved(scene) <= RENEWED_AFTER || space.scale() <= MOST_AWAY * nearest
     }
 }
 
 impl Anchors {
-    /// Where the coordinates of a scene begin; none yet where it has to wait for an anchor, which
-    /// further calls bring nearer. What a still has depends on nothing but itself.
-    pub fn space(&mut self, scene: &Scene, region: Region, pace: Pace) -> Option<RenderSpace> {
+    /// The render space of a scene; none while the scene waits for an anchor.
+    ///
+    /// Further calls continue the search. A still always searches to the end, so that its space depends only
+    /// on its scene and region.
+    pub fn space(
+        &mut self,
+        model: &FractalModel,
+        scene: &Scene,
+        region: Region,
+        pace: Pace,
+    ) -> Option<RenderSpace> {
         if pace == Pace::Still {
-            return Some(RenderSpace::of(scene, region));
+            return Some(RenderSpace::of_model(model, scene, region));
         }
         let began = Instant::now();
-        let space = self.space_of_frame(scene, region);
+        let space = self.space_of_frame(model, scene, region);
         self.took_ms = began.elapsed().as_secs_f64() * 1e3;
         space
     }
 
-    /// CPU milliseconds that the last scene took.
+    /// CPU time that the last scene took, milliseconds.
     pub fn took_ms(&self) -> f64 {
         self.took_ms
     }
 
-    fn space_of_frame(&mut self, scene: &Scene, region: Region) -> Option<RenderSpace> {
-        if !wants_anchor(scene, region) {
-            if deep::has_depth(&scene.fractal)
-                && plain_footprint(scene, region) < AHEAD * deep::COARSEST_FOOTPRINT
+    fn space_of_frame(
+        &mut self,
+        model: &FractalModel,
+        scene: &Scene,
+        region: Region,
+    ) -> Option<RenderSpace> {
+        if !wants_anchor(model, scene, region) {
+            if model.has_depth()
+                && plain_footprint(model, scene, region) < AHEAD * COARSEST_FOOTPRINT
             {
                 self.renew(scene, region);
             } else {
                 *self = Self::default();
             }
-            return Some(RenderSpace::plain());
+            return Some(RenderSpace::plain(model));
         }
         self.renew(scene, region);
-        let found = self.at_hand.as_ref().filter(|found| found.serves(scene))?;
-        Some(RenderSpace::about(found.reference.clone(), scene))
+        let found = self.at_hand.as_ref().filter(|found| found.serves(model, scene))?;
+        Some(RenderSpace::about(model, found.reference.clone(), scene))
     }
 
-    /// Whether views want an anchor, or are about to.
+    /// Whether the view is drawn about an anchor, or may be soon.
     pub fn are_near(&self) -> bool {
         self.at_hand.is_some() || self.search.is_some()
     }
 
-    /// The newest anchor's orbit.
-    pub fn reference(&self) -> Option<Arc<Reference>> {
+    /// The newest anchor's reference orbit.
+    pub fn reference(&self) -> Option<Arc<dyn ReferenceOrbit>> {
         Some(self.at_hand.as_ref()?.reference.clone())
     }
 
-    /// Goes on with a search, for as long as a frame has time for it.
+    /// Continues or starts a search, for as long as the frame's time allows.
     fn renew(&mut self, scene: &Scene, region: Region) {
         let at_hand = self.at_hand.as_ref().filter(|found| found.reference.is_of(&scene.fractal));
         if self.search.is_none() && at_hand.is_none_or(|found| found.moved(scene) > RENEWED_AFTER) {

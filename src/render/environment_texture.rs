@@ -1,36 +1,35 @@
-//! The environment map on the GPU, for where a ray meets nothing.
+//! The environment map on the GPU, as the background of rays that miss.
 //!
-//! In: a decoded picture. Out: a texture of four bytes a pixel, at most 8 MiB, and its bind
-//! group; a single pixel where no picture is shown.
+//! In: a decoded picture. Out: a texture of four bytes per pixel, at most 8 MiB, and its bind
+//! group; a single pixel if no picture is shown.
 
-use super::{pipelines::Pipelines, targets};
+use super::{buffers, layouts::Layouts};
 use crate::scene::EnvironmentMap;
 
-/// Nine bits a channel with one exponent: a quarter of what f32 would take, and filtered by
-/// every GPU.
+/// Nine bits per channel and a shared exponent: a quarter of the size of f32, and every GPU filters it.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgb9e5Ufloat;
 
-/// Bits of a channel, and what is added to the exponent.
+/// Bits of a channel, and the bias of the exponent.
 const MANTISSA_BITS: i32 = 9;
 const EXPONENT_BIAS: i32 = 15;
 
-/// What is bound for the background.
+/// The texture that is bound for the background.
 pub struct EnvironmentTexture {
-    /// The picture's [`EnvironmentMap::id`]; none where there is none.
+    /// The map's [`EnvironmentMap::id`]; none without a map.
     pub id: Option<u64>,
-    /// The texture.
+    /// A view of the texture.
     pub view: wgpu::TextureView,
-    /// Bilinear, once around.
+    /// Bilinear, periodic in azimuth.
     pub sampler: wgpu::Sampler,
-    /// Both.
+    /// The bind group of texture and sampler.
     pub group: wgpu::BindGroup,
-    /// What it takes of the GPU's memory.
+    /// The texture's GPU memory in bytes.
     pub bytes: u64,
 }
 
 impl EnvironmentTexture {
-    /// The picture, or a stand-in for none.
-    pub fn new(pipelines: &Pipelines, environment_map: Option<&EnvironmentMap>) -> Self {
+    /// Uploads the map, or a single black pixel for none.
+    pub fn new(layouts: &Layouts, environment_map: Option<&EnvironmentMap>) -> Self {
         let size_px = environment_map.map_or([1, 1], EnvironmentMap::size_px);
         let texels: Vec<u32> = match environment_map {
             Some(environment_map) => {
@@ -38,11 +37,11 @@ impl EnvironmentTexture {
             }
             None => vec![0],
         };
-        let texture = texture(pipelines, size_px, &texels);
-        let device = &pipelines.gpu.device;
+        let texture = texture(layouts, size_px, &texels);
+        let device = &layouts.gpu.device;
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("environment map"),
-            // Once around; the poles end it.
+            // Periodic in azimuth, clamped at the poles.
             address_mode_u: wgpu::AddressMode::Repeat,
             address_mode_v: wgpu::AddressMode::ClampToEdge,
             mag_filter: wgpu::FilterMode::Linear,
@@ -52,12 +51,8 @@ impl EnvironmentTexture {
         let view = texture.create_view(&Default::default());
         let resources =
             [wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)];
-        let group = targets::group(
-            device,
-            &pipelines.layouts.environment_texture,
-            "environment map",
-            resources,
-        );
+        let group =
+            buffers::group(device, &layouts.environment_texture, "environment map", resources);
         Self {
             id: environment_map.map(EnvironmentMap::id),
             view,
@@ -68,19 +63,9 @@ impl EnvironmentTexture {
     }
 }
 
-/// What bindings of the group are.
-pub const BINDINGS: [wgpu::BindingType; 2] = [
-    wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: true },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    },
-    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-];
-
-fn texture(pipelines: &Pipelines, [width, height]: [u32; 2], texels: &[u32]) -> wgpu::Texture {
+fn texture(layouts: &Layouts, [width, height]: [u32; 2], texels: &[u32]) -> wgpu::Texture {
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-    let texture = pipelines.gpu.device.create_texture(&wgpu::TextureDescriptor {
+    let texture = layouts.gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("environment map"),
         size,
         mip_level_count: 1,
@@ -90,7 +75,7 @@ fn texture(pipelines: &Pipelines, [width, height]: [u32; 2], texels: &[u32]) -> 
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    pipelines.gpu.queue.write_texture(
+    layouts.gpu.queue.write_texture(
         texture.as_image_copy(),
         bytemuck::cast_slice(texels),
         wgpu::TexelCopyBufferLayout {
@@ -103,11 +88,12 @@ fn texture(pipelines: &Pipelines, [width, height]: [u32; 2], texels: &[u32]) -> 
     texture
 }
 
-/// Three channels, each finite and from 0 to 65408, in the bits of RGB9E5: red lowest, the
-/// exponent highest. (WebGPU and Khronos' `EXT_texture_shared_exponent` say how.)
+/// Packs three channels, each finite and from 0 to 65408, as RGB9E5: red lowest, the exponent highest.
+///
+/// The format is defined by WebGPU and Khronos' `EXT_texture_shared_exponent`.
 fn shared_exponent(color: [f32; 3]) -> u32 {
     let largest = color.into_iter().fold(0.0, f32::max);
-    // The smallest exponent by which the largest channel, rounded, stays within its bits.
+    // The smallest exponent with which the largest channel, rounded, fits its bits.
     let least = -EXPONENT_BIAS;
     let mut exponent = if largest > 0.0 { largest.log2().floor() as i32 + 1 } else { least };
     exponent = exponent.clamp(least, 31 - EXPONENT_BIAS);
@@ -130,7 +116,7 @@ fn shared_exponent(color: [f32; 3]) -> u32 {
 mod tests {
     use super::*;
 
-    /// The format's definition, read backward.
+    /// Decodes RGB9E5 by the format's definition.
     fn unpacked(bits: u32) -> [f64; 3] {
         let scale = f64::from((bits >> 27) as i32 - EXPONENT_BIAS - MANTISSA_BITS).exp2();
         [0, 9, 18].map(|shift| f64::from(bits >> shift & 511) * scale)

@@ -1,24 +1,22 @@
-//! How the pixels between those of a sparse lattice come about: on the film, or on the display
-//! alone.
+//! Decides how a sparse lattice becomes a whole picture: filled on the film, or upsampled to the display.
 //!
-//! In: each piece of work before it is recorded. Out: whether its display is spread from the
-//! lattice's own samples. That leaves the film unfilled, and saves most of what the display of a
-//! moving picture costs; but what has to know the film as a whole, a mean or a bloom, needs it
-//! filled.
+//! In: each piece of work before it is recorded. Out: whether its display is upsampled from the
+//! lattice's own samples. Upsampling leaves the film unfilled, and saves most of the cost of displaying a
+//! moving picture; but passes over the whole film, such as mean and bloom, need a filled film.
 
 use super::schedule::{Points, Work};
 
-/// What the film has between the pixels of a sparse lattice.
+/// The state of the film between the pixels of a sparse lattice.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Filling {
-    /// Colours, rather than what earlier pictures left.
+    /// True if these pixels hold filled colours, false if values of earlier pictures.
     is_filled: bool,
 }
 
 impl Filling {
-    /// The lattice level whose samples a display is spread from; none where the film is filled
-    /// for it, or no display is made. `is_plain`: nothing has to know the film as a whole.
-    /// `finest`: there is room for the samples of this level and sparser ones.
+    /// The lattice level from which a display is upsampled; none if the film is filled or nothing is shown.
+    ///
+    /// `is_plain`: no pass reads the whole film. `finest`: the finest level whose samples fit the buffer.
     pub fn upsample_level(&mut self, work: Work, is_plain: bool, finest: u32) -> Option<u32> {
         let (level, fill, film) = match work {
             Work::Show { level, fill, film, .. } => (level, fill, film),
@@ -30,8 +28,8 @@ impl Filling {
         if level == 0 {
             return None;
         }
-        // Where a level is under way the film cannot be filled without losing what is there of
-        // it: an unfilled one waits for the next complete level.
+        // Filling the film amid a level would overwrite the level's samples: an unfilled film waits for
+        // the next complete level.
         if (is_plain && level >= finest && !film) || !(fill || self.is_filled) {
             return Some(level.max(finest));
         }
@@ -68,7 +66,7 @@ mod tests {
         assert_eq!(upsample_level(show(true, true)), None);
         assert_eq!(upsample_level(trace(Points::All)), None);
         assert_eq!(upsample_level(show(false, true)), None);
-        // What the last scene left between the pixels of the next one is not shown.
+        // Values that the last scene left between the pixels of the next scene are not shown.
         assert_eq!(upsample_level(trace(Points::Level(4))), None);
         assert_eq!(upsample_level(show(false, true)), Some(4));
     }

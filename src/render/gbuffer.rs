@@ -1,21 +1,22 @@
-//! The G-buffer as plain numbers, for tests and tools.
+//! The G-buffer decoded to plain numbers, for tests and tools.
 
 use glam::{Vec2, Vec3};
 
 /// The centre samples of a region, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples {
-    /// Depth along each pixel's unit ray, scene units; 0 where it met nothing.
+    /// Depth along each pixel's unit ray, in scene units; 0 on a miss.
     pub depth: Vec<f32>,
-    /// Unit normals; meaningless where depth is 0.
+    /// Unit normals; undefined where the depth is 0.
     pub normal: Vec<Vec3>,
-    /// One bit a light that casts shadows; meaningless for others.
+    /// One bit per light that casts shadows; the other bits are undefined.
     pub visibility: Vec<u64>,
 }
 
 impl Samples {
-    /// Decodes the bytes of the buffers that `shaders/types/gbuffer.wgsl` declares, whose depths are
-    /// in units of `scale` scene units.
+    /// Decodes the buffers that `shaders/types/gbuffer.wgsl` declares.
+    ///
+    /// Depths in the buffers are in units of `scale` scene units.
     pub fn decode(surface: &[u8], visibility: &[u8], scale: f64) -> Self {
         let scaled = |depth: f32| (f64::from(depth) * scale) as f32;
         let word = |bytes: [u8; 4]| u32::from_le_bytes(bytes);

@@ -1,6 +1,6 @@
-//! Readback of the film's histogram, while the interface shows it.
+//! Reads back the film's histogram while the interface shows it.
 //!
-//! In: the statistics of each new picture. Out: the newest histogram; nothing here waits.
+//! In: the statistics of each new picture. Out: the newest histogram; no call blocks.
 
 use super::{post, report::Histogram};
 use crate::gpu::{
@@ -8,49 +8,49 @@ use crate::gpu::{
     readback::{Readback, ReadbackError},
 };
 
-/// The newest histogram, and a readback in flight.
+/// The newest histogram, and a pending readback.
 #[derive(Default)]
 pub struct HistogramReadback {
     is_wanted: bool,
     reading: Option<Readback>,
-    /// There has been another picture since the reading began.
+    /// True if another picture was drawn since the readback began.
     is_stale: bool,
     histogram: Option<Histogram>,
 }
 
 impl HistogramReadback {
-    /// Starts without a histogram.
+    /// A readback without a histogram yet.
     pub fn new(is_wanted: bool) -> Self {
         Self { is_wanted, ..Self::default() }
     }
 
-    /// Whether somebody looks.
+    /// Whether the interface shows the histogram.
     pub fn is_wanted(&self) -> bool {
         self.is_wanted
     }
 
-    /// Whether an answer is on its way.
+    /// Whether a readback is pending.
     pub fn is_reading(&self) -> bool {
         self.reading.is_some()
     }
 
-    /// The newest one; none before the first, and where it is not wanted.
+    /// The newest histogram; none before the first, and while not wanted.
     pub fn histogram(&self) -> Option<&Histogram> {
         self.histogram.as_ref()
     }
 
-    /// There is another picture.
+    /// Notes that there is a new picture.
     pub fn note_picture(&mut self) {
         self.is_stale = true;
     }
 
-    /// Fetches the histogram of the newest picture from its statistics.
+    /// Collects a finished readback and starts the next, if the picture is newer.
     pub fn read(&mut self, gpu: &Gpu, statistics: &wgpu::Buffer) {
         if let Some(reading) = &mut self.reading {
             match reading.take(gpu) {
                 Ok(None) => return,
                 Ok(Some(bytes)) => self.histogram = post::histogram(&bytes),
-                // A lost device says so elsewhere.
+                // Other code reports a lost device.
                 Err(ReadbackError) => {}
             }
             self.reading = None;

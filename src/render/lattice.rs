@@ -2,8 +2,8 @@
 //!
 //! Level 0 is every pixel. Level `2m` is every 2ᵐ-th pixel of every 2ᵐ-th row; level `2m + 1`
 //! keeps every other one of those, as a chessboard does. A pixel that a level adds to the next
-//! coarser one has four neighbours there, beside and above it or on its diagonals, which is
-//! what makes the picture easy to fill in.
+//! coarser level has four neighbours in that level, beside and above it or on its diagonals, which
+//! makes the picture easy to fill.
 
 use super::uniforms::Slice;
 
@@ -13,13 +13,13 @@ pub const COARSEST: u32 = 10;
 /// Pixels along a workgroup's side.
 pub const WORKGROUP_SIDE: u32 = 8;
 
-/// Most samples of a pixel that are marched together: they are a block of threads then.
+/// Most samples of a pixel that are marched together: they form one block of threads.
 pub const MOST_TOGETHER: u32 = 8;
 
 /// Threads in a workgroup.
 pub const WORKGROUP_THREADS: u32 = WORKGROUP_SIDE * WORKGROUP_SIDE;
 
-/// Which pixels of a region are visited, and by how many workgroups.
+/// A set of pixels of a region, and the workgroups that visit them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
     step: [u32; 2],
@@ -27,7 +27,7 @@ pub struct Grid {
     stagger: u32,
     row_phase: u32,
     shift: u32,
-    /// log2 of the threads that a pixel has.
+    /// log2 of the number of threads per pixel.
     samples_shift: u32,
     columns: u32,
     rows: u32,
@@ -37,7 +37,7 @@ impl Grid {
     /// All pixels, with threads for `together` samples of each, 1 to [`MOST_TOGETHER`].
     pub fn samples(together: u32, size_px: [u32; 2]) -> Self {
         let shift = together.next_power_of_two().min(MOST_TOGETHER).ilog2();
-        // Two by four blocks, each of four by two pixels, two by two, two by one, or of one.
+        // Two by four blocks; a block has four by two pixels, two by two, two by one, or one.
         let sides = [2 * (4 >> shift.div_ceil(2)), 4 * (2 >> (shift / 2))];
         let [columns, rows] = std::array::from_fn(|axis| size_px[axis].div_ceil(sides[axis]));
         Self { samples_shift: shift, columns, rows, ..Self::level(0, size_px) }
@@ -53,7 +53,7 @@ impl Grid {
         }
     }
 
-    /// The pixels that a level adds to the next coarser one.
+    /// The pixels that a level adds to the next coarser level.
     pub fn added(level: u32, size_px: [u32; 2]) -> Self {
         let shift = level / 2;
         if level.is_multiple_of(2) {
@@ -87,18 +87,19 @@ impl Grid {
         }
     }
 
-    /// Pixels of the grid, those of its last workgroups that lie outside the region counted in.
+    /// Number of threads, including those of the last workgroups that lie outside the region.
     pub fn threads(&self) -> u32 {
         self.workgroups() * WORKGROUP_THREADS
     }
 
-    /// Workgroups that cover the grid; 0 for a region too small to have such pixels.
+    /// Number of workgroups that cover the grid; 0 for a region without such pixels.
     pub fn workgroups(&self) -> u32 {
         self.columns * self.rows
     }
 
-    /// The uniform of a dispatch that starts at `first_workgroup`; the sample lies in the
-    /// pixel's middle and replaces what the film holds.
+    /// The slice uniform of a dispatch that starts at `first_workgroup`.
+    ///
+    /// The sample is the pixel's centre and replaces the film's value.
     pub fn slice(&self, first_workgroup: u32) -> Slice {
         Slice {
             step: self.step,
@@ -127,12 +128,12 @@ impl Grid {
             samples: 1,
             samples_shift: self.samples_shift,
             jitter_step: JITTER_STEP.map(|step| step as f32),
-            unused: [0; 2],
         }
     }
 
-    /// The pixel of a thread, as `lattice_pixel` in `shaders/lib/lattice.wgsl` computes it for
-    /// place (0, 0) to (7, 7) of a workgroup. It may lie outside of the region.
+    /// The pixel of a thread, as `lattice_pixel` in `shaders/lib/lattice.wgsl` computes it.
+    ///
+    /// `place` is its position in the workgroup, (0, 0) to (7, 7). The pixel may be outside the region.
     pub fn pixel(&self, workgroup: u32, place: [u32; 2]) -> [u32; 2] {
         let columns = self.columns.max(1);
         let rows = self.rows.max(1);
@@ -148,9 +149,10 @@ impl Grid {
     }
 }
 
-/// A stride that visits `count` places in a scattered order, each once: coprime to `count` and
-/// near its golden section. Every slice of a picture then costs about the same, whatever part
-/// of the picture is dear.
+/// A stride that visits `count` positions in a scattered order, each once.
+///
+/// The stride is coprime to `count` and near its golden section, so that every slice of a picture costs
+/// about the same, wherever the expensive pixels are.
 fn scatter(count: u32) -> u32 {
     let coprime = |a: u32| {
         let (mut a, mut b) = (a, count);
@@ -163,16 +165,23 @@ fn scatter(count: u32) -> u32 {
     (golden.max(1)..=count).find(|&stride| coprime(stride)).unwrap_or(1)
 }
 
-/// From each sample of a pixel to the next: the plastic number's inverse and its square.
+/// Offset from each sample of a pixel to the next: the plastic number's inverse and its square.
 const JITTER_STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
-/// Where sample `index` of a pixel lies inside it, 0 to 1. Sample 0 is the middle; the others
-/// follow Roberts' R2 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences",
-/// 2018), which fills the square evenly at every count. All pixels share it: shifts of their own
-/// (Cranley and Patterson 1976, by a hash, by gradient noise, by R2 over the pixels) left the same
+/// The position of sample `index` in its pixel, 0 to 1; sample 0 is the centre.
+///
+/// The samples follow Roberts' R2 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences",
+/// 2018), which fills the square evenly at every count. All pixels share it: offsets per pixel
+/// (Cranley and Patterson 1976, by a hash, by gradient noise, by R2 over the pixels) give the same
 /// error at every count from 4 to 1024, within an eighth, and rougher edges at few samples.
 pub fn jitter(index: u32) -> [f32; 2] {
     JITTER_STEP.map(|a| (0.5 + a * f64::from(index)).fract() as f32)
+}
+
+/// How many samples a lattice level's rows have room for.
+pub fn sample_places(level: u32, size_px: [u32; 2]) -> u64 {
+    let [columns, rows] = size_px.map(|side| u64::from(side.div_ceil(1 << (level / 2))));
+    columns * rows
 }
 
 #[cfg(test)]
@@ -225,8 +234,7 @@ mod tests {
     #[test]
     fn samples_spread_evenly() {
         assert_eq!(jitter(0), [0.5, 0.5]);
-        // At every count from the first to the last, each of 16 cells of the square has had its
-        // share within six samples.
+        // At every count, each of 16 cells of the square has its share of the samples, within six samples.
         let mut counts = [0_u32; 16];
         for index in 0..1024 {
             let [x, y] = jitter(index);

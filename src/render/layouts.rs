@@ -1,31 +1,48 @@
-//! What the passes bind, and in which groups: bind group layouts.
+//! Bind group layouts of the passes.
 
-/// The bind group layouts that all passes of a picture share.
+use crate::gpu::Gpu;
+
+/// Gamma-space 8-bit colour: what egui shows and PNG stores.
+pub const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// What bindings of the group are.
+const ENVIRONMENT_BINDINGS: [wgpu::BindingType; 2] = [
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    },
+    wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+];
+
+/// A device with the bind group layouts of all passes.
 pub struct Layouts {
-    /// Group 0: frame uniforms (a storage buffer), the anchor's orbit, slice (dynamic offset), lights,
-    /// gradient.
+    /// The device.
+    pub gpu: Gpu,
+    /// Group 0: frame uniforms (a storage buffer), formula table (reference orbit), slice (dynamic offset),
+    /// lights, gradient.
     pub frame: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
-    /// Group 1 of the indirect pass: the same, read only.
+    /// Group 1 of the indirect pass: surface, colour data, visibility; all read only.
     pub samples: wgpu::BindGroupLayout,
-    /// Group 1 of the passes that see the film as a whole: statistics, mip levels, half blurred;
-    /// all storage.
+    /// Group 1 of passes over the whole film: statistics, mip levels, half blurred; all storage.
     pub post: wgpu::BindGroupLayout,
     /// Group 2 of passes that read a work queue: the queues.
     pub dequeue: wgpu::BindGroupLayout,
-    /// Group 2 of passes that write them: the same, and the workgroups of those that read them.
+    /// Group 2 of passes that write work queues: the queues, and the workgroup counts of their readers.
     pub enqueue: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves, the display texture, direct light.
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the environment map and its sampler.
     pub environment_texture: wgpu::BindGroupLayout,
-    /// Group 3 of the indirect pass: the same, and the surface of the indirect source.
+    /// Group 3 of the indirect pass: the environment map, its sampler, the indirect source's surface.
     pub indirect: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
-    pub(super) fn new(device: &wgpu::Device) -> Self {
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let device = &gpu.device;
         let group = |label, kinds: &[wgpu::BindingType]| {
             let entries: Vec<_> = (0..).zip(kinds).map(|(i, kind)| entry(i, *kind)).collect();
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -35,12 +52,12 @@ impl Layouts {
         };
         let display = wgpu::BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::WriteOnly,
-            format: super::targets::DISPLAY_FORMAT,
+            format: DISPLAY_FORMAT,
             view_dimension: wgpu::TextureViewDimension::D2,
         };
-        let [environment_texture_binding, environment_sampler_binding] =
-            super::environment_texture::BINDINGS;
+        let [environment_texture_binding, environment_sampler_binding] = ENVIRONMENT_BINDINGS;
         Self {
+            gpu: gpu.clone(),
             frame: group(
                 "frame",
                 &[READ_ONLY, uniform(false), uniform(true), uniform(false), uniform(false)],
@@ -63,8 +80,10 @@ impl Layouts {
     }
 }
 
-/// Frame uniforms too, rather than a uniform buffer: Mesa's lavapipe puts the values of a uniform buffer that decide branches into
-/// the shader, anew for each dispatch, and keeps every shader so made. Seen with Mesa 22.3.6.
+/// A read-only storage buffer, also for frame uniforms.
+///
+/// From a uniform buffer, Mesa's lavapipe compiles the values that decide branches into the shader, anew
+/// for each dispatch, and keeps every such shader. Seen with Mesa 22.3.6.
 const READ_ONLY: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: true },
     has_dynamic_offset: false,
@@ -89,7 +108,7 @@ const fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntr
     wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None }
 }
 
-/// What a pipeline binds, by its bind groups' layouts in order.
+/// The pipeline layout of these bind groups, in order.
 pub(super) fn pipeline_layout(
     device: &wgpu::Device,
     label: &str,

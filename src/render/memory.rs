@@ -1,8 +1,7 @@
-//! How much of the GPU's memory a view holds, by purpose: the table of thesis 4.4, "Memory
-//! Consumption", for what there is here.
+//! GPU memory of a view by purpose, as in thesis 4.4, "Memory Consumption".
 //!
-//! In: the sizes of buffers and textures. Out: bytes, and a scene that needs the most of them. The
-//! window's own pictures and the interface's textures belong to whoever shows the view, and are
+//! In: the sizes of buffers and textures. Out: bytes, and a scene that needs the most memory. The
+//! window's own pictures and the interface's textures belong to the code that shows the view, and are
 //! not counted.
 
 use std::sync::Arc;
@@ -14,33 +13,33 @@ use crate::scene::{
     StereoLayout, environment_map,
 };
 
-/// Bytes that a view holds, by purpose.
+/// GPU memory of a view in bytes, by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// Every pixel's centre sample: depth, normal, colour data, visibility.
+    /// The centre samples of all pixels: depth, normal, colour data, visibility.
     pub sample_points: u64,
     /// The jittered samples of one piece of work.
     pub jittered_samples: u64,
-    /// Lists of the threads that a piece of work has something to do for.
+    /// Work queues between the passes of a piece of work.
     pub work_queues: u64,
-    /// Direct light of the centre samples, where indirect light is made of it.
+    /// Direct light of the centre samples, as the source of indirect light.
     pub direct_light: u64,
     /// Sums of radiance, 32-bit.
     pub film: u64,
-    /// The film's mip levels, for mean and bloom.
+    /// The film's mip levels, for the mean and the bloom.
     pub mip_levels: u64,
-    /// What a blur needs beside them.
+    /// The blur's buffer beside the mip levels.
     pub blur: u64,
     /// The environment map.
     pub environment_map: u64,
-    /// The display picture; that of another size too while it is still shown.
+    /// The display picture; also a picture of another size while that is still shown.
     pub display: u64,
     /// Scene, lights, gradient, slices, statistics.
     pub uniforms: u64,
 }
 
 impl Memory {
-    /// Each purpose, in the order of a frame.
+    /// Each purpose with its bytes, in the order of a frame.
     pub fn purposes(&self) -> [(&'static str, u64); 10] {
         let Self {
             sample_points,
@@ -68,18 +67,18 @@ impl Memory {
         ]
     }
 
-    /// All of it.
+    /// The sum over all purposes.
     pub fn total(&self) -> u64 {
         self.purposes().iter().map(|(_, bytes)| bytes).sum()
     }
 }
 
-/// Bytes as people read them: `113.5 MiB`.
+/// Bytes in readable form: `113.5 MiB`.
 pub fn mebibytes(bytes: u64) -> String {
     format!("{:.1} MiB", bytes as f64 / f64::from(1_u32 << 20))
 }
 
-/// A scene that uses everything that takes memory, and the largest environment map.
+/// A scene that uses every buffer, and the largest environment map.
 pub fn everything_on() -> (Scene, Arc<EnvironmentMap>) {
     let mut scene = Scene::default();
     scene.camera.stereo.layout = StereoLayout::SideBySide;

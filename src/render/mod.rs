@@ -1,31 +1,34 @@
-//! How a picture is made. Start at [`frame`]: the passes in the order in which they run.
+//! Draws pictures. Start at [`frame`]: the passes in the order in which they run.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | [`view`] | one picture in progress, and what an edit restarts |
 //! | [`schedule`] | what to compute next: a pure state machine |
-//! | [`lattice`] | sparse lattices of pixels, and where samples lie in a pixel |
+//! | [`shaders`] | the WGSL files, and the module of each pass |
+//! | [`lattice`] | sparse lattices of pixels, and the positions of samples in a pixel |
 //! | [`frame`] | the passes of one submit |
+//! | [`recorder`] | records the passes: bindings and dispatches |
 //! | [`indirect`] | the source of indirect light |
-//! | [`pass`] | one pass a file, with its shader's stem |
+//! | [`pass`] | one file per pass, named like its shader |
 //! | [`environment_texture`] | the environment map on the GPU |
-//! | [`pipelines`] | pipelines and bind group layouts |
-//! | [`pipeline_key`] | what pipelines are specialised for |
+//! | [`pipelines`] | the compute pipelines of a device |
+//! | [`pipeline_set`] | pipelines that are compiled together, and their variants |
 //! | `filling` | how a sparse lattice becomes a whole picture |
-//! | `preparation` | pipelines on their way: announced, compiled, tried |
+//! | `preparation` | announces, compiles and rehearses pipelines |
 //! | [`post`] | film statistics, exposure, bloom |
-//! | `post_pipelines` | pipelines of the post passes |
-//! | `anchors` | the anchors of a view that moves |
+//! | `anchors` | the anchors of a moving view |
 //! | [`space`] | render space: origin and unit of coordinates |
-//! | [`work_queues`] | which threads a pass has work for |
+//! | [`work_queues`] | work queues: the blocks of threads that a pass has work for |
+//! | `buffers` | constructors of buffers and bind groups |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
-//! | [`samples`] | a finished view's pixels on their way back |
-//! | [`memory`] | what a view holds of the GPU's memory |
+//! | [`samples`] | readback of a finished view's pixels |
+//! | [`memory`] | a view's GPU memory |
 //! | `histogram_readback` | readback of the film's histogram |
-//! | [`report`] | what a view says of itself |
+//! | [`report`] | the status of a view |
 
 mod anchors;
+mod buffers;
 pub mod environment_texture;
 mod filling;
 pub mod frame;
@@ -36,15 +39,16 @@ pub mod lattice;
 mod layouts;
 pub mod memory;
 pub mod pass;
-pub mod pipeline_key;
+pub mod pipeline_set;
 pub mod pipelines;
 pub mod post;
-mod post_pipelines;
 mod preparation;
+pub mod recorder;
 mod region;
 pub mod report;
 pub mod samples;
 pub mod schedule;
+pub mod shaders;
 pub mod space;
 pub mod targets;
 pub mod uniforms;

@@ -1,430 +1,162 @@
-//! The compute pipelines of one device, shared by every view on it.
+//! The compute pipelines of one device, which all its views share.
 
 use std::{
     collections::{HashMap, HashSet},
-    sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, atomic::AtomicBool},
+    sync::{Arc, Mutex, MutexGuard, PoisonError, atomic::AtomicBool},
 };
 
-use super::{
-    Region,
-    layouts::pipeline_layout,
-    pass,
-    uniforms::{FrameUniforms, Inputs},
-};
 pub use super::{
     layouts::Layouts,
-    pipeline_key::{Depth, PipelineKey},
-    post_pipelines::PostPipelines,
+    pipeline_set::{PipelineSet, PipelineVariant},
+};
+use super::{
+    layouts::pipeline_layout,
+    pass::{PASSES, Pass},
+    pipeline_set,
+    recorder::PipelineSource,
+    region::Region,
+    shaders,
+    uniforms::Inputs,
 };
 use crate::{
-    gpu::{Gpu, device::in_parallel, shader::Module},
+    formula::FormulaRef,
+    gpu::{Gpu, device::in_parallel},
     scene::Scene,
 };
 
-/// Values of a module's overrides, by their names; those left out stay open, and the passes read
-/// them from the picture.
-pub type Constants = Vec<(&'static str, f64)>;
+/// One pipeline: a pass, a mode of the pass, a variant of the pass's set.
+type PipelineId = (&'static str, usize, PipelineVariant);
 
-/// Makes one pipeline.
-fn pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    label: &str,
-    constants: &Constants,
-) -> wgpu::ComputePipeline {
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(label),
-        layout: Some(layout),
-        module,
-        entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
-        cache: None,
-    })
-}
-
-/// A pass in its general form, compiled when it is first asked for.
-struct LazyPipeline {
-    module: &'static Module,
-    layout: wgpu::PipelineLayout,
-    shader: OnceLock<wgpu::ShaderModule>,
-    pipeline: OnceLock<wgpu::ComputePipeline>,
-}
-
-impl LazyPipeline {
-    fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
-        let (shader, pipeline) = (OnceLock::new(), OnceLock::new());
-        Self { module, layout: layout.clone(), shader, pipeline }
-    }
-
-    fn shader(&self, device: &wgpu::Device) -> &wgpu::ShaderModule {
-        self.shader.get_or_init(|| self.module.create(device))
-    }
-
-    fn pipeline(&self, pipelines: &Pipelines) -> wgpu::ComputePipeline {
-        let make = || {
-            let (device, label) = (&pipelines.gpu.device, self.module.label);
-            locked(&pipelines.made).push(label.to_owned());
-            pipeline(device, &self.layout, self.shader(device), label, &Constants::new())
-        };
-        self.pipeline.get_or_init(make).clone()
-    }
-}
-
-/// A pass that any picture can have in its general form, and that is faster with some of the
-/// picture's values compiled in: then there is nothing left to decide. (Where lanes disagree, and
-/// always on lavapipe, all sides of a decision are computed.)
-struct SpecializedPipeline {
-    general: LazyPipeline,
-    /// By what they are for, and which of its parts they are.
-    made: Mutex<HashMap<(PipelineVariant, usize), wgpu::ComputePipeline>>,
-}
-
-impl SpecializedPipeline {
-    fn new(layout: &wgpu::PipelineLayout, module: &'static Module) -> Self {
-        Self { general: LazyPipeline::new(layout, module), made: Mutex::default() }
-    }
-
-    /// Its form for `variant`, or the general one until that is kept.
-    fn of(
-        &self,
-        variant: PipelineVariant,
-        part: usize,
-        pipelines: &Pipelines,
-    ) -> wgpu::ComputePipeline {
-        if let Some(made) = locked(&self.made).get(&(variant, part)) {
-            return made.clone();
-        }
-        self.general.pipeline(pipelines)
-    }
-
-    fn keep(&self, variant: PipelineVariant, part: usize, pipeline: wgpu::ComputePipeline) {
-        locked(&self.made).entry((variant, part)).or_insert(pipeline);
-    }
-}
-
-/// The passes of a picture that there are general and special forms of: the fastest that are ready.
-#[derive(Clone)]
-pub struct Passes {
-    /// Bundles of camera rays to a list of those that may hit.
-    pub camera_cone: wgpu::ComputePipeline,
-    /// Camera rays to the G-buffer.
-    pub march: wgpu::ComputePipeline,
-    /// Depths to normals.
-    pub normal: wgpu::ComputePipeline,
-    /// Bundles of shadow rays to a list of those that are needed.
-    pub shadow_cone: wgpu::ComputePipeline,
-    /// Shadow rays to visibility bits.
-    pub shadow: wgpu::ComputePipeline,
-    /// Light and colour of single samples onto the film.
-    pub shade: wgpu::ComputePipeline,
-    /// The same of samples that are computed together.
-    pub shade_together: wgpu::ComputePipeline,
-    /// Film to display, where every pixel has its sample.
-    pub tone: wgpu::ComputePipeline,
-    /// The same for a sparse lattice.
-    pub sparse_tone: wgpu::ComputePipeline,
-}
-
-/// What tone mapping is specialised for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ToneForm {
-    /// The tone curve, as the shaders count them.
-    pub curve: u32,
-    /// Whether there is bloom.
-    pub blooms: bool,
-    /// Whether both eyes are shown in one picture, red and cyan.
-    pub is_anaglyph: bool,
-}
-
-/// Specialized and optional pipelines: compiled when a picture needs them or is faster with
-/// them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PipelineVariant {
-    /// Camera and shadow rays of a key.
-    Rays(PipelineKey),
-    /// Normals of one kind, as the shaders count them, of a key.
-    Normals(PipelineKey, u32),
-    /// Shading, with the environment map behind all or without.
-    Shade(bool),
-    /// Tone mapping.
-    Tone(ToneForm),
-    /// Indirect light.
-    Indirect,
-    /// Mean, histogram, bloom.
-    Post,
-}
-
-impl PipelineVariant {
-    /// Specialized variants of the passes of a picture.
-    pub fn special(frame: &FrameUniforms) -> [Self; 4] {
-        let key = PipelineKey::of(frame);
-        let tone = ToneForm {
-            curve: frame.tone.curve,
-            blooms: frame.bloom.strength > 0.0,
-            is_anaglyph: frame.eyes.anaglyph != 0,
-        };
-        [
-            Self::Rays(key),
-            Self::Normals(key, frame.normals),
-            Self::Shade(frame.background.picture_gain > 0.0),
-            Self::Tone(tone),
-        ]
-    }
-
-    /// What they are for, in words that follow "Preparing".
-    pub fn name(self) -> String {
-        match self {
-            Self::Rays(key) | Self::Normals(key, _) if key.is_deep() => "the deep zoom".to_owned(),
-            Self::Rays(key) | Self::Normals(key, _) => format!("power {}", key.power),
-            Self::Shade(_) => "light".to_owned(),
-            Self::Tone(_) => "tone mapping".to_owned(),
-            Self::Indirect => "indirect light".to_owned(),
-            Self::Post => "exposure and bloom".to_owned(),
-        }
-    }
-
-    /// How many pipelines they are.
-    pub fn parts(self) -> usize {
-        match self {
-            Self::Rays(_) => 4,
-            Self::Tone(_) | Self::Shade(_) => 2,
-            Self::Normals(..) | Self::Indirect => 1,
-            Self::Post => PostPipelines::PARTS.len(),
-        }
-    }
-
-    /// The overrides that one of its parts sets.
-    fn constants(self, part: usize) -> Constants {
-        match self {
-            Self::Rays(key) => key.constants(),
-            Self::Normals(key, kind) => {
-                let kind = ("NORMALS", f64::from(kind));
-                key.constants().into_iter().chain([kind]).collect()
-            }
-            Self::Shade(has_environment_map) => {
-                vec![
-                    ("HAS_ENVIRONMENT_MAP", f64::from(has_environment_map)),
-                    ("SINGLE", f64::from(part == 0)),
-                ]
-            }
-            Self::Tone(ToneForm { curve, blooms, is_anaglyph }) => vec![
-                ("CURVE", f64::from(curve)),
-                ("BLOOM", f64::from(blooms)),
-                ("ANAGLYPH", f64::from(is_anaglyph)),
-                ("SPARSE", f64::from(part == 1)),
-            ],
-            Self::Indirect | Self::Post => Vec::new(),
-        }
-    }
-}
-
-/// Compute pipelines: those of every picture, and the [variants](PipelineVariant) compiled so far.
+/// Compute pipelines: every [variant](PipelineVariant) compiled so far.
 pub struct Pipelines {
     /// The device.
     pub gpu: Gpu,
-    /// What bind groups look like.
+    /// The bind group layouts.
     pub layouts: Layouts,
-    camera_cone: SpecializedPipeline,
-    march: SpecializedPipeline,
-    compact_hits: LazyPipeline,
-    normal: SpecializedPipeline,
-    shadow_cone: SpecializedPipeline,
-    shadow: SpecializedPipeline,
-    shade: SpecializedPipeline,
-    tone: SpecializedPipeline,
-    indirect: OnceLock<wgpu::ComputePipeline>,
-    fill: LazyPipeline,
-    post: OnceLock<PostPipelines>,
-    post_layout: wgpu::PipelineLayout,
-    tonemap_sparse: LazyPipeline,
-    upsample: LazyPipeline,
-    /// Those that can be used without delay.
+    compiled: Mutex<HashMap<PipelineId, wgpu::ComputePipeline>>,
+    /// Shader modules by pass and by the names of their files.
+    shaders: Mutex<HashMap<(&'static str, Vec<&'static str>), wgpu::ShaderModule>>,
+    /// Variants that are compiled and have been used once.
     ready: Mutex<HashSet<PipelineVariant>>,
-    /// The labels of all pipelines so far.
+    /// The labels of all compiled pipelines, in order.
     made: Mutex<Vec<String>>,
 }
 
 impl Pipelines {
-    /// Makes the general forms of all passes, which draw whatever comes.
+    /// Compiles the general variants that every picture of the first formula needs.
     pub fn new(gpu: &Gpu) -> Arc<Self> {
         let pipelines = Self::for_stills(gpu);
-        let Self { camera_cone, march, normal, shadow_cone, shadow, shade, tone, .. } = &*pipelines;
-        let specials = [camera_cone, march, normal, shadow_cone, shadow, shade, tone]
-            .map(|special| &special.general);
-        let Self { compact_hits, fill, tonemap_sparse, upsample, .. } = &*pipelines;
-        for plain in specials.into_iter().chain([compact_hits, fill, tonemap_sparse, upsample]) {
-            plain.pipeline(&pipelines);
+        for pass in PASSES.iter().filter(|pass| pass.set.is_always_needed) {
+            let general = PipelineVariant::general_of(pass.set, FormulaRef::default());
+            // A general pipeline serves every mode.
+            pipelines.pipeline(pass, 0, &general);
+            pipelines.set_ready(&general);
         }
         pipelines
     }
 
-    /// Makes nothing yet: stills have the special forms of their passes compiled before they begin, and
-    /// need no others.
+    /// Pipelines for stills: compiles nothing yet.
+    ///
+    /// A still compiles the special variants of its passes before it begins, and needs no others.
     pub fn for_stills(gpu: &Gpu) -> Arc<Self> {
-        let device = &gpu.device;
-        let layouts = Layouts::new(device);
-        let Layouts { frame, gbuffer, dequeue, enqueue, film, post, environment_texture, .. } =
-            &layouts;
-        let enqueue_layout = pipeline_layout(device, "enqueue", &[frame, gbuffer, enqueue]);
-        let dequeue_layout = pipeline_layout(device, "dequeue", &[frame, gbuffer, dequeue]);
-        let layout = pipeline_layout(device, "picture passes", &[frame, gbuffer, film]);
-        let shade_layout =
-            pipeline_layout(device, "shading", &[frame, gbuffer, film, environment_texture]);
-        let post_layout =
-            pipeline_layout(device, "passes over the film as a whole", &[frame, post, film]);
-        let camera_cone = SpecializedPipeline::new(&enqueue_layout, &pass::camera_cone::MODULE);
-        let march = SpecializedPipeline::new(&dequeue_layout, &pass::march::MODULE);
-        let normal = SpecializedPipeline::new(&dequeue_layout, &pass::normal::MODULE);
-        let shadow_cone = SpecializedPipeline::new(&enqueue_layout, &pass::shadow_cone::MODULE);
-        let shadow = SpecializedPipeline::new(&dequeue_layout, &pass::shadow::MODULE);
-        let shade = SpecializedPipeline::new(&shade_layout, &pass::shade::MODULE);
-        let tone = SpecializedPipeline::new(&post_layout, &pass::tone::MODULE);
-        let compact_hits = LazyPipeline::new(&enqueue_layout, &pass::compact_hits::MODULE);
-        let fill = LazyPipeline::new(&layout, &pass::fill::MODULE);
-        let tonemap_sparse = LazyPipeline::new(&layout, &pass::tonemap_sparse::MODULE);
-        let upsample = LazyPipeline::new(&layout, &pass::upsample::MODULE);
         Arc::new(Self {
             gpu: gpu.clone(),
-            camera_cone,
-            march,
-            compact_hits,
-            normal,
-            shadow_cone,
-            shadow,
-            shade,
-            tone,
-            indirect: OnceLock::new(),
-            fill,
-            post: OnceLock::new(),
-            tonemap_sparse,
-            upsample,
-            post_layout,
-            layouts,
+            layouts: Layouts::new(gpu),
+            compiled: Mutex::default(),
+            shaders: Mutex::default(),
             ready: Mutex::default(),
             made: Mutex::default(),
         })
     }
 
-    /// The passes that see the film as a whole; compiles them where nobody
-    /// [prepared](Self::prepare) them.
-    pub fn post(&self) -> &PostPipelines {
-        self.post.get_or_init(|| {
-            PostPipelines::from_parts(|part| self.make(PipelineVariant::Post, part))
+    /// The fastest compiled pipelines of a frame's passes.
+    pub fn of_frame(&self, inputs: &Inputs) -> FramePipelines<'_> {
+        FramePipelines {
+            pipelines: self,
+            special: pipeline_set::specialized(inputs),
+            formula: inputs.formula.kernel.formula,
+            replaced: HashMap::new(),
+        }
+    }
+
+    /// The pipeline of `pass` for `variant`, or for the general variant until that is compiled.
+    ///
+    /// Compiles the general pipeline if it is missing.
+    fn pipeline(
+        &self,
+        pass: &'static Pass,
+        mode: usize,
+        variant: &PipelineVariant,
+    ) -> wgpu::ComputePipeline {
+        if let Some(special) = self.compiled(pass, mode, variant) {
+            return special;
+        }
+        let general = variant.general().unwrap_or_else(|| variant.clone());
+        let mode = if general.is_general() { 0 } else { mode };
+        let made = self.compiled(pass, mode, &general);
+        made.unwrap_or_else(|| {
+            let (label, pipeline) = self.compile(pass, mode, &general);
+            locked(&self.made).push(label);
+            let id = (pass.name, mode, general);
+            locked(&self.compiled).entry(id).or_insert(pipeline).clone()
         })
     }
 
-    /// Direct and indirect light onto the film; compiles that where nobody
-    /// [prepared](Self::prepare) it.
-    pub fn indirect(&self) -> &wgpu::ComputePipeline {
-        self.indirect.get_or_init(|| self.make(PipelineVariant::Indirect, 0))
+    fn compiled(
+        &self,
+        pass: &Pass,
+        mode: usize,
+        variant: &PipelineVariant,
+    ) -> Option<wgpu::ComputePipeline> {
+        locked(&self.compiled).get(&(pass.name, mode, variant.clone())).cloned()
     }
 
-    /// The fastest forms of a picture's passes that are ready.
-    pub fn passes(&self, frame: &FrameUniforms) -> Passes {
-        let [rays, normals, light, tone] = PipelineVariant::special(frame);
-        Passes {
-            camera_cone: self.camera_cone.of(rays, 0, self),
-            march: self.march.of(rays, 1, self),
-            shadow_cone: self.shadow_cone.of(rays, 2, self),
-            shadow: self.shadow.of(rays, 3, self),
-            normal: self.normal.of(normals, 0, self),
-            shade: self.shade.of(light, 0, self),
-            shade_together: self.shade.of(light, 1, self),
-            tone: self.tone.of(tone, 0, self),
-            sparse_tone: self.tone.of(tone, 1, self),
-        }
+    /// Whether all pipelines of `variant` itself are compiled.
+    pub fn has_own(&self, variant: &PipelineVariant) -> bool {
+        parts(variant).all(|(pass, mode)| self.compiled(pass, mode, variant).is_some())
     }
 
-    /// G-buffer to a list of its surface points.
-    pub fn compact_hits(&self) -> wgpu::ComputePipeline {
-        self.compact_hits.pipeline(self)
+    /// Whether `variant` can be used without delay.
+    pub fn is_ready(&self, variant: &PipelineVariant) -> bool {
+        locked(&self.ready).contains(variant)
     }
 
-    /// Pixels between those of a sparse lattice.
-    pub fn fill(&self) -> wgpu::ComputePipeline {
-        self.fill.pipeline(self)
+    /// Compiles the missing pipelines of `variant`. This may take a second and blocks.
+    pub fn prepare(&self, variant: &PipelineVariant) {
+        self.prepare_together(std::slice::from_ref(variant));
     }
 
-    /// Samples of a sparse lattice to display values.
-    pub fn tonemap_sparse(&self) -> wgpu::ComputePipeline {
-        self.tonemap_sparse.pipeline(self)
-    }
-
-    /// Those to the display.
-    pub fn upsample(&self) -> wgpu::ComputePipeline {
-        self.upsample.pipeline(self)
-    }
-
-    /// Whether [`Self::passes`] has rays of this form alone.
-    pub fn has_own(&self, key: PipelineKey) -> bool {
-        locked(&self.march.made).contains_key(&(PipelineVariant::Rays(key), 1))
-    }
-
-    /// Whether these can be used without delay.
-    pub fn is_ready(&self, variant: PipelineVariant) -> bool {
-        // Other powers have the general forms only.
-        let general = PipelineKey { power: 0, depth: Depth::Plain };
-        matches!(variant, PipelineVariant::Rays(key) | PipelineVariant::Normals(key, _) if key == general)
-            || locked(&self.ready).contains(&variant)
-    }
-
-    /// Compiles what is missing of these. This may take a second and blocks.
-    pub fn prepare(&self, variant: PipelineVariant) {
-        if !self.is_ready(variant) {
-            self.keep(variant, (0..variant.parts()).map(|part| self.make(variant, part)).collect());
-            self.set_ready(variant);
-        }
-    }
-
-    /// The same of several at once, on as many threads as the platform has for that.
-    pub fn prepare_together(&self, extras: &[PipelineVariant]) {
-        let parts: Vec<_> = extras
+    /// Compiles the missing pipelines of several variants, on as many threads as the platform has.
+    pub fn prepare_together(&self, variants: &[PipelineVariant]) {
+        let missing: Vec<_> = variants.iter().filter(|variant| !self.is_ready(variant)).collect();
+        let ids: Vec<_> = missing
             .iter()
-            .filter(|variant| !self.is_ready(**variant))
-            .flat_map(|&variant| (0..variant.parts()).map(move |part| (variant, part)))
+            .flat_map(|variant| (0..part_count(variant)).map(move |part| (*variant, part)))
             .collect();
-        let mut made = HashMap::<PipelineVariant, Vec<_>>::new();
-        let made_in_order = in_parallel(&parts, |&(variant, part)| self.make(variant, part));
-        for ((variant, _), pipeline) in parts.into_iter().zip(made_in_order) {
-            made.entry(variant).or_default().push(pipeline);
-        }
-        for (variant, parts) in made {
-            self.keep(variant, parts);
+        let mut made = in_parallel(&ids, |&(variant, part)| self.make(variant, part)).into_iter();
+        for variant in missing {
+            self.keep(variant, made.by_ref().take(part_count(variant)).collect());
             self.set_ready(variant);
         }
     }
 
-    /// Compiles all special forms of a scene's passes. This may take a second and blocks.
+    /// Compiles all special variants for a scene. This may take a second and blocks.
     pub fn specialise(&self, scene: &Scene) {
         let inputs = Inputs::new(scene, Region::whole([64, 64]));
-        self.prepare_together(&PipelineVariant::special(&inputs.frame));
+        self.prepare_together(&pipeline_set::specialized(&inputs));
     }
 
-    /// The passes that an extra has special forms of, in the order of its parts.
-    fn special(&self, variant: PipelineVariant) -> Vec<&SpecializedPipeline> {
-        match variant {
-            PipelineVariant::Rays(_) => {
-                vec![&self.camera_cone, &self.march, &self.shadow_cone, &self.shadow]
-            }
-            PipelineVariant::Normals(..) => vec![&self.normal],
-            PipelineVariant::Shade(_) => vec![&self.shade, &self.shade],
-            PipelineVariant::Tone(_) => vec![&self.tone, &self.tone],
-            PipelineVariant::Indirect | PipelineVariant::Post => Vec::new(),
-        }
-    }
-
-    /// Starts to compile one pipeline asynchronously, `part` of as many as there are
-    /// [parts](PipelineVariant::parts), for [`Self::make`] to have it at once when the flag is true; none
-    /// where pipelines cannot be compiled asynchronously.
-    pub(super) fn begin(&self, variant: PipelineVariant, part: usize) -> Option<Arc<AtomicBool>> {
+    /// Starts to compile one pipeline asynchronously, `part` of [`part_count`].
+    ///
+    /// Once the flag is true, [`Self::make`] has the pipeline at once. None where the platform cannot compile
+    /// asynchronously.
+    pub(super) fn begin(&self, variant: &PipelineVariant, part: usize) -> Option<Arc<AtomicBool>> {
         let compile = self.gpu.async_compile?;
         Some((compile.begin)(&self.gpu.device, &mut || drop(self.ask(variant, part))))
     }
 
-    /// Makes one pipeline, `part` of as many as there are [parts](PipelineVariant::parts). For
-    /// [`Self::keep`].
-    pub(super) fn make(&self, variant: PipelineVariant, part: usize) -> wgpu::ComputePipeline {
+    /// Compiles one pipeline, `part` of [`part_count`], for [`Self::keep`].
+    pub(super) fn make(&self, variant: &PipelineVariant, part: usize) -> wgpu::ComputePipeline {
         let mut made = None;
         if let Some(compile) = self.gpu.async_compile {
             (compile.take)(&self.gpu.device, &mut || made = Some(self.ask(variant, part)));
@@ -434,63 +166,133 @@ impl Pipelines {
         pipeline
     }
 
-    /// Asks the device for one pipeline; its label and what the device gives.
-    fn ask(&self, variant: PipelineVariant, part: usize) -> (String, wgpu::ComputePipeline) {
+    /// Creates one pipeline on the device, `part` of [`part_count`]; returns its label too.
+    fn ask(&self, variant: &PipelineVariant, part: usize) -> (String, wgpu::ComputePipeline) {
+        let found = parts(variant).nth(part);
+        // Every caller takes `part` below `part_count`.
+        let (pass, mode) = found.expect("a part of the set");
+        self.compile(pass, mode, variant)
+    }
+
+    fn compile(
+        &self,
+        pass: &'static Pass,
+        mode: usize,
+        variant: &PipelineVariant,
+    ) -> (String, wgpu::ComputePipeline) {
         let device = &self.gpu.device;
-        let plain = |layout: &wgpu::PipelineLayout, module: &Module| {
-            let shader = module.create(device);
-            (module.label.to_owned(), pipeline(device, layout, &shader, module.label, &Vec::new()))
-        };
-        match variant {
-            PipelineVariant::Indirect => {
-                let Layouts { frame, samples, film, indirect, .. } = &self.layouts;
-                let groups = [frame, samples, film, indirect];
-                plain(&pipeline_layout(device, "indirect", &groups), &pass::indirect::MODULE)
-            }
-            PipelineVariant::Post => plain(&self.post_layout, PostPipelines::PARTS[part]),
-            _ => {
-                let LazyPipeline { module, layout, .. } = &self.special(variant)[part].general;
-                let shader = self.special(variant)[part].general.shader(device);
-                let label = module.label;
-                let constants = variant.constants(part);
-                let values = constants.iter().map(|(name, value)| format!(", {name} {value}"));
-                let label = format!("{label}{}", values.collect::<String>());
-                let pipeline = pipeline(device, layout, shader, &label, &constants);
-                (label, pipeline)
-            }
+        // A general pipeline serves every mode.
+        let own: &[_] = if variant.is_general() { &[] } else { pass.modes[mode] };
+        let constants: Vec<_> = variant
+            .kernel
+            .map(|kernel| kernel.overrides())
+            .unwrap_or_default()
+            .into_iter()
+            .chain(
+                variant.constants.iter().chain(own).map(|(name, value)| (*name, f64::from(*value))),
+            )
+            .collect();
+        let values = constants.iter().map(|(name, value)| format!(", {name} {value}"));
+        let label = format!("{}{}", pass.name, values.collect::<String>());
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(&label),
+            layout: Some(&pipeline_layout(device, pass.name, &(pass.groups)(&self.layouts))),
+            module: &self.shader(pass, variant),
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: None,
+        });
+        (label, pipeline)
+    }
+
+    /// The pass's shader, parsed once for all variants with the same files.
+    fn shader(&self, pass: &'static Pass, variant: &PipelineVariant) -> wgpu::ShaderModule {
+        let module = shaders::module(pass.name, variant.kernel);
+        let id = (pass.name, module.files.iter().map(|file| file.path).collect::<Vec<_>>());
+        if let Some(shader) = locked(&self.shaders).get(&id) {
+            return shader.clone();
+        }
+        let shader = module.create(&self.gpu.device);
+        locked(&self.shaders).entry(id).or_insert(shader).clone()
+    }
+
+    /// Stores all pipelines of `variant`, in order; pipelines that are already stored stay.
+    pub(super) fn keep(&self, variant: &PipelineVariant, made: Vec<wgpu::ComputePipeline>) {
+        let mut compiled = locked(&self.compiled);
+        for ((pass, mode), pipeline) in parts(variant).zip(made) {
+            compiled.entry((pass.name, mode, variant.clone())).or_insert(pipeline);
         }
     }
 
-    /// Takes all parts of these, in order. Where somebody else was faster, theirs stay.
-    pub(super) fn keep(&self, variant: PipelineVariant, parts: Vec<wgpu::ComputePipeline>) {
-        let part = |index: usize| parts[index].clone();
-        match variant {
-            PipelineVariant::Indirect => {
-                self.indirect.get_or_init(|| part(0));
-            }
-            PipelineVariant::Post => {
-                self.post.get_or_init(|| PostPipelines::from_parts(part));
-            }
-            _ => {
-                for (part, pipeline) in parts.into_iter().enumerate() {
-                    self.special(variant)[part].keep(variant, part, pipeline);
-                }
-            }
-        }
+    /// Marks `variant` as stored and used once.
+    pub(super) fn set_ready(&self, variant: &PipelineVariant) {
+        locked(&self.ready).insert(variant.clone());
     }
 
-    /// Says that these are kept and have been used once.
-    pub(super) fn set_ready(&self, variant: PipelineVariant) {
-        locked(&self.ready).insert(variant);
-    }
-
-    /// The labels of all pipelines made so far, in that order.
+    /// The labels of all compiled pipelines, in order.
     pub fn made(&self) -> Vec<String> {
         locked(&self.made).clone()
     }
 }
 
+/// The pipelines of a variant: each pass of the set in each of its modes.
+fn parts(variant: &PipelineVariant) -> impl Iterator<Item = (&'static Pass, usize)> + use<> {
+    let set = variant.set;
+    let is_general = variant.is_general();
+    let passes = PASSES.iter().copied().filter(move |pass| pass.set == set);
+    passes.flat_map(move |pass| {
+        let modes = if is_general { 1 } else { pass.modes.len() };
+        (0..modes).map(move |mode| (pass, mode))
+    })
+}
+
+/// Number of pipelines of a variant.
+pub fn part_count(variant: &PipelineVariant) -> usize {
+    parts(variant).count()
+}
+
+/// The pipelines that draw one frame.
+#[derive(Clone)]
+pub struct FramePipelines<'a> {
+    pipelines: &'a Pipelines,
+    special: Vec<PipelineVariant>,
+    formula: FormulaRef,
+    replaced: HashMap<&'static str, wgpu::ComputePipeline>,
+}
+
+impl FramePipelines<'_> {
+    /// Replaces the pipelines of `pass` by `pipeline`.
+    pub fn replace(&mut self, pass: &Pass, pipeline: wgpu::ComputePipeline) {
+        self.replaced.insert(pass.name, pipeline);
+    }
+
+    /// Draws with `variant` instead of the frame's own variant of the set, to rehearse it.
+    pub fn draw_by(&mut self, variant: &PipelineVariant) {
+        if let Some(special) = self.special.iter_mut().find(|special| special.set == variant.set) {
+            *special = variant.clone();
+        }
+    }
+}
+
+impl PipelineSource for FramePipelines<'_> {
+    fn pipeline(&self, pass: &'static Pass, mode: usize) -> wgpu::ComputePipeline {
+        if let Some(replaced) = self.replaced.get(pass.name) {
+            return replaced.clone();
+        }
+        match self.special.iter().find(|variant| variant.set == pass.set) {
+            Some(variant) => self.pipelines.pipeline(pass, mode, variant),
+            None => {
+                let general = PipelineVariant::general_of(pass.set, self.formula);
+                self.pipelines.pipeline(pass, mode, &general)
+            }
+        }
+    }
+}
+
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Whole entries are inserted: the collection is valid whatever interrupted its holder.
+    // Each insertion is complete, so the collection is valid even if a thread panicked with the lock.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

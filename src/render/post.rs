@@ -1,30 +1,32 @@
 //! Post passes: statistics of the whole film (mean, histogram), exposure and bloom.
 //!
-//! In: a film. Out: the statistics and the mip level with the bloom, which [`tone`](super::pass::tone)
-//! reads. Both belong to the whole picture: a view that draws a tile uses the [`Post`] of a view that draws
-//! all of the picture
-//! ([`View::lend_post`](super::View::lend_post)), in which the tile's pixels are looked up by
-//! their place in the picture.
+//! In: a film. Out: the statistics, and the mip level with the bloom, which [`tone`](super::pass::tone)
+//! reads. Both belong to the whole picture: a view of a tile uses the [`Post`] of a view of the whole
+//! picture ([`View::lend_post`](super::View::lend_post)), and looks its pixels up by
+//! their position in the picture.
 //!
-//! The mip levels start with the one of 4×4 pixels and serve twice in one submit: first for the
-//! mean, which ends in the statistics, then for the bloom. Bytes a pixel: 4/3 for the levels, 1
-//! more for the blur; what the scene does not need is not allocated.
+//! The finest mip level has one element per 4×4 pixels. The levels serve twice in one submit: for the
+//! mean, which ends in the statistics, then for the bloom. Bytes per pixel: 4/3 for the levels, 1
+//! more for the blur; buffers that the scene does not need are not allocated.
+
+use crate::gpu::host_shared::HostShared;
 
 use super::{
+    buffers,
     lattice::WORKGROUP_THREADS,
-    pipelines::Pipelines,
+    layouts::Layouts,
     region::Region,
-    report::{HISTOGRAM_BINS, Histogram},
-    targets,
+    report::Histogram,
     uniforms::{FrameUniforms, Statistics},
 };
 use crate::scene::Scene;
 
-/// The finest mip level: one element for 4×4 pixels.
+/// The finest mip level: one element per 4×4 pixels.
 pub const FIRST_LEVEL: u32 = 2;
 
-/// Most elements of a mip level that half the width of a blur's kernel spans. A coarser level is
-/// faster, a finer one follows what moves with smaller steps.
+/// Greatest half width of a blur's kernel, in elements of its mip level.
+///
+/// A coarser level is faster; a finer level follows moving light in smaller steps.
 pub const MOST_HALF_WIDTH: f32 = 6.0;
 
 const ELEMENT_BYTES: u64 = 16;
@@ -44,12 +46,12 @@ impl Need {
         Self { mean: picture.tone.auto_exposure != 0, bloom: picture.bloom.strength > 0.0 }
     }
 
-    /// The same of a scene's pictures.
+    /// What the tone pass of a scene's pictures reads.
     pub fn of_scene(scene: &Scene) -> Self {
         Self { mean: scene.tone.auto_exposure, bloom: scene.bloom.strength as f32 > 0.0 }
     }
 
-    /// Nothing at all.
+    /// True if no statistics are needed.
     pub fn is_none(self) -> bool {
         self == Self::default()
     }
@@ -59,54 +61,55 @@ impl Need {
 pub struct Post {
     levels: Levels,
     need: Need,
-    /// [`Statistics`].
+    /// The buffer of [`Statistics`].
     pub statistics: wgpu::Buffer,
     /// 4 × f32 an element: the levels from [`FIRST_LEVEL`] on, rows packed.
     pub mips: wgpu::Buffer,
     half_blurred: wgpu::Buffer,
-    /// All three.
+    /// The bind group of all three buffers.
     pub group: wgpu::BindGroup,
 }
 
 impl Post {
-    /// Allocates what `need` takes for the film of `region`.
-    pub fn new(pipelines: &Pipelines, region: Region, need: Need) -> Self {
+    /// Allocates the buffers that `need` requires for the film of `region`.
+    pub fn new(layouts: &Layouts, region: Region, need: Need) -> Self {
         let levels = Levels::of_region(region);
-        let bytes = size_of::<Statistics>() as u64;
-        let statistics = targets::storage(&pipelines.gpu.device, "statistics", bytes);
-        // New buffers hold zeros; the size is all that no pass writes.
-        pipelines.gpu.queue.write_buffer(&statistics, 0, bytemuck::bytes_of(&levels.eye_px));
-        Self::around(pipelines, levels, need, statistics)
+        let bytes = Statistics::SIZE as u64;
+        let statistics = buffers::storage(&layouts.gpu.device, "statistics", bytes);
+        // New buffers hold zeros; no pass writes the size.
+        layouts.gpu.queue.write_buffer(&statistics, 0, &levels.eye_px.to_bytes());
+        Self::around(layouts, levels, need, statistics)
     }
 
-    /// One for the same film with room for `need`. The statistics stay: exposure goes on from
-    /// where it is.
-    pub fn with_need(&self, pipelines: &Pipelines, need: Need) -> Self {
-        Self::around(pipelines, self.levels, need, self.statistics.clone())
+    /// Buffers of the same film for another `need`, with the same statistics.
+    ///
+    /// Auto exposure continues from its current value.
+    pub fn with_need(&self, layouts: &Layouts, need: Need) -> Self {
+        Self::around(layouts, self.levels, need, self.statistics.clone())
     }
 
-    fn around(pipelines: &Pipelines, levels: Levels, need: Need, statistics: wgpu::Buffer) -> Self {
-        let device = &pipelines.gpu.device;
+    fn around(layouts: &Layouts, levels: Levels, need: Need, statistics: wgpu::Buffer) -> Self {
+        let device = &layouts.gpu.device;
         let finest = u64::from(levels.elements(FIRST_LEVEL));
         let all: u64 = (FIRST_LEVEL..=levels.last()).map(|n| u64::from(levels.elements(n))).sum();
         let room = |wanted: bool, count: u64| ELEMENT_BYTES * if wanted { count } else { 1 };
-        let mips = targets::storage(device, "mip levels", room(!need.is_none(), all));
-        let half_blurred = targets::storage(device, "half blurred", room(need.bloom, finest));
-        let group = targets::group(
+        let mips = buffers::storage(device, "mip levels", room(!need.is_none(), all));
+        let half_blurred = buffers::storage(device, "half blurred", room(need.bloom, finest));
+        let group = buffers::group(
             device,
-            &pipelines.layouts.post,
+            &layouts.post,
             "post",
             [&statistics, &mips, &half_blurred].map(wgpu::Buffer::as_entire_binding),
         );
         Self { levels, need, statistics, mips, half_blurred, group }
     }
 
-    /// What there is room for.
+    /// The statistics that the buffers have room for.
     pub fn need(&self) -> Need {
         self.need
     }
 
-    /// GPU memory of the mip levels, and of what the blur needs beside them.
+    /// GPU memory of the mip levels, and of the blur's own buffer, in bytes.
     pub fn bytes(&self) -> [u64; 2] {
         [&self.mips, &self.half_blurred].map(wgpu::Buffer::size)
     }
@@ -119,65 +122,68 @@ pub struct Tasks {
     pub mean: bool,
     /// The film's histogram.
     pub histogram: bool,
-    /// Auto exposure: how far it moves toward its goal, above 0 to 1. None leaves it.
+    /// How far auto exposure moves toward its goal, above 0 to 1; none keeps it.
     pub adapt: Option<f32>,
     /// The light that blooms.
     pub bloom: bool,
 }
 
-/// How the mip levels of a film lie: each eye's part of it has its own elements, so that none
-/// holds light of both. Twin of `shaders/lib/mip.wgsl`.
+/// The layout of a film's mip levels. Twin of `shaders/lib/mip.wgsl`.
+///
+/// Each eye's part of the film has its own elements, so that no element mixes light of both eyes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Levels {
-    /// Width and height of one eye's part, pixels.
+    /// Width and height of one eye's part, in pixels.
     eye_px: [u32; 2],
     /// Columns and rows of eyes.
     eyes: [u32; 2],
 }
 
 impl Levels {
-    /// Those of a region's film.
+    /// The mip levels of a region's film.
     pub fn of_region(region: Region) -> Self {
         Self { eye_px: region.size_px, eyes: region.second_eye_at().map(|at| 1 + at.min(1)) }
     }
 
-    /// Those of the film that a picture's passes write.
+    /// The mip levels of the film that a picture's passes write.
     pub fn of(picture: &FrameUniforms) -> Self {
         let eyes = picture.eyes.second_at.map(|at| 1 + at.min(1));
         Self { eye_px: std::array::from_fn(|i| picture.size_px[i] / eyes[i]), eyes }
     }
 
-    /// The level of one element an eye.
+    /// The coarsest level, with one element per eye.
     pub fn last(self) -> u32 {
         let longest = self.eye_px[0].max(self.eye_px[1]).max(1);
         longest.next_power_of_two().trailing_zeros().max(FIRST_LEVEL)
     }
 
-    /// Elements of a level: as many as cover the film.
+    /// Number of elements of a level: as many as cover the film.
     pub fn elements(self, level: u32) -> u32 {
         let eyes: u32 = self.eyes.iter().product();
         eyes * self.eye_px.map(|side| side.div_ceil(1 << level)).iter().product::<u32>()
     }
 
-    /// Workgroups of a dispatch over a level's elements; fewer than 65,536 for any region that
-    /// [fits](super::Region::fits).
+    /// Number of workgroups of a dispatch over a level's elements.
+    ///
+    /// Fewer than 65,536 for any region that [fits](super::Region::fits).
     pub fn workgroups(self, level: u32) -> u32 {
         self.elements(level).div_ceil(WORKGROUP_THREADS)
     }
 }
 
-/// One uniform kernel: the mip level it works on, and half its width in that level's elements.
+/// A uniform kernel: its mip level, and its half width in that level's elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
     /// The mip level.
     pub level: u32,
-    /// Half the width, elements; at most [`MOST_HALF_WIDTH`] unless the level is the last.
+    /// Half the width, in elements; at most [`MOST_HALF_WIDTH`] unless the level is the last.
     pub half_width: f32,
 }
 
 impl Kernel {
-    /// The kernel for a radius in parts of the height of an eye's picture. Applied `passes`
-    /// times, it spreads light with the variance of a single one with that half width.
+    /// The kernel for a radius relative to the height of an eye's picture.
+    ///
+    /// Applied `passes` times, it spreads light with the variance of a single kernel of that half width.
     pub fn new(radius: f32, passes: u32, levels: Levels) -> Self {
         let half_width_px = radius * levels.eye_px[1] as f32 / (passes.max(1) as f32).sqrt();
         let at = |level: u32| half_width_px / (1_u32 << level) as f32;
@@ -187,11 +193,11 @@ impl Kernel {
     }
 }
 
-/// What the interface shows of the statistics.
+/// The histogram in the bytes of [`Statistics`].
 pub(super) fn histogram(bytes: &[u8]) -> Option<Histogram> {
-    let statistics: Statistics = bytemuck::try_pod_read_unaligned(bytes).ok()?;
-    let bins: [u32; HISTOGRAM_BINS] = statistics.bins;
-    Some(Histogram { bins: bins.into(), adapted_stops: statistics.adapted_stops })
+    let bytes = bytes.get(..Statistics::SIZE)?;
+    let statistics = Statistics::read(bytes);
+    Some(Histogram { bins: (*statistics.bins).into(), adapted_stops: statistics.adapted_stops })
 }
 
 #[cfg(test)]
@@ -225,7 +231,7 @@ mod tests {
                 for passes in 1..=4 {
                     let kernel = Kernel::new(radius, passes, levels(size_px));
                     assert!(kernel.half_width <= MOST_HALF_WIDTH);
-                    // Coarser only where a finer one would be too long.
+                    // The level is coarser only if a finer level's kernel would be too wide.
                     assert!(
                         kernel.level == FIRST_LEVEL || kernel.half_width > MOST_HALF_WIDTH / 2.0
                     );

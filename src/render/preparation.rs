@@ -1,11 +1,10 @@
-//! Pipelines on their way: announced, compiled asynchronously or one at a time, and used once before they
-//! count.
+//! Prepares pipelines: announces them, compiles them, and uses them once before they count as ready.
 //!
-//! In: what a view lacks, the time. Out: the same pipelines, [kept](Kernels) and ready. A view
-//! that someone watches says what it prepares before anything is compiled, so that the word is on
-//! the screen should the screen stand still; it keeps its picture meanwhile. Drivers leave part of the work
-//! for the first use of a pipeline, some all of it: a rehearsal of no workgroups has that done, and
-//! the GPU's own word tells when.
+//! In: the variants that a view lacks, the time. Out: the same variants, [stored](Pipelines) and ready. An
+//! interactive view announces a variant before compiling it, so that the message is on the screen if
+//! compilation freezes the page; the view keeps its picture meanwhile. Drivers leave part of the work, some
+//! all of it, for the first use of a pipeline. A rehearsal without workgroups triggers that work, and the
+//! GPU's completion callback reports its end.
 
 use std::sync::{
     Arc,
@@ -13,46 +12,45 @@ use std::sync::{
 };
 
 use super::{
-    frame::{self, Dispatches, Recorder},
-    pipelines::{PipelineVariant, Pipelines},
+    frame, pipeline_set,
+    pipelines::{PipelineVariant, Pipelines, part_count},
     post::Tasks,
-    schedule::{Points, Stage, Trace, Work},
+    recorder::{Dispatches, Recorder},
     targets::Targets,
     uniforms::Inputs,
 };
 
-/// Displayed frames after which the word is on the screen: one to draw it, one more to know that
-/// it was shown.
+/// Frames after which the message is visible: one to draw it, one more to know it was shown.
 const FRAMES_TO_SEE: u32 = 2;
 
-/// After this long nobody looks, seconds: a page that is hidden draws no frames.
+/// Time after which nobody is watching, in seconds: a hidden page draws no frames.
 const UNSEEN_SECS: f64 = 0.25;
 
-/// Pipelines on their way.
+/// The preparation of one variant.
 pub struct Preparation {
     variant: PipelineVariant,
     announced_secs: f64,
     frames: u32,
-    /// Whether each part has been compiled asynchronously; empty before that began, and where it cannot.
+    /// Flags of asynchronous compilations, one per part; empty before their start, or if unsupported.
     compiled: Vec<Arc<AtomicBool>>,
     made: Vec<wgpu::ComputePipeline>,
-    /// Whether the rehearsal is over; none before it.
+    /// The flag that the rehearsal has finished; none before the rehearsal.
     rehearsed: Option<Arc<AtomicBool>>,
 }
 
-/// How far a preparation is.
+/// How far a preparation has come, and whether other work may run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// Other work can go on.
+    /// Other work may run.
     Background,
-    /// Other work should wait.
+    /// Other work must wait.
     Foreground,
-    /// All are ready.
+    /// All pipelines are ready.
     Ready,
 }
 
 impl Preparation {
-    /// Says what will be compiled.
+    /// Announces `variant`; compiles nothing yet.
     pub fn announce(variant: PipelineVariant, now_secs: f64) -> Self {
         Self {
             variant,
@@ -64,22 +62,22 @@ impl Preparation {
         }
     }
 
-    /// What is prepared.
-    pub fn variant(&self) -> PipelineVariant {
-        self.variant
+    /// The variant in preparation.
+    pub fn variant(&self) -> &PipelineVariant {
+        &self.variant
     }
 
-    /// Whether more than the word is out.
+    /// Whether compilation has begun.
     pub fn has_begun(&self) -> bool {
         !self.made.is_empty() || !self.compiled.is_empty() || self.rehearsed.is_some()
     }
 
-    /// The interface has drawn a frame.
+    /// Notes that the interface has drawn a frame.
     pub fn note_frame(&mut self) {
         self.frames += 1;
     }
 
-    /// Does what comes next: of pipelines that hold others up, one at most.
+    /// Takes the next step; compiles at most one pipeline of those that block.
     pub fn step(
         &mut self,
         pipelines: &Pipelines,
@@ -92,76 +90,57 @@ impl Preparation {
             if !is_true(rehearsed) {
                 return Progress::Foreground;
             }
-            pipelines.set_ready(self.variant);
+            pipelines.set_ready(&self.variant);
             return Progress::Ready;
         }
         let is_seen = self.frames >= FRAMES_TO_SEE || now_secs - self.announced_secs >= UNSEEN_SECS;
         if !is_seen {
             return Progress::Background;
         }
-        let parts = self.variant.parts();
+        let parts = part_count(&self.variant);
         if !self.has_begun() {
             self.compiled =
-                (0..parts).filter_map(|part| pipelines.begin(self.variant, part)).collect();
+                (0..parts).filter_map(|part| pipelines.begin(&self.variant, part)).collect();
         }
         if !self.compiled.iter().all(is_true) {
             return Progress::Background;
         }
         let at_once = if self.compiled.is_empty() { 1 } else { parts };
         for part in (self.made.len()..parts).take(at_once) {
-            self.made.push(pipelines.make(self.variant, part));
+            self.made.push(pipelines.make(&self.variant, part));
         }
         if self.made.len() == parts {
-            pipelines.keep(self.variant, std::mem::take(&mut self.made));
-            self.rehearsed = Some(rehearse(self.variant, pipelines, targets, inputs));
+            pipelines.keep(&self.variant, std::mem::take(&mut self.made));
+            self.rehearsed = Some(rehearse(&self.variant, pipelines, targets, inputs));
         }
         Progress::Foreground
     }
 }
 
-/// Submits every pass of `variant` once, without workgroups. The answer turns true when the GPU is
-/// through with it.
+/// Submits every pass of `variant` once, without workgroups.
+///
+/// The flag turns true when the GPU has finished.
 fn rehearse(
-    variant: PipelineVariant,
+    variant: &PipelineVariant,
     pipelines: &Pipelines,
     targets: &Targets,
     inputs: &Inputs,
 ) -> Arc<AtomicBool> {
-    let mut picture = inputs.frame;
-    if let PipelineVariant::Rays(key) | PipelineVariant::Normals(key, _) = variant {
-        key.put_into(&mut picture);
-    }
-    let passes = pipelines.passes(&picture);
+    let mut passes = pipelines.of_frame(inputs);
+    passes.draw_by(variant);
     let mut uncounted = Dispatches::default();
-    let mut recorder = Recorder::new(pipelines, &passes, targets, inputs, &mut uncounted);
-    // A count in a buffer: browsers warn of a plain zero.
+    let mut recorder = Recorder::new(&pipelines.layouts, &passes, targets, inputs, &mut uncounted);
+    // An indirect dispatch with a count of zero: browsers warn of a direct dispatch with zero.
     recorder.rehearsal = Some(pipelines.gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("no workgroups"),
         size: 12,
         usage: wgpu::BufferUsages::INDIRECT,
         mapped_at_creation: false,
     }));
-    if variant == PipelineVariant::Post {
+    if *variant.set == pipeline_set::POST {
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
-    let trace = |points: Points, from: Stage| {
-        Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
-    };
-    let show = |level: u32| Work::Show { level, fill: false, film: false, adapt: 1.0 };
-    let work = match variant {
-        PipelineVariant::Rays(_) | PipelineVariant::Normals(..) => {
-            vec![trace(Points::Level(0), Stage::March)]
-        }
-        // Of single samples, and of some together.
-        PipelineVariant::Shade(_) => [Points::Level(0), Points::Samples { first: 1, count: 2 }]
-            .map(|points| trace(points, Stage::Shade))
-            .to_vec(),
-        PipelineVariant::Indirect => vec![trace(Points::Indirect(0), Stage::Indirect)],
-        PipelineVariant::Post => vec![show(0)],
-        // Of a whole picture, and of a sparse lattice.
-        PipelineVariant::Tone(_) => vec![show(0), show(1)],
-    };
-    for work in work {
+    for work in variant.rehearsal() {
         frame::record(&mut recorder, work);
     }
     let queue = &pipelines.gpu.queue;

@@ -1,35 +1,35 @@
-//! Which rectangle of a picture a view draws, and for which eyes.
+//! The rectangle of a picture that a view draws, and its eyes.
 
 use crate::scene::StereoLayout;
 
-/// Largest width or height of one region, pixels: WebGPU's default texture limit.
+/// Largest width or height of a region in pixels: WebGPU's default texture limit.
 pub const MAX_REGION_PX: u32 = 8192;
 
-/// Most pixels of one region: eight bytes each are the 128 MiB that a storage binding holds.
+/// Most pixels of a region: at eight bytes each they fill a storage binding's 128 MiB.
 pub const MAX_REGION_PIXELS: u64 = 128 * 1024 * 1024 / 8;
 
-/// Whose pictures a region shows.
+/// The eyes whose pictures a region shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Eyes {
-    /// The camera's own: no stereo.
+    /// The camera itself: no stereo.
     #[default]
     Camera,
-    /// The left eye's, of a picture whose overview shows both beside each other.
+    /// The left eye, of a picture whose overview shows both eyes beside each other.
     Left,
-    /// The right eye's, likewise.
+    /// The right eye, of a picture whose overview shows both eyes beside each other.
     Right,
-    /// Both, the left eye's at the left.
+    /// Both eyes, the left eye at the left.
     Beside,
-    /// Both, the left eye's above.
+    /// Both eyes, the left eye above.
     Below,
-    /// Both, the left one's red and the right one's green and blue in one picture.
+    /// Both eyes in one picture: the left in red, the right in green and blue.
     Anaglyph,
-    /// The same in pixels twice as wide as they are high: both eyes share a window's pixels.
+    /// An anaglyph in pixels twice as wide as high: both eyes share a window's pixels.
     WideAnaglyph,
 }
 
 impl Eyes {
-    /// How many there are: 1 or 2.
+    /// Number of eyes: 1 or 2.
     pub fn count(self) -> u32 {
         match self {
             Self::Camera | Self::Left | Self::Right => 1,
@@ -59,12 +59,12 @@ impl Eyes {
         matches!(self, Self::Anaglyph | Self::WideAnaglyph)
     }
 
-    /// How many times as wide as high a pixel is: 1 or 2.
+    /// Width over height of a pixel: 1 or 2.
     pub fn pixel_aspect(self) -> u32 {
         if self == Self::WideAnaglyph { 2 } else { 1 }
     }
 
-    /// Those that a scene's layout shows at once, in square pixels.
+    /// The eyes that a scene's layout shows at once, in square pixels.
     pub fn of(layout: StereoLayout) -> Self {
         match layout {
             StereoLayout::Off => Self::Camera,
@@ -78,13 +78,13 @@ impl Eyes {
 /// A rectangle of a picture, or the same rectangle of both eyes' pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
-    /// The whole picture of one eye, width and height in pixels.
+    /// Width and height of one eye's whole picture, in pixels.
     pub picture_px: [u32; 2],
-    /// The rectangle's upper left corner in it.
+    /// The rectangle's upper left corner in the picture, in pixels.
     pub origin_px: [u32; 2],
-    /// The rectangle's width and height; see [`Region::fits`].
+    /// The rectangle's width and height in pixels; see [`Region::fits`].
     pub size_px: [u32; 2],
-    /// Whose pictures.
+    /// The eyes.
     pub eyes: Eyes,
 }
 
@@ -94,8 +94,9 @@ impl Region {
         Self { picture_px: size_px, origin_px: [0, 0], size_px, eyes: Eyes::Camera }
     }
 
-    /// What a window of this region's pixels shows of a scene with this layout: both eyes share
-    /// the pixels. An anaglyph has half as many columns, to be stretched, for each holds both.
+    /// The region that a window of this size shows of a scene with `layout`: both eyes share the pixels.
+    ///
+    /// An anaglyph has half as many columns, to be stretched, since each column holds both eyes.
     pub fn shared_by(self, layout: StereoLayout) -> Self {
         let eyes = match Eyes::of(layout) {
             Eyes::Anaglyph => Eyes::WideAnaglyph,
@@ -113,24 +114,24 @@ impl Region {
         width * f64::from(self.eyes.pixel_aspect()) / height
     }
 
-    /// Width and height of the film: all its eyes'.
+    /// Width and height of the film with all eyes, in pixels.
     pub fn film_px(&self) -> [u32; 2] {
         let [columns, rows] = self.eyes.on_film();
         [self.size_px[0] * columns, self.size_px[1] * rows]
     }
 
-    /// Width and height of the display picture.
+    /// Width and height of the display picture, in pixels.
     pub fn display_px(&self) -> [u32; 2] {
         if self.eyes.is_anaglyph() { self.size_px } else { self.film_px() }
     }
 
-    /// Where the second eye's part of the film begins; (0, 0) where there is none.
+    /// Upper left pixel of the second eye's part of the film; (0, 0) with one eye.
     pub fn second_eye_at(&self) -> [u32; 2] {
         let [columns, rows] = self.eyes.on_film();
         [self.size_px[0] * (columns - 1), self.size_px[1] * (rows - 1)]
     }
 
-    /// The whole picture at the nearest size that a view can draw, of nearly the same shape.
+    /// The whole picture at the nearest drawable size, with nearly the same aspect.
     pub fn whole_within_limits(size_px: [u32; 2]) -> Self {
         let size = size_px.map(|v| f64::from(v.max(1)));
         let side = f64::from(MAX_REGION_PX) / size[0].max(size[1]);
@@ -139,8 +140,10 @@ impl Region {
         Self::whole(size.map(|v| ((v * scale) as u32).max(1)))
     }
 
-    /// Whether a view can draw it: no side 0 or above [`MAX_REGION_PX`], at most
-    /// [`MAX_REGION_PIXELS`] pixels, and inside its picture.
+    /// Whether a view can draw the region.
+    ///
+    /// No side may be 0 or above [`MAX_REGION_PX`], the region has at most [`MAX_REGION_PIXELS`] pixels, and
+    /// lies inside its picture.
     pub fn fits(&self) -> bool {
         let [width, height] = self.film_px().map(u64::from);
         let inside = |axis: usize| {

@@ -4,8 +4,6 @@ pub use super::memory::{Memory, mebibytes};
 
 use std::sync::Arc;
 
-use crate::fractal::Reference;
-
 /// What the renderer is doing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Activity {
@@ -68,9 +66,6 @@ pub struct Report {
     pub histogram: Option<Histogram>,
     /// What the view holds of the GPU's memory.
     pub memory: Memory,
-    /// What movements near the surface are measured by: the orbit of a point that is in view, where
-    /// the view is so deep, or nearly, that it is drawn from there.
-    pub reference: Option<Arc<Reference>>,
     /// Pictures finished since the view was made (each display update counts).
     pub pictures: u64,
 }

@@ -1,7 +1,7 @@
-//! What a view knows of its pixels beyond the display picture, on its way back from the GPU.
+//! Reads back the pixels of a view: radiance, depth and normal.
 //!
-//! In: a view's film and G-buffer. Out: every pixel's radiance, depth and normal, once they have
-//! arrived; nothing here waits.
+//! In: a view's film and G-buffer. Out: every pixel's radiance, depth and normal, once all buffers have
+//! arrived; no call blocks.
 
 use glam::Vec3;
 
@@ -16,27 +16,27 @@ use crate::gpu::{
 pub struct PixelSample {
     /// Mean radiance of its samples, linear Rec. 709.
     pub radiance: [f32; 3],
-    /// Depth of its centre sample along the unit ray, scene units; 0 where that met nothing.
+    /// Depth of the centre sample along its unit ray, in scene units; 0 on a miss.
     pub depth: f32,
-    /// The centre sample's unit normal in world space; meaningless where the depth is 0.
+    /// The centre sample's unit normal in world space; undefined where the depth is 0.
     pub normal: Vec3,
 }
 
-/// Buffers on their way.
+/// A pending readback of a view's buffers.
 pub struct SamplesReadback {
     film: [Arrival; 2],
     surface: Arrival,
     scale: f64,
 }
 
-/// A buffer on its way, or there.
+/// A buffer in readback.
 enum Arrival {
     Awaited(Readback),
     There(Vec<u8>),
 }
 
 impl Arrival {
-    /// The bytes, where they are there.
+    /// The bytes, if they have arrived.
     fn look(&mut self, gpu: &Gpu) -> Result<Option<&[u8]>, ReadbackError> {
         if let Self::Awaited(readback) = self
             && let Some(bytes) = readback.take(gpu)?
@@ -51,14 +51,15 @@ impl Arrival {
 }
 
 impl SamplesReadback {
-    /// Starts to copy the film's two halves, and depth, in units of `scale` scene units, and normal
-    /// of the centre samples.
+    /// Starts to read back the film's two halves, and the centre samples' depths and normals.
+    ///
+    /// Depths are in units of `scale` scene units.
     pub fn new(gpu: &Gpu, film: [&wgpu::Buffer; 2], surface: &wgpu::Buffer, scale: f64) -> Self {
         let read = |buffer| Arrival::Awaited(Readback::buffer(gpu, buffer));
         Self { film: film.map(read), surface: read(surface), scale }
     }
 
-    /// Every pixel, rows from the upper edge, once all has arrived; none before.
+    /// Every pixel, rows from the top, once all buffers have arrived; none before.
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<PixelSample>>, ReadbackError> {
         let Self { film: [rg, bw], surface, scale } = self;
         let all = [rg.look(gpu)?, bw.look(gpu)?, surface.look(gpu)?];

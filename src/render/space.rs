@@ -1,7 +1,7 @@
 //! Render space: the floating origin and the unit of a view's coordinates.
 //!
-//! While f32 is fine enough they are the scene's own. Deeper, the origin is an anchor on the surface and
-//! the unit the distance from the eye to the anchor.
+//! While f32 is fine enough, origin and unit are the scene's own. In deeper views the origin is an anchor on
+//! the surface and the unit the distance from the eye to the anchor.
 
 use std::sync::Arc;
 
@@ -9,63 +9,72 @@ use glam::DVec3;
 
 use super::Region;
 use crate::{
-    fractal::{
-        DistanceField, Estimator, Reference,
-        deep::{self, DeepField, Search},
-        pixel_cone,
-    },
+    formula::{ReferenceOrbit, contract::COARSEST_FOOTPRINT},
+    fractal::{FractalModel, Search, pixel_cone},
     scene::{PrecisePoint, Scene},
 };
 
-/// Origin and unit of a view's coordinates.
-#[derive(Clone, Debug, Default)]
+/// Origin and unit of a view's coordinates, and the fractal that is drawn in them.
+#[derive(Clone, Debug)]
 pub struct RenderSpace {
+    model: FractalModel,
     anchored: Option<Anchored>,
 }
 
 #[derive(Clone, Debug)]
 struct Anchored {
-    reference: Arc<Reference>,
+    reference: Arc<dyn ReferenceOrbit>,
     scale: f64,
 }
 
 impl RenderSpace {
-    /// The scene's own origin and unit.
-    pub fn plain() -> Self {
-        Self::default()
+    /// The render space with the scene's own origin and unit.
+    pub fn plain(model: &FractalModel) -> Self {
+        Self { model: model.clone(), anchored: None }
     }
 
-    /// The anchor of `reference`, for what `scene`'s camera sees.
-    pub fn about(reference: Arc<Reference>, scene: &Scene) -> Self {
+    /// The render space about the anchor of `reference`, for `scene`'s camera.
+    pub fn about(model: &FractalModel, reference: Arc<dyn ReferenceOrbit>, scene: &Scene) -> Self {
         let way = (&scene.camera.position - reference.anchor()).length();
-        // An eye that is the anchor itself, for want of a surface, has its view for a unit.
+        // With no surface in view, the eye itself is the anchor; the view unit then sets the scale.
         let scale = if way > 0.0 { way } else { scene.camera.view_unit() };
-        Self { anchored: Some(Anchored { reference, scale }) }
+        Self { model: model.clone(), anchored: Some(Anchored { reference, scale }) }
     }
 
-    /// The one that `scene` needs in `region`, searched for at once where that is an anchor: for
-    /// some milliseconds.
+    /// The render space that `scene` needs in `region`.
+    ///
+    /// Searches for an anchor if one is needed, which takes some milliseconds.
     pub fn of(scene: &Scene, region: Region) -> Self {
-        if !wants_anchor(scene, region) {
-            return Self::plain();
-        }
-        match Search::new(&scene.fractal, &scene.camera, region.aspect(), None) {
-            Some(search) => Self::about(search.finish(), scene),
-            None => Self::plain(),
+        Self::of_model(&FractalModel::new(&scene.fractal), scene, region)
+    }
+
+    /// [`Self::of`] with the scene's prepared fractal.
+    pub fn of_model(model: &FractalModel, scene: &Scene, region: Region) -> Self {
+        let search = wants_anchor(model, scene, region)
+            .then(|| Search::new(&scene.fractal, &scene.camera, region.aspect(), None))
+            .flatten();
+        match search {
+            Some(search) => Self::about(model, search.finish(), scene),
+            None => Self::plain(model),
         }
     }
 
-    /// The anchor's orbit, where there is an anchor.
-    pub fn reference(&self) -> Option<&Arc<Reference>> {
+    /// The fractal.
+    pub fn model(&self) -> &FractalModel {
+        &self.model
+    }
+
+    /// The anchor's reference orbit; none in plain views.
+    pub fn reference(&self) -> Option<&Arc<dyn ReferenceOrbit>> {
         Some(&self.anchored.as_ref()?.reference)
     }
 
-    /// Scene units of a length of one.
+    /// Scene units per unit of render space.
     pub fn scale(&self) -> f64 {
         self.anchored.as_ref().map_or(1.0, |anchored| anchored.scale)
     }
 
-    /// A point of the scene in these coordinates.
+    /// A point of the scene in render space.
     pub fn point(&self, point: &PrecisePoint) -> DVec3 {
         match &self.anchored {
             None => point.to_dvec3(),
@@ -73,35 +82,33 @@ impl RenderSpace {
         }
     }
 
-    /// The distance from the eye to the nearest surface, in these units.
+    /// The distance from the eye to the nearest surface, in render space.
     pub fn nearest(&self, scene: &Scene) -> f64 {
         match &self.anchored {
-            None => Estimator::new(&scene.fractal).clear_distance(scene.camera.position.to_dvec3()),
+            None => self.model.distance(&scene.camera.position),
             Some(Anchored { reference, scale }) => {
-                let field =
-                    DeepField::new(reference.clone(), &scene.fractal, deep::FINEST_FOOTPRINT);
+                let field = self.model.about(reference);
                 field.clear_distance(&scene.camera.position - reference.anchor()) / scale
             }
         }
     }
 
-    /// The radius of a pixel's cone at the surface that is nearest to the eye, scene units.
+    /// The radius of a pixel's cone at the surface nearest the eye, in scene units.
     pub fn footprint(&self, scene: &Scene, region: Region) -> f64 {
         self.nearest(scene) * self.scale() * cone(scene, region)
     }
 }
 
-/// Whether a scene's pixels in this region are too fine for coordinates about the scene's origin,
-/// and an anchor helps.
-pub fn wants_anchor(scene: &Scene, region: Region) -> bool {
-    deep::has_depth(&scene.fractal) && plain_footprint(scene, region) < deep::COARSEST_FOOTPRINT
+/// Whether pixels are too fine for plain f32, and an anchor can help.
+pub fn wants_anchor(model: &FractalModel, scene: &Scene, region: Region) -> bool {
+    model.has_depth() && plain_footprint(model, scene, region) < COARSEST_FOOTPRINT
 }
 
-/// In f64 about the scene's origin: far too coarse for most views that want an anchor, and yet
-/// enough to know them.
-pub fn plain_footprint(scene: &Scene, region: Region) -> f64 {
-    let eye = scene.camera.position.to_dvec3();
-    Estimator::new(&scene.fractal).clear_distance(eye) * cone(scene, region)
+/// The footprint of a pixel, from an f64 distance about the scene's origin.
+///
+/// In scene units. Too coarse for most views that want an anchor, but fine enough to detect them.
+pub fn plain_footprint(model: &FractalModel, scene: &Scene, region: Region) -> f64 {
+    model.distance(&scene.camera.position) * cone(scene, region)
 }
 
 fn cone(scene: &Scene, region: Region) -> f64 {

@@ -1,107 +1,108 @@
 //! The buffers of one region: uniforms, G-buffers, film, display.
 //!
-//! Bytes a pixel: G-buffer 24, film 16, display 4, direct light 4 where indirect light is made of
-//! it; the G-buffer of jittered samples is a slice large, whatever the region.
+//! Bytes per pixel: G-buffer 24, film 16, display 4, direct light 4 if it is the source of indirect
+//! light. The G-buffer of jittered samples has the size of a slice, for any region.
 
 use std::sync::Arc;
 
 use super::{
+    buffers::{buffer, group, storage},
     environment_texture::EnvironmentTexture,
-    indirect::IndirectSource,
-    lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS},
+    lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS, sample_places},
+    layouts::DISPLAY_FORMAT,
+    layouts::Layouts,
     memory::Memory,
-    pass,
-    pipelines::Pipelines,
     post::{Need, Post},
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
-    uniforms::{self, ANCHOR_ORBIT_BYTES, FrameUniforms, GRADIENT_ENTRIES, Light, Slice},
+    uniforms::{self, FRAME_BYTES, GRADIENT_ENTRIES, Light, Slice},
     work_queues::WorkQueues,
 };
-use crate::scene::MAX_LIGHTS;
+use crate::{
+    formula::contract::MOST_TABLE_BYTES,
+    gpu::host_shared::{HostShared, bytes_of_all},
+    scene::MAX_LIGHTS,
+};
 
-/// Gamma-space 8-bit colour: what egui shows and PNG stores.
-pub const DISPLAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-
-/// Distance between two slices in their uniform buffer, the default alignment of dynamic offsets.
+/// Distance between two slices in their uniform buffer: the default alignment of dynamic offsets.
 pub const SLICE_STRIDE_BYTES: u32 = 256;
 
-/// Direct light of one pixel.
+/// Bytes of one pixel's direct light.
 const DIRECT_BYTES: u64 = 4;
 
-/// Most dispatches of one submit: two that march, hits, normal, two a light, shade.
+/// Most dispatches of one submit: two for camera rays, hits, normal, two per light, shade.
 pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 5;
 
-/// One element a sample point in each buffer; see `shaders/types/gbuffer.wgsl`.
+/// G-buffer: one element per sample in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
-    /// f32 depth along the ray in the view's unit, 0 on a miss; u32 octahedral normal.
+    /// f32 depth along the ray in render space, 0 on a miss; u32 octahedral normal.
     pub surface: wgpu::Buffer,
-    /// 2 × u32: smooth iterations and traps.
+    /// 2 × u32: smooth iterations and orbit traps.
     pub color_data: wgpu::Buffer,
-    /// 2 × u32: a bit a light.
+    /// 2 × u32: one bit per light.
     pub visibility: wgpu::Buffer,
-    /// All three.
+    /// The bind group of all three buffers.
     pub group: wgpu::BindGroup,
 }
 
-/// Everything a region is rendered with and into.
+/// All buffers and textures of a region.
 pub struct Targets {
-    /// [`FrameUniforms`].
+    /// The frame uniforms, with the formula's part.
     pub frame: wgpu::Buffer,
-    /// The anchor's orbit, as far as the picture does not hold it.
-    pub anchor_orbit: wgpu::Buffer,
-    /// [`MOST_SLICES`] of [`Slice`], [`SLICE_STRIDE_BYTES`] apart.
+    /// The formula's table: the reference orbit, in deep views.
+    pub formula_table: wgpu::Buffer,
+    /// [`MOST_SLICES`] elements of [`Slice`], [`SLICE_STRIDE_BYTES`] apart.
     pub slices: wgpu::Buffer,
-    /// [`MAX_LIGHTS`] of [`Light`].
+    /// [`MAX_LIGHTS`] elements of [`Light`].
     pub lights: wgpu::Buffer,
     /// [`GRADIENT_ENTRIES`] colours.
     pub gradient: wgpu::Buffer,
-    /// All five.
+    /// The bind group of all five buffers.
     pub frame_group: wgpu::BindGroup,
-    /// Every pixel's centre sample, kept.
+    /// The centre samples of all pixels.
     pub center: GBuffer,
     /// The jittered samples of one slice.
     pub jittered: GBuffer,
     /// Work queues between the passes of a piece of work.
     pub work_queues: WorkQueues,
-    /// 2 × f32 a pixel: sums of red and green.
+    /// 2 × f32 per pixel: sums of red and green.
     pub film_rg: wgpu::Buffer,
-    /// 2 × f32 a pixel: sum of blue, number of samples.
+    /// 2 × f32 per pixel: sum of blue, number of samples.
     pub film_bw: wgpu::Buffer,
-    /// u32 a pixel: direct light of the centre samples, shared exponent; next to nothing until
-    /// indirect light is made of it.
+    /// u32 per pixel: direct light of the centre samples, shared exponent.
+    ///
+    /// A few bytes until there is indirect light.
     pub direct: wgpu::Buffer,
-    /// The film, the display texture and direct light.
+    /// The bind group of the film, the display texture and direct light.
     pub film_group: wgpu::BindGroup,
-    /// What is known of the film as a whole: next to nothing until something needs it.
+    /// Film statistics: a few bytes until a pass needs them.
     pub post: Arc<Post>,
-    /// The environment map: a stand-in until one is shown.
+    /// The environment map: a single pixel until a map is shown.
     pub environment_texture: Arc<EnvironmentTexture>,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
 
 impl Targets {
-    /// Allocates what a region needs.
-    pub fn new(pipelines: &Pipelines, region: Region) -> Self {
+    /// Allocates the buffers of a region.
+    pub fn new(layouts: &Layouts, region: Region) -> Self {
         let size_px = region.film_px();
-        let device = &pipelines.gpu.device;
-        let layouts = &pipelines.layouts;
+        let device = &layouts.gpu.device;
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
-        // A slice holds whole workgroups, some of them past the region's last pixels.
-        // As many as there can be: of samples that are computed together.
+        // A slice holds whole workgroups, some of them past the region's last pixels. Samples that are
+        // computed together need the most workgroups.
         let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
-        let frame = storage(device, "frame uniforms", size_of::<FrameUniforms>() as u64);
-        let anchor_orbit = uniform("anchor's orbit", ANCHOR_ORBIT_BYTES);
+        let frame = storage(device, "frame uniforms", FRAME_BYTES);
+        let formula_table = uniform("formula's table", MOST_TABLE_BYTES as u64);
         let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
-        let lights = uniform("lights", size_of::<[Light; MAX_LIGHTS]>() as u64);
+        let lights = uniform("lights", (Light::SIZE * MAX_LIGHTS) as u64);
         let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
         let one_slice = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &slices,
             offset: 0,
-            size: wgpu::BufferSize::new(size_of::<Slice>() as u64),
+            size: wgpu::BufferSize::new(Slice::SIZE as u64),
         });
         let frame_group = group(
             device,
@@ -109,7 +110,7 @@ impl Targets {
             "frame",
             [
                 frame.as_entire_binding(),
-                anchor_orbit.as_entire_binding(),
+                formula_table.as_entire_binding(),
                 one_slice,
                 lights.as_entire_binding(),
                 gradient.as_entire_binding(),
@@ -119,50 +120,51 @@ impl Targets {
         let film_bw = storage(device, "film blue weight", 8 * pixels);
         let texture = display_texture(device, region.display_px());
         let direct = storage(device, "direct light", DIRECT_BYTES);
-        let film_group = film_group(pipelines, [&film_rg, &film_bw, &direct], &texture);
+        let film_group = film_group(layouts, [&film_rg, &film_bw, &direct], &texture);
         Self {
             frame,
-            anchor_orbit,
+            formula_table,
             slices,
             lights,
             gradient,
             frame_group,
-            center: GBuffer::new(pipelines, pixels),
-            jittered: GBuffer::new(pipelines, u64::from(slice_samples)),
-            work_queues: WorkQueues::new(pipelines, workgroups.min(MOST_WORKGROUPS)),
+            center: GBuffer::new(layouts, pixels),
+            jittered: GBuffer::new(layouts, u64::from(slice_samples)),
+            work_queues: WorkQueues::new(layouts, workgroups.min(MOST_WORKGROUPS)),
             film_rg,
             film_bw,
             direct,
             film_group,
-            post: Arc::new(Post::new(pipelines, region, Need::default())),
-            environment_texture: Arc::new(EnvironmentTexture::new(pipelines, None)),
+            post: Arc::new(Post::new(layouts, region, Need::default())),
+            environment_texture: Arc::new(EnvironmentTexture::new(layouts, None)),
             texture,
         }
     }
 
-    /// Makes room for direct light where indirect light is made of it, and frees it elsewhere.
-    pub fn fit_direct(&mut self, pipelines: &Pipelines, needed: bool) {
+    /// Allocates direct light for all pixels if needed, else frees it.
+    pub fn fit_direct(&mut self, layouts: &Layouts, needed: bool) {
         let pixels = self.film_rg.size() / 8;
         let bytes = DIRECT_BYTES * if needed { pixels } else { 1 };
         if self.direct.size() != bytes {
-            self.direct = storage(&pipelines.gpu.device, "direct light", bytes);
-            self.film_group = self.film_with(pipelines, &self.direct);
+            self.direct = storage(&layouts.gpu.device, "direct light", bytes);
+            self.film_group = self.film_with(layouts, &self.direct);
         }
     }
 
-    /// The finest lattice level whose samples have room, once developed, where jittered samples
-    /// have their visibility bits at other times: 2 or more, for it is a quarter of all pixels.
+    /// Finest lattice level whose display values fit the jittered samples' visibility buffer.
+    ///
+    /// `upsample` reuses that buffer. The level is at least 2, a quarter of all pixels.
     pub fn finest_spread(&self, size_px: [u32; 2]) -> u32 {
         let room = self.jittered.visibility.size() / 4;
-        let fits = |&level: &u32| pass::tonemap_sparse::places(level, size_px) <= room;
+        let fits = |&level: &u32| sample_places(level, size_px) <= room;
         (2..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 
-    /// What all of it takes.
+    /// The GPU memory of all buffers and textures.
     pub fn memory(&self) -> Memory {
         let [mip_levels, blur] = self.post.bytes();
         let uniforms =
-            [&self.frame, &self.anchor_orbit, &self.slices, &self.lights, &self.gradient];
+            [&self.frame, &self.formula_table, &self.slices, &self.lights, &self.gradient];
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
@@ -178,26 +180,21 @@ impl Targets {
         }
     }
 
-    /// This region's own centre samples; `eye_px` is one eye's picture.
-    pub fn indirect_source(&self, eye_px: [u32; 2]) -> IndirectSource {
-        IndirectSource { eye_px, surface: self.center.surface.clone(), direct: self.direct.clone() }
+    /// The film's bind group with the direct light of another view.
+    pub fn film_with(&self, layouts: &Layouts, direct: &wgpu::Buffer) -> wgpu::BindGroup {
+        film_group(layouts, [&self.film_rg, &self.film_bw, direct], &self.texture)
     }
 
-    /// The film's group with direct light of another view.
-    pub fn film_with(&self, pipelines: &Pipelines, direct: &wgpu::Buffer) -> wgpu::BindGroup {
-        film_group(pipelines, [&self.film_rg, &self.film_bw, direct], &self.texture)
-    }
-
-    /// Uploads a picture's uniforms.
+    /// Uploads the uniforms of a picture.
     pub fn upload(&self, queue: &wgpu::Queue, inputs: &uniforms::Inputs) {
-        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&inputs.frame));
-        queue.write_buffer(&self.anchor_orbit, 0, &inputs.anchor_orbit());
-        queue.write_buffer(&self.lights, 0, bytemuck::bytes_of(&inputs.lights));
+        queue.write_buffer(&self.frame, 0, &inputs.frame_bytes());
+        queue.write_buffer(&self.formula_table, 0, &inputs.formula.table);
+        queue.write_buffer(&self.lights, 0, &bytes_of_all(&inputs.lights));
         queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));
     }
 }
 
-/// What a display texture takes.
+/// GPU memory of a display texture, in bytes.
 pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
     4 * u64::from(texture.width()) * u64::from(texture.height())
 }
@@ -207,14 +204,14 @@ impl GBuffer {
         self.surface.size() + self.color_data.size() + self.visibility.size()
     }
 
-    fn new(pipelines: &Pipelines, samples: u64) -> Self {
-        let device = &pipelines.gpu.device;
+    fn new(layouts: &Layouts, samples: u64) -> Self {
+        let device = &layouts.gpu.device;
         let surface = storage(device, "surface", 8 * samples);
         let color_data = storage(device, "colour data", 8 * samples);
         let visibility = storage(device, "visibility", 8 * samples);
         let group = group(
             device,
-            &pipelines.layouts.gbuffer,
+            &layouts.gbuffer,
             "gbuffer",
             [&surface, &color_data, &visibility].map(wgpu::Buffer::as_entire_binding),
         );
@@ -223,7 +220,7 @@ impl GBuffer {
 }
 
 fn film_group(
-    pipelines: &Pipelines,
+    layouts: &Layouts,
     [film_rg, film_bw, direct]: [&wgpu::Buffer; 3],
     texture: &wgpu::Texture,
 ) -> wgpu::BindGroup {
@@ -234,44 +231,7 @@ fn film_group(
         wgpu::BindingResource::TextureView(&view),
         direct.as_entire_binding(),
     ];
-    group(&pipelines.gpu.device, &pipelines.layouts.film, "film", resources)
-}
-
-fn buffer(
-    device: &wgpu::Device,
-    label: &str,
-    size: u64,
-    usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage: usage | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-/// A storage buffer that can be read back.
-pub(super) fn storage(device: &wgpu::Device, label: &str, size: u64) -> wgpu::Buffer {
-    buffer(device, label, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
-}
-
-/// A bind group of `resources`, in the order of their bindings.
-pub(super) fn group<const N: usize>(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    label: &str,
-    resources: [wgpu::BindingResource<'_>; N],
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0..)
-        .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-        .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(label),
-        layout,
-        entries: &entries,
-    })
+    group(&layouts.gpu.device, &layouts.film, "film", resources)
 }
 
 fn display_texture(device: &wgpu::Device, [width, height]: [u32; 2]) -> wgpu::Texture {

@@ -1,39 +1,40 @@
-//! What the shaders know of a scene: how the structs shared with WGSL are filled.
+//! Fills the uniforms that the shaders read of a scene.
 //!
 //! In: a scene, its region, a slice. Out: bytes. `tests/source/shaders.rs` compares each struct, field
 //! by field, with its twin in `shaders/types/`.
 
 mod background;
-mod depth;
 mod lights;
 mod shared;
 
-use std::sync::Arc;
-
-use bytemuck::Zeroable;
 use glam::DVec3;
 
-pub use depth::{ANCHOR_ORBIT_BYTES, FIRST_RADIUS, RADII_RATIO, SERIES, SeriesList};
 pub use lights::lights;
 pub use shared::*;
 
 use super::{Region, region::Eyes as RegionEyes, schedule::Stale, space::RenderSpace};
 use crate::{
-    fractal::{Estimator, deep, estimator::SIDEWAYS_MAX, pixel_cone},
+    formula::{Packed, PackedFor, contract::MOST_UNIFORM_BYTES},
+    fractal::pixel_cone,
+    gpu::host_shared::HostShared,
     scene::{
         self, BloomOrder, ColorSource, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
         ToneChannels, ToneCurve, ToneMean, color,
     },
 };
 
-/// Entries of the gradient table that the shaders look colours up in.
+/// Bytes of the shaders' `FrameUniforms`, with room for any formula's part.
+pub const FRAME_BYTES: u64 = (FrameUniforms::SIZE + MOST_UNIFORM_BYTES) as u64;
+
+/// Number of entries of the gradient table.
 pub const GRADIENT_ENTRIES: usize = 256;
 
-/// llvmpipe stops an invocation after 65,535 loop turns of all its loops together; others have
-/// watchdogs. No dispatch may need more.
+/// Most loop turns of an invocation, over all its loops.
+///
+/// llvmpipe stops an invocation after 65,535 turns; other drivers have watchdogs.
 const LOOP_TURNS: u32 = 60_000;
 
-/// Turns of its loops that an orbit takes beside those of its steps.
+/// Loop turns of an orbit, besides those of its steps.
 const LOOPS_OF_AN_ORBIT: u32 = 8;
 
 /// Most steps of a camera ray: the longest silhouette rays need about 300.
@@ -42,16 +43,16 @@ const MARCH_STEPS: u32 = 1024;
 /// Most steps of a shadow ray.
 const SHADOW_STEPS: u32 = 320;
 
-/// Below this hit distance, in the view's unit, f32 positions near the surface run together.
+/// Least hit distance in render space: below it f32 positions near the surface coincide.
 const FINEST_HIT: f32 = 4e-7;
 
 impl FrameUniforms {
-    /// The scene as it is seen in `region`, in coordinates that are found for it.
+    /// The uniforms of `scene` in `region`; finds the render space itself.
     pub fn new(scene: &Scene, region: Region) -> Self {
         Self::about(scene, region, &RenderSpace::of(scene, region))
     }
 
-    /// The same in coordinates that are at hand.
+    /// The uniforms of `scene` in `region`, in the render space `space`.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
         let height = f64::from(region.picture_px[1]);
         let camera = &scene.camera;
@@ -66,10 +67,9 @@ impl FrameUniforms {
                 up: (rotation * DVec3::Y).as_vec3().to_array(),
                 hit_cone: (scene.quality.detail * pixel_cone(camera, aspect, height)) as f32,
                 forward: camera.forward().as_vec3().to_array(),
-                unused: 0,
             },
             eyes: eyes(camera, region, space),
-            fractal: fractal(scene, region, space),
+            march: march(scene, region, space),
             surface: surface(scene),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
@@ -86,9 +86,6 @@ impl FrameUniforms {
                 Normals::TwentySix => 4,
                 Normals::Analytic => 5,
             },
-            unused: 0,
-            series: SeriesApproximation::zeroed(),
-            near: [ReferencePoint::zeroed(); NEAR_POINTS],
         }
     }
 }
@@ -108,7 +105,6 @@ fn tone(tone: &scene::Tone) -> Tone {
         auto_exposure: u32::from(tone.auto_exposure),
         logarithmic: u32::from(tone.mean == ToneMean::Logarithmic),
         key: tone.key as f32,
-        unused: 0,
     }
 }
 
@@ -119,7 +115,6 @@ fn bloom(bloom: &scene::Bloom) -> Bloom {
         threshold: bloom.threshold as f32,
         after: u32::from(bloom.order == BloomOrder::After),
         passes: bloom.passes,
-        ..Bloom::zeroed()
     }
 }
 
@@ -139,13 +134,12 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
     }
 }
 
-/// Which eyes a region shows.
+/// The eyes of a region.
 fn eyes(camera: &scene::Camera, region: Region, space: &RenderSpace) -> Eyes {
     let stereo = &camera.stereo;
-    // Where the eyes change places, the left one's picture comes from the right.
+    // With swapped eyes, the left picture shows the right eye.
     let left = if stereo.swap_eyes { 1.0 } else { -1.0 };
-    // Without stereo the separation is not seen, and an edit of it, or of the pivot, restarts
-    // nothing here.
+    // Without stereo the separation has no effect: the uniforms must not change with it or the pivot.
     let half_shift = match region.eyes {
         RegionEyes::Camera => 0.0,
         _ => stereo.half_separation(),
@@ -167,48 +161,37 @@ fn eyes(camera: &scene::Camera, region: Region, space: &RenderSpace) -> Eyes {
         share: region.eyes.on_sheet().map(|eyes| 1.0 / eyes as f32),
         first_place: if region.eyes == RegionEyes::Right { 1.0 } else { 0.0 },
         anaglyph: u32::from(region.eyes.is_anaglyph()),
-        unused: [0; 2],
     }
 }
 
-fn fractal(scene: &Scene, region: Region, space: &RenderSpace) -> Fractal {
-    let set = &scene.fractal;
-    let iterations = deep::iterations_for(set, space.footprint(scene, region));
+fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
+    let model = space.model();
+    let fractal = model.fractal();
+    let iterations = model.iterations_for(space.footprint(scene, region));
     let reference = space.reference();
     let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
-    let estimator = Estimator::new(set);
-    // The next derivative is at most so many times this one, plus one.
-    let stretch_max = SIDEWAYS_MAX * set.power * set.bailout.powf(set.power - 1.0);
-    Fractal {
-        julia_constant: set.julia_constant.map(|v| v as f32),
-        power: set.power as f32,
+    let policy = fractal.formula().march_policy(fractal);
+    March {
+        anchor: anchor.as_vec3().to_array(),
+        scale: space.scale() as f32,
+        bounding_radius: model.bounding_radius() as f32,
         iterations,
-        bailout: set.bailout as f32,
-        bounding_radius: estimator.bounding_radius() as f32,
-        julia: u32::from(set.julia),
-        z_sign: set.variant.sine_sign() as f32,
-        max_step: (estimator.max_step() / space.scale()).min(1e30) as f32,
-        derivative_max: (1e38 / stretch_max).min(1e36) as f32,
         march_steps: march_steps(iterations, reference.is_some()),
         shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
-        log2_bailout: set.bailout.log2() as f32,
-        least_derivative: 0.0,
-        anchor: anchor.as_vec3().to_array(),
-        scale: space.scale() as f32,
-        reference_points: reference.map_or(0, |reference| reference.points().len() as u32),
-        own_points: reference.map_or(0, |reference| reference.own_points() as u32),
-        restart: reference.map_or(0, |reference| reference.restart() as u32),
-        rotates: reference.is_some_and(|reference| reference.rotates()).into(),
-        near_radius_squared: 0.0,
-        far_radius: f32::MAX,
-        near_steps: 0,
-        has_series: 0,
+        relaxation: policy.relaxation,
+        ball_part: policy.ball_part,
+        checks_hits: policy.checks_hits.into(),
+        shadow_cone: policy.shadow_cone,
+        shadow_margin: policy.shadow_margin,
+        shadow_least_step: policy.shadow_least_step,
     }
 }
 
-/// As many as there may be, in a deep view: near the axis rays creep, and from a light outside of the
-/// set depth takes steps of its own.
+/// Most steps of a camera ray.
+///
+/// Deep views use all loop turns: rays creep near the axis, and the way from a light outside the set
+/// into the depth takes additional steps.
 fn march_steps(iterations: u32, is_deep: bool) -> u32 {
     let most = if is_deep { LOOP_TURNS } else { MARCH_STEPS };
     most.min(LOOP_TURNS / (iterations + LOOPS_OF_AN_ORBIT))
@@ -241,51 +224,56 @@ fn surface(scene: &Scene) -> Surface {
     }
 }
 
-/// All that a picture's passes read of its scene.
+/// All inputs that a picture's passes read of its scene.
 #[derive(Clone, PartialEq)]
 pub struct Inputs {
-    /// Camera, set, surface, tone, region.
+    /// Camera, march, surface, tone, region.
     pub frame: FrameUniforms,
+    /// The formula's uniforms, and the kernel that reads them.
+    pub formula: Packed,
     /// The lights, in the scene's order.
     pub lights: [Light; MAX_LIGHTS],
-    /// The surface's gradient: linear Rec. 709, closed on itself.
+    /// The surface's gradient: linear Rec. 709, periodic.
     pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
-    /// Series approximations about the anchor, by radius.
-    pub series: SeriesList,
-    /// The anchor's orbit; one place that means nothing where there is none.
-    pub reference_points: Arc<[ReferencePoint]>,
-    /// The [`EnvironmentMap::id`] of the environment map, where it is shown.
+    /// The [`EnvironmentMap::id`] of the shown environment map; none if none is shown.
     pub environment_map: Option<u64>,
 }
 
 impl Inputs {
-    /// The scene as it is seen in `region`, in coordinates that are found for it.
+    /// The inputs of `scene` in `region`; finds the render space itself.
     pub fn new(scene: &Scene, region: Region) -> Self {
         Self::about(scene, region, &RenderSpace::of(scene, region))
     }
 
-    /// The same in coordinates that are at hand.
+    /// The inputs of `scene` in `region`, in the render space `space`.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
-        let ((series, near), reference_points) =
-            (depth::series(space), depth::reference_points(space));
-        let mut frame = FrameUniforms::about(scene, region, space);
-        depth::put_near(&mut frame, space, (&series, &near), &reference_points);
+        let frame = FrameUniforms::about(scene, region, space);
+        let model = space.model();
+        let formula = model.fractal().formula().pack(
+            model.fractal(),
+            &PackedFor {
+                iterations: frame.march.iterations,
+                scale: space.scale(),
+                hit_cone: frame.camera.hit_cone,
+                reference: space.reference(),
+                bounding_radius: model.bounding_radius(),
+            },
+        );
         Self {
             frame,
+            formula,
             lights: lights(scene, space),
             gradient: color::gradient_lut(&scene.surface.gradient),
-            series,
-            reference_points,
             environment_map: None,
         }
     }
 
-    /// The shaders' `anchor_orbit`, as far as it means anything.
-    pub fn anchor_orbit(&self) -> Vec<u8> {
-        [bytemuck::bytes_of(&self.series), bytemuck::cast_slice(&self.reference_points)].concat()
+    /// The bytes of the shaders' `FrameUniforms`: the frame, then the formula's part.
+    pub fn frame_bytes(&self) -> Vec<u8> {
+        [self.frame.to_bytes(), self.formula.uniforms.clone()].concat()
     }
 
-    /// The same with the environment map that is at hand, where `scene` shows it.
+    /// The inputs with the environment map `at_hand`, if `scene` shows it.
     pub fn with_environment_map(mut self, scene: &Scene, at_hand: Option<&EnvironmentMap>) -> Self {
         let shown = background::shown(scene, at_hand);
         self.environment_map = shown.map(EnvironmentMap::id);
@@ -294,13 +282,13 @@ impl Inputs {
         self
     }
 
-    /// The same with the indirect source of another view, one eye of which has so many pixels.
+    /// The inputs with another view's indirect source; `eye_px` is the size of one eye's picture.
     pub fn with_indirect_source(mut self, eye_px: Option<[u32; 2]>) -> Self {
         self.frame.indirect.source_px = eye_px.unwrap_or(self.frame.indirect.source_px);
         self
     }
 
-    /// The same with the visibility bits that `old` has for the same lights.
+    /// The inputs with the visibility bits that `old` gave to the same lights.
     pub fn with_bits_of(mut self, old: Option<&Self>) -> Self {
         if let Some(old) = old {
             let count = self.lights_in_use().len();
@@ -309,7 +297,7 @@ impl Inputs {
         self
     }
 
-    /// The visibility bits of the lights that shine: only those need any.
+    /// The visibility bits of the lights that shine; other lights need none.
     pub fn shining(&self) -> u64 {
         lights::shining(self.lights_in_use())
     }
@@ -319,8 +307,9 @@ impl Inputs {
         lights::casting(self.lights_in_use())
     }
 
-    /// The visibility bits of the lights, shining or not, whose rays are others than `old` had for
-    /// these bits.
+    /// The visibility bits of the lights whose shadow rays differ from those in `old`.
+    ///
+    /// Includes lights that do not shine.
     pub fn moved_since(&self, old: &Self) -> u64 {
         lights::moved(self.lights_in_use(), old.lights_in_use())
     }
@@ -331,7 +320,7 @@ impl Inputs {
         &self.lights[..count.min(MAX_LIGHTS)]
     }
 
-    /// Whether points are lit as with `old`, of which `self` has the [bits](Self::with_bits_of).
+    /// Whether points are lit as in `old`; `self` must have [its bits](Self::with_bits_of).
     fn is_lit_as(&self, old: &Self) -> bool {
         fn shining(inputs: &Inputs) -> impl Iterator<Item = &Light> {
             inputs.lights_in_use().iter().filter(|light| light.color != [0.0; 3])
@@ -344,14 +333,15 @@ impl Inputs {
         self.frame.indirect.kind != 0
     }
 
-    /// What must be computed again after `old`, of which this has the [bits](Self::with_bits_of);
-    /// none where no pass would see a difference.
+    /// The level of results that differ from `old`; none if no pass reads a difference.
+    ///
+    /// `self` must have the [visibility bits](Self::with_bits_of) of `old`.
     pub fn stale_since(&self, old: &Self) -> Option<Stale> {
         let (new_frame, old_frame) = (&self.frame, &old.frame);
         let same_geometry = new_frame.camera == old_frame.camera
             && new_frame.eyes == old_frame.eyes
-            && new_frame.fractal == old_frame.fractal
-            && self.reference_points == old.reference_points
+            && new_frame.march == old_frame.march
+            && self.formula == old.formula
             && new_frame.picture_px == old_frame.picture_px
             && new_frame.origin_px == old_frame.origin_px
             && new_frame.size_px == old_frame.size_px;

@@ -6,13 +6,15 @@ use super::{
     anchors::Anchors,
     environment_texture::EnvironmentTexture,
     filling::Filling,
-    frame::{self, Dispatches, Recorder},
+    frame,
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     memory::Memory,
-    pipelines::{PipelineKey, Pipelines},
+    pipeline_set::RAYS,
+    pipelines::{PipelineVariant, Pipelines},
     post::{Need, Post, Tasks},
     preparation::Preparation,
+    recorder::{Dispatches, Recorder},
     region::Region,
     report::{Activity, Report},
     schedule::{Arithmetic, Pace, Schedule, Stale, Work},
@@ -21,19 +23,16 @@ use super::{
     uniforms::Inputs,
 };
 use crate::{
+    fractal::SharedModel,
     gpu::timing::Stopwatch,
     scene::{EnvironmentMap, IndirectKind, Quality, Scene},
 };
 
+mod parts;
 mod prepare;
 mod read;
 
-/// Which statistics describe the film as it is.
-#[derive(Clone, Copy, Debug, Default)]
-struct StatsValidity {
-    mean: bool,
-    histogram: bool,
-}
+use parts::{Lent, Shown, StatsValidity, Times};
 
 /// One picture in progress.
 pub struct View {
@@ -41,18 +40,20 @@ pub struct View {
     region: Region,
     pace: Pace,
     anchors: Anchors,
-    /// Where the coordinates of the scene begin.
-    space: RenderSpace,
-    /// It was found for this region.
+    /// Models of the edited fractal, shared with navigation and interface.
+    models: SharedModel,
+    /// The scene's render space; none before the first scene.
+    space: Option<RenderSpace>,
+    /// True if the render space was found for the current region.
     is_space_current: bool,
     targets: Targets,
     schedule: Schedule,
-    /// Of the view's own work, and of frames of the interface: those are none.
+    /// Times the view's own work; none marks a frame of the interface.
     stopwatch: Stopwatch<Option<Work>>,
     scene: Option<Scene>,
-    /// The environment map that is at hand.
+    /// The loaded environment map.
     environment_map: Option<Arc<EnvironmentMap>>,
-    /// It came since the scene was looked at.
+    /// True if the map came after the scene was last read.
     is_environment_map_new: bool,
     inputs: Option<Inputs>,
     pending: Option<Scene>,
@@ -60,27 +61,16 @@ pub struct View {
     stats_validity: StatsValidity,
     filling: Filling,
     histogram_readback: HistogramReadback,
-    /// What another view knows of the whole picture, of which this one draws a part.
-    lent_post: Option<Arc<Post>>,
-    /// The same of where its indirect light comes from.
-    lent_indirect_source: Option<IndirectSource>,
-    /// Pipelines on their way.
+    lent: Lent,
+    /// The pipelines in preparation.
     preparation: Option<Preparation>,
     dispatches: Dispatches,
-    /// The texture of the newest picture; while a new region has none, that of the old one.
-    shown: Option<wgpu::Texture>,
-    texture_generation: u64,
-    now_secs: f64,
-    changed_secs: f64,
-    finished_secs: f64,
-    busy_ms: f64,
-    frame_ms: f64,
-    pictures: u64,
+    shown: Shown,
+    times: Times,
 }
 
 impl View {
-    /// Allocates the buffers of `region`, which is cut down where it does not
-    /// [fit](Region::fits). Nothing is drawn before it has a scene.
+    /// Allocates the buffers of `region`, reduced to [fit](Region::fits); draws nothing without a scene.
     pub fn new(pipelines: &Arc<Pipelines>, region: Region, pace: Pace) -> Self {
         let region = drawable(region);
         Self {
@@ -88,9 +78,10 @@ impl View {
             region,
             pace,
             anchors: Anchors::default(),
-            space: RenderSpace::plain(),
+            models: SharedModel::default(),
+            space: None,
             is_space_current: false,
-            targets: Targets::new(pipelines, region),
+            targets: Targets::new(&pipelines.layouts, region),
             schedule: Schedule::new(pace, region.film_px()),
             stopwatch: Stopwatch::default(),
             scene: None,
@@ -102,27 +93,20 @@ impl View {
             stats_validity: StatsValidity::default(),
             filling: Filling::default(),
             histogram_readback: HistogramReadback::default(),
-            lent_post: None,
-            lent_indirect_source: None,
+            lent: Lent::default(),
             preparation: None,
             dispatches: Dispatches::default(),
-            shown: None,
-            texture_generation: 0,
-            now_secs: 0.0,
-            changed_secs: 0.0,
-            finished_secs: 0.0,
-            busy_ms: 0.0,
-            frame_ms: 0.0,
-            pictures: 0,
+            shown: Shown::default(),
+            times: Times::default(),
         }
     }
 
-    /// The rectangle that is drawn.
+    /// The rectangle that the view draws.
     pub fn region(&self) -> Region {
         self.region
     }
 
-    /// Gives the view another rectangle; buffers are made again where its size differs.
+    /// Changes the rectangle; allocates new buffers if its size differs.
     pub fn set_region(&mut self, region: Region) {
         let region = drawable(region);
         if region == self.region {
@@ -134,24 +118,26 @@ impl View {
             && region.display_px() == self.region.display_px();
         if !same_size {
             let environment_texture = self.targets.environment_texture.clone();
-            self.targets = Targets { environment_texture, ..Targets::new(&self.pipelines, region) };
+            self.targets =
+                Targets { environment_texture, ..Targets::new(&self.pipelines.layouts, region) };
         }
         self.stats_validity = StatsValidity::default();
         self.region = region;
         self.schedule.resize(region.film_px());
-        let Some(scene) = &self.scene else { return };
-        if space::wants_anchor(scene, region) == self.space.reference().is_some() {
-            self.upload(self.inputs_of(scene));
+        let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
+        if space::wants_anchor(space.model(), scene, region) == space.reference().is_some() {
+            self.upload(self.inputs_about(scene, space));
         } else {
-            // Other pixels want other coordinates.
+            // The new pixel size needs another render space.
             self.is_space_current = false;
             self.pending = self.pending.take().or_else(|| self.scene.clone());
             self.inputs = None;
         }
     }
 
-    /// Gives the view its scene. Only what changed becomes stale. `moving` says that more
-    /// changes are expected at once (a drag, a flight): the view then stays on a sparse lattice.
+    /// Sets the scene; only changed results become stale.
+    ///
+    /// `moving` announces further changes soon (a drag, a flight): the view then stays on a sparse lattice.
     pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
         self.moving = moving;
         self.schedule.set_moving(moving);
@@ -159,38 +145,45 @@ impl View {
         self.pending = is_new.then(|| scene.clone());
     }
 
-    /// Says that the interface has drawn a frame, with what [`Self::report`] said before it: no
-    /// pipeline is compiled before that could be read.
+    /// Shares fractal models with other users, such as the interface's navigation.
+    pub fn share_models(&mut self, models: &SharedModel) {
+        self.models = models.clone();
+    }
+
+    /// Notes that the interface has drawn a frame, with the [report](Self::report) from before it.
+    ///
+    /// No pipeline is compiled before its announcement could be read.
     pub fn note_frame(&mut self) {
         if let Some(preparation) = &mut self.preparation {
             preparation.note_frame();
         }
     }
 
-    /// Says that the interface has just submitted its drawing of a frame: that is no part of what
-    /// pictures take, and how often they are shown on their way hangs on it.
+    /// Notes that the interface has just submitted its drawing of a frame.
+    ///
+    /// This time is no part of a picture's cost; it decides how often an unfinished picture is shown.
     pub fn time_frame(&mut self) {
         self.stopwatch.note(&self.pipelines.gpu, None);
     }
 
-    /// Gives the view the environment map that is at hand: a scene that names it and
-    /// has it as background shows it.
+    /// Sets the loaded environment map; a scene that names it and has it as background shows it.
     pub fn set_environment_map(&mut self, environment_map: Option<&Arc<EnvironmentMap>>) {
         if self.environment_map.as_ref().map(|old| old.id()) == environment_map.map(|new| new.id())
         {
             return;
         }
         self.environment_map = environment_map.cloned();
-        // The scene is looked at again, in its turn.
+        // The scene is read again, in its turn.
         self.is_environment_map_new = true;
         self.pending = self.pending.take().or_else(|| self.scene.clone());
     }
 
-    /// Submits as much work as fits now, without waiting. Call it once per displayed frame, or,
-    /// for a still, in a loop with a device poll. `now_secs` is any steady clock. Returns true
-    /// while there is more to do.
+    /// Submits as much work as fits now, without waiting; returns true while there is more to do.
+    ///
+    /// Call it once per displayed frame, or, for a still, in a loop with a device poll. `now_secs` is any
+    /// steady clock.
     pub fn pump(&mut self, now_secs: f64) -> bool {
-        self.now_secs = now_secs;
+        self.times.now_secs = now_secs;
         self.collect();
         if self.inputs.is_none() {
             if self.pending.is_none() {
@@ -201,13 +194,13 @@ impl View {
             }
         }
         if self.prepare() {
-            // What is prepared for later takes nothing of the time that a picture took.
+            // Preparation for later use does not count as time of the current picture.
             if self.pending.is_some() || !self.schedule.status(now_secs).idle {
-                self.finished_secs = now_secs;
+                self.times.finished_secs = now_secs;
             }
             return true;
         }
-        // What it shows may want other pipelines.
+        // The new scene may need other pipelines.
         if self.schedule.accepts_changes() && self.look() && self.prepare() {
             return true;
         }
@@ -220,18 +213,19 @@ impl View {
             && !self.histogram_readback.is_reading()
             && self.pending.is_none();
         if !idle {
-            self.finished_secs = now_secs;
+            self.times.finished_secs = now_secs;
         }
         !idle || self.preparation.is_some()
     }
 
-    /// Waits until the oldest piece of work has finished, or all work where the view has none in
-    /// flight: between two pumps of a still. On the web this returns at once.
+    /// Waits until the oldest piece of work has finished, or all if none is in flight.
+    ///
+    /// For use between two pumps of a still. On the web this returns at once.
     pub fn wait(&self) {
         self.stopwatch.wait(&self.pipelines.gpu);
     }
 
-    /// Takes note of what the GPU has finished.
+    /// Collects the timings of the work that the GPU has finished.
     fn collect(&mut self) {
         self.pipelines.gpu.poll();
         let mut ended = Vec::new();
@@ -241,26 +235,25 @@ impl View {
         self.schedule.collect(&ended);
         for (work, busy_ms) in ended {
             let Some(work) = work else { continue };
-            self.busy_ms += busy_ms;
-            if matches!(work, Work::Show { .. }) {
-                self.frame_ms = std::mem::take(&mut self.busy_ms);
-                self.pictures += 1;
-            }
+            self.times.add(busy_ms, matches!(work, Work::Show { .. }));
         }
     }
 
-    /// Takes the scene that came last, if any, and if its coordinates are known.
+    /// Applies the pending scene, if any, once its render space is known; returns whether it did.
     fn look(&mut self) -> bool {
         let Some(scene) = self.pending.take() else { return false };
-        // What no ray sees changes no coordinates either: an anchor found since can wait.
+        // The render space depends on camera and fractal only: an anchor found since then can wait.
         let is_same_view = self.scene.as_ref().is_some_and(|old| {
             old.camera == scene.camera && old.fractal == scene.fractal && self.is_space_current
         });
         if !is_same_view {
-            let Some(space) = self.anchors.space(&scene, self.region, self.pace) else {
+            let model = self.models.of(&scene.fractal);
+            let space = self.anchors.space(&model, &scene, self.region, self.pace);
+            model.set_reference(self.anchors.reference().as_ref());
+            if space.is_none() {
                 self.pending = Some(scene);
                 return false;
-            };
+            }
             self.space = space;
             self.is_space_current = true;
         }
@@ -268,9 +261,10 @@ impl View {
         true
     }
 
-    /// Uploads a new scene and tells the schedule what it made stale.
+    /// Uploads a new scene and passes its stale level to the schedule.
     fn apply(&mut self, scene: Scene) {
-        let inputs = self.inputs_of(&scene);
+        let Some(space) = &self.space else { return };
+        let inputs = self.inputs_about(&scene, space);
         self.is_environment_map_new = false;
         let stale = match &self.inputs {
             None => Some(Stale::Geometry),
@@ -282,17 +276,25 @@ impl View {
         self.schedule.set_indirect(scene.indirect.kind != IndirectKind::Off);
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
-            self.schedule.change(stale, self.moving, self.now_secs);
-            self.changed_secs = self.now_secs;
+            self.schedule.change(stale, self.moving, self.times.now_secs);
+            self.times.changed_secs = self.times.now_secs;
         }
         self.scene = Some(scene);
     }
 
-    /// The scene as this view's passes read it.
+    /// The inputs of `scene`, in the current render space if the fractal is the same.
     fn inputs_of(&self, scene: &Scene) -> Inputs {
-        Inputs::about(scene, self.region, &self.space)
+        let model = self.models.of(&scene.fractal);
+        match self.space.as_ref().filter(|space| space.model().fractal() == &scene.fractal) {
+            Some(space) => self.inputs_about(scene, space),
+            None => self.inputs_about(scene, &RenderSpace::plain(&model)),
+        }
+    }
+
+    fn inputs_about(&self, scene: &Scene, space: &RenderSpace) -> Inputs {
+        Inputs::about(scene, self.region, space)
             .with_environment_map(scene, self.environment_map.as_deref())
-            .with_indirect_source(self.lent_indirect_source.as_ref().map(|lent| lent.eye_px))
+            .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
     }
 
@@ -302,26 +304,27 @@ impl View {
         self.schedule.set_casting(inputs.casting());
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_post(Need::of(&inputs.frame));
-        self.targets.fit_direct(&self.pipelines, inputs.has_indirect());
+        self.targets.fit_direct(&self.pipelines.layouts, inputs.has_indirect());
         if self.targets.environment_texture.id != inputs.environment_map {
             let shown =
                 self.environment_map.as_deref().filter(|_| inputs.environment_map.is_some());
             self.targets.environment_texture =
-                Arc::new(EnvironmentTexture::new(&self.pipelines, shown));
+                Arc::new(EnvironmentTexture::new(&self.pipelines.layouts, shown));
         }
         self.inputs = Some(inputs);
     }
 
-    /// Allocates what the scene needs to know of its film as a whole, and frees what it doesn't.
+    /// Allocates the post buffers that the scene needs, and frees the others.
     fn fit_post(&mut self, need: Need) {
-        let need = if self.lent_post.is_some() { Need::default() } else { need };
+        let need = if self.lent.post.is_some() { Need::default() } else { need };
         if self.targets.post.need() != need {
-            self.targets.post = Arc::new(self.targets.post.with_need(&self.pipelines, need));
+            self.targets.post =
+                Arc::new(self.targets.post.with_need(&self.pipelines.layouts, need));
             self.stats_validity = StatsValidity::default();
         }
     }
 
-    /// What the next piece of work has to find out about the film as a whole.
+    /// The post passes that the next piece of work must run.
     fn tasks(&mut self, work: Work) -> Tasks {
         let Work::Show { fill, adapt, .. } = work else {
             self.stats_validity = StatsValidity::default();
@@ -330,7 +333,7 @@ impl View {
         if fill {
             self.stats_validity = StatsValidity::default();
         }
-        if self.lent_post.is_some() {
+        if self.lent.post.is_some() {
             return Tasks::default();
         }
         let need = self.targets.post.need();
@@ -345,21 +348,26 @@ impl View {
         tasks
     }
 
-    /// What powers are raised by.
+    /// The arithmetic that rays compute orbits with.
     fn arithmetic(&self) -> Arithmetic {
-        match self.inputs.as_ref().map(|inputs| PipelineKey::of(&inputs.frame)) {
-            Some(key) if key.is_deep() => Arithmetic::Deep,
-            None | Some(PipelineKey { power: 0, .. }) => Arithmetic::Real,
-            Some(key) if self.pipelines.has_own(key) => Arithmetic::SpecializedPipeline,
-            Some(_) => Arithmetic::Whole,
+        let Some(inputs) = &self.inputs else { return Arithmetic::Real };
+        let kernel = inputs.formula.kernel;
+        if kernel.is_deep() {
+            Arithmetic::Deep
+        } else if kernel.is_general() {
+            Arithmetic::Real
+        } else if self.pipelines.has_own(&PipelineVariant::of(&RAYS, inputs)) {
+            Arithmetic::SpecializedPipeline
+        } else {
+            Arithmetic::Whole
         }
     }
 
-    /// The lattice level whose samples a display is made of by themselves, where it is.
+    /// The lattice level from which a display is upsampled; none if it is made of the film.
     fn upsample_level(&mut self, work: Work) -> Option<u32> {
         let picture = &self.inputs.as_ref()?.frame;
         let is_plain = picture.eyes.count == 1
-            && self.lent_post.is_none()
+            && self.lent.post.is_none()
             && self.targets.post.need().is_none()
             && !self.histogram_readback.is_wanted();
         self.filling.upsample_level(work, is_plain, self.targets.finest_spread(picture.size_px))
@@ -369,30 +377,27 @@ impl View {
         let upsample_level = self.upsample_level(work);
         let tasks = if upsample_level.is_some() { Tasks::default() } else { self.tasks(work) };
         let Some(inputs) = &self.inputs else { return };
-        let passes = self.pipelines.passes(&inputs.frame);
-        let mut recorder =
-            Recorder::new(&self.pipelines, &passes, &self.targets, inputs, &mut self.dispatches);
+        let passes = self.pipelines.of_frame(inputs);
+        let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
+        let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
         recorder.tasks = tasks;
         recorder.upsample_level = upsample_level;
-        if let Some(lent) = &self.lent_post {
+        if let Some(lent) = &self.lent.post {
             recorder.post = lent;
         }
-        if let Some(lent) = &self.lent_indirect_source {
+        if let Some(lent) = &self.lent.indirect_source {
             recorder.indirect_source = lent.clone();
         }
         frame::record(&mut recorder, work);
         let commands = recorder.finish();
         self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
-        if matches!(work, Work::Show { .. }) && self.shown.as_ref() != Some(&self.targets.texture) {
-            self.shown = Some(self.targets.texture.clone());
-            self.texture_generation += 1;
-        }
         if matches!(work, Work::Show { .. }) {
+            self.shown.note(&self.targets);
             self.histogram_readback.note_picture();
         }
     }
 
-    /// Says whether the interface shows the film's histogram: [`Report::histogram`] has it then.
+    /// Sets whether [`Report::histogram`] is kept up to date.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if wanted == self.histogram_readback.is_wanted() {
             return;
@@ -403,37 +408,38 @@ impl View {
         }
     }
 
-    /// What is known of the film as a whole: for a view that draws a part of the same picture.
+    /// The post results, for a view that draws a part of the same picture.
     pub fn post(&self) -> Arc<Post> {
         self.targets.post.clone()
     }
 
-    /// Has the view show its region by the exposure and the bloom of another view that draws all
-    /// of the picture, rather than by what it would find in the region; none takes that back. The
-    /// lender's picture is finished, and both have the same tone and bloom settings.
+    /// Uses exposure and bloom of a view of the whole picture instead of its own.
+    ///
+    /// None ends the loan. The lender's picture must be finished, with the same tone and bloom settings.
     pub fn lend_post(&mut self, post: Option<Arc<Post>>) {
-        self.lent_post = post;
+        self.lent.post = post;
         if let Some(inputs) = &self.inputs {
             self.fit_post(Need::of(&inputs.frame));
             self.schedule.show_again();
         }
     }
 
-    /// The centre samples, where they are all of the picture: for a view that draws a part of it.
+    /// The centre samples of the whole picture, for a view of a part of it.
     pub fn indirect_source(&self) -> IndirectSource {
-        self.targets.indirect_source(self.region.size_px)
+        IndirectSource::of(&self.targets, self.region.size_px)
     }
 
-    /// Has the view gather indirect light from the samples of another view that draws all of the
-    /// picture, rather than from its region's own; none takes that back. The lender's picture is
-    /// finished and shows the same scene, in any size. To be called before the view has a scene.
+    /// Computes indirect light from the samples of a view of the whole picture.
+    ///
+    /// None ends the loan. The lender's picture must be finished and show the same scene, in any size. Call
+    /// this before the view has a scene.
     pub fn lend_indirect_source(&mut self, source: Option<IndirectSource>) {
-        self.lent_indirect_source = source;
+        self.lent.indirect_source = source;
     }
 
-    /// What the view is doing.
+    /// The view's status.
     pub fn report(&self) -> Report {
-        let status = self.schedule.status(self.now_secs);
+        let status = self.schedule.status(self.times.now_secs);
         let activity = if let Some(preparation) = &self.preparation {
             Activity::Compiling(preparation.variant().name())
         } else if self.inputs.is_none() || (status.idle && self.pending.is_none()) {
@@ -450,45 +456,45 @@ impl View {
             samples_so_far: status.samples_so_far,
             samples_wanted: self.scene.as_ref().map_or(1, |scene| scene.quality.samples),
             pixels_per_sample: 1 << status.shown_level,
-            elapsed_secs: (self.finished_secs - self.changed_secs).max(0.0),
-            frame_ms: self.frame_ms,
+            elapsed_secs: self.times.elapsed_secs(),
+            frame_ms: self.times.frame_ms,
             frame_interval_secs: self.schedule.frame_interval_secs(),
             anchor_ms: self.anchors.took_ms(),
             histogram: self.histogram_readback.histogram().cloned(),
             memory: self.memory(),
-            reference: self.anchors.reference(),
-            pictures: self.pictures,
+            pictures: self.times.pictures,
         }
     }
 
-    /// What the view holds of the GPU's memory.
+    /// The view's GPU memory.
     fn memory(&self) -> Memory {
         let mut memory = self.targets.memory();
-        if let Some(shown) = self.shown.as_ref().filter(|shown| **shown != self.targets.texture) {
+        if let Some(shown) = self.shown.older_than(&self.targets) {
             memory.display += texture_bytes(shown);
         }
         memory
     }
 
-    /// How many dispatches of each pass there have been.
+    /// Number of dispatches of each pass so far.
     pub fn dispatches(&self) -> Dispatches {
         self.dispatches
     }
 
-    /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; usages TEXTURE_BINDING and
-    /// COPY_SRC. It is always complete, never a half-filled lattice; none before the first.
-    /// After a change of size it is the old one, in its own size, until there is a new one.
+    /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; none before the first picture.
+    ///
+    /// Usages TEXTURE_BINDING and COPY_SRC. The picture is always complete, never a half-filled lattice.
+    /// After a change of size it is the old picture, in its own size, until there is a new one.
     pub fn texture(&self) -> Option<&wgpu::Texture> {
-        self.shown.as_ref()
+        self.shown.texture()
     }
 
-    /// Changes whenever [`Self::texture`] is another texture than before.
+    /// A counter that changes whenever [`Self::texture`] becomes another texture.
     pub fn texture_generation(&self) -> u64 {
-        self.texture_generation
+        self.shown.generation()
     }
 }
 
-/// `region`, or as much of its picture as a view can draw.
+/// `region` if a view can draw it, else its whole picture at a drawable size.
 fn drawable(region: Region) -> Region {
     if region.fits() { region } else { Region::whole_within_limits(region.picture_px) }
 }

@@ -1,23 +1,23 @@
-//! Work queues: the blocks of threads that a pass has work for. Dispatches are as large as their queue.
+//! Work queues: the blocks of threads that a pass has work for. A dispatch is as large as its queue.
 //!
-//! A block is eight threads: one sample each of 4×2 neighbouring pixels, or more samples of fewer pixels.
-//! Passes that write a queue run over all blocks of a trace or of another queue, a thread a block; the GPU
-//! counts the workgroups of the passes that read it.
+//! A block is eight threads: one sample each of 4×2 neighbouring pixels, or several samples of fewer pixels.
+//! A pass that writes a queue runs over all blocks of a trace or of another queue, one thread per block; the
+//! GPU counts the workgroups of the passes that read the queue.
 
 use super::{
+    buffers::{group, storage},
     lattice::WORKGROUP_THREADS,
-    pipelines::Pipelines,
-    targets::{group, storage},
+    layouts::Layouts,
 };
 use crate::scene::MAX_LIGHTS;
 
-/// Threads of a block; `BLOCK_THREADS` in `shaders/lib/lattice.wgsl`.
+/// Threads per block; `BLOCK_THREADS` in `shaders/lib/lattice.wgsl`.
 pub const BLOCK_THREADS: u32 = 8;
 
-/// The camera's rays, and those to each light; `RAY_QUEUES` in `shaders/types/work_queues.wgsl`.
+/// One queue for camera rays and one per light; `RAY_QUEUES` in `shaders/types/work_queues.wgsl`.
 pub const RAY_QUEUES: usize = MAX_LIGHTS + 1;
 
-/// Bytes of a counter.
+/// Bytes per counter.
 const WORD: u64 = 4;
 
 /// Arguments of an indirect dispatch.
@@ -28,26 +28,26 @@ const NONE_YET: Workgroups = [0, 1, 1];
 
 const WORKGROUPS_BYTES: u64 = size_of::<Workgroups>() as u64;
 
-/// The queues of one region's traces.
+/// The work queues of one region's traces.
 pub struct WorkQueues {
     /// Counters and entries.
     blocks: wgpu::Buffer,
-    /// Workgroups for hits: at a thread a point, at a thread a block.
+    /// Workgroup counts for hits: one thread per point, then one thread per block.
     hit_workgroups: wgpu::Buffer,
-    /// Workgroups for each ray queue.
+    /// Workgroup counts for each ray queue.
     ray_workgroups: wgpu::Buffer,
-    /// For passes that read a queue.
+    /// Bound by passes that read a queue.
     pub reading: wgpu::BindGroup,
-    /// For the pass that writes the queue of hits.
+    /// Bound by the pass that writes the queue of hits.
     pub enqueue_hits: wgpu::BindGroup,
-    /// For passes that write ray queues.
+    /// Bound by passes that write ray queues.
     pub enqueue_rays: wgpu::BindGroup,
 }
 
 impl WorkQueues {
-    /// Room for every block of so many workgroups.
-    pub fn new(pipelines: &Pipelines, workgroups: u32) -> Self {
-        let (device, layouts) = (&pipelines.gpu.device, &pipelines.layouts);
+    /// Allocates queues for every block of `workgroups` workgroups.
+    pub fn new(layouts: &Layouts, workgroups: u32) -> Self {
+        let (device, layouts) = (&layouts.gpu.device, layouts);
         let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_THREADS / BLOCK_THREADS);
         let counters = WORD * (RAY_QUEUES as u64 + 1);
         let blocks = storage(device, "block work_queues", counters + 3 * WORD * most);
@@ -77,7 +77,7 @@ impl WorkQueues {
         }
     }
 
-    /// Bytes of all of it.
+    /// GPU memory of the queues, in bytes.
     pub fn bytes(&self) -> u64 {
         self.blocks.size() + self.hit_workgroups.size() + self.ray_workgroups.size()
     }
@@ -95,7 +95,7 @@ impl WorkQueues {
         queue.write_buffer(&self.ray_workgroups, 0, bytemuck::cast_slice(&none_yet));
     }
 
-    /// Workgroups of a pass that reads a queue: buffer and offset of its dispatch arguments.
+    /// Dispatch arguments of a pass that reads `queue`: buffer and byte offset.
     pub fn workgroups(&self, queue: Queue) -> (&wgpu::Buffer, u64) {
         match queue {
             Queue::HitPoints => (&self.hit_workgroups, 0),
@@ -105,13 +105,13 @@ impl WorkQueues {
     }
 }
 
-/// A queue to read.
+/// A queue that a pass reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Queue {
-    /// Blocks with surface points, a thread each point.
+    /// Blocks with surface points, one thread per point.
     HitPoints,
-    /// The same, a thread each block.
+    /// Blocks with surface points, one thread per block.
     HitBlocks,
-    /// A ray queue, a thread a ray: 0 the camera's, then one for each light.
+    /// A ray queue, one thread per ray: 0 for camera rays, then one per light.
     Rays(u32),
 }

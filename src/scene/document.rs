@@ -3,7 +3,7 @@
 //! In: text that may come from anyone. Out: a valid [`Scene`], or an error that names the
 //! field at fault (or line and column) and says what is wrong. `docs/scene.md` describes the
 //! format. A field left out takes its default, so the defaults belong to the version: a test
-//! keeps version 1's. A camera path stands beside the scene; `keys` has its form.
+//! keeps those of versions 1 and 2, which are the same. A camera path stands beside the scene; `keys` has its form.
 
 use std::io;
 
@@ -19,8 +19,10 @@ mod keys;
 
 pub(super) use keys::{path_value, value_of};
 
-/// The version written, and the only one read.
-pub const VERSION: u32 = 1;
+/// The version written.
+pub const VERSION: u32 = 2;
+/// The versions read. Version 1 knew one formula: its documents lack `fractal.formula`.
+const READ: std::ops::RangeInclusive<u64> = 1..=VERSION as u64;
 /// The largest document read, in bytes: more than a full path takes whose keys each have as many
 /// lights as there can be.
 pub const MAX_BYTES: usize = 16 << 20;
@@ -51,7 +53,7 @@ pub enum DocumentError {
     #[error("not a Mandelight scene: \"mandelight\": \"scene\" is missing")]
     NotAScene,
     /// A version that this program cannot read.
-    #[error("version: {found} cannot be read; this program reads version {VERSION}")]
+    #[error("version: {found} cannot be read; this program reads versions 1 to {VERSION}")]
     Version {
         /// The version's JSON.
         found: String,
@@ -164,7 +166,8 @@ pub fn project_from_json(text: &str) -> Result<Project, DocumentError> {
     if header.mandelight.as_ref().and_then(|kind| kind.as_str()) != Some(KIND) {
         return Err(DocumentError::NotAScene);
     }
-    if header.version.as_ref().and_then(|version| version.as_u64()) != Some(VERSION.into()) {
+    let version = header.version.as_ref().and_then(|version| version.as_u64());
+    if !version.is_some_and(|version| READ.contains(&version)) {
         let found = header.version.map_or("none".into(), |version| clipped(&version.to_string()));
         return Err(DocumentError::Version { found });
     }

@@ -1,8 +1,9 @@
-//! The scene as a URL fragment: `#s1=` and base64url of deflated JSON.
+//! The scene as a URL fragment: `#s1=` or `#s2=` and base64url of deflated JSON.
 //!
 //! Converts a scene with its path to a fragment, and an untrusted fragment back to a scene.
 //! Fields equal to their default are left out, which keeps links short and makes the defaults
-//! part of the version (see [`super::document`]). The digit is the document's version.
+//! part of the version (see [`super::document`]). The digit is the least document version that can
+//! say what the link says: 2 where the scene is of a later formula than version 1 had.
 
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use miniz_oxide::{
@@ -13,9 +14,10 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{
-    EnvironmentLight, Path, PointLight, Project, Scene,
+    EnvironmentLight, Fractal, Path, PointLight, Project, Scene,
     document::{self, DocumentError, value_of},
 };
+use crate::formula::{self, FormulaRef};
 
 /// Maximum length of a fragment, in bytes.
 pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
@@ -24,8 +26,10 @@ pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
 /// Large compared with [`MAX_FRAGMENT_BYTES`], because similar keys of a path deflate well.
 pub const MAX_INFLATED_BYTES: usize = 1 << 20;
 
-/// Prefix of a fragment of this version.
-const PREFIX: &str = "s1=";
+/// Prefix of a fragment whose fractals are all of the formula that version 1 had.
+const PREFIX_1: &str = "s1=";
+/// Prefix of a fragment with other formulas.
+const PREFIX_2: &str = "s2=";
 /// miniz's strongest compression level; a scene is small, so speed does not matter.
 const DEFLATE_LEVEL: u8 = 10;
 
@@ -45,7 +49,7 @@ pub enum LinkError {
     NotAScene,
     /// The link has another version of the format.
     #[error(
-        "the link holds a scene of version {found}; this program reads version {}",
+        "the link holds a scene of version {found}; this program reads versions 1 to {}",
         document::VERSION
     )]
     Version {
@@ -71,7 +75,7 @@ pub enum LinkError {
 ///
 /// [`LinkError::TooLong`] for scenes with many different lights.
 pub fn to_fragment(scene: &Scene) -> Result<String, LinkError> {
-    fragment_of(&differences(value_of(scene)))
+    fragment_of(&differences(value_of(scene)), prefix_of([scene]))
 }
 
 /// The fragment of a scene and its path, without `#`.
@@ -84,16 +88,22 @@ pub fn project_to_fragment(project: &Project) -> Result<String, LinkError> {
     if project.path != Path::default() {
         payload["path"] = document::path_value(project, differences);
     }
-    fragment_of(&payload)
+    let keys = project.path.keys.iter().map(|key| &*key.scene);
+    fragment_of(&payload, prefix_of(keys.chain([&project.scene])))
 }
 
-fn fragment_of(payload: &Value) -> Result<String, LinkError> {
+fn prefix_of<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> &'static str {
+    let is_of_version_1 = |scene: &Scene| scene.fractal.formula() == FormulaRef::default();
+    if scenes.into_iter().all(is_of_version_1) { PREFIX_1 } else { PREFIX_2 }
+}
+
+fn fragment_of(payload: &Value, prefix: &str) -> Result<String, LinkError> {
     let text = payload.to_string();
     if text.len() > MAX_INFLATED_BYTES {
         return Err(LinkError::TooLarge);
     }
     let deflated = compress_to_vec(text.as_bytes(), DEFLATE_LEVEL);
-    let fragment = format!("{PREFIX}{}", URL_SAFE_NO_PAD.encode(deflated));
+    let fragment = format!("{prefix}{}", URL_SAFE_NO_PAD.encode(deflated));
     if fragment.len() > MAX_FRAGMENT_BYTES {
         return Err(LinkError::TooLong { bytes: fragment.len() });
     }
@@ -140,9 +150,10 @@ pub fn project_from_fragment(fragment: &str) -> Result<Project, LinkError> {
     Ok(document::project_from_json(&document.to_string())?)
 }
 
-/// The text after the prefix of this version.
+/// The text after the prefix of a version that is read.
 fn payload_of(fragment: &str) -> Result<&str, LinkError> {
-    if let Some(payload) = fragment.strip_prefix(PREFIX) {
+    let known = [PREFIX_1, PREFIX_2].iter().find_map(|prefix| fragment.strip_prefix(prefix));
+    if let Some(payload) = known {
         return Ok(payload);
     }
     let version = fragment.strip_prefix('s').and_then(|rest| rest.split_once('='));
@@ -158,7 +169,14 @@ fn payload_of(fragment: &str) -> Result<&str, LinkError> {
 
 /// A scene's JSON without the fields equal to their default.
 fn differences(mut value: Value) -> Value {
-    drop_defaults(&mut value, &value_of(&Scene::default()));
+    // A field's default is that of the formula that has the field.
+    let id = value.pointer("/fractal/formula").and_then(Value::as_str);
+    let formula = formula::all().find(|formula| Some(formula.id()) == id).unwrap_or_default();
+    let default = Scene { fractal: Fractal::new(formula), ..Scene::default() };
+    drop_defaults(&mut value, &value_of(&default));
+    if formula != FormulaRef::default() {
+        value["fractal"]["formula"] = formula.id().into();
+    }
     drop_list_defaults(&mut value, "environment", &EnvironmentLight::default());
     drop_list_defaults(&mut value, "point", &PointLight::default());
     value

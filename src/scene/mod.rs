@@ -6,8 +6,7 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
-//! | `fractal`, `camera`, `light`, `rig`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
-//! | [`precise`] | positions that stay exact at any zoom |
+//! | `camera`, `light`, `rig`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
 //! | [`environment_map`] | an environment map, decoded, and cut into lights |
@@ -21,7 +20,6 @@
 mod background;
 mod bloom;
 mod camera;
-mod fractal;
 mod light;
 mod project;
 mod quality;
@@ -37,7 +35,6 @@ mod indirect;
 pub mod link;
 pub mod param;
 pub mod path;
-pub mod precise;
 pub mod presets;
 mod stereo;
 mod validate;
@@ -46,11 +43,9 @@ pub use background::{Background, BackgroundKind};
 pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use environment_map::EnvironmentMap;
-pub use fractal::{Fractal, Variant};
 pub use indirect::{Indirect, IndirectKind};
 pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
 pub use path::Path;
-pub use precise::{Precise, PrecisePoint};
 pub use project::Project;
 pub use quality::{Normals, Quality};
 pub use rig::{
@@ -64,11 +59,16 @@ pub use validate::Invalid;
 
 use serde::{Deserialize, Serialize};
 
+pub use crate::{
+    formula::Fractal,
+    precise::{Precise, PrecisePoint},
+};
+
 /// Everything a picture depends on, except its size in pixels.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Scene {
-    /// The set that is drawn.
+    /// The set that is drawn: a formula and its values.
     pub fractal: Fractal,
     /// Where it is seen from.
     pub camera: Camera,

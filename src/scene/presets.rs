@@ -7,6 +7,8 @@ mod dives;
 
 use glam::DVec3;
 
+use crate::formula::{FormulaRef, mandelbulb::Mandelbulb, quaternion_julia::QUATERNION_JULIA};
+
 use super::{
     Background, Camera, ColorSource, Coloring, EnvironmentLight, Fractal, GradientStop, LightFrame,
     Lights, PointLight, Scene, Surface, Tone,
@@ -62,6 +64,11 @@ pub fn all() -> &'static [Preset] {
             name: "Julia",
             blurb: "One constant for every point: the bulb's Julia form.",
             scene: julia,
+        },
+        Preset {
+            name: "Whorls",
+            blurb: "A quaternion Julia set: a shell of four dimensions, cut open.",
+            scene: whorls,
         },
         Preset {
             name: "Lantern",
@@ -130,7 +137,7 @@ fn coral_reef() -> Scene {
 
 fn four_petals() -> Scene {
     Scene {
-        fractal: Fractal { power: 4.0, iterations: 14, ..Default::default() },
+        fractal: Mandelbulb { power: 4.0, iterations: 14, ..Default::default() }.into(),
         camera: camera([1.7, -2.6, 1.5], [0.0, 0.0, 0.0], 42.0),
         lights: Lights {
             environment: vec![
@@ -158,7 +165,7 @@ fn four_petals() -> Scene {
 
 fn quadratic() -> Scene {
     Scene {
-        fractal: Fractal { power: 2.0, iterations: 18, ..Default::default() },
+        fractal: Mandelbulb { power: 2.0, iterations: 18, ..Default::default() }.into(),
         camera: camera([0.9, -1.75, 1.3], [-0.2, 0.0, 0.0], 40.0),
         lights: Lights {
             environment: vec![
@@ -186,7 +193,8 @@ fn quadratic() -> Scene {
 
 fn sea_urchin() -> Scene {
     Scene {
-        fractal: Fractal { power: 16.0, iterations: 12, bailout: 3.0, ..Default::default() },
+        fractal: Mandelbulb { power: 16.0, iterations: 12, bailout: 3.0, ..Default::default() }
+            .into(),
         camera: camera([1.5, -2.3, 1.2], [0.0, 0.0, 0.0], 44.0),
         lights: Lights {
             environment: vec![
@@ -217,7 +225,7 @@ fn sea_urchin() -> Scene {
 
 fn in_between() -> Scene {
     Scene {
-        fractal: Fractal { power: 5.5, iterations: 14, ..Default::default() },
+        fractal: Mandelbulb { power: 5.5, iterations: 14, ..Default::default() }.into(),
         camera: camera([-2.3, -1.7, 1.3], [0.0, 0.0, 0.0], 44.0),
         lights: Lights {
             environment: vec![
@@ -243,9 +251,37 @@ fn in_between() -> Scene {
     }
 }
 
+fn whorls() -> Scene {
+    Scene {
+        fractal: Fractal::new(FormulaRef(&QUATERNION_JULIA)),
+        camera: camera([2.1, -3.0, 2.0], [0.0, 0.0, 0.0], 38.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.6, -0.6, 0.8], [1.0, 0.93, 0.84], 2.5),
+                light([0.9, -0.2, 0.1], [0.45, 0.62, 1.0], 0.8),
+                light([0.2, 0.9, 0.3], [1.0, 0.72, 0.52], 1.1),
+            ],
+            point: vec![],
+            ..Default::default()
+        },
+        surface: Surface {
+            coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.1, offset: 0.12 },
+            gradient: stops(&[
+                (0.0, [0.10, 0.05, 0.09]),
+                (0.25, [0.52, 0.16, 0.20]),
+                (0.5, [0.95, 0.62, 0.40]),
+                (0.72, [0.98, 0.92, 0.80]),
+                (0.88, [0.20, 0.36, 0.44]),
+            ]),
+            ..Default::default()
+        },
+        ..Default::default()
+    }
+}
+
 fn julia() -> Scene {
     Scene {
-        fractal: Fractal { iterations: 14, julia: true, ..Default::default() },
+        fractal: Mandelbulb { iterations: 14, julia: true, ..Default::default() }.into(),
         camera: camera([1.5, -2.5, 1.4], [0.0, 0.0, 0.0], 45.0),
         lights: Lights {
             environment: vec![

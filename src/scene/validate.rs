@@ -11,6 +11,7 @@ use super::{
     MIN_VIEW_UNIT, RIG_DIRECTION_TOLERANCE, Rig, RigLight, Scene, Sky, Surface,
     param::{self, Param},
 };
+use crate::formula::table::{Kind, Value};
 
 /// How far the length of a direction or orientation may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-6;
@@ -83,17 +84,34 @@ fn shown(value: f64) -> String {
 }
 
 fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
-    check(&param::POWER, fractal.power)?;
     check(&param::ITERATIONS, fractal.iterations.into())?;
     check(&param::BAILOUT, fractal.bailout)?;
+    for (field, value) in fractal.fields() {
+        match (field.kind, value) {
+            (Kind::Number { param, .. }, Value::Number(number)) => check(param, *number)?,
+            (Kind::Vector { param, .. }, Value::Vector(numbers)) => {
+                (0..).zip(numbers).try_for_each(|(i, number)| check_at(param, i, *number))?;
+            }
+            // Whatever a switch or a choice can hold is allowed.
+            _ => {}
+        }
+    }
     let most = fractal.max_bailout();
     if fractal.bailout > most {
-        let (value, power) = (shown(fractal.bailout), fractal.power);
-        let message = format!("{value} is above {most:.2}, the most that power {power} allows");
+        let value = shown(fractal.bailout);
+        let message =
+            format!("{value} is above {most:.2}, the most that {} allows", named(fractal));
         return Err(Invalid::new(param::BAILOUT.path, message));
     }
-    let mut coordinates = fractal.julia_constant.into_iter().enumerate();
-    coordinates.try_for_each(|(i, value)| check_at(&param::JULIA_CONSTANT, i, value))
+    Ok(())
+}
+
+/// What the fractal's first field says of it: `power 8`.
+fn named(fractal: &Fractal) -> String {
+    match fractal.fields().next() {
+        Some((field, Value::Number(number))) => format!("{} {number}", field.name),
+        _ => fractal.formula().name().to_owned(),
+    }
 }
 
 fn check_camera(camera: &Camera) -> Result<(), Invalid> {

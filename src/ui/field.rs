@@ -1,87 +1,44 @@
 //! Which distance field the camera moves in.
 //!
-//! In: the scene, the picture's shape, and the field about a deep place where the renderer has
-//! one. Out: the field by which movements are measured. Nothing here knows how fields are made.
+//! In: the scene's prepared fractal, which may know an anchor, and the picture's shape. Out: the field
+//! by which movements are measured. Nothing here knows how fields are made.
 
-use std::{fmt, sync::Arc};
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::navigation::Viewport;
 use crate::{
-    fractal::{
-        DEEP_FOOTPRINT, DeepField, DistanceField, Estimator, PLAIN_FOOTPRINT, Reference,
-        deep::{has_depth, iterations_for},
-        pixel_cone,
+    formula::{
+        DistanceField,
+        march::{DEEP_FOOTPRINT, PLAIN_FOOTPRINT},
     },
-    scene::{Fractal, PrecisePoint, Scene},
+    fractal::{FractalModel, pixel_cone},
+    scene::{PrecisePoint, Scene},
 };
 
 /// The part of [`PLAIN_FOOTPRINT`] below which no plain field brings a camera: such a view came
 /// from elsewhere.
 const FROM_ELSEWHERE: f64 = 0.1;
 
-/// Finds the field, and keeps what takes time to make.
-#[derive(Default)]
-pub struct Fields {
-    /// The field about the deep place in view, where there is one, and the set that it is of.
-    deep: Option<(Fractal, Arc<DeepField>)>,
-    plain: Option<(Fractal, Arc<Estimator>)>,
-}
-
-impl fmt::Debug for Fields {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Fields").field("plain", &self.plain).finish_non_exhaustive()
+/// The field for movements in `scene`, of which `model` is the fractal: the one about an anchor where
+/// there is an anchor, otherwise the plain one with the iterations that the view is drawn with. Where a
+/// view is deeper than the plain one holds and the anchor is yet to come, the pivot stands for the
+/// surface: movements keep their scale.
+pub fn field_of(model: &FractalModel, scene: &Scene, viewport: Viewport) -> Arc<dyn DistanceField> {
+    if let Some(deep) = model.deep() {
+        return deep;
     }
-}
-
-impl Fields {
-    /// Takes a deep place, where it is one of this set.
-    pub fn set_reference(&mut self, reference: Option<&Arc<Reference>>, fractal: &Fractal) {
-        let reference = reference.filter(|reference| reference.is_of(fractal));
-        let is_known = |(known, deep): &(Fractal, Arc<DeepField>)| {
-            known == fractal && reference.is_some_and(|new| Arc::ptr_eq(new, deep.reference()))
-        };
-        if !self.deep.as_ref().is_some_and(is_known) {
-            self.deep = reference.map(|reference| {
-                let field = DeepField::new(reference.clone(), fractal, DEEP_FOOTPRINT);
-                (fractal.clone(), Arc::new(field))
-            });
-        }
+    let camera = &scene.camera;
+    let cone = pixel_cone(camera, viewport.aspect, viewport.height_px);
+    let nearest = model.distance(&camera.position);
+    let plain = model.finer((nearest * cone).max(PLAIN_FOOTPRINT));
+    let footprint = camera.view_unit() * cone;
+    if model.has_depth() && footprint < FROM_ELSEWHERE * PLAIN_FOOTPRINT {
+        let pivot = camera.pivot.clone();
+        return Arc::new(Unknown { pivot, bounding_radius: plain.bounding_radius() });
     }
-
-    /// The field for movements in `scene`: the deep one where there is one, otherwise the plain
-    /// one. Where a view is deeper than that holds and the deep one is yet to come, the pivot
-    /// stands for the surface: movements keep their scale.
-    pub fn choose(&mut self, scene: &Scene, viewport: Viewport) -> Arc<dyn DistanceField> {
-        if let Some((_, deep)) = &self.deep {
-            return deep.clone();
-        }
-        let camera = &scene.camera;
-        let cone = pixel_cone(camera, viewport.aspect, viewport.height_px);
-        let plain = self.plain(&scene.fractal, camera.position.to_dvec3(), cone);
-        let footprint = camera.view_unit() * cone;
-        if has_depth(&scene.fractal) && footprint < FROM_ELSEWHERE * PLAIN_FOOTPRINT {
-            let pivot = camera.pivot.clone();
-            return Arc::new(Unknown { pivot, bounding_radius: plain.bounding_radius() });
-        }
-        plain
-    }
-
-    /// The field with the iterations that the view from `eye` is drawn with.
-    fn plain(&mut self, fractal: &Fractal, eye: DVec3, cone: f64) -> Arc<Estimator> {
-        let nearest = Estimator::new(fractal).clear_distance(eye);
-        let iterations = iterations_for(fractal, (nearest * cone).max(PLAIN_FOOTPRINT));
-        let drawn = Fractal { iterations, ..fractal.clone() };
-        match &self.plain {
-            Some((known, estimator)) if *known == drawn => estimator.clone(),
-            _ => {
-                let estimator = Arc::new(Estimator::new(&drawn));
-                self.plain = Some((drawn, estimator.clone()));
-                estimator
-            }
-        }
-    }
+    plain
 }
 
 /// A surface of which only one point is known.
@@ -118,7 +75,8 @@ mod tests {
 
     use super::*;
     use crate::{
-        scene::Camera,
+        formula::mandelbulb::Mandelbulb,
+        scene::{Camera, Fractal},
         ui::navigation::{Navigator, World},
     };
 
@@ -132,13 +90,14 @@ mod tests {
             pivot,
             ..Camera::looking_at(DVec3::Z, DVec3::ZERO, DVec3::Y)
         };
-        Scene { camera, fractal: Fractal { power, ..Default::default() }, ..Default::default() }
+        let fractal = Mandelbulb { power, ..Default::default() }.into();
+        Scene { camera, fractal, ..Default::default() }
     }
 
     #[test]
     fn a_deep_view_keeps_its_scale_before_its_field_is_known() {
         let mut scene = deep_scene(8.0);
-        let field = Fields::default().choose(&scene, VIEWPORT);
+        let field = field_of(&FractalModel::new(&scene.fractal), &scene, VIEWPORT);
         let world = World { field: &*field, viewport: VIEWPORT };
         let mut navigator = Navigator::default();
         for (amount, wanted) in [(-1.0, 1_f64.exp() * 1e-20), (2.0, (-1_f64).exp() * 1e-20)] {
@@ -150,9 +109,10 @@ mod tests {
 
     #[test]
     fn views_that_plain_pictures_hold_for_have_the_plain_field() {
-        let mut fields = Fields::default();
-        let mut is_plain =
-            |scene: &Scene| fields.choose(scene, VIEWPORT).finest_footprint() == PLAIN_FOOTPRINT;
+        let is_plain = |scene: &Scene| {
+            let model = FractalModel::new(&scene.fractal);
+            field_of(&model, scene, VIEWPORT).finest_footprint() == PLAIN_FOOTPRINT
+        };
         assert!(is_plain(&Scene::default()));
         assert!(!is_plain(&deep_scene(8.0)));
         // No pictures go that deep: movements keep to what they show.
@@ -161,15 +121,13 @@ mod tests {
 
     #[test]
     fn a_plain_field_has_the_iterations_that_its_view_is_drawn_with() {
-        let fractal = Fractal { iterations: 6, ..Default::default() };
-        let whole = Estimator::new(&fractal);
-        let finer = iterations_for(&fractal, PLAIN_FOOTPRINT);
-        let finer = Estimator::new(&Fractal { iterations: finer, ..fractal.clone() });
-        let mut fields = Fields::default();
-        let mut told = |eye: DVec3| {
+        let fractal = Fractal::default().with_iterations(6);
+        let model = FractalModel::new(&fractal);
+        let (whole, finer) = (model.whole(), model.finer(PLAIN_FOOTPRINT));
+        let told = |eye: DVec3| {
             let camera = Camera::looking_at(eye, DVec3::ZERO, DVec3::Z);
             let scene = Scene { camera, fractal: fractal.clone(), ..Default::default() };
-            fields.choose(&scene, VIEWPORT).distance(eye)
+            field_of(&model, &scene, VIEWPORT).distance(eye)
         };
         let far = DVec3::new(2.0, -2.0, 1.0);
         assert_eq!(told(far), whole.distance(far));
@@ -185,13 +143,14 @@ mod tests {
     fn the_deep_field_comes_first() {
         let scene = deep_scene(8.0);
         let anchor = scene.camera.pivot.clone();
-        let reference = Arc::new(Reference::new(&scene.fractal, anchor.clone()).expect("a power"));
-        let mut fields = Fields::default();
-        fields.set_reference(Some(&reference), &scene.fractal);
-        assert_eq!(fields.choose(&scene, VIEWPORT).origin(), anchor);
+        let steps = scene.fractal.formula().begin_reference(&scene.fractal, anchor.clone());
+        let reference = steps.expect("a whole power").finish();
+        let model = FractalModel::new(&scene.fractal);
+        model.set_reference(Some(&reference));
+        assert_eq!(field_of(&model, &scene, VIEWPORT).origin(), anchor);
         // It is of no other set.
-        let other = deep_scene(7.0);
-        fields.set_reference(Some(&reference), &other.fractal);
-        assert!(fields.deep.is_none());
+        let other = FractalModel::new(&deep_scene(7.0).fractal);
+        other.set_reference(Some(&reference));
+        assert!(other.deep().is_none());
     }
 }

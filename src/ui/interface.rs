@@ -19,7 +19,10 @@ use super::{
     timeline::Timeline,
     view,
 };
-use crate::scene::{Camera, EnvironmentMap, Project, Scene, presets};
+use crate::{
+    fractal::SharedModel,
+    scene::{Camera, EnvironmentMap, Project, Scene, presets},
+};
 
 /// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
@@ -67,6 +70,11 @@ impl Interface {
             histogram_shown: false,
             environment_map: None,
         }
+    }
+
+    /// The fractal by which movements are measured, to share with the view that draws it.
+    pub fn models(&self) -> &SharedModel {
+        self.pilot.models()
     }
 
     /// The current scene.
@@ -283,7 +291,6 @@ impl Interface {
         // A drag belongs to the eye's picture in which it began.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
-        self.pilot.set_reference(inputs.report.reference.as_ref(), &scene.fractal);
         self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
         if !self.pilot.is_flying()
             && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)

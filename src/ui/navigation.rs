@@ -35,7 +35,8 @@ use std::ops::RangeInclusive;
 use glam::{DVec2, DVec3};
 
 use crate::{
-    fractal::{DistanceField, Ray, camera_ray, pixel_cone},
+    formula::{DistanceField, Ray},
+    fractal::{camera_ray, pixel_cone},
     scene::{Camera, PrecisePoint},
 };
 use flight::Flight;

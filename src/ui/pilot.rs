@@ -3,20 +3,18 @@
 //! In: the view's response and this frame's commands. Out: a moved camera. The pilot interprets
 //! gestures; the [`Navigator`] moves the camera.
 
-use std::sync::Arc;
-
 use egui::{Context, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
 
 use super::{
-    field::Fields,
+    field::field_of,
     home::HomeTarget,
     navigation::{CameraStatus, FlyInput, Navigator, Viewport, World},
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
-    fractal::Reference,
-    scene::{Camera, Fractal, Scene, StereoLayout},
+    fractal::SharedModel,
+    scene::{Camera, Scene, StereoLayout},
 };
 
 /// Dolly per point of wheel travel, as a natural logarithm; a notch is about 100 points.
@@ -46,7 +44,7 @@ pub struct Pilot {
     looking: bool,
     /// Time until which further notches join the undo step, on egui's clock.
     step_until_secs: f64,
-    fields: Fields,
+    models: SharedModel,
 }
 
 /// The picture's rectangle in the window.
@@ -133,15 +131,15 @@ impl Pilot {
         self.step_until_secs = now_secs + pause_secs;
     }
 
-    /// Sets the deep reference for the distance field; ignored if it is not of `fractal`.
-    pub fn set_reference(&mut self, reference: Option<&Arc<Reference>>, fractal: &Fractal) {
-        self.fields.set_reference(reference, fractal);
+    /// The fractal by which movements are measured, to share with a view: that finds anchors.
+    pub fn models(&self) -> &SharedModel {
+        &self.models
     }
 
     /// The camera's distance to the surface and its precision.
     pub fn camera_status(&mut self, scene: &Scene, frame: Frame) -> CameraStatus {
         let viewport = viewport(scene, frame);
-        let field = self.fields.choose(scene, viewport);
+        let field = field_of(&self.models.of(&scene.fractal), scene, viewport);
         World { field: &*field, viewport }.camera_status(&scene.camera)
     }
 
@@ -156,7 +154,7 @@ impl Pilot {
         commands: &[Command],
     ) {
         let viewport = viewport(scene, frame);
-        let field = self.fields.choose(scene, viewport);
+        let field = field_of(&self.models.of(&scene.fractal), scene, viewport);
         let mut camera = scene.camera.clone();
         let world = World { field: &*field, viewport };
         let ctx = ui.ctx();

@@ -6,9 +6,8 @@ use egui::{Rect, RichText, Sense, Ui, pos2};
 
 use super::{navigation::CameraStatus, theme};
 use crate::{
-    fractal::deep::has_depth,
     render::report::{Activity, Report},
-    scene::{Camera, Scene},
+    scene::{Camera, Fractal, Scene},
 };
 
 /// Height of the line, in points.
@@ -135,7 +134,7 @@ fn right_text(status: &StatusInputs<'_>, width: f32) -> String {
     let zoom = zoom_text(zoom(&status.scene.camera));
     let mut parts = Vec::new();
     if is_at_limit(status) {
-        parts.push(limit_text(has_depth(&status.scene.fractal), width).to_owned());
+        parts.push(limit_text(&status.scene.fractal, width));
     }
     parts.push(zoom);
     if width_px > 0 {
@@ -149,23 +148,29 @@ fn is_at_limit(status: &StatusInputs<'_>) -> bool {
 }
 
 /// The reason why the eye cannot come nearer, for a line `width` points wide.
-fn limit_text(deep: bool, width: f32) -> &'static str {
-    match (deep, width) {
-        (true, ..SHORT_BELOW) => "deepest",
-        (true, _) => "maximum zoom",
-        (false, ..SHORT_BELOW) => "limit",
-        (false, ..SHORT_LIMIT_BELOW) => "maximum zoom",
-        (false, _) => "maximum zoom; whole powers zoom deeper",
-    }
+fn limit_text(fractal: &Fractal, width: f32) -> String {
+    const MAXIMUM: &str = "maximum zoom";
+    let formula = fractal.formula();
+    let text = match (formula.has_depth(fractal), width, formula.deeper()) {
+        (true, ..SHORT_BELOW, _) => "deepest",
+        (false, ..SHORT_BELOW, _) => "limit",
+        (false, SHORT_LIMIT_BELOW.., Some(deeper)) => return format!("{MAXIMUM}; {deeper}"),
+        _ => MAXIMUM,
+    };
+    text.to_owned()
 }
 
 /// The reason why the eye cannot come nearer, for the hover text.
-fn limit_help(scene: &Scene) -> &'static str {
-    if has_depth(&scene.fractal) {
-        "Maximum zoom: at a smaller scale, the GPU's numbers would underflow."
-    } else {
-        "Maximum zoom: nearer, you would see rounding errors of single precision instead of detail. Whole powers zoom deeper."
+fn limit_help(scene: &Scene) -> String {
+    let formula = scene.fractal.formula();
+    if formula.has_depth(&scene.fractal) {
+        return "Maximum zoom: at a smaller scale, the GPU's numbers would underflow.".to_owned();
     }
+    let deeper = formula.deeper().map_or_else(String::new, |deeper| format!(" Here {deeper}."));
+    format!(
+        "Maximum zoom: nearer, you would see rounding errors of single precision instead of \
+         detail.{deeper}"
+    )
 }
 
 /// Magnification at the pivot, relative to a new scene.

@@ -52,7 +52,7 @@ impl eframe::App for App {
         let notice_secs = session.expire_notice(now_secs);
 
         let inputs = DisplayInputs {
-            picture: engine.shown(),
+            picture: engine.picture(),
             report: &session.status.report,
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),

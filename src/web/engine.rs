@@ -69,10 +69,11 @@ impl Engine {
         session: Rc<RefCell<Session>>,
     ) -> Rc<RefCell<Self>> {
         let pipelines = Pipelines::new(&gpu);
+        let models = session.borrow().interface.models().clone();
         let engine = Rc::new(RefCell::new(Self {
             exporter: Exporter::new(pipelines.clone()),
             gpu,
-            view: LiveView::new(pipelines, render_state),
+            view: LiveView::new(pipelines, render_state, &models),
             context,
             is_tick_scheduled: false,
             has_drawn: false,
@@ -86,9 +87,9 @@ impl Engine {
         engine
     }
 
-    /// The picture to show, once there is one.
-    pub fn shown(&self) -> Option<ui::ViewTexture> {
-        self.picture.shown()
+    /// The picture for egui; `None` before the first one.
+    pub fn picture(&self) -> Option<ui::ViewTexture> {
+        self.view.shown()
     }
 
     /// Applies this frame's scene and view size, and starts the work. Returns the seconds until the

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use eframe::egui_wgpu::RenderState;
 
 use crate::{
-    render::{Pace, Pipelines, Region, Report, View, frame::Dispatches},
+    fractal::SharedModel,
+    render::{Pace, Pipelines, Region, Report, View, recorder::Dispatches},
     scene::{EnvironmentMap, Scene, StereoLayout},
     ui,
 };
@@ -21,6 +22,8 @@ const SETTLE_SECS: f64 = 0.12;
 pub struct LiveView {
     pipelines: Arc<Pipelines>,
     render_state: RenderState,
+    /// Shared with the interface, which moves by them.
+    models: SharedModel,
     view: Option<View>,
     shown: Option<Shown>,
     /// A new size that has not settled, and since when.
@@ -30,16 +33,18 @@ pub struct LiveView {
 /// The texture that egui shows.
 struct Shown {
     picture: ui::ViewTexture,
+    /// The view's texture generation.
     generation: u64,
 }
 
 impl LiveView {
     /// A live view without a size and without a picture.
-    pub fn new(pipelines: Arc<Pipelines>, render_state: RenderState) -> Self {
-        Self { pipelines, render_state, view: None, shown: None, pending_region: None }
+    pub fn new(pipelines: Arc<Pipelines>, render_state: RenderState, models: &SharedModel) -> Self {
+        let models = models.clone();
+        Self { pipelines, render_state, models, view: None, shown: None, pending_region: None }
     }
 
-    /// The picture to show, once there is one.
+    /// The picture for egui; `None` before the first one.
     pub fn shown(&self) -> Option<ui::ViewTexture> {
         self.shown.as_ref().map(|shown| shown.picture)
     }
@@ -71,7 +76,9 @@ impl LiveView {
         let scaled_px = size_px.map(|side| (f64::from(side) * scale).round() as u32);
         let region = Region::whole_within_limits(scaled_px).shared_by(layout);
         let Some(view) = &mut self.view else {
-            self.view = Some(View::new(&self.pipelines, region, Pace::Interactive));
+            let mut view = View::new(&self.pipelines, region, Pace::Interactive);
+            view.share_models(&self.models);
+            self.view = Some(view);
             return None;
         };
         if view.region() == region {

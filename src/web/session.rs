@@ -16,7 +16,7 @@ use super::{
 use crate::{
     export,
     gpu::Gpu,
-    render::{Report, frame::Dispatches},
+    render::{Report, recorder::Dispatches},
     scene::{BackgroundKind, Project, Scene, document, environment_map, link},
     ui::{Interface, Notice, Settings, theme},
 };

@@ -12,7 +12,7 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
 
-  // What a visitor sees first.
+  // The opening view, until its edges are smooth.
   await v.timed("first_picture", () => page.open());
   await v.timed("first_sample", () => page.sampled(1));
   scenes.opened = await page.scene();

@@ -67,7 +67,7 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     assert_ne!(approached.camera.position, turned.camera.position);
 
     only_changes(&visit, "approached", "powered", &["fractal"]);
-    assert!(visit.scene("powered").fractal.power < approached.fractal.power);
+    assert!(visit.scene("powered").fractal.number("power") < approached.fractal.number("power"));
 
     only_changes(&visit, "powered", "lit", &["lights"]);
     only_changes(&visit, "lit", "relit", &["lights"]);
@@ -100,7 +100,7 @@ fn short_path() -> Project {
     let scene = presets::all()[0].scene;
     let key = |time_secs, power| {
         let mut scene = scene();
-        scene.fractal.power = power;
+        scene.fractal.set("power", power);
         scene.quality.samples = 1;
         Key { time_secs, easing: Easing::Linear, scene: scene.into() }
     };
@@ -115,7 +115,8 @@ fn a_path_is_scrubbed_played_and_saved_as_a_zip_of_its_frames() {
     let document = document::project_to_json(&project);
     let visit = Visit::run_with("sequence", [("MANDELIGHT_PATH", document)]);
     let scrubbed = visit.scene("scrubbed");
-    assert!((7.0..8.0).contains(&scrubbed.fractal.power), "{}", scrubbed.fractal.power);
+    let power = scrubbed.fractal.number("power").expect("a Mandelbulb");
+    assert!((7.0..8.0).contains(&power), "{power}");
 
     let names: Vec<_> = (0..3).map(export::frame_name).collect();
     for (pointer, prefix) in [("/frames", "frames"), ("/streamed", "streamed")] {

@@ -1,8 +1,8 @@
 // One visit to the page in a real browser: launches it, records its errors and observations.
 //
-// A script tells a visit's story with `visit(…)`. What it observes lands in a folder, as
-// `observations.json` and pictures, for tests/browser/main.rs to judge. Only errors of the page, of its
-// console or of the GPU are judged here: each of them is put on the record.
+// A script calls `visit(…)` with its steps. Its observations go to a folder, as `observations.json`
+// and pictures, where tests/browser/main.rs checks them. This file records every error of the page, of
+// its console and of the GPU; any of them fails the test.
 
 import { mkdir, writeFile } from "node:fs/promises";
 import { join } from "node:path";

@@ -28,7 +28,7 @@ use super::PROGRAM;
 fn project() -> Project {
     let scene = |x: f64, power: f64| {
         let mut scene = Scene::default();
-        scene.fractal.power = power;
+        scene.fractal.set("power", power);
         scene.fractal.iterations = 6;
         scene.quality.samples = 2;
         scene.camera =

@@ -74,7 +74,7 @@ fn a_bad_scene_is_refused_by_file_and_field() {
         ("unknown field", unknown_field.to_string().into(), "unknown field `colour`"),
         ("infinite", huge_number.into(), "fractal.power: "),
         ("not a number", not_a_number.into(), "line 1"),
-        ("later version", with(good.clone(), "/version", json!(2)).into(), "version: 2"),
+        ("later version", with(good.clone(), "/version", json!(3)).into(), "version: 3"),
         (
             "a light",
             with(good.clone(), "/scene/lights/environment/1/intensity", json!(-1)).into(),

@@ -13,10 +13,17 @@ use bench::{
 use clap::Parser as _;
 use glam::DVec3;
 use mandelight::{
-    fractal::{Estimator, Ray},
+    formula::{
+        Kernel, Ray,
+        mandelbulb::{
+            Mandelbulb,
+            estimator::Estimator,
+            variant::{Steps, Variant},
+        },
+    },
+    fractal::FractalModel,
     gpu::Gpu,
     render::{Region, space, uniforms::Inputs},
-    scene::Fractal,
 };
 use mandelight_test_support::{
     device::fresh_gpu,
@@ -29,7 +36,7 @@ const SIZE: [u32; 2] = [96, 54];
 
 /// The thesis's rays in f64, step by step as `literal.wgsl` has them, on the oracle's Algorithm 1.
 struct Thesis {
-    fractal: Fractal,
+    fractal: Mandelbulb,
     tuning: literal::Tuning,
     outside: f64,
 }
@@ -95,8 +102,8 @@ fn is_literal(literal: &literal::Literal, view: &views::View) {
     picture.draw_ms();
     let seen = picture.seen().expect("the picture's bytes");
     assert_eq!(seen.len(), (SIZE[0] * SIZE[1]) as usize, "{name}");
-    let fractal = Fractal { iterations: tuning.iterations, ..scene.fractal.clone() };
-    let outside = Estimator::new(&scene.fractal).bounding_radius();
+    let fractal = Mandelbulb { iterations: tuning.iterations, ..Mandelbulb::of(&scene.fractal) };
+    let outside = Estimator::new(&Mandelbulb::of(&scene.fractal)).bounding_radius();
     let thesis = Thesis { fractal, tuning, outside };
     let lights: Vec<_> =
         scene.lights.environment.iter().map(|light| DVec3::from_array(light.direction)).collect();
@@ -204,7 +211,7 @@ fn counters_count_orbits() {
     let gpu = fresh_gpu();
     for (power, julia) in [(2.0, false), (3.0, false), (8.0, false), (8.0, true), (6.5, false)] {
         let mut scene = views::filled();
-        scene.fractal = Fractal { power, julia, ..scene.fractal };
+        scene.fractal = Mandelbulb { power, julia, ..Mandelbulb::of(&scene.fractal) }.into();
         // A grid through the set and past it, of points that an f32 holds.
         let side = |i: u32| f64::from(i) / 8.0 - 1.25;
         let points: Vec<_> = (0..21 * 21 * 21_u32)
@@ -212,10 +219,12 @@ fn counters_count_orbits() {
             .collect();
         // As many iterations as the view's pixels need.
         let inputs = Inputs::new(&scene, Region::whole([64, 64]));
-        let followed =
-            Fractal { iterations: inputs.frame.fractal.iterations, ..scene.fractal.clone() };
+        let followed = Mandelbulb {
+            iterations: inputs.frame.march.iterations,
+            ..Mandelbulb::of(&scene.fractal)
+        };
         let expected: u32 = points.iter().map(|p| estimate::orbit(&followed, *p).steps).sum();
-        for power in [0, scene.fractal.integer_power().unwrap_or(0)] {
+        for power in [0, followed.integer_power().unwrap_or(0)] {
             let found = counted(&gpu, &inputs, &points, power);
             assert_eq!(found.estimates, 2.0 * points.len() as f64, "{:?}", scene.fractal);
             let off = found.steps / (4.0 * f64::from(expected)) - 1.0;
@@ -228,7 +237,7 @@ fn counters_count_orbits() {
 #[test]
 fn what_cannot_be_counted_is_said() {
     let marks = |estimates| instrument::Marks {
-        orbits_in: "formula/",
+        orbits_in: "mandelbulb/",
         other_loops: &[],
         steps: &["step"],
         estimates,
@@ -237,27 +246,29 @@ fn what_cannot_be_counted_is_said() {
     };
     let orbit = "fn step() {\n    return;\n}\nfn far(n: u32) {\n    for (var i = 0u; i < n; i++) {\n    }\n}\n";
     let entry = "@compute @workgroup_size(1)\nfn main(@builtin(workgroup_id) id: vec3u) {\n}\n";
-    let files = [("formula/a.wgsl", orbit), ("pass/b.wgsl", entry)];
+    let files = [("mandelbulb/a", orbit), ("b", entry)];
     let text = instrument::counting(&files, &marks(&["far"])).expect("all is there");
     assert!(text.contains("fn counted_main(id: vec3u) {"), "{text}");
     assert!(text.contains("fn far(n: u32) { counted_estimates += 1u;"), "{text}");
     assert!(text.contains("return;\ncounted_steps += 1u;\n}\nfn far"), "{text}");
     assert!(instrument::counting(&files, &marks(&["near"])).unwrap_err().contains("near"));
     assert!(instrument::counting(&files[..1], &marks(&["far"])).unwrap_err().contains("main"));
-    assert!(instrument::counting(&files[1..], &marks(&[])).unwrap_err().contains("formula/"));
+    assert!(instrument::counting(&files[1..], &marks(&[])).unwrap_err().contains("mandelbulb/"));
 }
 
 /// Counts the program's probe at `points`.
 fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::Counts {
     let device = &gpu.device;
     let marks = counts::marks(&["estimate"], [2, 0]);
+    let variant = Variant { power, steps: Steps::Plain }.number();
+    let kernel = Kernel { variant, ..inputs.formula.kernel };
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("counting probe"),
         layout: None,
-        module: &counts::counting(gpu, &probe::MODULE, &marks).expect("a countable text"),
+        module: &counts::counting(gpu, &probe::module(kernel), &marks).expect("a countable text"),
         entry_point: Some("main"),
         compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &[("POWER", f64::from(power))],
+            constants: &kernel.overrides(),
             ..Default::default()
         },
         cache: None,
@@ -266,11 +277,11 @@ fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::
     let filled = |bytes: &[u8]| {
         filled(gpu, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC, bytes)
     };
-    let [picture, anchor_orbit] = probe::bindings(gpu, inputs);
+    let bindings = probe::bindings(gpu, inputs);
     let questions = filled(bytemuck::cast_slice(&points));
     let answers = filled(&vec![0; 32 * points.len()]);
     let sums = filled(&[0; 8]);
-    let groups = [vec![&picture, &anchor_orbit], vec![&questions, &answers], vec![&sums]];
+    let groups = [bindings.iter().collect(), vec![&questions, &answers], vec![&sums]];
     let mut encoder = device.create_command_encoder(&Default::default());
     let mut pass = encoder.begin_compute_pass(&Default::default());
     pass.set_pipeline(&pipeline);
@@ -365,7 +376,11 @@ fn every_power_has_a_time() {
 fn descents_have_plain_references() {
     for place in descent::PLACES {
         let scene = place.scene(descent::REFERENCE).expect("a scene");
-        let is_deep = space::wants_anchor(&scene, Region::whole(views::SIZE_PX));
+        let is_deep = space::wants_anchor(
+            &FractalModel::new(&scene.fractal),
+            &scene,
+            Region::whole(views::SIZE_PX),
+        );
         assert!(!is_deep, "{} {}", place.name, place.set());
     }
 }
@@ -377,7 +392,7 @@ fn descents_lead_to_the_surface() {
     for place in descent::PLACES {
         for (_, distance) in descent::distances().into_iter().filter(|(_, d)| *d > 1e-8) {
             let scene = place.scene(distance).expect("a scene");
-            let fractal = Fractal { iterations: 60, ..scene.fractal.clone() };
+            let fractal = Mandelbulb { iterations: 60, ..Mandelbulb::of(&scene.fractal) };
             let field = Estimator::new(&fractal);
             let [eye, point] =
                 [&scene.camera.position, &scene.camera.pivot].map(|point| point.to_dvec3());

@@ -6,8 +6,11 @@ use std::{
 };
 
 use mandelight::{
+    formula::FormulaRef,
     gpu::AsyncCompile,
-    render::{Activity, Pace, Pipelines, Region, View},
+    render::{
+        Activity, Pace, Pipelines, Region, View, pipeline_set::INDIRECT, pipelines::PipelineVariant,
+    },
     scene::{IndirectKind, Scene},
 };
 use mandelight_test_support::{
@@ -116,29 +119,29 @@ fn nothing_is_compiled_unannounced() {
     let general = [
         "camera_cone",
         "march",
+        "compact_hits",
         "normal",
         "shadow_cone",
         "shadow",
         "shade",
-        "tone",
-        "compact_hits",
-        "fill",
         "tonemap_sparse",
         "upsample",
+        "fill",
+        "tone",
     ];
     assert_eq!(first, general);
     watched.show(&scene);
     assert_eq!(watched.announced, ["power 8", "light", "tone mapping"]);
     type Edit = fn(&mut Scene);
     let edits: [(Edit, &[&str]); 8] = [
-        (|scene| scene.fractal.power = 4.5, &[]),
-        (|scene| scene.fractal.power = 3.0, &["power 3"]),
+        (|scene| _ = scene.fractal.set("power", 4.5), &[]),
+        (|scene| _ = scene.fractal.set("power", 3.0), &["power 3"]),
         (|scene| scene.lights.environment[0].muted = true, &[]),
         (|scene| scene.indirect.kind = IndirectKind::Horizon, &["indirect light"]),
         (|scene| scene.indirect.kind = IndirectKind::Uniform, &[]),
         (|scene| scene.bloom.strength = 0.4, &["exposure and bloom", "tone mapping"]),
         (|scene| scene.tone.auto_exposure = true, &[]),
-        (|scene| scene.fractal.power = 8.0, &[]),
+        (|scene| _ = scene.fractal.set("power", 8.0), &[]),
     ];
     for (edit, expected) in edits {
         watched.announced.clear();
@@ -155,9 +158,10 @@ fn nothing_is_compiled_unannounced() {
     let mut all: BTreeSet<String> = first.into_iter().collect();
     for power in [8, 3] {
         for pass in ["camera_cone", "march", "shadow_cone", "shadow"] {
-            all.insert(format!("{pass}, POWER {power}"));
+            all.insert(format!("{pass}, POWER {power}, CHECKS_HITS {}", u32::from(power < 4)));
         }
-        all.insert(format!("normal, POWER {power}, NORMALS 5"));
+        let checks = u32::from(power < 4);
+        all.insert(format!("normal, POWER {power}, CHECKS_HITS {checks}, NORMALS 5"));
     }
     all.extend([0, 1].map(|single| format!("shade, HAS_ENVIRONMENT_MAP 0, SINGLE {single}")));
     for (bloom, sparse) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -190,7 +194,7 @@ fn a_drag_of_the_power_compiles_nothing() {
     watched.show(&scene);
     let made = watched.pipelines.made();
     for power in [7.0, 6.0, 5.0, 4.0, 3.0, 2.0] {
-        scene.fractal.power = power;
+        scene.fractal.set("power", power);
         watched.view.set_scene(&scene, true);
         for _ in 0..10 {
             watched.pump();
@@ -265,7 +269,7 @@ fn a_still_compiles_at_once() {
 /// Pipelines that one view prepared are there for all others of the device.
 #[test]
 fn what_is_ready_is_not_announced_again() {
-    pipelines().prepare(mandelight::render::pipelines::PipelineVariant::Indirect);
+    pipelines().prepare(&PipelineVariant::general_of(&INDIRECT, FormulaRef::default()));
     let mut scene = sampled(Scene::default(), 1);
     scene.indirect.kind = IndirectKind::Uniform;
     let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);

@@ -61,7 +61,7 @@ fn the_opening_scene_looks_as_it_did() {
 #[test]
 fn a_julia_set_lit_by_a_point_looks_as_it_did() {
     let mut scene = Scene::default();
-    scene.fractal.julia = true;
+    scene.fractal.set("julia", true);
     scene.surface.coloring.source = ColorSource::AxisTrap;
     scene.lights.point = vec![PointLight {
         position: PrecisePoint::from(glam::DVec3::new(0.9, -1.4, 0.2)),
@@ -74,7 +74,7 @@ fn a_julia_set_lit_by_a_point_looks_as_it_did() {
 #[test]
 fn a_power_that_is_not_whole_looks_as_it_did() {
     let mut scene = Scene::default();
-    scene.fractal.power = 4.6;
+    scene.fractal.set("power", 4.6);
     scene.surface.coloring.source = ColorSource::Iterations;
     scene.surface.coloring.repeats = 0.2;
     check("real_power", &scene);

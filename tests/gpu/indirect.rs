@@ -1,7 +1,7 @@
 //! Indirect light in views: what an edit of it costs, tiles, sparse lattices.
 
 use mandelight::{
-    render::{Eyes, Pace, Region, View, frame::Dispatches},
+    render::{Eyes, Pace, Region, View, recorder::Dispatches},
     scene::{Indirect, IndirectKind, Scene},
 };
 

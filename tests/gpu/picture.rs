@@ -7,7 +7,8 @@ use mandelight::{
     gpu::readback::Readback,
     render::{
         Pace, Region,
-        frame::{Dispatches, Recorder, record},
+        frame::record,
+        recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
@@ -43,11 +44,11 @@ fn a_sparse_picture_is_filled_in_better_than_by_nearest_pixels() {
 /// The picture as it is shown from one lattice level alone.
 pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let pipelines = pipelines();
-    let mut targets = Targets::new(pipelines, Region::whole(size));
+    let mut targets = Targets::new(&pipelines.layouts, Region::whole(size));
     let inputs = Inputs::new(scene, Region::whole(size));
-    targets.fit_direct(pipelines, inputs.has_indirect());
+    targets.fit_direct(&pipelines.layouts, inputs.has_indirect());
     targets.upload(&pipelines.gpu.queue, &inputs);
-    let passes = pipelines.passes(&inputs.frame);
+    let passes = pipelines.of_frame(&inputs);
     let mut dispatches = Dispatches::default();
     let trace = |points: Points, from| {
         let workgroups = points.grid(size).workgroups();
@@ -58,7 +59,8 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let show = Work::Show { level, fill: level > 0, film: false, adapt: 1.0 };
     let works = [Some(trace(Points::Level(level), Stage::March)), indirect, Some(show)];
     for work in works.into_iter().flatten() {
-        let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
+        let mut recorder =
+            Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
         record(&mut recorder, work);
         pipelines.gpu.queue.submit([recorder.finish()]);
     }
@@ -87,10 +89,10 @@ fn nearest_fill(full: &[u8], [width, height]: [u32; 2], spacing: u32) -> Vec<u8>
 fn specialised_and_general_pipelines_agree() {
     for power in [2.0, 3.0, 8.0] {
         let mut scene = sampled(Scene::default(), 1);
-        scene.fractal.power = power;
+        scene.fractal.set("power", power);
         scene.fractal.iterations = 6;
         let special = still(&scene, SIZE);
-        scene.fractal.power = power + 1e-6;
+        scene.fractal.set("power", power + 1e-6);
         let general = still(&scene, SIZE);
         let (mean, _) = difference(&special, &general);
         assert!(mean < 1.0, "power {power}: mean difference {mean}");
@@ -139,7 +141,7 @@ fn a_distant_point_light_is_a_directional_light() {
 fn the_bulb_has_its_rotational_symmetry() {
     for power in [3.0, 8.0] {
         let mut scene = sampled(Scene::default(), 1);
-        scene.fractal.power = power;
+        scene.fractal.set("power", power);
         let before = still(&scene, SIZE);
         let turn = glam::DQuat::from_rotation_z(TAU / (power - 1.0));
         let camera = &mut scene.camera;

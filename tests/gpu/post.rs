@@ -1,8 +1,8 @@
 //! The film as a whole in views: exposure that settles, and tiles that know all of the picture.
 
 use mandelight::{
-    gpu::readback::Readback,
-    render::{Eyes, Pace, Region, View, frame::Dispatches, uniforms::Statistics},
+    gpu::{host_shared::HostShared, readback::Readback},
+    render::{Eyes, Pace, Region, View, recorder::Dispatches, uniforms::Statistics},
     scene::{Bloom, BloomOrder, Scene, StereoLayout},
 };
 use mandelight_test_support::{
@@ -19,7 +19,7 @@ fn exposed_scene() -> Scene {
 fn statistics(view: &View) -> Statistics {
     let gpu = &pipelines().gpu;
     let bytes = Readback::buffer(gpu, &view.post().statistics).wait(gpu).expect("statistics");
-    bytemuck::pod_read_unaligned(&bytes)
+    Statistics::read(&bytes)
 }
 
 fn assert_mean(view: &View) {

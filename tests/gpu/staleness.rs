@@ -1,7 +1,7 @@
 //! The levels of staleness, held by counting dispatches: an edit restarts only its own.
 
 use mandelight::{
-    render::{Activity, Pace, View, frame::Dispatches},
+    render::{Activity, Pace, View, recorder::Dispatches},
     scene::{
         BloomOrder, EnvironmentLight, IndirectKind, LightFrame, Normals, PointLight, Scene,
         ToneCurve, ToneMean,
@@ -193,7 +193,7 @@ fn further_samples_after_a_light_edit_march_again() {
 #[test]
 fn a_geometry_edit_marches() {
     let edits: [fn(&mut Scene); 4] = [
-        |scene| scene.fractal.power = 7.0,
+        |scene| _ = scene.fractal.set("power", 7.0),
         |scene| scene.fractal.iterations = 10,
         |scene| scene.camera.vertical_fov_deg = 30.0,
         |scene| scene.quality.detail = 2.0,
@@ -303,7 +303,7 @@ fn refinement_ends_in_the_still() {
 fn edits_leave_nothing_behind() {
     let first = sampled(Scene::default(), 2);
     let mut second = first.clone();
-    second.fractal.power = 5.0;
+    second.fractal.set("power", 5.0);
     let mut third = second.clone();
     third.surface.ambient = 0.3;
     let mut view: View = finished(&first, SIZE, Pace::Interactive);

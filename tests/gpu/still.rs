@@ -241,7 +241,7 @@ fn what_is_out_of_range_is_refused_by_name() {
         assert!(refused(&fine, options([8, 8], samples, [8, 8])).starts_with("quality.samples: "));
     }
     let mut wild = Scene::default();
-    wild.fractal.power = f64::NAN;
+    wild.fractal.set("power", f64::NAN);
     assert!(refused(&wild, StillOptions::new([8, 8])).starts_with("fractal.power: "));
 }
 

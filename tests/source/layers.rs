@@ -31,26 +31,37 @@ const GUARDED_CRATES: &[&str] = &[
 ];
 
 /// The drawing in `src/lib.rs` as a table. What a part may name it may name through others too:
-/// `render` stands above `fractal` and `gpu`, which stand above `scene` and nothing.
+/// `render` stands above `fractal` and `gpu`, `fractal` above `scene`, `scene` above `formula`.
 const LAYERS: &[Layer] = &[
-    Layer { name: "scene", own_crate: &[], crates: &[] },
-    Layer { name: "fractal", own_crate: &["scene"], crates: &[] },
+    Layer { name: "precise", own_crate: &[], crates: &[] },
     Layer { name: "gpu", own_crate: &[], crates: &["wgpu"] },
-    // shader_file is gpu's macro; `macro_export` puts it at the root.
+    // A formula has its shader files, and the layout of what they read, from `gpu`: no device.
     Layer {
-        name: "render",
-        own_crate: &["scene", "fractal", "gpu", "shader_file"],
+        name: "formula",
+        own_crate: &["precise", "gpu::shader", "gpu::host_shared"],
+        crates: &[],
+    },
+    Layer { name: "scene", own_crate: &["precise", "formula"], crates: &[] },
+    Layer { name: "fractal", own_crate: &["formula", "scene"], crates: &[] },
+    Layer { name: "render", own_crate: &["formula", "scene", "fractal", "gpu"], crates: &["wgpu"] },
+    Layer {
+        name: "export",
+        own_crate: &["formula", "scene", "fractal", "gpu", "render"],
         crates: &["wgpu"],
     },
-    Layer { name: "export", own_crate: &["scene", "fractal", "gpu", "render"], crates: &["wgpu"] },
-    Layer { name: "ui", own_crate: &["scene", "fractal", "render::report"], crates: &["egui"] },
+    Layer {
+        name: "ui",
+        own_crate: &["formula", "scene", "fractal", "render::report"],
+        crates: &["egui"],
+    },
 ];
 
 /// The parts that may name everything: the page, the binary with its commands, the crate's root.
 const TOP: &[&str] = &["web", "main", "command", "lib"];
 
 /// Everything at the library's root.
-const PARTS: &[&str] = &["scene", "fractal", "gpu", "render", "export", "ui", "web"];
+const PARTS: &[&str] =
+    &["precise", "formula", "scene", "fractal", "gpu", "render", "export", "ui", "web"];
 
 /// Where code may ask what it is compiled for.
 const CFG_PLACES: &[&str] = &["web/", "web.rs", "main.rs", "lib.rs", "gpu/device.rs"];
@@ -72,13 +83,13 @@ const CFG_WORDS: &[&str] = &[
 
 /// A word or a sign of Rust source.
 #[derive(Clone, Debug, PartialEq)]
-enum Token {
+pub enum Token {
     Word(String),
     Sign(char),
 }
 
 /// The words and signs of `source` without comments, literals and white space.
-fn tokens(source: &str) -> Vec<Token> {
+pub fn tokens(source: &str) -> Vec<Token> {
     let chars: Vec<char> = source.chars().collect();
     let at = |i: usize| chars.get(i).copied().unwrap_or('\0');
     let (mut found, mut i) = (Vec::new(), 0);
@@ -308,7 +319,7 @@ fn faults(path: &str, source: &str) -> Vec<String> {
 }
 
 /// Every file below `root/folder`.
-fn files(root: &Path, folder: &str) -> Vec<PathBuf> {
+pub fn files(root: &Path, folder: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![root.join(folder)];
     while let Some(folder) = folders.pop() {
@@ -323,7 +334,7 @@ fn files(root: &Path, folder: &str) -> Vec<PathBuf> {
     found
 }
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 

@@ -1,13 +1,24 @@
 //! Every shader module parses and validates under default WebGPU capabilities, and every struct
 //! that the host shares with it has the same fields at the same places.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::LazyLock};
 
 use mandelight::{
-    fractal::{deep, estimator, march},
-    gpu::shader::Module,
-    render::{lattice, pass::MODULES, post, report, uniforms, work_queues},
-    scene::MAX_LIGHTS,
+    formula::{
+        self, Kernel,
+        mandelbulb::{
+            self, deep, estimator,
+            variant::{Steps, Variant},
+        },
+        march, quaternion_julia,
+    },
+    gpu::{host_shared::HostShared, shader::Module},
+    render::{
+        lattice,
+        pass::{PASSES, Pass},
+        post, report, shaders, uniforms, work_queues,
+    },
+    scene::{Fractal, MAX_LIGHTS},
 };
 use mandelight_test_support::probe;
 use naga::{
@@ -15,6 +26,27 @@ use naga::{
     proc::Layouter,
     valid::{Capabilities, ValidationFlags, Validator},
 };
+
+/// Every kernel of every formula that is specialised in another way.
+fn kernels() -> Vec<Kernel> {
+    let of = |fractal: Fractal| {
+        let formula = fractal.formula();
+        let dive = formula.dive_variants(&fractal, 0);
+        [0].into_iter().chain(dive).map(move |variant| Kernel { formula, variant })
+    };
+    let steps = [Steps::RotatingFrame].map(|steps| Variant { power: 8, steps }.number());
+    let rotating = steps.map(|variant| Kernel { formula: Fractal::default().formula(), variant });
+    formula::all().flat_map(|formula| of(Fractal::new(formula))).chain(rotating).collect()
+}
+
+/// The module of every pass with every kernel, and the probe's.
+static MODULES: LazyLock<Vec<Module>> = LazyLock::new(|| {
+    let of = |pass: &&Pass| match pass.set.has_kernel {
+        false => vec![shaders::module(pass.name, None)],
+        true => kernels().into_iter().map(|k| shaders::module(pass.name, Some(k))).collect(),
+    };
+    PASSES.iter().flat_map(of).chain(kernels().into_iter().map(probe::module)).collect()
+});
 
 /// Name, offset and size of each field, and the whole size: of a WGSL struct.
 type StructLayout = (u32, Vec<(String, u32, u32)>);
@@ -42,14 +74,9 @@ fn structs(module: &naga::Module) -> BTreeMap<String, StructLayout> {
         .collect()
 }
 
-/// The program's modules and the tests' own.
-fn all_modules() -> impl Iterator<Item = &'static Module> {
-    MODULES.iter().copied().chain([&*probe::MODULE])
-}
-
 #[test]
 fn every_module_validates() {
-    for module in all_modules() {
+    for module in MODULES.iter() {
         let text = module.text();
         Validator::new(ValidationFlags::all(), Capabilities::default())
             .validate(&parsed(module))
@@ -59,7 +86,7 @@ fn every_module_validates() {
 
 #[test]
 fn every_pass_has_one_entry_point_of_64_threads_within_default_limits() {
-    for module in all_modules() {
+    for module in MODULES.iter() {
         let parsed = parsed(module);
         let [entry] = &parsed.entry_points[..] else { panic!("{}", module.label) };
         assert_eq!((entry.name.as_str(), entry.workgroup_size), ("main", [64, 1, 1]));
@@ -72,31 +99,71 @@ fn every_pass_has_one_entry_point_of_64_threads_within_default_limits() {
     }
 }
 
+/// A host-shared struct: its name in WGSL, its size in bytes and its fields.
+type HostStruct = (&'static str, usize, &'static [(&'static str, usize, usize)]);
+
+/// The structs of a formula, whose kernels' files begin with its id.
+fn formula_structs(id: &str) -> Vec<HostStruct> {
+    match id {
+        "mandelbulb" => mandelbulb::uniforms::HOST_SHARED.to_vec(),
+        "quaternion_julia" => {
+            let [(_, size, fields)] = *quaternion_julia::HOST_SHARED else { panic!("one struct") };
+            vec![("Fractal", size, fields)]
+        }
+        other => panic!("no structs of {other} are compared"),
+    }
+}
+
 #[test]
 fn host_structs_match_their_wgsl_twins() {
     let mut seen = Vec::new();
-    for module in MODULES {
+    for module in MODULES.iter() {
         let wgsl = structs(&parsed(module));
-        for (name, size, fields) in uniforms::HOST_SHARED {
-            let Some((span, members)) = wgsl.get(*name) else { continue };
-            seen.push(*name);
-            assert_eq!(*size as u32, *span, "size of {name} in {}", module.label);
+        let formula = formula::all().find(|formula| {
+            module.files.iter().any(|file| file.path.starts_with(&format!("{}/", formula.id())))
+        });
+        let own = formula.map_or_else(Vec::new, |formula| formula_structs(formula.id()));
+        for (name, size, fields) in uniforms::HOST_SHARED.iter().copied().chain(own) {
+            let Some((span, members)) = wgsl.get(name) else { continue };
+            seen.push((name, size));
+            let mut members = members.clone();
+            if name == "FrameUniforms" {
+                // The formula's part follows the host's fields.
+                let (last, offset, _) = members.pop().expect("a field");
+                assert_eq!((last.as_str(), offset), ("formula", size as u32));
+            } else {
+                assert_eq!(size as u32, *span, "size of {name} in {}", module.label);
+            }
             let host: Vec<_> = fields
                 .iter()
                 .map(|(field, offset, size)| (field.to_string(), *offset as u32, *size as u32))
                 .collect();
-            assert_eq!(host, *members, "fields of {name} in {}", module.label);
+            assert_eq!(host, members, "fields of {name} in {}", module.label);
         }
     }
-    for (name, ..) in uniforms::HOST_SHARED {
-        assert!(seen.contains(name), "no shader knows the host's struct {name}");
+    let formulas = formula::all().flat_map(|formula| formula_structs(formula.id()));
+    for (name, size, _) in uniforms::HOST_SHARED.iter().copied().chain(formulas) {
+        assert!(seen.contains(&(name, size)), "no shader knows the host's struct {name}");
     }
+}
+
+#[test]
+fn formulas_fit_their_buffers() {
+    for formula in formula::all() {
+        for (name, size, _) in formula_structs(formula.id()) {
+            assert!(size <= formula::contract::MOST_UNIFORM_BYTES, "{name} of {}", formula.id());
+        }
+    }
+    let anchor_orbit = mandelbulb::uniforms::SERIES
+        * mandelbulb::uniforms::SeriesApproximation::SIZE
+        + deep::reference::MOST_REFERENCE_POINTS * mandelbulb::uniforms::ReferencePoint::SIZE;
+    assert!(anchor_orbit <= formula::contract::MOST_TABLE_BYTES);
 }
 
 /// Else it would be all zeros: see `types/frame_uniforms.wgsl`.
 #[test]
 fn every_pass_begins_by_reading_the_frame_uniforms() {
-    for module in all_modules() {
+    for module in MODULES.iter() {
         let text = module.text();
         let (_, main) = text.split_once("fn main(").expect("an entry point");
         let (_, body) = main.split_once("{\n").expect("its body");
@@ -110,13 +177,15 @@ fn every_pass_begins_by_reading_the_frame_uniforms() {
 fn every_shader_file_is_part_of_a_module() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
     let joined: Vec<_> =
-        MODULES.iter().flat_map(|module| module.files).map(|file| file.path).collect();
+        MODULES.iter().flat_map(|module| &module.files).map(|file| file.path).collect();
     for folder in std::fs::read_dir(&root).expect("shaders/") {
         let folder = folder.expect("an entry").path();
         for file in std::fs::read_dir(&folder).expect("a folder of shaders/") {
             let file = file.expect("an entry").path();
             let path = file.strip_prefix(&root).expect("below shaders/").to_string_lossy();
-            assert!(joined.contains(&path.as_ref()), "{path} is joined into no module");
+            let path = path.strip_suffix(".wgsl").expect("a WGSL file");
+            let path = if folder.ends_with("pass") { file_stem(path) } else { path };
+            assert!(joined.contains(&path), "{path} is joined into no module");
         }
     }
 }
@@ -125,11 +194,55 @@ fn every_shader_file_is_part_of_a_module() {
 #[test]
 fn every_pass_file_has_its_rust_half() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    for module in MODULES {
-        let last = module.files.last().expect("at least one file").path;
-        assert_eq!(last, format!("pass/{}.wgsl", module.label));
-        assert!(root.join(format!("src/render/pass/{}.rs", module.label)).is_file());
+    for pass in PASSES {
+        for half in ["src/render/pass/{}.rs", "shaders/pass/{}.wgsl"] {
+            assert!(root.join(half.replace("{}", pass.name)).is_file(), "{half} of {}", pass.name);
+        }
     }
+}
+
+/// Else a module would grow by what nobody reads any more.
+#[test]
+fn headers_name_only_files_that_are_used() {
+    for module in MODULES.iter() {
+        let (root, used) = module.files.split_last().expect("a pass");
+        for file in used {
+            let names = declared(file.text);
+            let is_used =
+                module.files.iter().filter(|other| other.path != file.path).any(|other| {
+                    let words: Vec<_> = code(other.text)
+                        .split(|c: char| c != '_' && !c.is_alphanumeric())
+                        .map(str::to_owned)
+                        .collect();
+                    names.iter().any(|name| words.contains(name))
+                });
+            assert!(is_used, "{} joins {}, of which it uses nothing", root.path, file.path);
+        }
+    }
+}
+
+/// WGSL text without its comments.
+fn code(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+}
+
+/// The names that a file declares at its top level.
+fn declared(text: &str) -> Vec<String> {
+    let declaration = |line: &str| {
+        let line = line
+            .rsplit_once(") ")
+            .filter(|(before, _)| before.starts_with('@'))
+            .map_or(line, |(_, rest)| rest)
+            .to_owned();
+        let keyword = line.split(|c: char| !c.is_alphanumeric()).next().unwrap_or("");
+        if !["fn", "struct", "const", "override", "alias", "var"].contains(&keyword) {
+            return None;
+        }
+        let rest = line[keyword.len()..].trim_start();
+        let rest = if rest.starts_with('<') { rest.split_once('>')?.1.trim_start() } else { rest };
+        rest.split(|c: char| c != '_' && !c.is_alphanumeric()).next().map(str::to_owned)
+    };
+    code(text).lines().filter_map(declaration).collect()
 }
 
 #[test]
@@ -143,11 +256,11 @@ fn host_constants_match_their_wgsl_twins() {
         ("BLOCK_THREADS", whole(work_queues::BLOCK_THREADS)),
         ("BLOCKS", whole(lattice::WORKGROUP_THREADS / work_queues::BLOCK_THREADS)),
         ("RAY_QUEUES", work_queues::RAY_QUEUES as f64),
-        ("SERIES", uniforms::SERIES as f64),
+        ("SERIES", mandelbulb::uniforms::SERIES as f64),
         ("MOST_REFERENCE_POINTS", deep::reference::MOST_REFERENCE_POINTS as f64),
-        ("MOST_NEAR_STEPS", uniforms::MOST_NEAR_STEPS as f64),
-        ("FIRST_RADIUS", uniforms::FIRST_RADIUS),
-        ("RADII_RATIO", uniforms::RADII_RATIO),
+        ("MOST_NEAR_STEPS", mandelbulb::variant::MOST_NEAR_STEPS as f64),
+        ("FIRST_RADIUS", mandelbulb::uniforms::FIRST_RADIUS),
+        ("RADII_RATIO", mandelbulb::uniforms::RADII_RATIO),
         ("CLOSE", deep::CLOSE),
         ("SIDEWAYS_MAX", estimator::SIDEWAYS_MAX),
         ("DEEP_SIDEWAYS_MAX", estimator::DEEP_SIDEWAYS_MAX),
@@ -162,7 +275,7 @@ fn host_constants_match_their_wgsl_twins() {
         ("FIRST_MIP_LEVEL", whole(post::FIRST_LEVEL)),
     ];
     for (name, value) in host {
-        let files = MODULES.iter().flat_map(|module| module.files);
+        let files = MODULES.iter().flat_map(|module| &module.files);
         let found: Vec<_> = files.filter_map(|file| constant(file.text, name)).collect();
         assert!(!found.is_empty(), "no shader has {name}");
         for text in found {
@@ -177,4 +290,8 @@ fn constant<'a>(text: &'a str, name: &str) -> Option<&'a str> {
     let named =
         |line: &'a str| line.strip_prefix("const ")?.strip_prefix(name)?.strip_prefix(" = ");
     text.lines().find_map(named)?.split(';').next()
+}
+
+fn file_stem(path: &str) -> &str {
+    path.rsplit('/').next().unwrap_or(path)
 }

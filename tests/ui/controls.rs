@@ -3,6 +3,10 @@
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
+    formula::{
+        FormulaRef,
+        mandelbulb::{self},
+    },
     render::report::Histogram,
     scene::{Scene, param, presets},
     ui::{Action, Settings},
@@ -16,7 +20,7 @@ fn the_power_slider_changes_the_power_and_nothing_else() {
     slider(&harness, "Power").set_value_accesskit(5.0);
     harness.run();
     let mut expected = Scene::default();
-    expected.fractal.power = 5.0;
+    expected.fractal.set("power", 5.0);
     assert_eq!(*scene(&harness), expected);
 }
 
@@ -25,7 +29,7 @@ fn dragging_the_rail_moves_the_value_and_a_double_click_resets_it() {
     let mut harness = workshop();
     let rail = slider(&harness, "Power").rect();
     drag(&mut harness, rail.center(), rail.center() + egui::vec2(rail.width() * 0.4, 0.0), 4);
-    let dragged = scene(&harness).fractal.power;
+    let dragged = power(&harness);
     assert!(dragged > 12.0 && dragged <= 16.0, "dragged to {dragged}");
     let at = rail.center();
     harness.event(egui::Event::PointerMoved(at));
@@ -33,7 +37,7 @@ fn dragging_the_rail_moves_the_value_and_a_double_click_resets_it() {
         pointer(&harness, at, PointerButton::Primary, pressed, Modifiers::NONE);
     }
     harness.run();
-    assert_eq!(scene(&harness).fractal.power, param::POWER.default);
+    assert_eq!(power(&harness), mandelbulb::POWER.default);
 }
 
 #[test]
@@ -45,11 +49,11 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     harness.run();
     press(&mut harness, "Add point light");
     press(&mut harness, "Rig: Sky");
-    for param in param::ALL {
-        if *param == &param::SCREEN_HEIGHT {
+    for param in param::of(FormulaRef::default()) {
+        if param == &param::SCREEN_HEIGHT {
             press(&mut harness, "Stereo: Stacked");
         }
-        if *param == &param::INDIRECT_RADIUS {
+        if param == &param::INDIRECT_RADIUS {
             press(&mut harness, "Indirect light: Horizon");
         }
         let rails: Vec<_> = rails_of(&harness, param.path);
@@ -68,6 +72,10 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     }
 }
 
+fn power(harness: &egui_kittest::Harness<'_, Stage>) -> f64 {
+    scene(harness).fractal.number("power").expect("a Mandelbulb")
+}
+
 fn rails_of(harness: &egui_kittest::Harness<'_, Stage>, path: &str) -> Vec<String> {
     harness
         .query_all(
@@ -84,8 +92,9 @@ fn every_parameter_has_a_control() {
     harness.get_by_label("Auto exposure").click();
     harness.run();
     press(&mut harness, "Add light");
-    let mut missing: Vec<_> =
-        param::ALL.iter().filter(|param| rails_of(&harness, param.path).is_empty()).collect();
+    let mut missing: Vec<_> = param::of(FormulaRef::default())
+        .filter(|param| rails_of(&harness, param.path).is_empty())
+        .collect();
     press(&mut harness, "Add point light");
     missing.retain(|param| rails_of(&harness, param.path).is_empty());
     for other in ["Rig: Sky", "Rig: Picture", "Stereo: Stacked", "Indirect light: Horizon"] {
@@ -103,7 +112,7 @@ fn typed_values_are_clamped() {
     harness.get_by_label("Power value").type_text("99");
     harness.key_press(Key::Enter);
     harness.run();
-    assert_eq!(scene(&harness).fractal.power, param::POWER.max);
+    assert_eq!(power(&harness), mandelbulb::POWER.max);
     assert_eq!(undo_all(&mut harness), 1, "typing is one step");
 }
 
@@ -128,7 +137,7 @@ fn arrow_keys_step_a_focused_slider_and_do_not_turn_the_view() {
         harness.key_press(Key::ArrowRight);
     }
     harness.run();
-    assert!((scene(&harness).fractal.power - 8.3).abs() < 1e-9);
+    assert!((power(&harness) - 8.3).abs() < 1e-9);
     assert_eq!(scene(&harness).camera, Scene::default().camera);
     assert_eq!(undo_all(&mut harness), 1, "a run of presses is one step");
 }

@@ -1,9 +1,12 @@
 //! The camera's movements at every scale, from the whole scene to 1e-27, in a scene whose surface
 //! is known exactly: the same gestures have the same effect, in pixels and seconds.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
-    fractal::{DEEP_FOOTPRINT, DistanceField, pixel_cone},
+    formula::{DistanceField, march::DEEP_FOOTPRINT},
+    fractal::pixel_cone,
     scene::{Camera, PrecisePoint},
     ui::navigation::{FlyInput, Navigator, Viewport, World, flight::MAX_ZOOM_PER_SEC},
 };
@@ -200,10 +203,10 @@ fn the_pivot_keeps_up_with_what_is_approached() {
 #[test]
 fn a_pointer_over_what_rays_creep_along_takes_little_time() {
     /// A floor that rays run along, and how often it was asked.
-    struct Floor(std::cell::Cell<u32>);
+    struct Floor(AtomicU32);
     impl DistanceField for Floor {
         fn distance(&self, point: DVec3) -> f64 {
-            self.0.set(self.0.get() + 1);
+            self.0.fetch_add(1, Ordering::Relaxed);
             point.z.max(0.0)
         }
         fn bounding_radius(&self) -> f64 {
@@ -215,7 +218,8 @@ fn a_pointer_over_what_rays_creep_along_takes_little_time() {
     let camera = Camera::looking_at(DVec3::Z * 1e-3, DVec3::new(0.0, 40.0, 0.15), DVec3::Z);
     let picked = world(&floor).pick(&camera, DVec2::ZERO).expect("it is along there");
     assert!(picked.angle_between(camera.forward()) < 1e-6 && picked.length() > 0.0);
-    assert!(floor.0.get() <= 400, "asked {} times", floor.0.get());
+    let asked = floor.0.into_inner();
+    assert!(asked <= 400, "asked {asked} times");
 }
 
 #[test]

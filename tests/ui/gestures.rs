@@ -5,6 +5,7 @@ use egui::{
     vec2,
 };
 use mandelight::{
+    formula::mandelbulb,
     scene::{Scene, param},
     ui::{Action, Settings},
 };
@@ -369,12 +370,20 @@ fn a_finger_scrolls_across_a_rail_and_drags_its_handle() {
     let before = rail(&harness);
     let end = before.right_center() - vec2(90.0, 0.0);
     swipe(&mut harness, end, end - vec2(0.0, 60.0));
-    assert_eq!(scene(&harness).fractal.power, param::POWER.default, "scrolling changes nothing");
+    assert_eq!(
+        scene(&harness).fractal.number("power").unwrap(),
+        mandelbulb::POWER.default,
+        "scrolling changes nothing"
+    );
     let after = rail(&harness);
     assert!(after.top() < before.top() - 20.0, "the panel scrolled from {before:?} to {after:?}");
     let handle = slider(&harness, "Power").rect();
-    let part = (param::POWER.default - param::POWER.min) / (param::POWER.max - param::POWER.min);
+    let part = (mandelbulb::POWER.default - mandelbulb::POWER.min)
+        / (mandelbulb::POWER.max - mandelbulb::POWER.min);
     let handle = handle.left_center() + vec2(handle.width() * part as f32, 0.0);
     swipe(&mut harness, handle, handle + vec2(40.0, 0.0));
-    assert!(scene(&harness).fractal.power > param::POWER.default + 1.0, "the handle follows");
+    assert!(
+        scene(&harness).fractal.number("power").unwrap() > mandelbulb::POWER.default + 1.0,
+        "the handle follows"
+    );
 }

@@ -10,9 +10,9 @@ use crate::stage::*;
 /// A scene as full and as extreme as a document may be.
 fn crowded() -> Scene {
     let mut scene = Scene::default();
-    scene.fractal.power = 16.0;
+    scene.fractal.set("power", 16.0);
     scene.fractal.bailout = scene.fractal.max_bailout();
-    scene.fractal.julia = true;
+    scene.fractal.set("julia", true);
     scene.lights.environment = vec![
         EnvironmentLight {
             intensity: param::ENVIRONMENT_INTENSITY.max,

@@ -3,8 +3,13 @@
 
 use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
-    fractal::{DistanceField, Estimator, PLAIN_FOOTPRINT, camera_ray, pixel_cone},
-    scene::{Camera, Fractal, PrecisePoint},
+    formula::{
+        DistanceField,
+        mandelbulb::{Mandelbulb, estimator::Estimator},
+        march::PLAIN_FOOTPRINT,
+    },
+    fractal::{camera_ray, pixel_cone},
+    scene::{Camera, PrecisePoint},
     ui::navigation::{
         FlyInput, MAX_EYE_DISTANCE, Navigator, Viewport, World, collide,
         flight::{FLIGHT_SECS, MAX_ZOOM_PER_SEC},
@@ -42,7 +47,7 @@ fn world(field: &dyn DistanceField) -> World<'_> {
 }
 
 fn bulb() -> Estimator {
-    Estimator::new(&Fractal::default())
+    Estimator::new(&Mandelbulb::default())
 }
 
 /// Where `point` appears, in pixels from the picture's centre.
@@ -210,7 +215,7 @@ fn assert_free(field: &impl DistanceField, before: DVec3, camera: &Camera, what:
 #[test]
 fn no_flight_of_keys_enters_the_surface() {
     let mut random = random();
-    for fractal in [Fractal::default(), Fractal { power: 3.0, ..Fractal::default() }] {
+    for fractal in [Mandelbulb::default(), Mandelbulb { power: 3.0, ..Mandelbulb::default() }] {
         let field = Estimator::new(&fractal);
         let (mut camera, mut navigator) = (Camera::default(), Navigator::default());
         let (mut input, mut closest) = (FlyInput::default(), f64::INFINITY);

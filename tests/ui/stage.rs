@@ -39,7 +39,6 @@ pub fn stage(
         anchor_ms: 0.0,
         frame_interval_secs: 0.2,
         frame_ms: 7.0,
-        reference: None,
         pictures: 9,
         memory: Default::default(),
         histogram: None,

@@ -20,7 +20,7 @@ fn open() -> Settings {
 fn project() -> Project {
     let key = |time_secs: f64, power: f64, x: f64| {
         let mut scene = Scene::default();
-        scene.fractal.power = power;
+        scene.fractal.set("power", power);
         scene.camera =
             Camera::looking_at(glam::DVec3::new(x, -2.5, 1.0), glam::DVec3::ZERO, glam::DVec3::Z);
         PathKey { time_secs, easing: Easing::Smooth, scene: scene.into() }
@@ -90,7 +90,7 @@ fn scrubbing_shows_every_moment_and_keeps_a_view_of_one_s_own() {
     drag(&mut harness, from, to, 10);
     let moment = path(&harness).at(1.5).unwrap();
     assert_eq!(*scene(&harness), moment, "the view is what the path has at 1.5 s");
-    assert!((5.0..8.0).contains(&moment.fractal.power));
+    assert!((5.0..8.0).contains(&moment.fractal.number("power").unwrap()));
     assert_eq!(path(&harness).keys, project().path.keys, "scrubbing changes no key");
     // Close to a key the playhead snaps to it.
     let near = ruler_at(&harness, 3.0) + vec2(3.0, 0.0);
@@ -158,15 +158,19 @@ fn keys_are_selected_eased_updated_and_deleted() {
     let mut harness = stage(project(), open(), [1280.0, 720.0]);
     harness.get_by_label("Key 2 at 3.00 s").click();
     harness.run();
-    assert_eq!(scene(&harness).fractal.power, 5.0);
+    assert_eq!(scene(&harness).fractal.number("power"), Some(5.0));
     press(&mut harness, "Easing: Hold");
     assert_eq!(path(&harness).keys[1].easing, Easing::Hold);
 
     slider(&harness, "Power").set_value_accesskit(9.0);
     harness.run();
-    assert_eq!(path(&harness).keys[1].scene.fractal.power, 5.0, "a key stays as it is");
+    assert_eq!(
+        path(&harness).keys[1].scene.fractal.number("power"),
+        Some(5.0),
+        "a key stays as it is"
+    );
     press(&mut harness, "Update key");
-    assert_eq!(path(&harness).keys[1].scene.fractal.power, 9.0);
+    assert_eq!(path(&harness).keys[1].scene.fractal.number("power"), Some(9.0));
 
     press(&mut harness, "Delete key");
     assert_eq!(times(&harness), [0.0, 6.0]);

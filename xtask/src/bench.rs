@@ -4,11 +4,11 @@ use anyhow::Result;
 
 use crate::{need, shell};
 
-/// Builds the benchmark and runs it with `options`; the option `--help` lists all options.
+/// Builds the benchmark and runs it with `options`, such as `--help`.
 ///
-/// The benchmark has the tests' profile and shares their compiled crates, because it measures work
-/// of the GPU. The option `--release` builds with the release profile, which takes minutes, and
-/// gives the start-up times of a released program.
+/// It uses the tests' profile and shares their build, because the measured work runs on the GPU.
+/// `--release` selects the release profile: the build takes minutes, and start-up times are then
+/// those of the released program.
 pub fn bench(options: &[String]) -> Result<()> {
     need::vulkan_driver()?;
     let (release, options): (Vec<_>, Vec<_>) =

@@ -4,7 +4,10 @@
 //! to that point is free of the set, so the eye can be at any distance.
 
 use glam::DVec3;
-use mandelight::scene::{Camera, EnvironmentLight, Fractal, Precise, PrecisePoint, Scene};
+use mandelight::{
+    formula::mandelbulb::Mandelbulb,
+    scene::{Camera, EnvironmentLight, Precise, PrecisePoint, Scene},
+};
 
 use super::super::{
     failure::Failure,
@@ -227,12 +230,13 @@ impl Place {
             },
             ..Default::default()
         };
-        scene.fractal = Fractal {
+        scene.fractal = Mandelbulb {
             power: self.power,
             julia: self.julia.is_some(),
-            julia_constant: self.julia.unwrap_or(scene.fractal.julia_constant),
-            ..scene.fractal
-        };
+            julia_constant: self.julia.unwrap_or(Mandelbulb::of(&scene.fractal).julia_constant),
+            ..Mandelbulb::of(&scene.fractal)
+        }
+        .into();
         Ok(sampled(with_lights(scene, sky().into_iter().map(reaching).collect()), 1))
     }
 }

@@ -10,6 +10,7 @@ use std::{
 
 use glam::{DQuat, DVec3};
 use mandelight::{
+    formula::mandelbulb::Mandelbulb,
     render::{Pace, Pipelines, Region, View},
     scene::Scene,
 };
@@ -130,7 +131,7 @@ pub fn move_light(scene: &mut Scene, sign: f64) {
 
 /// Raises the power a little.
 pub fn raise_power(scene: &mut Scene, sign: f64) {
-    scene.fractal.power += 0.01 * sign;
+    Mandelbulb::of(&scene.fractal).power += 0.01 * sign;
 }
 
 fn change_intensity(scene: &mut Scene, sign: f64) {

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
-    fractal::Estimator,
+    formula::mandelbulb::{Mandelbulb, estimator::Estimator},
     scene::Scene,
     ui::navigation::{Navigator, Viewport, World},
 };
@@ -172,7 +172,7 @@ fn play_part(part: &Part, start: &Scene) -> Vec<Scene> {
     let [width, height] = SIZE_PX.map(f64::from);
     let viewport =
         Viewport { aspect: width / height, height_px: height, detail: start.quality.detail };
-    let field = Estimator::new(&start.fractal);
+    let field = Estimator::new(&Mandelbulb::of(&start.fractal));
     let world = World { field: &field, viewport };
     let mut scene = start.clone();
     let mut navigator = Navigator::default();
@@ -200,8 +200,8 @@ fn play_part(part: &Part, start: &Scene) -> Vec<Scene> {
             }
             // Sliders round to the digits that they show.
             Hold::Power => {
-                scene.fractal.power =
-                    (100.0 * (start.fractal.power + 2.0 * offset.x)).round() * 0.01;
+                let power = Mandelbulb::of(&start.fractal).power + 2.0 * offset.x;
+                scene.fractal.set("power", (100.0 * power).round() * 0.01);
             }
             Hold::Exposure => {
                 scene.tone.exposure =

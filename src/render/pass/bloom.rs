@@ -1,42 +1,35 @@
-//! The light that blooms: what is above the threshold, brought to a mip level and blurred there.
+//! Bloom: reduces the light above the threshold to a mip level and blurs it there.
 
 use super::{blur, reduce};
-use crate::{
-    gpu::shader::Module,
-    render::{
-        frame::Recorder,
-        post::{FIRST_LEVEL, Kernel, Levels},
-        uniforms::Slice,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    pipeline_set,
+    post::{FIRST_LEVEL, Kernel, Levels},
+    recorder::{Display, Recorder},
+    uniforms::Slice,
+};
+
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "bloom",
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    set: &pipeline_set::POST,
+    modes: ONE_MODE,
+    record: Record::Display {
+        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.bloom,
+        record,
     },
-    shader_file,
-};
-use bytemuck::Zeroable;
-
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "bloom",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/post.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/luminance.wgsl"),
-        shader_file!("lib/mip.wgsl"),
-        shader_file!("lib/curve.wgsl"),
-        shader_file!("lib/exposure.wgsl"),
-        shader_file!("pass/bloom.wgsl"),
-    ],
 };
 
-/// Leaves the blurred light in the mip level that the statistics then name.
-pub fn record(recorder: &mut Recorder<'_>) {
+/// Leaves the blurred light in the mip level that the statistics name.
+pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
+    recorder.bind_post();
     let picture = &recorder.inputs.frame;
     let levels = Levels::of(picture);
     let passes = picture.bloom.passes;
     let kernel = Kernel::new(picture.bloom.radius, passes, levels);
-    let pipeline = recorder.pipelines.post().bloom.clone();
-    recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
+    let pipeline = recorder.pipeline(&PASS, 0);
+    recorder.dispatch(&pipeline, Slice::default(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, kernel.level);
     for _ in 0..passes {
         blur::record(recorder, kernel);

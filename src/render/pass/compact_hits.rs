@@ -1,30 +1,32 @@
 //! Queues the blocks of samples that have surface points.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace},
-    shader_file,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::Recorder,
+    schedule::{Stage, Trace},
 };
 
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "compact_hits",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/work_queues.wgsl"),
-        shader_file!("types/enqueue.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("pass/compact_hits.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "compact_hits",
+    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.enqueue],
+    set: &pipeline_set::ALWAYS,
+    modes: ONE_MODE,
+    record: Record::Trace {
+        when: |recorder, trace| {
+            trace.from <= Stage::Normal || trace.lights & recorder.inputs.casting() != 0
+        },
+        record,
+    },
 };
 
 /// Queues the surface points of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.pipelines.compact_hits();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let slice = recorder.slice(trace, grid);
     let work_queues = &recorder.targets.work_queues;
-    work_queues.clear_hits(&recorder.pipelines.gpu.queue);
+    work_queues.clear_hits(&recorder.layouts.gpu.queue);
     recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_hits, slice);
 }

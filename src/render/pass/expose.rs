@@ -1,30 +1,32 @@
 //! Auto exposure from the film's mean.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, post::Levels, uniforms::Slice},
-    shader_file,
-};
-use bytemuck::Zeroable;
-
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "expose",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/post.wgsl"),
-        shader_file!("lib/luminance.wgsl"),
-        shader_file!("lib/mip.wgsl"),
-        shader_file!("pass/expose.wgsl"),
-    ],
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    pipeline_set,
+    post::Levels,
+    recorder::{Display, Recorder},
+    uniforms::Slice,
 };
 
-/// Moves exposure by `adapt`, above 0 to 1, toward its goal; `mean_is_new` where the mip levels
-/// hold a mean that the statistics do not.
-pub fn record(recorder: &mut Recorder<'_>, mean_is_new: bool, adapt: f32) {
-    let pipeline = recorder.pipelines.post().expose.clone();
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "expose",
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    set: &pipeline_set::POST,
+    modes: ONE_MODE,
+    record: Record::Display {
+        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.adapt.is_some(),
+        record,
+    },
+};
+
+/// Moves exposure toward its goal.
+pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
+    let Some(adapt) = recorder.tasks.adapt else { return };
+    recorder.bind_post();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let last = Levels::of(&recorder.inputs.frame).last();
-    let mip_level = if mean_is_new { last } else { 0 };
-    recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::zeroed() }, 1);
+    // Without a new mean, the pass uses the mean in the statistics: level 0.
+    let mip_level = if recorder.tasks.mean { last } else { 0 };
+    recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::default() }, 1);
 }

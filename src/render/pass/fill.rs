@@ -1,29 +1,28 @@
 //! Fills the film between the pixels of a sparse lattice, along edges.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid},
-    shader_file,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::{Display, Recorder},
 };
 
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "fill",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/eye.wgsl"),
-        shader_file!("lib/luminance.wgsl"),
-        shader_file!("pass/fill.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "fill",
+    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.film],
+    set: &pipeline_set::ALWAYS,
+    modes: ONE_MODE,
+    record: Record::Display {
+        when: |recorder, display| recorder.upsample_level.is_none() && display.fill,
+        record,
+    },
 };
 
-/// Fills every level below `level`, the coarsest first: each reads what the one before wrote.
-pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.pipelines.fill();
-    for finer in (0..level).rev() {
+/// Fills every level below that of `display`, coarsest first: each level reads the one before.
+pub fn record(recorder: &mut Recorder<'_>, display: &Display) {
+    let pipeline = recorder.pipeline(&PASS, 0);
+    for finer in (0..display.level).rev() {
         let grid = Grid::added(finer, recorder.inputs.frame.size_px);
         if grid.workgroups() > 0 {
             recorder.dispatch_grid(&pipeline, &grid, 1 << (finer / 2));

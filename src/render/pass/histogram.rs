@@ -1,43 +1,37 @@
 //! The film's histogram.
 
-use crate::{
-    gpu::shader::Module,
-    render::{
-        frame::Recorder,
-        post::{FIRST_LEVEL, Levels},
-        uniforms::{Slice, Statistics},
-    },
-    shader_file,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    pipeline_set,
+    post::{FIRST_LEVEL, Levels},
+    recorder::{Display, Recorder},
+    uniforms::{Slice, Statistics},
 };
-use bytemuck::Zeroable;
 
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "histogram",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/post.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/luminance.wgsl"),
-        shader_file!("lib/mip.wgsl"),
-        shader_file!("pass/histogram.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "histogram",
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    set: &pipeline_set::POST,
+    modes: ONE_MODE,
+    record: Record::Display {
+        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.histogram,
+        record,
+    },
 };
 
 /// Counts the film's pixels by luminance.
-pub fn record(recorder: &mut Recorder<'_>) {
+pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
+    recorder.bind_post();
     // Writes take effect with the submit, before its passes.
-    let first_bin = std::mem::offset_of!(Statistics, bins) as u64;
-    let zeros = Statistics::zeroed().bins;
-    recorder.pipelines.gpu.queue.write_buffer(
+    let (_, first_bin, bytes) = Statistics::LAYOUT[Statistics::LAYOUT.len() - 1];
+    recorder.layouts.gpu.queue.write_buffer(
         &recorder.post.statistics,
-        first_bin,
-        bytemuck::bytes_of(&zeros),
+        first_bin as u64,
+        &vec![0; bytes],
     );
-    let pipeline = recorder.pipelines.post().histogram.clone();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let workgroups = Levels::of(&recorder.inputs.frame).workgroups(FIRST_LEVEL);
-    recorder.dispatch(&pipeline, Slice::zeroed(), workgroups);
+    recorder.dispatch(&pipeline, Slice::default(), workgroups);
     recorder.dispatches.histogram += 1;
 }

@@ -1,42 +1,30 @@
-//! Indirect light from what is around each sample on the screen, with its direct light, onto the
-//! film. Marches nothing.
+//! Adds indirect light from each sample's neighbours to its direct light, on the film.
+//!
+//! Marches no rays.
 
-use crate::{
-    gpu::shader::Module,
-    render::{
-        frame::Recorder,
-        lattice::Grid,
-        schedule::{Points, Trace},
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::Recorder,
+    schedule::{Points, Stage, Trace},
+};
+
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "indirect",
+    groups: |layouts| vec![&layouts.frame, &layouts.samples, &layouts.film, &layouts.indirect],
+    set: &pipeline_set::INDIRECT,
+    modes: ONE_MODE,
+    record: Record::Trace {
+        when: |recorder, trace| trace.from == Stage::Indirect || recorder.is_lit_together(trace),
+        record,
     },
-    shader_file,
 };
 
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "indirect",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/light.wgsl"),
-        shader_file!("types/sample.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("types/direct.wgsl"),
-        shader_file!("types/indirect.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/eye.wgsl"),
-        shader_file!("lib/camera.wgsl"),
-        shader_file!("lib/octahedral.wgsl"),
-        shader_file!("lib/shared_exponent.wgsl"),
-        shader_file!("lib/noise.wgsl"),
-        shader_file!("lib/environment_map.wgsl"),
-        shader_file!("lib/shading.wgsl"),
-        shader_file!("pass/indirect.wgsl"),
-    ],
-};
-
-/// Gathers light for the samples of `trace`.
+/// Computes the light of the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.pipelines.indirect().clone();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let mut slice = recorder.slice(trace, grid);
     if let Points::Indirect(level) = trace.points {
         slice.neighbour_level = level;

@@ -1,37 +1,26 @@
-//! Camera rays to surface points: writes depth and colour data of each sample.
+//! Marches camera rays to surface points: writes depth and colour data of each sample.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace, work_queues::Queue},
-    shader_file,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::Recorder,
+    schedule::{Stage, Trace},
+    work_queues::Queue,
 };
 
-/// The pass's shader; `POWER`, `DEEP` and `ROTATING_FRAME` specialise it.
-pub const MODULE: Module = Module {
-    label: "march",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/work_queues.wgsl"),
-        shader_file!("lib/numeric.wgsl"),
-        shader_file!("lib/complex.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/eye.wgsl"),
-        shader_file!("lib/camera.wgsl"),
-        shader_file!("lib/sphere.wgsl"),
-        shader_file!("formula/deep.wgsl"),
-        shader_file!("formula/rotating_frame.wgsl"),
-        shader_file!("formula/mandelbulb.wgsl"),
-        shader_file!("lib/estimate_next.wgsl"),
-        shader_file!("lib/over_relaxation.wgsl"),
-        shader_file!("pass/march.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "march",
+    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.dequeue],
+    set: &pipeline_set::RAYS,
+    modes: ONE_MODE,
+    record: Record::Trace { when: |_, trace| trace.from <= Stage::March, record },
 };
 
 /// Marches the rays of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.passes.march.clone();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let slice = recorder.slice(trace, grid);
     recorder.dispatch_queue(
         &pipeline,

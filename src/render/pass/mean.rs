@@ -1,37 +1,32 @@
-//! The film's mean colour and its mean logarithm of luminance, by mip levels.
+//! The film's mean colour and mean log luminance, by mip levels.
 
 use super::reduce;
-use crate::{
-    gpu::shader::Module,
-    render::{
-        frame::Recorder,
-        post::{FIRST_LEVEL, Levels},
-        uniforms::Slice,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    pipeline_set,
+    post::{FIRST_LEVEL, Levels},
+    recorder::{Display, Recorder},
+    uniforms::Slice,
+};
+
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "mean",
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    set: &pipeline_set::POST,
+    modes: ONE_MODE,
+    record: Record::Display {
+        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.mean,
+        record,
     },
-    shader_file,
-};
-use bytemuck::Zeroable;
-
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "mean",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/post.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/luminance.wgsl"),
-        shader_file!("lib/mip.wgsl"),
-        shader_file!("pass/mean.wgsl"),
-    ],
 };
 
-/// Makes all mip levels of the film, down to one element.
-pub fn record(recorder: &mut Recorder<'_>) {
+/// Computes all mip levels of the film, down to one element per eye.
+pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
+    recorder.bind_post();
     let levels = Levels::of(&recorder.inputs.frame);
-    let pipeline = recorder.pipelines.post().mean.clone();
-    recorder.dispatch(&pipeline, Slice::zeroed(), levels.workgroups(FIRST_LEVEL));
+    let pipeline = recorder.pipeline(&PASS, 0);
+    recorder.dispatch(&pipeline, Slice::default(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, levels.last());
     recorder.dispatches.mean += 1;
 }

@@ -1,7 +1,7 @@
-//! One pass a file, with the stem of its shader in `shaders/pass/`: which files its module is
-//! joined from, and how it is dispatched.
-
-use crate::gpu::shader::Module;
+//! One file per pass, named like its shader in `shaders/pass/`.
+//!
+//! Each file declares what the pass binds, when a frame has the pass, and how it is dispatched. To add a
+//! pass, add its two files and its line in [`PASSES`].
 
 pub mod bloom;
 pub mod blur;
@@ -22,24 +22,29 @@ pub mod tone;
 pub mod tonemap_sparse;
 pub mod upsample;
 
-/// Every shader module of the program.
-pub const MODULES: &[&Module] = &[
-    &camera_cone::MODULE,
-    &march::MODULE,
-    &compact_hits::MODULE,
-    &normal::MODULE,
-    &shadow_cone::MODULE,
-    &shadow::MODULE,
-    &shade::MODULE,
-    &indirect::MODULE,
-    &fill::MODULE,
-    &tonemap_sparse::MODULE,
-    &upsample::MODULE,
-    &mean::MODULE,
-    &reduce::MODULE,
-    &expose::MODULE,
-    &histogram::MODULE,
-    &bloom::MODULE,
-    &blur::MODULE,
-    &tone::MODULE,
+pub use super::recorder::{ONE_MODE, Pass, Record};
+
+/// Every pass, in the order in which a frame has them.
+pub const PASSES: &[&Pass] = &[
+    // Sample points: rays to the surface, normals, shadows, light.
+    &camera_cone::PASS,
+    &march::PASS,
+    &compact_hits::PASS,
+    &normal::PASS,
+    &shadow_cone::PASS,
+    &shadow::PASS,
+    &shade::PASS,
+    &indirect::PASS,
+    // A display picture of a sparse lattice's samples alone.
+    &tonemap_sparse::PASS,
+    &upsample::PASS,
+    // A display picture of the film.
+    &fill::PASS,
+    &mean::PASS,
+    &reduce::PASS,
+    &histogram::PASS,
+    &expose::PASS,
+    &bloom::PASS,
+    &blur::PASS,
+    &tone::PASS,
 ];

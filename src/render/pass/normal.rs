@@ -1,35 +1,26 @@
-//! Surface points to normals: reads each sample's depth, writes its normal.
+//! Computes normals: reads each sample's depth, writes its normal.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace, work_queues::Queue},
-    shader_file,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::Recorder,
+    schedule::{Stage, Trace},
+    work_queues::Queue,
 };
 
-/// The pass's shader; `POWER`, `DEEP`, `ROTATING_FRAME` and `NORMALS` specialise it.
-pub const MODULE: Module = Module {
-    label: "normal",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/work_queues.wgsl"),
-        shader_file!("lib/numeric.wgsl"),
-        shader_file!("lib/complex.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/eye.wgsl"),
-        shader_file!("lib/camera.wgsl"),
-        shader_file!("lib/octahedral.wgsl"),
-        shader_file!("formula/deep.wgsl"),
-        shader_file!("formula/rotating_frame.wgsl"),
-        shader_file!("formula/mandelbulb.wgsl"),
-        shader_file!("pass/normal.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "normal",
+    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.dequeue],
+    set: &pipeline_set::NORMALS,
+    modes: ONE_MODE,
+    record: Record::Trace { when: |_, trace| trace.from <= Stage::Normal, record },
 };
 
-/// Finds the normals of `trace`.
+/// Computes the normals of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let pipeline = recorder.passes.normal.clone();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let slice = recorder.slice(trace, grid);
     recorder.dispatch_queue(
         &pipeline,

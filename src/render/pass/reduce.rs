@@ -1,34 +1,28 @@
-//! Mip levels from the finest one.
+//! Computes mip levels from the finest level.
 
-use crate::{
-    gpu::shader::Module,
-    render::{
-        frame::Recorder,
-        post::{FIRST_LEVEL, Levels},
-        uniforms::Slice,
-    },
-    shader_file,
-};
-use bytemuck::Zeroable;
-
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "reduce",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/post.wgsl"),
-        shader_file!("lib/mip.wgsl"),
-        shader_file!("pass/reduce.wgsl"),
-    ],
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    pipeline_set,
+    post::{FIRST_LEVEL, Levels},
+    recorder::Recorder,
+    uniforms::Slice,
 };
 
-/// Makes every level up to `last`.
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "reduce",
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    set: &pipeline_set::POST,
+    modes: ONE_MODE,
+    record: Record::Within,
+};
+
+/// Computes every level up to `last`.
 pub fn record(recorder: &mut Recorder<'_>, last: u32) {
-    let pipeline = recorder.pipelines.post().reduce.clone();
+    let pipeline = recorder.pipeline(&PASS, 0);
     for level in FIRST_LEVEL..last {
         let workgroups = Levels::of(&recorder.inputs.frame).workgroups(level + 1);
-        let slice = Slice { mip_level: level, ..Slice::zeroed() };
+        let slice = Slice { mip_level: level, ..Slice::default() };
         recorder.dispatch(&pipeline, slice, workgroups);
     }
 }

@@ -1,38 +1,34 @@
-//! Light and colour of each sample, onto the film, or to where indirect light is made of it.
-//! Marches nothing.
+//! Light and colour of each sample: to the film, or to `direct` as the source of indirect light.
+//!
+//! Marches no rays.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, schedule::Trace},
-    shader_file,
+use crate::render::recorder::{Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::Recorder,
+    schedule::{Stage, Trace},
 };
 
-/// The pass's shader; `HAS_ENVIRONMENT_MAP` and `SINGLE` specialise it.
-pub const MODULE: Module = Module {
-    label: "shade",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/light.wgsl"),
-        shader_file!("types/gbuffer.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("types/direct.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/eye.wgsl"),
-        shader_file!("lib/camera.wgsl"),
-        shader_file!("lib/octahedral.wgsl"),
-        shader_file!("lib/shared_exponent.wgsl"),
-        shader_file!("lib/environment_map.wgsl"),
-        shader_file!("lib/shading.wgsl"),
-        shader_file!("pass/shade.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "shade",
+    groups: |layouts| {
+        vec![&layouts.frame, &layouts.gbuffer, &layouts.film, &layouts.environment_texture]
+    },
+    set: &pipeline_set::SHADE,
+    modes: &[&[("SINGLE", 1)], &[("SINGLE", 0)]],
+    record: Record::Trace {
+        when: |recorder, trace| trace.from <= Stage::Shade && !recorder.is_lit_together(trace),
+        record,
+    },
 };
 
 /// Shades the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let slice = recorder.slice(trace, grid);
-    let passes = recorder.passes;
-    let pipeline = if slice.samples == 1 { &passes.shade } else { &passes.shade_together }.clone();
+    // The first mode is for single samples, the second for several samples of a pixel.
+    let pipeline = recorder.pipeline(&PASS, usize::from(slice.samples != 1));
     recorder.bind_film();
     recorder.bind_environment();
     recorder.dispatch_pixels(&pipeline, slice);

@@ -1,37 +1,29 @@
 //! Film to display: exposure, tone curve, bloom, sRGB, dither.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid, uniforms::Slice},
-    shader_file,
+use crate::render::recorder::{Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::{Display, Recorder},
+    uniforms::Slice,
 };
 
-/// The pass's shader; `CURVE`, `BLOOM`, `ANAGLYPH` and `SPARSE` specialise it.
-pub const MODULE: Module = Module {
-    label: "tone",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/post.wgsl"),
-        shader_file!("types/film.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/eye.wgsl"),
-        shader_file!("lib/luminance.wgsl"),
-        shader_file!("lib/mip.wgsl"),
-        shader_file!("lib/curve.wgsl"),
-        shader_file!("lib/exposure.wgsl"),
-        shader_file!("lib/noise.wgsl"),
-        shader_file!("lib/srgb.wgsl"),
-        shader_file!("pass/tone.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "tone",
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    set: &pipeline_set::TONE,
+    modes: &[&[("SPARSE", 0)], &[("SPARSE", 1)]],
+    record: Record::Display { when: |recorder, _| recorder.upsample_level.is_none(), record },
 };
 
-/// Makes the whole region's display picture of a film whose finest complete lattice is `level`.
-pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let passes = recorder.passes;
-    let pipeline = if level == 0 { &passes.tone } else { &passes.sparse_tone };
+/// Tone maps the film of the whole region to the display picture.
+pub fn record(recorder: &mut Recorder<'_>, &Display { level, .. }: &Display) {
+    // The first mode is for a complete film, the second for a sparse lattice.
+    let pipeline = recorder.pipeline(&PASS, usize::from(level != 0));
+    recorder.bind_post();
     let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
     let whole = Grid::level(0, recorder.inputs.frame.size_px);
-    recorder.dispatch_plane(pipeline, Slice { spacing, ..whole.slice(0) });
+    recorder.dispatch_plane(&pipeline, Slice { spacing, ..whole.slice(0) });
     recorder.dispatches.tone += 1;
 }

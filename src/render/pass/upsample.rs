@@ -1,28 +1,26 @@
-//! Developed samples of a sparse lattice to the display picture.
+//! Upsamples the tone-mapped samples of a sparse lattice to the display picture.
 
-use crate::{
-    gpu::shader::Module,
-    render::{frame::Recorder, lattice::Grid},
-    shader_file,
+use crate::render::recorder::{ONE_MODE, Pass, Record};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::{Display, Recorder},
 };
 
-/// The pass's shader.
-pub const MODULE: Module = Module {
-    label: "upsample",
-    files: &[
-        shader_file!("types/frame_uniforms.wgsl"),
-        shader_file!("types/slice.wgsl"),
-        shader_file!("types/tonemap_sparse.wgsl"),
-        shader_file!("lib/lattice.wgsl"),
-        shader_file!("lib/noise.wgsl"),
-        shader_file!("lib/srgb.wgsl"),
-        shader_file!("pass/upsample.wgsl"),
-    ],
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "upsample",
+    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.film],
+    set: &pipeline_set::ALWAYS,
+    modes: ONE_MODE,
+    record: Record::Display { when: |recorder, _| recorder.upsample_level.is_some(), record },
 };
 
-/// Makes the whole region's display picture of a lattice level that has been developed.
-pub fn record(recorder: &mut Recorder<'_>, level: u32) {
-    let pipeline = recorder.pipelines.upsample();
+/// Makes the whole region's display picture from a tone-mapped lattice level.
+pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
+    let Some(level) = recorder.upsample_level else { return };
+    recorder.bind_jittered();
+    let pipeline = recorder.pipeline(&PASS, 0);
     let slice = Grid::level(level, recorder.inputs.frame.size_px).slice(0);
     recorder.dispatch_plane(&pipeline, slice);
     recorder.dispatches.fill += 1;

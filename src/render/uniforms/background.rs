@@ -1,11 +1,11 @@
-//! What lies behind the fractal, as the shaders see it.
+//! The uniforms of the background.
 
 use glam::{DQuat, DVec3};
 
 use super::Background;
 use crate::scene::{BackgroundKind, EnvironmentMap, LightFrame, Scene};
 
-/// The scene's background: the gradient until [`shown`] says that the picture is at hand.
+/// The scene's background: the gradient, until [`shown`] finds the environment map.
 pub fn background(scene: &Scene) -> Background {
     let rig = &scene.lights.rig;
     let frame = match rig.frame {
@@ -16,7 +16,7 @@ pub fn background(scene: &Scene) -> Background {
         BackgroundKind::Picture => {
             frame * DQuat::from_rotation_z(rig.picture.rotation_deg.to_radians())
         }
-        // How a picture that is not shown would lie is no reason to shade again.
+        // The orientation of a picture that is not shown must not make the shading stale.
         BackgroundKind::Gradient => DQuat::IDENTITY,
     };
     let axis = |axis: DVec3| (world_from_picture * axis).as_vec3().to_array();
@@ -27,14 +27,11 @@ pub fn background(scene: &Scene) -> Background {
         picture_x: axis(DVec3::X),
         picture_gain: 0.0,
         picture_y: axis(DVec3::Y),
-        unused_a: 0,
         picture_z: axis(DVec3::Z),
-        unused_b: 0,
     }
 }
 
-/// The environment map, where the scene shows it and `at_hand` is the one that it
-/// names.
+/// The environment map, if the scene shows the map and `at_hand` is that map.
 pub fn shown<'a>(scene: &Scene, at_hand: Option<&'a EnvironmentMap>) -> Option<&'a EnvironmentMap> {
     let name = &scene.lights.rig.picture.name;
     let is_wanted =

@@ -1,20 +1,22 @@
-//! A scene's lights as the shaders see them, and which of them shine.
+//! The uniforms of a scene's lights, and their visibility bits.
 
-use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 
-use super::Light;
+use super::shared::Light;
 use crate::{
     render::space::RenderSpace,
     scene::{LightFrame, MAX_LIGHTS, Scene},
 };
 
-/// So many views away a point light is as good as one from its direction: across the view its own
-/// changes by less than a pixel, and its strength by less than a display shows.
+/// Distance in view units beyond which a point light is treated as a directional light.
+///
+/// Across the view its direction then changes by less than a pixel, and its strength by less than a
+/// display resolves.
 const FAR_VIEWS: f64 = 1e6;
 
-/// The scene's lights: environment, then point lights, then the rig's, each with the visibility bit
-/// of its place. Muted ones stay, in black.
+/// The scene's lights: environment lights, then point lights, then the rig's.
+///
+/// Each light's visibility bit is its index. Muted lights stay, in black.
 pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     let any_solo = scene.lights.any_solo();
     let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
@@ -40,14 +42,14 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             color: radiance,
             casts_shadows: casts(light.casts_shadows),
             shadow_reach: light.shadow_reach.map_or(1e30, |reach| (reach * view_unit) as f32),
-            ..Light::zeroed()
+            ..Light::default()
         }
     });
     let point = scene.lights.point.iter().map(|light| {
         let place = space.point(&light.position);
         let way = place - space.point(&scene.camera.position);
         let casts_shadows = casts(light.casts_shadows);
-        // In scene units the square of a distance may be past what an f32 holds.
+        // In scene units the square of a distance may overflow an f32.
         let (vector, kind, falls) = if way.length() > FAR_VIEWS {
             (way.normalize_or(DVec3::Z), 0, way.length_squared())
         } else {
@@ -60,7 +62,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             color: color(light.color, strength.min(1e30), light.muted, light.solo),
             casts_shadows,
             shadow_reach: if kind == 0 { way.length().min(1e30) as f32 } else { 1e30 },
-            ..Light::zeroed()
+            ..Light::default()
         }
     });
     let rig = &scene.lights.rig;
@@ -72,10 +74,10 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             color: radiance,
             casts_shadows: casts(rig.casts_shadows),
             shadow_reach: rig.shadow_reach.map_or(1e30, |reach| (reach * view_unit) as f32),
-            ..Light::zeroed()
+            ..Light::default()
         }
     });
-    let mut table = [Light::zeroed(); MAX_LIGHTS];
+    let mut table = [Light::default(); MAX_LIGHTS];
     let all = environment.chain(point).chain(rig_lights);
     for (bit, (slot, light)) in (0..).zip(table.iter_mut().zip(all)) {
         *slot = Light { bit, ..light };
@@ -83,7 +85,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     table
 }
 
-/// The visibility bits of the lights that shine: only they need any.
+/// The visibility bits of the lights that shine; other lights need none.
 pub fn shining(lights: &[Light]) -> u64 {
     bits(lights.iter().filter(|light| light.color != [0.0; 3]))
 }
@@ -97,8 +99,9 @@ fn bits<'a>(lights: impl Iterator<Item = &'a Light>) -> u64 {
     lights.fold(0, |bits, light| bits | 1 << light.bit)
 }
 
-/// Gives each light the visibility bit of an old one whose rays are its own, as far as there are
-/// such; the others get bits that are free. So no bit is lost where lights come, go or change places.
+/// Gives lights the visibility bits of old lights with the same rays, else free bits.
+///
+/// So bits stay valid when lights are added, removed or reordered.
 pub fn keep_bits(lights: &mut [Light], old: &[Light]) {
     let mut taken = 0_u64;
     let mut strangers = Vec::new();
@@ -113,13 +116,13 @@ pub fn keep_bits(lights: &mut [Light], old: &[Light]) {
         }
     }
     for light in strangers {
-        // There are as many bits as lights at most.
+        // There are at least as many bits as lights.
         light.bit = taken.trailing_ones();
         taken |= 1 << light.bit;
     }
 }
 
-/// The visibility bits of the lights whose rays no old light with the same bit had.
+/// The visibility bits of the lights that no old light matches in bit and rays.
 pub fn moved(lights: &[Light], old: &[Light]) -> u64 {
     let stayed = |light: &Light| {
         old.iter().any(|other| other.bit == light.bit && has_same_rays(light, other))
@@ -127,7 +130,7 @@ pub fn moved(lights: &[Light], old: &[Light]) -> u64 {
     bits(lights.iter().filter(|light| !stayed(light)))
 }
 
-/// Whether rays toward both lights are the same: colour has no part in it.
+/// Whether rays toward both lights are the same, for any colour.
 fn has_same_rays(a: &Light, b: &Light) -> bool {
     let rays = |light: &Light| Light { color: [0.0; 3], bit: 0, ..*light };
     rays(a) == rays(b)
@@ -138,15 +141,15 @@ mod tests {
     use super::*;
 
     fn light(x: f32, bit: u32) -> Light {
-        Light { vector: [x, 0.0, 1.0], color: [1.0; 3], bit, ..Light::zeroed() }
+        Light { vector: [x, 0.0, 1.0], color: [1.0; 3], bit, ..Light::default() }
     }
 
-    /// Lights at these places with the bits of their places in the list.
+    /// Lights at these positions, with the bits of their indices.
     fn list(places: &[f32]) -> Vec<Light> {
         (0..).zip(places).map(|(bit, x)| light(*x, bit)).collect()
     }
 
-    /// The bits that a new list gets, and which of them moved.
+    /// The bits of a new list, and which of them moved.
     fn follow(places: &[f32], old: &[Light]) -> (Vec<u32>, u64) {
         let mut new = list(places);
         keep_bits(&mut new, old);
@@ -157,12 +160,12 @@ mod tests {
     fn lights_keep_their_bits() {
         let old = list(&[1.0, 2.0, 3.0]);
         assert_eq!(follow(&[1.0, 2.0, 3.0], &old), (vec![0, 1, 2], 0));
-        // One is moved, removed, added in front of the others, or two change places.
+        // A light is moved, removed, added in front of the others, or two lights change places.
         assert_eq!(follow(&[1.0, 9.0, 3.0], &old), (vec![0, 1, 2], 0b010));
         assert_eq!(follow(&[2.0, 3.0], &old), (vec![1, 2], 0));
         assert_eq!(follow(&[9.0, 1.0, 2.0, 3.0], &old), (vec![3, 0, 1, 2], 0b1000));
         assert_eq!(follow(&[3.0, 2.0, 1.0], &old), (vec![2, 1, 0], 0));
-        // A second one at the same place has a bit of its own.
+        // A second light at the same position gets its own bit.
         assert_eq!(follow(&[2.0, 2.0], &old), (vec![1, 0], 0b01));
         assert_eq!(follow(&[], &old), (vec![], 0));
     }

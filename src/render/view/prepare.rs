@@ -1,22 +1,25 @@
-//! Which pipelines a view lacks, and when it sees to them.
+//! Finds the pipelines that a view lacks, and decides when to prepare them.
 
 use super::View;
 use crate::{
+    formula::Kernel,
     render::{
         Pace,
-        pipelines::{Depth, PipelineKey, PipelineVariant},
+        pipeline_set::{self, INDIRECT, NORMALS, POST, RAYS},
+        pipelines::{PipelineSet, PipelineVariant},
         post::Need,
         preparation::{Preparation, Progress},
     },
     scene::{IndirectKind, Scene},
 };
 
-/// Nothing has changed for so long where a view is at rest, seconds.
+/// Time without changes after which a view is at rest, in seconds.
 const REST_SECS: f64 = 0.3;
 
 impl View {
-    /// Sees to it that pipelines are there before anything needs them: for a still at once,
-    /// otherwise after saying so. True while nothing else should start.
+    /// Prepares missing pipelines: for a still at once, otherwise after announcing them.
+    ///
+    /// Returns true while no other work should start.
     pub(super) fn prepare(&mut self) -> bool {
         if self.pace == Pace::Still {
             self.pipelines.prepare_together(&self.of_still());
@@ -26,11 +29,11 @@ impl View {
             let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return false };
             let inputs = self.inputs_of(scene);
             let preparation = match self.preparation.take() {
-                Some(preparation) if preparation.variant() == variant => preparation,
-                _ => Preparation::announce(variant, self.now_secs),
+                Some(preparation) if *preparation.variant() == variant => preparation,
+                _ => Preparation::announce(variant, self.times.now_secs),
             };
             let preparation = self.preparation.insert(preparation);
-            match preparation.step(&self.pipelines, &self.targets, &inputs, self.now_secs) {
+            match preparation.step(&self.pipelines, &self.targets, &inputs, self.times.now_secs) {
                 Progress::Ready => {}
                 Progress::Background => return is_awaited,
                 Progress::Foreground => return true,
@@ -40,77 +43,82 @@ impl View {
         false
     }
 
-    /// All pipelines beside the general forms that a still needs.
+    /// All variants that a still needs.
     fn of_still(&self) -> Vec<PipelineVariant> {
         let Some(scene) = self.pending.as_ref().or(self.scene.as_ref()) else { return Vec::new() };
-        let behind_shading = self.behind_shading(scene).into_iter().flatten();
-        self.special(scene).into_iter().chain(behind_shading).collect()
+        let always = self.needed(&pipeline_set::ALWAYS);
+        self.specialized(scene)
+            .into_iter()
+            .chain([always])
+            .chain(self.behind_shading(scene))
+            .collect()
     }
 
-    /// The special forms of the passes that draw a scene.
-    fn special(&self, scene: &Scene) -> [PipelineVariant; 4] {
+    /// The special variants for a scene.
+    fn specialized(&self, scene: &Scene) -> Vec<PipelineVariant> {
         match &self.inputs {
-            Some(inputs) if self.pending.is_none() => PipelineVariant::special(&inputs.frame),
-            _ => PipelineVariant::special(&self.inputs_of(scene).frame),
+            Some(inputs) if self.pending.is_none() => pipeline_set::specialized(inputs),
+            _ => pipeline_set::specialized(&self.inputs_of(scene)),
         }
     }
 
-    /// What a scene needs of indirect light and of the passes over the whole film.
-    fn behind_shading(&self, scene: &Scene) -> [Option<PipelineVariant>; 2] {
+    /// The variants that a scene needs for indirect light and for post passes.
+    fn behind_shading(&self, scene: &Scene) -> Vec<PipelineVariant> {
         let has_indirect = scene.indirect.kind != IndirectKind::Off;
-        let has_post = self.lent_post.is_none() && !Need::of_scene(scene).is_none();
-        [
-            has_indirect.then_some(PipelineVariant::Indirect),
-            (has_post || self.histogram_readback.is_wanted()).then_some(PipelineVariant::Post),
-        ]
+        let has_post = self.lent.post.is_none() && !Need::of_scene(scene).is_none()
+            || self.histogram_readback.is_wanted();
+        let sets = [has_indirect.then_some(&INDIRECT), has_post.then_some(&POST)];
+        sets.into_iter().flatten().map(|set| self.needed(set)).collect()
     }
 
-    /// The pipelines that are to be prepared now, if any, and whether the scene cannot be drawn
-    /// without them.
+    /// The general variant of a set without kernels.
+    fn needed(&self, set: &'static PipelineSet) -> PipelineVariant {
+        PipelineVariant { set, kernel: None, constants: Vec::new() }
+    }
+
+    /// The next variant to prepare, and whether the scene cannot be drawn without it.
     fn missing(&self) -> Option<(PipelineVariant, bool)> {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
-        // There is no general form of what is drawn from an anchor.
-        let deep = self.inputs.as_ref().filter(|inputs| inputs.frame.fractal.reference_points > 0);
-        let [rays, normals, ..] = match deep {
-            Some(inputs) => PipelineVariant::special(&inputs.frame).map(Some),
-            None => [None; 4],
-        };
-        let awaited = [rays, normals].into_iter().chain(self.behind_shading(scene));
-        // General forms do as well until there are special ones. A finished picture leaves time
-        // for what may come, where that holds nothing up.
+        let rays = self
+            .inputs
+            .iter()
+            .flat_map(|inputs| [&RAYS, &NORMALS].map(|set| PipelineVariant::of(set, inputs)));
+        // A general variant draws until the special variant is ready; deep views have no general variant.
+        let drawn_by = rays.map(|special| special.general().unwrap_or(special));
+        let awaited: Vec<_> = drawn_by.chain(self.behind_shading(scene)).collect();
+        // A finished picture leaves time for later needs, if asynchronous compilation blocks nothing.
         let is_free = self.pipelines.gpu.async_compile.is_some()
             && self.pace == Pace::Interactive
             && self.is_at_rest()
-            && self.schedule.status(self.now_secs).idle;
-        let others = [
-            self.special_to_prepare(scene),
-            is_free.then_some(PipelineVariant::Indirect),
-            is_free.then_some(PipelineVariant::Post),
-        ];
-        let dive = if is_free { self.of_dive() } else { Vec::new() };
-        let others = others.into_iter().chain(dive.into_iter().map(Some));
-        let awaited = awaited.map(|variant| (variant, true));
-        let all = awaited.chain(others.map(|variant| (variant, false)));
-        all.filter_map(|(variant, is_awaited)| Some((variant?, is_awaited)))
-            .find(|(variant, _)| !self.pipelines.is_ready(*variant))
+            && self.schedule.status(self.times.now_secs).idle;
+        let others = self.special_to_prepare(scene).into_iter();
+        let later = if is_free { self.of_later() } else { Vec::new() };
+        let awaited = awaited.into_iter().map(|variant| (variant, true));
+        let all = awaited.chain(others.chain(later).map(|variant| (variant, false)));
+        let mut missing = all.filter(|(variant, _)| !self.pipelines.is_ready(variant));
+        missing.next()
     }
 
-    /// What a dive is going to need, once there may be one.
-    fn of_dive(&self) -> Vec<PipelineVariant> {
-        let inputs = self.inputs.as_ref().filter(|_| self.anchors.are_near());
-        let Some(inputs) = inputs.filter(|inputs| inputs.frame.fractal.rotates == 0) else {
-            return Vec::new();
-        };
-        let power = PipelineKey::of(&inputs.frame).power;
-        let of = |depth| {
-            let key = PipelineKey { power, depth };
-            [PipelineVariant::Rays(key), PipelineVariant::Normals(key, inputs.frame.normals)]
-        };
-        Depth::DIVE.into_iter().flat_map(of).collect()
+    /// Variants that may be needed soon: indirect light, post passes, and those of a dive near an anchor.
+    fn of_later(&self) -> Vec<PipelineVariant> {
+        let mut later = vec![self.needed(&INDIRECT), self.needed(&POST)];
+        if let (Some(inputs), Some(space)) = (&self.inputs, &self.space)
+            && self.anchors.are_near()
+        {
+            let (kernel, fractal) = (inputs.formula.kernel, space.model().fractal());
+            for variant in kernel.formula.dive_variants(fractal, kernel.variant) {
+                let kernel = Kernel { variant, ..kernel };
+                later.extend(
+                    [&RAYS, &NORMALS].map(|set| PipelineVariant::with_kernel(set, inputs, kernel)),
+                );
+            }
+        }
+        later
     }
 
-    /// The special forms of passes that are due: at rest, for a drag passes through many. What has
-    /// begun is finished.
+    /// The special variant that is due: only at rest, since a drag passes through many.
+    ///
+    /// A preparation that has begun is finished in any case.
     fn special_to_prepare(&self, scene: &Scene) -> Option<PipelineVariant> {
         let begun = self.preparation.as_ref().filter(|preparation| preparation.has_begun());
         let begun = begun.map(Preparation::variant);
@@ -118,17 +126,17 @@ impl View {
         if !is_due && begun.is_none() {
             return None;
         }
-        let is_wanted = |variant: &PipelineVariant| is_due || begun == Some(*variant);
-        self.special(scene)
+        let is_wanted = |variant: &PipelineVariant| is_due || begun == Some(variant);
+        self.specialized(scene)
             .into_iter()
-            .find(|variant| is_wanted(variant) && !self.pipelines.is_ready(*variant))
+            .find(|variant| is_wanted(variant) && !self.pipelines.is_ready(variant))
     }
 
-    /// Whether a picture has been shown, and nothing has changed for a while.
+    /// Whether a picture is shown and nothing has changed for [`REST_SECS`].
     fn is_at_rest(&self) -> bool {
         self.pending.is_none()
-            && self.schedule.status(self.now_secs).shown
+            && self.schedule.status(self.times.now_secs).shown
             && !self.moving
-            && self.now_secs - self.changed_secs >= REST_SECS
+            && self.times.unchanged_secs() >= REST_SECS
     }
 }

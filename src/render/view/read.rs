@@ -1,4 +1,4 @@
-//! What a view has drawn, back from the GPU.
+//! Reads a view's results back from the GPU.
 
 use super::View;
 use crate::{
@@ -6,13 +6,20 @@ use crate::{
     render::{
         gbuffer::Samples,
         samples::{self, SamplesReadback},
+        space::RenderSpace,
         targets::Targets,
     },
 };
 
 impl View {
-    /// Reads the film back, waiting for it: each pixel's mean radiance, linear Rec. 709, rows from
-    /// the upper edge. Natively.
+    /// Scene units per unit of the view's render space.
+    fn scale(&self) -> f64 {
+        self.space.as_ref().map_or(1.0, RenderSpace::scale)
+    }
+
+    /// Reads back each pixel's mean radiance, and waits for it; native only.
+    ///
+    /// Linear Rec. 709, rows from the top.
     pub fn film(&self) -> Result<Vec<[f32; 3]>, ReadbackError> {
         let gpu = &self.pipelines.gpu;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
@@ -20,20 +27,21 @@ impl View {
         Ok(samples::means(&rg, &bw).collect())
     }
 
-    /// Starts to read back every pixel's radiance, depth and normal. The view may be drawn over
-    /// at once.
+    /// Starts to read back every pixel's radiance, depth and normal.
+    ///
+    /// The view may draw again at once.
     pub fn read_samples(&self) -> SamplesReadback {
         let Targets { film_rg, film_bw, center, .. } = &self.targets;
         let film = [film_rg, film_bw];
-        SamplesReadback::new(&self.pipelines.gpu, film, &center.surface, self.space.scale())
+        SamplesReadback::new(&self.pipelines.gpu, film, &center.surface, self.scale())
     }
 
-    /// Reads the centre samples' G-buffer back, waiting for it: for tests and tools, natively.
+    /// Reads back the centre samples' G-buffer, and waits for it; native only, for tests and tools.
     pub fn gbuffer(&self) -> Result<Samples, ReadbackError> {
         let gpu = &self.pipelines.gpu;
         let center = &self.targets.center;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
         let (surface, visibility) = (read(&center.surface)?, read(&center.visibility)?);
-        Ok(Samples::decode(&surface, &visibility, self.space.scale()))
+        Ok(Samples::decode(&surface, &visibility, self.scale()))
     }
 }

@@ -16,7 +16,7 @@ use super::{
     rotation::{Directions, Rotations},
 };
 use crate::scene::{
-    Camera, MAX_LIGHTS, PrecisePoint, Scene,
+    Camera, Fractal, MAX_LIGHTS, PrecisePoint, Scene,
     param::{self, Param, Scale},
 };
 
@@ -41,7 +41,8 @@ pub fn scenes(keys: Four<Arc<Scene>>, span: &Span) -> Scene {
     let cameras = keys.each_ref().map(|key| key.as_ref().map(|scene| &scene.camera));
     // Every key of a scene's JSON is a string, which is all that could fail.
     let values = keys.each_ref().map(|key| serde_json::to_value(key.as_deref()?).ok());
-    let walk = Walk { span, places: cameras.map(|camera| camera.map(place)) };
+    let places = cameras.map(|camera| camera.map(place));
+    let walk = Walk { span, fractal: &from.fractal, places };
     let mut path = String::new();
     let blended = walk.value(&mut path, values.each_ref().map(Option::as_ref));
     let scene = blended.and_then(|value| serde_json::from_value::<Scene>(value).ok());
@@ -106,6 +107,8 @@ fn settle(scene: &mut Scene, from: &Scene) {
 /// A walk through four scenes' JSON at once.
 struct Walk<'a> {
     span: &'a Span,
+    /// The earlier key's, whose formula the numbers between have.
+    fractal: &'a Fractal,
     /// Where the cameras look.
     places: Four<Place>,
 }
@@ -114,6 +117,10 @@ impl Walk<'_> {
     /// The value at `path`; none where a key that must be there isn't.
     fn value(&self, path: &mut String, values: Four<&Value>) -> Option<Value> {
         let (from, to) = (values[1]?, values[2]?);
+        // Nothing lies between two formulas: the earlier key's stays.
+        if path == "fractal" && from.get("formula") != to.get("formula") {
+            return Some(from.clone());
+        }
         if from == to && values[0].is_none_or(|v| v == from) && values[3].is_none_or(|v| v == to) {
             return Some(from.clone());
         }
@@ -183,7 +190,7 @@ impl Walk<'_> {
     }
 
     fn number(&self, path: &str, values: Four<&Value>) -> Option<Value> {
-        let param = param::find(path);
+        let param = self.fractal.param(path).or_else(|| param::find(path));
         let numbers = values.map(|value| value.and_then(Value::as_f64));
         let line = Interpolation::of(param, numbers);
         let numbers = numbers.map(|value| value.map(|v| line.onto(v)));

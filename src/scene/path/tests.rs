@@ -4,8 +4,11 @@ use glam::{DQuat, DVec3};
 use serde_json::Value;
 
 use super::*;
-use crate::scene::{
-    Camera, EnvironmentLight, Fractal, GradientStop, Lights, PointLight, PrecisePoint, param,
+use crate::{
+    formula::mandelbulb::Mandelbulb,
+    scene::{
+        Camera, EnvironmentLight, Fractal, GradientStop, Lights, PointLight, PrecisePoint, param,
+    },
 };
 
 fn key(time_secs: f64, easing: Easing, scene: &Scene) -> Key {
@@ -405,14 +408,19 @@ fn two_crowds_of_lights_stay_within_the_limit() {
 
 #[test]
 fn rules_between_fields_hold_on_the_way() {
-    let fractal = |power: f64, bailout: f64| Fractal { power, bailout, ..Default::default() };
+    let fractal = |power: f64, bailout: f64| -> Fractal {
+        Mandelbulb { power, bailout, ..Default::default() }.into()
+    };
     let a = Scene { fractal: fractal(9.0, 100.0), ..Default::default() };
     let b = Scene { fractal: fractal(16.0, 15.9), ..Default::default() };
     let path = path(vec![key(0.0, Easing::Smooth, &a), key(1.0, Easing::Smooth, &b)]);
     for i in 0..=100 {
         let scene = path.at(f64::from(i) / 100.0).unwrap();
         assert_eq!(scene.validate(), Ok(()));
-        assert!(i % 100 == 0 || (9.0..16.0).contains(&scene.fractal.power), "it went on");
+        assert!(
+            i % 100 == 0 || (9.0..16.0).contains(&scene.fractal.number("power").unwrap()),
+            "it went on"
+        );
     }
 }
 

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::{MAX_EYE_DISTANCE, World};
 use crate::{
-    fractal::{DistanceField, LEAST_STEP},
+    formula::{DistanceField, march::LEAST_STEP},
     scene::Camera,
 };
 

@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 
 use super::{World, collide};
 use crate::{
-    fractal::{DistanceField, Ray},
+    formula::{DistanceField, Ray},
     scene::{Camera, PrecisePoint},
 };
 

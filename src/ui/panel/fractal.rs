@@ -1,11 +1,15 @@
-//! The set itself: its power, its form, how far its orbits are followed.
+//! The set itself: its formula, the formula's parameters, how far orbits are followed.
 
 use egui::{Button, Ui, vec2};
 
 use super::Context;
 use crate::{
+    formula::{
+        self, FormulaRef,
+        table::{Kind, Value},
+    },
     scene::{
-        Fractal, Variant,
+        Fractal,
         param::{self, Param},
     },
     ui::{
@@ -14,80 +18,102 @@ use crate::{
     },
 };
 
-/// Powers that have a button: whole numbers take the fast path.
-const QUICK_POWERS: [u32; 8] = [2, 3, 4, 5, 6, 7, 8, 9];
-
-/// The power, with buttons for small whole numbers.
-pub(super) fn power(ui: &mut Ui, cx: &mut Context<'_>) {
+/// The formula's first number, with buttons for the values that many choose.
+pub(super) fn headline(ui: &mut Ui, cx: &mut Context<'_>) {
     let fractal = &mut cx.scene.fractal;
-    let slider = param_slider(ui, &param::POWER, &mut fractal.power);
-    cx.rects.record("power", &slider);
+    let first = fractal.fields_mut().next();
+    if let Some((field, Value::Number(value))) = first
+        && let Kind::Number { param, quick } = field.kind
+    {
+        let slider = param_slider(ui, param, value);
+        cx.rects.record(field.name, &slider);
+        quick_values(ui, param, quick, value);
+    }
+    keep_bailout_in_reach(fractal);
+}
+
+fn quick_values(ui: &mut Ui, param: &Param, quick: &[f64], value: &mut f64) {
+    if quick.is_empty() {
+        return;
+    }
     let gap = 4.0;
-    let count = QUICK_POWERS.len() as f32;
+    let count = quick.len() as f32;
     let size =
         vec2((ui.available_width() - gap * (count - 1.0)) / count, ui.spacing().interact_size.y);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = gap;
         ui.spacing_mut().button_padding.x = 2.0;
-        for power in QUICK_POWERS {
-            let chosen = fractal.power == f64::from(power);
+        for &quick in quick {
+            let chosen = *value == quick;
             let fill = if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED };
-            let button = Button::selectable(chosen, power.to_string()).fill(fill);
-            let response = ui
-                .add_sized(size, button)
-                .on_hover_text(format!("Power {power}: a whole number is drawn fastest"));
+            let button = Button::selectable(chosen, quick.to_string()).fill(fill);
+            let name = format!("{} {quick}", param.label);
+            let response = ui.add_sized(size, button).on_hover_text(&name);
             if response.clicked() {
-                fractal.power = f64::from(power);
+                *value = quick;
             }
-            response.accessible_name(format!("Power {power}"));
+            response.accessible_name(name);
         }
     });
-    keep_bailout_in_reach(fractal);
 }
 
-/// Form, iterations, bailout, variant.
+/// The formula, its other parameters, iterations and bailout.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let fractal = &mut cx.scene.fractal;
-    choice(
-        ui,
-        "Form",
-        &mut fractal.julia,
-        &[
-            (false, "Mandelbulb", "Each point adds itself at every step"),
-            (true, "Julia", "All points add the same constant at every step"),
-        ],
-    );
-    if fractal.julia {
-        for (axis, (value, label)) in fractal
-            .julia_constant
-            .iter_mut()
-            .zip(["Constant x", "Constant y", "Constant z"])
-            .enumerate()
-        {
-            let param = Param { label, ..param::JULIA_CONSTANT };
-            ui.push_id(axis, |ui| param_slider(ui, &param, value));
+    choose_formula(ui, fractal);
+    let is_on: Vec<bool> = fractal
+        .fields()
+        .map(|(field, _)| field.only_with.is_none_or(|switch| fractal.is_on(switch)))
+        .collect();
+    for ((field, value), is_shown) in fractal.fields_mut().zip(is_on).skip(1) {
+        if is_shown {
+            ui.push_id(field.name, |ui| edit(ui, field.kind, value));
         }
     }
     param_slider_count(ui, &param::ITERATIONS, &mut fractal.iterations);
     let bailout = Param { max: fractal.max_bailout(), ..param::BAILOUT };
     param_slider(ui, &bailout, &mut fractal.bailout);
-    choice(
-        ui,
-        "Sine of the latitude",
-        &mut fractal.variant,
-        &[
-            (
-                Variant::PositiveSine,
-                "Positive",
-                "The bulb that everyone knows: + sin in the height",
-            ),
-            (
-                Variant::NegativeSine,
-                "Negative",
-                "The sign as one printed formula has it: − sin, another set",
-            ),
-        ],
-    );
+}
+
+fn choose_formula(ui: &mut Ui, fractal: &mut Fractal) {
+    let formulas: Vec<FormulaRef> = formula::all().collect();
+    let options: Vec<_> =
+        formulas.iter().map(|formula| (formula.id(), formula.name(), formula.about())).collect();
+    if options.len() < 2 {
+        return;
+    }
+    let mut id = fractal.formula().id();
+    choice(ui, "Formula", &mut id, &options);
+    if id != fractal.formula().id()
+        && let Some(chosen) = formulas.into_iter().find(|formula| formula.id() == id)
+    {
+        *fractal = Fractal::new(chosen);
+    }
+}
+
+fn edit(ui: &mut Ui, kind: Kind, value: &mut Value) {
+    match (kind, value) {
+        (Kind::Number { param, quick }, Value::Number(number)) => {
+            param_slider(ui, param, number);
+            quick_values(ui, param, quick, number);
+        }
+        (Kind::Vector { param, labels, .. }, Value::Vector(numbers)) => {
+            for (axis, (number, label)) in numbers.iter_mut().zip(labels).enumerate() {
+                let param = Param { label, ..*param };
+                ui.push_id(axis, |ui| param_slider(ui, &param, number));
+            }
+        }
+        (Kind::Switch { label, options: [off, on] }, Value::Switch(is_on)) => {
+            let options = [(false, off.label, off.help), (true, on.label, on.help)];
+            choice(ui, label, is_on, &options);
+        }
+        (Kind::Choice { label, options }, Value::Choice(word)) => {
+            let options: Vec<_> = options.iter().map(|o| (o.word, o.label, o.help)).collect();
+            choice(ui, label, word, &options);
+        }
+        // A value is of its field's kind.
+        _ => {}
+    }
 }
 
 /// A higher power allows only a smaller bailout.

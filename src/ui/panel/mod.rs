@@ -241,7 +241,7 @@ fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
 fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
     scenes::show(ui, cx);
     ui.add_space(8.0);
-    fractal::power(ui, cx);
+    fractal::headline(ui, cx);
     ui.add_space(8.0);
     lights::key_light(ui, cx);
 }
@@ -252,9 +252,13 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     let mut open = cx.settings.more_open;
     let response = section(ui, "More", "All other settings", &mut open, |ui| {
         let mut sections = cx.settings.sections.clone();
-        section(ui, "Fractal", "The fractal's form and its detail", &mut sections.fractal, |ui| {
-            fractal::show(ui, cx)
-        });
+        section(
+            ui,
+            "Fractal",
+            "The formula, its form and its detail",
+            &mut sections.fractal,
+            |ui| fractal::show(ui, cx),
+        );
         section(ui, "Camera", "Field of view, stereo, fly mode", &mut sections.camera, |ui| {
             camera::show(ui, cx)
         });

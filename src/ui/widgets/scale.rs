@@ -109,11 +109,12 @@ fn round_to_decimals(value: f64, places: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::mandelbulb;
     use crate::scene::param;
 
     #[test]
     fn rail_positions_and_values_are_inverse_and_increasing() {
-        for param in param::ALL {
+        for param in param::all() {
             assert_eq!(fraction(param, param.min), 0.0, "{}", param.path);
             assert_eq!(fraction(param, param.max), 1.0, "{}", param.path);
             let mut last = f64::NEG_INFINITY;
@@ -129,7 +130,7 @@ mod tests {
 
     #[test]
     fn rounded_values_are_accepted() {
-        for param in param::ALL {
+        for param in param::all() {
             for i in 0..=1000 {
                 let value = round_dragged(param, at_fraction(param, f64::from(i) / 1000.0));
                 assert!(param.accepts(value), "{}: {value}", param.path);
@@ -145,7 +146,7 @@ mod tests {
 
     #[test]
     fn defaults_can_be_reached_by_dragging() {
-        for param in param::ALL {
+        for param in param::all() {
             assert_eq!(round_dragged(param, param.default), param.default, "{}", param.path);
         }
     }
@@ -158,13 +159,13 @@ mod tests {
 
     #[test]
     fn values_are_formatted_without_trailing_digits() {
-        assert_eq!(format_value(&param::POWER, 8.0), "8.0");
-        assert_eq!(format_value(&param::POWER, 2.25), "2.25");
+        assert_eq!(format_value(&mandelbulb::POWER, 8.0), "8.0");
+        assert_eq!(format_value(&mandelbulb::POWER, 2.25), "2.25");
         assert_eq!(format_value(&param::SAMPLES, 16.0), "16");
         assert_eq!(format_value(&param::SHADOW_REACH, 0.0123456), "0.0123");
         assert_eq!(format_value(&param::ENVIRONMENT_INTENSITY, 2.6), "2.6");
         assert_eq!(format_value(&param::POINT_INTENSITY, 2.5e-41), "2.50e-41");
         assert_eq!(format_value(&param::POINT_INTENSITY, 0.0), "0");
-        assert_eq!(round_dragged(&param::POWER, 2.299_999_9), 2.3);
+        assert_eq!(round_dragged(&mandelbulb::POWER, 2.299_999_9), 2.3);
     }
 }

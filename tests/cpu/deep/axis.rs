@@ -5,12 +5,16 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use mandelight::{
-    fractal::{
-        DeepField, DistanceField, Reference, camera_ray,
-        deep::{FINEST_FOOTPRINT, Search},
+    formula::{
+        DistanceField,
+        mandelbulb::{
+            Mandelbulb,
+            deep::{DeepField, FINEST_FOOTPRINT, Reference},
+        },
     },
+    fractal::{Search, camera_ray},
     gpu::device::in_parallel,
-    scene::{Fractal, PrecisePoint},
+    scene::PrecisePoint,
 };
 use mandelight_test_support::{
     deep::{
@@ -31,7 +35,7 @@ const PLACES: [f64; 6] = [0.1, 0.4, 0.7, 0.85, 0.95, 1.0];
 const RADII: [f64; 4] = [0.0, 1e-9, 1e-5, 1e-3];
 
 /// The point of the surface that is first met down a parallel to the axis.
-fn anchor_under(fractal: &Fractal, radius: f64) -> PrecisePoint {
+fn anchor_under(fractal: &Mandelbulb, radius: f64) -> PrecisePoint {
     let set = Set::new(fractal, 400);
     let across = radius * DVec2::from_angle(0.7);
     let mut point = across.extend(1.6).to_array().map(Real::from_f64);
@@ -51,7 +55,12 @@ fn anchor_under(fractal: &Fractal, radius: f64) -> PrecisePoint {
 }
 
 /// Offsets along rays to the surface about `anchor`, for eyes that are `scale` away from it.
-fn offsets(field: &DeepField, fractal: &Fractal, anchor: &PrecisePoint, scale: f64) -> Vec<DVec3> {
+fn offsets(
+    field: &DeepField,
+    fractal: &Mandelbulb,
+    anchor: &PrecisePoint,
+    scale: f64,
+) -> Vec<DVec3> {
     let scene = views::scene(fractal.clone(), anchor, DVec3::NEG_Z, scale);
     let mut offsets = vec![];
     for i in 0..20 {
@@ -71,7 +80,7 @@ fn offsets(field: &DeepField, fractal: &Fractal, anchor: &PrecisePoint, scale: f
 }
 
 /// Holds the field about points to the estimates of 256 bits, from all scales.
-fn field_agrees(fractal: &Fractal, radii: &[f64], name: &str) {
+fn field_agrees(fractal: &Mandelbulb, radii: &[f64], name: &str) {
     let set = Set::new(fractal, 400);
     for (&radius, anchor) in radii.iter().zip(in_parallel(radii, |&r| anchor_under(fractal, r))) {
         let begins = anchor.0.each_ref().map(|v| Real::parse(&v.to_string()));
@@ -104,7 +113,7 @@ fn field_agrees(fractal: &Fractal, radii: &[f64], name: &str) {
 #[test]
 fn estimates_beside_the_axis_agree_with_the_march() {
     for power in [4.0, 8.0, 16.0] {
-        let fractal = Fractal { power, ..Fractal::default() };
+        let fractal = Mandelbulb { power, ..Mandelbulb::default() };
         field_agrees(&fractal, &RADII, &format!("power {power}"));
     }
 }
@@ -113,7 +122,8 @@ fn estimates_beside_the_axis_agree_with_the_march() {
 #[test]
 fn estimates_of_julia_sets_beside_the_axis_agree_with_the_march() {
     for julia_constant in [[0.0, 0.0, 0.4], [3e-6, -4e-6, 0.4]] {
-        let fractal = Fractal { power: 8.0, julia: true, julia_constant, ..Fractal::default() };
+        let fractal =
+            Mandelbulb { power: 8.0, julia: true, julia_constant, ..Mandelbulb::default() };
         field_agrees(&fractal, &RADII, &format!("constant {julia_constant:?}"));
     }
 }
@@ -122,13 +132,14 @@ fn estimates_of_julia_sets_beside_the_axis_agree_with_the_march() {
 #[test]
 fn anchors_beside_the_axis_lie_on_the_surface() {
     for power in [8.0, 16.0] {
-        let fractal = Fractal { power, ..Fractal::default() };
+        let fractal = Mandelbulb { power, ..Mandelbulb::default() };
         let set = Set::new(&fractal, 400);
         let on_axis = anchor_under(&fractal, 0.0);
         for toward in [DVec3::NEG_Z, DVec3::new(0.3, -0.2, -0.9)] {
             for scale in SCALES {
                 let scene = views::scene(fractal.clone(), &on_axis, toward, scale);
-                let search = Search::new(&fractal, &scene.camera, 1.5, None).expect("whole");
+                let search =
+                    Search::new(&fractal.clone().into(), &scene.camera, 1.5, None).expect("whole");
                 let anchor = search.finish().anchor().clone();
                 let depth = (&scene.camera.position - &anchor).length();
                 let point = anchor.0.each_ref().map(|v| Real::parse(&v.to_string()));

@@ -1,7 +1,7 @@
 //! The orbits of 256 bits against differences, and against the oracle in f64 where that is enough.
 
 use glam::DVec3;
-use mandelight::scene::{Fractal, Variant};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 use mandelight_test_support::{
     deep::{
         arithmetic::{Real, rounded},
@@ -13,8 +13,8 @@ use mandelight_test_support::{
 
 #[test]
 fn derivatives_are_those_of_differences() {
-    for (power, variant) in [(2.0, Variant::PositiveSine), (7.0, Variant::NegativeSine)] {
-        let set = Set::new(&Fractal { power, variant, ..Fractal::default() }, 1);
+    for (power, sine) in [(2.0, Sine::Positive), (7.0, Sine::Negative)] {
+        let set = Set::new(&Mandelbulb { power, sine, ..Mandelbulb::default() }, 1);
         let at = |p: DVec3| rounded(&set.raised(&p.to_array().map(Real::from_f64)).point);
         let p = DVec3::new(0.4, -0.7, 0.5);
         let found = set.raised(&p.to_array().map(Real::from_f64)).raising;
@@ -29,10 +29,10 @@ fn derivatives_are_those_of_differences() {
 /// cosines.
 #[test]
 fn estimates_are_those_of_the_printed_algorithm() {
-    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let bulb = |power: f64| Mandelbulb { power, ..Mandelbulb::default() };
     let mut fractals: Vec<_> = [2.0, 3.0, 8.0, 16.0].map(bulb).into();
-    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
-    fractals.push(Fractal { julia: true, ..bulb(7.0) });
+    fractals.push(Mandelbulb { sine: Sine::Negative, ..bulb(8.0) });
+    fractals.push(Mandelbulb { julia: true, ..bulb(7.0) });
     for fractal in fractals {
         let set = Set::new(&fractal, fractal.iterations);
         let mut random = Random(0x1234_5678_9ABC_DEF1);
@@ -62,7 +62,7 @@ fn estimates_are_those_of_the_printed_algorithm() {
 #[test]
 fn both_jacobians_give_the_gradient_of_the_radius() {
     for julia in [false, true] {
-        let set = Set::new(&Fractal { power: 5.0, julia, ..Fractal::default() }, 4);
+        let set = Set::new(&Mandelbulb { power: 5.0, julia, ..Mandelbulb::default() }, 4);
         let follow = |p: DVec3| set.follow(&p.to_array().map(Real::from_f64), 1e-100);
         for p in [DVec3::new(0.4, -0.7, 0.5), DVec3::new(-0.1, 0.2, 0.9)] {
             let End { z, jacobian, .. } = follow(p);

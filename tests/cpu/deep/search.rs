@@ -4,8 +4,9 @@
 
 use glam::DVec3;
 use mandelight::{
+    formula::mandelbulb::Mandelbulb,
     gpu::device::in_parallel,
-    scene::{Fractal, PrecisePoint, Scene},
+    scene::{PrecisePoint, Scene},
 };
 use mandelight_test_support::{
     deep::{
@@ -89,7 +90,7 @@ fn line(kind: &str, power: f64, random: &mut Random) -> (DVec3, DVec3) {
     (from, ((to - from).normalize() * 1e4).round() / 1e4)
 }
 
-fn ways(fractal: &Fractal, kind: &str, count: usize) -> Vec<Way> {
+fn ways(fractal: &Mandelbulb, kind: &str, count: usize) -> Vec<Way> {
     let set = Set::new(fractal, 400);
     let mut random = Random(0x9E37_79B9_7E5A_7C15);
     let lines: Vec<_> = (0..count).map(|_| line(kind, fractal.power, &mut random)).collect();
@@ -140,7 +141,7 @@ fn find_views() {
         (16.0, false, "beside the axis", 12),
         (8.0, true, "anywhere", 16),
     ] {
-        let fractal = Fractal { power, julia, ..Fractal::default() };
+        let fractal = Mandelbulb { power, julia, ..Mandelbulb::default() };
         for Way { end, direction, .. } in ways(&fractal, kind, count) {
             let position = end.each_ref().map(Real::to_decimal);
             let anchor = PrecisePoint(position.each_ref().map(|t| t.parse().expect("a number")));
@@ -179,7 +180,7 @@ fn lengths_of_orbits() {
         (16.0, false, "anywhere"),
         (16.0, true, "anywhere"),
     ] {
-        let fractal = Fractal { power, julia, ..Fractal::default() };
+        let fractal = Mandelbulb { power, julia, ..Mandelbulb::default() };
         let found = ways(&fractal, kind, 60);
         println!("power {power} julia {julia}: {} ways", found.len());
         for digits in [2, 3, 4, 6, 9, 13, 16, 20, 24, 27, 30, 32] {

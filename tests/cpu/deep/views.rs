@@ -1,6 +1,6 @@
 //! The deep views: anchors that lie on the surface, and orbits that are long enough.
 
-use mandelight::gpu::device::in_parallel;
+use mandelight::{formula::mandelbulb::Mandelbulb, gpu::device::in_parallel};
 use mandelight_test_support::deep::{
     arithmetic::Real,
     orbit::Set,
@@ -18,7 +18,11 @@ fn plenty_of_steps_is_enough() {
             let depth = looking.depth(pixel).expect("a hit");
             let point = looking.at(looking.direction(centre(pixel)), depth);
             let steps = looking.set.estimate(&point, depth).steps;
-            assert!(steps < plenty(scene), "{steps} steps for power {}", scene.fractal.power);
+            assert!(
+                steps < plenty(scene),
+                "{steps} steps for power {}",
+                Mandelbulb::of(&scene.fractal).power
+            );
         }
     });
 }
@@ -27,7 +31,7 @@ fn plenty_of_steps_is_enough() {
 fn anchors_are_on_the_surface() {
     for anchor in ANCHORS {
         let scene = anchor.scene(anchor.deepest);
-        let set = Set::new(&scene.fractal, plenty(&scene));
+        let set = Set::new(&Mandelbulb::of(&scene.fractal), plenty(&scene));
         let distance = set.estimate(&anchor.position.map(Real::parse), anchor.deepest).distance;
         assert!(
             distance < 1e-4 * anchor.deepest,

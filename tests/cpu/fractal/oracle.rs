@@ -2,9 +2,13 @@
 
 use glam::{DVec2, DVec3};
 use mandelight::{
-    fractal::{DistanceField, Estimator, camera_ray, pixel_cone},
+    formula::{
+        DistanceField,
+        mandelbulb::{Mandelbulb, Sine, estimator::Estimator},
+    },
+    fractal::{camera_ray, pixel_cone},
     gpu::device::in_parallel,
-    scene::{Fractal, PrecisePoint, Variant},
+    scene::PrecisePoint,
 };
 use mandelight_test_support::{
     oracle::{estimate, rays, views},
@@ -12,15 +16,15 @@ use mandelight_test_support::{
     statistics::quantile,
 };
 
-fn fractals() -> Vec<Fractal> {
-    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+fn fractals() -> Vec<Mandelbulb> {
+    let bulb = |power: f64| Mandelbulb { power, ..Mandelbulb::default() };
     let mut all: Vec<_> = [2.0, 3.0, 5.0, 8.0, 13.0, 16.0, 2.5, 6.75, 15.9].map(bulb).into();
-    all.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
-    all.push(Fractal { variant: Variant::NegativeSine, ..bulb(4.3) });
-    all.push(Fractal { julia: true, ..bulb(8.0) });
-    all.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.0) });
-    all.push(Fractal { julia: true, julia_constant: [0.5, 0.5, 0.3], ..bulb(4.5) });
-    all.push(Fractal { iterations: 5, bailout: 16.0, ..bulb(8.0) });
+    all.push(Mandelbulb { sine: Sine::Negative, ..bulb(8.0) });
+    all.push(Mandelbulb { sine: Sine::Negative, ..bulb(4.3) });
+    all.push(Mandelbulb { julia: true, ..bulb(8.0) });
+    all.push(Mandelbulb { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.0) });
+    all.push(Mandelbulb { julia: true, julia_constant: [0.5, 0.5, 0.3], ..bulb(4.5) });
+    all.push(Mandelbulb { iterations: 5, bailout: 16.0, ..bulb(8.0) });
     all
 }
 
@@ -52,7 +56,7 @@ fn estimates_agree_to_rounding() {
 
 #[test]
 fn estimates_inside_are_zero() {
-    for fractal in [Fractal::default(), Fractal { power: 2.5, ..Fractal::default() }] {
+    for fractal in [Mandelbulb::default(), Mandelbulb { power: 2.5, ..Mandelbulb::default() }] {
         let estimator = Estimator::new(&fractal);
         for point in [DVec3::ZERO, DVec3::new(0.2, 0.1, -0.1), DVec3::new(0.0, 0.0, 0.3)] {
             assert_eq!(
@@ -90,12 +94,12 @@ fn depths_and_normals_agree_on_whole_views() {
         (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).step_by(5).collect();
     for view in views::all() {
         let scene = &view.scene;
-        let estimator = Estimator::new(&scene.fractal);
+        let estimator = Estimator::new(&Mandelbulb::of(&scene.fractal));
         let cone = rays::cone(&scene.camera, views::SIZE);
         let both = in_parallel(&pixels, |&[x, y]| {
             let origin = scene.camera.position.to_dvec3();
             let direction = rays::direction(&scene.camera, views::SIZE, [x, y]);
-            let ray = mandelight::fractal::Ray { origin, direction };
+            let ray = mandelight::formula::Ray { origin, direction };
             let found = estimator.march(ray, cone * scene.quality.detail, f64::INFINITY);
             (ray, found, rays::march(scene, views::SIZE, [x, y]))
         });
@@ -105,8 +109,10 @@ fn depths_and_normals_agree_on_whole_views() {
             off.push((found - expected).abs() / (cone * expected));
             let (point, spacing) = (ray.at(*found), cone * found);
             let normal = estimator.normal(point, spacing);
-            let angle =
-                normal.dot(rays::normal(&scene.fractal, point, spacing)).clamp(-1.0, 1.0).acos();
+            let angle = normal
+                .dot(rays::normal(&Mandelbulb::of(&scene.fractal), point, spacing))
+                .clamp(-1.0, 1.0)
+                .acos();
             assert!(angle < 1e-4, "{}: {angle}", view.name);
         }
         let differ = both.iter().filter(|(_, a, b)| a.is_some() != b.is_some()).count();

@@ -2,8 +2,12 @@
 
 use glam::{DVec2, DVec3};
 use mandelight::{
-    fractal::{DistanceField, Estimator, Ray, camera_ray, pixel_cone},
-    scene::{Camera, Fractal, PrecisePoint, Scene},
+    formula::{
+        DistanceField, Ray,
+        mandelbulb::{Mandelbulb, estimator::Estimator},
+    },
+    fractal::{camera_ray, pixel_cone},
+    scene::{Camera, PrecisePoint, Scene},
 };
 use mandelight_test_support::random::Random;
 
@@ -15,12 +19,12 @@ fn direction(random: &mut Random) -> DVec3 {
     random.in_ball(1.0).normalize()
 }
 
-fn bulb(power: f64) -> Fractal {
-    Fractal { power, ..Fractal::default() }
+fn bulb(power: f64) -> Mandelbulb {
+    Mandelbulb { power, ..Mandelbulb::default() }
 }
 
-fn julia(power: f64, julia_constant: [f64; 3]) -> Fractal {
-    Fractal { power, julia: true, julia_constant, ..Fractal::default() }
+fn julia(power: f64, julia_constant: [f64; 3]) -> Mandelbulb {
+    Mandelbulb { power, julia: true, julia_constant, ..Mandelbulb::default() }
 }
 
 #[test]
@@ -31,15 +35,16 @@ fn every_orbit_from_outside_the_bounding_sphere_escapes() {
     fractals.push(julia(2.0, [-0.2, 0.6, 0.2]));
     fractals.push(julia(3.0, [2.0, 2.0, -2.0]));
     for few in [2, 3] {
-        fractals
-            .extend(fractals.clone().into_iter().map(|f| Fractal { iterations: few, ..f }).take(5));
+        fractals.extend(
+            fractals.clone().into_iter().map(|f| Mandelbulb { iterations: few, ..f }).take(5),
+        );
     }
     for fractal in fractals {
         let estimator = Estimator::new(&fractal);
         let radius = estimator.bounding_radius();
         // An orbit that has passed the bailout b gives an estimate of at least ½ ln b · b / dr,
         // so one with an unlimited iteration count says the same as the limited one.
-        let patient = Estimator::new(&Fractal { iterations: 100, ..fractal.clone() });
+        let patient = Estimator::new(&Mandelbulb { iterations: 100, ..fractal.clone() });
         for _ in 0..2000 {
             let point = direction(&mut random) * radius * (1.0 + random.unit() * random.unit());
             let distance = estimator.distance(point);
@@ -73,7 +78,7 @@ fn rays_from_outside(estimator: &Estimator, count: usize) -> Vec<Ray> {
 }
 
 /// The depth of the first hit by a fixed small part of the estimate a step.
-fn fine_march(fractal: &Fractal, ray: Ray, cone: f64) -> Option<f64> {
+fn fine_march(fractal: &Mandelbulb, ray: Ray, cone: f64) -> Option<f64> {
     let estimator = Estimator::new(fractal);
     let part = (fractal.power / 10.0).clamp(0.25, 1.0) / 16.0;
     let (near, far) = ray.sphere_span(DVec3::ZERO, estimator.bounding_radius())?;
@@ -102,7 +107,7 @@ fn lasts(estimator: &Estimator, ray: Ray, cone: f64, depth: f64) -> bool {
 
 /// Counts, of `count` rays, those that pass the surface altogether, and those that are
 /// stopped more than 16 cone radii late, against [`fine_march`].
-fn passed(fractal: &Fractal, count: usize) -> (usize, usize) {
+fn passed(fractal: &Mandelbulb, count: usize) -> (usize, usize) {
     let estimator = Estimator::new(fractal);
     let cone = 0.364 / 1080.0;
     let (mut missed, mut late) = (0, 0);
@@ -177,7 +182,7 @@ fn normals_face_the_eye() {
 #[test]
 fn the_opening_scene_hits_at_its_centre_and_misses_in_the_corner() {
     let scene = Scene::default();
-    let estimator = Estimator::new(&scene.fractal);
+    let estimator = Estimator::new(&Mandelbulb::of(&scene.fractal));
     let aspect = 16.0 / 9.0;
     let cone = pixel_cone(&scene.camera, aspect, 540.0);
     let ray = |ndc| camera_ray(&scene.camera, &PrecisePoint::ORIGIN, ndc, aspect);

@@ -1,12 +1,18 @@
 //! Any valid scene.
 
 use glam::{DQuat, DVec3};
-use mandelight::scene::{
-    Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring, EnvironmentLight,
-    Fractal, GradientStop, Indirect, IndirectKind, LightFrame, Lights, Normals, PictureRig,
-    PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky, Stereo,
-    StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean, Variant,
-    param::{self, Param},
+use mandelight::{
+    formula::{
+        self, Fractal,
+        table::{Kind, Value},
+    },
+    scene::{
+        Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
+        EnvironmentLight, GradientStop, Indirect, IndirectKind, LightFrame, Lights, Normals,
+        PictureRig, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky,
+        Stereo, StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
+        param::{self, Param},
+    },
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
 
@@ -39,24 +45,37 @@ fn point() -> impl Strategy<Value = PrecisePoint> {
     uniform3(precise()).prop_map(PrecisePoint)
 }
 
+/// Any formula with any values of its own table.
 fn fractal() -> impl Strategy<Value = Fractal> {
-    let variant = select(vec![Variant::PositiveSine, Variant::NegativeSine]);
-    let julia_constant = uniform3(value(&param::JULIA_CONSTANT));
-    (
-        value(&param::POWER),
-        count(&param::ITERATIONS),
-        0.0..=1.0_f64,
-        variant,
-        any::<bool>(),
-        julia_constant,
-    )
-        .prop_map(|(power, iterations, t, variant, julia, julia_constant)| {
-            let mut fractal =
-                Fractal { power, iterations, variant, julia, julia_constant, ..Default::default() };
+    let formulas: Vec<_> = formula::all().collect();
+    let fraction = || 0.0..=1.0_f64;
+    let shared = (count(&param::ITERATIONS), fraction());
+    (select(formulas), shared, vec(fraction(), 16)).prop_map(
+        |(formula, (iterations, t), fractions)| {
+            let mut fractal = Fractal::new(formula);
+            let mut fractions = fractions.into_iter().cycle();
+            let mut next = || fractions.next().unwrap_or_default();
+            for (field, value) in fractal.fields_mut() {
+                let mut within = |param: &Param| param.min + next() * (param.max - param.min);
+                match (field.kind, value) {
+                    (Kind::Number { param, .. }, Value::Number(number)) => *number = within(param),
+                    (Kind::Vector { param, .. }, Value::Vector(numbers)) => {
+                        numbers.fill_with(|| within(param));
+                    }
+                    (Kind::Switch { .. }, Value::Switch(is_on)) => *is_on = next() < 0.5,
+                    (Kind::Choice { options, .. }, Value::Choice(word)) => {
+                        *word =
+                            options[(next() * options.len() as f64) as usize % options.len()].word;
+                    }
+                    _ => unreachable!("a value is of its field's kind"),
+                }
+            }
+            fractal.iterations = iterations;
             let span = fractal.max_bailout() - param::BAILOUT.min;
             fractal.bailout = (param::BAILOUT.min + t * span).min(fractal.max_bailout());
             fractal
-        })
+        },
+    )
 }
 
 fn camera() -> impl Strategy<Value = Camera> {

@@ -8,11 +8,12 @@ fn there_are_at_least_six_and_every_name_is_its_own() {
     assert!(presets::dives().len() >= 6);
     let names: std::collections::HashSet<&str> = presets::every().map(|p| p.name).collect();
     assert_eq!(names.len(), presets::all().len() + presets::dives().len());
-    let powers: Vec<f64> = presets::dives().iter().map(|d| (d.scene)().fractal.power).collect();
+    let power = |dive: &presets::Preset| (dive.scene)().fractal.number("power");
+    let powers: Vec<f64> = presets::dives().iter().filter_map(power).collect();
     for power in [3.0, 4.0, 6.0, 8.0, 12.0, 16.0] {
         assert!(powers.contains(&power), "power {power}");
     }
-    assert!(presets::dives().iter().any(|dive| (dive.scene)().fractal.julia));
+    assert!(presets::dives().iter().any(|dive| (dive.scene)().fractal.is_on("julia")));
 }
 
 #[test]

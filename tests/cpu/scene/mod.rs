@@ -4,3 +4,4 @@ mod dives;
 mod document;
 mod path_document;
 mod presets;
+mod versions;

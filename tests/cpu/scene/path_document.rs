@@ -29,7 +29,7 @@ fn a_key_says_only_what_differs_from_the_scene() {
     assert_eq!(project.path.frames_per_second, 30);
     let scenes: Vec<&Scene> = project.path.keys.iter().map(|key| &*key.scene).collect();
     assert_eq!(*scenes[0], project.scene);
-    assert_eq!((scenes[1].fractal.power, scenes[1].tone.exposure), (5.0, 1.0));
+    assert_eq!((scenes[1].fractal.number("power"), scenes[1].tone.exposure), (Some(5.0), 1.0));
     assert_eq!(*scenes[2], Scene::default());
     let text = document::project_to_json(&project);
     assert_eq!(text.matches("\"power\"").count(), 2, "{text}");

@@ -1,6 +1,7 @@
 //! The renderer's views against the march.
 
 use mandelight::{
+    formula::mandelbulb::deep,
     gpu::device::in_parallel,
     render::{Pace, Region, gbuffer::Samples, space::RenderSpace},
     scene::Scene,
@@ -120,7 +121,11 @@ fn views_just_below_plain_ones_agree_with_the_march() {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.deepest < SHALLOW) {
         let scene = anchor.scene(SHALLOW);
         let space = RenderSpace::of(&scene, Region::whole(size(SHALLOW)));
-        if space.reference().is_some_and(|reference| !reference.rotates()) {
+        if space
+            .reference()
+            .and_then(deep::reference_of)
+            .is_some_and(|reference| !reference.rotates())
+        {
             let view = format!("power {} {} at {SHALLOW:e}", anchor.power, anchor.name);
             view_agrees(&scene, size(SHALLOW), false, &view);
         }

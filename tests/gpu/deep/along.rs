@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 use mandelight::{
+    formula::mandelbulb::deep,
     gpu::device::in_parallel,
     render::{Region, space::RenderSpace},
     scene::Scene,
@@ -85,7 +86,11 @@ fn estimates_agree(power: f64) {
             let quick = answers.iter().filter(|answer| answer.quick_distance.is_some()).count();
             let quick_part = quick as f64 / answers.len() as f64;
             // Elsewhere the two ways are one.
-            if space.reference().is_some_and(|reference| !reference.rotates()) {
+            if space
+                .reference()
+                .and_then(deep::reference_of)
+                .is_some_and(|reference| !reference.rotates())
+            {
                 told_quickly += quick;
                 told += answers.len();
             }

@@ -3,9 +3,12 @@
 use std::{collections::HashSet, sync::Arc};
 
 use mandelight::{
-    fractal::Reference,
-    render::{Region, pipelines::PipelineKey, space::RenderSpace, uniforms::Inputs},
-    scene::{Fractal, Scene},
+    formula::{
+        ReferenceOrbit,
+        mandelbulb::{Mandelbulb, variant::Variant},
+    },
+    render::{Region, space::RenderSpace, uniforms::Inputs},
+    scene::Scene,
 };
 use mandelight_test_support::{compare::difference, view::still};
 
@@ -51,10 +54,10 @@ fn moved(scene: &Scene, a: &Drawn, b: &Drawn, footprints: f64) -> Moved {
     }
 }
 
-fn sets() -> [Fractal; 3] {
-    let power_3 = Fractal { power: 3.0, iterations: 60, ..Fractal::default() };
-    let julia = Fractal { julia: true, ..Fractal::default() };
-    [power_3, Fractal::default(), julia]
+fn sets() -> [Mandelbulb; 3] {
+    let power_3 = Mandelbulb { power: 3.0, iterations: 60, ..Mandelbulb::default() };
+    let julia = Mandelbulb { julia: true, ..Mandelbulb::default() };
+    [power_3, Mandelbulb::default(), julia]
 }
 
 #[test]
@@ -62,13 +65,13 @@ fn another_anchor_moves_nothing() {
     for fractal in sets() {
         for scale in [1e-4, 1e-6, 1e-13, 1e-20, 1e-27] {
             let scene = places::at(fractal.clone(), scale);
-            let other = |ndc: [f64; 2]| -> Arc<Reference> {
+            let other = |ndc: [f64; 2]| -> Arc<dyn ReferenceOrbit> {
                 places::anchor_at(&scene, SIZE, ndc.into()).expect("a surface there")
             };
-            let first = drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene));
+            let first = drawn(&scene, SIZE, &places::about(found(&scene, SIZE), &scene));
             for ndc in [[0.7, 0.6], [-0.6, -0.8]] {
                 let reference = other(ndc);
-                let again = drawn(&scene, SIZE, &RenderSpace::about(reference, &scene));
+                let again = drawn(&scene, SIZE, &places::about(reference, &scene));
                 // A tenth of a pixel, which is two footprints wide.
                 let moved = moved(&scene, &first, &again, 0.2);
                 println!("power {} at {scale:e} about {ndc:?}: {moved:?}", fractal.power);
@@ -89,8 +92,8 @@ fn an_anchor_changes_nothing_where_none_is_needed() {
     for fractal in &sets() {
         for scale in [1e-3, 3e-3] {
             let scene = places::at(fractal.clone(), scale);
-            let plain = drawn(&scene, SIZE, &RenderSpace::plain());
-            let deep = drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene));
+            let plain = drawn(&scene, SIZE, &places::plain(&scene));
+            let deep = drawn(&scene, SIZE, &places::about(found(&scene, SIZE), &scene));
             let moved = moved(&scene, &plain, &deep, 0.2);
             println!("power {} julia {} at {scale:e}: {moved:?}", fractal.power, fractal.julia);
             assert!(moved.moved <= 0.01, "{scale:e}: {moved:?}");
@@ -135,8 +138,10 @@ fn every_hand_over_draws_the_same() {
     for fractal in &sets() {
         let key = |scale: f64| {
             let scene = places::at(fractal.clone(), scale);
-            let space = RenderSpace::about(found(&scene, SIZE), &scene);
-            PipelineKey::of(&Inputs::about(&scene, Region::whole(SIZE), &space).frame)
+            let space = places::about(found(&scene, SIZE), &scene);
+            Variant::from_number(
+                Inputs::about(&scene, Region::whole(SIZE), &space).formula.kernel.variant,
+            )
         };
         let scales: Vec<_> = (0..26).map(|i| 1e-2 * 0.5_f64.powi(i)).collect();
         let mut forms = HashSet::new();
@@ -153,7 +158,7 @@ fn every_hand_over_draws_the_same() {
                 }
                 let [a, b] = [above, below].map(|scale| {
                     let scene = places::at(fractal.clone(), scale);
-                    drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene))
+                    drawn(&scene, SIZE, &places::about(found(&scene, SIZE), &scene))
                 });
                 let moved = moved(&places::at(fractal.clone(), below), &a, &b, 0.2);
                 let what = format!("{old} to {} at {below:e}: {moved:?}", key(below));

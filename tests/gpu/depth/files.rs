@@ -13,11 +13,11 @@ use mandelight::{
         PictureFormat, StillJob, StillOptions, StillStatus, frame_name, scene_text,
         sequence::SequenceJob,
     },
-    fractal::DistanceField,
+    formula::{DistanceField, mandelbulb::Mandelbulb},
     render::{Eyes, Pace, Region},
     scene::{
-        Bloom, Camera, EnvironmentLight, Fractal, Indirect, IndirectKind, LightFrame, Path,
-        PointLight, Scene, Stereo, StereoLayout, document, link,
+        Bloom, Camera, EnvironmentLight, Indirect, IndirectKind, LightFrame, Path, PointLight,
+        Scene, Stereo, StereoLayout, document, link,
         path::{Easing, Key},
     },
 };
@@ -42,7 +42,7 @@ fn rgb(png: &[u8]) -> Vec<u8> {
 
 /// A rugged place, whose light comes along: it is dark in such depths.
 fn lit(scale: f64) -> Scene {
-    let mut scene = places::at(Fractal { julia: true, ..Fractal::default() }, scale);
+    let mut scene = places::at(Mandelbulb { julia: true, ..Mandelbulb::default() }, scale);
     let direction = DVec3::new(0.5, 0.6, 0.8).normalize().to_array();
     let light = EnvironmentLight { direction, frame: LightFrame::View, ..Default::default() };
     scene.lights.environment = vec![light];

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 use mandelight::{
-    fractal::{DeepField, DistanceField},
-    gpu::device::in_parallel,
-    render::space::RenderSpace,
-    scene::{
-        EnvironmentLight, Fractal, Indirect, IndirectKind, LightFrame, Normals, PointLight, Scene,
+    formula::{
+        DistanceField,
+        mandelbulb::{Mandelbulb, deep::DeepField},
     },
+    gpu::device::in_parallel,
+    scene::{EnvironmentLight, Indirect, IndirectKind, LightFrame, Normals, PointLight, Scene},
 };
 
 use super::places::{self, Drawn, cone, drawn, found};
@@ -78,7 +78,7 @@ fn normals_of_every_kind_agree_with_the_field() {
     for scale in SCALES {
         let mut scene = places::scene(scale);
         let field = places::field(&scene, SIZE);
-        let space = RenderSpace::about(field.reference().clone(), &scene);
+        let space = places::about(field.reference().clone(), &scene);
         for kind in [
             Normals::None,
             Normals::Three,
@@ -104,7 +104,7 @@ fn normals_of_every_kind_agree_with_the_field() {
 }
 
 /// A scene with lights of every kind, in the order of their bits.
-fn lit(fractal: Fractal, scale: f64) -> Scene {
+fn lit(fractal: Mandelbulb, scale: f64) -> Scene {
     let mut scene = places::at(fractal, scale);
     let rotation = scene.camera.rotation();
     let from = |direction: DVec3, frame: LightFrame, shadow_reach: Option<f64>| EnvironmentLight {
@@ -175,9 +175,9 @@ fn openness(field: &DeepField, power: f64, origin: DVec3, hit: f64, way: (DVec3,
 #[test]
 fn shadows_of_every_light_agree_with_the_field() {
     for scale in SCALES {
-        let scene = lit(Fractal::default(), scale);
+        let scene = lit(Mandelbulb::default(), scale);
         let field = places::field(&scene, SIZE);
-        let drawn = drawn(&scene, SIZE, &RenderSpace::about(field.reference().clone(), &scene));
+        let drawn = drawn(&scene, SIZE, &places::about(field.reference().clone(), &scene));
         let seen = seen(&scene, &field, &drawn);
         let lights = scene.lights.len();
         let some: Vec<_> = seen.into_iter().step_by(2).collect();
@@ -188,7 +188,13 @@ fn shadows_of_every_light_agree_with_the_field() {
             ways.map(|(bit, way)| {
                 let facing = seen.normal.dot(way.0) > 1e-3;
                 facing.then(|| {
-                    let open = openness(&field, scene.fractal.power, origin, seen.hit, way);
+                    let open = openness(
+                        &field,
+                        Mandelbulb::of(&scene.fractal).power,
+                        origin,
+                        seen.hit,
+                        way,
+                    );
                     (open, bits >> bit & 1 == 1)
                 })
             })
@@ -216,10 +222,10 @@ fn shadows_of_every_light_agree_with_the_field() {
 #[test]
 fn light_is_the_same_with_and_without_an_anchor() {
     for kind in [IndirectKind::Off, IndirectKind::Uniform, IndirectKind::Horizon] {
-        let mut scene = lit(Fractal::default(), 2e-3);
+        let mut scene = lit(Mandelbulb::default(), 2e-3);
         scene.indirect = Indirect { kind, ..Indirect::default() };
-        let plain = drawn(&scene, SIZE, &RenderSpace::plain());
-        let deep = drawn(&scene, SIZE, &RenderSpace::about(found(&scene, SIZE), &scene));
+        let plain = drawn(&scene, SIZE, &places::plain(&scene));
+        let deep = drawn(&scene, SIZE, &places::about(found(&scene, SIZE), &scene));
         let mean = |film: &[[f32; 3]]| film.iter().flatten().sum::<f32>() / film.len() as f32;
         let pairs = plain.film.iter().flatten().zip(deep.film.iter().flatten());
         let mut off: Vec<_> = pairs.map(|(a, b)| (a - b).abs() / mean(&plain.film)).collect();

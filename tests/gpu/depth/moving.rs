@@ -3,14 +3,15 @@
 use std::time::Instant;
 
 use mandelight::{
-    fractal::deep::Search,
+    formula::{Kernel, mandelbulb::Mandelbulb},
+    fractal::{Search, SharedModel},
     render::{
         Pace, Region, View,
-        pipelines::{Depth, PipelineKey, PipelineVariant},
-        space::RenderSpace,
+        pipeline_set::{NORMALS, RAYS},
+        pipelines::PipelineVariant,
         uniforms::Inputs,
     },
-    scene::{Fractal, Scene},
+    scene::Scene,
 };
 use mandelight_test_support::{
     compare::{Tolerance, assert_within},
@@ -42,12 +43,16 @@ fn what_a_dive_shows_is_what_stills_show() {
     for index in (0..=frames).step_by(3) {
         pipelines().specialise(&frame(index));
     }
-    let normals = Inputs::new(&frame(0), Region::whole(SIZE)).frame.normals;
-    for depth in Depth::DIVE {
-        let key = PipelineKey { power: 8, depth };
-        pipelines().prepare(PipelineVariant::Rays(key));
-        pipelines().prepare(PipelineVariant::Normals(key, normals));
+    let inputs = Inputs::new(&frame(0), Region::whole(SIZE));
+    let kernel = inputs.formula.kernel;
+    for variant in kernel.formula.dive_variants(&frame(0).fractal, kernel.variant) {
+        let kernel = Kernel { variant, ..kernel };
+        for set in [&RAYS, &NORMALS] {
+            pipelines().prepare(&PipelineVariant::with_kernel(set, &inputs, kernel));
+        }
     }
+    let models = SharedModel::default();
+    view.share_models(&models);
     view.set_scene(&frame(0), false);
     settle(&mut view);
     let start = Instant::now();
@@ -65,7 +70,7 @@ fn what_a_dive_shows_is_what_stills_show() {
         waited = if is_late { waited + 1 } else { 0 };
         late += u32::from(is_late);
         longest = longest.max(waited);
-        let anchor = view.report().reference.map(|reference| reference.anchor().clone());
+        let anchor = models.of(&scene.fractal).deep().map(|field| field.origin());
         anchors += u32::from(anchor != known);
         known = anchor;
         if index % 40 != 0 {
@@ -102,11 +107,11 @@ fn what_a_dive_shows_is_what_stills_show() {
 #[test]
 #[ignore = "a tool: prints times, which other programs make longer"]
 fn times_of_anchors() {
-    let set = |power: f64, iterations: u32, julia: bool| Fractal {
+    let set = |power: f64, iterations: u32, julia: bool| Mandelbulb {
         power,
         iterations,
         julia,
-        ..Fractal::default()
+        ..Mandelbulb::default()
     };
     for fractal in
         [set(8.0, 16, false), set(8.0, 16, true), set(3.0, 60, false), set(3.0, 100, false)]
@@ -139,7 +144,7 @@ fn times_of_anchors() {
                 let start = Instant::now();
                 drop(Search::new(&scene.fractal, &scene.camera, 1.5, None));
                 begin = begin.min(ms(start));
-                let space = RenderSpace::about(found.clone(), &scene);
+                let space = places::about(found.clone(), &scene);
                 let start = Instant::now();
                 drop(Inputs::about(&scene, Region::whole([1920, 1080]), &space));
                 upload = upload.min(ms(start));

@@ -4,18 +4,27 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use mandelight::{
-    fractal::{DeepField, DistanceField, Ray, Reference, camera_ray, deep::Search},
+    formula::{
+        DistanceField, Ray, ReferenceOrbit,
+        mandelbulb::{
+            Mandelbulb,
+            deep::{self, DeepField, Reference},
+        },
+    },
+    fractal::{FractalModel, Search, camera_ray},
     gpu::readback::Readback,
     render::{
         Region,
-        frame::{Dispatches, Recorder, record},
+        frame::record,
         gbuffer::Samples,
+        pipeline_set,
+        recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         space::RenderSpace,
         targets::Targets,
         uniforms::Inputs,
     },
-    scene::{Fractal, PrecisePoint, Scene},
+    scene::{PrecisePoint, Scene},
 };
 use mandelight_test_support::{
     deep::views::{ANCHORS, Anchor},
@@ -23,7 +32,7 @@ use mandelight_test_support::{
 };
 
 /// The scene that looks at an anchor of `fractal`, of power 8 or 3, from `scale` away.
-pub fn at(fractal: Fractal, scale: f64) -> Scene {
+pub fn at(fractal: Mandelbulb, scale: f64) -> Scene {
     let name = match (fractal.power == 3.0, fractal.julia) {
         (true, _) => "from the other side",
         (_, true) => "of the Julia key, from aside",
@@ -33,16 +42,16 @@ pub fn at(fractal: Fractal, scale: f64) -> Scene {
         (anchor.power, anchor.julia, anchor.name) == (fractal.power, fractal.julia, name)
     };
     let anchor = ANCHORS.iter().find(is_it).expect("the anchor");
-    Scene { camera: anchor.camera(scale), fractal, ..Scene::default() }
+    Scene { camera: anchor.camera(scale), fractal: fractal.into(), ..Scene::default() }
 }
 
 /// The scene of power 8.
 pub fn scene(scale: f64) -> Scene {
-    at(Fractal::default(), scale)
+    at(Mandelbulb::default(), scale)
 }
 
 /// The anchor that a view of `scene` finds.
-pub fn found(scene: &Scene, size: [u32; 2]) -> Arc<Reference> {
+pub fn found(scene: &Scene, size: [u32; 2]) -> Arc<dyn ReferenceOrbit> {
     let aspect = Region::whole(size).aspect();
     Search::new(&scene.fractal, &scene.camera, aspect, None).expect("a whole power").finish()
 }
@@ -53,15 +62,26 @@ pub fn anchor_at(scene: &Scene, size: [u32; 2], ndc: DVec2) -> Option<Arc<Refere
     let ray = camera_ray(&scene.camera, &field.origin(), ndc, Region::whole(size).aspect());
     let depth = field.march(ray, 1e-4, 100.0 * scene.camera.view_unit())?;
     let anchor = scene.camera.position.moved_by(ray.direction * depth, 1e-12 * depth);
-    Reference::new(&scene.fractal, anchor).map(Arc::new)
+    Reference::new(&Mandelbulb::of(&scene.fractal), anchor).map(Arc::new)
 }
 
 /// The set in f64 about the anchor that a view of `scene` finds.
 pub fn field(scene: &Scene, size: [u32; 2]) -> DeepField {
     let region = Region::whole(size);
     let reference = found(scene, size);
-    let footprint = RenderSpace::about(reference.clone(), scene).footprint(scene, region);
-    DeepField::new(reference, &scene.fractal, footprint)
+    let footprint = about(reference.clone(), scene).footprint(scene, region);
+    let reference = deep::reference_of(&reference).cloned().map(Arc::new).expect("a Mandelbulb's");
+    DeepField::new(reference, &Mandelbulb::of(&scene.fractal), footprint)
+}
+
+/// The coordinates about `reference` for what `scene`'s camera sees.
+pub fn about(reference: Arc<dyn ReferenceOrbit>, scene: &Scene) -> RenderSpace {
+    RenderSpace::about(&FractalModel::new(&scene.fractal), reference, scene)
+}
+
+/// The scene's own coordinates.
+pub fn plain(scene: &Scene) -> RenderSpace {
+    RenderSpace::plain(&FractalModel::new(&scene.fractal))
 }
 
 /// What the passes over centre samples leave.
@@ -77,20 +97,19 @@ pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
     let gpu = &pipelines.gpu;
     let region = Region::whole(size);
     let inputs = Inputs::about(scene, region, space);
-    let mut targets = Targets::new(pipelines, region);
-    targets.fit_direct(pipelines, inputs.has_indirect());
+    let mut targets = Targets::new(&pipelines.layouts, region);
+    targets.fit_direct(&pipelines.layouts, inputs.has_indirect());
     targets.upload(&gpu.queue, &inputs);
-    for variant in mandelight::render::pipelines::PipelineVariant::special(&inputs.frame) {
-        pipelines.prepare(variant);
-    }
-    let passes = pipelines.passes(&inputs.frame);
+    pipelines.prepare_together(&pipeline_set::specialized(&inputs));
+    let passes = pipelines.of_frame(&inputs);
     let mut stages = vec![(Points::Level(0), Stage::March)];
     if inputs.has_indirect() {
         stages.push((Points::Indirect(0), Stage::Indirect));
     }
     let mut dispatches = Dispatches::default();
     for (points, from) in stages {
-        let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
+        let mut recorder =
+            Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
         let workgroups = points.grid(size).workgroups();
         let lights = inputs.shining();
         let trace = Trace { points, from, lights, first_workgroup: 0, workgroups };

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use mandelight::{
-    gpu::readback::Readback,
+    gpu::{host_shared::HostShared, readback::Readback},
     render::{
         Region,
-        frame::{Dispatches, Recorder, record},
+        frame::record,
         post::{Need, Post, Tasks},
+        recorder::{Dispatches, Recorder},
         schedule::Work,
         targets::Targets,
         uniforms::{Inputs, Statistics},
@@ -41,9 +42,9 @@ impl Film {
 
     /// The film of a region.
     pub fn of(region: Region) -> Self {
-        let mut targets = Targets::new(pipelines(), region);
+        let mut targets = Targets::new(&pipelines().layouts, region);
         let need = Need { mean: true, bloom: true };
-        targets.post = Arc::new(Post::new(pipelines(), region, need));
+        targets.post = Arc::new(Post::new(&pipelines().layouts, region, need));
         Self { region, targets }
     }
 
@@ -62,10 +63,10 @@ impl Film {
         let bw: Vec<_> = colors.iter().map(|[_, _, b]| [*b, 1.0]).collect();
         gpu.queue.write_buffer(&self.targets.film_rg, 0, bytemuck::cast_slice(&rg));
         gpu.queue.write_buffer(&self.targets.film_bw, 0, bytemuck::cast_slice(&bw));
-        let passes = pipelines.passes(&inputs.frame);
+        let passes = pipelines.of_frame(&inputs);
         let mut dispatches = Dispatches::default();
         let mut recorder =
-            Recorder::new(pipelines, &passes, &self.targets, &inputs, &mut dispatches);
+            Recorder::new(&pipelines.layouts, &passes, &self.targets, &inputs, &mut dispatches);
         recorder.tasks = Tasks {
             mean: true,
             histogram: true,
@@ -85,7 +86,7 @@ impl Film {
             DVec3::new(r.into(), g.into(), b.into())
         };
         Toned {
-            statistics: bytemuck::pod_read_unaligned(&read(&post.statistics)),
+            statistics: Statistics::read(&read(&post.statistics)),
             mips: read(&post.mips).as_chunks().0.iter().map(element).collect(),
             display: bytes
                 .as_chunks::<4>()

@@ -6,7 +6,8 @@ use mandelight::{
     gpu::readback::Readback,
     render::{
         Region,
-        frame::{Dispatches, Recorder, record},
+        frame::record,
+        recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
@@ -65,8 +66,8 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let pipelines = pipelines();
     let gpu = &pipelines.gpu;
     let region = Region::whole(SIZE);
-    let mut targets = Targets::new(pipelines, region);
-    targets.fit_direct(pipelines, true);
+    let mut targets = Targets::new(&pipelines.layouts, region);
+    targets.fit_direct(&pipelines.layouts, true);
     let inputs = Inputs::new(scene, region);
     targets.upload(&gpu.queue, &inputs);
     let surface: Vec<_> =
@@ -74,9 +75,10 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let direct: Vec<_> = made.iter().map(|m| shared_exponent(m.direct)).collect();
     gpu.queue.write_buffer(&targets.center.surface, 0, cast_slice(&surface));
     gpu.queue.write_buffer(&targets.direct, 0, cast_slice(&direct));
-    let passes = pipelines.passes(&inputs.frame);
+    let passes = pipelines.of_frame(&inputs);
     let mut dispatches = Dispatches::default();
-    let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
+    let mut recorder =
+        Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
     let points = Points::Indirect(0);
     let workgroups = points.grid(SIZE).workgroups();
     record(

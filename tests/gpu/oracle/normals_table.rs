@@ -5,11 +5,11 @@
 use std::{fmt::Write, fs, time::Instant};
 
 use mandelight::{
+    formula::mandelbulb::Mandelbulb,
     gpu::device::in_parallel,
     render::{
-        Region,
-        frame::{self, Dispatches, Recorder},
-        pass,
+        Region, frame, pass,
+        recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
@@ -63,7 +63,8 @@ fn errors(scene: &Scene) -> Vec<Off> {
         let depth = pictures[0].depth[index];
         let point = point_at(scene, pixel, depth);
         let spacing = rays::hit_distance(scene, views::SIZE, depth.into());
-        let gradient = (depth > 0.0).then(|| normals::gradient(&scene.fractal, point, spacing));
+        let gradient = (depth > 0.0)
+            .then(|| normals::gradient(&Mandelbulb::of(&scene.fractal), point, spacing));
         gradient.flatten().filter(|gradient| gradient.uncertain_deg < 0.01)
     });
     let known = gradients.iter().flatten().count();
@@ -88,16 +89,17 @@ fn costs(scene: &Scene) -> Vec<f64> {
     let grid = points.grid(PICTURE_PX);
     let workgroups = grid.workgroups();
     let trace = Trace { points, from: Stage::March, lights: 0, first_workgroup: 0, workgroups };
-    let targets = Targets::new(pipelines, Region::whole(PICTURE_PX));
+    let targets = Targets::new(&pipelines.layouts, Region::whole(PICTURE_PX));
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {
         let mut scene = scene.clone();
         scene.quality.normals = way.unwrap_or(Normals::None);
         let inputs = Inputs::new(&scene, Region::whole(PICTURE_PX));
         pipelines.specialise(&scene);
-        let passes = pipelines.passes(&inputs.frame);
+        let passes = pipelines.of_frame(&inputs);
         targets.upload(&pipelines.gpu.queue, &inputs);
-        let mut recorder = Recorder::new(pipelines, &passes, &targets, &inputs, &mut dispatches);
+        let mut recorder =
+            Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
         match way {
             Some(_) => pass::normal::record(&mut recorder, &trace, &grid),
             None => frame::record(&mut recorder, Work::Trace(trace)),

@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 use mandelight::{
+    formula::mandelbulb::Mandelbulb,
     gpu::device::in_parallel,
     render::{Pace, Region, gbuffer::Samples, uniforms::Inputs},
     scene::{Normals, Scene},
@@ -64,7 +65,11 @@ fn compare(scene: &Scene, samples: &Samples) -> Comparison {
                 let footprint = rays::cone(&scene.camera, views::SIZE) * expected;
                 result.depth_footprints.push((f64::from(depth) - expected).abs() / footprint);
                 let spacing = rays::hit_distance(scene, views::SIZE, depth.into());
-                let normal = rays::normal(&scene.fractal, point_at(scene, pixel, depth), spacing);
+                let normal = rays::normal(
+                    &Mandelbulb::of(&scene.fractal),
+                    point_at(scene, pixel, depth),
+                    spacing,
+                );
                 let cosine = normal.dot(samples.normal[index].as_dvec3());
                 result.normal_deg.push(cosine.clamp(-1.0, 1.0).acos().to_degrees());
             }
@@ -125,7 +130,16 @@ fn visibility_of_lights_agrees_with_the_oracle() {
             let judged =
                 facing.filter(|(light, _)| light.radiance != DVec3::ZERO).map(|(light, k)| {
                     let reaches = picture.samples.visibility[index] >> k & 1 == 1;
-                    (reaches, rays::openness(&scene.fractal, point, normal, hit, &light.ray))
+                    (
+                        reaches,
+                        rays::openness(
+                            &Mandelbulb::of(&scene.fractal),
+                            point,
+                            normal,
+                            hit,
+                            &light.ray,
+                        ),
+                    )
                 });
             judged.collect::<Vec<_>>()
         });

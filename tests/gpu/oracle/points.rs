@@ -2,30 +2,36 @@
 
 use glam::DVec3;
 use mandelight::{
-    fractal::Estimator,
+    formula::{
+        FormulaRef, Fractal,
+        mandelbulb::{Mandelbulb, Sine, estimator::Estimator},
+        quaternion_julia::QUATERNION_JULIA,
+    },
     gpu::device::in_parallel,
-    scene::{Fractal, Scene, Variant},
+    render::Pace,
+    scene::{Camera, Scene},
 };
 use mandelight_test_support::{
-    oracle::{estimate, normals},
+    oracle::{estimate, normals, quaternion, rays},
     probe,
     random::Random,
     statistics::quantile,
+    view::{finished, sampled},
 };
 
 #[test]
 fn estimates_at_random_points_agree_with_the_oracle() {
-    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let bulb = |power: f64| Mandelbulb { power, ..Mandelbulb::default() };
     let mut fractals: Vec<_> =
         [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 5.5, 6.75, 15.9].map(bulb).into();
-    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
-    fractals.push(Fractal { julia: true, ..bulb(8.0) });
-    fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
+    fractals.push(Mandelbulb { sine: Sine::Negative, ..bulb(8.0) });
+    fractals.push(Mandelbulb { julia: true, ..bulb(8.0) });
+    fractals.push(Mandelbulb { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
     // As far as an f32 goes.
-    let widest = |power: f64| Fractal { bailout: bulb(power).max_bailout(), ..bulb(power) };
+    let widest = |power: f64| Mandelbulb { bailout: bulb(power).max_bailout(), ..bulb(power) };
     fractals.extend([2.0, 3.0, 8.0, 16.0, 5.5].map(widest));
     for fractal in fractals {
-        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let scene = Scene { fractal: fractal.clone().into(), ..Scene::default() };
         let estimator = Estimator::new(&fractal);
         let radius = 1.2 * estimator.bounding_radius();
         let mut random = Random(0x0DDB_1A5E_5BAD_5EED);
@@ -72,8 +78,11 @@ fn estimates_at_random_points_agree_with_the_oracle() {
 #[test]
 fn estimates_on_the_axis_agree_with_the_oracle() {
     for power in [2.0, 3.0, 4.0, 7.0, 8.0, 16.0, 5.5] {
-        let scene = Scene { fractal: Fractal { power, ..Fractal::default() }, ..Scene::default() };
-        let radius = Estimator::new(&scene.fractal).bounding_radius();
+        let scene = Scene {
+            fractal: Mandelbulb { power, ..Mandelbulb::default() }.into(),
+            ..Scene::default()
+        };
+        let radius = Estimator::new(&Mandelbulb::of(&scene.fractal)).bounding_radius();
         let heights = (0..512).map(|i| radius * (f64::from(i) / 256.0 - 1.0));
         let on_axis = heights.map(|z| DVec3::new(0.0, 0.0, z).as_vec3().as_dvec3());
         let points: Vec<_> = on_axis.collect();
@@ -81,7 +90,7 @@ fn estimates_on_the_axis_agree_with_the_oracle() {
             let answers = probe::ask(&scene, &points, specialised).expect("the answers");
             let mut away = 0;
             for (&point, answer) in points.iter().zip(&answers) {
-                let expected = estimate::distance(&scene.fractal, point);
+                let expected = estimate::distance(&Mandelbulb::of(&scene.fractal), point);
                 if expected > 1e-2 {
                     away += 1;
                     let off = (f64::from(answer.distance) - expected).abs() / expected;
@@ -100,14 +109,14 @@ fn estimates_on_the_axis_agree_with_the_oracle() {
 /// both sides of the axis and of the seam.
 #[test]
 fn gradients_at_random_points_agree_with_the_oracle() {
-    let bulb = |power: f64| Fractal { power, ..Fractal::default() };
+    let bulb = |power: f64| Mandelbulb { power, ..Mandelbulb::default() };
     let mut fractals: Vec<_> = [2.0, 3.0, 5.0, 8.0, 11.0, 16.0, 2.5, 6.75, 15.9].map(bulb).into();
-    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(8.0) });
-    fractals.push(Fractal { variant: Variant::NegativeSine, ..bulb(5.5) });
-    fractals.push(Fractal { julia: true, ..bulb(8.0) });
-    fractals.push(Fractal { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
+    fractals.push(Mandelbulb { sine: Sine::Negative, ..bulb(8.0) });
+    fractals.push(Mandelbulb { sine: Sine::Negative, ..bulb(5.5) });
+    fractals.push(Mandelbulb { julia: true, ..bulb(8.0) });
+    fractals.push(Mandelbulb { julia: true, julia_constant: [-0.2, 0.6, 0.2], ..bulb(2.5) });
     for fractal in fractals {
-        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let scene = Scene { fractal: fractal.clone().into(), ..Scene::default() };
         let radius = 1.2 * Estimator::new(&fractal).bounding_radius();
         let mut random = Random(0xF00D_FACE_5BAD_5EED);
         let points: Vec<_> =
@@ -136,8 +145,9 @@ fn gradients_at_random_points_agree_with_the_oracle() {
 fn gradients_are_finite_on_the_axis_and_zero_inside() {
     for (power, julia) in [(2.0, false), (3.0, false), (8.0, false), (4.5, false), (7.0, true)] {
         let mut scene = Scene::default();
-        scene.fractal = Fractal { power, julia, iterations: 100, ..scene.fractal };
-        scene.fractal.julia_constant = [0.0, 0.0, 0.9];
+        scene.fractal =
+            Mandelbulb { power, julia, iterations: 100, ..Mandelbulb::of(&scene.fractal) }.into();
+        scene.fractal.set("julia_constant", [0.0, 0.0, 0.9]);
         for specialised in [false, true] {
             let heights = (0..512).map(|i| f64::from(i) / 256.0 - 1.0);
             let beside = |z| [0.0, 1e-30, 1e-12].map(|x| DVec3::new(x, 0.0, z));
@@ -148,5 +158,91 @@ fn gradients_are_finite_on_the_axis_and_zero_inside() {
                 assert_eq!(flat, answer.distance == 0.0, "power {power}: {answer:?}");
             }
         }
+    }
+}
+
+/// Estimates, colours and gradients of the quaternion Julia set, at points near and far.
+#[test]
+fn quaternion_julia_sets_agree_with_the_oracle() {
+    let constants = [[-0.125, -0.256, 0.847, 0.0895], [-0.2, 0.8, 0.0, 0.0], [0.0; 4]];
+    for (constant, slice) in constants.into_iter().zip([0.0, 0.3, -0.4]) {
+        let mut fractal = Fractal::new(FormulaRef(&QUATERNION_JULIA));
+        assert!(fractal.set("constant", constant) && fractal.set("slice", slice));
+        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let field = fractal.formula().field(&fractal);
+        // Footprints of a whole view add no iterations.
+        let iterations = fractal.formula().iterations_for(&fractal, 0.1);
+        assert_eq!(iterations, fractal.iterations);
+        let mut random = Random(0x0DDB_1A5E_5BAD_5EED);
+        let points: Vec<_> = (0..2000)
+            .map(|_| random.in_ball(1.2 * field.bounding_radius()).as_vec3().as_dvec3())
+            .collect();
+        let answers = probe::ask(&scene, &points, true).expect("answers");
+        let (mut escaped, mut turned) = (0, Vec::new());
+        for (point, answer) in points.iter().zip(answers) {
+            let expected = quaternion::distance(&fractal, *point);
+            let orbit = quaternion::orbit(&fractal, *point);
+            let distance = f64::from(answer.distance);
+            // A radius near one is inside by one arithmetic and outside by the other.
+            if expected == 0.0 || orbit.steps >= fractal.iterations {
+                continue;
+            }
+            escaped += 1;
+            let off = (distance - expected).abs() / expected;
+            assert!(off < 2e-4 || expected < 1e-6, "{point}: {distance} instead of {expected}");
+            let step = f64::from(answer.step);
+            assert!(step <= distance && field.distance(*point) > 0.0);
+            // The estimate bounds the way to the surface: no point within it is inside.
+            let direction = DVec3::new(random.signed(), random.signed(), random.signed());
+            let near = *point + direction.normalize_or(DVec3::X) * 0.99 * expected;
+            let deeper = fractal.with_iterations(200);
+            assert!(quaternion::distance(&deeper, near) > 0.0, "{point}: {expected} is too far");
+            let spacing = 1e-5 * expected;
+            let slope = |axis: DVec3| {
+                quaternion::distance(&fractal, *point + axis * spacing)
+                    - quaternion::distance(&fractal, *point - axis * spacing)
+            };
+            let gradient = DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z));
+            turned.push(gradient.angle_between(answer.gradient.as_dvec3()));
+        }
+        assert!(escaped > 1000, "{constant:?}: {escaped} of the points are outside");
+        let most = quantile(turned, 0.98);
+        assert!(most < 0.02, "{constant:?}: gradients are {most} rad off");
+    }
+}
+
+/// With c = 0 the set is the unit ball, cut by the slice.
+#[test]
+fn a_quaternion_julia_set_without_a_constant_is_a_ball() {
+    for slice in [0.0, 0.6] {
+        let mut fractal = Fractal::new(FormulaRef(&QUATERNION_JULIA));
+        assert!(fractal.set("constant", [0.0; 4]) && fractal.set("slice", slice));
+        let radius = (1.0 - slice * slice).sqrt();
+        let camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);
+        let scene = Scene { fractal, camera, ..Scene::default() };
+        let size = [48, 32];
+        let view = finished(&sampled(scene.clone(), 1), size, Pace::Still);
+        let depths = view.gbuffer().expect("samples").depth;
+        let (origin, mut hits) = (scene.camera.position.to_dvec3(), 0);
+        for (i, &depth) in (0..).zip(&depths) {
+            let direction = rays::direction(&scene.camera, size, [i % size[0], i / size[0]]);
+            let along = -origin.dot(direction);
+            let beside = (origin + along * direction).length();
+            // A pixel on the rim may go either way.
+            if (beside / radius - 1.0).abs() < 0.02 {
+                continue;
+            }
+            assert_eq!(depth > 0.0, beside < radius, "pixel {i}");
+            if depth > 0.0 {
+                // A ray stops where the estimate, about half the distance to a ball, is the hit
+                // distance.
+                let outer = radius + 2.2 * rays::hit_distance(&scene, size, f64::from(depth));
+                let reach = |radius: f64| along - (radius * radius - beside * beside).sqrt();
+                let range = reach(outer)..=reach(radius) + 1e-3;
+                assert!(range.contains(&f64::from(depth)), "{depth} is not in {range:?}");
+                hits += 1;
+            }
+        }
+        assert!(hits > 100);
     }
 }

@@ -167,7 +167,7 @@ fn the_histogram_counts_every_pixel_in_its_bin() {
                 [stops.exp2() as f32; 3]
             })
             .collect();
-        let found = Film::new(size_px).tone(&Scene::default(), &colors).statistics.bins;
+        let found = *Film::new(size_px).tone(&Scene::default(), &colors).statistics.bins;
         assert_eq!(found, expected, "{size_px:?}");
         assert_eq!(found.iter().sum::<u32>() as usize, count(size_px));
     }

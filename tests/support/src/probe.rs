@@ -8,46 +8,22 @@ use std::{
 
 use glam::{DVec3, Vec3};
 use mandelight::{
+    formula::{Kernel, contract::MOST_TABLE_BYTES},
+    fractal::FractalModel,
     gpu::{
         Gpu,
         readback::{Readback, ReadbackError},
-        shader::{File, Module},
+        shader::Module,
     },
-    render::{
-        Eyes, Region,
-        pass::MODULES,
-        pipelines::{Depth, PipelineKey},
-        space::RenderSpace,
-        uniforms::{ANCHOR_ORBIT_BYTES, Inputs},
-    },
+    render::{Eyes, Region, shaders, space::RenderSpace, uniforms::Inputs},
     scene::Scene,
 };
 
 use crate::device::gpu;
 
-/// What the formula consists of, below `shaders/`.
-const FORMULA: [&str; 6] = [
-    "types/frame_uniforms.wgsl",
-    "lib/numeric.wgsl",
-    "lib/complex.wgsl",
-    "formula/deep.wgsl",
-    "formula/rotating_frame.wgsl",
-    "formula/mandelbulb.wgsl",
-];
-
-/// The probe's shader; `POWER`, `DEEP` and `ROTATING_FRAME` specialise it.
-pub static MODULE: LazyLock<Module> = LazyLock::new(|| {
-    with_formula("probe", File { path: "pass/probe.wgsl", text: include_str!("probe.wgsl") })
-});
-
-/// A module of the program's formula and an entry point. Its list of files is leaked.
-pub fn with_formula(label: &'static str, entry: File) -> Module {
-    let of = |path: &&str| {
-        let mut files = MODULES.iter().flat_map(|module| module.files);
-        *files.find(|file| file.path == *path).unwrap_or_else(|| panic!("no module has {path}"))
-    };
-    let files: Vec<_> = FORMULA.iter().map(of).chain([entry]).collect();
-    Module { label, files: files.leak() }
+/// The probe's shader for `kernel`.
+pub fn module(kernel: Kernel) -> Module {
+    shaders::joined("probe", Some(kernel), include_str!("probe.wgsl"))
 }
 
 /// What the kernels say of one point.
@@ -76,9 +52,11 @@ pub fn ask(
     points: &[DVec3],
     specialised: bool,
 ) -> Result<Vec<Answer>, ReadbackError> {
-    let inputs = Inputs::about(scene, REGION, &RenderSpace::plain());
-    let power = if specialised { PipelineKey::of(&inputs.frame).power } else { 0 };
-    ask_form(&inputs, points, PipelineKey { power, depth: Depth::Plain })
+    let space = RenderSpace::plain(&FractalModel::new(&scene.fractal));
+    let inputs = Inputs::about(scene, REGION, &space);
+    let kernel = inputs.formula.kernel;
+    let general = kernel.general().filter(|_| !specialised);
+    ask_kernel(&inputs, points, general.unwrap_or(kernel))
 }
 
 /// The same about points that are given by their offsets from the anchor of `space`, in its units,
@@ -89,7 +67,7 @@ pub fn ask_about(
     offsets: &[DVec3],
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, space);
-    ask_form(&inputs, offsets, PipelineKey::of(&inputs.frame))
+    ask_kernel(&inputs, offsets, inputs.formula.kernel)
 }
 
 /// Of the kernel's answer to one point.
@@ -99,15 +77,15 @@ const ANSWER_BYTES: usize = 48;
 const REGION: Region =
     Region { picture_px: [64; 2], origin_px: [0; 2], size_px: [64; 2], eyes: Eyes::Camera };
 
-fn ask_form(
+fn ask_kernel(
     inputs: &Inputs,
     points: &[DVec3],
-    key: PipelineKey,
+    kernel: Kernel,
 ) -> Result<Vec<Answer>, ReadbackError> {
-    let (gpu, pipeline) = (gpu(), pipeline(key));
+    let (gpu, pipeline) = (gpu(), pipeline(kernel));
     let questions: Vec<[f32; 4]> =
         points.iter().map(|p| p.as_vec3().extend(0.0).to_array()).collect();
-    let [picture, anchor_orbit] = bindings(gpu, inputs);
+    let bindings = bindings(gpu, inputs);
     let questions = filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&questions));
     let answers = filled(
         gpu,
@@ -119,7 +97,7 @@ fn ask_form(
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group(0, &[&picture, &anchor_orbit]), &[]);
+        pass.set_bind_group(0, &group(0, &bindings.iter().collect::<Vec<_>>()), &[]);
         pass.set_bind_group(1, &group(1, &[&questions, &answers]), &[]);
         pass.dispatch_workgroups((points.len() as u32).div_ceil(64), 1, 1);
     }
@@ -148,21 +126,21 @@ fn ask_form(
         .collect())
 }
 
-/// The probe's pipeline for `key` on the shared device, compiled once.
-fn pipeline(key: PipelineKey) -> wgpu::ComputePipeline {
-    type Made = HashMap<PipelineKey, Arc<OnceLock<wgpu::ComputePipeline>>>;
+/// The probe's pipeline for `kernel` on the shared device, compiled once.
+fn pipeline(kernel: Kernel) -> wgpu::ComputePipeline {
+    type Made = HashMap<Kernel, Arc<OnceLock<wgpu::ComputePipeline>>>;
     static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
-    // Others that compile another key need not wait.
-    let one = MADE.lock().expect("the list").entry(key).or_default().clone();
+    // Others that compile another kernel need not wait.
+    let one = MADE.lock().expect("the list").entry(kernel).or_default().clone();
     let make = || {
         let device = &gpu().device;
         device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(MODULE.label),
+            label: Some("probe"),
             layout: None,
-            module: &MODULE.create(device),
+            module: &module(kernel).create(device),
             entry_point: Some("main"),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &key.constants(),
+                constants: &kernel.overrides(),
                 ..Default::default()
             },
             cache: None,
@@ -171,14 +149,16 @@ fn pipeline(key: PipelineKey) -> wgpu::ComputePipeline {
     one.get_or_init(make).clone()
 }
 
-/// What kernels know of a picture: the first two bindings of group 0.
-pub fn bindings(gpu: &Gpu, inputs: &Inputs) -> [wgpu::Buffer; 2] {
-    let mut anchor_orbit = inputs.anchor_orbit();
-    anchor_orbit.resize(ANCHOR_ORBIT_BYTES as usize, 0);
-    [
-        filled(gpu, wgpu::BufferUsages::STORAGE, bytemuck::bytes_of(&inputs.frame)),
-        filled(gpu, wgpu::BufferUsages::UNIFORM, &anchor_orbit),
-    ]
+/// The first bindings of group 0 that a kernel uses: frame uniforms, and the formula's table where the
+/// formula has one.
+pub fn bindings(gpu: &Gpu, inputs: &Inputs) -> Vec<wgpu::Buffer> {
+    let mut buffers = vec![filled(gpu, wgpu::BufferUsages::STORAGE, &inputs.frame_bytes())];
+    if !inputs.formula.table.is_empty() {
+        let mut table = inputs.formula.table.to_vec();
+        table.resize(MOST_TABLE_BYTES, 0);
+        buffers.push(filled(gpu, wgpu::BufferUsages::UNIFORM, &table));
+    }
+    buffers
 }
 
 /// Group `index` of `pipeline`, whose bindings are whole buffers in their order.

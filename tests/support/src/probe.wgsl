@@ -1,4 +1,5 @@
 // Distance estimates, safe steps, gradients and colour data at given points.
+// uses: formula, types/frame_uniforms
 
 struct Answer {
     // Of any length.
@@ -20,10 +21,10 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     frame = frame_uniforms;
     if (id.x >= arrayLength(&points)) { return; }
     let point = points[id.x].xyz;
-    let fractal = frame.fractal;
+    let fractal = frame.formula.fractal;
     let colors = orbit_colors(fractal, point);
-    let ahead = estimate(fractal, point, frame.series.widest);
-    let quick = quick_estimate(fractal, point, frame.series.widest);
+    let ahead = estimate(fractal, point, bundle_direction());
+    let quick = quick_estimate(fractal, point, bundle_direction());
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,

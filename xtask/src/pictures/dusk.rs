@@ -108,7 +108,7 @@ fn add(a: Color, b: Color, part: f64) -> Color {
     [0, 1, 2].map(|i| a[i] + b[i] * part)
 }
 
-/// Fractal noise of six octaves, 0 to 1.
+/// Mandelbulb noise of six octaves, 0 to 1.
 fn clouds(x: f64, y: f64) -> f64 {
     let octave = |level: i32| {
         let scale = 2f64.powi(level);

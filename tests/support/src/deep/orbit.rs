@@ -5,7 +5,7 @@
 //! `(ρ + i z)ⁿ/rⁿ` and `cos nθ + i sin nθ` is `uⁿ`. On the polar axis the longitude is that of +x.
 
 use glam::{DMat3, DVec3};
-use mandelight::scene::{Fractal, Variant};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 
 use super::arithmetic::{Complex, Point, Real, moved, rounded};
 
@@ -45,13 +45,13 @@ pub struct Estimate {
 
 impl Set {
     /// `fractal`, whose power must be whole, with orbits of up to `iterations` steps.
-    pub fn new(fractal: &Fractal, iterations: u32) -> Self {
+    pub fn new(fractal: &Mandelbulb, iterations: u32) -> Self {
         assert_eq!(fractal.power.fract(), 0.0);
         Self {
             power: fractal.power as u32,
             iterations,
             bailout: fractal.bailout,
-            is_mirrored: fractal.variant == Variant::NegativeSine,
+            is_mirrored: fractal.sine == Sine::Negative,
             julia_constant: fractal.julia.then(|| fractal.julia_constant.map(Real::from_f64)),
         }
     }

@@ -4,7 +4,10 @@
 //! setting; at powers below 4 for half of that length along the ray.
 
 use glam::{DVec2, DVec3};
-use mandelight::scene::{Camera, Precise, Scene};
+use mandelight::{
+    formula::mandelbulb::Mandelbulb,
+    scene::{Camera, Precise, Scene},
+};
 
 use super::{
     arithmetic::{Point, Real, moved, rounded},
@@ -41,7 +44,7 @@ impl<'a> Looking<'a> {
     pub fn new(scene: &'a Scene, size: Size, iterations: u32) -> Self {
         let position = &scene.camera.position.0;
         Self {
-            set: Set::new(&scene.fractal, iterations),
+            set: Set::new(&Mandelbulb::of(&scene.fractal), iterations),
             size,
             scene,
             eye: position.each_ref().map(|v: &Precise| Real::parse(&v.to_string())),
@@ -90,7 +93,7 @@ impl<'a> Looking<'a> {
             let here = estimate(t);
             let hit = self.hit_distance(t);
             if here.distance < hit && !was_near {
-                if self.scene.fractal.power >= 4.0 {
+                if Mandelbulb::of(&self.scene.fractal).power >= 4.0 {
                     return Some(t);
                 }
                 let entry = entry(before, t, is_near);

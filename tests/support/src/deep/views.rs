@@ -1,7 +1,10 @@
 //! The views: anchors on the surface, and from where they are looked at.
 
 use glam::DVec3;
-use mandelight::scene::{Camera, Fractal, PrecisePoint, Scene, Variant};
+use mandelight::{
+    formula::mandelbulb::{Mandelbulb, Sine},
+    scene::{Camera, PrecisePoint, Scene},
+};
 
 use super::rays::Size;
 
@@ -277,10 +280,9 @@ impl Anchor {
 
     /// The scene that looks at it from `scale` away.
     pub fn scene(&self, scale: f64) -> Scene {
-        let variant =
-            if self.name == MIRRORED.name { Variant::NegativeSine } else { Variant::PositiveSine };
+        let sine = if self.name == MIRRORED.name { Sine::Negative } else { Sine::Positive };
         let fractal =
-            Fractal { power: self.power, julia: self.julia, variant, ..Fractal::default() };
+            Mandelbulb { power: self.power, julia: self.julia, sine, ..Mandelbulb::default() };
         scene(fractal, &self.point(), self.toward.into(), scale)
     }
 
@@ -304,16 +306,16 @@ fn camera(anchor: &PrecisePoint, toward: DVec3, scale: f64) -> Camera {
 }
 
 /// The scene that looks at `anchor` along `toward` from `scale` away.
-pub fn scene(fractal: Fractal, anchor: &PrecisePoint, toward: DVec3, scale: f64) -> Scene {
+pub fn scene(fractal: Mandelbulb, anchor: &PrecisePoint, toward: DVec3, scale: f64) -> Scene {
     let camera = camera(anchor, toward, scale);
     // Orbits of low powers are long already where views are shallow.
     let iterations = if fractal.power < 4.0 { 100 } else { fractal.iterations };
-    Scene { fractal: Fractal { iterations, ..fractal }, camera, ..Scene::default() }
+    Scene { fractal: Mandelbulb { iterations, ..fractal }.into(), camera, ..Scene::default() }
 }
 
 /// Steps that no orbit of such a scene needs: the document's, and for each power of ten of the view
 /// so many as the slowest orbits took, and half as many again.
 pub fn plenty(scene: &Scene) -> u32 {
     let depth = (1.0 / scene.camera.view_unit()).max(1.0).ln() + 8.0;
-    scene.fractal.iterations + (2.0 * depth / scene.fractal.power.ln()) as u32
+    scene.fractal.iterations + (2.0 * depth / Mandelbulb::of(&scene.fractal).power.ln()) as u32
 }

@@ -5,7 +5,7 @@
 //! derivative of that constant, which is the + 1 of line 10.
 
 use glam::DVec3;
-use mandelight::scene::{Fractal, Variant};
+use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
 
 /// How an orbit ended.
 pub struct Orbit {
@@ -21,9 +21,9 @@ pub struct Orbit {
 }
 
 /// Follows the orbit of `point`.
-pub fn orbit(fractal: &Fractal, point: DVec3) -> Orbit {
+pub fn orbit(fractal: &Mandelbulb, point: DVec3) -> Orbit {
     let n = fractal.power;
-    let sine = if fractal.variant == Variant::NegativeSine { -1.0 } else { 1.0 };
+    let sine = if fractal.sine == Sine::Negative { -1.0 } else { 1.0 };
     let (c, one) =
         if fractal.julia { (DVec3::from_array(fractal.julia_constant), 0.0) } else { (point, 1.0) };
     let mut z = point;
@@ -52,14 +52,14 @@ pub fn orbit(fractal: &Fractal, point: DVec3) -> Orbit {
 }
 
 /// Distance estimate: ½ ln r · r / dr, and 0 where ln r < 0 or r = 0.
-pub fn distance(fractal: &Fractal, point: DVec3) -> f64 {
+pub fn distance(fractal: &Mandelbulb, point: DVec3) -> f64 {
     let Orbit { r, dr, .. } = orbit(fractal, point);
     if r == 0.0 || r.ln() < 0.0 { 0.0 } else { 0.5 * r.ln() * r / dr }
 }
 
 /// Smooth iteration count: N − ln(ln r / ln b) / ln n for an orbit that passes the bailout b after
 /// N steps, N for one that does not. Equation 3.1 is this with n = 2 and b = 2.
-pub fn smooth_iterations(fractal: &Fractal, point: DVec3) -> f64 {
+pub fn smooth_iterations(fractal: &Mandelbulb, point: DVec3) -> f64 {
     let Orbit { steps, r, .. } = orbit(fractal, point);
     let n = f64::from(steps);
     if r > fractal.bailout {
@@ -72,10 +72,10 @@ pub fn smooth_iterations(fractal: &Fractal, point: DVec3) -> f64 {
 /// What one step does to a small displacement of z at most: the norm of the power's derivative,
 /// `n r^(n−1) max(1, |cos nφ / cos φ|)`, longitudes being stretched by the last factor. Its product
 /// along an orbit bounds what rounding does to a distance estimate.
-pub fn error_growth(fractal: &Fractal, point: DVec3) -> f64 {
+pub fn error_growth(fractal: &Mandelbulb, point: DVec3) -> f64 {
     let n = fractal.power;
     let c = if fractal.julia { DVec3::from_array(fractal.julia_constant) } else { point };
-    let sine = if fractal.variant == Variant::NegativeSine { -1.0 } else { 1.0 };
+    let sine = if fractal.sine == Sine::Negative { -1.0 } else { 1.0 };
     let (mut z, mut growth, mut steps) = (point, 1.0, 0);
     while z.length() <= fractal.bailout && steps < fractal.iterations {
         steps += 1;

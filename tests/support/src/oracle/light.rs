@@ -1,8 +1,9 @@
 //! Oracle: Blinn-Phong, the gradient, exposure, sRGB.
 
 use glam::DVec3;
-use mandelight::scene::{
-    ColorSource, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene,
+use mandelight::{
+    formula::mandelbulb::Mandelbulb,
+    scene::{ColorSource, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene},
 };
 
 use super::{
@@ -81,9 +82,9 @@ pub fn shade(
 /// The surface's colour at `point`.
 pub fn surface_color(scene: &Scene, point: DVec3) -> DVec3 {
     let coloring = &scene.surface.coloring;
-    let traps = orbit(&scene.fractal, point).traps;
+    let traps = orbit(&Mandelbulb::of(&scene.fractal), point).traps;
     let value = match coloring.source {
-        ColorSource::Iterations => smooth_iterations(&scene.fractal, point),
+        ColorSource::Iterations => smooth_iterations(&Mandelbulb::of(&scene.fractal), point),
         ColorSource::OriginTrap => traps[0],
         ColorSource::AxisTrap => traps[1],
         ColorSource::PlaneTrap => traps[2],

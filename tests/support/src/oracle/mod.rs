@@ -4,6 +4,7 @@
 //! | module | what lives there |
 //! |---|---|
 //! | `estimate` | orbits, distance estimate, smooth iteration count, orbit traps |
+//! | `quaternion` | the quaternion Julia set, by Hamilton's product |
 //! | `rays` | camera rays, march, six-sample normals, shadow rays |
 //! | `normals` | the estimate's gradient, by differences |
 //! | `light` | Blinn-Phong, the gradient of colours, sRGB |
@@ -15,6 +16,7 @@ pub mod bloom;
 pub mod estimate;
 pub mod light;
 pub mod normals;
+pub mod quaternion;
 pub mod rays;
 pub mod tone;
 pub mod views;

@@ -1,7 +1,7 @@
 //! Oracle: the gradient of a distance estimate, by differences alone, to a known precision.
 
 use glam::DVec3;
-use mandelight::scene::Fractal;
+use mandelight::formula::mandelbulb::Mandelbulb;
 
 use super::estimate::distance;
 
@@ -17,7 +17,7 @@ pub struct Direction {
 /// The direction in which the estimate grows fastest at `p`: central differences, extrapolated to
 /// spacing zero (Richardson 1911), from the spacings whose results agree best (Ridders 1982). The
 /// estimate changes over lengths like `scale`. None where it is flat, as it is inside.
-pub fn gradient(fractal: &Fractal, p: DVec3, scale: f64) -> Option<Direction> {
+pub fn gradient(fractal: &Mandelbulb, p: DVec3, scale: f64) -> Option<Direction> {
     let difference = |spacing: f64| {
         DVec3::AXES.map(|axis| {
             distance(fractal, p + axis * spacing) - distance(fractal, p - axis * spacing)

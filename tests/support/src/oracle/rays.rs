@@ -1,7 +1,10 @@
 //! Oracle: rays through pixels, sphere tracing in small steps, normals, shadow rays.
 
 use glam::{DVec2, DVec3};
-use mandelight::scene::{Camera, Fractal, Scene};
+use mandelight::{
+    formula::mandelbulb::Mandelbulb,
+    scene::{Camera, Scene},
+};
 
 use super::estimate::distance;
 
@@ -57,18 +60,20 @@ pub fn march(scene: &Scene, size: Size, pixel: [u32; 2]) -> Option<f64> {
     let origin = scene.camera.position.to_dvec3();
     let direction = direction(&scene.camera, size, pixel);
     let (near, far) = crossing(origin, direction)?;
-    let is_near =
-        |t: f64| distance(&scene.fractal, origin + direction * t) < hit_distance(scene, size, t);
+    let is_near = |t: f64| {
+        distance(&Mandelbulb::of(&scene.fractal), origin + direction * t)
+            < hit_distance(scene, size, t)
+    };
     let mut t = near.max(0.0);
     let (mut before, mut was_near) = (t, false);
     for _ in 0..MOST_STEPS {
         if t > far {
             return None;
         }
-        let d = distance(&scene.fractal, origin + direction * t);
+        let d = distance(&Mandelbulb::of(&scene.fractal), origin + direction * t);
         let hit = hit_distance(scene, size, t);
         if d < hit && !was_near {
-            if scene.fractal.power >= 4.0 {
+            if Mandelbulb::of(&scene.fractal).power >= 4.0 {
                 return Some(t);
             }
             let entry = entry(before, t, is_near);
@@ -92,7 +97,7 @@ fn entry(mut away: f64, mut near: f64, is_near: impl Fn(f64) -> bool) -> f64 {
 }
 
 /// The normal from six samples on the main axes of a grid (thesis figure 3.3 c).
-pub fn normal(fractal: &Fractal, p: DVec3, spacing: f64) -> DVec3 {
+pub fn normal(fractal: &Mandelbulb, p: DVec3, spacing: f64) -> DVec3 {
     let along =
         |axis: DVec3| distance(fractal, p + axis * spacing) - distance(fractal, p - axis * spacing);
     DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)).normalize_or_zero()
@@ -114,7 +119,13 @@ pub const SHADOW_CONE: f64 = 0.004;
 /// distance. The ray runs from outside toward the point (thesis 4.5) and ends one hit
 /// distance before it; half of that is the least that blocks. The point is lifted off the surface
 /// by two hit distances.
-pub fn openness(fractal: &Fractal, point: DVec3, normal: DVec3, hit: f64, ray: &ShadowRay) -> f64 {
+pub fn openness(
+    fractal: &Mandelbulb,
+    point: DVec3,
+    normal: DVec3,
+    hit: f64,
+    ray: &ShadowRay,
+) -> f64 {
     let origin = point + normal * (2.0 * hit);
     let Some((_, far)) = crossing(origin, ray.toward) else { return f64::INFINITY };
     let mut s = far.min(ray.reach);

@@ -1,9 +1,12 @@
 //! The views that pictures are compared on.
 
 use glam::DVec3;
-use mandelight::scene::{
-    Camera, ColorSource, EnvironmentLight, Fractal, LightFrame, PointLight, PrecisePoint, Scene,
-    ToneCurve, Variant,
+use mandelight::{
+    formula::mandelbulb::{Mandelbulb, Sine},
+    scene::{
+        Camera, ColorSource, EnvironmentLight, LightFrame, PointLight, PrecisePoint, Scene,
+        ToneCurve,
+    },
 };
 
 use super::rays::Size;
@@ -17,19 +20,29 @@ pub struct View {
     pub scene: Scene,
 }
 
-fn bulb(power: f64) -> Fractal {
-    Fractal { power, ..Fractal::default() }
+fn bulb(power: f64) -> Mandelbulb {
+    Mandelbulb { power, ..Mandelbulb::default() }
 }
 
-fn julia(power: f64) -> Fractal {
-    Fractal { julia: true, ..bulb(power) }
+fn julia(power: f64) -> Mandelbulb {
+    Mandelbulb { julia: true, ..bulb(power) }
 }
 
-fn view(name: &'static str, fractal: Fractal, eye: [f64; 3], at: [f64; 3], up: [f64; 3]) -> View {
+fn view(
+    name: &'static str,
+    fractal: Mandelbulb,
+    eye: [f64; 3],
+    at: [f64; 3],
+    up: [f64; 3],
+) -> View {
     let [eye, at, up] = [eye, at, up].map(DVec3::from_array);
     View {
         name,
-        scene: Scene { fractal, camera: Camera::looking_at(eye, at, up), ..Scene::default() },
+        scene: Scene {
+            fractal: fractal.into(),
+            camera: Camera::looking_at(eye, at, up),
+            ..Scene::default()
+        },
     }
 }
 
@@ -38,7 +51,7 @@ fn view(name: &'static str, fractal: Fractal, eye: [f64; 3], at: [f64; 3], up: [
 pub fn all() -> Vec<View> {
     const CENTRE: [f64; 3] = [0.0; 3];
     const Z: [f64; 3] = [0.0, 0.0, 1.0];
-    let minus = Fractal { variant: Variant::NegativeSine, ..bulb(8.0) };
+    let minus = Mandelbulb { sine: Sine::Negative, ..bulb(8.0) };
     vec![
         view("power 8", bulb(8.0), [1.2, -2.2, 0.8], CENTRE, Z),
         view("power 8, minus sine", minus, [2.2, 0.5, -0.6], CENTRE, Z),

@@ -1,0 +1,25 @@
+// The results of a formula's kernels at a point.
+// uses: types/frame_uniforms
+
+struct Estimate {
+    // Estimated distance to the set; 0 inside.
+    distance: f32,
+    // Longest safe step of a ray, at most `distance`. Negative if a quick estimate is not exact
+    // enough: the caller then needs the careful estimate.
+    step: f32,
+}
+
+struct OrbitColors {
+    // Thesis eq. 3.1 for any power and bailout: N - log_n(ln r / ln bailout).
+    smooth_iterations: f32,
+    // Orbit traps: least distances of the orbit, after its start, to the origin, the z axis, the plane z = 0.
+    traps: vec3f,
+}
+
+// Whether the formula's estimate has false minima: 0 no, 1 yes, -1 reads it from the uniforms.
+override CHECKS_HITS: i32 = -1;
+
+fn needs_hit_check() -> bool {
+    if (CHECKS_HITS >= 0) { return CHECKS_HITS == 1; }
+    return frame.march.checks_hits != 0u;
+}

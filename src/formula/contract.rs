@@ -1,0 +1,395 @@
+//! The contract between a formula and the program: the trait that a formula implements, and the types
+//! that its methods take and give. They name each other, so they share a file.
+
+use std::{any::Any, fmt, hash, ops::Deref, sync::Arc};
+
+use super::{
+    march::DistanceField,
+    param,
+    table::{Field, Value},
+};
+use crate::{gpu::shader::File, precise::PrecisePoint};
+
+/// How rays march through a formula's fractals.
+///
+/// The defaults suit an estimate that is a lower bound of the distance nearly everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarchPolicy {
+    /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
+    pub relaxation: f32,
+    /// Radius of the ball that a bundle treats as empty, over the safe step.
+    pub ball_part: f32,
+    /// True if the estimate has false minima thinner than a pixel.
+    ///
+    /// Hits are then checked over half a hit distance.
+    pub checks_hits: bool,
+    /// Half width of the cone about a shadow ray that a blocker has to fill.
+    ///
+    /// Per unit of distance to the shaded point. The default is half the sun's apparent size.
+    pub shadow_cone: f32,
+    /// Least clearance of an unblocked shadow ray, in hit distances of the shaded point.
+    pub shadow_margin: f32,
+    /// Least step of a shadow ray, in hit distances of the shaded point.
+    pub shadow_least_step: f32,
+}
+
+impl Default for MarchPolicy {
+    fn default() -> Self {
+        Self {
+            relaxation: 1.4,
+            ball_part: 1.0,
+            checks_hits: false,
+            shadow_cone: 0.004,
+            shadow_margin: 0.5,
+            shadow_least_step: 0.0,
+        }
+    }
+}
+
+/// One formula. Each `fractal` argument must be of this formula and within its ranges.
+pub trait Formula: Sync {
+    /// The formula's identifier in the document.
+    fn id(&self) -> &'static str;
+
+    /// The formula's name in panels.
+    fn name(&self) -> &'static str;
+
+    /// What the formula draws, in one sentence.
+    fn about(&self) -> &'static str;
+
+    /// The formula's own parameters in document order, without iterations and bailout.
+    fn fields(&self) -> &'static [Field];
+
+    /// The largest bailout with which no step overflows an f32.
+    fn max_bailout(&self, _fractal: &Fractal) -> f64 {
+        f64::INFINITY
+    }
+
+    /// How rays march through `fractal`.
+    fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {
+        MarchPolicy::default()
+    }
+
+    /// Iterations of a view whose pixels have radius `footprint` at the nearest surface.
+    ///
+    /// `footprint` is in scene units. The result is the scene's own iterations plus those that orbits of
+    /// points a footprint apart need to separate.
+    fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32;
+
+    /// The distance field about the scene's origin.
+    fn field(&self, fractal: &Fractal) -> Arc<dyn DistanceField>;
+
+    /// Whether views of `fractal` finer than f32 allows can be drawn about an anchor.
+    fn has_depth(&self, _fractal: &Fractal) -> bool {
+        false
+    }
+
+    /// A phrase that names the fractals with depth, shown where a dive ends.
+    ///
+    /// None if no fractal of the formula has depth.
+    fn deeper(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Begins the reference orbit of `anchor`; none without [depth](Self::has_depth).
+    fn begin_reference(
+        &self,
+        _fractal: &Fractal,
+        _anchor: PrecisePoint,
+    ) -> Option<Box<dyn ReferenceSteps>> {
+        None
+    }
+
+    /// Packs the uniforms of a view and selects the kernel that draws it.
+    fn pack(&self, fractal: &Fractal, view: &PackedFor<'_>) -> Packed;
+
+    /// The WGSL files of the kernels of `variant`.
+    fn files(&self, variant: u32) -> KernelFiles;
+
+    /// The overrides that specialise the kernels of `variant`.
+    fn overrides(&self, _variant: u32) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
+
+    /// The general variant: draws what `variant` draws, for any values of the parameters.
+    ///
+    /// None if there is no such variant. Variant 0 is the general variant of plain views.
+    fn general(&self, variant: u32) -> Option<u32> {
+        Some(variant)
+    }
+
+    /// Variants that a dive into `fractal` passes through, from the top down, to compile beforehand.
+    ///
+    /// The dive starts from a view that `variant` draws.
+    fn dive_variants(&self, _fractal: &Fractal, _variant: u32) -> Vec<u32> {
+        Vec::new()
+    }
+
+    /// Whether kernels of `variant` draw deep views, about an anchor.
+    fn is_deep(&self, _variant: u32) -> bool {
+        false
+    }
+
+    /// What kernels of `variant` draw, as a phrase that follows "Preparing".
+    fn describe(&self, _variant: u32) -> String {
+        self.name().to_owned()
+    }
+}
+
+/// A registered formula; two are equal if they have the same [id](Formula::id).
+#[derive(Clone, Copy)]
+pub struct FormulaRef(pub &'static dyn Formula);
+
+impl Deref for FormulaRef {
+    type Target = dyn Formula;
+
+    fn deref(&self) -> &Self::Target {
+        self.0
+    }
+}
+
+impl PartialEq for FormulaRef {
+    fn eq(&self, other: &Self) -> bool {
+        self.id() == other.id()
+    }
+}
+
+impl Eq for FormulaRef {}
+
+impl hash::Hash for FormulaRef {
+    fn hash<H: hash::Hasher>(&self, state: &mut H) {
+        self.id().hash(state);
+    }
+}
+
+impl fmt::Debug for FormulaRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.id())
+    }
+}
+
+/// A formula with the values of its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fractal {
+    formula: FormulaRef,
+    /// Most orbit steps of a view of the whole set, in [`param::ITERATIONS`]; finer views add to them.
+    pub iterations: u32,
+    /// Escape radius in scene units, in [`param::BAILOUT`] and at most [`Fractal::max_bailout`].
+    pub bailout: f64,
+    /// One value per field of the formula, in the table's order.
+    values: Vec<Value>,
+}
+
+impl Fractal {
+    /// A fractal of `formula` with the default values.
+    pub fn new(formula: FormulaRef) -> Self {
+        Self {
+            formula,
+            iterations: param::ITERATIONS.default as u32,
+            bailout: param::BAILOUT.default,
+            values: formula.fields().iter().map(Field::default).collect(),
+        }
+    }
+
+    /// The same fractal with `iterations`.
+    pub fn with_iterations(&self, iterations: u32) -> Self {
+        Self { iterations, ..self.clone() }
+    }
+
+    /// The formula.
+    pub fn formula(&self) -> FormulaRef {
+        self.formula
+    }
+
+    /// The formula's fields with their values, in the table's order.
+    pub fn fields(&self) -> impl Iterator<Item = (&'static Field, &Value)> {
+        self.formula.fields().iter().zip(&self.values)
+    }
+
+    /// The formula's fields with their values, mutable.
+    pub fn fields_mut(&mut self) -> impl Iterator<Item = (&'static Field, &mut Value)> {
+        self.formula.fields().iter().zip(&mut self.values)
+    }
+
+    /// The value of the field called `name`; none if the formula has no such field.
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        self.fields().find_map(|(field, value)| (field.name == name).then_some(value))
+    }
+
+    /// The number called `name`; none if the formula has no such number.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            Value::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// Whether the switch called `name` is on; false if the formula has no such switch.
+    pub fn is_on(&self, name: &str) -> bool {
+        self.get(name) == Some(&Value::Switch(true))
+    }
+
+    /// Sets the field called `name`, and returns whether it did.
+    ///
+    /// Returns false, and changes nothing, if the formula has no such field or `value` is of another kind.
+    pub fn set(&mut self, name: &str, value: impl Into<Value>) -> bool {
+        let new = value.into();
+        let found = self.fields_mut().find(|(field, _)| field.name == name && new.fits(field));
+        found.map(|(_, value)| *value = new).is_some()
+    }
+
+    /// The values, in the table's order.
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// The largest bailout that overflows no step, within [`param::BAILOUT`]'s range.
+    pub fn max_bailout(&self) -> f64 {
+        self.formula.max_bailout(self).min(param::BAILOUT.max)
+    }
+
+    /// The parameter of the field at `path`, such as `fractal.power`.
+    ///
+    /// The formula's own parameters come before those that all formulas share.
+    pub fn param(&self, path: &str) -> Option<&'static param::Param> {
+        let own = self.formula.fields().iter().filter_map(Field::param);
+        own.chain(param::SHARED.iter().copied()).find(|param| param.is_at(path))
+    }
+}
+
+/// What the pipelines of rays and normals are compiled for: a formula and a variant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Kernel {
+    /// The formula.
+    pub formula: FormulaRef,
+    /// The formula's variant, numbered by the formula itself.
+    pub variant: u32,
+}
+
+impl Kernel {
+    /// The general variant of this kernel, which draws the same for any parameter values.
+    ///
+    /// None for deep kernels of formulas that compile the values in.
+    pub fn general(self) -> Option<Self> {
+        Some(Self { variant: self.formula.general(self.variant)?, ..self })
+    }
+
+    /// Whether the kernel draws any values of the parameters.
+    pub fn is_general(self) -> bool {
+        self.general() == Some(self)
+    }
+
+    /// Whether the kernel draws deep views, about an anchor.
+    pub fn is_deep(self) -> bool {
+        self.formula.is_deep(self.variant)
+    }
+
+    /// The kernel's WGSL files.
+    pub fn files(self) -> KernelFiles {
+        self.formula.files(self.variant)
+    }
+
+    /// The overrides that specialise the kernel.
+    pub fn overrides(self) -> Vec<(&'static str, f64)> {
+        self.formula.overrides(self.variant)
+    }
+
+    /// What the kernel draws, as a phrase that follows "Preparing".
+    pub fn describe(self) -> String {
+        self.formula.describe(self.variant)
+    }
+}
+
+/// The WGSL files of a kernel.
+///
+/// `types` declares `struct FormulaUniforms` with a member `fractal: Fractal`. The files in `files`
+/// declare, with the types of `shaders/types/estimate.wgsl`:
+///
+/// ```wgsl
+/// fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate
+/// fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate
+/// fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate
+/// fn distance_estimate(fractal: Fractal, point: vec3f) -> f32
+/// fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f
+/// fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors
+/// fn bundle_direction() -> vec3f
+/// ```
+///
+/// A march evaluates the quick estimate, and the careful estimate where the quick estimate's step is
+/// negative; `estimate` is exact everywhere. `along` is the ray's direction; several rays that march as
+/// one use `bundle_direction` instead.
+#[derive(Clone, Debug)]
+pub struct KernelFiles {
+    /// Declares the uniforms.
+    pub types: File,
+    /// The kernels; their header lines may name files of `shaders/`.
+    pub files: Vec<File>,
+}
+
+/// The view data that a formula reads to [pack](super::Formula::pack) its uniforms.
+#[derive(Clone, Copy, Debug)]
+pub struct PackedFor<'a> {
+    /// Most steps of an orbit.
+    pub iterations: u32,
+    /// Length of one unit of render space, in scene units.
+    pub scale: f64,
+    /// Hit distance per unit of depth.
+    pub hit_cone: f32,
+    /// The reference orbit of the anchor that points are relative to; none in plain views.
+    pub reference: Option<&'a Arc<dyn ReferenceOrbit>>,
+    /// Radius about the scene's origin of a sphere that holds the set, in scene units.
+    pub bounding_radius: f64,
+}
+
+/// The uniforms of one frame, and the kernel that reads them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Packed {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// The bytes of `FormulaUniforms`, at most [`MOST_UNIFORM_BYTES`].
+    pub uniforms: Vec<u8>,
+    /// The bytes of the uniform buffer at group 0, binding 1; empty if the kernel reads none.
+    ///
+    /// At most [`MOST_TABLE_BYTES`].
+    pub table: Arc<[u8]>,
+}
+
+/// Maximum size of `FormulaUniforms`, in bytes.
+pub const MOST_UNIFORM_BYTES: usize = 640;
+
+/// Maximum size of a formula's table in bytes: every adapter can bind this much as a uniform buffer.
+pub const MOST_TABLE_BYTES: usize = 65_536;
+
+/// An anchor and its orbit, with enough digits for the deepest view about the anchor.
+pub trait ReferenceOrbit: fmt::Debug + Any + Send + Sync {
+    /// The anchor: the point that positions are relative to.
+    fn anchor(&self) -> &PrecisePoint;
+
+    /// Whether the orbit belongs to `fractal`; iterations are not compared.
+    fn is_of(&self, fractal: &Fractal) -> bool;
+
+    /// The distance field about the anchor, for pixels of radius `footprint` at the surface.
+    ///
+    /// `footprint` sets the iterations. Rays may ignore detail finer than `grain`. Both are in scene units.
+    fn field(
+        self: Arc<Self>,
+        fractal: &Fractal,
+        footprint: f64,
+        grain: f64,
+    ) -> Arc<dyn DistanceField>;
+}
+
+/// A reference orbit under construction. A step takes some microseconds.
+pub trait ReferenceSteps: Send + Sync {
+    /// Computes the orbit's next point; returns false once all points are computed.
+    fn step(&mut self) -> bool;
+
+    /// Computes the remaining points and returns the reference orbit.
+    fn finish(self: Box<Self>) -> Arc<dyn ReferenceOrbit>;
+}
+
+/// Footprint below which views are drawn about an anchor, in scene units.
+///
+/// The footprint is a pixel's radius at the nearest surface. Plain f32 draws coarser views as well. Fractals
+/// without depth have no anchor.
+pub const COARSEST_FOOTPRINT: f64 = 4e-7;

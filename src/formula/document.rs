@@ -1,0 +1,177 @@
+//! A fractal in the scene document: `formula`, the shared fields and the formula's own fields.
+//!
+//! Fields may have any order. A missing field takes the formula's default; a document without `formula`,
+//! such as one of version 1, means the Mandelbulb.
+
+use std::fmt;
+
+use serde::{
+    Deserialize, Deserializer, Serialize, Serializer,
+    de::{DeserializeSeed, Error, MapAccess, Unexpected, Visitor},
+    ser::SerializeMap,
+};
+
+use super::{
+    FormulaRef, Fractal, all,
+    table::{Choice, Field, Kind, Value},
+};
+
+/// Fields of every formula.
+const SHARED: [&str; 3] = ["formula", "iterations", "bailout"];
+
+impl Serialize for Fractal {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("formula", self.formula().id())?;
+        map.serialize_entry("iterations", &self.iterations)?;
+        map.serialize_entry("bailout", &self.bailout)?;
+        for (field, value) in self.fields() {
+            match value {
+                Value::Number(number) => map.serialize_entry(field.name, number)?,
+                Value::Vector(numbers) => map.serialize_entry(field.name, numbers)?,
+                Value::Switch(is_on) => map.serialize_entry(field.name, is_on)?,
+                Value::Choice(word) => map.serialize_entry(field.name, word)?,
+            }
+        }
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Fractal {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(FractalVisitor)
+    }
+}
+
+struct FractalVisitor;
+
+impl<'de> Visitor<'de> for FractalVisitor {
+    type Value = Fractal;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a fractal")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Fractal, A::Error> {
+        let (mut formula, mut iterations, mut bailout) = (None, None, None);
+        let mut values: Vec<(&'static Field, Value)> = Vec::new();
+        while let Some(name) = map.next_key_seed(NameSeed { formula })? {
+            match name {
+                Name::Formula => once("formula", &mut formula, map.next_value::<FormulaRef>()?)?,
+                Name::Iterations => once("iterations", &mut iterations, map.next_value()?)?,
+                Name::Bailout => once("bailout", &mut bailout, map.next_value()?)?,
+                Name::Own(field) => {
+                    if values.iter().any(|(known, _)| known.name == field.name) {
+                        return Err(A::Error::duplicate_field(field.name));
+                    }
+                    values.push((field, map.next_value_seed(ValueSeed(field))?));
+                }
+            }
+        }
+        let mut fractal = formula.map_or_else(Fractal::default, Fractal::new);
+        fractal.iterations = iterations.unwrap_or(fractal.iterations);
+        fractal.bailout = bailout.unwrap_or(fractal.bailout);
+        for (field, value) in values {
+            if !fractal.set(field.name, value) {
+                return Err(unknown(field.name, fractal.formula()));
+            }
+        }
+        Ok(fractal)
+    }
+}
+
+fn once<T, E: Error>(name: &'static str, place: &mut Option<T>, value: T) -> Result<(), E> {
+    match place.replace(value) {
+        None => Ok(()),
+        Some(_) => Err(E::duplicate_field(name)),
+    }
+}
+
+/// A field's name in the document.
+enum Name {
+    Formula,
+    Iterations,
+    Bailout,
+    Own(&'static Field),
+}
+
+/// Reads a name, so that an unknown one is an error at its own path.
+struct NameSeed {
+    /// None before the document named the formula.
+    formula: Option<FormulaRef>,
+}
+
+impl<'de> DeserializeSeed<'de> for NameSeed {
+    type Value = Name;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Name, D::Error> {
+        Ok(match String::deserialize(deserializer)?.as_str() {
+            "formula" => Name::Formula,
+            "iterations" => Name::Iterations,
+            "bailout" => Name::Bailout,
+            name => Name::Own(field_called(name, self.formula)?),
+        })
+    }
+}
+
+/// The field called `name` of `formula`, or of the first formula with such a field.
+///
+/// A document may name a field before its formula. Formulas that share a field name also share the kind of
+/// its values; a test checks that.
+fn field_called<E: Error>(name: &str, formula: Option<FormulaRef>) -> Result<&'static Field, E> {
+    let fields = |formula: FormulaRef| formula.fields().iter().find(|field| field.name == name);
+    let found = match formula {
+        Some(formula) => fields(formula),
+        None => all().find_map(fields),
+    };
+    found.ok_or_else(|| unknown(name, formula.unwrap_or_default()))
+}
+
+fn unknown<E: Error>(name: &str, formula: FormulaRef) -> E {
+    let own = formula.fields().iter().map(|field| field.name);
+    let names: Vec<_> = SHARED.into_iter().chain(own).map(|name| format!("`{name}`")).collect();
+    E::custom(format_args!("unknown field `{name}`, expected one of {}", names.join(", ")))
+}
+
+/// Reads the value of a field, so that a value of the wrong kind is an error at the field's path.
+struct ValueSeed(&'static Field);
+
+impl<'de> DeserializeSeed<'de> for ValueSeed {
+    type Value = Value;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
+        Ok(match self.0.kind {
+            Kind::Number { .. } => Value::Number(f64::deserialize(deserializer)?),
+            Kind::Switch { .. } => Value::Switch(bool::deserialize(deserializer)?),
+            Kind::Choice { options, .. } => {
+                Value::Choice(word_of(options, &String::deserialize(deserializer)?)?)
+            }
+            Kind::Vector { default, .. } => {
+                let numbers = Vec::<f64>::deserialize(deserializer)?;
+                if numbers.len() != default.len() {
+                    let wanted = format!("an array of length {}", default.len());
+                    return Err(D::Error::invalid_length(numbers.len(), &wanted.as_str()));
+                }
+                Value::Vector(numbers.into())
+            }
+        })
+    }
+}
+
+fn word_of<E: Error>(options: &'static [Choice], word: &str) -> Result<&'static str, E> {
+    let found = options.iter().find(|option| option.word == word);
+    found.map(|option| option.word).ok_or_else(|| {
+        let words: Vec<_> = options.iter().map(|option| format!("`{}`", option.word)).collect();
+        E::custom(format_args!("unknown variant `{word}`, expected {}", words.join(" or ")))
+    })
+}
+
+impl<'de> Deserialize<'de> for FormulaRef {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let id = String::deserialize(deserializer)?;
+        all().find(|formula| formula.id() == id).ok_or_else(|| {
+            let ids: Vec<_> = all().map(|formula| formula.id()).collect();
+            D::Error::invalid_value(Unexpected::Str(&id), &ids.join(" or ").as_str())
+        })
+    }
+}

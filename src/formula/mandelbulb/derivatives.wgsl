@@ -1,0 +1,116 @@
+// Derivatives of an orbit by its point, for plain and perturbed steps: estimates and gradients use them.
+
+// Step of a ray over the estimate by dg: `estimator::step_factor`.
+fn step_factor(fractal: Fractal) -> f32 {
+    return clamp(0.75 * fractal.power, 3.0, 6.0);
+}
+
+// Derivatives of an orbit by its point.
+struct Derivatives {
+    dr: f32,
+    // Product of bounds on the stretch, over the step factor: a ray's step is the height over the
+    // larger of dr and dg. Over the many steps of a deep orbit dg grows far past the Jacobian's norm; with
+    // `FOLLOWS_DIRECTION` it bounds the stretch of other directions since the series approximation.
+    dg: f32,
+    // Jacobian times the ray's own direction, with `FOLLOWS_DIRECTION`.
+    stretched: vec3f,
+    // Stretch of the series approximation across its widest direction, over dr. At a scale of 1e-20 it is
+    // 1/3 to 1/100 of the widest stretch.
+    rest: f32,
+}
+
+fn initial_derivatives(fractal: Fractal, orbit: Orbit, along: vec3f) -> Derivatives {
+    let one = orbit.start_derivative;
+    let dg = select(one / step_factor(fractal), 0.0, FOLLOWS_DIRECTION);
+    return Derivatives(one, dg, one * along, 1.0);
+}
+
+// Derivatives after a step. `along`: the ray's direction, a unit vector.
+fn next_derivatives(
+    fractal: Fractal, orbit: Orbit, along: vec3f, before: Derivatives, step: Raised, z: vec3f, q: Squares,
+) -> Derivatives {
+    // Clamped before the step: the last step of an orbit may multiply by 1e19.
+    let dr = step.stretch * min(before.dr, fractal.derivative_max) + orbit.constant_derivative;
+    let widest = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
+    let dg = widest * min(before.dg, fractal.derivative_max);
+    if (!FOLLOWS_DIRECTION) {
+        let added = orbit.constant_derivative / step_factor(fractal);
+        return Derivatives(dr, dg + added, before.stretched, 0.0);
+    }
+    let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.constant_derivative * along;
+    return Derivatives(dr, dg, stretched, before.rest);
+}
+
+// A ray's safe step. `height`: see `height_of`. The scalar dr ignores the stretch along parallels, so the
+// step is the step factor times the estimate by dg, which bounds that stretch, and at most the distance.
+// With `FOLLOWS_DIRECTION` the step is the distance over the stretch of the ray's direction.
+fn safe_step(derivatives: Derivatives, height: f32) -> f32 {
+    if (!FOLLOWS_DIRECTION) { return height / max(max(derivatives.dg, derivatives.dr), 1e-37); }
+    // The square of `stretched` can overflow with a large bailout.
+    let inverse = 1.0 / max(derivatives.dr, 1e-37);
+    let followed = inverse * derivatives.stretched;
+    let rest = max(derivatives.rest, inverse * derivatives.dg);
+    let norm = max(max(length(followed), rest), 1.0);
+    return inverse * height / norm;
+}
+
+// Derivatives of an orbit and of dr by the point.
+struct Tangent {
+    // The orbit's Jacobian over dr.
+    jacobian: mat3x3f,
+    // The gradient of dr over dr^2.
+    slope: vec3f,
+    // The constant's own derivative over dr.
+    added: f32,
+}
+
+fn initial_tangent(orbit: Orbit) -> Tangent {
+    let added = orbit.constant_derivative / orbit.start_derivative;
+    return Tangent(scaled_identity(1.0), vec3f(0.0), added);
+}
+
+// The tangent after another step.
+fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares) -> Tangent {
+    // This dr over the next, clamped: infinite if a Julia orbit meets the origin.
+    let shrink = 1.0 / max(step.stretch + before.added, 1e-9);
+    let kept = step.stretch * shrink;
+    let added = before.added * shrink;
+    let along = (fractal.power - 1.0) / max(q.s, 1e-18) * (z * before.jacobian);
+    let turn = raised_jacobian(fractal, step, z, rho_of(z, q), q, 1e6);
+    let jacobian = shrink * (turn * before.jacobian) + scaled_identity(added);
+    return Tangent(jacobian, (kept * shrink) * (along + before.slope), added);
+}
+
+// What a walk gathers. Each walk computes only one of the three.
+struct Gathered {
+    derivatives: Derivatives,
+    tangent: Tangent,
+    // Squared orbit traps: see `squared_traps`.
+    traps: vec3f,
+}
+
+fn initial_gathered(fractal: Fractal, orbit: Orbit, along: vec3f) -> Gathered {
+    return Gathered(initial_derivatives(fractal, orbit, along), initial_tangent(orbit), vec3f(4.0));
+}
+
+// Updates what a walk gathers, after a step from `z` to a point with the squares `next`.
+fn gathered(
+    gathers: u32, fractal: Fractal, orbit: Orbit, along: vec3f, before: Gathered, step: Raised,
+    z: vec3f, q: Squares, next: Squares,
+) -> Gathered {
+    var after = before;
+    if (gathers == GATHER_ESTIMATE) {
+        after.derivatives = next_derivatives(fractal, orbit, along, before.derivatives, step, z, q);
+    }
+    if (gathers == GATHER_GRADIENT) { after.tangent = turned(fractal, before.tangent, step, z, q); }
+    if (gathers == GATHER_COLORS) { after.traps = min(before.traps, squared_traps(next)); }
+    return after;
+}
+
+// The estimate at an orbit's end.
+fn estimate_at(fractal: Fractal, derivatives: Derivatives, q: Squares) -> Estimate {
+    if (q.s <= 1.0) { return Estimate(0.0, 0.0); }
+    let height = height_of(q);
+    let distance = height / max(derivatives.dr, 1e-37);
+    return Estimate(distance, min(safe_step(derivatives, height), fractal.max_step));
+}

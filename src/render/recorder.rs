@@ -1,0 +1,331 @@
+//! Records the passes of one submit: bindings and dispatches.
+
+use super::{
+    indirect::{self, IndirectSource},
+    lattice::{self, Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
+    layouts::Layouts,
+    pipeline_set::PipelineSet,
+    post::{Post, Tasks},
+    schedule::{Points, Trace},
+    targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
+    uniforms::{Inputs, Slice},
+    work_queues::{BLOCK_THREADS, Queue},
+};
+use crate::gpu::host_shared::HostShared;
+
+/// One pass: its shader, its bindings, and when a frame has the pass.
+pub struct Pass {
+    /// The stem of the pass's two files, `pass/<name>.rs` and `shaders/pass/<name>.wgsl`.
+    pub name: &'static str,
+    /// What the pass binds, group by group.
+    pub groups: fn(&Layouts) -> Vec<&wgpu::BindGroupLayout>,
+    /// The pipelines that are compiled together with the pass's.
+    pub set: &'static PipelineSet,
+    /// The modes of the pass: overrides of each of its pipelines, in addition to those of the set.
+    pub modes: &'static [&'static [(&'static str, u32)]],
+    /// When a frame has the pass, and how the pass is recorded.
+    pub record: Record,
+}
+
+/// The modes of a pass with a single pipeline.
+pub const ONE_MODE: &[&[(&str, u32)]] = &[&[]];
+
+/// When a frame has a pass, and how the pass is recorded.
+pub enum Record {
+    /// The pass works on sample points.
+    Trace {
+        /// Whether a trace has the pass.
+        when: fn(&Recorder<'_>, &Trace) -> bool,
+        /// Records the pass.
+        record: fn(&mut Recorder<'_>, &Trace, &Grid),
+    },
+    /// The pass works on a display picture.
+    Display {
+        /// Whether a display has the pass.
+        when: fn(&Recorder<'_>, &Display) -> bool,
+        /// Records the pass.
+        record: fn(&mut Recorder<'_>, &Display),
+    },
+    /// Another pass records this one.
+    Within,
+}
+
+/// Provides the pipelines of a recorder.
+pub trait PipelineSource {
+    /// The fastest compiled pipeline of `pass`, in one of the pass's modes.
+    fn pipeline(&self, pass: &'static Pass, mode: usize) -> wgpu::ComputePipeline;
+}
+
+/// A display picture to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct Display {
+    /// The finest complete lattice level; 0 if the film is complete.
+    pub level: u32,
+    /// Whether the pixels between those of the lattice must be filled first.
+    pub fill: bool,
+}
+
+/// Number of dispatches of each pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dispatches {
+    /// Camera rays.
+    pub march: u64,
+    /// Passes that write work queues: of rays, with their cones, and of hits.
+    pub queue: u64,
+    /// Normals.
+    pub normal: u64,
+    /// Shadow rays.
+    pub shadow: u64,
+    /// Not dispatches: number of shadow rays, if every sample point faced every light.
+    pub shadow_rays: u64,
+    /// Shading.
+    pub shade: u64,
+    /// Shading with indirect light.
+    pub indirect: u64,
+    /// Filling of the film, and upsampling.
+    pub fill: u64,
+    /// Means of the film; all mip levels count as one.
+    pub mean: u64,
+    /// Histograms of the film.
+    pub histogram: u64,
+    /// Blooms; all mip levels and blurs count as one.
+    pub bloom: u64,
+    /// Tone mapping.
+    pub tone: u64,
+}
+
+impl Dispatches {
+    /// The number of all dispatches.
+    pub fn total(&self) -> u64 {
+        let Self {
+            march,
+            queue,
+            normal,
+            shadow,
+            shadow_rays: _,
+            shade,
+            indirect,
+            fill,
+            mean,
+            histogram,
+            bloom,
+            tone,
+        } = *self;
+        march + queue + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
+    }
+}
+
+/// Records the dispatches of one submit, which run in order: each sees the results of the last.
+pub struct Recorder<'a> {
+    /// The device and the bind group layouts.
+    pub layouts: &'a Layouts,
+    /// The pipelines.
+    pipelines: &'a dyn PipelineSource,
+    /// The buffers.
+    pub targets: &'a Targets,
+    /// The scene's uniforms in the buffers.
+    pub inputs: &'a Inputs,
+    /// Film statistics: the targets' own, unless a view replaces them.
+    pub post: &'a Post,
+    /// The source of indirect light: the targets' own, unless a view replaces it.
+    pub indirect_source: IndirectSource,
+    /// The post passes that a display runs.
+    pub tasks: Tasks,
+    /// A workgroup count of zero for all dispatches, to rehearse pipelines; none in other submits.
+    ///
+    /// Drivers then compile what they leave for the first use of a pipeline.
+    pub rehearsal: Option<wgpu::Buffer>,
+    /// The lattice level from whose samples alone the display is made; the film stays as it is.
+    pub upsample_level: Option<u32>,
+    /// Counters that each pass increments.
+    pub dispatches: &'a mut Dispatches,
+    compute: wgpu::ComputePass<'static>,
+    encoder: wgpu::CommandEncoder,
+    slices: u32,
+}
+
+impl<'a> Recorder<'a> {
+    /// An empty submit.
+    pub fn new(
+        layouts: &'a Layouts,
+        pipelines: &'a dyn PipelineSource,
+        targets: &'a Targets,
+        inputs: &'a Inputs,
+        dispatches: &'a mut Dispatches,
+    ) -> Self {
+        let mut encoder = layouts.gpu.device.create_command_encoder(&Default::default());
+        let mut compute = encoder.begin_compute_pass(&Default::default()).forget_lifetime();
+        compute.set_bind_group(1, &targets.center.group, &[]);
+        compute.set_bind_group(2, &targets.film_group, &[]);
+        Self {
+            layouts,
+            pipelines,
+            targets,
+            inputs,
+            post: &targets.post,
+            indirect_source: IndirectSource::of(targets, inputs.frame.indirect.source_px),
+            tasks: Tasks::default(),
+            rehearsal: None,
+            upsample_level: None,
+            dispatches,
+            compute,
+            encoder,
+            slices: 0,
+        }
+    }
+
+    /// The fastest compiled pipeline of `pass`, in one of the pass's modes.
+    pub fn pipeline(&self, pass: &'static Pass, mode: usize) -> wgpu::ComputePipeline {
+        self.pipelines.pipeline(pass, mode)
+    }
+
+    /// Whether the indirect pass also computes the direct light of `trace`.
+    ///
+    /// Indirect light of centre samples waits until all samples of a level have their direct light.
+    pub fn is_lit_together(&self, trace: &Trace) -> bool {
+        self.inputs.has_indirect() && matches!(trace.points, Points::Samples { .. })
+    }
+
+    /// Binds the film statistics, for passes over the whole film.
+    pub fn bind_post(&mut self) {
+        self.compute.set_bind_group(1, &self.post.group, &[]);
+    }
+
+    /// Binds the jittered samples' buffers, for passes that reuse them for other data.
+    pub fn bind_jittered(&mut self) {
+        self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
+    }
+
+    /// Binds the film, for passes after those that use work queues.
+    pub fn bind_film(&mut self) {
+        self.compute.set_bind_group(2, &self.targets.film_group, &[]);
+    }
+
+    /// Binds any group, for pipelines from outside this crate.
+    pub fn bind(&mut self, index: u32, group: &wgpu::BindGroup) {
+        self.compute.set_bind_group(index, group, &[]);
+    }
+
+    /// Binds the environment map.
+    pub fn bind_environment(&mut self) {
+        self.compute.set_bind_group(3, &self.targets.environment_texture.group, &[]);
+    }
+
+    /// Binds the samples of the indirect source and of `trace`.
+    pub fn bind_indirect(&mut self, trace: &Trace) {
+        let samples = match trace.points {
+            Points::Samples { .. } => &self.targets.jittered,
+            _ => &self.targets.center,
+        };
+        let groups = indirect::groups(self.layouts, self.targets, samples, &self.indirect_source);
+        for (index, group) in (1..).zip(&groups) {
+            self.compute.set_bind_group(index, group, &[]);
+        }
+    }
+
+    /// The slice uniform of a trace; also binds the G-buffer of its samples.
+    pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
+        let mut slice = grid.slice(trace.first_workgroup);
+        slice.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
+        if let Points::Samples { first, count } = trace.points {
+            slice.jitter = lattice::jitter(first);
+            slice.samples = count;
+            slice.compact = 1;
+            slice.accumulate = 1;
+            self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
+        }
+        slice
+    }
+
+    /// Adds dispatches over a whole grid, for a lattice of `spacing` pixels.
+    pub fn dispatch_grid(&mut self, pipeline: &wgpu::ComputePipeline, grid: &Grid, spacing: u32) {
+        // Splits a grid that exceeds the limit of workgroups per dispatch.
+        const MOST: u32 = 65_535;
+        let total = grid.workgroups();
+        for first in (0..total).step_by(MOST as usize) {
+            let slice = Slice { spacing, ..grid.slice(first) };
+            self.dispatch(pipeline, slice, MOST.min(total - first));
+        }
+    }
+
+    /// Adds a dispatch over all pixels of the region, row by row.
+    pub fn dispatch_plane(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+        let workgroups = self.inputs.frame.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
+        self.dispatch_groups(pipeline, slice, workgroups);
+    }
+
+    /// Adds a dispatch with one thread per pixel of a trace.
+    pub fn dispatch_pixels(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+        let pixels = (slice.blocks * BLOCK_THREADS) >> slice.samples_shift;
+        self.dispatch(pipeline, slice, pixels.div_ceil(WORKGROUP_THREADS));
+    }
+
+    /// Adds a dispatch over all blocks of a trace that queues some of the blocks.
+    pub fn dispatch_blocks(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        work_queues: &wgpu::BindGroup,
+        slice: Slice,
+    ) {
+        self.compute.set_bind_group(2, work_queues, &[]);
+        self.dispatch(pipeline, slice, slice.blocks.div_ceil(WORKGROUP_THREADS));
+        self.dispatches.queue += 1;
+    }
+
+    /// Adds a dispatch over a work queue, which may write another queue.
+    pub fn dispatch_queue(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        work_queues: &wgpu::BindGroup,
+        slice: Slice,
+        queue: Queue,
+    ) {
+        self.compute.set_bind_group(2, work_queues, &[]);
+        self.prepare(pipeline, slice);
+        let (workgroups, offset) = match &self.rehearsal {
+            Some(nothing) => (nothing, 0),
+            None => self.targets.work_queues.workgroups(queue),
+        };
+        self.compute.dispatch_workgroups_indirect(workgroups, offset);
+    }
+
+    /// Adds a dispatch of `workgroups`.
+    pub fn dispatch(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice, workgroups: u32) {
+        self.dispatch_groups(pipeline, slice, [workgroups, 1]);
+    }
+
+    fn dispatch_groups(
+        &mut self,
+        pipeline: &wgpu::ComputePipeline,
+        slice: Slice,
+        [columns, rows]: [u32; 2],
+    ) {
+        self.prepare(pipeline, slice);
+        if let Some(nothing) = &self.rehearsal {
+            self.compute.dispatch_workgroups_indirect(nothing, 0);
+            return;
+        }
+        self.compute.dispatch_workgroups(columns, rows, 1);
+    }
+
+    /// Sets the pipeline and the slice uniform of the next dispatch.
+    fn prepare(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+        debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
+        let offset = self.slices * SLICE_STRIDE_BYTES;
+        // Queue writes and submits keep their order: earlier submits already have their own slices.
+        self.layouts.gpu.queue.write_buffer(
+            &self.targets.slices,
+            u64::from(offset),
+            &slice.to_bytes(),
+        );
+        self.slices += 1;
+        self.compute.set_pipeline(pipeline);
+        self.compute.set_bind_group(0, &self.targets.frame_group, &[offset]);
+    }
+
+    /// The commands, ready for submission.
+    pub fn finish(self) -> wgpu::CommandBuffer {
+        drop(self.compute);
+        self.encoder.finish()
+    }
+}

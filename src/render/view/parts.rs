@@ -1,0 +1,94 @@
+//! Parts of a view: what its pictures took, the newest of them, what other views lend.
+
+use std::sync::Arc;
+
+use crate::render::{indirect::IndirectSource, post::Post, targets::Targets};
+
+/// When a view changed and finished, and what its pictures took.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Times {
+    /// The present moment on the caller's clock, seconds.
+    pub now_secs: f64,
+    /// The moment of the last change, seconds.
+    pub changed_secs: f64,
+    /// The last moment at which there was work to do, seconds.
+    pub finished_secs: f64,
+    /// GPU time of the work since the newest picture, milliseconds.
+    busy_ms: f64,
+    /// GPU time that the newest picture took, milliseconds.
+    pub frame_ms: f64,
+    /// Pictures so far.
+    pub pictures: u64,
+}
+
+impl Times {
+    /// Adds the GPU time of a piece of work that has finished; `is_picture` if it made the display
+    /// picture.
+    pub fn add(&mut self, busy_ms: f64, is_picture: bool) {
+        self.busy_ms += busy_ms;
+        if is_picture {
+            self.frame_ms = std::mem::take(&mut self.busy_ms);
+            self.pictures += 1;
+        }
+    }
+
+    /// Seconds from the last change to the end of its work; up to now while there is work.
+    pub fn elapsed_secs(&self) -> f64 {
+        (self.finished_secs - self.changed_secs).max(0.0)
+    }
+
+    /// Seconds since the last change.
+    pub fn unchanged_secs(&self) -> f64 {
+        self.now_secs - self.changed_secs
+    }
+}
+
+/// The texture of the newest picture; while a new region has none, that of the old one.
+#[derive(Debug, Default)]
+pub struct Shown {
+    texture: Option<wgpu::Texture>,
+    generation: u64,
+}
+
+impl Shown {
+    /// Notes that the display texture of `targets` holds a picture.
+    pub fn note(&mut self, targets: &Targets) {
+        if self.texture.as_ref() != Some(&targets.texture) {
+            self.texture = Some(targets.texture.clone());
+            self.generation += 1;
+        }
+    }
+
+    /// The texture; none before the first picture.
+    pub fn texture(&self) -> Option<&wgpu::Texture> {
+        self.texture.as_ref()
+    }
+
+    /// Changes whenever [`Self::texture`] is another texture than before.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    /// The texture that is shown beside that of `targets`, of an old size.
+    pub fn older_than(&self, targets: &Targets) -> Option<&wgpu::Texture> {
+        self.texture.as_ref().filter(|texture| **texture != targets.texture)
+    }
+}
+
+/// What a view that draws a part of a picture has from one that draws all of it.
+#[derive(Default)]
+pub struct Lent {
+    /// What is known of the whole film.
+    pub post: Option<Arc<Post>>,
+    /// Where indirect light comes from.
+    pub indirect_source: Option<IndirectSource>,
+}
+
+/// Which statistics describe the film as it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StatsValidity {
+    /// The mean.
+    pub mean: bool,
+    /// The histogram.
+    pub histogram: bool,
+}

@@ -1,0 +1,114 @@
+//! Documents of every version: their defaults, and files that earlier programs wrote.
+
+use mandelight::{
+    formula::{self, FormulaRef, Fractal},
+    scene::{
+        EnvironmentLight, PointLight, Scene,
+        document::{self, from_json},
+        presets,
+    },
+};
+use serde_json::{Value, json};
+
+/// Documents and links leave out what has its default, so a changed default changes what they
+/// show. Before a release the file may be rewritten (MANDELIGHT_BLESS=1); after one, a change
+/// here needs a new `document::VERSION`.
+#[test]
+fn version_2_keeps_its_defaults() {
+    let frozen = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/frozen/v2/defaults.json");
+    let fractals: Vec<_> = formula::all().map(Fractal::new).collect();
+    let defaults = format!(
+        "{}\n",
+        serde_json::to_string_pretty(&json!({
+            "version": document::VERSION,
+            "scene": Scene::default(),
+            "fractals": fractals,
+            "environment_light": EnvironmentLight::default(),
+            "point_light": PointLight::default(),
+        }))
+        .unwrap()
+    );
+    if std::env::var_os("MANDELIGHT_BLESS").is_some() {
+        std::fs::write(frozen, &defaults).unwrap();
+    }
+    let expected = std::fs::read_to_string(frozen).expect("tests/frozen/v2/defaults.json");
+    assert_eq!(defaults, expected);
+}
+
+/// A file of `tests/frozen/v1/`, written by a program that knew version 1 only.
+fn version_1(name: &str) -> Vec<u8> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/frozen/v1");
+    std::fs::read(format!("{folder}/{name}")).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn version_1_text(name: &str) -> String {
+    String::from_utf8(version_1(name)).expect("a text")
+}
+
+#[test]
+fn version_1_keeps_its_defaults() {
+    let defaults: Value = serde_json::from_str(&version_1_text("defaults.json")).unwrap();
+    let read = |scene: &Value| {
+        from_json(&json!({ "mandelight": "scene", "version": 1, "scene": scene }).to_string())
+    };
+    assert_eq!(read(&defaults["scene"]), Ok(Scene::default()));
+    let light = &defaults["environment_light"];
+    let lit = read(&json!({ "lights": { "environment": [light] } })).unwrap();
+    assert_eq!(lit.lights.environment, [EnvironmentLight::default()]);
+    let lit = read(&json!({ "lights": { "point": [defaults["point_light"]] } })).unwrap();
+    assert_eq!(lit.lights.point, [PointLight::default()]);
+}
+
+#[test]
+fn version_1_scenes_dives_paths_and_pictures_open_as_before() {
+    let mut opened = 0;
+    for preset in presets::every() {
+        let name = preset.name.to_lowercase().replace(' ', "-");
+        let scene = (preset.scene)();
+        // Scenes of later formulas were never written as version 1.
+        if scene.fractal.formula() == FormulaRef::default() {
+            assert_eq!(from_json(&version_1_text(&format!("{name}.json"))), Ok(scene), "{name}");
+            opened += 1;
+        }
+    }
+    assert_eq!(opened, 16);
+    let project = document::project_from_json(&version_1_text("flight.json")).unwrap();
+    assert!(project.path.keys.len() > 2);
+    let picture = std::io::Cursor::new(version_1("julia.png"));
+    let text = mandelight::export::scene_text(picture).unwrap().expect("a scene");
+    let carried = from_json(&text).unwrap();
+    let scene = from_json(&version_1_text("julia.json")).unwrap();
+    assert_eq!((carried.fractal, carried.camera), (scene.fractal, scene.camera));
+}
+
+#[test]
+fn fields_of_another_formula_are_named() {
+    let read = |fractal: Value| {
+        let scene = json!({ "fractal": fractal });
+        from_json(&json!({ "mandelight": "scene", "version": 2, "scene": scene }).to_string())
+    };
+    let error = |fractal: Value| read(fractal).expect_err("refused").to_string();
+    let after = error(json!({ "formula": "quaternion_julia", "power": 3 }));
+    assert!(after.starts_with("fractal.power: unknown field `power`"), "{after}");
+    // The formula may come last: serde_json keeps the order of a text, not of a map.
+    let text = "{\"mandelight\":\"scene\",\"version\":2,\"scene\":{\"fractal\":{\"slice\":0.5,\"formula\":\"mandelbulb\"}}}";
+    let before = from_json(text).expect_err("refused").to_string();
+    assert!(before.contains("unknown field `slice`"), "{before}");
+    let unknown = error(json!({ "formula": "menger" }));
+    assert!(unknown.starts_with("fractal.formula: invalid value: string \"menger\""), "{unknown}");
+    let short = error(json!({ "formula": "quaternion_julia", "constant": [1, 2] }));
+    assert!(short.starts_with("fractal.constant: invalid length 2"), "{short}");
+    let quaternion = read(json!({ "formula": "quaternion_julia", "slice": 0.25 })).unwrap();
+    assert_eq!(quaternion.fractal.number("slice"), Some(0.25));
+}
+
+/// Documents may name fields before their formula.
+#[test]
+fn formulas_that_share_a_name_share_its_kind() {
+    let fields: Vec<_> = formula::all().flat_map(|formula| formula.fields()).collect();
+    for a in &fields {
+        for b in fields.iter().filter(|b| b.name == a.name) {
+            assert!(a.default().fits(b), "{}", a.name);
+        }
+    }
+}
