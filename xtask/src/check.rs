@@ -1,22 +1,27 @@
-//! `cargo xtask check`: formatting and lints, warnings denied.
+//! `cargo xtask check`: formatting, lints and documentation, warnings denied.
 
 use anyhow::{Result, bail};
 
 use crate::{need, shell};
 
-/// Checks the formatting of every crate, and runs clippy natively and for wasm32.
+/// Checks the formatting of every crate, runs clippy natively and for wasm32, and builds the
+/// documentation.
 ///
 /// All checks run even after a failure, so that one call shows every problem.
 pub fn check() -> Result<()> {
     need::wasm_target()?;
-    let passes: [&[&str]; 3] = [
+    let passes: [&[&str]; 4] = [
         &["fmt", "--all", "--check"],
         &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
         &["clippy", "--lib", "--target", need::WASM_TARGET, "--", "-D", "warnings"],
+        &["doc", "--workspace", "--no-deps"],
     ];
     let mut failures = Vec::new();
     for pass in passes {
-        if let Err(error) = shell::run(shell::cargo()?.args(pass)) {
+        let mut cargo = shell::cargo()?;
+        // Only `cargo doc` reads this variable.
+        cargo.args(pass).env("RUSTDOCFLAGS", "-D warnings");
+        if let Err(error) = shell::run(&mut cargo) {
             failures.push(error.to_string());
         }
     }

@@ -20,7 +20,7 @@ Usage: cargo xtask <command>
   serve [--port N]  build the page and serve it on 127.0.0.1 (first free port from 8080)
   test              run everything: check, the page, unit, GPU and browser tests
   dist              write dist/, a folder that any static host can serve
-  check             check formatting and lints, native and wasm32, warnings denied
+  check             check formatting, lints (native and wasm32) and documentation, warnings denied
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   pictures [NAME…]  render the pictures of the README and the docs again

@@ -18,7 +18,7 @@ params! {
 /// The estimate of lower powers has false minima: see [`super::estimator`].
 pub const HIT_CHECK_BELOW: f64 = 4.0;
 
-/// In document order; [`Mandelbulb::of`] and [`Mandelbulb::fractal`] follow it.
+/// In document order, which [`Mandelbulb::of`] and the conversion back follow.
 pub const FIELDS: &[Field] = &[
     Field {
         name: "power",
