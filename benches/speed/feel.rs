@@ -30,6 +30,10 @@ const BUDGETS_PER_FULL_FRAME: f64 = 20.0;
 const FILLED_AFTER_PART: usize = 1;
 
 /// Replays the session; writes compared pictures to the folder `pictures`.
+///
+/// # Errors
+///
+/// If a picture can't be read back or written.
 pub fn run(pipelines: &Arc<Pipelines>, pictures: Option<&Path>) -> Result<Results, Failure> {
     let session = Session::record();
     let costs = edits::costs(pipelines, session.end_of(FILLED_AFTER_PART));

@@ -120,12 +120,12 @@ fn log_errors() {
     struct Log;
 
     impl log::Log for Log {
-        fn enabled(&self, metadata: &log::Metadata) -> bool {
+        fn enabled(&self, metadata: &log::Metadata<'_>) -> bool {
             // wgpu returns its relevant errors to the caller.
             metadata.target().starts_with("mandelight")
         }
 
-        fn log(&self, record: &log::Record) {
+        fn log(&self, record: &log::Record<'_>) {
             if self.enabled(record.metadata()) {
                 message(&record.args().to_string());
             }

@@ -53,6 +53,10 @@ impl Gpu {
     /// Opens the platform's preferred adapter, or the first one whose name contains `wanted`.
     ///
     /// The comparison ignores case. Selection by name works natively only.
+    ///
+    /// # Errors
+    ///
+    /// See [`GpuError`].
     pub async fn open(wanted: Option<&str>) -> Result<Self, GpuError> {
         let mut wanted_instance = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
         // wgpu validates each indirect dispatch with another dispatch. The shaders already keep
@@ -103,6 +107,7 @@ impl Gpu {
     }
 
     /// Runs the callbacks of finished work. On the web the browser runs these callbacks.
+    #[expect(clippy::disallowed_methods, reason = "the one place that polls without waiting")]
     pub fn poll(&self) {
         if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
             log::warn!("polling the GPU: {error}");
@@ -122,6 +127,7 @@ impl Gpu {
         });
     }
 
+    #[expect(clippy::disallowed_methods, reason = "the one place that waits")]
     fn poll_for(&self, what: wgpu::PollType) {
         if let Err(error) = self.device.poll(what) {
             log::warn!("waiting for the GPU: {error}");

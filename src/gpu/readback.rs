@@ -72,6 +72,10 @@ impl Readback {
     }
 
     /// The bytes, without row padding; none until the copy is complete.
+    ///
+    /// # Errors
+    ///
+    /// See [`ReadbackError`].
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<u8>>, ReadbackError> {
         gpu.poll();
         match self.state.load(Ordering::Acquire) {
@@ -87,6 +91,10 @@ impl Readback {
     }
 
     /// Waits for the bytes. Native only: a browser's main thread must not block.
+    ///
+    /// # Errors
+    ///
+    /// See [`ReadbackError`].
     pub fn wait(mut self, gpu: &Gpu) -> Result<Vec<u8>, ReadbackError> {
         gpu.wait();
         // The GPU's work is done, but another thread's poll may not have run the callback yet.

@@ -60,6 +60,10 @@ impl SamplesReadback {
     }
 
     /// Every pixel, rows from the top, once all buffers have arrived; none before.
+    ///
+    /// # Errors
+    ///
+    /// See [`ReadbackError`].
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<PixelSample>>, ReadbackError> {
         let Self { film: [rg, bw], surface, scale } = self;
         let all = [rg.look(gpu)?, bw.look(gpu)?, surface.look(gpu)?];

@@ -20,6 +20,10 @@ impl View {
     /// Reads back each pixel's mean radiance, and waits for it; native only.
     ///
     /// Linear Rec. 709, rows from the top.
+    ///
+    /// # Errors
+    ///
+    /// See [`ReadbackError`].
     pub fn film(&self) -> Result<Vec<[f32; 3]>, ReadbackError> {
         let gpu = &self.pipelines.gpu;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
@@ -37,6 +41,10 @@ impl View {
     }
 
     /// Reads back the centre samples' G-buffer, and waits for it; native only, for tests and tools.
+    ///
+    /// # Errors
+    ///
+    /// See [`ReadbackError`].
     pub fn gbuffer(&self) -> Result<Samples, ReadbackError> {
         let gpu = &self.pipelines.gpu;
         let center = &self.targets.center;
