@@ -188,7 +188,7 @@ mod tests {
     fn every_picture_is_shown_with_its_caption() {
         let pages = pages();
         for Picture { name, caption, .. } in table::pictures() {
-            let html = format!("pictures/{name}.png\" width=\"320\" alt=\"{caption}\"");
+            let html = format!("pictures/{name}.png\" width=\"640\" alt=\"{caption}\"");
             let forms = [
                 html,
                 format!("![{caption}](docs/pictures/{name}.png)"),

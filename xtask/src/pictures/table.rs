@@ -69,10 +69,6 @@ impl Panel {
         self
     }
 
-    fn samples(self, samples: u32) -> Self {
-        Self { samples, ..self }
-    }
-
     fn frame(self, frame: u32) -> Self {
         Self { frame: Some(frame), ..self }
     }
@@ -106,20 +102,7 @@ pub fn pictures() -> Vec<Picture> {
                 gold("fractal.variant=negative_sine").with(&["fractal.power=8"]),
             ],
         ),
-        single("julia", "A Julia form of the power-8 bulb", of("Julia")),
-        picture(
-            "dive",
-            3,
-            "Toward the surface, at 3.2, 1 and 0.45",
-            [
-                reef().with(&[r#"camera.position=["1.324", "-2.156", "1.06"]"#]),
-                reef(),
-                reef().with(&[r#"camera.position=["0.444", "-0.836", "0.51"]"#]),
-            ],
-        ),
-        single("lights", "A power-4 bulb between three coloured lights", of("Four petals")),
         single("lantern", "Two point lights in a crevice", of("Lantern")),
-        single("sky", "A bulb under a sky of 32 lights with a low sun", of("Mandelbulb").with(SKY)),
         single(
             "surroundings",
             "A bulb lit by the picture of a dusk that stands behind it",
@@ -146,17 +129,6 @@ pub fn pictures() -> Vec<Picture> {
             ],
         ),
         picture(
-            "coloring",
-            4,
-            "Colours by the iteration count, and by traps at the origin, the axes and the planes",
-            [
-                reef().with(&["surface.coloring.source=iterations"]),
-                reef(),
-                reef().with(&["surface.coloring.source=axis_trap"]),
-                reef().with(&["surface.coloring.source=plane_trap"]),
-            ],
-        ),
-        picture(
             "tone",
             5,
             "Cut off at 1, Reinhard's curve, ACES, AgX and Khronos Neutral",
@@ -180,15 +152,6 @@ pub fn pictures() -> Vec<Picture> {
             "Without bloom, and with it",
             [rim(), rim().with(&["bloom.strength=0.8"])],
         ),
-        picture(
-            "samples",
-            2,
-            "One sample a pixel, and 64",
-            [
-                reef().with(&["camera.vertical_fov_deg=5"]).samples(1),
-                reef().with(&["camera.vertical_fov_deg=5"]).samples(64),
-            ],
-        ),
         single("anaglyph", "A bulb for red-cyan glasses", marble("camera.stereo.layout=anaglyph")),
         // The size is that of one eye's picture.
         single(
@@ -209,29 +172,6 @@ pub fn pictures() -> Vec<Picture> {
             "Colour, depth and normals of one OpenEXR file",
             [reef(), reef().layer(Layer::Depth), reef().layer(Layer::Normal)],
         ),
-        single(
-            "detail",
-            "A detail of the surface of the power-8 bulb",
-            reef().with(&[r#"camera.position=["0.444", "-0.836", "0.51"]"#]),
-        ),
-        single(
-            "everything",
-            "Everything at once: 64 lights of a picture, indirect light, auto exposure, bloom and stereo",
-            marble("camera.stereo.layout=anaglyph").with_environment_map().with(DUSK).with(&[
-                r#"camera.position=["2.7", "-3.24", "-0.3"]"#,
-                "camera.orientation=[0.69182, 0.25047, 0.23055, 0.63679]",
-                "lights.rig.count=64",
-                "lights.rig.picture.rotation_deg=100",
-                "surface.ambient=0.02",
-                "indirect.kind=horizon",
-                "indirect.strength=0.5",
-                "tone.auto_exposure=true",
-                "tone.exposure=0.2",
-                "bloom.strength=0.3",
-                "bloom.threshold=1",
-                "bloom.order=before",
-            ]),
-        ),
         picture(
             "depth",
             2,
@@ -246,27 +186,8 @@ pub fn pictures() -> Vec<Picture> {
         single("cove", "A shore that curls, at 8e-20 in power 3", of("Cove")),
         single("dahlia", "Petals about petals, at 1e-20 in power 16", of("Dahlia")),
         single("rosette", "A wreath, at 2e-26 in power 8", of("Rosette")),
-        picture(
-            "scenes",
-            4,
-            "The eight opening scenes",
-            [
-                of("Mandelbulb"),
-                of("Coral reef"),
-                of("Four petals"),
-                of("Quadratic"),
-                of("Sea urchin"),
-                of("In between"),
-                of("Julia"),
-                of("Lantern"),
-            ],
-        ),
     ]
 }
-
-/// A sky as the only light.
-const SKY: &[&str] =
-    &["lights.environment=[]", "lights.rig.kind=sky", "lights.rig.count=32", "tone.exposure=0.3"];
 
 /// The environment map as the only light and as the background.
 const DUSK: &[&str] = &[
