@@ -102,6 +102,12 @@ pub fn pictures() -> Vec<Picture> {
                 gold("fractal.variant=negative_sine").with(&["fractal.power=8"]),
             ],
         ),
+        single(
+            "whorls",
+            "A quaternion Julia set: a shell of four dimensions, cut open",
+            of("Whorls"),
+        )
+        .sized([1280, 800]),
         single("lantern", "Two point lights in a crevice", of("Lantern")),
         single(
             "surroundings",
