@@ -10,36 +10,39 @@
 //!           what fits              points    distance                                 pixels
 //! ```
 //!
-//! 1. The interface or the command line edits a [`scene::Scene`].
-//! 2. [`render::View`] compares what the kernels would read of it with what they read last
+//! 1. The interface or the command line edits a [`scene::Scene`]. Its fractal is a formula with values
+//!    ([`formula::Fractal`]), prepared once an edit ([`fractal::FractalModel`]) and shared by the
+//!    interface, navigation and the renderer.
+//! 2. [`render::View`] compares what the kernels would read of the scene with what they read last
 //!    ([`render::uniforms::Inputs`]). The difference is one of five levels of staleness:
-//!    geometry, normals, light, indirect light, tone. Of what lights the picture, only what moved
-//!    has its rays marched again: a light by itself, a colour or a material not at all.
-//!    A view deeper than an f32 can tell counts from an anchor on the surface in view
-//!    ([`render::space::RenderSpace`]), which is looked for beside the frames.
-//!    Where the scene needs pipelines that nobody made yet, the report says so, the picture stays,
-//!    and they are compiled before anything asks for them.
-//! 3. [`render::schedule::Schedule`] says what to compute next, a piece at a time: a lattice of
+//!    geometry, normals, light, indirect light, tone. A light that moved has its own rays marched
+//!    again; an edit of colours or materials marches none.
+//!    Views deeper than an f32 can tell are measured from an anchor on the surface in view
+//!    ([`render::space::RenderSpace`]), which a search finds beside the frames.
+//!    If the scene needs pipelines that are not compiled yet, the report says so, and the picture
+//!    stays until they are.
+//! 3. [`render::schedule::Schedule`] chooses what to compute next, a piece at a time: a lattice of
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.
-//! 4. [`render::frame::record`] records each piece, pass by pass, in the order in which they run.
-//!    Cones of rays go first and queue the blocks of threads that have rays left to march
-//!    ([`render::work_queues`]): the passes after them are as large as their queues.
-//!    [`gpu::timing::Stopwatch`] measures it, and the schedule learns from that.
-//! 5. Post passes read the whole film where the scene asks for it: its mean sets the exposure, and
-//!    bright pixels bloom ([`render::post`]). Without them the samples of a sparse lattice never fill the
-//!    film: they are tone mapped and upsampled to the display.
-//! 6. What the film holds is shown: by the page's interface, or tile by tile as a PNG
-//!    ([`export::StillJob`]).
+//! 4. [`render::frame::record`] records each piece: the passes of [`render::pass::PASSES`] that the
+//!    piece has, in that order. Cones of rays go first and queue the blocks of threads that have rays
+//!    left to march ([`render::work_queues`]): the passes after them are as large as their queues.
+//!    [`gpu::timing::Stopwatch`] measures the piece, and the schedule learns from that.
+//! 5. Post passes read the whole film if the scene needs it: the film's mean sets the exposure, and
+//!    bright pixels bloom ([`render::post`]). Otherwise the samples of a sparse lattice are tone
+//!    mapped and upsampled to the display without filling the film.
+//! 6. The page's interface shows the display texture, or [`export::StillJob`] reads it back tile by
+//!    tile for a PNG.
 //!
 //! # Layers
 //!
 //! ```text
-//! formula ◀── scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
-//! ui ──▶ scene, fractal, render::report     web, the binary ──▶ all
+//! precise ◀── formula ◀── scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
+//! ui ──▶ formula, scene, fractal, render::report      web, the binary ──▶ all
 //! ```
 //!
-//! Arrows only point this way; `tests/source/layers.rs` holds them.
+//! Arrows only point this way, between folders (`tests/source/layers.rs`) and between files
+//! (`tests/source/direction.rs`).
 //!
 //! ```
 //! // A scene is data: it can be made, changed, written and read without any GPU.

@@ -17,7 +17,7 @@ use crate::{gpu::shader::File, precise::PrecisePoint};
 pub struct MarchPolicy {
     /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
     pub relaxation: f32,
-    /// Radius of the ball that a bundle treats as empty, over the safe step.
+    /// Radius of the ball that a bundle (rays marched as one) treats as empty, over the safe step.
     pub ball_part: f32,
     /// True if the estimate has false minima thinner than a pixel.
     ///
@@ -302,7 +302,8 @@ impl Kernel {
 
 /// The WGSL files of a kernel.
 ///
-/// `types` declares `struct FormulaUniforms` with a member `fractal: Fractal`. The files in `files`
+/// `types` declares `struct FormulaUniforms` with a member `fractal: Fractal`, which the functions take by
+/// value, and other members that they read as `frame.formula`. The files in `files`
 /// declare, with the types of `shaders/types/estimate.wgsl`:
 ///
 /// ```wgsl
@@ -316,7 +317,7 @@ impl Kernel {
 /// ```
 ///
 /// A march evaluates the quick estimate, and the careful estimate where the quick estimate's step is
-/// negative; `estimate` is exact everywhere. `along` is the ray's direction; several rays that march as
+/// negative; the step of `estimate` is never negative. `along` is the ray's direction; several rays that march as
 /// one use `bundle_direction` instead.
 #[derive(Clone, Debug)]
 pub struct KernelFiles {
@@ -390,6 +391,6 @@ pub trait ReferenceSteps: Send + Sync {
 
 /// Footprint below which views are drawn about an anchor, in scene units.
 ///
-/// The footprint is a pixel's radius at the nearest surface. Plain f32 draws coarser views as well. Fractals
-/// without depth have no anchor.
+/// The footprint is a pixel's radius at the nearest surface. Coarser views are drawn in plain f32: the limit
+/// is twice [`PLAIN_FOOTPRINT`](super::march::PLAIN_FOOTPRINT). Fractals without depth have no anchor.
 pub const COARSEST_FOOTPRINT: f64 = 4e-7;

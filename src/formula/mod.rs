@@ -1,8 +1,8 @@
 //! Formulas: one folder each, and the types that all formulas share.
 //!
 //! In: the values of a formula's parameters. Out: the formula's parameter table, its distance field in f64,
-//! the WGSL files of its kernels and the uniforms that they read. Code outside a formula's folder names
-//! neither its parameters nor its kernels: to add a formula, add its folder and its line in `formulas!`.
+//! the WGSL files of its kernels and the uniforms that they read. Apart from presets and tests, no other code names
+//! a formula's parameters or kernels: to add a formula, add its folder and its line in `formulas!`.
 //!
 //! | file | contents |
 //! |---|---|

@@ -154,5 +154,5 @@ params! {
     ITERATIONS = "fractal.iterations", "Iterations", Count, 2.0, 100.0, default 16.0, Integer by 1.0,
         "Maximum steps of the formula per point. More shows finer detail and is slower. Deep views add steps automatically.";
     BAILOUT = "fractal.bailout", "Bailout", SceneUnits, 2.0, 256.0, default 4.0, Logarithmic by 0.1,
-        "The radius beyond which a point counts as escaped. Larger gives smoother distances and colours. The Mandelbulb takes at most (1.8e19)^(1/power).";
+        "The radius beyond which a point counts as escaped. Larger gives smoother distances and colours. Some formulas limit it further.";
 }

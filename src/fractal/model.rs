@@ -95,7 +95,7 @@ impl FractalModel {
         field
     }
 
-    /// Stores the newest reference orbit, or none; ignores orbits of other fractals.
+    /// Stores the newest reference orbit, or none; an orbit of another fractal counts as none.
     pub fn set_reference(&self, reference: Option<&Arc<dyn ReferenceOrbit>>) {
         let reference = reference.filter(|reference| reference.is_of(&self.0.fractal));
         let mut fields = self.fields();
@@ -125,8 +125,8 @@ impl FractalModel {
         }
     }
 
-    /// The estimated distance from `point` to the set in scene units, with the scene's iterations.
-    pub fn distance(&self, point: &PrecisePoint) -> f64 {
+    /// The distance estimate at `point` in scene units, kept right outside the bounding sphere.
+    pub fn clear_distance(&self, point: &PrecisePoint) -> f64 {
         self.0.whole.clear_distance(point.to_dvec3())
     }
 

@@ -1,7 +1,8 @@
 //! Structs that the host shares with shaders, laid out as their WGSL twins, padding included.
 //!
 //! A Rust struct has the fields of its WGSL twin and nothing else. Their offsets follow from the types
-//! by WGSL's alignment rules (WGSL, section "Memory Layout"); `tests/source/shaders.rs` compares them with
+//! by WGSL's rules for storage buffers (WGSL, section "Memory Layout"); arrays in uniform buffers need elements
+//! of a multiple of 16 bytes, which theirs have; `tests/source/shaders.rs` compares them with
 //! the twin's layout from a WGSL compiler.
 
 use std::ops::{Deref, DerefMut};
@@ -79,7 +80,7 @@ macro_rules! vectors {
     };
 }
 
-// vec2, vec3 and vec4.
+// The vec2, vec3 and vec4 in use; others take a line here.
 vectors! {
     f32, 2, 8;
     u32, 2, 8;

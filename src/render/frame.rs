@@ -1,4 +1,4 @@
-//! The passes of a frame, in the order in which they run.
+//! Records pieces of work as passes, in the order of [`PASSES`].
 
 use super::{
     pass::{PASSES, Record},
@@ -6,7 +6,7 @@ use super::{
     schedule::Work,
 };
 
-/// Records one piece of work: those of [`PASSES`] that the work has, in order.
+/// Records each pass of [`PASSES`] whose `when` holds for the work.
 pub fn record(recorder: &mut Recorder<'_>, work: Work) {
     match work {
         Work::Trace(trace) => {

@@ -26,11 +26,11 @@ pub struct PipelineSet {
     pub is_always_needed: bool,
     /// The values of a special variant, besides its kernel; none for sets without special variants.
     constants: Option<fn(&Inputs) -> Constants>,
-    /// Work that runs all passes of the set.
+    /// Work that rehearses the set's passes; none for sets that are never rehearsed.
     rehearsal: fn() -> Vec<Work>,
 }
 
-/// Passes of every picture without special variants.
+/// Passes that every picture needs and that have no special variants.
 pub static ALWAYS: PipelineSet = PipelineSet {
     name: "always",
     subject: Some("the picture"),
@@ -126,6 +126,13 @@ fn show(level: u32) -> Work {
     Work::Show { level, fill: false, film: false, adapt: 1.0 }
 }
 
+impl PipelineSet {
+    /// Whether the set has special variants.
+    pub fn is_specialized(&self) -> bool {
+        self.constants.is_some()
+    }
+}
+
 impl PartialEq for PipelineSet {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
@@ -158,15 +165,15 @@ pub struct PipelineVariant {
 }
 
 impl PipelineVariant {
-    /// The special variant of `set` for a frame, if the set has special variants.
+    /// The variant of `set` that draws a frame fastest.
     pub fn of(set: &'static PipelineSet, inputs: &Inputs) -> Self {
         Self::with_kernel(set, inputs, inputs.formula.kernel)
     }
 
-    /// The special variant of `set` for a frame drawn with `kernel`.
+    /// The variant of `set` that draws a frame with `kernel` fastest.
     pub fn with_kernel(set: &'static PipelineSet, inputs: &Inputs, kernel: Kernel) -> Self {
         let kernel = set.has_kernel.then_some(kernel);
-        // A drag passes through many values that only a general kernel draws: they share its pipelines.
+        // A drag passes through many values of a general kernel, and compiling each would be too slow.
         let is_general = kernel.is_some_and(Kernel::is_general);
         let constants = set.constants.filter(|_| !is_general);
         Self { set, kernel, constants: constants.map_or_else(Vec::new, |of| of(inputs)) }
@@ -200,7 +207,7 @@ impl PipelineVariant {
         }
     }
 
-    /// Work that runs all passes of the set.
+    /// Work that rehearses the set's passes.
     pub fn rehearsal(&self) -> Vec<Work> {
         (self.set.rehearsal)()
     }

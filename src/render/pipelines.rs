@@ -296,3 +296,16 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     // Each insertion is complete, so the collection is valid even if a thread panicked with the lock.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_set_with_special_variants_is_specialized_for_frames() {
+        for pass in PASSES {
+            let is_listed = pipeline_set::SPECIALIZED.contains(&pass.set);
+            assert_eq!(pass.set.is_specialized(), is_listed, "{}", pass.name);
+        }
+    }
+}

@@ -65,7 +65,7 @@ pub struct Display {
     pub fill: bool,
 }
 
-/// Number of dispatches of each pass.
+/// Counters of recorded work, for tests and the page's status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dispatches {
     /// Camera rays.
@@ -95,7 +95,7 @@ pub struct Dispatches {
 }
 
 impl Dispatches {
-    /// The number of all dispatches.
+    /// The sum of the counters of dispatches.
     pub fn total(&self) -> u64 {
         let Self {
             march,
@@ -137,7 +137,7 @@ pub struct Recorder<'a> {
     pub rehearsal: Option<wgpu::Buffer>,
     /// The lattice level from whose samples alone the display is made; the film stays as it is.
     pub upsample_level: Option<u32>,
-    /// Counters that each pass increments.
+    /// Counters of the recorded work.
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
     encoder: wgpu::CommandEncoder,

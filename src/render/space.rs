@@ -85,7 +85,7 @@ impl RenderSpace {
     /// The distance from the eye to the nearest surface, in render space.
     pub fn nearest(&self, scene: &Scene) -> f64 {
         match &self.anchored {
-            None => self.model.distance(&scene.camera.position),
+            None => self.model.clear_distance(&scene.camera.position),
             Some(Anchored { reference, scale }) => {
                 let field = self.model.about(reference);
                 field.clear_distance(&scene.camera.position - reference.anchor()) / scale
@@ -108,7 +108,7 @@ pub fn wants_anchor(model: &FractalModel, scene: &Scene, region: Region) -> bool
 ///
 /// In scene units. Too coarse for most views that want an anchor, but fine enough to detect them.
 pub fn plain_footprint(model: &FractalModel, scene: &Scene, region: Region) -> f64 {
-    model.distance(&scene.camera.position) * cone(scene, region)
+    model.clear_distance(&scene.camera.position) * cone(scene, region)
 }
 
 fn cone(scene: &Scene, region: Region) -> f64 {

@@ -1,7 +1,7 @@
 //! The opening scenes, and the dives.
 //!
-//! In: nothing. Out: eight scenes to start from, each valid, the eye outside of the set and
-//! the pivot on or near what it shows, the first the default scene; and as many places at depth.
+//! In: nothing. Out: scenes to start from, each valid, the eye outside of the set and
+//! the pivot on or near what it shows, the first the default scene; and places at depth.
 
 mod dives;
 

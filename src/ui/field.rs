@@ -31,7 +31,7 @@ pub fn field_of(model: &FractalModel, scene: &Scene, viewport: Viewport) -> Arc<
     }
     let camera = &scene.camera;
     let cone = pixel_cone(camera, viewport.aspect, viewport.height_px);
-    let nearest = model.distance(&camera.position);
+    let nearest = model.clear_distance(&camera.position);
     let plain = model.finer((nearest * cone).max(PLAIN_FOOTPRINT));
     let footprint = camera.view_unit() * cone;
     if model.has_depth() && footprint < FROM_ELSEWHERE * PLAIN_FOOTPRINT {

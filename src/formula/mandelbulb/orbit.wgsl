@@ -9,6 +9,8 @@
 //     perturbed_step, plain_step
 //     end_estimate, end_gradient, end_traps
 //     quick_estimate, careful_estimate, bundle_direction
+//     orbit_of               the orbit of a point (for orbits about an anchor in `difference`)
+//     rho_of, FOLLOWS_DIRECTION   for `derivatives`, where a stepper uses that file
 // uses: types/estimate
 
 // What a walk computes along the orbit.

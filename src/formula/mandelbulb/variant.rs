@@ -10,7 +10,7 @@ pub const MOST_NEAR_STEPS: usize = 8;
 const SHARED: [File; 3] = [
     File { path: "mandelbulb/power", text: include_str!("power.wgsl") },
     File { path: "mandelbulb/orbit", text: include_str!("orbit.wgsl") },
-    File { path: "types/mandelbulb", text: include_str!("types.wgsl") },
+    File { path: "mandelbulb/types", text: include_str!("types.wgsl") },
 ];
 const DERIVATIVES: File =
     File { path: "mandelbulb/derivatives", text: include_str!("derivatives.wgsl") };

@@ -38,6 +38,7 @@ fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return estimate(fractal, point, along);
 }
 
+// Never called: the quick estimate is exact.
 fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return Estimate(0.0, 0.0);
 }

@@ -73,7 +73,7 @@ host_shared! {
 /// Least footprint that needs no more than the scene's own iterations, in scene units.
 const WHOLE_FOOTPRINT: f64 = 1e-3;
 /// Orbit steps per halving of the footprint: enough nearly everywhere to separate neighbouring points.
-const STEPS_PER_DOUBLING: f64 = 1.5;
+const STEPS_PER_HALVING: f64 = 1.5;
 /// Longest step of a ray, in bounding radii.
 ///
 /// An orbit that passes the origin makes dr vanish, and the estimate grows without bound.
@@ -139,11 +139,11 @@ impl DistanceField for QuaternionJulia {
     }
 }
 
-/// The formula.
+/// The type that implements [`Formula`].
 #[derive(Debug)]
 pub struct QuaternionJuliaFormula;
 
-/// The formula.
+/// The instance that `formulas!` lists.
 pub static QUATERNION_JULIA: QuaternionJuliaFormula = QuaternionJuliaFormula;
 
 impl Formula for QuaternionJuliaFormula {
@@ -164,8 +164,8 @@ impl Formula for QuaternionJuliaFormula {
     }
 
     fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32 {
-        let doublings = (WHOLE_FOOTPRINT / footprint.max(f64::MIN_POSITIVE)).max(1.0).log2();
-        fractal.iterations + (STEPS_PER_DOUBLING * doublings).ceil() as u32
+        let halvings = (WHOLE_FOOTPRINT / footprint.max(f64::MIN_POSITIVE)).max(1.0).log2();
+        fractal.iterations + (STEPS_PER_HALVING * halvings).ceil() as u32
     }
 
     fn field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {

@@ -1,7 +1,7 @@
 //! One file per pass, named like its shader in `shaders/pass/`.
 //!
 //! Each file declares what the pass binds, when a frame has the pass, and how it is dispatched. To add a
-//! pass, add its two files and its line in [`PASSES`].
+//! pass, add its two files, and here its module and its entry in [`PASSES`].
 
 pub mod bloom;
 pub mod blur;
@@ -24,7 +24,7 @@ pub mod upsample;
 
 pub use super::recorder::{ONE_MODE, Pass, Record};
 
-/// Every pass, in the order in which a frame has them.
+/// Every pass, in the order in which a frame has them; `Within` passes run inside the pass that records them.
 pub const PASSES: &[&Pass] = &[
     // Sample points: rays to the surface, normals, shadows, light.
     &camera_cone::PASS,

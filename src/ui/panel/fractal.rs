@@ -65,7 +65,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         .fields()
         .map(|(field, _)| field.only_with.is_none_or(|switch| fractal.is_on(switch)))
         .collect();
-    for ((field, value), is_shown) in fractal.fields_mut().zip(is_on).skip(1) {
+    // The headline shows a first number.
+    let first = fractal.fields().next();
+    let shown_above = first.is_some_and(|(field, _)| matches!(field.kind, Kind::Number { .. }));
+    let others = fractal.fields_mut().zip(is_on).skip(usize::from(shown_above));
+    for ((field, value), is_shown) in others {
         if is_shown {
             ui.push_id(field.name, |ui| edit(ui, field.kind, value));
         }
