@@ -1,11 +1,5 @@
 // Rays of the pinhole camera, or of the one or two eyes that a region shows.
-// uses: lib/eye, lib/lattice, types/frame_uniforms
-
-struct Ray {
-    origin: vec3f,
-    // Unit vector.
-    direction: vec3f,
-}
+// uses: lib/eye, types/frame_uniforms, types/ray
 
 // The ray of an eye through a position of its own picture: (0, 0) is the picture's upper left corner,
 // (1, 1) the lower right one. Both eyes' frusta meet at the screen (thesis 4.5): the eye moves
@@ -15,16 +9,8 @@ fn eye_ray(position: vec2f, side: f32) -> Ray {
     let across = on_screen.x * frame.camera.aspect - side * frame.eyes.half_shift;
     return Ray(
         frame.camera.origin + frame.camera.right * (side * frame.eyes.half_separation),
+        0.0,
         normalize(frame.camera.forward + frame.camera.right * across + frame.camera.up * on_screen.y),
+        frame.camera.hit_cone,
     );
-}
-
-// The camera ray through a sample.
-fn camera_ray(site: Site) -> Ray {
-    return eye_ray(eye_position(site.pixel, place_in_pixel(site.sample)), eye_side(site.pixel));
-}
-
-// Distance to the surface below which a ray at this depth has hit.
-fn hit_distance(camera: Camera, depth: f32) -> f32 {
-    return max(camera.hit_cone * depth, frame.march.finest_hit);
 }

@@ -104,6 +104,8 @@ struct Site {
     sample: u32,
     // Index in G-buffer arrays.
     index: u32,
+    // Index of its ray: samples of a piece of work are counted in the order of their threads.
+    ray: u32,
 }
 
 // A block's sample, 0 to 7: first one sample of each of the block's pixels, then their next samples.
@@ -114,9 +116,9 @@ fn block_site(block: Block, place: u32) -> Site {
     let width_shift = block_shift().x;
     let at = vec2u(in_block & ((1u << width_shift) - 1u), in_block >> width_shift);
     let pixel = pixel_at(block.corner + at);
-    let packed = block.index * BLOCK_THREADS + place;
-    let index = select(pixel_index(pixel), packed, slice.compact != 0u);
-    return Site(inside_region(pixel) && sample < slice.samples, pixel, sample, index);
+    let ray = block.index * BLOCK_THREADS + place;
+    let index = select(pixel_index(pixel), ray, slice.compact != 0u);
+    return Site(inside_region(pixel) && sample < slice.samples, pixel, sample, index, ray);
 }
 
 // The first sample of a pixel whose thread loops over all samples of the pixel.
@@ -130,8 +132,9 @@ fn pixel_site(thread: u32) -> Site {
 
 // Another sample of the pixel of `first`.
 fn sample_site(first: Site, sample: u32) -> Site {
-    let on = select(0u, sample << (3u - slice.samples_shift), slice.compact != 0u);
-    return Site(first.is_there, first.pixel, sample, first.index + on);
+    let on = sample << (3u - slice.samples_shift);
+    let index = first.index + select(0u, on, slice.compact != 0u);
+    return Site(first.is_there, first.pixel, sample, index, first.ray + on);
 }
 
 // A sample's position in its pixel, 0 to 1.

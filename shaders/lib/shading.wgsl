@@ -1,6 +1,6 @@
 // Light and colour of a sample. Shading marches no ray: it reads visibility bits.
-// uses: lib/camera, lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/film
-// uses: types/frame_uniforms, types/light, types/slice
+// uses: lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/film
+// uses: types/frame_uniforms, types/light, types/ray, types/slice
 
 // Whether this pipeline shows the environment map: 0 no, 1 yes, -1 reads it from the uniforms.
 override HAS_ENVIRONMENT_MAP: i32 = -1;
@@ -24,7 +24,8 @@ fn gradient_color(u: f32) -> vec3f {
     return mix(gradient[low].rgb, gradient[(low + 1u) % GRADIENT_ENTRIES].rgb, fract(x));
 }
 
-fn surface_color(data: vec2u) -> vec3f {
+// The colour of a point with these values of `shading`.
+fn surface_color(data: vec4u) -> vec3f {
     let first = unpack2x16unorm(data.x);
     let second = unpack2x16unorm(data.y) * 2.0;
     var value = second.y;
@@ -79,13 +80,13 @@ fn background(direction: vec3f, height: f32) -> vec3f {
 
 // Direct light that a sample reflects to the eye.
 fn direct_radiance(site: Site) -> vec3f {
-    let ray = camera_ray(site);
+    let ray = rays[site.ray];
     let seen = surface[site.index];
-    let t = bitcast<f32>(seen.x);
-    if (t <= 0.0) { return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y); }
-    let point = ray.origin + t * ray.direction;
-    let n = octahedral_unpack(seen.y);
-    return reflected(point, n, -ray.direction, surface_color(color_data[site.index]), visibility[site.index]);
+    if (seen.x == 0u) {
+        return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
+    }
+    let data = shading[site.index];
+    return reflected(ray.origin, octahedral_unpack(seen.y), -ray.direction, surface_color(data), data.zw);
 }
 
 // Adds the sum of a pixel's samples to the film, or replaces the film's value.

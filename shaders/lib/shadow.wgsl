@@ -1,5 +1,5 @@
 // Where shadow rays start, and the distance at which a surface blocks them.
-// uses: lib/camera, lib/lattice, lib/octahedral, types/frame_uniforms, types/slice
+// uses: lib/lattice, lib/octahedral, types/frame_uniforms, types/ray, types/slice
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
@@ -18,19 +18,17 @@ struct Receiver {
 
 fn receiver(site: Site) -> Receiver {
     let seen = surface[site.index];
-    let t = bitcast<f32>(seen.x);
     let n = octahedral_unpack(seen.y);
-    let surface_distance = hit_distance(frame.camera, t);
-    let ray = camera_ray(site);
-    let point = ray.origin + t * ray.direction + n * (2.0 * surface_distance);
+    let ray = rays[site.ray];
+    let point = ray.origin + n * (2.0 * ray.radius);
     let toward = select(slice.light_vector, slice.light_vector - point, slice.light_kind == LIGHT_POINT);
-    let faces = t > 0.0 && (frame.normals == NORMALS_NONE || dot(n, toward) > 0.0);
-    return Receiver(point, surface_distance, faces);
+    let faces = seen.x != 0u && (frame.normals == NORMALS_NONE || dot(n, toward) > 0.0);
+    return Receiver(point, ray.radius, faces);
 }
 
-// The word and the mask of the slice's light in a sample's visibility bits.
+// The word of `shading` with the visibility bit of the slice's light, and the bit's mask.
 fn light_word() -> u32 {
-    return slice.light_bit >> 5u;
+    return 2u + (slice.light_bit >> 5u);
 }
 
 fn light_mask() -> u32 {

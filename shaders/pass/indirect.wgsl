@@ -2,8 +2,8 @@
 // 4.5, "Global Illumination"). Neighbours are centre samples, all of them or those of a lattice
 // level; pixels outside the picture and background pixels contribute nothing.
 // uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/shading
-// uses: lib/shared_exponent, types/direct, types/frame_uniforms, types/indirect, types/sample
-// uses: types/slice
+// uses: lib/shared_exponent, types/direct, types/frame_uniforms, types/indirect, types/ray
+// uses: types/sample, types/slice
 
 struct Neighbour {
     // 0 without a neighbour, less than 1 if the neighbour is far in front or behind.
@@ -112,8 +112,7 @@ fn radiance_of(site: Site) -> vec3f {
     let seen = surface[site.index];
     let t = bitcast<f32>(seen.x);
     if (t <= 0.0) { return radiance; }
-    let ray = camera_ray(site);
-    let point = ray.origin + t * ray.direction;
+    let point = rays[site.ray].origin;
     let n = octahedral_unpack(seen.y);
     let reach = frame.indirect.radius * 2.0 * frame.camera.half_height * t;
     var arriving: vec3f;
@@ -122,7 +121,7 @@ fn radiance_of(site: Site) -> vec3f {
     } else {
         arriving = horizon_light(site, point, n, reach);
     }
-    return radiance + frame.indirect.strength * surface_color(color_data[site.index]) * arriving;
+    return radiance + frame.indirect.strength * surface_color(shading[site.index]) * arriving;
 }
 
 @compute @workgroup_size(64)

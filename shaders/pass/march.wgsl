@@ -1,15 +1,15 @@
-// Marches camera rays to surface points: writes depth and colour data of each sample.
-// uses: formula, lib/camera, lib/estimate_next, lib/over_relaxation, lib/sphere
-// uses: types/frame_uniforms, types/gbuffer, types/work_queues
+// Marches rays to surface points: writes depth and colour data of each sample, and moves the ray there.
+// uses: formula, lib/estimate_next, lib/over_relaxation, lib/sphere
+// uses: types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // Least step, in hit distances; rays may pass thinner parts of the surface.
 const LEAST_STEP = 0.25;
 // Least step, in hit distances, if hits are checked.
 const LEAST_STEP_WITH_HIT_CHECK = 0.4;
 
-// Sphere tracing (Hart 1996) with a hit distance proportional to the pixel's cone, from the depth `clear`
+// Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, from the depth `clear`
 // up to which the ray is known to be clear. 0 on a miss.
-fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
+fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
     var over = over_relaxation();
@@ -39,7 +39,7 @@ fn march(camera: Camera, fractal: Fractal, ray: Ray, clear: f32) -> f32 {
                 }
                 if (!is_inside) { return 0.0; }
             }
-            let hit = hit_distance(camera, t);
+            let hit = hit_distance(ray, t);
             if (checks_hits && (is_looking || ahead.distance < hit)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
                 if (crossing.looks > LOOKS) { return max(t, 1e-30); }
@@ -68,14 +68,15 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let site = queued.site;
     if (!site.is_there) { return; }
     let fractal = frame.formula.fractal;
-    let ray = camera_ray(site);
-    let t = march(frame.camera, fractal, ray, queued.clear);
+    let ray = rays[site.ray];
+    let t = march(fractal, ray, queued.clear);
     surface[site.index].x = bitcast<u32>(t);
     if (t == 0.0) { return; }
-    let point = ray.origin + t * ray.direction;
-    let colors = orbit_colors(fractal, point);
-    color_data[site.index] = vec2u(
-        pack2x16unorm(vec2f(colors.smooth_iterations / f32(frame.march.iterations + 1u), colors.traps.x * 0.5)),
-        pack2x16unorm(colors.traps.yz * 0.5),
-    );
+    let at_surface = advanced(ray, t);
+    rays[site.ray].origin = at_surface.origin;
+    rays[site.ray].radius = at_surface.radius;
+    let colors = orbit_colors(fractal, at_surface.origin);
+    let iterations = colors.smooth_iterations / f32(frame.march.iterations + 1u);
+    shading[site.index].x = pack2x16unorm(vec2f(iterations, colors.traps.x * 0.5));
+    shading[site.index].y = pack2x16unorm(colors.traps.yz * 0.5);
 }

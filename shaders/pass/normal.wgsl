@@ -1,5 +1,5 @@
 // Normals of the surface points: analytic, or one of the sampled kinds of thesis 3.2, fig. 3.3.
-// uses: formula, lib/camera, lib/octahedral, types/frame_uniforms, types/gbuffer, types/work_queues
+// uses: formula, lib/octahedral, types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // The kind that this pipeline is specialised for; -1 reads the kind from the uniforms.
 override NORMALS: i32 = -1;
@@ -53,11 +53,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     let site = queued_hit(thread.x);
     if (!site.is_there) { return; }
-    let t = bitcast<f32>(surface[site.index].x);
-    if (t == 0.0) { return; }
-    let ray = camera_ray(site);
-    let point = ray.origin + t * ray.direction;
-    let fractal = frame.formula.fractal;
-    let spacing = hit_distance(frame.camera, t);
-    surface[site.index].y = octahedral_pack(surface_normal(fractal, point, spacing, -ray.direction));
+    if (surface[site.index].x == 0u) { return; }
+    let ray = rays[site.ray];
+    let n = surface_normal(frame.formula.fractal, ray.origin, ray.radius, -ray.direction);
+    surface[site.index].y = octahedral_pack(n);
 }

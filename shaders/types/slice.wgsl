@@ -47,6 +47,8 @@ struct Slice {
     samples_shift: u32,
     // Offset from each of these samples to the next, modulo 1.
     jitter_step: vec2f,
+    // 1: depths are there, and rays start at their surface points; 0: rays start at the eye.
+    starts_at_surface: u32,
 }
 
 const LIGHT_POINT = 1u;

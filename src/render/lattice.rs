@@ -128,6 +128,7 @@ impl Grid {
             samples: 1,
             samples_shift: self.samples_shift,
             jitter_step: JITTER_STEP.map(|step| step as f32),
+            starts_at_surface: 0,
         }
     }
 

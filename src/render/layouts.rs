@@ -22,9 +22,9 @@ pub struct Layouts {
     /// Group 0: frame uniforms (a storage buffer), formula table (reference orbit), slice (dynamic offset),
     /// lights, gradient.
     pub frame: wgpu::BindGroupLayout,
-    /// Group 1: surface, colour data, visibility; all storage.
+    /// Group 1: surface, shading, rays; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
-    /// Group 1 of the indirect pass: surface, colour data, visibility; all read only.
+    /// Group 1 of the indirect pass: surface, shading, rays; all read only.
     pub samples: wgpu::BindGroupLayout,
     /// Group 1 of passes over the whole film: statistics, mip levels, half blurred; all storage.
     pub post: wgpu::BindGroupLayout,

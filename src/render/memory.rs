@@ -16,10 +16,12 @@ use crate::scene::{
 /// GPU memory of a view in bytes, by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// The centre samples of all pixels: depth, normal, colour data, visibility.
+    /// The centre samples of all pixels: depth, normal, colour values, visibility.
     pub sample_points: u64,
     /// The jittered samples of one piece of work.
     pub jittered_samples: u64,
+    /// The rays of one piece of work.
+    pub rays: u64,
     /// Work queues between the passes of a piece of work.
     pub work_queues: u64,
     /// Direct light of the centre samples, as the source of indirect light.
@@ -40,10 +42,11 @@ pub struct Memory {
 
 impl Memory {
     /// Each purpose with its bytes, in the order of a frame.
-    pub fn purposes(&self) -> [(&'static str, u64); 10] {
+    pub fn purposes(&self) -> [(&'static str, u64); 11] {
         let Self {
             sample_points,
             jittered_samples,
+            rays,
             work_queues,
             direct_light,
             film,
@@ -56,6 +59,7 @@ impl Memory {
         [
             ("sample points", sample_points),
             ("jittered samples", jittered_samples),
+            ("rays", rays),
             ("work queues", work_queues),
             ("direct light", direct_light),
             ("film", film),

@@ -6,7 +6,7 @@ use super::{
     layouts::Layouts,
     pipeline_set::PipelineSet,
     post::{Post, Tasks},
-    schedule::{Points, Trace},
+    schedule::{Points, Stage, Trace},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
     uniforms::{Inputs, Slice},
     work_queues::{BLOCK_THREADS, Queue},
@@ -68,7 +68,9 @@ pub struct Display {
 /// Counters of recorded work, for tests and the page's status.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dispatches {
-    /// Camera rays.
+    /// Making of camera rays.
+    pub camera_rays: u64,
+    /// Marching of camera rays.
     pub march: u64,
     /// Passes that write work queues: of rays, with their cones, and of hits.
     pub queue: u64,
@@ -98,6 +100,7 @@ impl Dispatches {
     /// The sum of the counters of dispatches.
     pub fn total(&self) -> u64 {
         let Self {
+            camera_rays,
             march,
             queue,
             normal,
@@ -111,7 +114,7 @@ impl Dispatches {
             bloom,
             tone,
         } = *self;
-        march + queue + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
+        camera_rays + march + queue + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
     }
 }
 
@@ -226,6 +229,7 @@ impl<'a> Recorder<'a> {
     /// The slice uniform of a trace; also binds the G-buffer of its samples.
     pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
         let mut slice = grid.slice(trace.first_workgroup);
+        slice.starts_at_surface = u32::from(trace.from > Stage::March);
         slice.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
         if let Points::Samples { first, count } = trace.points {
             slice.jitter = lattice::jitter(first);

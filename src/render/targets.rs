@@ -1,7 +1,7 @@
 //! The buffers of one region: uniforms, G-buffers, film, display.
 //!
 //! Bytes per pixel: G-buffer 24, film 16, display 4, direct light 4 if it is the source of indirect
-//! light. The G-buffer of jittered samples has the size of a slice, for any region.
+//! light. Rays and the G-buffer of jittered samples have the size of a slice, for any region.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use super::{
     post::{Need, Post},
     region::Region,
     schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
-    uniforms::{self, FRAME_BYTES, GRADIENT_ENTRIES, Light, Slice},
+    uniforms::{self, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray, Slice},
     work_queues::WorkQueues,
 };
 use crate::{
@@ -30,18 +30,16 @@ pub const SLICE_STRIDE_BYTES: u32 = 256;
 /// Bytes of one pixel's direct light.
 const DIRECT_BYTES: u64 = 4;
 
-/// Most dispatches of one submit: two for camera rays, hits, normal, two per light, shade.
-pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 5;
+/// Most dispatches of one submit: three for camera rays, hits, normal, two per light, shade.
+pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 6;
 
 /// G-buffer: one element per sample in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
     /// f32 depth along the ray in render space, 0 on a miss; u32 octahedral normal.
     pub surface: wgpu::Buffer,
-    /// 2 × u32: smooth iterations and orbit traps.
-    pub color_data: wgpu::Buffer,
-    /// 2 × u32: one bit per light.
-    pub visibility: wgpu::Buffer,
-    /// The bind group of all three buffers.
+    /// 2 × u32: smooth iterations and orbit traps; 2 × u32: one bit per light.
+    pub shading: wgpu::Buffer,
+    /// The bind group of both buffers and the rays.
     pub group: wgpu::BindGroup,
 }
 
@@ -59,6 +57,8 @@ pub struct Targets {
     pub gradient: wgpu::Buffer,
     /// The bind group of all five buffers.
     pub frame_group: wgpu::BindGroup,
+    /// The rays of a piece of work.
+    pub rays: wgpu::Buffer,
     /// The centre samples of all pixels.
     pub center: GBuffer,
     /// The jittered samples of one slice.
@@ -92,6 +92,8 @@ impl Targets {
         // A slice holds whole workgroups, some of them past the region's last pixels. Samples that are
         // computed together need the most workgroups.
         let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
+        let piece = workgroups.min(MOST_WORKGROUPS) * WORKGROUP_THREADS;
+        let rays = storage(device, "rays", u64::from(piece) * Ray::SIZE as u64);
         let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
         let frame = storage(device, "frame uniforms", FRAME_BYTES);
@@ -128,8 +130,9 @@ impl Targets {
             lights,
             gradient,
             frame_group,
-            center: GBuffer::new(layouts, pixels),
-            jittered: GBuffer::new(layouts, u64::from(slice_samples)),
+            center: GBuffer::new(layouts, pixels, &rays),
+            jittered: GBuffer::new(layouts, u64::from(slice_samples), &rays),
+            rays,
             work_queues: WorkQueues::new(layouts, workgroups.min(MOST_WORKGROUPS)),
             film_rg,
             film_bw,
@@ -151,11 +154,11 @@ impl Targets {
         }
     }
 
-    /// Finest lattice level whose display values fit the jittered samples' visibility buffer.
+    /// Finest lattice level whose display values fit the jittered samples' `shading`.
     ///
     /// `upsample` reuses that buffer. The level is at least 2, a quarter of all pixels.
     pub fn finest_spread(&self, size_px: [u32; 2]) -> u32 {
-        let room = self.jittered.visibility.size() / 4;
+        let room = self.jittered.shading.size() / 4;
         let fits = |&level: &u32| sample_places(level, size_px) <= room;
         (2..COARSEST).find(fits).unwrap_or(COARSEST)
     }
@@ -168,6 +171,7 @@ impl Targets {
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
+            rays: self.rays.size(),
             work_queues: self.work_queues.bytes(),
             direct_light: self.direct.size(),
             film: self.film_rg.size() + self.film_bw.size(),
@@ -201,21 +205,20 @@ pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
 
 impl GBuffer {
     fn bytes(&self) -> u64 {
-        self.surface.size() + self.color_data.size() + self.visibility.size()
+        self.surface.size() + self.shading.size()
     }
 
-    fn new(layouts: &Layouts, samples: u64) -> Self {
+    fn new(layouts: &Layouts, samples: u64, rays: &wgpu::Buffer) -> Self {
         let device = &layouts.gpu.device;
         let surface = storage(device, "surface", 8 * samples);
-        let color_data = storage(device, "colour data", 8 * samples);
-        let visibility = storage(device, "visibility", 8 * samples);
+        let shading = storage(device, "shading", 16 * samples);
         let group = group(
             device,
             &layouts.gbuffer,
             "gbuffer",
-            [&surface, &color_data, &visibility].map(wgpu::Buffer::as_entire_binding),
+            [&surface, &shading, rays].map(wgpu::Buffer::as_entire_binding),
         );
-        Self { surface, color_data, visibility, group }
+        Self { surface, shading, group }
     }
 }
 

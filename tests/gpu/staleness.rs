@@ -34,6 +34,7 @@ fn cost_from(
     settle(&mut view);
     let after = view.dispatches();
     Dispatches {
+        camera_rays: after.camera_rays - before.camera_rays,
         march: after.march - before.march,
         queue: after.queue - before.queue,
         normal: after.normal - before.normal,

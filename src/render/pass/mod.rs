@@ -6,6 +6,7 @@
 pub mod bloom;
 pub mod blur;
 pub mod camera_cone;
+pub mod camera_rays;
 pub mod compact_hits;
 pub mod expose;
 pub mod fill;
@@ -27,6 +28,7 @@ pub use super::recorder::{ONE_MODE, Pass, Record};
 /// Every pass, in the order in which a frame has them; `Within` passes run inside the pass that records them.
 pub const PASSES: &[&Pass] = &[
     // Sample points: rays to the surface, normals, shadows, light.
+    &camera_rays::PASS,
     &camera_cone::PASS,
     &march::PASS,
     &compact_hits::PASS,

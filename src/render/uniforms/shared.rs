@@ -238,6 +238,19 @@ host_shared! {
         samples_shift: u32,
         /// Offset from each of these samples to the next, modulo 1.
         jitter_step: [f32; 2],
+        /// 1: depths are there, and rays start at their surface points; 0: rays start at the eye.
+        starts_at_surface: u32,
+    }
+    /// A ray and the cone about it: all that a pass knows of a sample's way through the scene.
+    Ray {
+        /// In render space; moves to the surface point.
+        origin: [f32; 3],
+        /// Radius of the cone at the origin: the hit distance there.
+        radius: f32,
+        /// Unit vector.
+        direction: [f32; 3],
+        /// Growth of the radius per unit of depth.
+        spread: f32,
     }
     /// Statistics of a whole film.
     Statistics {

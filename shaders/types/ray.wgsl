@@ -1,0 +1,24 @@
+// A ray, and the cone about it that its pixel sees (ray cones: Akenine-Möller et al. 2021). Host twin:
+// `render::uniforms::Ray`.
+// uses: types/frame_uniforms
+
+struct Ray {
+    // In render space. `march` moves it to the surface point.
+    origin: vec3f,
+    // Radius of the cone at the origin: the distance below which the surface is hit.
+    radius: f32,
+    // Unit vector.
+    direction: vec3f,
+    // Growth of the radius per unit of depth.
+    spread: f32,
+}
+
+// Distance to the surface below which a ray at this depth has hit.
+fn hit_distance(ray: Ray, depth: f32) -> f32 {
+    return max(ray.radius + ray.spread * depth, frame.march.finest_hit);
+}
+
+// The ray from its point at a depth on.
+fn advanced(ray: Ray, depth: f32) -> Ray {
+    return Ray(ray.origin + depth * ray.direction, hit_distance(ray, depth), ray.direction, ray.spread);
+}
