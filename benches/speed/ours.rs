@@ -13,7 +13,7 @@ use mandelight::{
         pass::{self, Pass},
         pipelines::FramePipelines,
         recorder::{Dispatches, Recorder},
-        schedule::{MOST_WORKGROUPS, Points, SAMPLE_WORKGROUPS, Stage, Trace},
+        schedule::{BATCH_WORKGROUPS, Points, Stage, Trace},
         shaders,
         targets::Targets,
         uniforms::{FrameUniforms, Inputs},
@@ -61,6 +61,7 @@ const PASSES: [(&str, Record); 4] =
 /// The passes that evaluate the formula, each after the passes that fill its work queue.
 const COUNTED_PASSES: [(&str, Record); 3] = [
     ("march", |recorder, trace, grid| {
+        pass::camera_rays::record(recorder, trace, grid);
         pass::camera_cone::record(recorder, trace, grid);
         pass::march::record(recorder, trace, grid);
         pass::compact_hits::record(recorder, trace, grid);
@@ -177,8 +178,8 @@ impl<'a> PassRunner<'a> {
     pub fn draw_ms(&self) -> Vec<(&'static str, f64)> {
         let passes = self.pipelines.of_frame(&self.inputs);
         let mut ms = PASSES.map(|(name, _)| (name, 0.0));
-        // A work queue holds one piece of work.
-        for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
+        // Buffers hold the rays of one batch.
+        for trace in self.traces(Points::Level(0)) {
             for ((_, ms), (_, record)) in ms.iter_mut().zip(PASSES) {
                 let commands = self.recorded(record, &passes, trace);
                 let start = Instant::now();
@@ -199,7 +200,7 @@ impl<'a> PassRunner<'a> {
         passes: &FramePipelines<'_>,
     ) -> Result<Vec<(&'static str, Counts)>, Failure> {
         let mut counts = COUNTED_PASSES.map(|(name, _)| (name, Counts::default()));
-        for trace in self.traces(Points::Level(0), MOST_WORKGROUPS) {
+        for trace in self.traces(Points::Level(0)) {
             for ((_, counts), (_, record)) in counts.iter_mut().zip(COUNTED_PASSES) {
                 *counts += self.counted(record, passes, trace)?;
             }
@@ -214,7 +215,7 @@ impl<'a> PassRunner<'a> {
     pub fn count_later(&self, passes: &FramePipelines<'_>) -> Result<Counts, Failure> {
         let mut counts = Counts::default();
         let points = Points::Samples { first: 1, count: MOST_TOGETHER };
-        for trace in self.traces(points, SAMPLE_WORKGROUPS) {
+        for trace in self.traces(points) {
             for (_, record) in COUNTED_PASSES {
                 counts += self.counted(record, passes, trace)?;
             }
@@ -235,17 +236,17 @@ impl<'a> PassRunner<'a> {
         Counts::read(&self.pipelines.gpu, &self.counts)
     }
 
-    /// The work on `points` of the whole picture, in pieces of `most` workgroups.
-    fn traces(&self, points: Points, most: u32) -> impl Iterator<Item = Trace> {
+    /// The work on `points` of the whole picture, in batches.
+    fn traces(&self, points: Points) -> impl Iterator<Item = Trace> {
         let lights = u64::MAX >> (64 - self.inputs.frame.surface.light_count.clamp(1, 64));
         let all =
             points.grid(self.inputs.frame.size_px).workgroups().div_ceil(self.workgroup_stride);
-        (0..all).step_by(most as usize).map(move |first_workgroup| Trace {
+        (0..all).step_by(BATCH_WORKGROUPS as usize).map(move |first_workgroup| Trace {
             points,
             from: Stage::March,
             lights,
             first_workgroup,
-            workgroups: most.min(all - first_workgroup),
+            workgroups: BATCH_WORKGROUPS.min(all - first_workgroup),
         })
     }
 

@@ -104,7 +104,7 @@ struct Site {
     sample: u32,
     // Index in G-buffer arrays.
     index: u32,
-    // Index of its ray: samples of a piece of work are counted in the order of their threads.
+    // Index of its ray: samples of a batch are counted in the order of their threads.
     ray: u32,
 }
 

@@ -24,8 +24,7 @@ fn gradient_color(u: f32) -> vec3f {
     return mix(gradient[low].rgb, gradient[(low + 1u) % GRADIENT_ENTRIES].rgb, fract(x));
 }
 
-// The colour of a point with these values of `shading`.
-fn surface_color(data: vec4u) -> vec3f {
+fn surface_color(data: vec2u) -> vec3f {
     let first = unpack2x16unorm(data.x);
     let second = unpack2x16unorm(data.y) * 2.0;
     var value = second.y;
@@ -78,15 +77,15 @@ fn background(direction: vec3f, height: f32) -> vec3f {
     return behind.picture_gain * environment_at(in_picture);
 }
 
-// Direct light that a sample reflects to the eye.
-fn direct_radiance(site: Site) -> vec3f {
-    let ray = rays[site.ray];
+// Direct light that a sample reflects to the eye. The ray starts at the sample's surface point, if it has
+// one.
+fn direct_radiance(site: Site, ray: Ray) -> vec3f {
     let seen = surface[site.index];
     if (seen.x == 0u) {
         return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
     }
-    let data = shading[site.index];
-    return reflected(ray.origin, octahedral_unpack(seen.y), -ray.direction, surface_color(data), data.zw);
+    let color = surface_color(color_data[site.index]);
+    return reflected(ray.origin, octahedral_unpack(seen.y), -ray.direction, color, visibility[site.index]);
 }
 
 // Adds the sum of a pixel's samples to the film, or replaces the film's value.

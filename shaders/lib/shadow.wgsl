@@ -26,9 +26,9 @@ fn receiver(site: Site) -> Receiver {
     return Receiver(point, ray.radius, faces);
 }
 
-// The word of `shading` with the visibility bit of the slice's light, and the bit's mask.
+// The word and the mask of the slice's light in a sample's visibility bits.
 fn light_word() -> u32 {
-    return 2u + (slice.light_bit >> 5u);
+    return slice.light_bit >> 5u;
 }
 
 fn light_mask() -> u32 {

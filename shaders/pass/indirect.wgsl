@@ -1,6 +1,7 @@
 // Indirect light from a sample's neighbours on the screen, added to its direct light (thesis
 // 4.5, "Global Illumination"). Neighbours are centre samples, all of them or those of a lattice
-// level; pixels outside the picture and background pixels contribute nothing.
+// level; pixels outside the picture and background pixels contribute nothing. The operator works on the
+// screen: it places the sample and its neighbours by their pixels and depths.
 // uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/shading
 // uses: lib/shared_exponent, types/direct, types/frame_uniforms, types/indirect, types/ray
 // uses: types/sample, types/slice
@@ -108,11 +109,12 @@ fn horizon_light(site: Site, point: vec3f, n: vec3f, reach: f32) -> vec3f {
 
 // All light that a sample reflects to the eye.
 fn radiance_of(site: Site) -> vec3f {
-    let radiance = direct_radiance(site);
     let seen = surface[site.index];
     let t = bitcast<f32>(seen.x);
+    let ray = advanced(camera_ray(site), t);
+    let radiance = direct_radiance(site, ray);
     if (t <= 0.0) { return radiance; }
-    let point = rays[site.ray].origin;
+    let point = ray.origin;
     let n = octahedral_unpack(seen.y);
     let reach = frame.indirect.radius * 2.0 * frame.camera.half_height * t;
     var arriving: vec3f;
@@ -121,7 +123,7 @@ fn radiance_of(site: Site) -> vec3f {
     } else {
         arriving = horizon_light(site, point, n, reach);
     }
-    return radiance + frame.indirect.strength * surface_color(shading[site.index]) * arriving;
+    return radiance + frame.indirect.strength * surface_color(color_data[site.index]) * arriving;
 }
 
 @compute @workgroup_size(64)

@@ -77,6 +77,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     rays[site.ray].radius = at_surface.radius;
     let colors = orbit_colors(fractal, at_surface.origin);
     let iterations = colors.smooth_iterations / f32(frame.march.iterations + 1u);
-    shading[site.index].x = pack2x16unorm(vec2f(iterations, colors.traps.x * 0.5));
-    shading[site.index].y = pack2x16unorm(colors.traps.yz * 0.5);
+    color_data[site.index] = vec2u(
+        pack2x16unorm(vec2f(iterations, colors.traps.x * 0.5)), pack2x16unorm(colors.traps.yz * 0.5));
 }

@@ -1,6 +1,6 @@
 // Light and colour of each sample: to the film, or to `direct` as the source of indirect light.
 // uses: lib/lattice, lib/shading, lib/shared_exponent, types/direct, types/frame_uniforms
-// uses: types/gbuffer, types/slice
+// uses: types/gbuffer, types/ray, types/slice
 
 // True if this pipeline shades single samples: a loop of one turn is slow on llvmpipe.
 override SINGLE: bool = false;
@@ -11,8 +11,11 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    if (SINGLE) { sum = direct_radiance(first); }
-    for (var i = 0u; !SINGLE && i < slice.samples; i++) { sum += direct_radiance(sample_site(first, i)); }
+    if (SINGLE) { sum = direct_radiance(first, rays[first.ray]); }
+    for (var i = 0u; !SINGLE && i < slice.samples; i++) {
+        let site = sample_site(first, i);
+        sum += direct_radiance(site, rays[site.ray]);
+    }
     if (frame.indirect.kind == INDIRECT_OFF) {
         put_on_film(first.pixel, sum);
     } else {

@@ -70,6 +70,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     var clear = 1e30;
     if (slice.light_kind != LIGHT_POINT) { clear = queued.clear - dot(seen.point, slice.light_vector); }
     if (light_reaches(frame.formula.fractal, seen.point, seen.surface_distance, clear)) {
-        shading[site.index][light_word()] |= light_mask();
+        visibility[site.index][light_word()] |= light_mask();
     }
 }

@@ -63,7 +63,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
         let site = block_site(block, i);
         if (!site.is_there) { continue; }
         let seen = receiver(site);
-        shading[site.index][light_word()] &= ~light_mask();
+        visibility[site.index][light_word()] &= ~light_mask();
         if (!seen.faces) { continue; }
         any_faces = true;
         points[i] = vec4f(seen.point, seen.surface_distance);

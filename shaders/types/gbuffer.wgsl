@@ -4,8 +4,9 @@
 // x: depth along the camera ray in render space, the bits of an f32; 0 on a miss.
 // y: unit normal, octahedral, two 16-bit signed normalised numbers.
 @group(1) @binding(0) var<storage, read_write> surface: array<vec2u>;
-// x, y: smooth iterations / (iterations + 1) and origin trap / 2; axis trap / 2 and plane trap / 2.
-// z, w: one bit per light that casts shadows, set if the light reaches the point.
-@group(1) @binding(1) var<storage, read_write> shading: array<vec4u>;
-// The rays of a piece of work, in the order of its threads.
-@group(1) @binding(2) var<storage, read_write> rays: array<Ray>;
+// Smooth iterations / (iterations + 1) and origin trap / 2; axis trap / 2 and plane trap / 2.
+@group(1) @binding(1) var<storage, read_write> color_data: array<vec2u>;
+// One bit per light that casts shadows: set if the light reaches the point.
+@group(1) @binding(2) var<storage, read_write> visibility: array<vec2u>;
+// The rays of a batch, in the order of its threads.
+@group(1) @binding(3) var<storage, read_write> rays: array<Ray>;

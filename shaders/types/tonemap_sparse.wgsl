@@ -1,8 +1,8 @@
 // Display values of a sparse lattice's samples, row by row: 11, 11 and 10 bits of red, green and blue,
-// sRGB. They reuse a buffer of the jittered samples.
+// sRGB. They reuse the buffer of rays.
 // uses: types/frame_uniforms, types/slice
 
-@group(1) @binding(1) var<storage, read_write> developed: array<u32>;
+@group(1) @binding(3) var<storage, read_write> developed: array<u32>;
 
 const DEVELOPED_STEPS = vec3f(2047.0, 2047.0, 1023.0);
 

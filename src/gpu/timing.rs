@@ -47,10 +47,16 @@ impl<T> Stopwatch<T> {
         self.in_flight.len()
     }
 
-    /// Submits one command buffer and measures it under `mark`.
-    pub fn submit(&mut self, gpu: &Gpu, commands: wgpu::CommandBuffer, mark: T) {
-        let index = gpu.queue.submit([commands]);
-        self.watch(gpu, mark, Some(index));
+    /// Submits command buffers one by one, each when it is asked for, and measures all under `mark`.
+    pub fn submit(
+        &mut self,
+        gpu: &Gpu,
+        commands: impl IntoIterator<Item = wgpu::CommandBuffer>,
+        mark: T,
+    ) {
+        let indices = commands.into_iter().map(|commands| gpu.queue.submit([commands]));
+        let last = indices.last();
+        self.watch(gpu, mark, last);
     }
 
     /// Measures work that other code has just submitted, under `mark`.

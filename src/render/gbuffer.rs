@@ -17,20 +17,18 @@ impl Samples {
     /// Decodes the buffers that `shaders/types/gbuffer.wgsl` declares.
     ///
     /// Depths in the buffers are in units of `scale` scene units.
-    pub fn decode(surface: &[u8], shading: &[u8], scale: f64) -> Self {
+    pub fn decode(surface: &[u8], visibility: &[u8], scale: f64) -> Self {
         let scaled = |depth: f32| (f64::from(depth) * scale) as f32;
         let word = |bytes: [u8; 4]| u32::from_le_bytes(bytes);
         let surface = surface.as_chunks::<4>().0.as_chunks::<2>().0;
         Self {
             depth: surface.iter().map(|[depth, _]| scaled(f32::from_bits(word(*depth)))).collect(),
             normal: surface.iter().map(|[_, normal]| octahedral_unpack(word(*normal))).collect(),
-            visibility: shading
+            visibility: visibility
                 .as_chunks::<8>()
                 .0
-                .as_chunks::<2>()
-                .0
                 .iter()
-                .map(|[_colors, bits]| u64::from_le_bytes(*bits))
+                .map(|pair| u64::from_le_bytes(*pair))
                 .collect(),
         }
     }

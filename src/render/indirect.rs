@@ -40,7 +40,7 @@ pub fn groups(
 ) -> [wgpu::BindGroup; 3] {
     let device = &layouts.gpu.device;
     let EnvironmentTexture { view, sampler, .. } = &*targets.environment_texture;
-    let samples = [&samples.surface, &samples.shading, &targets.rays]
+    let samples = [&samples.surface, &samples.color_data, &samples.visibility]
         .map(wgpu::Buffer::as_entire_binding);
     let read = [
         wgpu::BindingResource::TextureView(view),

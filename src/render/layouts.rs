@@ -22,9 +22,9 @@ pub struct Layouts {
     /// Group 0: frame uniforms (a storage buffer), formula table (reference orbit), slice (dynamic offset),
     /// lights, gradient.
     pub frame: wgpu::BindGroupLayout,
-    /// Group 1: surface, shading, rays; all storage.
+    /// Group 1: surface, colour data, visibility, rays; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
-    /// Group 1 of the indirect pass: surface, shading, rays; all read only.
+    /// Group 1 of the indirect pass: surface, colour data, visibility; all read only.
     pub samples: wgpu::BindGroupLayout,
     /// Group 1 of passes over the whole film: statistics, mip levels, half blurred; all storage.
     pub post: wgpu::BindGroupLayout,
@@ -62,7 +62,7 @@ impl Layouts {
                 "frame",
                 &[READ_ONLY, uniform(false), uniform(true), uniform(false), uniform(false)],
             ),
-            gbuffer: group("gbuffer", &[STORAGE; 3]),
+            gbuffer: group("gbuffer", &[STORAGE; 4]),
             samples: group("samples", &[READ_ONLY; 3]),
             post: group("post", &[STORAGE; 3]),
             dequeue: group("dequeue", &[STORAGE]),

@@ -16,13 +16,13 @@ use crate::scene::{
 /// GPU memory of a view in bytes, by purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Memory {
-    /// The centre samples of all pixels: depth, normal, colour values, visibility.
+    /// The centre samples of all pixels: depth, normal, colour data, visibility.
     pub sample_points: u64,
-    /// The jittered samples of one piece of work.
+    /// The jittered samples of one batch.
     pub jittered_samples: u64,
-    /// The rays of one piece of work.
+    /// The rays of one batch.
     pub rays: u64,
-    /// Work queues between the passes of a piece of work.
+    /// Work queues between the passes of a batch.
     pub work_queues: u64,
     /// Direct light of the centre samples, as the source of indirect light.
     pub direct_light: u64,

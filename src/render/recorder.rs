@@ -6,7 +6,7 @@ use super::{
     layouts::Layouts,
     pipeline_set::PipelineSet,
     post::{Post, Tasks},
-    schedule::{Points, Stage, Trace},
+    schedule::{BATCH_WORKGROUPS, Points, Stage, Trace},
     targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
     uniforms::{Inputs, Slice},
     work_queues::{BLOCK_THREADS, Queue},
@@ -114,7 +114,18 @@ impl Dispatches {
             bloom,
             tone,
         } = *self;
-        camera_rays + march + queue + normal + shadow + shade + indirect + fill + mean + histogram + bloom + tone
+        camera_rays
+            + march
+            + queue
+            + normal
+            + shadow
+            + shade
+            + indirect
+            + fill
+            + mean
+            + histogram
+            + bloom
+            + tone
     }
 }
 
@@ -194,7 +205,7 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(1, &self.post.group, &[]);
     }
 
-    /// Binds the jittered samples' buffers, for passes that reuse them for other data.
+    /// Binds the buffers of a batch, for passes that reuse them for other data.
     pub fn bind_jittered(&mut self) {
         self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
     }
@@ -228,6 +239,7 @@ impl<'a> Recorder<'a> {
 
     /// The slice uniform of a trace; also binds the G-buffer of its samples.
     pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
+        debug_assert!(trace.workgroups <= BATCH_WORKGROUPS, "buffers hold one batch");
         let mut slice = grid.slice(trace.first_workgroup);
         slice.starts_at_surface = u32::from(trace.from > Stage::March);
         slice.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);

@@ -34,16 +34,13 @@ use cost::Cost;
 use progress::Progress;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
-pub use work::{Job, Points, Stage, Trace, Work};
+pub use work::{BATCH_WORKGROUPS, Job, Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
 pub const MOST_IN_FLIGHT: usize = 2;
 
-/// Most workgroups of jittered samples in one piece: their G-buffer has this size.
-pub const SAMPLE_WORKGROUPS: u32 = 4096;
-
-/// Most workgroups in any piece: its queues have room for a megapixel.
-pub const MOST_WORKGROUPS: u32 = 16_384;
+/// Most workgroups in a piece of work: a megapixel.
+pub const MOST_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
 
 /// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
 /// of each dispatch leave much of the GPU idle: short pieces waste time.
@@ -348,15 +345,11 @@ impl Schedule {
     fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let job = self.progress.job(points);
         let total = points.grid(self.progress.size_px).workgroups();
-        let most = match points {
-            Points::Samples { .. } => SAMPLE_WORKGROUPS,
-            _ => MOST_WORKGROUPS,
-        };
         let wanted = match self.phase() {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
-            Phase::Opening => most,
-            Phase::Refining => self.slice_workgroups(job).min(most),
+            Phase::Opening => MOST_WORKGROUPS,
+            Phase::Refining => self.slice_workgroups(job).min(MOST_WORKGROUPS),
         };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;

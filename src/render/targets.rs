@@ -1,7 +1,7 @@
 //! The buffers of one region: uniforms, G-buffers, film, display.
 //!
 //! Bytes per pixel: G-buffer 24, film 16, display 4, direct light 4 if it is the source of indirect
-//! light. Rays and the G-buffer of jittered samples have the size of a slice, for any region.
+//! light. Rays, work queues and the G-buffer of jittered samples have the size of a batch, for any region.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use super::{
     memory::Memory,
     post::{Need, Post},
     region::Region,
-    schedule::{MOST_WORKGROUPS, SAMPLE_WORKGROUPS},
+    schedule::BATCH_WORKGROUPS,
     uniforms::{self, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray, Slice},
     work_queues::WorkQueues,
 };
@@ -37,9 +37,11 @@ pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 6;
 pub struct GBuffer {
     /// f32 depth along the ray in render space, 0 on a miss; u32 octahedral normal.
     pub surface: wgpu::Buffer,
-    /// 2 × u32: smooth iterations and orbit traps; 2 × u32: one bit per light.
-    pub shading: wgpu::Buffer,
-    /// The bind group of both buffers and the rays.
+    /// 2 × u32: smooth iterations and orbit traps.
+    pub color_data: wgpu::Buffer,
+    /// 2 × u32: one bit per light.
+    pub visibility: wgpu::Buffer,
+    /// The bind group of all three buffers and the rays.
     pub group: wgpu::BindGroup,
 }
 
@@ -57,13 +59,13 @@ pub struct Targets {
     pub gradient: wgpu::Buffer,
     /// The bind group of all five buffers.
     pub frame_group: wgpu::BindGroup,
-    /// The rays of a piece of work.
+    /// The rays of one batch.
     pub rays: wgpu::Buffer,
     /// The centre samples of all pixels.
     pub center: GBuffer,
-    /// The jittered samples of one slice.
+    /// The jittered samples of one batch.
     pub jittered: GBuffer,
-    /// Work queues between the passes of a piece of work.
+    /// Work queues between the passes of a batch.
     pub work_queues: WorkQueues,
     /// 2 × f32 per pixel: sums of red and green.
     pub film_rg: wgpu::Buffer,
@@ -89,12 +91,12 @@ impl Targets {
         let size_px = region.film_px();
         let device = &layouts.gpu.device;
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
-        // A slice holds whole workgroups, some of them past the region's last pixels. Samples that are
+        // A batch holds whole workgroups, some of them past the region's last pixels. Samples that are
         // computed together need the most workgroups.
-        let workgroups = Grid::samples(MOST_TOGETHER, size_px).workgroups();
-        let piece = workgroups.min(MOST_WORKGROUPS) * WORKGROUP_THREADS;
-        let rays = storage(device, "rays", u64::from(piece) * Ray::SIZE as u64);
-        let slice_samples = workgroups.min(SAMPLE_WORKGROUPS) * WORKGROUP_THREADS;
+        let batch_workgroups =
+            Grid::samples(MOST_TOGETHER, size_px).workgroups().min(BATCH_WORKGROUPS);
+        let batch_samples = u64::from(batch_workgroups * WORKGROUP_THREADS);
+        let rays = storage(device, "rays", batch_samples * Ray::SIZE as u64);
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
         let frame = storage(device, "frame uniforms", FRAME_BYTES);
         let formula_table = uniform("formula's table", MOST_TABLE_BYTES as u64);
@@ -131,9 +133,9 @@ impl Targets {
             gradient,
             frame_group,
             center: GBuffer::new(layouts, pixels, &rays),
-            jittered: GBuffer::new(layouts, u64::from(slice_samples), &rays),
+            jittered: GBuffer::new(layouts, batch_samples, &rays),
             rays,
-            work_queues: WorkQueues::new(layouts, workgroups.min(MOST_WORKGROUPS)),
+            work_queues: WorkQueues::new(layouts, batch_workgroups),
             film_rg,
             film_bw,
             direct,
@@ -154,11 +156,11 @@ impl Targets {
         }
     }
 
-    /// Finest lattice level whose display values fit the jittered samples' `shading`.
+    /// Finest lattice level whose display values fit the buffer of rays.
     ///
     /// `upsample` reuses that buffer. The level is at least 2, a quarter of all pixels.
     pub fn finest_spread(&self, size_px: [u32; 2]) -> u32 {
-        let room = self.jittered.shading.size() / 4;
+        let room = self.rays.size() / 4;
         let fits = |&level: &u32| sample_places(level, size_px) <= room;
         (2..COARSEST).find(fits).unwrap_or(COARSEST)
     }
@@ -205,20 +207,21 @@ pub fn texture_bytes(texture: &wgpu::Texture) -> u64 {
 
 impl GBuffer {
     fn bytes(&self) -> u64 {
-        self.surface.size() + self.shading.size()
+        self.surface.size() + self.color_data.size() + self.visibility.size()
     }
 
     fn new(layouts: &Layouts, samples: u64, rays: &wgpu::Buffer) -> Self {
         let device = &layouts.gpu.device;
         let surface = storage(device, "surface", 8 * samples);
-        let shading = storage(device, "shading", 16 * samples);
+        let color_data = storage(device, "colour data", 8 * samples);
+        let visibility = storage(device, "visibility", 8 * samples);
         let group = group(
             device,
             &layouts.gbuffer,
             "gbuffer",
-            [&surface, &shading, rays].map(wgpu::Buffer::as_entire_binding),
+            [&surface, &color_data, &visibility, rays].map(wgpu::Buffer::as_entire_binding),
         );
-        Self { surface, shading, group }
+        Self { surface, color_data, visibility, group }
     }
 }
 

@@ -324,28 +324,9 @@ impl View {
         }
     }
 
-    /// The post passes that the next piece of work must run.
-    fn tasks(&mut self, work: Work) -> Tasks {
-        let Work::Show { fill, adapt, .. } = work else {
-            self.stats_validity = StatsValidity::default();
-            return Tasks::default();
-        };
-        if fill {
-            self.stats_validity = StatsValidity::default();
-        }
-        if self.lent.post.is_some() {
-            return Tasks::default();
-        }
-        let need = self.targets.post.need();
-        let tasks = Tasks {
-            mean: need.mean && !self.stats_validity.mean,
-            histogram: self.histogram_readback.is_wanted() && !self.stats_validity.histogram,
-            adapt: need.mean.then_some(adapt),
-            bloom: need.bloom,
-        };
-        self.stats_validity.mean |= tasks.mean;
-        self.stats_validity.histogram |= tasks.histogram;
-        tasks
+    /// The post passes that the view's scene needs; none if another view lends their results.
+    fn post_need(&self) -> Option<Need> {
+        self.lent.post.is_none().then(|| self.targets.post.need())
     }
 
     /// The arithmetic that rays compute orbits with.
@@ -375,21 +356,26 @@ impl View {
 
     fn submit(&mut self, work: Work) {
         let upsample_level = self.upsample_level(work);
-        let tasks = if upsample_level.is_some() { Tasks::default() } else { self.tasks(work) };
+        let tasks = match upsample_level {
+            Some(_) => Tasks::default(),
+            None => self.stats_validity.tasks(work, self.post_need(), &self.histogram_readback),
+        };
         let Some(inputs) = &self.inputs else { return };
         let passes = self.pipelines.of_frame(inputs);
         let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
-        let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
-        recorder.tasks = tasks;
-        recorder.upsample_level = upsample_level;
-        if let Some(lent) = &self.lent.post {
-            recorder.post = lent;
-        }
-        if let Some(lent) = &self.lent.indirect_source {
-            recorder.indirect_source = lent.clone();
-        }
-        frame::record(&mut recorder, work);
-        let commands = recorder.finish();
+        let commands = work.batches().map(|batch| {
+            let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
+            recorder.tasks = tasks;
+            recorder.upsample_level = upsample_level;
+            if let Some(lent) = &self.lent.post {
+                recorder.post = lent;
+            }
+            if let Some(lent) = &self.lent.indirect_source {
+                recorder.indirect_source = lent.clone();
+            }
+            frame::record(&mut recorder, batch);
+            recorder.finish()
+        });
         self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
         if matches!(work, Work::Show { .. }) {
             self.shown.note(&self.targets);

@@ -117,6 +117,7 @@ fn nothing_is_compiled_unannounced() {
     let mut scene = sampled(Scene::default(), 1);
     let first = watched.pipelines.made();
     let general = [
+        "camera_rays",
         "camera_cone",
         "march",
         "compact_hits",
@@ -262,7 +263,7 @@ fn a_still_compiles_at_once() {
     let mut view = View::new(&pipelines, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(pipelines.made().len(), 11 + 5 + 4 + 6);
+    assert_eq!(pipelines.made().len(), 12 + 5 + 4 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 

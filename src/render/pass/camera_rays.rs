@@ -1,7 +1,12 @@
 //! Makes the camera ray of each sample; the passes that follow read it.
 
 use crate::render::recorder::{ONE_MODE, Pass, Record};
-use crate::render::{lattice::Grid, pipeline_set, recorder::Recorder, schedule::Trace};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::Recorder,
+    schedule::{Stage, Trace},
+};
 
 /// The pass.
 pub const PASS: Pass = Pass {
@@ -9,7 +14,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.gbuffer],
     set: &pipeline_set::ALWAYS,
     modes: ONE_MODE,
-    record: Record::Trace { when: |_, _| true, record },
+    record: Record::Trace { when: |_, trace| trace.from < Stage::Indirect, record },
 };
 
 /// Makes the rays of `trace`: from the eye, or from their surface points if their depths are there.

@@ -1,6 +1,12 @@
-//! What a schedule hands out: one piece of work, one submit.
+//! What a schedule hands out: one piece of work.
 
 use crate::render::lattice::Grid;
+
+/// Most workgroups in one submit: a view's buffers of rays, jittered samples and work queues have this size.
+///
+/// The size keeps a view of 1920×1080 with everything on below the memory of the thesis
+/// ([`memory`](crate::render::memory)).
+pub const BATCH_WORKGROUPS: u32 = 2048;
 
 /// Which sample points a trace computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,13 +90,23 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// Parts of the trace that fit the buffers of one batch, in order.
+    fn batches(self) -> impl Iterator<Item = Self> {
+        let end = self.first_workgroup + self.workgroups;
+        (self.first_workgroup..end).step_by(BATCH_WORKGROUPS as usize).map(move |first| Self {
+            first_workgroup: first,
+            workgroups: BATCH_WORKGROUPS.min(end - first),
+            ..self
+        })
+    }
+
     /// What is done for each of its points.
     pub fn job(&self) -> Job {
         Job { from: self.from, lights: self.lights }
     }
 }
 
-/// One piece of work: one submit.
+/// One piece of work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Work {
     /// Compute sample points, up to the film.
@@ -106,4 +122,40 @@ pub enum Work {
         /// How far auto exposure moves toward its goal, above 0 to 1: there at once.
         adapt: f32,
     },
+}
+
+impl Work {
+    /// The work in parts that are submitted one after another: later ones reuse the buffers of a batch.
+    pub fn batches(self) -> impl Iterator<Item = Self> {
+        let (trace, show) = match self {
+            Self::Trace(trace) => (Some(trace), None),
+            Self::Show { .. } => (None, Some(self)),
+        };
+        trace.into_iter().flat_map(Trace::batches).map(Self::Trace).chain(show)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_cover_a_trace_once_and_in_order() {
+        for (first_workgroup, workgroups) in [(0, 1), (7, BATCH_WORKGROUPS), (100, 5000)] {
+            let points = Points::Level(0);
+            let trace =
+                Trace { points, from: Stage::Normal, lights: 5, first_workgroup, workgroups };
+            let mut next = first_workgroup;
+            for batch in Work::Trace(trace).batches() {
+                let Work::Trace(batch) = batch else { panic!("{batch:?} is no trace") };
+                assert_eq!((batch.job(), batch.points), (trace.job(), points));
+                assert_eq!(batch.first_workgroup, next);
+                assert!((1..=BATCH_WORKGROUPS).contains(&batch.workgroups));
+                next += batch.workgroups;
+            }
+            assert_eq!(next, first_workgroup + workgroups);
+        }
+        let show = Work::Show { level: 3, fill: true, film: false, adapt: 1.0 };
+        assert_eq!(show.batches().collect::<Vec<_>>(), [show]);
+    }
 }

@@ -2,7 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::render::{indirect::IndirectSource, post::Post, targets::Targets};
+use crate::render::{
+    histogram_readback::HistogramReadback,
+    indirect::IndirectSource,
+    post::{Need, Post, Tasks},
+    schedule::Work,
+    targets::Targets,
+};
 
 /// When a view changed and finished, and what its pictures took.
 #[derive(Clone, Copy, Debug, Default)]
@@ -91,4 +97,34 @@ pub struct StatsValidity {
     pub mean: bool,
     /// The histogram.
     pub histogram: bool,
+}
+
+impl StatsValidity {
+    /// The post passes that the next piece of work runs; afterwards their statistics are valid.
+    ///
+    /// `need`: the passes of the scene; none if another view lends their results.
+    pub fn tasks(
+        &mut self,
+        work: Work,
+        need: Option<Need>,
+        histogram: &HistogramReadback,
+    ) -> Tasks {
+        let Work::Show { fill, adapt, .. } = work else {
+            *self = Self::default();
+            return Tasks::default();
+        };
+        if fill {
+            *self = Self::default();
+        }
+        let Some(need) = need else { return Tasks::default() };
+        let tasks = Tasks {
+            mean: need.mean && !self.mean,
+            histogram: histogram.is_wanted() && !self.histogram,
+            adapt: need.mean.then_some(adapt),
+            bloom: need.bloom,
+        };
+        self.mean |= tasks.mean;
+        self.histogram |= tasks.histogram;
+        tasks
+    }
 }

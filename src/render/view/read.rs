@@ -49,7 +49,7 @@ impl View {
         let gpu = &self.pipelines.gpu;
         let center = &self.targets.center;
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu);
-        let (surface, shading) = (read(&center.surface)?, read(&center.shading)?);
-        Ok(Samples::decode(&surface, &shading, self.scale()))
+        let (surface, visibility) = (read(&center.surface)?, read(&center.visibility)?);
+        Ok(Samples::decode(&surface, &visibility, self.scale()))
     }
 }

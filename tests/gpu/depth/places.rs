@@ -120,7 +120,7 @@ pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
     assert_eq!(gpu.faults(), 0);
     let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("bytes");
     let center = &targets.center;
-    let samples = Samples::decode(&read(&center.surface), &read(&center.shading), space.scale());
+    let samples = Samples::decode(&read(&center.surface), &read(&center.visibility), space.scale());
     let pairs = |buffer| -> Vec<[f32; 2]> {
         read(buffer).as_chunks::<8>().0.iter().map(|pair| bytemuck::cast(*pair)).collect()
     };

@@ -84,7 +84,7 @@ fn errors(scene: &Scene) -> Vec<Off> {
 /// The time of each way's pass over that of six samples, on a view that the bulb fills.
 fn costs(scene: &Scene) -> Vec<f64> {
     let pipelines = pipelines();
-    const PICTURE_PX: [u32; 2] = [480, 320];
+    const PICTURE_PX: [u32; 2] = [384, 256];
     let points = Points::Level(0);
     let grid = points.grid(PICTURE_PX);
     let workgroups = grid.workgroups();
