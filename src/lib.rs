@@ -24,8 +24,9 @@
 //! 3. [`render::schedule::Schedule`] chooses what to compute next, a piece at a time: a lattice of
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.
-//! 4. [`render::frame::record`] records each piece: the passes of [`render::pass::PASSES`] that the
-//!    piece has, in that order. Cones of rays go first and queue the blocks of threads that have rays
+//! 4. [`render::frame::record`] records each piece: the passes of an integrator
+//!    ([`render::integrator::DIRECT`]) that the piece has, in order, or the passes of a display. The first
+//!    writes a ray per sample ([`render::uniforms::Ray`]), which the others read and move. Cones of rays go first and queue the blocks of threads that have rays
 //!    left to march ([`render::work_queues`]): the passes after them are as large as their queues.
 //!    [`gpu::timing::Stopwatch`] measures the piece, and the schedule learns from that.
 //! 5. Post passes read the whole film if the scene needs it: the film's mean sets the exposure, and

@@ -8,6 +8,7 @@
 //! | [`lattice`] | sparse lattices of pixels, and the positions of samples in a pixel |
 //! | [`frame`] | the passes of one submit |
 //! | [`recorder`] | records the passes: bindings and dispatches |
+//! | [`integrator`] | how the light is computed that samples see |
 //! | [`indirect`] | the source of indirect light |
 //! | [`pass`] | one file per pass, named like its shader |
 //! | [`environment_texture`] | the environment map on the GPU |
@@ -35,6 +36,7 @@ pub mod frame;
 pub mod gbuffer;
 mod histogram_readback;
 pub mod indirect;
+pub mod integrator;
 pub mod lattice;
 mod layouts;
 pub mod memory;

@@ -12,7 +12,9 @@ use std::sync::{
 };
 
 use super::{
-    frame, pipeline_set,
+    frame,
+    integrator::Integrator,
+    pipeline_set,
     pipelines::{PipelineVariant, Pipelines, part_count},
     post::Tasks,
     recorder::{Dispatches, Recorder},
@@ -80,6 +82,7 @@ impl Preparation {
     /// Takes the next step; compiles at most one pipeline of those that block.
     pub fn step(
         &mut self,
+        integrator: &Integrator,
         pipelines: &Pipelines,
         targets: &Targets,
         inputs: &Inputs,
@@ -111,7 +114,7 @@ impl Preparation {
         }
         if self.made.len() == parts {
             pipelines.keep(&self.variant, std::mem::take(&mut self.made));
-            self.rehearsed = Some(rehearse(&self.variant, pipelines, targets, inputs));
+            self.rehearsed = Some(rehearse(integrator, &self.variant, pipelines, targets, inputs));
         }
         Progress::Foreground
     }
@@ -121,6 +124,7 @@ impl Preparation {
 ///
 /// The flag turns true when the GPU has finished.
 fn rehearse(
+    integrator: &Integrator,
     variant: &PipelineVariant,
     pipelines: &Pipelines,
     targets: &Targets,
@@ -141,7 +145,7 @@ fn rehearse(
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
     for work in variant.rehearsal() {
-        frame::record(&mut recorder, work);
+        frame::record(integrator, &mut recorder, work);
     }
     let queue = &pipelines.gpu.queue;
     queue.submit([recorder.finish()]);

@@ -1,5 +1,7 @@
 //! Records the passes of one submit: bindings and dispatches.
 
+use std::collections::BTreeMap;
+
 use super::{
     indirect::{self, IndirectSource},
     lattice::{self, Grid, WORKGROUP_SIDE, WORKGROUP_THREADS},
@@ -56,6 +58,12 @@ pub trait PipelineSource {
     fn pipeline(&self, pass: &'static Pass, mode: usize) -> wgpu::ComputePipeline;
 }
 
+/// A pass with its pipeline, for dispatches.
+pub struct PassPipeline {
+    pass: &'static Pass,
+    pipeline: wgpu::ComputePipeline,
+}
+
 /// A display picture to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct Display {
@@ -65,67 +73,53 @@ pub struct Display {
     pub fill: bool,
 }
 
-/// Counters of recorded work, for tests and the page's status.
+/// The recorded work of one pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// Number of dispatches.
+    pub dispatches: u64,
+    /// Number of samples that a trace covers, summed over its dispatches: a light's shadow rays, if every
+    /// sample point faced the light. 0 for passes over the film.
+    pub samples: u64,
+}
+
+/// Counters of recorded work by pass, for tests and the page's status.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Dispatches {
-    /// Making of camera rays.
-    pub camera_rays: u64,
-    /// Marching of camera rays.
-    pub march: u64,
-    /// Passes that write work queues: of rays, with their cones, and of hits.
-    pub queue: u64,
-    /// Normals.
-    pub normal: u64,
-    /// Shadow rays.
-    pub shadow: u64,
-    /// Not dispatches: number of shadow rays, if every sample point faced every light.
-    pub shadow_rays: u64,
-    /// Shading.
-    pub shade: u64,
-    /// Shading with indirect light.
-    pub indirect: u64,
-    /// Filling of the film, and upsampling.
-    pub fill: u64,
-    /// Means of the film; all mip levels count as one.
-    pub mean: u64,
-    /// Histograms of the film.
-    pub histogram: u64,
-    /// Blooms; all mip levels and blurs count as one.
-    pub bloom: u64,
-    /// Tone mapping.
-    pub tone: u64,
+    by_pass: BTreeMap<&'static str, Count>,
 }
 
 impl Dispatches {
-    /// The sum of the counters of dispatches.
+    /// The recorded work of `pass`.
+    pub fn of(&self, pass: &Pass) -> Count {
+        self.by_pass.get(pass.name).copied().unwrap_or_default()
+    }
+
+    /// The names of all passes that were recorded, in alphabetical order.
+    pub fn passes(&self) -> Vec<&'static str> {
+        self.by_pass.keys().copied().collect()
+    }
+
+    /// Number of all dispatches.
     pub fn total(&self) -> u64 {
-        let Self {
-            camera_rays,
-            march,
-            queue,
-            normal,
-            shadow,
-            shadow_rays: _,
-            shade,
-            indirect,
-            fill,
-            mean,
-            histogram,
-            bloom,
-            tone,
-        } = *self;
-        camera_rays
-            + march
-            + queue
-            + normal
-            + shadow
-            + shade
-            + indirect
-            + fill
-            + mean
-            + histogram
-            + bloom
-            + tone
+        self.by_pass.values().map(|count| count.dispatches).sum()
+    }
+
+    /// What has been recorded since the counters were `before`.
+    pub fn since(&self, before: &Self) -> Self {
+        let new = self.by_pass.iter().filter_map(|(name, count)| {
+            let old = before.by_pass.get(name).copied().unwrap_or_default();
+            let dispatches = count.dispatches - old.dispatches;
+            let samples = count.samples - old.samples;
+            (dispatches > 0).then_some((*name, Count { dispatches, samples }))
+        });
+        Self { by_pass: new.collect() }
+    }
+
+    fn add(&mut self, pass: &Pass, slice: &Slice) {
+        let count = self.by_pass.entry(pass.name).or_default();
+        count.dispatches += 1;
+        count.samples += u64::from(slice.blocks * BLOCK_THREADS);
     }
 }
 
@@ -189,15 +183,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// The fastest compiled pipeline of `pass`, in one of the pass's modes.
-    pub fn pipeline(&self, pass: &'static Pass, mode: usize) -> wgpu::ComputePipeline {
-        self.pipelines.pipeline(pass, mode)
-    }
-
-    /// Whether the indirect pass also computes the direct light of `trace`.
-    ///
-    /// Indirect light of centre samples waits until all samples of a level have their direct light.
-    pub fn is_lit_together(&self, trace: &Trace) -> bool {
-        self.inputs.has_indirect() && matches!(trace.points, Points::Samples { .. })
+    pub fn pipeline(&self, pass: &'static Pass, mode: usize) -> PassPipeline {
+        PassPipeline { pass, pipeline: self.pipelines.pipeline(pass, mode) }
     }
 
     /// Binds the film statistics, for passes over the whole film.
@@ -254,7 +241,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds dispatches over a whole grid, for a lattice of `spacing` pixels.
-    pub fn dispatch_grid(&mut self, pipeline: &wgpu::ComputePipeline, grid: &Grid, spacing: u32) {
+    pub fn dispatch_grid(&mut self, pipeline: &PassPipeline, grid: &Grid, spacing: u32) {
         // Splits a grid that exceeds the limit of workgroups per dispatch.
         const MOST: u32 = 65_535;
         let total = grid.workgroups();
@@ -265,13 +252,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds a dispatch over all pixels of the region, row by row.
-    pub fn dispatch_plane(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+    pub fn dispatch_plane(&mut self, pipeline: &PassPipeline, slice: Slice) {
         let workgroups = self.inputs.frame.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
         self.dispatch_groups(pipeline, slice, workgroups);
     }
 
     /// Adds a dispatch with one thread per pixel of a trace.
-    pub fn dispatch_pixels(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+    pub fn dispatch_pixels(&mut self, pipeline: &PassPipeline, slice: Slice) {
         let pixels = (slice.blocks * BLOCK_THREADS) >> slice.samples_shift;
         self.dispatch(pipeline, slice, pixels.div_ceil(WORKGROUP_THREADS));
     }
@@ -279,19 +266,18 @@ impl<'a> Recorder<'a> {
     /// Adds a dispatch over all blocks of a trace that queues some of the blocks.
     pub fn dispatch_blocks(
         &mut self,
-        pipeline: &wgpu::ComputePipeline,
+        pipeline: &PassPipeline,
         work_queues: &wgpu::BindGroup,
         slice: Slice,
     ) {
         self.compute.set_bind_group(2, work_queues, &[]);
         self.dispatch(pipeline, slice, slice.blocks.div_ceil(WORKGROUP_THREADS));
-        self.dispatches.queue += 1;
     }
 
     /// Adds a dispatch over a work queue, which may write another queue.
     pub fn dispatch_queue(
         &mut self,
-        pipeline: &wgpu::ComputePipeline,
+        pipeline: &PassPipeline,
         work_queues: &wgpu::BindGroup,
         slice: Slice,
         queue: Queue,
@@ -306,13 +292,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds a dispatch of `workgroups`.
-    pub fn dispatch(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice, workgroups: u32) {
+    pub fn dispatch(&mut self, pipeline: &PassPipeline, slice: Slice, workgroups: u32) {
         self.dispatch_groups(pipeline, slice, [workgroups, 1]);
     }
 
     fn dispatch_groups(
         &mut self,
-        pipeline: &wgpu::ComputePipeline,
+        pipeline: &PassPipeline,
         slice: Slice,
         [columns, rows]: [u32; 2],
     ) {
@@ -325,7 +311,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Sets the pipeline and the slice uniform of the next dispatch.
-    fn prepare(&mut self, pipeline: &wgpu::ComputePipeline, slice: Slice) {
+    fn prepare(&mut self, pipeline: &PassPipeline, slice: Slice) {
         debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
         let offset = self.slices * SLICE_STRIDE_BYTES;
         // Queue writes and submits keep their order: earlier submits already have their own slices.
@@ -335,7 +321,8 @@ impl<'a> Recorder<'a> {
             &slice.to_bytes(),
         );
         self.slices += 1;
-        self.compute.set_pipeline(pipeline);
+        self.dispatches.add(pipeline.pass, &slice);
+        self.compute.set_pipeline(&pipeline.pipeline);
         self.compute.set_bind_group(0, &self.targets.frame_group, &[offset]);
     }
 

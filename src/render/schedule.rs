@@ -22,6 +22,7 @@ mod choice;
 mod completion;
 mod cost;
 mod gbuffer_validity;
+mod plan;
 mod progress;
 mod rate;
 mod types;
@@ -31,6 +32,8 @@ use adaptation::Adaptation;
 use choice::Choice;
 use completion::{InFlight, Piece};
 use cost::Cost;
+pub use gbuffer_validity::GBufferValidity;
+pub use plan::{Kind, Plan, Price};
 use progress::Progress;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
@@ -95,13 +98,13 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// A schedule for a region of which everything is stale.
-    pub fn new(pace: Pace, size_px: [u32; 2]) -> Self {
+    /// A schedule for a region of which everything is stale, whose samples `plan`'s integrator computes.
+    pub fn new(plan: &'static Plan, pace: Pace, size_px: [u32; 2]) -> Self {
         Self {
             pace,
             budget_ms: 16.0,
             samples_wanted: 1,
-            progress: Progress::new(size_px),
+            progress: Progress::new(plan, size_px),
             is_display_stale: false,
             opening: true,
             shown_level: COARSEST,
@@ -111,7 +114,7 @@ impl Schedule {
             adaptation: Adaptation::default(),
             in_flight: InFlight::default(),
             slices: 0,
-            cost: Cost::default(),
+            cost: Cost::new(plan),
         }
     }
 

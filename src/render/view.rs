@@ -9,6 +9,7 @@ use super::{
     frame,
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
+    integrator::{DIRECT, Integrator},
     memory::Memory,
     pipeline_set::RAYS,
     pipelines::{PipelineVariant, Pipelines},
@@ -47,6 +48,7 @@ pub struct View {
     /// True if the render space was found for the current region.
     is_space_current: bool,
     targets: Targets,
+    integrator: &'static Integrator,
     schedule: Schedule,
     /// Times the view's own work; none marks a frame of the interface.
     stopwatch: Stopwatch<Option<Work>>,
@@ -82,7 +84,8 @@ impl View {
             space: None,
             is_space_current: false,
             targets: Targets::new(&pipelines.layouts, region),
-            schedule: Schedule::new(pace, region.film_px()),
+            integrator: &DIRECT,
+            schedule: Schedule::new(DIRECT.plan, pace, region.film_px()),
             stopwatch: Stopwatch::default(),
             scene: None,
             environment_map: None,
@@ -304,7 +307,7 @@ impl View {
         self.schedule.set_casting(inputs.casting());
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_post(Need::of(&inputs.frame));
-        self.targets.fit_direct(&self.pipelines.layouts, inputs.has_indirect());
+        (self.integrator.fit_targets)(&mut self.targets, &self.pipelines.layouts, &inputs);
         if self.targets.environment_texture.id != inputs.environment_map {
             let shown =
                 self.environment_map.as_deref().filter(|_| inputs.environment_map.is_some());
@@ -373,7 +376,7 @@ impl View {
             if let Some(lent) = &self.lent.indirect_source {
                 recorder.indirect_source = lent.clone();
             }
-            frame::record(&mut recorder, batch);
+            frame::record(self.integrator, &mut recorder, batch);
             recorder.finish()
         });
         self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
@@ -462,8 +465,8 @@ impl View {
     }
 
     /// Number of dispatches of each pass so far.
-    pub fn dispatches(&self) -> Dispatches {
-        self.dispatches
+    pub fn dispatches(&self) -> &Dispatches {
+        &self.dispatches
     }
 
     /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; none before the first picture.

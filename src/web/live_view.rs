@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     fractal::SharedModel,
-    render::{Pace, Pipelines, Region, Report, View, recorder::Dispatches},
+    render::{Pace, Pipelines, Region, Report, View},
     scene::{EnvironmentMap, Scene, StereoLayout},
     ui,
 };
@@ -60,8 +60,8 @@ impl LiveView {
     }
 
     /// Compute dispatches so far.
-    pub fn dispatches(&self) -> Dispatches {
-        self.view.as_ref().map(View::dispatches).unwrap_or_default()
+    pub fn dispatches(&self) -> u64 {
+        self.view.as_ref().map_or(0, |view| view.dispatches().total())
     }
 
     /// Resizes the picture to `size_px` times `scale`, a size that both eyes of `layout` share.

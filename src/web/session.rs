@@ -16,7 +16,7 @@ use super::{
 use crate::{
     export,
     gpu::Gpu,
-    render::{Report, recorder::Dispatches},
+    render::Report,
     scene::{BackgroundKind, Project, Scene, document, environment_map, link},
     ui::{Interface, Notice, Settings, theme},
 };
@@ -55,7 +55,7 @@ pub struct AppStatus {
     /// The newest picture on the GPU.
     pub texture: Option<wgpu::Texture>,
     /// The view's compute dispatches so far.
-    pub dispatches: Dispatches,
+    pub dispatches: u64,
     /// The interface's frames so far.
     pub frames: u64,
     /// Whether an export is in progress.

@@ -65,7 +65,7 @@ impl TestHook {
         set(&object, "frameMs", report.frame_ms);
         set(&object, "anchorMs", report.anchor_ms);
         set(&object, "zoom", zoom(&session.interface.scene().camera));
-        set(&object, "dispatches", status.dispatches.total() as f64);
+        set(&object, "dispatches", status.dispatches as f64);
         set(&object, "frames", status.frames as f64);
         set(&object, "exporting", status.is_exporting);
         object

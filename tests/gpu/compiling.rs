@@ -73,7 +73,7 @@ impl Watched {
     fn pump(&mut self) -> bool {
         let activity = self.view.report().activity;
         let is_async = self.pipelines.gpu.async_compile.is_some();
-        let dispatches = self.view.dispatches();
+        let dispatches = self.view.dispatches().clone();
         let made = self.pipelines.made();
         let is_busy = self.view.pump(self.start.elapsed().as_secs_f64());
         let new = self.pipelines.made().split_off(made.len());
@@ -86,7 +86,7 @@ impl Watched {
                 self.announced.push(what);
             }
             if !new.is_empty() {
-                assert_eq!(self.view.dispatches(), dispatches);
+                assert_eq!(self.view.dispatches(), &dispatches);
             }
         }
         std::thread::sleep(Duration::from_millis(1));

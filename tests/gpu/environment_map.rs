@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use mandelight::{
-    render::{Pace, Region, View},
+    render::{Pace, Region, View, pass::march, recorder::Count},
     scene::{
         BackgroundKind, Camera, EnvironmentLight, EnvironmentMap, LightFrame, Rig, RigKind, Scene,
         environment_map::uv_from_direction,
@@ -112,7 +112,7 @@ fn a_picture_that_comes_later_is_seen_and_can_go_again() {
     let scene = away(DVec3::Y);
     let mut view = finished(&scene, SIZE, Pace::Interactive);
     let gradient = view.film().unwrap();
-    let before = view.dispatches();
+    let before = view.dispatches().clone();
     for (environment_map, is_seen) in
         [(Some(colourful([32, 16])), true), (Some(colourful([16, 8])), true), (None, false)]
     {
@@ -122,7 +122,8 @@ fn a_picture_that_comes_later_is_seen_and_can_go_again() {
         settle(&mut view);
         assert_eq!(view.film().unwrap() != gradient, is_seen);
     }
-    assert_eq!(view.dispatches().march, before.march, "no camera ray for a background");
+    let cost = view.dispatches().since(&before);
+    assert_eq!(cost.of(&march::PASS), Count::default(), "no camera ray for a background");
 }
 
 #[test]
@@ -170,7 +171,7 @@ fn a_rig_edit_marches_no_camera_ray() {
     let mut scene = sampled(Scene::default(), 1);
     scene.lights.rig.kind = RigKind::Sky;
     let mut view = finished(&scene, SIZE, Pace::Interactive);
-    let before = view.dispatches().march;
+    let before = view.dispatches().of(&march::PASS);
     let edits: [fn(&mut Rig); 6] = [
         |rig| rig.count = 5,
         |rig| rig.sky.sun_strength = 4.0,
@@ -185,6 +186,6 @@ fn a_rig_edit_marches_no_camera_ray() {
         view.set_scene(&scene, false);
         settle(&mut view);
         assert!(pixels(&view) != shown);
-        assert_eq!(view.dispatches().march, before);
+        assert_eq!(view.dispatches().of(&march::PASS), before);
     }
 }

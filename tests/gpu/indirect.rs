@@ -1,7 +1,10 @@
 //! Indirect light in views: what an edit of it costs, tiles, sparse lattices.
 
 use mandelight::{
-    render::{Eyes, Pace, Region, View, recorder::Dispatches},
+    render::{
+        Eyes, Pace, Region, View,
+        pass::{indirect, march, normal, shade, shadow},
+    },
     scene::{Indirect, IndirectKind, Scene},
 };
 
@@ -21,13 +24,12 @@ fn lit(kind: IndirectKind, samples: u32) -> Scene {
 
 fn cost_of(before: &Scene, after: &Scene) -> [u64; 5] {
     let mut view = finished(before, SIZE, Pace::Interactive);
-    let old = view.dispatches();
+    let old = view.dispatches().clone();
     view.set_scene(after, false);
     settle(&mut view);
-    let new = view.dispatches();
-    let of = |d: Dispatches| [d.march, d.normal, d.shadow, d.shade, d.indirect];
-    let (new, old) = (of(new), of(old));
-    std::array::from_fn(|i| new[i] - old[i])
+    let cost = view.dispatches().since(&old);
+    [march::PASS, normal::PASS, shadow::PASS, shade::PASS, indirect::PASS]
+        .map(|pass| cost.of(&pass).dispatches)
 }
 
 #[test]
@@ -55,7 +57,8 @@ fn what_is_off_costs_nothing() {
     other.indirect.radius = 0.01;
     other.indirect.ambient = 1.0;
     assert_eq!(cost_of(&off, &other), [0; 5]);
-    assert_eq!(finished(&off, SIZE, Pace::Interactive).dispatches().indirect, 0);
+    let view = finished(&off, SIZE, Pace::Interactive);
+    assert!(!view.dispatches().passes().contains(&"indirect"));
     let [march, .., indirect] = cost_of(&lit(IndirectKind::Off, 1), &lit(IndirectKind::Uniform, 1));
     assert!(march == 0 && indirect > 0);
 }

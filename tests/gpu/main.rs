@@ -11,6 +11,7 @@ mod environment_map;
 mod exr;
 mod golden;
 mod indirect;
+mod integrator;
 mod memory;
 mod moving;
 mod oracle;

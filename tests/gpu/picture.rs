@@ -8,6 +8,7 @@ use mandelight::{
     render::{
         Pace, Region,
         frame::record,
+        integrator::DIRECT,
         recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         targets::Targets,
@@ -61,7 +62,7 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     for work in works.into_iter().flatten() {
         let mut recorder =
             Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
-        record(&mut recorder, work);
+        record(&DIRECT, &mut recorder, work);
         pipelines.gpu.queue.submit([recorder.finish()]);
     }
     let readback = Readback::texture(&pipelines.gpu, &targets.texture, size);

@@ -1,7 +1,11 @@
 //! The levels of staleness, held by counting dispatches: an edit restarts only its own.
 
 use mandelight::{
-    render::{Activity, Pace, View, recorder::Dispatches},
+    render::{
+        Activity, Pace, View,
+        pass::{self, bloom, histogram, mean, shade, shadow, tone},
+        recorder::Dispatches,
+    },
     scene::{
         BloomOrder, EnvironmentLight, IndirectKind, LightFrame, Normals, PointLight, Scene,
         ToneCurve, ToneMean,
@@ -28,33 +32,29 @@ fn cost_from(
 ) -> Dispatches {
     prepare(&mut scene);
     let mut view = finished(&scene, SIZE, Pace::Interactive);
-    let before = view.dispatches();
+    let before = view.dispatches().clone();
     edit(&mut scene);
     view.set_scene(&scene, false);
     settle(&mut view);
-    let after = view.dispatches();
-    Dispatches {
-        camera_rays: after.camera_rays - before.camera_rays,
-        march: after.march - before.march,
-        queue: after.queue - before.queue,
-        normal: after.normal - before.normal,
-        shadow: after.shadow - before.shadow,
-        shadow_rays: after.shadow_rays - before.shadow_rays,
-        shade: after.shade - before.shade,
-        indirect: after.indirect - before.indirect,
-        fill: after.fill - before.fill,
-        mean: after.mean - before.mean,
-        histogram: after.histogram - before.histogram,
-        bloom: after.bloom - before.bloom,
-        tone: after.tone - before.tone,
-    }
+    view.dispatches().since(&before)
+}
+
+/// The passes without those over mip levels and statistics alone.
+fn film_passes(dispatches: &Dispatches) -> Vec<&'static str> {
+    let mut passes = dispatches.passes();
+    passes.retain(|pass| !["blur", "expose", "reduce"].contains(pass));
+    passes
+}
+
+/// Number of shadow rays, if every sample point faced every light.
+fn shadow_rays(dispatches: &Dispatches) -> u64 {
+    dispatches.of(&shadow::PASS).samples
 }
 
 #[test]
 fn a_tone_edit_touches_only_the_film() {
     let cost = cost_of(3, |scene| scene.tone.exposure = 1.0);
-    assert_eq!(Dispatches { tone: cost.tone, ..Dispatches::default() }, cost);
-    assert_eq!(cost.tone, 1);
+    assert_eq!((cost.passes(), cost.total()), (vec!["tone"], 1));
 }
 
 #[test]
@@ -77,10 +77,11 @@ fn what_moves_no_light_marches_nothing() {
         for edit in edits {
             let scene = sampled(Scene::default(), 1);
             let cost = cost_from(scene, |scene| scene.indirect.kind = indirect, edit);
-            let Dispatches { camera_rays, shade, indirect, fill, tone, .. } = cost;
-            let none = Dispatches::default();
-            assert_eq!(cost, Dispatches { camera_rays, shade, indirect, fill, tone, ..none });
-            assert!(shade > 0);
+            for pass in cost.passes() {
+                let is_light = ["camera_rays", "shade", "indirect"].contains(&pass);
+                assert!(is_light || pass::DISPLAY.iter().any(|shown| shown.name == pass), "{pass}");
+            }
+            assert!(cost.of(&shade::PASS).dispatches > 0);
         }
     }
 }
@@ -106,8 +107,9 @@ fn a_light_that_moves_is_marched_alone() {
     ];
     for edit in edits {
         let cost = cost_of(1, edit);
-        assert_eq!((cost.march, cost.normal), (0, 0));
-        assert!(is_one_light(cost.shadow_rays), "{cost:?}");
+        let passes = cost.passes();
+        assert!(!passes.contains(&"march") && !passes.contains(&"normal"), "{passes:?}");
+        assert!(is_one_light(shadow_rays(&cost)), "{cost:?}");
     }
     // No ray at all where nothing blocks them.
     let edits: [fn(&mut Scene); 3] = [
@@ -117,8 +119,9 @@ fn a_light_that_moves_is_marched_alone() {
     ];
     for edit in edits {
         let cost = cost_of(1, edit);
-        assert_eq!((cost.march, cost.normal, cost.shadow_rays), (0, 0, 0));
-        assert!(cost.shade > 0, "{cost:?}");
+        let passes = cost.passes();
+        assert!(passes.contains(&"shade") && !passes.contains(&"shadow"), "{passes:?}");
+        assert!(!passes.contains(&"march") && !passes.contains(&"normal"), "{passes:?}");
     }
 }
 
@@ -133,19 +136,21 @@ fn lights_without_light_wait_for_their_rays() {
     ];
     let first = sampled(Scene::default(), 1);
     // Two of its lights cast shadows.
-    let both = finished(&first, SIZE, Pace::Interactive).dispatches().shadow_rays;
+    let both = finished(&first, SIZE, Pace::Interactive).dispatches().clone();
+    let both = shadow_rays(&both);
     for darken in dark {
         let mut scene = first.clone();
         darken(&mut scene);
         let mut view = finished(&scene, SIZE, Pace::Interactive);
-        let one = view.dispatches().shadow_rays;
+        let one = shadow_rays(view.dispatches());
         assert!(is_one_light(one) && is_one_light(both / 2), "{one} {both}");
         let mut next = |scene: &Scene| {
-            let before = view.dispatches();
+            let before = view.dispatches().clone();
             view.set_scene(scene, false);
             settle(&mut view);
-            assert_eq!(view.dispatches().march, before.march);
-            view.dispatches().shadow_rays - before.shadow_rays
+            let cost = view.dispatches().since(&before);
+            assert!(!cost.passes().contains(&"march"));
+            shadow_rays(&cost)
         };
         // Moved in the dark.
         scene.lights.environment[1].direction = [0.0, 0.0, 1.0];
@@ -177,19 +182,21 @@ fn the_eyes_separation_costs_nothing_where_there_is_one_picture() {
     assert_eq!(cost, Dispatches::default());
     // What is measured from the pivot is light alone.
     let cost = cost_of(1, |scene| scene.camera.pivot = glam::DVec3::new(0.1, 0.0, 0.2).into());
-    assert_eq!(cost.march, 0);
+    assert!(!cost.passes().contains(&"march"));
 }
 
 #[test]
 fn an_edit_of_the_normals_marches_no_camera_ray() {
     let cost = cost_of(1, |scene| scene.quality.normals = Normals::TwentySix);
-    assert_eq!(cost.march, 0);
-    assert!(cost.normal > 0 && cost.shadow > 0 && cost.shade > 0);
+    let passes = cost.passes();
+    assert!(!passes.contains(&"march"));
+    assert!(["normal", "shadow", "shade"].iter().all(|pass| passes.contains(pass)), "{passes:?}");
 }
 
 #[test]
 fn further_samples_after_a_light_edit_march_again() {
-    assert!(cost_of(2, |scene| scene.surface.diffuse = 0.5).march > 0);
+    let cost = cost_of(2, |scene| scene.surface.diffuse = 0.5);
+    assert!(cost.passes().contains(&"march"));
 }
 
 #[test]
@@ -201,7 +208,7 @@ fn a_geometry_edit_marches() {
         |scene| scene.quality.detail = 2.0,
     ];
     for edit in edits {
-        assert!(cost_of(1, edit).march > 0);
+        assert!(cost_of(1, edit).passes().contains(&"march"));
     }
 }
 
@@ -209,8 +216,8 @@ fn a_geometry_edit_marches() {
 #[test]
 fn mean_histogram_and_bloom_cost_nothing_while_off() {
     let view = finished(&sampled(Scene::default(), 3), SIZE, Pace::Interactive);
-    let Dispatches { mean, histogram, bloom, .. } = view.dispatches();
-    assert_eq!([mean, histogram, bloom], [0; 3]);
+    let passes = view.dispatches().passes();
+    assert!(["mean", "histogram", "bloom"].iter().all(|pass| !passes.contains(pass)), "{passes:?}");
     assert!(view.post().bytes().into_iter().sum::<u64>() < 64);
 }
 
@@ -230,13 +237,16 @@ fn tone_edits_find_out_nothing_anew() {
     ];
     for edit in edits {
         let cost = cost_from(sampled(Scene::default(), 2), glowing, edit);
-        assert_eq!(cost, Dispatches { bloom: 1, tone: 1, ..Dispatches::default() });
+        assert_eq!(film_passes(&cost), ["bloom", "tone"]);
+        assert_eq!([&bloom::PASS, &tone::PASS].map(|pass| cost.of(pass).dispatches), [1, 1]);
     }
     // One after the other is switched on.
     let cost = cost_of(2, |scene| scene.tone.auto_exposure = true);
-    assert_eq!(cost, Dispatches { mean: 1, tone: 1, ..Dispatches::default() });
+    assert_eq!(film_passes(&cost), ["mean", "tone"]);
+    assert_eq!([&mean::PASS, &tone::PASS].map(|pass| cost.of(pass).dispatches), [1, 1]);
     let cost = cost_of(2, |scene| scene.bloom.strength = 0.3);
-    assert_eq!(cost, Dispatches { bloom: 1, tone: 1, ..Dispatches::default() });
+    assert_eq!(film_passes(&cost), ["bloom", "tone"]);
+    assert_eq!([&bloom::PASS, &tone::PASS].map(|pass| cost.of(pass).dispatches), [1, 1]);
 }
 
 #[test]
@@ -244,11 +254,11 @@ fn a_histogram_is_made_only_while_it_is_watched() {
     let mut scene = sampled(Scene::default(), 2);
     let mut view = finished(&scene, SIZE, Pace::Interactive);
     assert_eq!(view.report().histogram, None);
-    let before = view.dispatches();
+    let before = view.dispatches().clone();
     view.watch_histogram(true);
     settle(&mut view);
-    let watched = view.dispatches();
-    assert_eq!(watched, Dispatches { histogram: 1, tone: before.tone + 1, ..before });
+    let cost = view.dispatches().since(&before);
+    assert_eq!((cost.passes(), cost.total()), (vec!["histogram", "tone"], 2));
     let histogram = view.report().histogram.expect("a histogram");
     assert_eq!(histogram.bins.iter().sum::<u32>(), SIZE[0] * SIZE[1]);
 
@@ -256,16 +266,16 @@ fn a_histogram_is_made_only_while_it_is_watched() {
     scene.tone.exposure = 1.0;
     view.set_scene(&scene, false);
     settle(&mut view);
-    assert_eq!(view.dispatches().histogram, 1);
+    assert_eq!(view.dispatches().of(&histogram::PASS).dispatches, 1);
     scene.lights.environment[0].intensity = 20.0;
     view.set_scene(&scene, false);
     settle(&mut view);
     assert_ne!(view.report().histogram.expect("a histogram"), histogram);
 
-    let before = view.dispatches();
+    let before = view.dispatches().clone();
     view.watch_histogram(false);
     settle(&mut view);
-    assert_eq!(view.dispatches(), before);
+    assert_eq!(view.dispatches(), &before);
     assert_eq!(view.report().histogram, None);
 }
 
@@ -279,11 +289,11 @@ fn a_resting_view_submits_nothing() {
     // A view that comes to rest sooner compiles them later.
     pipelines().specialise(&Scene::default());
     let mut view = finished(&sampled(Scene::default(), 2), SIZE, Pace::Interactive);
-    let before = view.dispatches();
+    let before = view.dispatches().clone();
     for frame in 0..50 {
         assert!(!view.pump(1000.0 + f64::from(frame)));
     }
-    assert_eq!(view.dispatches(), before);
+    assert_eq!(view.dispatches(), &before);
     assert_eq!(view.report().activity, Activity::Idle);
     assert_eq!(view.report().samples_done, 2);
 }

@@ -15,7 +15,7 @@ use mandelight::{
     gpu::{host_shared::HostShared, shader::Module},
     render::{
         lattice,
-        pass::{PASSES, Pass},
+        pass::{self, Pass},
         post, report, shaders, uniforms, work_queues,
     },
     scene::{Fractal, MAX_LIGHTS},
@@ -41,11 +41,11 @@ fn kernels() -> Vec<Kernel> {
 
 /// The module of every pass with every kernel, and the probe's.
 static MODULES: LazyLock<Vec<Module>> = LazyLock::new(|| {
-    let of = |pass: &&Pass| match pass.set.has_kernel {
+    let of = |pass: &Pass| match pass.set.has_kernel {
         false => vec![shaders::module(pass.name, None)],
         true => kernels().into_iter().map(|k| shaders::module(pass.name, Some(k))).collect(),
     };
-    PASSES.iter().flat_map(of).chain(kernels().into_iter().map(probe::module)).collect()
+    pass::all().into_iter().flat_map(of).chain(kernels().into_iter().map(probe::module)).collect()
 });
 
 /// Name, offset and size of each field, and the whole size: of a WGSL struct.
@@ -194,7 +194,7 @@ fn every_shader_file_is_part_of_a_module() {
 #[test]
 fn every_pass_file_has_its_rust_half() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    for pass in PASSES {
+    for pass in pass::all() {
         for half in ["src/render/pass/{}.rs", "shaders/pass/{}.wgsl"] {
             assert!(root.join(half.replace("{}", pass.name)).is_file(), "{half} of {}", pass.name);
         }

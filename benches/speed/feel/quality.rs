@@ -18,7 +18,7 @@ use mandelight::{
 use super::{
     super::{failure::Failure, image_file},
     difference::Difference,
-    replay::Frame,
+    replay::{Frame, displays},
     session::{SIZE_PX, Session, with_motion_budget},
 };
 
@@ -99,8 +99,8 @@ fn draw_moving(pipelines: &Pipelines, view: &mut View, scene: &Scene, start: Ins
     view.pump(start.elapsed().as_secs_f64());
     pipelines.gpu.wait();
     view.set_scene(scene, true);
-    let tone_passes = view.dispatches().tone;
-    while view.dispatches().tone == tone_passes {
+    let before = displays(view);
+    while displays(view) == before {
         if !view.pump(start.elapsed().as_secs_f64()) {
             // The scene equals the one before.
             return;

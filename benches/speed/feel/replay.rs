@@ -15,7 +15,10 @@ use std::{
 
 use mandelight::{
     gpu::Gpu,
-    render::{Pace, Pipelines, Region, View},
+    render::{
+        Pace, Pipelines, Region, View,
+        pass::{tone, upsample},
+    },
     scene::Scene,
 };
 
@@ -26,6 +29,12 @@ use super::{
 
 /// Interval between two pumps, as in the page, seconds.
 pub const PUMP_SECS: f64 = 0.004;
+
+/// Number of display pictures that a view has submitted.
+pub fn displays(view: &View) -> u64 {
+    let of = |pass| view.dispatches().of(pass).dispatches;
+    of(&tone::PASS) + of(&upsample::PASS)
+}
 
 /// Ticks at rest between two parts: two and a half full frames.
 const REST_TICKS: u32 = 50;
@@ -136,7 +145,7 @@ impl Player {
 
     /// Pumps the view, and records a picture that it submits.
     fn pump(&mut self) -> bool {
-        let tone_passes = self.view.dispatches().tone;
+        let before = displays(&self.view);
         let now_secs = self.now_secs();
         let busy = self.view.pump(now_secs);
         self.next_pump_secs = now_secs + PUMP_SECS;
@@ -146,7 +155,7 @@ impl Player {
             self.accepted_input = self.latest_input;
             self.first_of_change = true;
         }
-        if self.view.dispatches().tone > tone_passes {
+        if displays(&self.view) > before {
             let input = self.accepted_input;
             let first_of_change = std::mem::take(&mut self.first_of_change);
             let pixels_per_sample = report.pixels_per_sample;

@@ -22,5 +22,4 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
     let slice = recorder.slice(trace, grid);
     recorder.dispatch(&pipeline, slice, trace.workgroups);
-    recorder.dispatches.camera_rays += 1;
 }

@@ -26,7 +26,6 @@ pub fn record(recorder: &mut Recorder<'_>, display: &Display) {
         let grid = Grid::added(finer, recorder.inputs.frame.size_px);
         if grid.workgroups() > 0 {
             recorder.dispatch_grid(&pipeline, &grid, 1 << (finer / 2));
-            recorder.dispatches.fill += 1;
         }
     }
 }

@@ -17,10 +17,17 @@ pub const PASS: Pass = Pass {
     set: &pipeline_set::INDIRECT,
     modes: ONE_MODE,
     record: Record::Trace {
-        when: |recorder, trace| trace.from == Stage::Indirect || recorder.is_lit_together(trace),
+        when: |recorder, trace| trace.from == Stage::Indirect || lights_directly(recorder, trace),
         record,
     },
 };
+
+/// Whether the pass also computes the direct light of `trace`.
+///
+/// Indirect light of centre samples waits until all samples of a level have their direct light.
+pub fn lights_directly(recorder: &Recorder<'_>, trace: &Trace) -> bool {
+    recorder.inputs.has_indirect() && matches!(trace.points, Points::Samples { .. })
+}
 
 /// Computes the light of the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
@@ -31,5 +38,4 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     }
     recorder.bind_indirect(trace);
     recorder.dispatch_pixels(&pipeline, slice);
-    recorder.dispatches.indirect += 1;
 }

@@ -28,5 +28,4 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         slice,
         Queue::Rays(0),
     );
-    recorder.dispatches.march += 1;
 }

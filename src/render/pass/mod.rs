@@ -1,7 +1,7 @@
 //! One file per pass, named like its shader in `shaders/pass/`.
 //!
 //! Each file declares what the pass binds, when a frame has the pass, and how it is dispatched. To add a
-//! pass, add its two files, and here its module and its entry in [`PASSES`].
+//! pass, add its two files, and here its module and its entry in [`DIRECT`] or [`DISPLAY`].
 
 pub mod bloom;
 pub mod blur;
@@ -25,9 +25,9 @@ pub mod upsample;
 
 pub use super::recorder::{ONE_MODE, Pass, Record};
 
-/// Every pass, in the order in which a frame has them; `Within` passes run inside the pass that records them.
-pub const PASSES: &[&Pass] = &[
-    // Sample points: rays to the surface, normals, shadows, light.
+/// The passes of the direct integrator, in the order of a frame: rays to the surface, normals, shadows,
+/// light. `Within` passes run inside the pass that records them.
+pub const DIRECT: &[&Pass] = &[
     &camera_rays::PASS,
     &camera_cone::PASS,
     &march::PASS,
@@ -37,10 +37,14 @@ pub const PASSES: &[&Pass] = &[
     &shadow::PASS,
     &shade::PASS,
     &indirect::PASS,
-    // A display picture of a sparse lattice's samples alone.
+];
+
+/// The passes from samples to a display picture, in the order of a frame, for every integrator.
+pub const DISPLAY: &[&Pass] = &[
+    // Of a sparse lattice's samples alone.
     &tonemap_sparse::PASS,
     &upsample::PASS,
-    // A display picture of the film.
+    // Of the film.
     &fill::PASS,
     &mean::PASS,
     &reduce::PASS,
@@ -50,3 +54,14 @@ pub const PASSES: &[&Pass] = &[
     &blur::PASS,
     &tone::PASS,
 ];
+
+/// Every pass once, also if several integrators share it.
+pub fn all() -> Vec<&'static Pass> {
+    let mut found: Vec<&Pass> = Vec::new();
+    for pass in [DIRECT, DISPLAY].into_iter().flatten() {
+        if !found.iter().any(|known| known.name == pass.name) {
+            found.push(pass);
+        }
+    }
+    found
+}

@@ -2,6 +2,7 @@
 //!
 //! Marches no rays.
 
+use super::indirect;
 use crate::render::recorder::{Pass, Record};
 use crate::render::{
     lattice::Grid,
@@ -19,7 +20,9 @@ pub const PASS: Pass = Pass {
     set: &pipeline_set::SHADE,
     modes: &[&[("SINGLE", 1)], &[("SINGLE", 0)]],
     record: Record::Trace {
-        when: |recorder, trace| trace.from <= Stage::Shade && !recorder.is_lit_together(trace),
+        when: |recorder, trace| {
+            trace.from <= Stage::Shade && !indirect::lights_directly(recorder, trace)
+        },
         record,
     },
 };
@@ -32,5 +35,4 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     recorder.bind_film();
     recorder.bind_environment();
     recorder.dispatch_pixels(&pipeline, slice);
-    recorder.dispatches.shade += 1;
 }

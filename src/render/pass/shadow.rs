@@ -3,7 +3,7 @@
 use super::shadow_cone;
 use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
-    lattice::{Grid, WORKGROUP_THREADS},
+    lattice::Grid,
     pipeline_set,
     recorder::Recorder,
     schedule::{Stage, Trace},
@@ -22,7 +22,6 @@ pub const PASS: Pass = Pass {
 /// Marches rays to those lights of `trace` that surfaces block, with two dispatches per light.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let [shadow_cone, shadow] = [&shadow_cone::PASS, &PASS].map(|pass| recorder.pipeline(pass, 0));
-    let rays = u64::from(trace.workgroups * WORKGROUP_THREADS);
     let (inputs, work_queues) = (recorder.inputs, &recorder.targets.work_queues);
     work_queues.clear_rays(&recorder.layouts.gpu.queue);
     let marched = trace.lights & inputs.casting();
@@ -37,8 +36,5 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         slice.light_kind = light.kind;
         recorder.dispatch_queue(&shadow_cone, &work_queues.enqueue_rays, slice, Queue::HitBlocks);
         recorder.dispatch_queue(&shadow, &work_queues.reading, slice, Queue::Rays(queue));
-        recorder.dispatches.queue += 1;
-        recorder.dispatches.shadow += 1;
-        recorder.dispatches.shadow_rays += rays;
     }
 }

@@ -25,5 +25,4 @@ pub fn record(recorder: &mut Recorder<'_>, &Display { level, .. }: &Display) {
     let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
     let whole = Grid::level(0, recorder.inputs.frame.size_px);
     recorder.dispatch_plane(&pipeline, Slice { spacing, ..whole.slice(0) });
-    recorder.dispatches.tone += 1;
 }

@@ -9,13 +9,13 @@
 //! a dense lattice, by a factor that depends on the scene. So openings and refining slices are
 //! estimated separately: what the last picture of a movement took is what its next one will take.
 //!
-//! Work is counted in rays, because most of it is the shadow rays of a few lights or many: costs
-//! learned with some lights hold well enough with others.
+//! How many rays a sample counts as, the integrator's [`Plan`] says.
 
 use super::{
+    plan::{Kind, Plan, Price},
     rate::{History, Rate},
     types::{Arithmetic, Phase},
-    work::{Job, Stage},
+    work::Job,
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
@@ -48,6 +48,8 @@ const KINDS: usize = INDIRECT + 1;
 /// Running estimates of what traces and displays cost.
 #[derive(Clone, Debug)]
 pub struct Cost {
+    /// What the integrator's work costs.
+    plan: &'static Plan,
     histories: [History; KINDS],
     /// How kernels raise powers from now on.
     pub arithmetic: Arithmetic,
@@ -59,10 +61,20 @@ pub struct Cost {
     casting: u64,
 }
 
-impl Default for Cost {
+/// The history of a kind.
+fn history_index(kind: Kind, arithmetic: Arithmetic) -> usize {
+    match kind {
+        Kind::Tracing => arithmetic as usize,
+        Kind::Shading => SHADING,
+        Kind::Indirect => INDIRECT,
+    }
+}
+
+impl Cost {
     /// Nothing has been measured.
-    fn default() -> Self {
+    pub fn new(plan: &'static Plan) -> Self {
         Self {
+            plan,
             histories: Default::default(),
             arithmetic: Arithmetic::default(),
             show_ms: 0.0,
@@ -71,41 +83,15 @@ impl Default for Cost {
             casting: u64::MAX,
         }
     }
-}
 
-/// What the rays of a job are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Tracing,
-    Shading,
-    Indirect,
-}
-
-impl Kind {
-    fn index(self, arithmetic: Arithmetic) -> usize {
-        match self {
-            Self::Tracing => arithmetic as usize,
-            Self::Shading => SHADING,
-            Self::Indirect => INDIRECT,
-        }
-    }
-}
-
-impl Cost {
     /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
     pub fn set_casting(&mut self, casting: u64) {
         self.casting = casting;
     }
 
-    /// The kind of a job, and the rays that each of its pixels counts as.
-    fn price(&self, job: Job) -> (Kind, f64) {
-        let lights = f64::from((job.lights & self.casting).count_ones());
-        match job.from {
-            Stage::March | Stage::Normal => (Kind::Tracing, 1.0 + lights),
-            Stage::Shadow if lights > 0.0 => (Kind::Tracing, lights),
-            Stage::Shadow | Stage::Shade => (Kind::Shading, 1.0),
-            Stage::Indirect => (Kind::Indirect, 1.0),
-        }
+    /// What a job costs for each of its pixels.
+    fn price(&self, job: Job) -> Price {
+        (self.plan.price)(job, self.casting)
     }
 
     /// Learns that a trace of so many pixels by `arithmetic` took `busy_ms`.
@@ -118,15 +104,15 @@ impl Cost {
         busy_ms: f64,
     ) {
         if pixels > 0.0 {
-            let (kind, rays_of_pixel) = self.price(job);
-            let history = &mut self.histories[kind.index(arithmetic)];
+            let Price { kind, rays: rays_of_pixel } = self.price(job);
+            let history = &mut self.histories[history_index(kind, arithmetic)];
             history.learn(phase, pixels * rays_of_pixel, busy_ms.max(1e-3));
         }
     }
 
     /// Estimated time of a trace of so many pixels, milliseconds.
     pub fn expected_ms(&self, job: Job, phase: Phase, pixels: u32) -> f64 {
-        let (kind, rays_of_pixel) = self.price(job);
+        let Price { kind, rays: rays_of_pixel } = self.price(job);
         self.rate(phase, kind).expected_ms(f64::from(pixels) * rays_of_pixel)
     }
 
@@ -167,7 +153,7 @@ impl Cost {
 
     /// The rate of a kind by one arithmetic: that of tracing where only tracing has been measured.
     fn rate_by(&self, arithmetic: Arithmetic, phase: Phase, kind: Kind) -> Option<Rate> {
-        let rate = |kind: Kind| self.histories[kind.index(arithmetic)].rate(phase);
+        let rate = |kind: Kind| self.histories[history_index(kind, arithmetic)].rate(phase);
         rate(kind).or_else(|| match kind {
             Kind::Indirect => rate(Kind::Tracing).map(Rate::untried),
             Kind::Tracing | Kind::Shading => rate(Kind::Tracing),
@@ -177,7 +163,7 @@ impl Cost {
     /// Workgroups of a refining slice that takes `aim_ms`, or the fixed cost where that is longer.
     /// It is not much larger than any slice before it.
     pub fn slice_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
-        let (kind, rays_of_pixel) = self.price(job);
+        let Price { kind, rays: rays_of_pixel } = self.price(job);
         let rate = self.rate(Phase::Refining, kind);
         let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(rate.most_rays);
         let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel;
@@ -196,7 +182,7 @@ impl Cost {
         job: Job,
         has_indirect: bool,
     ) -> bool {
-        let (kind, rays_of_pixel) = self.price(job);
+        let Price { kind, rays: rays_of_pixel } = self.price(job);
         let rate = self.rate(Phase::Opening, kind);
         let mut fixed_ms = rate.fixed_ms;
         let mut pixel_ms = rate.ray_ms * rays_of_pixel;
@@ -208,7 +194,7 @@ impl Cost {
         let left_ms = PLANNED * budget_ms - in_flight_ms - self.show_ms - fixed_ms;
         let pixels = f64::from(pixels);
         // The cost of few rays says little of the cost of many.
-        let tried = self.histories[kind.index(self.arithmetic)].opening();
+        let tried = self.histories[history_index(kind, self.arithmetic)].opening();
         let is_near = tried.is_none_or(|rate| pixels * rays_of_pixel <= rate.most_rays);
         is_near && pixels * pixel_ms <= left_ms.max(LEAST_FOR_PIXELS * budget_ms)
     }

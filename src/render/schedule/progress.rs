@@ -5,13 +5,16 @@
 
 use super::{
     gbuffer_validity::GBufferValidity,
+    plan::Plan,
     types::Stale,
-    work::{Job, Points, Stage},
+    work::{Job, Points},
 };
 
 /// Progress of one picture, from a change to the last sample.
 #[derive(Clone, Debug)]
 pub struct Progress {
+    /// Where the integrator's work starts.
+    plan: &'static Plan,
     /// Width and height of the region, pixels.
     pub size_px: [u32; 2],
     /// Validity of the centre samples' G-buffer.
@@ -34,8 +37,9 @@ pub struct Progress {
 
 impl Progress {
     /// Progress of a region of which nothing is computed.
-    pub fn new(size_px: [u32; 2]) -> Self {
+    pub fn new(plan: &'static Plan, size_px: [u32; 2]) -> Self {
         Self {
+            plan,
             size_px,
             gbuffer_validity: GBufferValidity::default(),
             shining: 0,
@@ -114,15 +118,7 @@ impl Progress {
 
     /// The stage that points start with, and the lights toward which rays are marched.
     pub fn job(&self, points: Points) -> Job {
-        let (from, lights) = match points {
-            Points::Level(level) | Points::Added(level) => {
-                self.gbuffer_validity.start(level, self.shining)
-            }
-            Points::All => self.gbuffer_validity.start(0, self.shining),
-            Points::Indirect(_) => (Stage::Indirect, 0),
-            Points::Samples { .. } => (Stage::March, self.shining),
-        };
-        Job { from, lights }
+        (self.plan.job)(points, &self.gbuffer_validity, self.shining)
     }
 
     /// Samples done, with the submitted part of those under way.

@@ -1,6 +1,7 @@
 //! The schedule against simulated devices, from fast to 200 times slower, with spikes.
 
 use super::*;
+use crate::render::integrator::DIRECT;
 
 mod arithmetic;
 mod hand;
@@ -44,7 +45,7 @@ fn share_of_frame(from: Stage, lights: f64) -> f64 {
 const LIGHTS: u64 = 0b111;
 
 fn schedule_of_lights(pace: Pace, size_px: [u32; 2]) -> Schedule {
-    let mut schedule = Schedule::new(pace, size_px);
+    let mut schedule = Schedule::new(DIRECT.plan, pace, size_px);
     schedule.set_lights(LIGHTS, LIGHTS);
     schedule
 }

@@ -33,7 +33,9 @@ impl View {
                 _ => Preparation::announce(variant, self.times.now_secs),
             };
             let preparation = self.preparation.insert(preparation);
-            match preparation.step(&self.pipelines, &self.targets, &inputs, self.times.now_secs) {
+            let now_secs = self.times.now_secs;
+            let (pipelines, targets) = (&self.pipelines, &self.targets);
+            match preparation.step(self.integrator, pipelines, targets, &inputs, now_secs) {
                 Progress::Ready => {}
                 Progress::Background => return is_awaited,
                 Progress::Foreground => return true,

@@ -17,6 +17,7 @@ use mandelight::{
         Region,
         frame::record,
         gbuffer::Samples,
+        integrator::DIRECT,
         pipeline_set,
         recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
@@ -113,7 +114,7 @@ pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
         let workgroups = points.grid(size).workgroups();
         let lights = inputs.shining();
         let trace = Trace { points, from, lights, first_workgroup: 0, workgroups };
-        record(&mut recorder, Work::Trace(trace));
+        record(&DIRECT, &mut recorder, Work::Trace(trace));
         gpu.queue.submit([recorder.finish()]);
         gpu.wait();
     }

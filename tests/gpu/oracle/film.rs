@@ -8,6 +8,7 @@ use mandelight::{
     render::{
         Region,
         frame::record,
+        integrator::DIRECT,
         post::{Need, Post, Tasks},
         recorder::{Dispatches, Recorder},
         schedule::Work,
@@ -73,7 +74,11 @@ impl Film {
             adapt: Some(1.0),
             bloom: scene.bloom.strength > 0.0,
         };
-        record(&mut recorder, Work::Show { level, fill: level > 0, film: false, adapt: 1.0 });
+        record(
+            &DIRECT,
+            &mut recorder,
+            Work::Show { level, fill: level > 0, film: false, adapt: 1.0 },
+        );
         gpu.queue.submit([recorder.finish()]);
 
         let post = &self.targets.post;

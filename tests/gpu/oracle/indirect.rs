@@ -7,6 +7,7 @@ use mandelight::{
     render::{
         Region,
         frame::record,
+        integrator::DIRECT,
         recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         targets::Targets,
@@ -82,6 +83,7 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let points = Points::Indirect(0);
     let workgroups = points.grid(SIZE).workgroups();
     record(
+        &DIRECT,
         &mut recorder,
         Work::Trace(Trace {
             points,
@@ -92,7 +94,7 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
         }),
     );
     gpu.queue.submit([recorder.finish()]);
-    assert_eq!((dispatches.indirect, dispatches.total()), (1, 1));
+    assert_eq!((dispatches.passes(), dispatches.total()), (vec!["indirect"], 1));
     let bytes = Readback::buffer(gpu, &targets.film_rg).wait(gpu).expect("the film's bytes");
     let red = |pair: &[u8; 8]| f64::from(bytemuck::cast::<_, [f32; 2]>(*pair)[0]);
     bytes.as_chunks::<8>().0.iter().map(red).collect()

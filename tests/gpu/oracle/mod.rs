@@ -12,6 +12,6 @@
 mod film;
 mod indirect;
 mod normals_table;
-mod pictures;
+pub mod pictures;
 mod points;
 mod toned;

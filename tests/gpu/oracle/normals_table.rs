@@ -8,7 +8,9 @@ use mandelight::{
     formula::mandelbulb::Mandelbulb,
     gpu::device::in_parallel,
     render::{
-        Region, frame, pass,
+        Region, frame,
+        integrator::DIRECT,
+        pass,
         recorder::{Dispatches, Recorder},
         schedule::{Points, Stage, Trace, Work},
         targets::Targets,
@@ -102,7 +104,7 @@ fn costs(scene: &Scene) -> Vec<f64> {
             Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
         match way {
             Some(_) => pass::normal::record(&mut recorder, &trace, &grid),
-            None => frame::record(&mut recorder, Work::Trace(trace)),
+            None => frame::record(&DIRECT, &mut recorder, Work::Trace(trace)),
         }
         let commands = recorder.finish();
         let start = Instant::now();

@@ -1,0 +1,42 @@
+//! The direct integrator: light straight from the lights, and indirect light gathered on the screen.
+//!
+//! Per sample: a camera ray to the surface, a normal, a shadow ray per light, the light that the surface
+//! reflects (thesis 3.2 and 4.5).
+
+use super::contract::Integrator;
+use crate::render::{
+    pass,
+    schedule::{GBufferValidity, Job, Kind, Plan, Points, Price, Stage},
+};
+
+/// The direct integrator. Own buffer: [`Targets::direct`](crate::render::targets::Targets::direct).
+pub static DIRECT: Integrator = Integrator {
+    name: "direct",
+    passes: pass::DIRECT,
+    plan: &Plan { job, price },
+    fit_targets: |targets, layouts, inputs| targets.fit_direct(layouts, inputs.has_indirect()),
+};
+
+/// Centre samples start after the stages whose results the G-buffer still holds.
+fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
+    let (from, lights) = match points {
+        Points::Level(level) | Points::Added(level) => valid.start(level, shining),
+        Points::All => valid.start(0, shining),
+        Points::Indirect(_) => (Stage::Indirect, 0),
+        Points::Samples { .. } => (Stage::March, shining),
+    };
+    Job { from, lights }
+}
+
+/// Work is counted in rays, because most of the work is the shadow rays of a few lights or many: costs
+/// learned with some lights hold well enough with others.
+fn price(job: Job, casting: u64) -> Price {
+    let lights = f64::from((job.lights & casting).count_ones());
+    let (kind, rays) = match job.from {
+        Stage::March | Stage::Normal => (Kind::Tracing, 1.0 + lights),
+        Stage::Shadow if lights > 0.0 => (Kind::Tracing, lights),
+        Stage::Shadow | Stage::Shade => (Kind::Shading, 1.0),
+        Stage::Indirect => (Kind::Indirect, 1.0),
+    };
+    Price { kind, rays }
+}
