@@ -3,7 +3,8 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{PrecisePoint, Stereo, param};
+use super::{param, stereo::Stereo};
+use crate::precise::PrecisePoint;
 
 /// Smallest distance from eye to pivot, in scene units: below the deepest zoom that renders.
 pub const MIN_VIEW_UNIT: f64 = 1e-30;

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use super::GradientStop;
+use super::surface::GradientStop;
 
 /// Number of entries in a gradient's lookup table.
 pub const GRADIENT_ENTRIES: usize = 256;

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use super::Project;
+use super::project::Project;
 
 /// Maximum number of undo steps; older steps are dropped.
 pub const MAX_STEPS: usize = 200;

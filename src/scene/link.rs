@@ -14,10 +14,13 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{
-    EnvironmentLight, Fractal, Path, PointLight, Project, Scene,
+    description::Scene,
     document::{self, DocumentError, value_of},
+    light::{EnvironmentLight, PointLight},
+    path::Path,
+    project::Project,
 };
-use crate::formula::{self, FormulaRef};
+use crate::formula::{self, FormulaRef, Fractal};
 
 /// Maximum length of a fragment, in bytes.
 pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;

@@ -6,7 +6,10 @@
 //! | file | what lives there |
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
-//! | `camera`, `light`, `rig`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `description` | [`Scene`], the whole of its parts |
+//! | `camera`, `stereo`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `lighting` | the part that holds all lights |
+//! | `light`, `rig` | single lights; lights generated together |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
 //! | [`environment_map`] | an environment map, decoded, and cut into lights |
@@ -20,7 +23,9 @@
 mod background;
 mod bloom;
 mod camera;
+mod description;
 mod light;
+mod lighting;
 mod project;
 mod quality;
 mod rig;
@@ -42,48 +47,21 @@ mod validate;
 pub use background::{Background, BackgroundKind};
 pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
-pub use environment_map::EnvironmentMap;
+pub use description::Scene;
+pub use environment_map::{EnvironmentMap, MAX_NAME_CHARS};
 pub use indirect::{Indirect, IndirectKind};
-pub use light::{EnvironmentLight, LightFrame, Lights, MAX_LIGHTS, PointLight};
+pub use light::{EnvironmentLight, LightFrame, PointLight};
+pub use lighting::{Lights, MAX_LIGHTS};
 pub use path::Path;
 pub use project::Project;
 pub use quality::{Normals, Quality};
-pub use rig::{
-    MAX_NAME_CHARS, MAX_RIG_RADIANCE, PictureRig, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight,
-    Sky,
-};
+pub use rig::{MAX_RIG_RADIANCE, PictureRig, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight, Sky};
 pub use stereo::{Stereo, StereoLayout};
 pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;
 
-use serde::{Deserialize, Serialize};
-
 pub use crate::{
     formula::Fractal,
     precise::{Precise, PrecisePoint},
 };
-
-/// Everything a picture depends on, except its size in pixels.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Scene {
-    /// The set that is drawn: a formula and its values.
-    pub fractal: Fractal,
-    /// Where it is seen from.
-    pub camera: Camera,
-    /// What lights it: at most [`MAX_LIGHTS`] in all.
-    pub lights: Lights,
-    /// How its surface answers light, and its colours.
-    pub surface: Surface,
-    /// Light that reaches the surface by way of others.
-    pub indirect: Indirect,
-    /// What is seen where a ray meets nothing.
-    pub background: Background,
-    /// How scene radiance becomes display values.
-    pub tone: Tone,
-    /// Light that spreads around what is bright.
-    pub bloom: Bloom,
-    /// How much work a picture is given.
-    pub quality: Quality,
-}

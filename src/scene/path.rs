@@ -20,8 +20,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Invalid, Scene,
+    description::Scene,
     param::{Param, Scale, Unit},
+    validate::Invalid,
 };
 use curve::{Joint, Span};
 

@@ -1,6 +1,6 @@
 //! The contents of a document: the scene in view and the camera path.
 
-use super::{Path, Scene};
+use super::{description::Scene, path::Path};
 
 /// A scene and its camera path.
 #[derive(Clone, Debug, Default, PartialEq)]

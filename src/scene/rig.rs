@@ -12,7 +12,7 @@ mod sky;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{BackgroundKind, EnvironmentMap, LightFrame, Scene, param};
+use super::{environment_map::EnvironmentMap, light::LightFrame, param};
 pub use sky::Sky;
 
 /// The source of a rig's lights.
@@ -76,7 +76,8 @@ impl Default for Rig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PictureRig {
-    /// The file's name, at most [`MAX_NAME_CHARS`] characters; empty for no environment map.
+    /// The file's name, at most [`MAX_NAME_CHARS`](super::MAX_NAME_CHARS) characters; empty for
+    /// no environment map.
     pub name: String,
     /// Rotation about z, counterclockwise from above, range [`param::RIG_ROTATION`], degrees.
     pub rotation_deg: f64,
@@ -90,8 +91,6 @@ impl Default for PictureRig {
     }
 }
 
-/// Maximum length of an environment map's name, in characters.
-pub const MAX_NAME_CHARS: usize = 200;
 /// Maximum strength of a rig light, per channel.
 pub const MAX_RIG_RADIANCE: f32 = 1e6;
 /// Tolerance of the length of a rig light's direction, around 1.
@@ -170,23 +169,6 @@ impl Rig {
             .map(|light| RigLight::rounded(light.direction, light.energy / std::f64::consts::PI))
             .filter(|light| light.strength != [0.0; 3])
             .collect();
-    }
-}
-
-impl Scene {
-    /// Lights the scene by `environment_map`, and shows a new map as the background.
-    ///
-    /// A map is new if the scene does not name it yet. A scene that names the map but has
-    /// another kind of rig stays unchanged.
-    pub fn surround_by(&mut self, environment_map: &EnvironmentMap) {
-        let is_new = self.lights.rig.picture.name != environment_map.name();
-        if is_new {
-            self.background.kind = BackgroundKind::Picture;
-        }
-        if is_new || self.lights.rig.kind == RigKind::Picture {
-            let room = self.lights.room_for_rig();
-            self.lights.rig.light_by(environment_map, room);
-        }
     }
 }
 

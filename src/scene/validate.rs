@@ -7,11 +7,18 @@
 use glam::{DVec3, DVec4};
 
 use super::{
-    Camera, Fractal, Lights, MAX_GRADIENT_STOPS, MAX_LIGHTS, MAX_NAME_CHARS, MAX_RIG_RADIANCE,
-    MIN_VIEW_UNIT, RIG_DIRECTION_TOLERANCE, Rig, RigLight, Scene, Sky, Surface,
+    camera::{Camera, MIN_VIEW_UNIT},
+    description::Scene,
+    environment_map::MAX_NAME_CHARS,
+    lighting::{Lights, MAX_LIGHTS},
     param::{self, Param},
+    rig::{MAX_RIG_RADIANCE, RIG_DIRECTION_TOLERANCE, Rig, RigLight, Sky},
+    surface::{MAX_GRADIENT_STOPS, Surface},
 };
-use crate::formula::table::{Kind, Value};
+use crate::formula::{
+    Fractal,
+    table::{Kind, Value},
+};
 
 /// How far the length of a direction or orientation may be from 1.
 pub(super) const UNIT_TOLERANCE: f64 = 1e-6;

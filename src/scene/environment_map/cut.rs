@@ -14,7 +14,7 @@ use std::{
 
 use glam::{DVec2, DVec3};
 
-use super::EnvironmentMap;
+use super::map::EnvironmentMap;
 use crate::scene::color::luminance;
 
 /// Longest side of a region that one shadow represents well enough, degrees.
@@ -27,6 +27,13 @@ pub struct CutLight {
     pub direction: DVec3,
     /// Radiance times solid angle, linear Rec. 709, summed over the region.
     pub energy: DVec3,
+}
+
+impl EnvironmentMap {
+    /// At most `count` lights that together carry the map's light; see [`median_cut`].
+    pub fn cut(&self, count: usize) -> Vec<CutLight> {
+        median_cut(self, count)
+    }
 }
 
 /// At most `count` lights that together carry the map's light, in no particular order.

@@ -9,7 +9,7 @@ use exr::prelude as exr;
 use glam::Vec3;
 use image::{ImageDecoder as _, codecs::hdr::HdrDecoder};
 
-use super::{Downsampler, EnvironmentMap};
+use super::{downsample::Downsampler, map::EnvironmentMap};
 
 /// Largest width and height of a file, in pixels.
 pub const MAX_SOURCE_PX: [u32; 2] = [8192, 8192];

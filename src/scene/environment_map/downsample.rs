@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
 
-use super::{EnvironmentMap, MAX_SIZE_PX, clamp_radiance};
+use super::map::{EnvironmentMap, MAX_SIZE_PX, clamp_radiance};
 
 /// Accumulates source pixels into a map of at most [`MAX_SIZE_PX`].
 pub struct Downsampler {

@@ -1,8 +1,12 @@
 //! Tests of an environment map's light against independent sums, and of hand-made files.
 
-use std::io::{Cursor, Write as _};
+use std::{
+    f64::consts::{PI, TAU},
+    io::{Cursor, Write as _},
+};
 
 use exr::prelude::{Compression, WritableImage as _};
+use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
 use super::*;

@@ -15,9 +15,15 @@ use super::{
     place::{Place, Places},
     rotation::{Directions, Rotations},
 };
-use crate::scene::{
-    Camera, Fractal, MAX_LIGHTS, PrecisePoint, Scene,
-    param::{self, Param, Scale},
+use crate::{
+    formula::Fractal,
+    precise::PrecisePoint,
+    scene::{
+        camera::Camera,
+        description::Scene,
+        lighting::MAX_LIGHTS,
+        param::{self, Param, Scale},
+    },
 };
 
 /// How fine the eye's position is kept, in view units: below a hundredth of a pixel of the

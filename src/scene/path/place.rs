@@ -9,7 +9,7 @@
 use glam::{DVec3, DVec4};
 
 use super::curve::Space;
-use crate::scene::PrecisePoint;
+use crate::precise::PrecisePoint;
 
 /// Resolution of points, in view units: far below a pixel of any picture.
 const GRAIN: f64 = 1e-12;

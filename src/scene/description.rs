@@ -1,0 +1,58 @@
+//! The whole description of a scene.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    background::{Background, BackgroundKind},
+    bloom::Bloom,
+    camera::Camera,
+    environment_map::EnvironmentMap,
+    indirect::Indirect,
+    lighting::Lights,
+    quality::Quality,
+    rig::RigKind,
+    surface::Surface,
+    tone::Tone,
+};
+use crate::formula::Fractal;
+
+/// Everything a picture depends on, except its size in pixels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Scene {
+    /// The set that is drawn: a formula and its values.
+    pub fractal: Fractal,
+    /// Where it is seen from.
+    pub camera: Camera,
+    /// What lights it: at most [`MAX_LIGHTS`](super::MAX_LIGHTS) in all.
+    pub lights: Lights,
+    /// How its surface answers light, and its colours.
+    pub surface: Surface,
+    /// Light that reaches the surface by way of others.
+    pub indirect: Indirect,
+    /// What is seen where a ray meets nothing.
+    pub background: Background,
+    /// How scene radiance becomes display values.
+    pub tone: Tone,
+    /// Light that spreads around what is bright.
+    pub bloom: Bloom,
+    /// How much work a picture is given.
+    pub quality: Quality,
+}
+
+impl Scene {
+    /// Lights the scene by `environment_map`, and shows a new map as the background.
+    ///
+    /// A map is new if the scene does not name it yet. A scene that names the map but has
+    /// another kind of rig stays unchanged.
+    pub fn surround_by(&mut self, environment_map: &EnvironmentMap) {
+        let is_new = self.lights.rig.picture.name != environment_map.name();
+        if is_new {
+            self.background.kind = BackgroundKind::Picture;
+        }
+        if is_new || self.lights.rig.kind == RigKind::Picture {
+            let room = self.lights.room_for_rig();
+            self.lights.rig.light_by(environment_map, room);
+        }
+    }
+}
