@@ -4,28 +4,25 @@
 //! the pivot on or near what it shows, the first the default scene; and places at depth.
 
 mod dives;
+mod preset;
 
 use glam::DVec3;
 
-use crate::formula::{FormulaRef, mandelbulb::Mandelbulb, quaternion_julia::QUATERNION_JULIA};
-
 use super::{
-    Background, Camera, ColorSource, Coloring, EnvironmentLight, Fractal, GradientStop, LightFrame,
-    Lights, PointLight, Scene, Surface, Tone,
+    background::Background,
+    camera::Camera,
+    description::Scene,
+    light::{EnvironmentLight, LightFrame, PointLight},
+    lighting::Lights,
+    surface::{ColorSource, Coloring, GradientStop, Surface},
+    tone::Tone,
+};
+use crate::formula::{
+    FormulaRef, Fractal, mandelbulb::Mandelbulb, quaternion_julia::QUATERNION_JULIA,
 };
 
 pub use dives::dives;
-
-/// A scene to start from.
-#[derive(Clone, Copy, Debug)]
-pub struct Preset {
-    /// A short name, one of its own.
-    pub name: &'static str,
-    /// What it shows, in a sentence.
-    pub blurb: &'static str,
-    /// The scene.
-    pub scene: fn() -> Scene,
-}
+pub use preset::Preset;
 
 /// The opening scenes, the default first.
 pub fn all() -> &'static [Preset] {

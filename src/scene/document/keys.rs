@@ -8,10 +8,15 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::{DocumentError, checked, field_error};
+use super::{
+    check::checked,
+    error::DocumentError,
+    parse::{field_error, parse},
+};
 use crate::scene::{
-    Path, Project, Scene,
-    path::{Easing, Key},
+    description::Scene,
+    path::{Easing, Key, Path},
+    project::Project,
 };
 
 /// A path to write.
@@ -112,7 +117,7 @@ impl PathDraft {
             let path = Path { frames_per_second: self.frames_per_second, keys: Vec::new() };
             return path.validate().map(|()| path).map_err(DocumentError::from);
         }
-        let document: Value = super::parse(text)?;
+        let document: Value = parse(text)?;
         let keys = self.keys.into_iter().enumerate().map(|(i, key)| {
             let scene = match whole_scene(&document, i) {
                 // The same fields have been read as part of this document already.

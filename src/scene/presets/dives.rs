@@ -5,8 +5,8 @@
 //! directions: elsewhere it stretches it more in one than in others, and after many steps streaks are
 //! left. `docs/dives.md` shows them.
 
-use super::Preset;
-use crate::scene::{Scene, document};
+use super::preset::Preset;
+use crate::scene::{description::Scene, document};
 
 /// A dive whose document is the file of this name.
 macro_rules! dive {

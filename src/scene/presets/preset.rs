@@ -1,0 +1,14 @@
+//! A preset: a scene with a name and a sentence about it.
+
+use crate::scene::description::Scene;
+
+/// A scene to start from.
+#[derive(Clone, Copy, Debug)]
+pub struct Preset {
+    /// A short name, one of its own.
+    pub name: &'static str,
+    /// What it shows, in a sentence.
+    pub blurb: &'static str,
+    /// The scene.
+    pub scene: fn() -> Scene,
+}
