@@ -1,11 +1,14 @@
 //! Movements of the camera: orbit, pan, dolly, fly, home and frame-all.
 //!
-//! In: a [`Camera`], a [`DistanceField`], the picture's size, pointer positions and time steps.
-//! Out: the moved camera. This module does not depend on egui and keeps no clock.
+//! In: a [`Camera`], a [`DistanceField`](crate::formula::DistanceField), the picture's size, pointer
+//! positions and time steps. Out: the moved camera. This module does not depend on egui and keeps
+//! no clock.
 //!
 //! | file | contents |
 //! |---|---|
-//! | `navigation.rs` | the world around the camera, and the pointer's gestures |
+//! | `navigation.rs` | the navigator: the pointer's gestures, and which movement is active |
+//! | `world` | the surface around the camera: picking, limits, rounding |
+//! | `placement` | rounded positions of eye and pivot |
 //! | [`collide`] | collision of the eye with the surface, and sliding along it |
 //! | [`turntable`] | rotations that keep the horizon level |
 //! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
@@ -27,164 +30,27 @@
 pub mod collide;
 pub mod flight;
 pub mod fly;
+mod placement;
 mod route;
 pub mod turntable;
+mod world;
 
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 
-use crate::{
-    formula::{DistanceField, Ray},
-    fractal::{camera_ray, pixel_cone},
-    scene::{Camera, PrecisePoint},
-};
+use crate::scene::{Camera, PrecisePoint};
 use flight::Flight;
 pub use fly::FlyInput;
 use fly::FlySpeed;
+use placement::{place_pivot, shift};
 use turntable::Turntable;
+pub use world::{CameraStatus, MAX_EYE_DISTANCE, Viewport, World};
 
-/// Maximum distance of the eye from the scene's origin, in scene units.
-pub const MAX_EYE_DISTANCE: f64 = 90.0;
-/// Maximum steps of a picking ray, so that the pointer responds at once.
-const PICK_STEPS: u32 = 400;
-/// Minimum distance of the eye from any surface, as a fraction of [`World::nearest`].
-const CLEARANCE: f64 = 0.25;
-/// Maximum distance of an eye at the limit, in units of [`World::nearest`].
-///
-/// Above 1, because the target is farther than the nearest surface, and distances are estimates.
-const AT_LIMIT: f64 = 2.0;
-/// As [`AT_LIMIT`], if the pivot is at the limit.
-const AT_LIMIT_OF_PIVOT: f64 = 100.0;
-/// Rounding of positions, in pixels at the surface's distance.
-const GRAIN_PX: f64 = 1e-4;
-/// Rounding of the pivot, in view units.
-const PIVOT_GRAIN: f64 = 1e-6;
 /// Range of the pivot's distance during a dolly, as a fraction of the target's depth.
 const PIVOT_PARTS: RangeInclusive<f64> = 0.02..=50.0;
 /// Rotation for a drag over half the picture's height, in radians.
 const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
-
-/// The picture's aspect, height and hit distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Viewport {
-    /// Width over height.
-    pub aspect: f64,
-    /// Height in pixels.
-    pub height_px: f64,
-    /// Hit distance in cone radii of a pixel: the scene's `quality.detail`.
-    pub detail: f64,
-}
-
-/// The surface around the camera, and the viewport.
-#[derive(Clone, Copy)]
-pub struct World<'a> {
-    /// The surface's distance field.
-    pub field: &'a dyn DistanceField,
-    /// The picture's aspect, height and hit distance.
-    pub viewport: Viewport,
-}
-
-/// The camera's distance to the surface and its precision, for the status line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CameraStatus {
-    /// Estimated distance from the eye to the nearest surface, in scene units.
-    pub distance: f64,
-    /// Radius of a pixel's cone at the estimated distance, in scene units.
-    pub footprint: f64,
-    /// True if a nearer eye would show rounding errors instead of detail.
-    pub at_precision_limit: bool,
-}
-
-impl World<'_> {
-    /// The eye's position, in the field's coordinates.
-    pub fn eye(&self, camera: &Camera) -> DVec3 {
-        self.field.local(&camera.position)
-    }
-
-    /// The radius of a pixel's cone per unit of depth.
-    fn cone(&self, camera: &Camera) -> f64 {
-        pixel_cone(camera, self.viewport.aspect, self.viewport.height_px)
-    }
-
-    /// The ray through `ndc`, in the field's coordinates.
-    fn ray(&self, camera: &Camera, ndc: DVec2) -> Ray {
-        camera_ray(camera, &self.field.origin(), ndc, self.viewport.aspect)
-    }
-
-    /// Minimum depth of a point that the camera looks at, in scene units.
-    pub fn nearest(&self, camera: &Camera) -> f64 {
-        self.field.finest_footprint() / self.cone(camera)
-    }
-
-    /// Minimum distance between eye and surface, in scene units.
-    pub fn clearance(&self, camera: &Camera) -> f64 {
-        CLEARANCE * self.nearest(camera)
-    }
-
-    /// The distance and precision of `camera`.
-    pub fn camera_status(&self, camera: &Camera) -> CameraStatus {
-        let distance = self.field.clear_distance(self.eye(camera));
-        let nearest = self.nearest(camera);
-        // At low powers, the distance estimate is often many times too large.
-        let pivot_at_limit =
-            camera.view_unit() <= nearest && distance <= AT_LIMIT_OF_PIVOT * nearest;
-        CameraStatus {
-            distance,
-            footprint: distance * self.cone(camera),
-            at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,
-        }
-    }
-
-    /// The vector from the eye to the surface at `ndc`; none for the background.
-    pub fn pick(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
-        let ray = self.ray(camera, ndc);
-        let result = self.field.trace(ray, self.hit_cone(camera), f64::INFINITY, PICK_STEPS);
-        // A ray that runs out of steps is close to the surface, so its end counts as a hit.
-        let depth = result.unwrap_or_else(Some)?;
-        Some(ray.direction * depth.max(self.nearest(camera)))
-    }
-
-    /// The vector from the eye to the target at `ndc`; never zero.
-    ///
-    /// The target is the surface or, for the background, the ray's point closest to the surface.
-    fn target(&self, camera: &Camera, ndc: DVec2) -> DVec3 {
-        self.pick(camera, ndc).unwrap_or_else(|| {
-            let ray = self.ray(camera, ndc);
-            let min = self.field.clear_distance(ray.origin).max(self.nearest(camera));
-            ray.direction
-                * self.field.closest_approach(ray, f64::INFINITY).clamp(min, 2.0 * MAX_EYE_DISTANCE)
-        })
-    }
-
-    fn hit_cone(&self, camera: &Camera) -> f64 {
-        self.cone(camera) * self.viewport.detail
-    }
-
-    /// Rounding of positions at the camera, in scene units.
-    fn grain(&self, camera: &Camera) -> f64 {
-        self.grain_after(camera, DVec3::ZERO)
-    }
-
-    /// Rounding of positions after a movement by `moved`, in scene units.
-    ///
-    /// The grain before the movement could round the eye into the surface that stopped the eye.
-    fn grain_after(&self, camera: &Camera, moved: DVec3) -> f64 {
-        self.grain_at(camera, self.field.clear_distance(self.eye(camera) + moved))
-    }
-
-    /// Rounding of positions for a surface at `depth`, in scene units.
-    fn grain_at(&self, camera: &Camera, depth: f64) -> f64 {
-        GRAIN_PX * 2.0 * self.cone(camera) * depth.max(self.clearance(camera))
-    }
-
-    /// The picture position of the point at `offset` from the eye; none behind the eye.
-    fn ndc_of(&self, camera: &Camera, offset: DVec3) -> Option<DVec2> {
-        let seen = camera.rotation().inverse() * offset;
-        let scale = camera.half_height(self.viewport.aspect) * -seen.z;
-        (seen.z < 0.0).then(|| DVec2::new(seen.x / (scale * self.viewport.aspect), seen.y / scale))
-    }
-}
 
 /// A pointer's gesture in progress.
 #[derive(Clone, Debug)]
@@ -307,6 +173,72 @@ impl Navigator {
         place_pivot(camera, pivot_offset, grain);
         *camera != before
     }
+
+    /// Flies for `dt_secs`. Returns whether the camera changed.
+    ///
+    /// Call it once per frame while a key is down or the pointer looks around. A call with empty
+    /// input resets the speed. While the eye moves, the pivot is in front of the eye at the
+    /// smoothed distance, so that the view unit follows the distance to the surface.
+    pub fn fly(
+        &mut self,
+        camera: &mut Camera,
+        world: World<'_>,
+        input: FlyInput,
+        dt_secs: f64,
+    ) -> bool {
+        if input.is_empty() {
+            self.fly_speed.reset();
+            return false;
+        }
+        self.gesture = None;
+        self.flight = None;
+        fly::fly(&mut self.fly_speed, camera, world, input, dt_secs)
+    }
+
+    /// The last speed of [`Self::fly`] without the fast key, scene units per second; none at rest.
+    pub fn speed(&self) -> Option<f64> {
+        self.fly_speed.per_sec()
+    }
+
+    /// Starts a flight to `to`.
+    ///
+    /// Jumps there if the surface blocks every route, or if a flight to `to` is in progress.
+    pub fn fly_to(&mut self, camera: &mut Camera, world: World<'_>, to: &Camera) {
+        let current = self.flight.take();
+        self.cancel();
+        // A flight changes the eye's position, not the viewer's screen.
+        let to = Camera { stereo: camera.stereo.clone(), ..to.clone() };
+        if current.is_none_or(|flight| !flight.leads_to(&to)) {
+            self.flight = Flight::plan(world, camera, &to);
+        }
+        if self.flight.is_none() {
+            *camera = to;
+        }
+    }
+
+    /// Starts a flight to where the bounding sphere fits the picture, in the current direction.
+    pub fn frame_all(&mut self, camera: &mut Camera, world: World<'_>) {
+        let to = flight::framing_all(camera, world);
+        self.fly_to(camera, world, &to);
+    }
+
+    /// Starts a flight that turns a rolled camera upright in place.
+    pub fn level(&mut self, camera: &mut Camera, world: World<'_>) {
+        let to = flight::upright(camera);
+        self.fly_to(camera, world, &to);
+    }
+
+    /// Continues a flight by `dt_secs`. Returns whether a flight was in progress.
+    ///
+    /// Call it once per frame until it returns false.
+    pub fn advance(&mut self, camera: &mut Camera, dt_secs: f64) -> bool {
+        let Some(flight) = &mut self.flight else { return false };
+        *camera = flight.advance(dt_secs);
+        if flight.is_over() {
+            self.flight = None;
+        }
+        true
+    }
 }
 
 /// Moves the camera parallel to the image plane until `grabbed` appears at `ndc`.
@@ -322,19 +254,4 @@ fn pan(camera: &mut Camera, world: World<'_>, grabbed: &PrecisePoint, ndc: DVec2
     let displacement = rotation * DVec3::new(seen.x - wanted.x, seen.y - wanted.y, 0.0);
     let moved = collide::slide(world, camera, displacement);
     shift(camera, world, moved);
-}
-
-/// Moves eye and pivot together by `moved`, in scene units.
-fn shift(camera: &mut Camera, world: World<'_>, moved: DVec3) {
-    let grain = world.grain(camera).min(world.grain_after(camera, moved));
-    let pivot_offset = &camera.pivot - &camera.position;
-    camera.position = camera.position.moved_by(moved, grain);
-    place_pivot(camera, pivot_offset, grain);
-}
-
-/// Places the pivot at `offset` from the eye, rounded to at most `grain`.
-///
-/// A pivot near the eye is rounded to [`PIVOT_GRAIN`] of its distance.
-fn place_pivot(camera: &mut Camera, offset: DVec3, grain: f64) {
-    camera.pivot = camera.position.moved_by(offset, grain.min(PIVOT_GRAIN * offset.length()));
 }

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{MAX_EYE_DISTANCE, World};
+use super::world::{MAX_EYE_DISTANCE, World};
 use crate::{
     formula::{DistanceField, march::LEAST_STEP},
     scene::Camera,

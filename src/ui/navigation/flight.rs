@@ -8,8 +8,8 @@
 use glam::{DQuat, DVec3};
 
 use super::{
-    MAX_EYE_DISTANCE, Navigator, World,
     route::{self, Leg, ROOM, Waypoint},
+    world::{MAX_EYE_DISTANCE, World},
 };
 use crate::scene::Camera;
 
@@ -30,13 +30,29 @@ pub struct Flight {
 
 impl Flight {
     /// Plans a flight; none if the surface blocks every route.
-    fn plan(world: World<'_>, from: &Camera, to: &Camera) -> Option<Self> {
+    pub(super) fn plan(world: World<'_>, from: &Camera, to: &Camera) -> Option<Self> {
         let legs = route::plan(world, from, to)?;
         let length: f64 = legs.iter().map(|leg| leg.length).sum();
         // Acceleration and deceleration take half of FLIGHT_SECS each, at half the speed on
         // average, so both together cost half of FLIGHT_SECS.
         let secs = FLIGHT_SECS.max(length / MAX_ZOOM_PER_SEC + 0.5 * FLIGHT_SECS);
         Some(Self { from: from.clone(), to: to.clone(), legs, secs, elapsed_secs: 0.0 })
+    }
+
+    /// True if the flight ends at `camera`.
+    pub(super) fn leads_to(&self, camera: &Camera) -> bool {
+        self.to == *camera
+    }
+
+    /// Continues the flight by `dt_secs` and returns the camera.
+    pub(super) fn advance(&mut self, dt_secs: f64) -> Camera {
+        self.elapsed_secs += if dt_secs.is_finite() { dt_secs.max(0.0) } else { self.secs };
+        self.camera()
+    }
+
+    /// True at the target.
+    pub(super) fn is_over(&self) -> bool {
+        self.elapsed_secs >= self.secs
     }
 
     /// The camera after `elapsed_secs`.
@@ -94,55 +110,22 @@ fn ease(progress: f64, ramp: f64) -> f64 {
     }
 }
 
-impl Navigator {
-    /// Starts a flight to `to`.
-    ///
-    /// Jumps there if the surface blocks every route, or if a flight to `to` is in progress.
-    pub fn fly_to(&mut self, camera: &mut Camera, world: World<'_>, to: &Camera) {
-        let current = self.flight.take();
-        self.cancel();
-        // A flight changes the eye's position, not the viewer's screen.
-        let to = Camera { stereo: camera.stereo.clone(), ..to.clone() };
-        if current.is_none_or(|flight| flight.to != to) {
-            self.flight = Flight::plan(world, camera, &to);
-        }
-        if self.flight.is_none() {
-            *camera = to;
-        }
+/// The camera for which the bounding sphere fits the picture, with the direction of `camera`.
+pub(super) fn framing_all(camera: &Camera, world: World<'_>) -> Camera {
+    let half_angle = camera.half_height(1.0).atan();
+    let radius = world.field.bounding_radius();
+    // From a deep view, the centre equals the scene's origin except for rounding.
+    let centre = world.field.origin().moved_by(world.field.center(), 1e-9 * radius);
+    let depth = (radius * ROOM / half_angle.sin()).min(MAX_EYE_DISTANCE);
+    Camera {
+        position: centre.moved_by(camera.forward() * -depth, 0.0),
+        pivot: centre,
+        ..camera.clone()
     }
+}
 
-    /// Starts a flight to where the bounding sphere fits the picture, in the current direction.
-    pub fn frame_all(&mut self, camera: &mut Camera, world: World<'_>) {
-        let half_angle = camera.half_height(1.0).atan();
-        let radius = world.field.bounding_radius();
-        // From a deep view, the centre equals the scene's origin except for rounding.
-        let centre = world.field.origin().moved_by(world.field.center(), 1e-9 * radius);
-        let depth = (radius * ROOM / half_angle.sin()).min(MAX_EYE_DISTANCE);
-        let to = Camera {
-            position: centre.moved_by(camera.forward() * -depth, 0.0),
-            pivot: centre,
-            ..camera.clone()
-        };
-        self.fly_to(camera, world, &to);
-    }
-
-    /// Starts a flight that turns a rolled camera upright in place.
-    pub fn level(&mut self, camera: &mut Camera, world: World<'_>) {
-        let upright = Camera::looking_at(DVec3::ZERO, camera.forward(), DVec3::Z);
-        let to = Camera { orientation: upright.orientation, ..camera.clone() };
-        self.fly_to(camera, world, &to);
-    }
-
-    /// Continues a flight by `dt_secs`. Returns whether a flight was in progress.
-    ///
-    /// Call it once per frame until it returns false.
-    pub fn advance(&mut self, camera: &mut Camera, dt_secs: f64) -> bool {
-        let Some(flight) = &mut self.flight else { return false };
-        flight.elapsed_secs += if dt_secs.is_finite() { dt_secs.max(0.0) } else { flight.secs };
-        *camera = flight.camera();
-        if flight.elapsed_secs >= flight.secs {
-            self.flight = None;
-        }
-        true
-    }
+/// `camera`, turned upright in place.
+pub(super) fn upright(camera: &Camera) -> Camera {
+    let upright = Camera::looking_at(DVec3::ZERO, camera.forward(), DVec3::Z);
+    Camera { orientation: upright.orientation, ..camera.clone() }
 }

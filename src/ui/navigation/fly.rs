@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::{Navigator, World, collide, shift, turntable::Turntable};
+use super::{collide, placement::shift, turntable::Turntable, world::World};
 use crate::scene::Camera;
 
 /// Speed per second, in distances to the surface.
@@ -38,6 +38,13 @@ pub struct FlyInput {
     pub faster: bool,
 }
 
+impl FlyInput {
+    /// True if the input moves nothing: the fast key alone has no effect.
+    pub(super) fn is_empty(self) -> bool {
+        self == (Self { faster: self.faster, ..Self::default() })
+    }
+}
+
 /// The smoothed distance to the surface, which determines the speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlySpeed {
@@ -61,50 +68,37 @@ impl FlySpeed {
         self.ln_distance = Some(next);
         next.exp()
     }
+
+    /// The speed without the fast key, in scene units per second; none at rest.
+    pub(super) fn per_sec(self) -> Option<f64> {
+        self.ln_distance.map(|ln| ln.exp() * SPEED_PER_SEC)
+    }
 }
 
-impl Navigator {
-    /// Flies for `dt_secs`. Returns whether the camera changed.
-    ///
-    /// Call it once per frame while a key is down or the pointer looks around. A call with empty
-    /// input resets the speed. While the eye moves, the pivot is in front of the eye at the
-    /// smoothed distance, so that the view unit follows the distance to the surface.
-    pub fn fly(
-        &mut self,
-        camera: &mut Camera,
-        world: World<'_>,
-        input: FlyInput,
-        dt_secs: f64,
-    ) -> bool {
-        if input == (FlyInput { faster: input.faster, ..FlyInput::default() }) {
-            self.fly_speed.reset();
-            return false;
-        }
-        self.gesture = None;
-        self.flight = None;
-        let before = camera.clone();
-        let dt_secs = if dt_secs.is_finite() { dt_secs.clamp(0.0, MAX_STEP_SECS) } else { 0.0 };
-        rotate(camera, input, dt_secs, world.grain(camera));
-        if input.travel == DVec3::ZERO || !input.travel.is_finite() {
-            self.fly_speed.reset();
-        } else {
-            let distance = world.field.clear_distance(world.eye(camera)).max(world.nearest(camera));
-            let smoothed = self.fly_speed.smooth(distance, dt_secs);
-            let speed = smoothed * SPEED_PER_SEC * if input.faster { FASTER } else { 1.0 };
-            let DVec3 { x, y, z } = input.travel.clamp_length_max(1.0);
-            let displacement = camera.rotation() * DVec3::new(x, y, -z) * speed * dt_secs;
-            let moved = collide::slide(world, camera, displacement);
-            shift(camera, world, moved);
-            camera.pivot =
-                camera.position.moved_by(camera.forward() * smoothed, world.grain(camera));
-        }
-        *camera != before
+/// Flies for `dt_secs` at the smoothed `speed`. Returns whether the camera changed.
+pub(super) fn fly(
+    speed: &mut FlySpeed,
+    camera: &mut Camera,
+    world: World<'_>,
+    input: FlyInput,
+    dt_secs: f64,
+) -> bool {
+    let before = camera.clone();
+    let dt_secs = if dt_secs.is_finite() { dt_secs.clamp(0.0, MAX_STEP_SECS) } else { 0.0 };
+    rotate(camera, input, dt_secs, world.grain(camera));
+    if input.travel == DVec3::ZERO || !input.travel.is_finite() {
+        speed.reset();
+    } else {
+        let distance = world.field.clear_distance(world.eye(camera)).max(world.nearest(camera));
+        let smoothed = speed.smooth(distance, dt_secs);
+        let per_sec = smoothed * SPEED_PER_SEC * if input.faster { FASTER } else { 1.0 };
+        let DVec3 { x, y, z } = input.travel.clamp_length_max(1.0);
+        let displacement = camera.rotation() * DVec3::new(x, y, -z) * per_sec * dt_secs;
+        let moved = collide::slide(world, camera, displacement);
+        shift(camera, world, moved);
+        camera.pivot = camera.position.moved_by(camera.forward() * smoothed, world.grain(camera));
     }
-
-    /// The last speed of [`Self::fly`] without the fast key, scene units per second; none at rest.
-    pub fn speed(&self) -> Option<f64> {
-        self.fly_speed.ln_distance.map(|ln| ln.exp() * SPEED_PER_SEC)
-    }
+    *camera != before
 }
 
 fn rotate(camera: &mut Camera, input: FlyInput, dt_secs: f64, grain: f64) {

@@ -8,7 +8,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{World, collide};
+use super::{collide, world::World};
 use crate::{
     formula::{DistanceField, Ray},
     scene::{Camera, PrecisePoint},

@@ -6,7 +6,11 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::{World, collide, place_pivot, shift};
+use super::{
+    collide,
+    placement::{place_pivot, shift},
+    world::World,
+};
 use crate::scene::Camera;
 
 /// Maximum elevation of an upright camera, up or down.
