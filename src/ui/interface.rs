@@ -5,15 +5,18 @@ use std::sync::Arc;
 use egui::{Align2, Color32, Margin, Panel, Rect, Ui, vec2};
 
 use super::{
-    Action, DisplayInputs, Notice,
+    action::Action,
+    display_inputs::{DisplayInputs, Notice},
     editor::Editor,
     handles,
     home::HomeTarget,
     icon::{Icon, icon_button},
     navigation::CameraStatus,
-    panel::{self, Context, Selection, Settings},
+    panel::{self, Context},
     pilot::{Frame, Pilot},
     rects::Rects,
+    selection::Selection,
+    settings::Settings,
     shortcuts::{self, Command},
     status, theme,
     timeline::Timeline,

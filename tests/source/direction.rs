@@ -8,9 +8,6 @@ use std::{
 
 use super::layers::{Token, files, root, tokens};
 
-/// Folders of `src/` whose parents still define what their children use.
-const NOT_YET: [&str; 1] = ["ui"];
-
 /// A path in a `use` or in code: its words from the crate's root.
 type Path = Vec<String>;
 
@@ -162,17 +159,7 @@ fn files_import_in_one_direction() {
         })
         .collect();
     let cyclic = on_cycles(&sources);
-    let held: Vec<_> = cyclic
-        .iter()
-        .filter(|module| !NOT_YET.contains(&module.split("::").next().unwrap_or("")))
-        .collect();
-    assert!(held.is_empty(), "these files import each other in a circle: {held:#?}");
-    for folder in NOT_YET {
-        assert!(
-            cyclic.iter().any(|module| module.starts_with(folder)),
-            "{folder} is free of cycles"
-        );
-    }
+    assert!(cyclic.is_empty(), "these files import each other in a circle: {cyclic:#?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::{Context, stereo};
+use super::{context::Context, stereo};
 use crate::{
     scene::param,
     ui::{

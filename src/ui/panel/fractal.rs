@@ -2,7 +2,7 @@
 
 use egui::{Button, Ui, vec2};
 
-use super::Context;
+use super::context::Context;
 use crate::{
     formula::{
         self, FormulaRef,

@@ -9,7 +9,7 @@ use crate::ui::{
 };
 
 /// Shows the help window in the centre of the screen if `open`.
-pub(in crate::ui) fn help_window(ctx: &egui::Context, open: &mut bool) {
+pub fn help_window(ctx: &egui::Context, open: &mut bool) {
     let screen = ctx.content_rect();
     let width = (screen.width() - 40.0).min(420.0);
     egui::Window::new("Keys and gestures")

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::Context;
+use super::context::Context;
 use crate::{
     scene::{IndirectKind, param},
     ui::widgets::{choice, param_slider, param_slider_count},

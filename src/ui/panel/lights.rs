@@ -3,40 +3,15 @@
 use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
-use super::{Context, light, rig};
+use super::{context::Context, light, rig};
 use crate::{
     scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, param},
     ui::{
+        selection::LightRef,
         theme,
         widgets::{caption, color, param_slider},
     },
 };
-
-/// A reference to a light of the scene, by its index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ui) enum LightRef {
-    /// A directional light.
-    Environment(usize),
-    /// A point light.
-    Point(usize),
-}
-
-impl LightRef {
-    /// True if the scene has this light.
-    pub(in crate::ui) fn exists(self, lights: &Lights) -> bool {
-        match self {
-            Self::Environment(index) => index < lights.environment.len(),
-            Self::Point(index) => index < lights.point.len(),
-        }
-    }
-
-    fn name(self) -> String {
-        match self {
-            Self::Environment(index) => format!("Light {}", index + 1),
-            Self::Point(index) => format!("Point {}", index + 1),
-        }
-    }
-}
 
 /// The essential controls of light: the key light's direction and colour, and the exposure.
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {

@@ -1,10 +1,13 @@
 //! The panels, one per file.
 //!
-//! A panel draws into a `Ui`, edits the scene in place, and emits a [`Command`] or an [`Action`]
-//! for everything else.
+//! A panel draws into a `Ui`, edits the scene in place, and emits a [`Command`] or an
+//! [`Action`](super::Action) for everything else. The file `context` defines the data that a
+//! panel shows and edits; this file arranges the panels.
 
 mod bloom;
 mod camera;
+mod context;
+mod export;
 mod fractal;
 mod help;
 mod indirect;
@@ -18,122 +21,17 @@ mod surface;
 mod timeline;
 mod tone;
 
-pub mod export;
-
 use egui::{Frame, Margin, RichText, ScrollArea, Ui};
-use serde::{Deserialize, Serialize};
 
 use super::{
-    Action, DisplayInputs,
-    editor::Editor,
     icon::{Icon, icon_button},
-    navigation::CameraStatus,
-    rects::Rects,
     shortcuts::Command,
     theme,
     widgets::section,
 };
-use crate::scene::{EnvironmentMap, Scene};
+pub(super) use context::Context;
 pub(super) use help::help_window;
-pub(super) use lights::LightRef;
 pub(super) use timeline::strip;
-
-/// Settings that are stored between visits and are not part of a scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Settings {
-    /// True if the panel is shown.
-    pub panel_open: bool,
-    /// True if the timeline is shown.
-    pub timeline_open: bool,
-    /// True if the section "More" is open.
-    pub more_open: bool,
-    /// The open sections within "More".
-    pub sections: Sections,
-    /// The size of saved pictures.
-    pub export: export::ExportSize,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            panel_open: true,
-            timeline_open: false,
-            more_open: false,
-            sections: Sections::default(),
-            export: export::ExportSize::default(),
-        }
-    }
-}
-
-/// The open sections of the panel.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-#[expect(missing_docs, reason = "each field is the section of its name")]
-pub struct Sections {
-    pub fractal: bool,
-    pub camera: bool,
-    pub lights: bool,
-    pub surface: bool,
-    pub indirect: bool,
-    pub tone: bool,
-    pub bloom: bool,
-    pub quality: bool,
-    pub export: bool,
-}
-
-impl Sections {
-    /// All sections open.
-    pub fn all() -> Self {
-        Self {
-            fractal: true,
-            camera: true,
-            lights: true,
-            surface: true,
-            indirect: true,
-            tone: true,
-            bloom: true,
-            quality: true,
-            export: true,
-        }
-    }
-}
-
-/// The selected light and gradient stop, which are not part of a scene.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Selection {
-    pub light: Option<LightRef>,
-    pub stop: usize,
-}
-
-/// The data that the panels show and edit.
-pub(super) struct Context<'a> {
-    pub scene: &'a mut Scene,
-    pub settings: &'a mut Settings,
-    pub selection: &'a mut Selection,
-    pub rects: &'a mut Rects,
-    pub commands: &'a mut Vec<Command>,
-    pub actions: &'a mut Vec<Action>,
-    pub inputs: &'a DisplayInputs<'a>,
-    /// Output: true if the histogram is visible.
-    pub histogram_shown: &'a mut bool,
-    /// The loaded environment map, if any.
-    pub environment_map: Option<&'a EnvironmentMap>,
-    /// The camera's distance and precision in the last frame.
-    pub camera_status: Option<CameraStatus>,
-    /// Size of the view in the last frame, in pixels.
-    pub view_px: [u32; 2],
-    pub flying: bool,
-    pub can_undo: bool,
-    pub can_redo: bool,
-}
-
-impl Context<'_> {
-    /// Whether an undo and a redo are possible.
-    pub(super) fn history_of(editor: &Editor) -> (bool, bool) {
-        (editor.can_undo(), editor.can_redo())
-    }
-}
 
 /// The panel at the window's side: heading at the top, saving at the bottom, the rest scrolls.
 pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {

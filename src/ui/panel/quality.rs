@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::Context;
+use super::context::Context;
 use crate::{
     render::report::mebibytes,
     scene::{Normals, param},

@@ -3,13 +3,14 @@
 use egui::{Button, Response, RichText, Ui, vec2};
 use glam::DVec3;
 
-use super::{Context, light};
+use super::{context::Context, light};
 use crate::{
     scene::{
         Background, BackgroundKind, Camera, EnvironmentMap, LightFrame, Lights, Rig, RigKind, param,
     },
     ui::{
-        Action, theme,
+        action::Action,
+        theme,
         widgets::{ball, choice, color, param_slider, param_slider_count},
     },
 };

@@ -2,7 +2,7 @@
 
 use egui::{Button, Id, RichText, Ui, vec2};
 
-use super::Context;
+use super::context::Context;
 use crate::{
     scene::presets::{self, Preset},
     ui::{shortcuts::Command, status::zoom, theme},

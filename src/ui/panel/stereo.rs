@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::Context;
+use super::context::Context;
 use crate::{
     scene::{StereoLayout, param},
     ui::widgets::{choice, param_slider},

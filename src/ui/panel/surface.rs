@@ -2,7 +2,7 @@
 
 use egui::{Button, Ui};
 
-use super::Context;
+use super::context::Context;
 use crate::{
     scene::{ColorSource, param},
     ui::widgets::{choice, color, gradient, move_stop, param_slider},

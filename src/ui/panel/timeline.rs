@@ -2,7 +2,7 @@
 
 use egui::{Button, Response, RichText, Ui, vec2};
 
-use super::{Context, export};
+use super::{context::Context, export};
 use crate::{
     scene::{
         Path,
@@ -10,7 +10,7 @@ use crate::{
         path::{Easing, FRAME_RATE, KEY_TIME, MAX_KEYS},
     },
     ui::{
-        Action,
+        action::Action,
         icon::{Icon, icon_button},
         shortcuts::Command,
         theme,
@@ -38,12 +38,7 @@ const FRAME: Param = Param {
 };
 
 /// Draws the strip over the width of `ui`.
-pub(in crate::ui) fn strip(
-    ui: &mut Ui,
-    cx: &mut Context<'_>,
-    path: &mut Path,
-    timeline: &mut Timeline,
-) {
+pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut Timeline) {
     let on_path = timeline.was_on_path();
     let wide = ui.available_width() >= ONE_ROW_FROM;
     let mut strip = Strip { cx, path, timeline, on_path };

@@ -1,0 +1,40 @@
+//! Requests of the interface to the shell, such as saving a picture.
+
+/// A request of the interface to the shell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Render the view at this size and save it as PNG or OpenEXR.
+    SavePicture {
+        /// Width and height in pixels, each 1 to
+        /// [`MAX_EXPORT_SIDE_PX`](super::MAX_EXPORT_SIDE_PX); in stereo, of one eye's picture.
+        size_px: [u32; 2],
+        /// True for OpenEXR, false for PNG.
+        exr: bool,
+        /// True for one file per eye.
+        pair: bool,
+    },
+    /// Render frames of the camera path and save a zip of PNGs.
+    SaveSequence {
+        /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`](super::MAX_EXPORT_SIDE_PX).
+        size_px: [u32; 2],
+        /// The first frame, and one past the last frame.
+        frames: [u32; 2],
+        /// True for one file per eye.
+        pair: bool,
+    },
+    /// Cancel the export in progress.
+    CancelExport,
+    /// Save the scene document.
+    SaveScene,
+    /// Open a file dialog for a scene document or a picture with its scene.
+    LoadScene,
+    /// Open a file dialog for an environment map, for
+    /// [`Interface::use_environment_map`](super::Interface::use_environment_map).
+    ChoosePicture,
+    /// Copy a link to this view.
+    CopyLink,
+    /// Enter or leave fullscreen.
+    ToggleFullscreen,
+    /// Close the notice.
+    DismissNotice,
+}

@@ -1,0 +1,45 @@
+//! Data of the shell for the interface to display: the picture, progress and messages.
+
+use crate::render::report::Report;
+
+/// The data of one frame that the interface displays.
+#[derive(Clone, Copy, Debug)]
+pub struct DisplayInputs<'a> {
+    /// The newest picture; none before the first.
+    pub picture: Option<ViewTexture>,
+    /// The renderer's report.
+    pub report: &'a Report,
+    /// The export in progress, if any.
+    pub export: Option<ExportProgress>,
+    /// The shell's message, if any.
+    pub notice: Option<&'a Notice>,
+    /// The name of the GPU adapter.
+    pub adapter: &'a str,
+}
+
+/// The rendered picture as an egui texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewTexture {
+    /// The texture: sRGB-encoded, opaque.
+    pub texture: egui::TextureId,
+    /// Width and height in pixels.
+    pub size_px: [u32; 2],
+}
+
+/// Progress of an export.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExportProgress {
+    /// Completed fraction, 0 to 1.
+    pub done: f32,
+    /// Estimated remaining seconds; none until an estimate is possible.
+    pub remaining_secs: Option<f64>,
+}
+
+/// A message of the shell to the user, such as "link copied".
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// The message.
+    pub text: String,
+    /// True for an error.
+    pub is_error: bool,
+}

@@ -1,0 +1,114 @@
+//! The size and the format of saved pictures.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::StereoLayout;
+
+/// Maximum width or height of a saved picture, in pixels.
+pub const MAX_EXPORT_SIDE_PX: u32 = 16384;
+
+/// Size and format of saved pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ExportSize {
+    /// Factor on the view's size: 1, 2 or 4; 0 for the typed size.
+    pub times: u32,
+    /// The typed width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
+    pub typed_px: [u32; 2],
+    /// True for OpenEXR, false for PNG.
+    pub exr: bool,
+    /// True to save a stereo picture as one file per eye.
+    pub pair: bool,
+}
+
+impl Default for ExportSize {
+    fn default() -> Self {
+        Self { times: 1, typed_px: [3840, 2160], exr: false, pair: false }
+    }
+}
+
+impl ExportSize {
+    /// Width and height of the saved picture, or of one eye's picture, in pixels.
+    ///
+    /// If the size exceeds the limit, both sides shrink and keep the view's aspect.
+    pub fn resolve(&self, view_px: [u32; 2], layout: StereoLayout) -> [u32; 2] {
+        let grid_in_file = self.grid_in_file(layout);
+        let limit = grid_in_file.map(|pictures| f64::from(MAX_EXPORT_SIDE_PX / pictures));
+        let side = |axis: usize, length: f64| length.round().clamp(1.0, limit[axis]) as u32;
+        if self.times == 0 {
+            return std::array::from_fn(|axis| side(axis, f64::from(self.typed_px[axis])));
+        }
+        let grid = layout.grid();
+        let picture_px: [f64; 2] =
+            std::array::from_fn(|axis| f64::from((view_px[axis] / grid[axis]).max(1)));
+        let max_times = (limit[0] / picture_px[0]).min(limit[1] / picture_px[1]);
+        let times = f64::from(self.times.min(16)).min(max_times);
+        std::array::from_fn(|axis| side(axis, picture_px[axis] * times))
+    }
+
+    /// True if each eye's picture is a separate file.
+    pub fn is_pair(&self, layout: StereoLayout) -> bool {
+        self.pair && layout != StereoLayout::Off
+    }
+
+    /// Number of columns and rows of pictures in one file.
+    fn grid_in_file(&self, layout: StereoLayout) -> [u32; 2] {
+        if self.pair { [1, 1] } else { layout.grid() }
+    }
+
+    /// The size of the saved file as text.
+    pub fn text(&self, view_px: [u32; 2], layout: StereoLayout) -> String {
+        let (picture_px, grid) = (self.resolve(view_px, layout), self.grid_in_file(layout));
+        let [width, height] = [0, 1].map(|axis| picture_px[axis] * grid[axis]);
+        let pair = if self.is_pair(layout) { ", one for each eye" } else { "" };
+        format!("{width} × {height} pixels{pair}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_multiples_of_the_view() {
+        let view = [1280, 720];
+        let size =
+            |times| ExportSize { times, ..Default::default() }.resolve(view, StereoLayout::Off);
+        assert_eq!((size(1), size(2), size(4)), ([1280, 720], [2560, 1440], [5120, 2880]));
+    }
+
+    #[test]
+    fn a_size_at_the_limit_keeps_the_aspect() {
+        let export = ExportSize { times: 4, ..Default::default() };
+        assert_eq!(export.resolve([8192, 4096], StereoLayout::Off), [16384, 8192]);
+    }
+
+    #[test]
+    fn invalid_stored_settings_are_clamped() {
+        let export = ExportSize { times: 0, typed_px: [0, u32::MAX], ..Default::default() };
+        assert_eq!(export.resolve([800, 600], StereoLayout::Off), [1, MAX_EXPORT_SIDE_PX]);
+        let export = ExportSize { times: u32::MAX, typed_px: [1, 1], ..Default::default() };
+        assert_eq!(export.resolve([1600, 400], StereoLayout::Off), [16384, 4096]);
+    }
+
+    #[test]
+    fn both_eyes_share_the_view_and_the_file() {
+        use StereoLayout::{Anaglyph, SideBySide, TopBottom};
+        let export = ExportSize::default();
+        let sized = |export: &ExportSize, layout| export.resolve([1280, 720], layout);
+        assert_eq!(sized(&export, SideBySide), [640, 720]);
+        assert_eq!(sized(&export, TopBottom), [1280, 360]);
+        assert_eq!(sized(&export, Anaglyph), [1280, 720]);
+        assert_eq!(export.text([1280, 720], SideBySide), "1280 × 720 pixels");
+        let pair = ExportSize { pair: true, ..export };
+        assert_eq!(sized(&pair, SideBySide), [640, 720]);
+        assert_eq!(pair.text([1280, 720], SideBySide), "640 × 720 pixels, one for each eye");
+        assert_eq!(pair.text([1280, 720], StereoLayout::Off), "1280 × 720 pixels");
+        // No side of a file goes above the limit.
+        let typed = ExportSize { times: 0, typed_px: [16_384, 9000], ..export };
+        assert_eq!(sized(&typed, SideBySide), [8192, 9000]);
+        assert_eq!(sized(&typed, TopBottom), [16_384, 8192]);
+        let large = ExportSize { times: 4, ..export };
+        assert_eq!(large.resolve([8192, 4096], SideBySide), [8192, 8192]);
+    }
+}
