@@ -48,5 +48,6 @@ pub use action::Action;
 pub use display_inputs::{DisplayInputs, ExportProgress, Notice, ViewTexture};
 pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use interface::Interface;
+pub use panel::all_sections_open;
 pub use settings::{Sections, Settings};
 pub use status::zoom;

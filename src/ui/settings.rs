@@ -1,5 +1,7 @@
 //! Settings of the interface that are stored between visits.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::export_size::ExportSize;
@@ -32,35 +34,36 @@ impl Default for Settings {
     }
 }
 
-/// The open sections of the panel.
+/// The open sections of the panel, by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-#[expect(missing_docs, reason = "each field is the section of its name")]
-pub struct Sections {
-    pub fractal: bool,
-    pub camera: bool,
-    pub lights: bool,
-    pub surface: bool,
-    pub indirect: bool,
-    pub tone: bool,
-    pub bloom: bool,
-    pub quality: bool,
-    pub export: bool,
-}
+#[serde(transparent)]
+pub struct Sections(BTreeMap<String, bool>);
 
 impl Sections {
-    /// All sections open.
-    pub fn all() -> Self {
-        Self {
-            fractal: true,
-            camera: true,
-            lights: true,
-            surface: true,
-            indirect: true,
-            tone: true,
-            bloom: true,
-            quality: true,
-            export: true,
+    /// Whether the section of this name is open; closed at first.
+    pub fn is_open(&self, name: &str) -> bool {
+        self.0.get(name).copied().unwrap_or_default()
+    }
+
+    /// Opens or closes a section.
+    pub fn set_open(&mut self, name: &str, is_open: bool) {
+        if self.is_open(name) != is_open {
+            self.0.insert(name.to_owned(), is_open);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sections_are_stored_by_name() {
+        let stored = r#"{"more_open": true, "sections": {"lights": true, "tone": false}}"#;
+        let settings: Settings = serde_json::from_str(stored).unwrap();
+        assert!(settings.more_open && settings.sections.is_open("lights"));
+        assert!(!settings.sections.is_open("tone") && !settings.sections.is_open("bloom"));
+        let again = serde_json::to_value(&settings).unwrap();
+        assert_eq!(again["sections"]["lights"], true);
     }
 }

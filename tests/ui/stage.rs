@@ -5,7 +5,10 @@ use egui_kittest::{Harness, Node, kittest::Queryable as _};
 use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
-    ui::{Action, DisplayInputs, ExportProgress, Interface, Notice, Sections, Settings, theme},
+    ui::{
+        Action, DisplayInputs, ExportProgress, Interface, Notice, Settings, all_sections_open,
+        theme,
+    },
 };
 
 /// What the harness carries from frame to frame.
@@ -19,7 +22,7 @@ pub struct Stage {
 
 /// Settings with everything unfolded.
 pub fn unfolded() -> Settings {
-    Settings { more_open: true, sections: Sections::all(), ..Settings::default() }
+    Settings { more_open: true, sections: all_sections_open(), ..Settings::default() }
 }
 
 /// An interface to a scene, or one with its path, in a window of `size` points.

@@ -2,14 +2,18 @@
 
 use egui::Ui;
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     scene::{BloomOrder, param},
     ui::widgets::{choice, param_slider, param_slider_count},
 };
 
+/// The section of the panel.
+pub(super) const SECTION: Section =
+    Section { name: "bloom", title: "Bloom", hover: "A soft glow around bright spots", show };
+
 /// Strength, radius, threshold, passes, and the order relative to the tone curve.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let bloom = &mut cx.scene.bloom;
     param_slider(ui, &param::BLOOM_STRENGTH, &mut bloom.strength);
     param_slider(ui, &param::BLOOM_RADIUS, &mut bloom.radius);

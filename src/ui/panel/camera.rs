@@ -2,7 +2,10 @@
 
 use egui::{RichText, Ui};
 
-use super::{context::Context, stereo};
+use super::{
+    context::{Context, Section},
+    stereo,
+};
 use crate::{
     scene::param,
     ui::{
@@ -13,8 +16,12 @@ use crate::{
     },
 };
 
+/// The section of the panel.
+pub(super) const SECTION: Section =
+    Section { name: "camera", title: "Camera", hover: "Field of view, stereo, fly mode", show };
+
 /// Field of view, stereo, home, frame all, fly mode, and the eye's position.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     // In stereo, the screen's height and distance determine the field of view.
     if !cx.scene.camera.stereo.is_on() {
         param_slider(ui, &param::VERTICAL_FOV, &mut cx.scene.camera.vertical_fov_deg);

@@ -1,4 +1,6 @@
-//! The data that every panel shows and edits, and the lists of its requests.
+//! What a panel is, the data that panels show and edit, and the lists of their requests.
+
+use egui::Ui;
 
 use crate::{
     scene::{EnvironmentMap, Scene},
@@ -7,6 +9,18 @@ use crate::{
         rects::Rects, selection::Selection, settings::Settings, shortcuts::Command,
     },
 };
+
+/// A panel as a section of "More".
+pub struct Section {
+    /// A name, unique among sections: settings keep whether the section is open by it.
+    pub name: &'static str,
+    /// The heading.
+    pub title: &'static str,
+    /// The heading's tooltip.
+    pub hover: &'static str,
+    /// Draws the panel.
+    pub show: fn(&mut Ui, &mut Context<'_>),
+}
 
 /// The data that the panels show and edit.
 pub struct Context<'a> {

@@ -2,7 +2,7 @@
 
 use egui::{Button, ProgressBar, RichText, Ui, vec2};
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     scene::{
         StereoLayout,
@@ -70,8 +70,16 @@ pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress
     ui.add(ProgressBar::new(done).desired_height(6.0).corner_radius(3.0).fill(theme::ACCENT));
 }
 
+/// The section of the panel.
+pub(super) const SECTION: Section = Section {
+    name: "export",
+    title: "Export",
+    hover: "Size and format of saved pictures, scene files and links",
+    show,
+};
+
 /// The picture's size and format, and the scene's file and link.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let export = &mut cx.settings.export;
     let response = choice(
         ui,

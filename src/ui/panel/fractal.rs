@@ -2,7 +2,7 @@
 
 use egui::{Button, Ui, vec2};
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     formula::{
         self, FormulaRef,
@@ -57,8 +57,16 @@ fn quick_values(ui: &mut Ui, param: &Param, quick: &[f64], value: &mut f64) {
     });
 }
 
+/// The section of the panel.
+pub(super) const SECTION: Section = Section {
+    name: "fractal",
+    title: "Fractal",
+    hover: "The formula, its form and its detail",
+    show,
+};
+
 /// The formula, its other parameters, iterations and bailout.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let fractal = &mut cx.scene.fractal;
     choose_formula(ui, fractal);
     let is_on: Vec<bool> = fractal

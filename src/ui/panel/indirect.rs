@@ -2,14 +2,22 @@
 
 use egui::Ui;
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     scene::{IndirectKind, param},
     ui::widgets::{choice, param_slider, param_slider_count},
 };
 
+/// The section of the panel.
+pub(super) const SECTION: Section = Section {
+    name: "indirect",
+    title: "Indirect light",
+    hover: "Light that bounces from one surface to another",
+    show,
+};
+
 /// The operator, its radius, strength and sampling.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let indirect = &mut cx.scene.indirect;
     choice(
         ui,

@@ -3,7 +3,10 @@
 use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
-use super::{context::Context, light, rig};
+use super::{
+    context::{Context, Section},
+    light, rig,
+};
 use crate::{
     scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, param},
     ui::{
@@ -17,7 +20,7 @@ use crate::{
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     caption(ui, "Light");
     // The open section of all lights has its own ball.
-    let section_open = cx.settings.more_open && cx.settings.sections.lights;
+    let section_open = cx.settings.more_open && cx.settings.sections.is_open(SECTION.name);
     let key = match cx.selection.light {
         Some(LightRef::Environment(index)) => index,
         _ => 0,
@@ -45,8 +48,16 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     cx.rects.record("exposure", &response);
 }
 
+/// The section of the panel.
+pub(super) const SECTION: Section = Section {
+    name: "lights",
+    title: "Lights",
+    hover: "All lights, their colours and shadows",
+    show,
+};
+
 /// All lights and the selected one's properties.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if cx.selection.light.is_none_or(|light| !light.exists(&cx.scene.lights)) {
         cx.selection.light = first(&cx.scene.lights);
     }

@@ -25,13 +25,28 @@ use egui::{Frame, Margin, RichText, ScrollArea, Ui};
 
 use super::{
     icon::{Icon, icon_button},
+    settings::Sections,
     shortcuts::Command,
     theme,
     widgets::section,
 };
 pub(super) use context::Context;
+use context::Section;
 pub(super) use help::help_window;
 pub(super) use timeline::strip;
+
+/// The sections of "More", from top to bottom. A new panel adds its module above and its line here.
+const SECTIONS: &[Section] = &[
+    fractal::SECTION,
+    camera::SECTION,
+    lights::SECTION,
+    surface::SECTION,
+    indirect::SECTION,
+    tone::SECTION,
+    bloom::SECTION,
+    quality::SECTION,
+    export::SECTION,
+];
 
 /// The panel at the window's side: heading at the top, saving at the bottom, the rest scrolls.
 pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
@@ -147,72 +162,24 @@ fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
 /// All other controls, in sections.
 fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_space(8.0);
-    let mut open = cx.settings.more_open;
-    let response = section(ui, "More", "All other settings", &mut open, |ui| {
-        let mut sections = cx.settings.sections.clone();
-        section(
-            ui,
-            "Fractal",
-            "The formula, its form and its detail",
-            &mut sections.fractal,
-            |ui| fractal::show(ui, cx),
-        );
-        section(ui, "Camera", "Field of view, stereo, fly mode", &mut sections.camera, |ui| {
-            camera::show(ui, cx)
-        });
-        let lights = section(
-            ui,
-            "Lights",
-            "All lights, their colours and shadows",
-            &mut sections.lights,
-            |ui| {
-                lights::show(ui, cx);
-            },
-        );
-        cx.rects.record("lights section", &lights);
-        section(
-            ui,
-            "Surface",
-            "Highlights, brightness and colours of the surface",
-            &mut sections.surface,
-            |ui| {
-                surface::show(ui, cx);
-            },
-        );
-        section(
-            ui,
-            "Indirect light",
-            "Light that bounces from one surface to another",
-            &mut sections.indirect,
-            |ui| indirect::show(ui, cx),
-        );
-        section(
-            ui,
-            "Tone and background",
-            "Brightness, contrast and the background",
-            &mut sections.tone,
-            |ui| {
-                tone::show(ui, cx);
-            },
-        );
-        section(ui, "Bloom", "A soft glow around bright spots", &mut sections.bloom, |ui| {
-            bloom::show(ui, cx)
-        });
-        section(ui, "Quality", "Sharper pictures against speed", &mut sections.quality, |ui| {
-            quality::show(ui, cx)
-        });
-        let export = section(
-            ui,
-            "Export",
-            "Size and format of saved pictures, scene files and links",
-            &mut sections.export,
-            |ui| {
-                export::show(ui, cx);
-            },
-        );
-        cx.rects.record("export section", &export);
-        cx.settings.sections = sections;
+    let mut more_open = cx.settings.more_open;
+    let response = section(ui, "More", "All other settings", &mut more_open, |ui| {
+        for Section { name, title, hover, show } in SECTIONS {
+            let mut is_open = cx.settings.sections.is_open(name);
+            let heading = section(ui, title, hover, &mut is_open, |ui| show(ui, cx));
+            cx.settings.sections.set_open(name, is_open);
+            cx.rects.record(title, &heading);
+        }
     });
     cx.rects.record("more", &response);
-    cx.settings.more_open = open;
+    cx.settings.more_open = more_open;
+}
+
+/// Every section open.
+pub fn all_sections_open() -> Sections {
+    let mut sections = Sections::default();
+    for section in SECTIONS {
+        sections.set_open(section.name, true);
+    }
+    sections
 }

@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     render::report::mebibytes,
     scene::{Normals, param},
@@ -34,8 +34,12 @@ fn memory(ui: &mut Ui, cx: &Context<'_>) {
     });
 }
 
+/// The section of the panel.
+pub(super) const SECTION: Section =
+    Section { name: "quality", title: "Quality", hover: "Sharper pictures against speed", show };
+
 /// Samples, detail, motion budget, normals, shadows, memory.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let quality = &mut cx.scene.quality;
     param_slider_count(ui, &param::SAMPLES, &mut quality.samples);
     param_slider(ui, &param::DETAIL, &mut quality.detail);

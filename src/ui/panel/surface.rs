@@ -2,14 +2,22 @@
 
 use egui::{Button, Ui};
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     scene::{ColorSource, param},
     ui::widgets::{choice, color, gradient, move_stop, param_slider},
 };
 
+/// The section of the panel.
+pub(super) const SECTION: Section = Section {
+    name: "surface",
+    title: "Surface",
+    hover: "Highlights, brightness and colours of the surface",
+    show,
+};
+
 /// Reflectance, the gradient, and the value that selects its colours.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let surface = &mut cx.scene.surface;
     param_slider(ui, &param::AMBIENT, &mut surface.ambient);
     param_slider(ui, &param::DIFFUSE, &mut surface.diffuse);

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::context::Context;
+use super::context::{Context, Section};
 use crate::{
     scene::{Tone, ToneChannels, ToneCurve, ToneMean, param},
     ui::{
@@ -11,8 +11,16 @@ use crate::{
     },
 };
 
+/// The section of the panel.
+pub(super) const SECTION: Section = Section {
+    name: "tone",
+    title: "Tone and background",
+    hover: "Brightness, contrast and the background",
+    show,
+};
+
 /// The histogram, exposure, the tone curve, and the background's two colours.
-pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     histogram_of(ui, cx);
     let tone = &mut cx.scene.tone;
     exposure(ui, tone);
