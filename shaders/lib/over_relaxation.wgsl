@@ -42,13 +42,13 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
 }
 
 // Hits are checked if the estimate has false minima: a hit counts if the ray stays within the hit distance
-// for `THICK` hit distances, at `THICK_PLACES` points. False minima are far thinner than a pixel, and
+// for `CHECKED_THICKNESS` hit distances, at `THICKNESS_CHECKS` points. False minima are far thinner than a pixel, and
 // which of them a ray meets is chance.
-const THICK = 0.5;
-const THICK_PLACES = 6u;
+const CHECKED_THICKNESS = 0.5;
+const THICKNESS_CHECKS = 6u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
-const LOOKS = HALVINGS + THICK_PLACES;
+const LOOKS = HALVINGS + THICKNESS_CHECKS;
 
 // A hit that is being checked.
 struct Crossing {
@@ -70,10 +70,10 @@ fn next_look(crossing: ptr<function, Crossing>, before: f32, t: f32, hit: f32, i
     if (looks > HALVINGS) {
         (*crossing).looks = select(0u, looks + 1u, is_near);
         if (is_near && looks == LOOKS) { return (*crossing).inside; }
-        return t + select(0.0, THICK / f32(THICK_PLACES) * hit, is_near);
+        return t + select(0.0, CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit, is_near);
     }
     if (is_near) { (*crossing).inside = t; } else { (*crossing).outside = t; }
     (*crossing).looks = looks + 1u;
-    if (looks == HALVINGS) { return (*crossing).inside + THICK / f32(THICK_PLACES) * hit; }
+    if (looks == HALVINGS) { return (*crossing).inside + CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit; }
     return 0.5 * ((*crossing).outside + (*crossing).inside);
 }

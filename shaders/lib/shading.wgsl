@@ -7,7 +7,7 @@ override HAS_ENVIRONMENT_MAP: i32 = -1;
 
 fn has_environment_map() -> bool {
     if (HAS_ENVIRONMENT_MAP >= 0) { return HAS_ENVIRONMENT_MAP == 1; }
-    return frame.background.picture_gain > 0.0;
+    return frame.background.map_gain > 0.0;
 }
 
 const SOURCE_ITERATIONS = 0u;
@@ -72,9 +72,9 @@ fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2
 fn background(direction: vec3f, height: f32) -> vec3f {
     let behind = frame.background;
     if (!has_environment_map()) { return mix(behind.top.rgb, behind.bottom.rgb, height); }
-    let in_picture = vec3f(
-        dot(direction, behind.picture_x), dot(direction, behind.picture_y), dot(direction, behind.picture_z));
-    return behind.picture_gain * environment_at(in_picture);
+    let in_map = vec3f(
+        dot(direction, behind.map_x), dot(direction, behind.map_y), dot(direction, behind.map_z));
+    return behind.map_gain * environment_at(in_map);
 }
 
 // Direct light that a sample reflects to the eye. The ray starts at the sample's surface point, if it has

@@ -45,9 +45,9 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
             let blocks = blocking_distance(s, surface_distance);
             if (ahead.distance < blocks) {
                 // A hit must last, as for a camera ray.
-                if (!checks_hits || looks == THICK_PLACES) { return false; }
+                if (!checks_hits || looks == THICKNESS_CHECKS) { return false; }
                 looks++;
-                s -= THICK / f32(THICK_PLACES) * surface_distance;
+                s -= CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * surface_distance;
                 continue;
             }
             looks = 0u;

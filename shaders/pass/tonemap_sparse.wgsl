@@ -9,5 +9,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let color = tone_mapped(film_mean(pixel_index(pixel)) * frame.tone.exposure);
-    developed[developed_index(pixel >> vec2u(slice.shift))] = developed_pack(srgb_from_linear(color));
+    sparse_display[sparse_index(pixel >> vec2u(slice.shift))] = display_pack(srgb_from_linear(color));
 }

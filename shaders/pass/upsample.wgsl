@@ -20,7 +20,7 @@ fn within(cell: vec2i) -> vec2u {
 }
 
 fn sample_at(cell: vec2i) -> vec3f {
-    return developed_unpack(developed[developed_index(within(cell))]);
+    return display_unpack(sparse_display[sparse_index(within(cell))]);
 }
 
 @compute @workgroup_size(64)

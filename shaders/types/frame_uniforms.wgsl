@@ -59,11 +59,11 @@ struct Background {
     top: vec4f,
     bottom: vec4f,
     // Axes of the environment map in world space: right, forward, up.
-    picture_x: vec3f,
+    map_x: vec3f,
     // Factor on the environment map; 0 shows the gradient instead.
-    picture_gain: f32,
-    picture_y: vec3f,
-    picture_z: vec3f,
+    map_gain: f32,
+    map_y: vec3f,
+    map_z: vec3f,
 }
 
 struct Tone {

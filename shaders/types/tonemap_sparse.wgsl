@@ -2,25 +2,25 @@
 // sRGB. They reuse the buffer of rays.
 // uses: types/frame_uniforms, types/slice
 
-@group(1) @binding(3) var<storage, read_write> developed: array<u32>;
+@group(1) @binding(3) var<storage, read_write> sparse_display: array<u32>;
 
-const DEVELOPED_STEPS = vec3f(2047.0, 2047.0, 1023.0);
+const DISPLAY_STEPS = vec3f(2047.0, 2047.0, 1023.0);
 
 // Lattice points in a row, in cells of `spacing` pixels. A staggered lattice leaves out every other
 // point of a row.
-fn developed_columns() -> u32 {
+fn sparse_columns() -> u32 {
     return ((frame.size_px.x - 1u) >> slice.shift) + 1u;
 }
 
-fn developed_index(cell: vec2u) -> u32 {
-    return cell.y * developed_columns() + cell.x;
+fn sparse_index(cell: vec2u) -> u32 {
+    return cell.y * sparse_columns() + cell.x;
 }
 
-fn developed_pack(color: vec3f) -> u32 {
-    let steps = vec3u(color * DEVELOPED_STEPS + 0.5);
+fn display_pack(color: vec3f) -> u32 {
+    let steps = vec3u(color * DISPLAY_STEPS + 0.5);
     return steps.r | (steps.g << 11u) | (steps.b << 22u);
 }
 
-fn developed_unpack(packed: u32) -> vec3f {
-    return vec3f(vec3u(packed & 2047u, (packed >> 11u) & 2047u, packed >> 22u)) / DEVELOPED_STEPS;
+fn display_unpack(packed: u32) -> vec3f {
+    return vec3f(vec3u(packed & 2047u, (packed >> 11u) & 2047u, packed >> 22u)) / DISPLAY_STEPS;
 }

@@ -62,8 +62,8 @@ impl Environment {
 
 /// Prints a warning if `scene` shows an environment map, whose file was not given.
 pub fn warn_of_missing_map(scene: &Scene) {
-    let name = &scene.lights.rig.picture.name;
-    if scene.background.kind == BackgroundKind::Picture && !name.is_empty() {
+    let name = &scene.lights.rig.environment_map.name;
+    if scene.background.kind == BackgroundKind::EnvironmentMap && !name.is_empty() {
         message(&format!(
             "the background is {name}, which the scene does not contain: --environment FILE shows it"
         ));

@@ -91,7 +91,8 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     if environment.is_none() && !arguments.quiet {
         // The keys' scenes decide the background, not the scene beside the path.
         let mut scenes = path.keys.iter().map(|key| &key.scene);
-        let shows_map = |scene: &&Arc<Scene>| scene.background.kind == BackgroundKind::Picture;
+        let shows_map =
+            |scene: &&Arc<Scene>| scene.background.kind == BackgroundKind::EnvironmentMap;
         if let Some(scene) = scenes.find(shows_map) {
             warn_of_missing_map(scene);
         }

@@ -28,9 +28,9 @@ pub const LEAST_STEP: f64 = 0.25;
 /// Least step, in hit distances, if hits are checked ([`DistanceField::needs_hit_check`]).
 pub const LEAST_STEP_WITH_HIT_CHECK: f64 = 0.4;
 /// Length over which a hit is checked, in hit distances.
-pub const THICK: f64 = 0.5;
+pub const CHECKED_THICKNESS: f64 = 0.5;
 /// Number of points along that length at which a hit is checked.
-pub const THICK_PLACES: u32 = 6;
+pub const THICKNESS_CHECKS: u32 = 6;
 /// Halvings of the step that crossed the hit distance, to find the crossing.
 pub const HALVINGS: u32 = 5;
 
@@ -156,15 +156,17 @@ pub trait DistanceField: Send + Sync {
 
     /// The depth between `before` and `hit` at which the ray crosses the hit distance.
     ///
-    /// None unless the ray stays within the hit distance for [`THICK`] hit distances. At `hit` it is within.
+    /// None unless the ray stays within the hit distance for [`CHECKED_THICKNESS`] hit distances. At `hit` it is within.
     fn lasting_hit(&self, ray: Ray, cone: f64, [mut before, mut hit]: [f64; 2]) -> Option<f64> {
         let is_near = |depth: f64| self.distance(ray.at(depth)) <= cone * depth;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (before + hit);
             *(if is_near(middle) { &mut hit } else { &mut before }) = middle;
         }
-        let place = |k: u32| hit * (1.0 + cone * THICK * f64::from(k) / f64::from(THICK_PLACES));
-        (1..=THICK_PLACES).all(|k| is_near(place(k))).then_some(hit)
+        let place = |k: u32| {
+            hit * (1.0 + cone * CHECKED_THICKNESS * f64::from(k) / f64::from(THICKNESS_CHECKS))
+        };
+        (1..=THICKNESS_CHECKS).all(|k| is_near(place(k))).then_some(hit)
     }
 
     /// The depth at which a ray that misses comes closest to the surface.

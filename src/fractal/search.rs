@@ -47,13 +47,13 @@ enum Stage {
     /// Computes the eye's orbit.
     Eye(Option<Box<dyn ReferenceSteps>>),
     /// Marches rays about the older anchor or the eye.
-    Looking(Looking),
+    Rays(RayMarch),
     /// Computes the orbit of the found point.
     Anchor(Option<Box<dyn ReferenceSteps>>),
     Found(Arc<dyn ReferenceOrbit>),
 }
 
-struct Looking {
+struct RayMarch {
     reference: Arc<dyn ReferenceOrbit>,
     field: Arc<dyn DistanceField>,
     /// Index of the current ray; its steps and depth follow.
@@ -81,7 +81,7 @@ impl Search {
             eye.length() < NEAR_ENOUGH * field.distance(eye)
         });
         let stage = match helpful {
-            Some(older) => Stage::Looking(Looking::new(older.clone(), fractal, camera)),
+            Some(older) => Stage::Rays(RayMarch::new(older.clone(), fractal, camera)),
             None => Stage::Eye(Some(begun(fractal, &camera.position)?)),
         };
         Some(Self { fractal: fractal.clone(), camera: camera.clone(), aspect, stage })
@@ -92,18 +92,18 @@ impl Search {
         let next = match &mut self.stage {
             Stage::Eye(steps) => {
                 let eye = finished(steps)?;
-                Stage::Looking(Looking::new(eye, &self.fractal, &self.camera))
+                Stage::Rays(RayMarch::new(eye, &self.fractal, &self.camera))
             }
-            Stage::Looking(looking) => {
-                if looking.step(&self.camera, self.aspect) {
+            Stage::Rays(rays) => {
+                if rays.step(&self.camera, self.aspect) {
                     return None;
                 }
                 // With no surface in view, the eye is as good an anchor as any point.
-                let way = looking.nearest.unwrap_or(DVec3::ZERO);
+                let way = rays.nearest.unwrap_or(DVec3::ZERO);
                 let anchor = self.camera.position.moved_by(way, GRAIN * way.length());
                 match begun(&self.fractal, &anchor) {
                     Some(steps) => Stage::Anchor(Some(steps)),
-                    None => Stage::Found(looking.reference.clone()),
+                    None => Stage::Found(rays.reference.clone()),
                 }
             }
             Stage::Anchor(steps) => Stage::Found(finished(steps)?),
@@ -133,7 +133,7 @@ fn finished(steps: &mut Option<Box<dyn ReferenceSteps>>) -> Option<Arc<dyn Refer
     if steps.as_mut()?.step() { None } else { Some(steps.take()?.finish()) }
 }
 
-impl Looking {
+impl RayMarch {
     fn new(reference: Arc<dyn ReferenceOrbit>, fractal: &Fractal, camera: &Camera) -> Self {
         let field = reference.clone().field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
         let away = field.distance(&camera.position - &field.origin());

@@ -20,7 +20,7 @@ pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) 
                 }
             }
         }
-        Work::Show { level, fill, .. } => {
+        Work::Display { level, fill, .. } => {
             let display = Display { level, fill };
             for pass in pass::DISPLAY {
                 if let Record::Display { when, record } = pass.record

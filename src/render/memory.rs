@@ -94,13 +94,13 @@ pub fn everything_on() -> (Scene, Arc<EnvironmentMap>) {
     scene.lights.environment = vec![light; MAX_LIGHTS];
     scene.lights.rig.kind = RigKind::None;
     scene.indirect.kind = IndirectKind::Horizon;
-    scene.background.kind = BackgroundKind::Picture;
+    scene.background.kind = BackgroundKind::EnvironmentMap;
     scene.tone.auto_exposure = true;
     scene.bloom.strength = 0.3;
     let environment_map =
         EnvironmentMap::from_fn("environment map", environment_map::MAX_SIZE_PX, |_| {
             DVec3::splat(0.2)
         });
-    scene.lights.rig.picture.name = environment_map.name().to_owned();
+    scene.lights.rig.environment_map.name = environment_map.name().to_owned();
     (scene, Arc::new(environment_map))
 }

@@ -14,7 +14,7 @@
 //! | [`environment_texture`] | the environment map on the GPU |
 //! | [`pipelines`] | the compute pipelines of a device |
 //! | [`pipeline_set`] | pipelines that are compiled together, and their variants |
-//! | `filling` | how a sparse lattice becomes a whole picture |
+//! | `reconstruction` | how a sparse lattice becomes a whole picture |
 //! | `preparation` | announces, compiles and rehearses pipelines |
 //! | [`post`] | film statistics, exposure, bloom |
 //! | `anchors` | the anchors of a moving view |
@@ -31,7 +31,6 @@
 mod anchors;
 mod buffers;
 pub mod environment_texture;
-mod filling;
 pub mod frame;
 pub mod gbuffer;
 mod histogram_readback;
@@ -45,6 +44,7 @@ pub mod pipeline_set;
 pub mod pipelines;
 pub mod post;
 mod preparation;
+mod reconstruction;
 pub mod recorder;
 mod region;
 pub mod report;

@@ -67,7 +67,7 @@ pub static SHADE: PipelineSet = PipelineSet {
     has_kernel: false,
     is_always_needed: true,
     constants: Some(|inputs| {
-        vec![("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.picture_gain > 0.0))]
+        vec![("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.map_gain > 0.0))]
     }),
     // One trace of single samples, and one of several samples per pixel.
     rehearsal: || {
@@ -123,7 +123,7 @@ fn trace(points: Points, from: Stage) -> Work {
 }
 
 fn show(level: u32) -> Work {
-    Work::Show { level, fill: false, film: false, adapt: 1.0 }
+    Work::Display { level, fill: false, film: false, adapt: 1.0 }
 }
 
 impl PipelineSet {

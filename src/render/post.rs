@@ -173,14 +173,14 @@ impl Levels {
 
 /// A uniform kernel: its mip level, and its half width in that level's elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kernel {
+pub struct BlurKernel {
     /// The mip level.
     pub level: u32,
     /// Half the width, in elements; at most [`MOST_HALF_WIDTH`] unless the level is the last.
     pub half_width: f32,
 }
 
-impl Kernel {
+impl BlurKernel {
     /// The kernel for a radius relative to the height of an eye's picture.
     ///
     /// Applied `passes` times, it spreads light with the variance of a single kernel of that half width.
@@ -229,7 +229,7 @@ mod tests {
         for size_px in [[96, 64], [1920, 1080], [4096, 4096]] {
             for radius in [0.005, 0.04, 0.25] {
                 for passes in 1..=4 {
-                    let kernel = Kernel::new(radius, passes, levels(size_px));
+                    let kernel = BlurKernel::new(radius, passes, levels(size_px));
                     assert!(kernel.half_width <= MOST_HALF_WIDTH);
                     // The level is coarser only if a finer level's kernel would be too wide.
                     assert!(

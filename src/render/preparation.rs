@@ -42,7 +42,7 @@ pub struct Preparation {
 
 /// How far a preparation has come, and whether other work may run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Progress {
+pub enum PreparationState {
     /// Other work may run.
     Background,
     /// Other work must wait.
@@ -87,18 +87,18 @@ impl Preparation {
         targets: &Targets,
         inputs: &Inputs,
         now_secs: f64,
-    ) -> Progress {
+    ) -> PreparationState {
         let is_true = |flag: &Arc<AtomicBool>| flag.load(Ordering::Acquire);
         if let Some(rehearsed) = &self.rehearsed {
             if !is_true(rehearsed) {
-                return Progress::Foreground;
+                return PreparationState::Foreground;
             }
             pipelines.set_ready(&self.variant);
-            return Progress::Ready;
+            return PreparationState::Ready;
         }
         let is_seen = self.frames >= FRAMES_TO_SEE || now_secs - self.announced_secs >= UNSEEN_SECS;
         if !is_seen {
-            return Progress::Background;
+            return PreparationState::Background;
         }
         let parts = part_count(&self.variant);
         if !self.has_begun() {
@@ -106,7 +106,7 @@ impl Preparation {
                 (0..parts).filter_map(|part| pipelines.begin(&self.variant, part)).collect();
         }
         if !self.compiled.iter().all(is_true) {
-            return Progress::Background;
+            return PreparationState::Background;
         }
         let at_once = if self.compiled.is_empty() { 1 } else { parts };
         for part in (self.made.len()..parts).take(at_once) {
@@ -116,7 +116,7 @@ impl Preparation {
             pipelines.keep(&self.variant, std::mem::take(&mut self.made));
             self.rehearsed = Some(rehearse(integrator, &self.variant, pipelines, targets, inputs));
         }
-        Progress::Foreground
+        PreparationState::Foreground
     }
 }
 

@@ -7,7 +7,7 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `choice` | which sample points come next |
+//! | `point_selection` | which sample points come next |
 //! | `completion` | pieces in flight, and what their completions say of costs |
 //! | `progress` | how much of the picture has been computed |
 //! | `cost`, `rate` | estimates of what work takes |
@@ -18,22 +18,22 @@
 use super::lattice::{COARSEST, WORKGROUP_THREADS};
 
 mod adaptation;
-mod choice;
 mod completion;
 mod cost;
 mod gbuffer_validity;
 mod plan;
+mod point_selection;
 mod progress;
 mod rate;
 mod types;
 mod work;
 
 use adaptation::Adaptation;
-use choice::Choice;
 use completion::{InFlight, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
-pub use plan::{Kind, Plan, Price};
+pub use plan::{Plan, Price, WorkKind};
+use point_selection::PointSelection;
 use progress::Progress;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
@@ -231,7 +231,7 @@ impl Schedule {
             Work::Trace(trace) => {
                 self.cost.expected_ms(trace.job(), phase, trace.workgroups * WORKGROUP_THREADS)
             }
-            Work::Show { .. } => self.cost.show_ms(),
+            Work::Display { .. } => self.cost.show_ms(),
         };
         self.in_flight.push(Piece { phase, arithmetic: self.cost.arithmetic, expected_ms });
         Some(work)
@@ -281,8 +281,8 @@ impl Schedule {
     }
 
     /// What the next points depend on.
-    fn choice(&self, now_secs: f64) -> Choice<'_> {
-        Choice {
+    fn choice(&self, now_secs: f64) -> PointSelection<'_> {
+        PointSelection {
             progress: &self.progress,
             cost: &self.cost,
             pace: self.pace,
@@ -340,9 +340,9 @@ impl Schedule {
         self.shown_at = now_secs;
         let level = self.progress.filmed().unwrap_or(0);
         self.shown_level = level;
-        // Filling would overwrite the pixels of a level under way.
+        // Reconstruction would overwrite the pixels of a level under way.
         let fill = level > 0 && self.progress.under_way.is_none();
-        Work::Show { level, fill, film: self.progress.is_filled && level > 0, adapt }
+        Work::Display { level, fill, film: self.progress.is_filled && level > 0, adapt }
     }
 
     fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {

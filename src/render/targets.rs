@@ -159,7 +159,7 @@ impl Targets {
     /// Finest lattice level whose display values fit the buffer of rays.
     ///
     /// `upsample` reuses that buffer. The level is at least 2, a quarter of all pixels.
-    pub fn finest_spread(&self, size_px: [u32; 2]) -> u32 {
+    pub fn finest_upsampled_level(&self, size_px: [u32; 2]) -> u32 {
         let room = self.rays.size() / 4;
         let fits = |&level: &u32| sample_places(level, size_px) <= room;
         (2..COARSEST).find(fits).unwrap_or(COARSEST)

@@ -278,7 +278,7 @@ impl Inputs {
         let shown = background::shown(scene, at_hand);
         self.environment_map = shown.map(EnvironmentMap::id);
         let gain = scene.lights.rig.intensity as f32;
-        self.frame.background.picture_gain = if shown.is_some() { gain } else { 0.0 };
+        self.frame.background.map_gain = if shown.is_some() { gain } else { 0.0 };
         self
     }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::{
     anchors::Anchors,
     environment_texture::EnvironmentTexture,
-    filling::Filling,
     frame,
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
@@ -15,6 +14,7 @@ use super::{
     pipelines::{PipelineVariant, Pipelines},
     post::{Need, Post, Tasks},
     preparation::Preparation,
+    reconstruction::Reconstruction,
     recorder::{Dispatches, Recorder},
     region::Region,
     report::{Activity, Report},
@@ -61,7 +61,7 @@ pub struct View {
     pending: Option<Scene>,
     moving: bool,
     stats_validity: StatsValidity,
-    filling: Filling,
+    reconstruction: Reconstruction,
     histogram_readback: HistogramReadback,
     lent: Lent,
     /// The pipelines in preparation.
@@ -94,7 +94,7 @@ impl View {
             pending: None,
             moving: false,
             stats_validity: StatsValidity::default(),
-            filling: Filling::default(),
+            reconstruction: Reconstruction::default(),
             histogram_readback: HistogramReadback::default(),
             lent: Lent::default(),
             preparation: None,
@@ -238,7 +238,7 @@ impl View {
         self.schedule.collect(&ended);
         for (work, busy_ms) in ended {
             let Some(work) = work else { continue };
-            self.times.add(busy_ms, matches!(work, Work::Show { .. }));
+            self.times.add(busy_ms, matches!(work, Work::Display { .. }));
         }
     }
 
@@ -354,7 +354,11 @@ impl View {
             && self.lent.post.is_none()
             && self.targets.post.need().is_none()
             && !self.histogram_readback.is_wanted();
-        self.filling.upsample_level(work, is_plain, self.targets.finest_spread(picture.size_px))
+        self.reconstruction.upsample_level(
+            work,
+            is_plain,
+            self.targets.finest_upsampled_level(picture.size_px),
+        )
     }
 
     fn submit(&mut self, work: Work) {
@@ -380,7 +384,7 @@ impl View {
             recorder.finish()
         });
         self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
-        if matches!(work, Work::Show { .. }) {
+        if matches!(work, Work::Display { .. }) {
             self.shown.note(&self.targets);
             self.histogram_readback.note_picture();
         }

@@ -9,9 +9,10 @@ pub enum BackgroundKind {
     /// A vertical gradient.
     #[default]
     Gradient,
-    /// The environment map of [`super::PictureRig`], with its rotation. Without the file, the
-    /// gradient.
-    Picture,
+    /// The environment map of [`super::EnvironmentMapRig`], with its rotation. Without the file, the
+    /// gradient. `picture` in documents.
+    #[serde(rename = "picture")]
+    EnvironmentMap,
 }
 
 /// The background: a vertical gradient fixed to the picture, or an environment map.

@@ -46,11 +46,11 @@ impl Scene {
     /// A map is new if the scene does not name it yet. A scene that names the map but has
     /// another kind of rig stays unchanged.
     pub fn surround_by(&mut self, environment_map: &EnvironmentMap) {
-        let is_new = self.lights.rig.picture.name != environment_map.name();
+        let is_new = self.lights.rig.environment_map.name != environment_map.name();
         if is_new {
-            self.background.kind = BackgroundKind::Picture;
+            self.background.kind = BackgroundKind::EnvironmentMap;
         }
-        if is_new || self.lights.rig.kind == RigKind::Picture {
+        if is_new || self.lights.rig.kind == RigKind::EnvironmentMap {
             let room = self.lights.room_for_rig();
             self.lights.rig.light_by(environment_map, room);
         }

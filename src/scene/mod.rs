@@ -55,7 +55,9 @@ pub use lighting::{Lights, MAX_LIGHTS};
 pub use path::Path;
 pub use project::Project;
 pub use quality::{Normals, Quality};
-pub use rig::{MAX_RIG_RADIANCE, PictureRig, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight, Sky};
+pub use rig::{
+    EnvironmentMapRig, MAX_RIG_RADIANCE, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight, Sky,
+};
 pub use stereo::{Stereo, StereoLayout};
 pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};

@@ -24,8 +24,9 @@ pub enum RigKind {
     None,
     /// A sky with a sun.
     Sky,
-    /// An equirectangular environment map.
-    Picture,
+    /// An equirectangular environment map: `picture` in documents.
+    #[serde(rename = "picture")]
+    EnvironmentMap,
 }
 
 /// Directional lights generated together; they follow a scene's other lights in order.
@@ -51,8 +52,10 @@ pub struct Rig {
     pub solo: bool,
     /// The sky, used by [`RigKind::Sky`].
     pub sky: Sky,
-    /// The environment map, used by [`RigKind::Picture`] and by the background.
-    pub picture: PictureRig,
+    /// The environment map, used by [`RigKind::EnvironmentMap`] and by the background.
+    /// The field is `picture` in documents.
+    #[serde(rename = "picture")]
+    pub environment_map: EnvironmentMapRig,
 }
 
 impl Default for Rig {
@@ -67,7 +70,7 @@ impl Default for Rig {
             muted: false,
             solo: false,
             sky: Sky::default(),
-            picture: PictureRig::default(),
+            environment_map: EnvironmentMapRig::default(),
         }
     }
 }
@@ -75,7 +78,7 @@ impl Default for Rig {
 /// An environment map's name, rotation and lights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct PictureRig {
+pub struct EnvironmentMapRig {
     /// The file's name, at most [`MAX_NAME_CHARS`](super::MAX_NAME_CHARS) characters; empty for
     /// no environment map.
     pub name: String,
@@ -85,7 +88,7 @@ pub struct PictureRig {
     pub lights: Vec<RigLight>,
 }
 
-impl Default for PictureRig {
+impl Default for EnvironmentMapRig {
     fn default() -> Self {
         Self { name: String::new(), rotation_deg: param::RIG_ROTATION.default, lights: Vec::new() }
     }
@@ -132,7 +135,7 @@ impl Rig {
         match self.kind {
             RigKind::None => 0,
             RigKind::Sky => self.count as usize,
-            RigKind::Picture => self.picture.lights.len(),
+            RigKind::EnvironmentMap => self.environment_map.lights.len(),
         }
     }
 
@@ -148,7 +151,7 @@ impl Rig {
         let lights = match self.kind {
             RigKind::None => Vec::new(),
             RigKind::Sky => self.sky.lights(self.count),
-            RigKind::Picture => self.picture.rotated_lights(),
+            RigKind::EnvironmentMap => self.environment_map.rotated_lights(),
         };
         lights
             .into_iter()
@@ -161,9 +164,9 @@ impl Rig {
     /// A map with fewer bright pixels gives fewer lights.
     pub fn light_by(&mut self, environment_map: &EnvironmentMap, room: usize) {
         let count = (self.count as usize).min(room);
-        self.kind = RigKind::Picture;
-        self.picture.name = environment_map.name().to_owned();
-        self.picture.lights = environment_map
+        self.kind = RigKind::EnvironmentMap;
+        self.environment_map.name = environment_map.name().to_owned();
+        self.environment_map.lights = environment_map
             .cut(count)
             .into_iter()
             .map(|light| RigLight::rounded(light.direction, light.energy / std::f64::consts::PI))
@@ -172,7 +175,7 @@ impl Rig {
     }
 }
 
-impl PictureRig {
+impl EnvironmentMapRig {
     fn rotated_lights(&self) -> Vec<(DVec3, DVec3)> {
         let rotation = glam::DQuat::from_rotation_z(self.rotation_deg.to_radians());
         let rotated = |light: &RigLight| {

@@ -179,19 +179,18 @@ fn check_rig(rig: &Rig) -> Result<(), Invalid> {
     check(&param::SUN_STRENGTH, sun_strength)?;
     check(&param::SUN_SIZE, sun_size_deg)?;
     check(&param::SUN_LIGHTS, sun_lights.into())?;
-    let picture = &rig.picture;
-    let characters = picture.name.chars().count();
+    let map = &rig.environment_map;
+    let characters = map.name.chars().count();
     if characters > MAX_NAME_CHARS {
         let message = format!("has {characters} characters; a name has at most {MAX_NAME_CHARS}");
         return Err(Invalid::new("lights.rig.picture.name", message));
     }
-    check(&param::RIG_ROTATION, picture.rotation_deg)?;
-    if picture.lights.len() > MAX_LIGHTS {
-        let message =
-            format!("{} are too many; a rig has at most {MAX_LIGHTS}", picture.lights.len());
+    check(&param::RIG_ROTATION, map.rotation_deg)?;
+    if map.lights.len() > MAX_LIGHTS {
+        let message = format!("{} are too many; a rig has at most {MAX_LIGHTS}", map.lights.len());
         return Err(Invalid::new("lights.rig.picture.lights", message));
     }
-    (0..).zip(&picture.lights).try_for_each(|(i, light)| check_rig_light(i, light))
+    (0..).zip(&map.lights).try_for_each(|(i, light)| check_rig_light(i, light))
 }
 
 fn check_rig_light(i: usize, light: &RigLight) -> Result<(), Invalid> {

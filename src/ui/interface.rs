@@ -111,7 +111,7 @@ impl Interface {
 
     /// The loaded environment map, if the scene names it.
     pub fn environment_map(&self) -> Option<&Arc<EnvironmentMap>> {
-        let name = &self.scene().lights.rig.picture.name;
+        let name = &self.scene().lights.rig.environment_map.name;
         self.environment_map.as_ref().filter(|environment_map| environment_map.name() == name)
     }
 

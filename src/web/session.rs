@@ -234,8 +234,8 @@ impl Session {
     /// Shows a notice where the background's environment map is not loaded.
     fn report_missing_environment_map(&mut self) {
         let scene = self.interface.scene();
-        let name = scene.lights.rig.picture.name.clone();
-        let is_background = scene.background.kind == BackgroundKind::Picture;
+        let name = scene.lights.rig.environment_map.name.clone();
+        let is_background = scene.background.kind == BackgroundKind::EnvironmentMap;
         if is_background && !name.is_empty() && self.interface.environment_map().is_none() {
             self.show_notice(format!(
                 "The scene has its light from {name}, but the background needs the file itself. Drop {name} on the page to see it."

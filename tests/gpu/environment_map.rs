@@ -29,8 +29,8 @@ fn away(toward: DVec3) -> Scene {
     let up = if toward.z.abs() > 0.9 * toward.length() { DVec3::X } else { DVec3::Z };
     let mut scene = sampled(Scene::default(), 1);
     scene.camera = Camera { vertical_fov_deg: 70.0, ..Camera::looking_at(eye, eye * 1.1, up) };
-    scene.background.kind = BackgroundKind::Picture;
-    scene.lights.rig.picture.name = "colourful.hdr".into();
+    scene.background.kind = BackgroundKind::EnvironmentMap;
+    scene.lights.rig.environment_map.name = "colourful.hdr".into();
     scene
 }
 
@@ -77,7 +77,7 @@ fn the_background_is_the_picture_in_every_direction() {
             let mut scene = away(toward);
             scene.lights.rig.intensity = 0.5;
             scene.lights.rig.frame = frame;
-            scene.lights.rig.picture.rotation_deg = rotation_deg;
+            scene.lights.rig.environment_map.rotation_deg = rotation_deg;
             let seen = film(&scene, Some(&environment_map));
             let mut turn = DQuat::from_rotation_z(f64::to_radians(rotation_deg));
             if frame == LightFrame::View {
@@ -103,7 +103,7 @@ fn without_its_picture_the_background_is_the_gradient() {
     let gradient = film(&plain, None);
     assert_eq!(film(&scene, None), gradient);
     assert_eq!(film(&plain, Some(&colourful([8, 4]))), gradient);
-    scene.lights.rig.picture.name = "another.hdr".into();
+    scene.lights.rig.environment_map.name = "another.hdr".into();
     assert_eq!(film(&scene, Some(&colourful([8, 4]))), gradient);
 }
 

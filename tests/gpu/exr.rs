@@ -124,7 +124,7 @@ fn exact_scene() -> Scene {
     let coordinate = |text: &str| -> Precise { text.parse().unwrap() };
     let near = ["0.1234567890123456789012345678901234567890", "-0.5", "1.25"].map(coordinate);
     scene.camera = Camera { pivot: PrecisePoint(near), ..scene.camera };
-    scene.lights.rig.picture.name = "Größe 夕焼け 🌅.hdr".into();
+    scene.lights.rig.environment_map.name = "Größe 夕焼け 🌅.hdr".into();
     scene
 }
 

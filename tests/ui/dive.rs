@@ -114,7 +114,7 @@ fn picked(camera: &Camera, field: &Valley, ndc: DVec2) -> PrecisePoint {
 }
 
 /// Places of the pointer, spread over the middle of the picture.
-fn places() -> impl Iterator<Item = DVec2> + Clone {
+fn pointer_positions() -> impl Iterator<Item = DVec2> + Clone {
     (0..24).map(|i| {
         let (sin, cos) = (2.4 * f64::from(i)).sin_cos();
         DVec2::new(cos, sin) * 0.45 * (f64::from(i) / 24.0).sqrt()
@@ -125,7 +125,7 @@ fn places() -> impl Iterator<Item = DVec2> + Clone {
 fn dolly_keeps_what_is_under_the_pointer_at_every_scale() {
     let field = Valley::new();
     for scale in SCALES {
-        for ndc in places() {
+        for ndc in pointer_positions() {
             let (mut camera, mut navigator) = (field.camera(scale), Navigator::default());
             let point = picked(&camera, &field, ndc);
             for amount in [0.4, -0.9, 0.2, 0.5, -1.5] {
@@ -226,7 +226,7 @@ fn a_pointer_over_what_rays_creep_along_takes_little_time() {
 fn a_dolly_out_and_back_returns() {
     let field = Valley::new();
     for scale in SCALES {
-        for ndc in places() {
+        for ndc in pointer_positions() {
             let (mut camera, mut navigator) = (field.camera(scale), Navigator::default());
             let (start, point) = (camera.clone(), picked(&camera, &field, ndc));
             for amount in [-0.1, -0.1, -0.1, 0.1, 0.1, 0.1] {
@@ -243,7 +243,7 @@ fn a_dolly_out_and_back_returns() {
 fn pan_keeps_the_held_point_under_the_pointer_at_every_scale() {
     let field = Valley::new();
     for scale in SCALES {
-        for ndc in places() {
+        for ndc in pointer_positions() {
             let (mut camera, mut navigator) = (field.camera(scale), Navigator::default());
             let (point, unit) = (picked(&camera, &field, ndc), camera.view_unit());
             navigator.begin_pan(&camera, world(&field), ndc);
@@ -261,7 +261,7 @@ fn pan_keeps_the_held_point_under_the_pointer_at_every_scale() {
 fn orbit_keeps_its_radius_at_every_scale() {
     let field = Valley::new();
     for scale in SCALES {
-        for ndc in places().take(8) {
+        for ndc in pointer_positions().take(8) {
             let (mut camera, mut navigator) = (field.camera(scale), Navigator::default());
             navigator.begin_orbit(&mut camera, world(&field), ndc);
             let (radius, place) = (camera.view_unit(), seen_px(&camera, &camera.pivot));
@@ -303,7 +303,7 @@ fn nothing_gets_the_eye_into_the_surface_at_any_scale() {
     for scale in SCALES {
         let (mut camera, mut navigator) = (field.camera(scale), Navigator::default());
         let mut closest = f64::INFINITY;
-        for (i, ndc) in places().cycle().take(600).enumerate() {
+        for (i, ndc) in pointer_positions().cycle().take(600).enumerate() {
             match i % 4 {
                 0 => {
                     navigator.dolly(&mut camera, world(&field), ndc, 0.9);

@@ -23,9 +23,9 @@ fn a_picture_lights_the_scene_in_one_step_of_the_history() {
     harness.run();
     let lit = scene(&harness).clone();
     assert_eq!(lit.validate(), Ok(()));
-    assert_eq!(lit.lights.rig.kind, RigKind::Picture);
-    assert_eq!(lit.lights.rig.picture.name, "garden.hdr");
-    assert_eq!(lit.background.kind, BackgroundKind::Picture);
+    assert_eq!(lit.lights.rig.kind, RigKind::EnvironmentMap);
+    assert_eq!(lit.lights.rig.environment_map.name, "garden.hdr");
+    assert_eq!(lit.background.kind, BackgroundKind::EnvironmentMap);
     assert!(harness.state().interface.environment_map().is_some());
     // The same again changes nothing, and needs no undoing.
     harness.state_mut().interface.use_environment_map(environment_map("garden.hdr"));
@@ -43,7 +43,7 @@ fn another_number_of_lights_divides_the_picture_anew() {
     for (wanted, expected) in [(5.0, 5), (30.0, 30), (64.0, MAX_LIGHTS - 3)] {
         slider(&harness, "Rig lights").set_value_accesskit(wanted);
         harness.run();
-        assert_eq!(scene(&harness).lights.rig.picture.lights.len(), expected);
+        assert_eq!(scene(&harness).lights.rig.environment_map.lights.len(), expected);
         assert_eq!(scene(&harness).validate(), Ok(()));
     }
 }
@@ -85,7 +85,7 @@ fn a_background_picture_can_be_taken_away_whatever_lights_the_scene() {
     let mut harness = stage(lit, unfolded(), [1280.0, 4000.0]);
     for rig in ["Rig: Picture", "Rig: Sky", "Rig: None"] {
         press(&mut harness, rig);
-        for expected in [BackgroundKind::Gradient, BackgroundKind::Picture] {
+        for expected in [BackgroundKind::Gradient, BackgroundKind::EnvironmentMap] {
             harness.get_by_label("Show it behind the fractal").click();
             harness.run();
             assert_eq!(scene(&harness).background.kind, expected, "{rig}");

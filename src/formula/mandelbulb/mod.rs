@@ -29,7 +29,7 @@ use super::{
     table::Field,
 };
 use crate::precise::PrecisePoint;
-use deep::reference::Making;
+use deep::reference::ReferenceBuilder;
 use estimator::Estimator;
 use parameters::FIELDS;
 use variant::{Steps, Variant};
@@ -80,7 +80,7 @@ impl Formula for MandelbulbFormula {
         fractal: &Fractal,
         anchor: PrecisePoint,
     ) -> Option<Box<dyn ReferenceSteps>> {
-        Some(Box::new(Making::new(&Mandelbulb::of(fractal), anchor)?))
+        Some(Box::new(ReferenceBuilder::new(&Mandelbulb::of(fractal), anchor)?))
     }
 
     fn pack(&self, fractal: &Fractal, view: &PackedFor<'_>) -> Packed {

@@ -6,7 +6,7 @@
 use super::contract::Integrator;
 use crate::render::{
     pass,
-    schedule::{GBufferValidity, Job, Kind, Plan, Points, Price, Stage},
+    schedule::{GBufferValidity, Job, Plan, Points, Price, Stage, WorkKind},
 };
 
 /// The direct integrator. Own buffer: [`Targets::direct`](crate::render::targets::Targets::direct).
@@ -33,10 +33,10 @@ fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
 fn price(job: Job, casting: u64) -> Price {
     let lights = f64::from((job.lights & casting).count_ones());
     let (kind, rays) = match job.from {
-        Stage::March | Stage::Normal => (Kind::Tracing, 1.0 + lights),
-        Stage::Shadow if lights > 0.0 => (Kind::Tracing, lights),
-        Stage::Shadow | Stage::Shade => (Kind::Shading, 1.0),
-        Stage::Indirect => (Kind::Indirect, 1.0),
+        Stage::March | Stage::Normal => (WorkKind::Tracing, 1.0 + lights),
+        Stage::Shadow if lights > 0.0 => (WorkKind::Tracing, lights),
+        Stage::Shadow | Stage::Shade => (WorkKind::Shading, 1.0),
+        Stage::Indirect => (WorkKind::Indirect, 1.0),
     };
     Price { kind, rays }
 }

@@ -4,7 +4,7 @@ use super::{blur, reduce};
 use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
-    post::{FIRST_LEVEL, Kernel, Levels},
+    post::{BlurKernel, FIRST_LEVEL, Levels},
     recorder::{Display, Recorder},
     uniforms::Slice,
 };
@@ -27,7 +27,7 @@ pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
     let picture = &recorder.inputs.frame;
     let levels = Levels::of(picture);
     let passes = picture.bloom.passes;
-    let kernel = Kernel::new(picture.bloom.radius, passes, levels);
+    let kernel = BlurKernel::new(picture.bloom.radius, passes, levels);
     let pipeline = recorder.pipeline(&PASS, 0);
     recorder.dispatch(&pipeline, Slice::default(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, kernel.level);

@@ -3,7 +3,7 @@
 use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
-    post::{Kernel, Levels},
+    post::{BlurKernel, Levels},
     recorder::Recorder,
     uniforms::Slice,
 };
@@ -18,11 +18,11 @@ pub const PASS: Pass = Pass {
 };
 
 /// Applies `kernel` once.
-pub fn record(recorder: &mut Recorder<'_>, kernel: Kernel) {
+pub fn record(recorder: &mut Recorder<'_>, kernel: BlurKernel) {
     let pipeline = recorder.pipeline(&PASS, 0);
     let workgroups = Levels::of(&recorder.inputs.frame).workgroups(kernel.level);
     for axis in 0..2 {
-        let Kernel { level, half_width } = kernel;
+        let BlurKernel { level, half_width } = kernel;
         let slice = Slice { mip_level: level, axis, half_width, ..Slice::default() };
         recorder.dispatch(&pipeline, slice, workgroups);
     }

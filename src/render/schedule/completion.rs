@@ -128,7 +128,7 @@ fn learn(cost: &mut Cost, group: &[Completion]) {
     }
     for completion in group {
         match completion.work {
-            Some((Work::Show { .. }, _)) => cost.shown(took_ms(completion)),
+            Some((Work::Display { .. }, _)) => cost.shown(took_ms(completion)),
             None => cost.interface_drawn(took_ms(completion)),
             Some((Work::Trace(_), _)) => {}
         }

@@ -12,8 +12,8 @@
 //! How many rays a sample counts as, the integrator's [`Plan`] says.
 
 use super::{
-    plan::{Kind, Plan, Price},
-    rate::{History, Rate},
+    plan::{Plan, Price, WorkKind},
+    rate::{CostHistory, Rate},
     types::{Arithmetic, Phase},
     work::Job,
 };
@@ -50,7 +50,7 @@ const KINDS: usize = INDIRECT + 1;
 pub struct Cost {
     /// What the integrator's work costs.
     plan: &'static Plan,
-    histories: [History; KINDS],
+    histories: [CostHistory; KINDS],
     /// How kernels raise powers from now on.
     pub arithmetic: Arithmetic,
     show_ms: f64,
@@ -62,11 +62,11 @@ pub struct Cost {
 }
 
 /// The history of a kind.
-fn history_index(kind: Kind, arithmetic: Arithmetic) -> usize {
+fn history_index(kind: WorkKind, arithmetic: Arithmetic) -> usize {
     match kind {
-        Kind::Tracing => arithmetic as usize,
-        Kind::Shading => SHADING,
-        Kind::Indirect => INDIRECT,
+        WorkKind::Tracing => arithmetic as usize,
+        WorkKind::Shading => SHADING,
+        WorkKind::Indirect => INDIRECT,
     }
 }
 
@@ -139,7 +139,7 @@ impl Cost {
     }
 
     /// The rate of a kind by the present arithmetic, or by the first one that has been measured.
-    fn rate(&self, phase: Phase, kind: Kind) -> Rate {
+    fn rate(&self, phase: Phase, kind: WorkKind) -> Rate {
         let of_other = |&other: &Arithmetic| {
             let factor =
                 |of| if of == Arithmetic::SpecializedPipeline { 1.0 } else { UNSPECIALIZED };
@@ -152,11 +152,11 @@ impl Cost {
     }
 
     /// The rate of a kind by one arithmetic: that of tracing where only tracing has been measured.
-    fn rate_by(&self, arithmetic: Arithmetic, phase: Phase, kind: Kind) -> Option<Rate> {
-        let rate = |kind: Kind| self.histories[history_index(kind, arithmetic)].rate(phase);
+    fn rate_by(&self, arithmetic: Arithmetic, phase: Phase, kind: WorkKind) -> Option<Rate> {
+        let rate = |kind: WorkKind| self.histories[history_index(kind, arithmetic)].rate(phase);
         rate(kind).or_else(|| match kind {
-            Kind::Indirect => rate(Kind::Tracing).map(Rate::untried),
-            Kind::Tracing | Kind::Shading => rate(Kind::Tracing),
+            WorkKind::Indirect => rate(WorkKind::Tracing).map(Rate::untried),
+            WorkKind::Tracing | WorkKind::Shading => rate(WorkKind::Tracing),
         })
     }
 
@@ -187,7 +187,7 @@ impl Cost {
         let mut fixed_ms = rate.fixed_ms;
         let mut pixel_ms = rate.ray_ms * rays_of_pixel;
         if has_indirect {
-            let indirect = self.rate(Phase::Opening, Kind::Indirect);
+            let indirect = self.rate(Phase::Opening, WorkKind::Indirect);
             fixed_ms += indirect.fixed_ms;
             pixel_ms += indirect.ray_ms;
         }

@@ -22,14 +22,14 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Price {
     /// What the rays are: kinds have measured costs of their own.
-    pub kind: Kind,
+    pub kind: WorkKind,
     /// How many rays a sample counts as.
     pub rays: f64,
 }
 
 /// What the rays of a job are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum WorkKind {
     /// Rays that are marched.
     Tracing,
     /// Samples that are shaded only.

@@ -73,7 +73,7 @@ impl Rate {
 
 /// What one kind of work has cost lately, in either phase.
 #[derive(Clone, Debug, Default)]
-pub struct History {
+pub struct CostHistory {
     slices: VecDeque<Measurement>,
     openings: VecDeque<Measurement>,
     /// Measured over predicted time of the last two openings.
@@ -82,7 +82,7 @@ pub struct History {
     opening: Option<Rate>,
 }
 
-impl History {
+impl CostHistory {
     /// The rate of one phase; none where neither has been measured.
     pub fn rate(&self, phase: Phase) -> Option<Rate> {
         match phase {
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_quarter_of_stalled_slices_does_not_move_the_line() {
-        let mut history = History::default();
+        let mut history = CostHistory::default();
         for index in 0..64_u32 {
             let rays = if index % 2 == 0 { 2000.0 } else { 1000.0 };
             let stall_ms = if index % 4 == index / 8 % 4 { 50.0 } else { 0.0 };
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn one_stalled_opening_does_not_change_the_estimate() {
-        let mut history = History::default();
+        let mut history = CostHistory::default();
         for ms in [500.0, 10.0, 10.0, 10.0, 10.0, 300.0, 10.0] {
             history.learn(Phase::Opening, 1000.0, ms);
         }

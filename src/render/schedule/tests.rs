@@ -92,7 +92,7 @@ impl Device {
                 let each = if is_sparse { self.sparser } else { 1.0 };
                 whole * each * share_of_frame(trace.from, lights)
             }
-            Work::Show { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
+            Work::Display { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
         };
         let spike = if self.submits.is_multiple_of(97) { self.spike_ms } else { 0.0 };
         let ms = self.overhead() + pixels * self.pixel_ns * 1e-6 + spike;
@@ -108,7 +108,7 @@ impl Device {
         while self.queue.first().is_some_and(|(_, end, _)| *end <= now) {
             let (work, _, ms) = self.queue.remove(0);
             schedule.collect(&[(Some(work), ms)]);
-            shows += usize::from(matches!(work, Work::Show { .. }));
+            shows += usize::from(matches!(work, Work::Display { .. }));
         }
         shows
     }
@@ -302,7 +302,7 @@ fn tone_edits_only_show() {
     schedule.change(Stale::Tone, true, now);
     assert_eq!(
         schedule.next(now),
-        Some(Work::Show { level: 0, fill: false, film: false, adapt: 1.0 })
+        Some(Work::Display { level: 0, fill: false, film: false, adapt: 1.0 })
     );
     assert_eq!(schedule.next(now), None);
 }
@@ -313,7 +313,7 @@ fn adaptations(schedule: &mut Schedule, now: &mut f64) -> Vec<(f64, f32)> {
     let mut shows = Vec::new();
     while !schedule.status(*now).idle {
         while let Some(work) = schedule.next(*now) {
-            if let Work::Show { adapt, .. } = work {
+            if let Work::Display { adapt, .. } = work {
                 shows.push((*now, adapt));
             }
             device.submit(work, *now);
@@ -403,7 +403,7 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
             match work {
-                Work::Show { level, fill, .. } => {
+                Work::Display { level, fill, .. } => {
                     assert_eq!((level, fill), (0, false));
                     shows += 1;
                 }

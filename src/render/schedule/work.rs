@@ -112,7 +112,7 @@ pub enum Work {
     /// Compute sample points, up to the film.
     Trace(Trace),
     /// Make the display picture from the film.
-    Show {
+    Display {
         /// The finest complete lattice level; 0 where the film is complete.
         level: u32,
         /// Whether the pixels between that lattice's have to be filled in first.
@@ -129,7 +129,7 @@ impl Work {
     pub fn batches(self) -> impl Iterator<Item = Self> {
         let (trace, show) = match self {
             Self::Trace(trace) => (Some(trace), None),
-            Self::Show { .. } => (None, Some(self)),
+            Self::Display { .. } => (None, Some(self)),
         };
         trace.into_iter().flat_map(Trace::batches).map(Self::Trace).chain(show)
     }
@@ -155,7 +155,7 @@ mod tests {
             }
             assert_eq!(next, first_workgroup + workgroups);
         }
-        let show = Work::Show { level: 3, fill: true, film: false, adapt: 1.0 };
+        let show = Work::Display { level: 3, fill: true, film: false, adapt: 1.0 };
         assert_eq!(show.batches().collect::<Vec<_>>(), [show]);
     }
 }

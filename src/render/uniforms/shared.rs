@@ -119,13 +119,13 @@ host_shared! {
         /// Colour at the lower edge.
         bottom: [f32; 4],
         /// The map's axis to the right, in world space.
-        picture_x: [f32; 3],
+        map_x: [f32; 3],
         /// Factor on the environment map; 0 shows the gradient.
-        picture_gain: f32,
+        map_gain: f32,
         /// The map's forward axis, in world space.
-        picture_y: [f32; 3],
+        map_y: [f32; 3],
         /// The map's upward axis, in world space.
-        picture_z: [f32; 3],
+        map_z: [f32; 3],
     }
     /// Tone settings.
     Tone {

@@ -109,7 +109,7 @@ impl StatsValidity {
         need: Option<Need>,
         histogram: &HistogramReadback,
     ) -> Tasks {
-        let Work::Show { fill, adapt, .. } = work else {
+        let Work::Display { fill, adapt, .. } = work else {
             *self = Self::default();
             return Tasks::default();
         };

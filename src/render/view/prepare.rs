@@ -8,7 +8,7 @@ use crate::{
         pipeline_set::{self, INDIRECT, NORMALS, POST, RAYS},
         pipelines::{PipelineSet, PipelineVariant},
         post::Need,
-        preparation::{Preparation, Progress},
+        preparation::{Preparation, PreparationState},
     },
     scene::{IndirectKind, Scene},
 };
@@ -36,9 +36,9 @@ impl View {
             let now_secs = self.times.now_secs;
             let (pipelines, targets) = (&self.pipelines, &self.targets);
             match preparation.step(self.integrator, pipelines, targets, &inputs, now_secs) {
-                Progress::Ready => {}
-                Progress::Background => return is_awaited,
-                Progress::Foreground => return true,
+                PreparationState::Ready => {}
+                PreparationState::Background => return is_awaited,
+                PreparationState::Foreground => return true,
             }
         }
         self.preparation = None;

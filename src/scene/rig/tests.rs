@@ -117,7 +117,7 @@ fn an_environment_maps_lights_are_valid_and_preserve_its_energy() {
         let room = scene.lights.room_for_rig();
         scene.lights.rig.light_by(&environment_map, room);
         assert_eq!(scene.validate(), Ok(()));
-        assert_eq!(scene.lights.rig.picture.name, "studio.hdr");
+        assert_eq!(scene.lights.rig.environment_map.name, "studio.hdr");
         let lights = scene.lights.rig.lights();
         assert_eq!(lights.len(), count as usize);
         let sum: DVec3 = lights.iter().map(|(_, strength)| *strength * PI).sum();
@@ -145,7 +145,7 @@ fn rotating_an_environment_map_rotates_its_lights() {
         DVec3::splat(if to.dot(DVec3::Y) > 0.99 { 100.0 } else { 0.0 })
     });
     rig.light_by(&environment_map, 64);
-    rig.picture.rotation_deg = 90.0;
+    rig.environment_map.rotation_deg = 90.0;
     let strongest = rig.lights().into_iter().max_by(|a, b| a.1.x.total_cmp(&b.1.x)).unwrap();
     // Counterclockwise as seen from above: from +y to −x.
     assert!(strongest.0.dot(DVec3::NEG_X) > 0.98, "{}", strongest.0);

@@ -25,7 +25,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         &[
             (RigKind::None, "None", "Only the lights of the list above"),
             (RigKind::Sky, "Sky", "Adds the light of a sky with a sun"),
-            (RigKind::Picture, "Picture", "Adds the light of a 360° picture (environment map)"),
+            (
+                RigKind::EnvironmentMap,
+                "Picture",
+                "Adds the light of a 360° picture (environment map)",
+            ),
         ],
     );
     cx.rects.record("rig", &chosen);
@@ -38,10 +42,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     match cx.scene.lights.rig.kind {
         RigKind::None => {}
         RigKind::Sky => sky(ui, cx),
-        RigKind::Picture => picture(ui, cx),
+        RigKind::EnvironmentMap => picture(ui, cx),
     }
     // A scene can show an environment map and be lit by another source.
-    if !cx.scene.lights.rig.picture.name.is_empty() {
+    if !cx.scene.lights.rig.environment_map.name.is_empty() {
         background(ui, &mut cx.scene.background);
     }
     if cx.scene.lights.rig.kind != RigKind::None && !cx.scene.lights.rig.is_empty() {
@@ -102,16 +106,18 @@ fn keep_within_room(
     }
     match lights.rig.kind {
         RigKind::Sky if room >= param::RIG_COUNT.min as usize => lights.rig.count = room as u32,
-        RigKind::Picture => match environment_map.filter(|loaded| is_named(&lights.rig, loaded)) {
-            Some(environment_map) => lights.rig.light_by(environment_map, room),
-            None => lights.rig.kind = before.unwrap_or_default(),
-        },
+        RigKind::EnvironmentMap => {
+            match environment_map.filter(|loaded| is_named(&lights.rig, loaded)) {
+                Some(environment_map) => lights.rig.light_by(environment_map, room),
+                None => lights.rig.kind = before.unwrap_or_default(),
+            }
+        }
         _ => lights.rig.kind = before.unwrap_or_default(),
     }
 }
 
 fn is_named(rig: &Rig, environment_map: &EnvironmentMap) -> bool {
-    rig.picture.name == environment_map.name()
+    rig.environment_map.name == environment_map.name()
 }
 
 fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
@@ -153,18 +159,18 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     let room = cx.scene.lights.room_for_rig();
     let rig = &mut cx.scene.lights.rig;
     let loaded = cx.environment_map.filter(|environment_map| is_named(rig, environment_map));
-    let text = match (rig.picture.name.as_str(), loaded) {
+    let text = match (rig.environment_map.name.as_str(), loaded) {
         ("", _) => {
             "A 360° picture, Radiance (.hdr) or OpenEXR (.exr). You can also drop it on the page."
                 .to_owned()
         }
         (name, Some(environment_map)) => {
             let [width, height] = environment_map.size_px();
-            format!("{name}, {width} × {height}, as {} lights", rig.picture.lights.len())
+            format!("{name}, {width} × {height}, as {} lights", rig.environment_map.lights.len())
         }
         (name, None) => format!(
             "{name} is not loaded; its {} lights still shine. Choose the file again to show it or to change the number of lights.",
-            rig.picture.lights.len()
+            rig.environment_map.lights.len()
         ),
     };
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
@@ -177,7 +183,7 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     {
         rig.light_by(environment_map, room);
     }
-    param_slider(ui, &param::RIG_ROTATION, &mut rig.picture.rotation_deg);
+    param_slider(ui, &param::RIG_ROTATION, &mut rig.environment_map.rotation_deg);
 }
 
 fn choose(ui: &mut Ui) -> Response {
@@ -188,12 +194,13 @@ fn choose(ui: &mut Ui) -> Response {
 
 /// The switch that shows the environment map behind the fractal.
 fn background(ui: &mut Ui, background: &mut Background) {
-    let mut shown = background.kind == BackgroundKind::Picture;
+    let mut shown = background.kind == BackgroundKind::EnvironmentMap;
     let response = ui
         .checkbox(&mut shown, "Show it behind the fractal")
         .on_hover_text("Shows the 360° picture instead of the background colours");
     if response.changed() {
-        background.kind = if shown { BackgroundKind::Picture } else { BackgroundKind::Gradient };
+        background.kind =
+            if shown { BackgroundKind::EnvironmentMap } else { BackgroundKind::Gradient };
     }
 }
 

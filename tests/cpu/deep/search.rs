@@ -12,7 +12,7 @@ use mandelight_test_support::{
     deep::{
         arithmetic::{Point, Real, moved},
         orbit::Set,
-        rays::{self, Looking, Size},
+        rays::{self, SetView, Size},
         views::{self, ANCHORS, SCALES},
     },
     random::Random,
@@ -109,7 +109,7 @@ struct Look {
 }
 
 fn look(scene: &Scene, size: Size) -> Look {
-    let looking = Looking::new(scene, size, views::plenty(scene));
+    let looking = SetView::new(scene, size, views::plenty(scene));
     let pixels: Vec<_> = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])).collect();
     let both = in_parallel(&pixels, |&pixel| {
         let centre = rays::centre(pixel);

@@ -4,7 +4,7 @@ use mandelight::{formula::mandelbulb::Mandelbulb, gpu::device::in_parallel};
 use mandelight_test_support::deep::{
     arithmetic::Real,
     orbit::Set,
-    rays::{Looking, centre},
+    rays::{SetView, centre},
     views::{ANCHORS, SMALL, plenty},
 };
 
@@ -13,7 +13,7 @@ use mandelight_test_support::deep::{
 fn plenty_of_steps_is_enough() {
     let views: Vec<_> = ANCHORS.iter().map(|anchor| anchor.scene(anchor.deepest)).collect();
     in_parallel(&views, |scene| {
-        let looking = Looking::new(scene, SMALL, plenty(scene));
+        let looking = SetView::new(scene, SMALL, plenty(scene));
         for pixel in [[2, 2], [6, 4], [9, 5]] {
             let depth = looking.depth(pixel).expect("a hit");
             let point = looking.at(looking.direction(centre(pixel)), depth);

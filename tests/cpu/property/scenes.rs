@@ -8,9 +8,9 @@ use mandelight::{
     },
     scene::{
         Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
-        EnvironmentLight, GradientStop, Indirect, IndirectKind, LightFrame, Lights, Normals,
-        PictureRig, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, Sky,
-        Stereo, StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
+        EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind, LightFrame,
+        Lights, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene,
+        Sky, Stereo, StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
         param::{self, Param},
     },
 };
@@ -161,21 +161,21 @@ fn sky() -> impl Strategy<Value = Sky> {
     )
 }
 
-fn picture_rig() -> impl Strategy<Value = PictureRig> {
+fn environment_map_rig() -> impl Strategy<Value = EnvironmentMapRig> {
     let direction = direction().prop_map(|v| v.map(|v| v as f32));
     let light = (direction, uniform3(0.0..1e6_f32))
         .prop_map(|(direction, strength)| RigLight { direction, strength });
     (".{0,40}", value(&param::RIG_ROTATION), vec(light, 0..6))
-        .prop_map(|(name, rotation_deg, lights)| PictureRig { name, rotation_deg, lights })
+        .prop_map(|(name, rotation_deg, lights)| EnvironmentMapRig { name, rotation_deg, lights })
 }
 
 fn rig() -> impl Strategy<Value = Rig> {
-    let kind = select(vec![RigKind::None, RigKind::Sky, RigKind::Picture]);
+    let kind = select(vec![RigKind::None, RigKind::Sky, RigKind::EnvironmentMap]);
     let frame = select(vec![LightFrame::Scene, LightFrame::View]);
     let reach = option::of(value(&param::RIG_SHADOW_REACH));
     let number = (3..=50_u32, value(&param::RIG_INTENSITY));
-    (kind, number, reach, frame, any::<[bool; 3]>(), sky(), picture_rig()).prop_map(
-        |(kind, (count, intensity), shadow_reach, frame, flags, sky, picture)| {
+    (kind, number, reach, frame, any::<[bool; 3]>(), sky(), environment_map_rig()).prop_map(
+        |(kind, (count, intensity), shadow_reach, frame, flags, sky, environment_map)| {
             let [casts_shadows, muted, solo] = flags;
             Rig {
                 kind,
@@ -187,7 +187,7 @@ fn rig() -> impl Strategy<Value = Rig> {
                 muted,
                 solo,
                 sky,
-                picture,
+                environment_map,
             }
         },
     )
@@ -312,7 +312,7 @@ fn quality() -> impl Strategy<Value = Quality> {
 
 /// Any valid scene of a few lights.
 pub fn scene() -> impl Strategy<Value = Scene> {
-    let kind = select(vec![BackgroundKind::Gradient, BackgroundKind::Picture]);
+    let kind = select(vec![BackgroundKind::Gradient, BackgroundKind::EnvironmentMap]);
     let background =
         (kind, color(), color()).prop_map(|(kind, top, bottom)| Background { kind, top, bottom });
     let what = (fractal(), camera(), lights(), surface(), indirect(), background);

@@ -6,7 +6,8 @@ use std::fmt::Write;
 use mandelight::{
     formula::{self, FormulaRef, Fractal, mandelbulb::Mandelbulb},
     scene::{
-        EnvironmentLight, GradientStop, Lights, PictureRig, PointLight, Rig, RigLight, Scene,
+        EnvironmentLight, EnvironmentMapRig, GradientStop, Lights, PointLight, Rig, RigLight,
+        Scene,
         document::{self, DocumentError, from_json, to_json, to_json_compact},
         link::{self, LinkError, from_fragment, to_fragment},
         param::{self, Param, Scale},
@@ -23,9 +24,9 @@ fn full_document(formula: FormulaRef) -> Value {
     // The power that allows every bailout of the table; other formulas have no such field.
     scene.fractal.set("power", 2.0);
     let light = RigLight { direction: [0.0, 0.0, 1.0], strength: [1.0; 3] };
-    let picture = PictureRig { lights: vec![light], ..Default::default() };
+    let environment_map = EnvironmentMapRig { lights: vec![light], ..Default::default() };
     scene.lights = Lights {
-        rig: Rig { picture, ..Default::default() },
+        rig: Rig { environment_map, ..Default::default() },
         environment: vec![EnvironmentLight { shadow_reach: Some(1.0), ..Default::default() }],
         point: vec![PointLight::default()],
     };

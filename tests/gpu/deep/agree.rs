@@ -8,7 +8,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     deep::{
-        rays::{FARTHEST, Looking, Size, centre},
+        rays::{FARTHEST, SetView, Size, centre},
         views::{self, ANCHORS, Anchor, size},
     },
     device::gpu,
@@ -50,7 +50,7 @@ struct Comparison {
 }
 
 fn compare(scene: &Scene, size: Size, samples: &Samples, every: usize) -> Comparison {
-    let looking = Looking::new(scene, size, views::plenty(scene));
+    let looking = SetView::new(scene, size, views::plenty(scene));
     let pixels: Vec<_> = (0..size[1])
         .flat_map(|y| (0..size[0]).map(move |x| [x, y]))
         .zip(0..)

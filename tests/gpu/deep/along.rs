@@ -12,7 +12,7 @@ use mandelight_test_support::{
     deep::{
         arithmetic::{Point, Real},
         orbit::Estimate,
-        rays::{Looking, centre},
+        rays::{SetView, centre},
         views::{self, ANCHORS},
     },
     probe::{self, Answer},
@@ -32,7 +32,7 @@ struct Asked {
 }
 
 /// Some points along the rays that hit.
-fn asked(scene: &Scene, looking: &Looking<'_>, space: &RenderSpace) -> Vec<Asked> {
+fn asked(scene: &Scene, looking: &SetView<'_>, space: &RenderSpace) -> Vec<Asked> {
     let begins = match space.reference() {
         Some(reference) => reference.anchor().0.each_ref().map(|v| Real::parse(&v.to_string())),
         None => [0.0; 3].map(Real::from_f64),
@@ -60,7 +60,7 @@ fn estimates_agree(power: f64) {
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
         for scale in anchor.scales() {
             let (scene, size) = (anchor.scene(scale), views::SMALL);
-            let looking = Looking::new(&scene, size, views::plenty(&scene));
+            let looking = SetView::new(&scene, size, views::plenty(&scene));
             let space = RenderSpace::of(&scene, Region::whole(views::size(scale)));
             let asked = asked(&scene, &looking, &space);
             let offsets: Vec<_> = asked.iter().map(|asked| asked.offset).collect();

@@ -77,7 +77,7 @@ impl Film {
         record(
             &DIRECT,
             &mut recorder,
-            Work::Show { level, fill: level > 0, film: false, adapt: 1.0 },
+            Work::Display { level, fill: level > 0, film: false, adapt: 1.0 },
         );
         gpu.queue.submit([recorder.finish()]);
 

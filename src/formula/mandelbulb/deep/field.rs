@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{
     FINEST_FOOTPRINT, difference, iterations_for,
     jacobian::{OrbitJacobian, RotatingJacobian},
-    reference::{Making, Reference},
+    reference::{ReferenceBuilder, Reference},
     rotating_frame::RotatingFrame,
 };
 use crate::{
@@ -199,13 +199,13 @@ impl ReferenceOrbit for Reference {
     }
 }
 
-impl ReferenceSteps for Making {
+impl ReferenceSteps for ReferenceBuilder {
     fn step(&mut self) -> bool {
-        Making::step(self)
+        ReferenceBuilder::step(self)
     }
 
     fn finish(self: Box<Self>) -> Arc<dyn ReferenceOrbit> {
-        Arc::new(Making::finish(*self))
+        Arc::new(ReferenceBuilder::finish(*self))
     }
 }
 

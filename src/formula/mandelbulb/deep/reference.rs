@@ -21,7 +21,7 @@ use crate::{
 ///
 /// Orbits of even powers about such an anchor are followed in frames that rotate with their points'
 /// longitudes ([`super::rotating_frame`]).
-const HARD_BY_AXIS: f64 = 0.03;
+const ROTATING_FRAME_AXIS_DISTANCE: f64 = 0.03;
 
 /// Most points of a reference, of both orbits together: the capacity of the shaders' uniform buffer.
 pub const MOST_REFERENCE_POINTS: usize = 1984;
@@ -41,7 +41,7 @@ pub struct Reference {
 
 /// A reference under construction. [`Self::step`] takes some microseconds.
 #[derive(Clone, Debug)]
-pub struct Making {
+pub struct ReferenceBuilder {
     anchor: PrecisePoint,
     fractal: Mandelbulb,
     power: u32,
@@ -49,7 +49,7 @@ pub struct Making {
     critical: Option<Tracer>,
 }
 
-impl Making {
+impl ReferenceBuilder {
     /// Begins the reference of `anchor`; none if the power is not a whole number.
     pub fn new(fractal: &Mandelbulb, anchor: PrecisePoint) -> Option<Self> {
         let most = iterations_for(fractal, FINEST_FOOTPRINT) as usize + 1;
@@ -84,7 +84,7 @@ impl Making {
 impl Reference {
     /// The reference of `anchor`; none if the power is not a whole number.
     pub fn new(fractal: &Mandelbulb, anchor: PrecisePoint) -> Option<Self> {
-        Some(Making::new(fractal, anchor)?.finish())
+        Some(ReferenceBuilder::new(fractal, anchor)?.finish())
     }
 
     /// The anchor.
@@ -129,7 +129,7 @@ impl Reference {
     pub fn rotates(&self) -> bool {
         let constant = &self.reference_points[self.restart()];
         self.power.is_multiple_of(2)
-            && self.reference_points[0].rho.max(constant.rho) < HARD_BY_AXIS
+            && self.reference_points[0].rho.max(constant.rho) < ROTATING_FRAME_AXIS_DISTANCE
     }
 
     /// Whether the reference belongs to `fractal`; iterations are not compared.

@@ -1,7 +1,7 @@
 //! Movements that begin while a picture refines, and releases that end them.
 
 use super::*;
-use crate::render::schedule::choice::PREVIEW_LEVEL;
+use crate::render::schedule::point_selection::PREVIEW_LEVEL;
 
 const BUDGET_MS: f64 = 16.0;
 
@@ -34,7 +34,7 @@ fn picture_of_a_move(schedule: &mut Schedule, device: &mut Device, now: &mut f64
     schedule.change(Stale::Geometry, true, moved_at);
     loop {
         while let Some(work) = schedule.next(*now) {
-            let is_show = matches!(work, Work::Show { .. });
+            let is_show = matches!(work, Work::Display { .. });
             device.submit(work, *now);
             if is_show {
                 let end = device.busy_until;
@@ -198,7 +198,7 @@ fn release(full_ms: f64, piece_ms: f64) -> (f64, Vec<Work>) {
     while schedule.status(now).shown_level > 0 {
         while let Some(work) = schedule.next(now) {
             device.submit(work, now);
-            if matches!(work, Work::Show { .. }) {
+            if matches!(work, Work::Display { .. }) {
                 shows.push(work);
             }
         }
@@ -225,13 +225,13 @@ fn a_long_full_frame_is_displayed_on_its_way() {
     for full_ms in [1500.0, 4000.0] {
         let (took, shows) = release(full_ms, 0.5);
         assert!(took <= 1.2, "{full_ms} ms: {took}");
-        let is_film = |work: &&Work| matches!(work, Work::Show { film: true, .. });
+        let is_film = |work: &&Work| matches!(work, Work::Display { film: true, .. });
         let films: Vec<_> = shows.iter().filter(is_film).collect();
         assert!(
-            matches!(films[0], Work::Show { fill: true, level: PREVIEW_LEVEL, .. }),
+            matches!(films[0], Work::Display { fill: true, level: PREVIEW_LEVEL, .. }),
             "{films:?}"
         );
         assert!(films.len() >= 3, "{films:?}");
-        assert!(films[1..].iter().all(|work| matches!(work, Work::Show { fill: false, .. })));
+        assert!(films[1..].iter().all(|work| matches!(work, Work::Display { fill: false, .. })));
     }
 }

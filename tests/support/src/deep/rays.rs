@@ -31,7 +31,7 @@ const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 pub type Size = [u32; 2];
 
 /// A set and the camera that looks at it.
-pub struct Looking<'a> {
+pub struct SetView<'a> {
     pub set: Set,
     pub size: Size,
     scene: &'a Scene,
@@ -39,7 +39,7 @@ pub struct Looking<'a> {
     unit: f64,
 }
 
-impl<'a> Looking<'a> {
+impl<'a> SetView<'a> {
     /// Looks at `scene` with orbits of up to `iterations` steps.
     pub fn new(scene: &'a Scene, size: Size, iterations: u32) -> Self {
         let position = &scene.camera.position.0;

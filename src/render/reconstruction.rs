@@ -8,18 +8,18 @@ use super::schedule::{Points, Work};
 
 /// The state of the film between the pixels of a sparse lattice.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Filling {
+pub struct Reconstruction {
     /// True if these pixels hold filled colours, false if values of earlier pictures.
     is_filled: bool,
 }
 
-impl Filling {
+impl Reconstruction {
     /// The lattice level from which a display is upsampled; none if the film is filled or nothing is shown.
     ///
     /// `is_plain`: no pass reads the whole film. `finest`: the finest level whose samples fit the buffer.
     pub fn upsample_level(&mut self, work: Work, is_plain: bool, finest: u32) -> Option<u32> {
         let (level, fill, film) = match work {
-            Work::Show { level, fill, film, .. } => (level, fill, film),
+            Work::Display { level, fill, film, .. } => (level, fill, film),
             Work::Trace(trace) => {
                 self.is_filled &= !matches!(trace.points, Points::Level(_));
                 return None;
@@ -54,13 +54,13 @@ mod tests {
     }
 
     fn show(fill: bool, film: bool) -> Work {
-        Work::Show { level: 4, fill, film, adapt: 1.0 }
+        Work::Display { level: 4, fill, film, adapt: 1.0 }
     }
 
     #[test]
     fn a_film_that_is_shown_while_pixels_come_is_filled_once_and_not_spread() {
-        let mut filling = Filling::default();
-        let mut upsample_level = |work| filling.upsample_level(work, true, 2);
+        let mut reconstruction = Reconstruction::default();
+        let mut upsample_level = |work| reconstruction.upsample_level(work, true, 2);
         assert_eq!(upsample_level(trace(Points::Level(4))), None);
         assert_eq!(upsample_level(show(true, false)), Some(4));
         assert_eq!(upsample_level(show(true, true)), None);

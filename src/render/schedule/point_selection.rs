@@ -21,7 +21,7 @@ const SPARSE_LEVEL: u32 = 3;
 
 /// All that the next points depend on.
 #[derive(Clone, Copy)]
-pub struct Choice<'a> {
+pub struct PointSelection<'a> {
     /// How much of the picture has been computed.
     pub progress: &'a Progress,
     /// What work costs.
@@ -40,7 +40,7 @@ pub struct Choice<'a> {
     pub in_flight_ms: f64,
 }
 
-impl Choice<'_> {
+impl PointSelection<'_> {
     /// The points to compute next; none where all samples are done.
     pub fn next_points(&self) -> Option<Points> {
         let progress = self.progress;
