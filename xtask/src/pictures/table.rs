@@ -101,19 +101,21 @@ pub fn pictures() -> Vec<Picture> {
                 gold("fractal.power=16"),
                 gold("fractal.variant=negative_sine").with(&["fractal.power=8"]),
             ],
-        ),
+        )
+        .sized(README_PX),
         single(
             "whorls",
             "A quaternion Julia set: a shell of four dimensions, cut open",
             of("Whorls"),
         )
         .sized([1280, 800]),
-        single("lantern", "Two point lights in a crevice", of("Lantern")),
+        single("lantern", "Two point lights in a crevice", of("Lantern")).sized(README_PX),
         single(
             "surroundings",
             "A bulb lit by the picture of a dusk that stands behind it",
             of("Mandelbulb").with(DUSK).with_environment_map(),
-        ),
+        )
+        .sized(README_PX),
         picture(
             "normals",
             3,
@@ -187,13 +189,17 @@ pub fn pictures() -> Vec<Picture> {
         single("vine", "Bunches on twisted stems, at 1e-8 in a Julia form", of("Vine")),
         single("garland", "Spirals of balls, at 4e-12 in power 6", of("Garland")),
         single("thistle", "Heads of flowers, at 3e-13 in power 12", of("Thistle")),
-        single("sunflower", "Arms of seeds, at 2e-14 in power 16", of("Sunflower")),
+        single("sunflower", "Arms of seeds, at 2e-14 in power 16", of("Sunflower"))
+            .sized(README_PX),
         single("ice-flower", "Pale petals, at 5e-17 in power 10", of("Ice flower")),
         single("cove", "A shore that curls, at 8e-20 in power 3", of("Cove")),
         single("dahlia", "Petals about petals, at 1e-20 in power 16", of("Dahlia")),
-        single("rosette", "A wreath, at 2e-26 in power 8", of("Rosette")),
+        single("rosette", "A wreath, at 2e-26 in power 8", of("Rosette")).sized(README_PX),
     ]
 }
+
+/// Size of README's pictures, which it shows 640 pixels wide.
+const README_PX: [u32; 2] = [960, 600];
 
 /// The environment map as the only light and as the background.
 const DUSK: &[&str] = &[
