@@ -4,10 +4,10 @@
 //! # How a frame is made
 //!
 //! ```text
-//! Scene ──▶ Schedule ──▶ slice ──▶ march ──▶ normal ──▶ shadow ──▶ shade ──▶ film ──▶ fill ──▶ tone ──▶ display
-//! pure      what is      one       rays to   gradient   one bit    lights,   sums of  between  curve,   texture,
-//! data      stale and    submit    surface   of the     a light    colours   samples  lattice  sRGB     PNG
-//!           what fits              points    distance                                 pixels
+//! Scene ──▶ Schedule ──▶ camera rays ──▶ march ──▶ normal ──▶ shadow ──▶ shade ──▶ film ──▶ fill ──▶ tone ──▶ display
+//! pure      chooses a    one per         to the    gradient   one bit    lights,   sums of  between  curve,   texture,
+//! data      piece of     sample          surface   of the     a light    colours   samples  lattice  sRGB     PNG
+//!           work                                   distance                                 pixels
 //! ```
 //!
 //! 1. The interface or the command line edits a [`scene::Scene`]. Its fractal is a formula with values
@@ -24,11 +24,12 @@
 //! 3. [`render::schedule::Schedule`] chooses what to compute next, a piece at a time: a lattice of
 //!    pixels as sparse as the motion budget demands, then the lattice's next levels, then whole
 //!    jittered samples, then nothing.
-//! 4. [`render::frame::record`] records each piece: the passes of an integrator
-//!    ([`render::integrator::DIRECT`]) that the piece has, in order, or the passes of a display. The first
-//!    writes a ray per sample ([`render::uniforms::Ray`]), which the others read and move. Cones of rays go first and queue the blocks of threads that have rays
-//!    left to march ([`render::work_queues`]): the passes after them are as large as their queues.
-//!    [`gpu::timing::Stopwatch`] measures the piece, and the schedule learns from that.
+//! 4. [`render::frame::record`] records each piece, in batches that fit the buffers of rays: the passes of
+//!    an integrator ([`render::integrator::DIRECT`]) over samples, or those of a display. `camera_rays`
+//!    writes one ray per sample. `camera_cone` marches one cone per block of threads and queues the blocks
+//!    that may hit ([`render::work_queues`]); the passes after it are as large as their queues. `march`
+//!    moves each ray to its surface point. [`gpu::timing::Stopwatch`] measures the piece, and the schedule
+//!    learns from that.
 //! 5. Post passes read the whole film if the scene needs it: the film's mean sets the exposure, and
 //!    bright pixels bloom ([`render::post`]). Otherwise the samples of a sparse lattice are tone
 //!    mapped and upsampled to the display without filling the film.

@@ -9,7 +9,7 @@ use mandelight::{
     gpu::readback::ReadbackError,
     render::{
         Pace, Pipelines, Region, View,
-        lattice::MOST_TOGETHER,
+        lattice::MAX_SAMPLES_TOGETHER,
         pass::{self, Pass},
         pipelines::FramePipelines,
         recorder::{Dispatches, Recorder},
@@ -214,13 +214,13 @@ impl<'a> PassRunner<'a> {
     /// If the device is lost.
     pub fn count_later(&self, passes: &FramePipelines<'_>) -> Result<Counts, Failure> {
         let mut counts = Counts::default();
-        let points = Points::Samples { first: 1, count: MOST_TOGETHER };
+        let points = Points::Samples { first: 1, count: MAX_SAMPLES_TOGETHER };
         for trace in self.traces(points) {
             for (_, record) in COUNTED_PASSES {
                 counts += self.counted(record, passes, trace)?;
             }
         }
-        Ok(counts.per(f64::from(MOST_TOGETHER)))
+        Ok(counts.per(f64::from(MAX_SAMPLES_TOGETHER)))
     }
 
     /// Runs one pass and reads its counts.

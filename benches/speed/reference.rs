@@ -23,7 +23,7 @@ const ITERATIONS: u32 = 100;
 /// Factor on the estimator's conservative step.
 const STEP_FACTOR: f64 = 0.25;
 /// Least step, footprints.
-const LEAST_STEP: f64 = 0.02;
+const MIN_STEP: f64 = 0.02;
 /// Distance at which the set blocks a shadow ray, footprints.
 const OCCLUDER_DISTANCE: f64 = 0.1;
 /// Distances behind a first hit at which the ray must still be as near, footprints.
@@ -32,7 +32,7 @@ const OCCLUDER_DISTANCE: f64 = 0.1;
 /// decides by chance which of them a ray samples.
 const CONFIRMED_AT: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 /// Step limit of a ray, which then counts as a hit, or as lit.
-const MOST_STEPS: u32 = 100_000;
+const MAX_STEPS: u32 = 100_000;
 
 /// The reference of one pixel.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ impl Reference {
     fn march(&self, ray: Ray) -> Option<f64> {
         let (near, far) = ray.sphere_span(DVec3::ZERO, self.estimator.bounding_radius())?;
         let (mut before, mut depth, mut was_near) = (near, near, false);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             if depth > far {
                 return None;
             }
@@ -104,7 +104,7 @@ impl Reference {
                 }
             }
             (before, was_near) = (depth, is_near);
-            depth += (STEP_FACTOR * estimate.step).max(LEAST_STEP * hit);
+            depth += (STEP_FACTOR * estimate.step).max(MIN_STEP * hit);
         }
         Some(depth)
     }
@@ -137,7 +137,7 @@ impl Reference {
             return true;
         };
         let mut s = far;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             if s <= footprint {
                 return true;
             }
@@ -149,7 +149,7 @@ impl Reference {
             {
                 return false;
             }
-            s -= (STEP_FACTOR * estimate.step).max(LEAST_STEP * footprint);
+            s -= (STEP_FACTOR * estimate.step).max(MIN_STEP * footprint);
         }
         true
     }

@@ -8,7 +8,7 @@
 const BUNDLE_STEPS = 48u;
 
 // Greatest radius of a ball, so that an f32 holds its square.
-const MOST_BALL = 1e18;
+const MAX_BALL = 1e18;
 
 // Distance that the rays from `origin` may go before any of them comes within its hit distance.
 // The rays' unit directions differ from `axis` by at most `spread`, as the length of the difference. They are
@@ -25,7 +25,7 @@ fn clear_cone(
         for (; i < BUNDLE_STEPS; i++) {
             let ahead = estimate_next(&pending, fractal, origin + t * axis, bundle_direction());
             if (pending.is_needed) { break; }
-            let ball = min(part * ahead.step, MOST_BALL) - hit_cone * t;
+            let ball = min(part * ahead.step, MAX_BALL) - hit_cone * t;
             let width = t * spread;
             if (ball <= width) { break; }
             // Points of the cone at a distance of t + advance from the origin are in the ball:

@@ -1,4 +1,4 @@
-// Rays of the pinhole camera, or of the one or two eyes that a region shows.
+// Camera rays. In stereo each eye has its own.
 // uses: lib/eye, lib/lattice, types/frame_uniforms, types/ray
 
 // The ray of an eye through a position of its own picture: (0, 0) is the picture's upper left corner,

@@ -1,6 +1,6 @@
 // The pixel and sample of each thread. Threads run over a grid, a lattice of the region: every 2^shift-th
 // pixel, or every other one of those in staggered rows, and so on.
-// uses: types/frame_uniforms, types/slice
+// uses: types/frame_uniforms, types/dispatch_params
 
 const WORKGROUP_SIDE = 8u;
 const WORKGROUP_THREADS = 64u;
@@ -21,7 +21,7 @@ const BLOCK_THREADS = 8u;
 
 // The logarithms of a block's width and height, in pixels.
 fn block_shift() -> vec2u {
-    return vec2u(2u - (slice.samples_shift + 1u) / 2u, 1u - slice.samples_shift / 2u);
+    return vec2u(2u - (dispatch.samples_shift + 1u) / 2u, 1u - dispatch.samples_shift / 2u);
 }
 
 // Offset of a block's first pixel in its workgroup.
@@ -40,13 +40,13 @@ fn remainder(a: vec2u, b: vec2u) -> vec2u {
 
 // Position of a workgroup's first thread in the lattice's grid.
 fn workgroup_corner(workgroup: u32) -> vec2u {
-    let id = slice.first_workgroup + workgroup;
-    let column = remainder(vec2u(id), slice.workgroups).x;
+    let id = dispatch.first_workgroup + workgroup;
+    let column = remainder(vec2u(id), dispatch.workgroups).x;
     // The division has no remainder, so f32 is exact enough.
-    let row = u32(round(f32(id - column) / f32(slice.workgroups.x)));
+    let row = u32(round(f32(id - column) / f32(dispatch.workgroups.x)));
     // Each column starts at another row: whole rows in turn would show as stripes.
-    let across = remainder(vec2u(column * slice.scatter.x), slice.workgroups).x;
-    let down = remainder(vec2u((row + across) * slice.scatter.y), slice.workgroups).y;
+    let across = remainder(vec2u(column * dispatch.scatter.x), dispatch.workgroups).x;
+    let down = remainder(vec2u((row + across) * dispatch.scatter.y), dispatch.workgroups).y;
     return vec2u(across, down) * (vec2u(2u, 4u) << block_shift());
 }
 
@@ -70,15 +70,15 @@ struct PixelBox {
 
 // The bounding box of a block's pixels; it may extend past the region.
 fn block_box(block: Block) -> PixelBox {
-    let first = block.corner * slice.step + slice.offset;
-    let last = first + ((vec2u(1u) << block_shift()) - 1u) * slice.step + vec2u(slice.stagger, 0u);
-    return PixelBox(first << vec2u(slice.shift), last << vec2u(slice.shift));
+    let first = block.corner * dispatch.step + dispatch.offset;
+    let last = first + ((vec2u(1u) << block_shift()) - 1u) * dispatch.step + vec2u(dispatch.stagger, 0u);
+    return PixelBox(first << vec2u(dispatch.shift), last << vec2u(dispatch.shift));
 }
 
 // The pixel at a position of the lattice's grid; it may lie outside the region.
 fn pixel_at(place: vec2u) -> vec2u {
-    let shifted = slice.stagger * ((place.y + slice.row_phase) & 1u);
-    return (place * slice.step + slice.offset + vec2u(shifted, 0u)) << vec2u(slice.shift);
+    let shifted = dispatch.stagger * ((place.y + dispatch.row_phase) & 1u);
+    return (place * dispatch.step + dispatch.offset + vec2u(shifted, 0u)) << vec2u(dispatch.shift);
 }
 
 // The pixel of a thread, with one thread per pixel; it may lie outside the region.
@@ -110,34 +110,34 @@ struct Site {
 
 // A block's sample, 0 to 7: first one sample of each of the block's pixels, then their next samples.
 fn block_site(block: Block, place: u32) -> Site {
-    let pixels_shift = 3u - slice.samples_shift;
+    let pixels_shift = 3u - dispatch.samples_shift;
     let sample = place >> pixels_shift;
     let in_block = place & ((1u << pixels_shift) - 1u);
     let width_shift = block_shift().x;
     let at = vec2u(in_block & ((1u << width_shift) - 1u), in_block >> width_shift);
     let pixel = pixel_at(block.corner + at);
     let ray = block.index * BLOCK_THREADS + place;
-    let index = select(pixel_index(pixel), ray, slice.compact != 0u);
-    return Site(inside_region(pixel) && sample < slice.samples, pixel, sample, index, ray);
+    let index = select(pixel_index(pixel), ray, dispatch.compact != 0u);
+    return Site(inside_region(pixel) && sample < dispatch.samples, pixel, sample, index, ray);
 }
 
 // The first sample of a pixel whose thread loops over all samples of the pixel.
 fn pixel_site(thread: u32) -> Site {
-    let pixels_shift = 3u - slice.samples_shift;
+    let pixels_shift = 3u - dispatch.samples_shift;
     let block = thread >> pixels_shift;
     var site = block_site(block_at(block), thread & ((1u << pixels_shift) - 1u));
-    site.is_there = site.is_there && block < slice.blocks;
+    site.is_there = site.is_there && block < dispatch.blocks;
     return site;
 }
 
 // Another sample of the pixel of `first`.
 fn sample_site(first: Site, sample: u32) -> Site {
-    let on = sample << (3u - slice.samples_shift);
-    let index = first.index + select(0u, on, slice.compact != 0u);
+    let on = sample << (3u - dispatch.samples_shift);
+    let index = first.index + select(0u, on, dispatch.compact != 0u);
     return Site(first.is_there, first.pixel, sample, index, first.ray + on);
 }
 
 // A sample's position in its pixel, 0 to 1.
 fn place_in_pixel(sample: u32) -> vec2f {
-    return fract(slice.jitter + f32(sample) * slice.jitter_step);
+    return fract(dispatch.jitter + f32(sample) * dispatch.jitter_step);
 }

@@ -2,7 +2,7 @@
 // pixels that exist at the right and lower edges: each level has as many elements as cover the film.
 // If two eyes share the film, each eye's part has its own elements: no element mixes light of both
 // eyes. Host twin: `render::post::Levels`.
-// uses: types/frame_uniforms, types/slice
+// uses: types/frame_uniforms, types/dispatch_params
 
 // The finest stored level.
 const FIRST_MIP_LEVEL = 2u;
@@ -54,5 +54,5 @@ fn mip_span(levels: Levels, level: u32, cell: vec2u) -> vec2u {
 
 // A thread's index in a dispatch over a level's elements.
 fn mip_index(workgroup: u32, local_index: u32) -> u32 {
-    return (slice.first_workgroup + workgroup) * 64u + local_index;
+    return (dispatch.first_workgroup + workgroup) * 64u + local_index;
 }

@@ -1,6 +1,6 @@
 // Light and colour of a sample. Shading marches no ray: it reads visibility bits.
 // uses: lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/film
-// uses: types/frame_uniforms, types/light, types/ray, types/slice
+// uses: types/frame_uniforms, types/light, types/ray, types/dispatch_params
 
 // Whether this pipeline shows the environment map: 0 no, 1 yes, -1 reads it from the uniforms.
 override HAS_ENVIRONMENT_MAP: i32 = -1;
@@ -91,8 +91,8 @@ fn direct_radiance(site: Site, ray: Ray) -> vec3f {
 // Adds the sum of a pixel's samples to the film, or replaces the film's value.
 fn put_on_film(pixel: vec2u, sum: vec3f) {
     let at = pixel_index(pixel);
-    let blue_weight = vec2f(sum.b, f32(slice.samples));
-    if (slice.accumulate != 0u) {
+    let blue_weight = vec2f(sum.b, f32(dispatch.samples));
+    if (dispatch.accumulate != 0u) {
         film_rg[at] += sum.rg;
         film_bw[at] += blue_weight;
     } else {

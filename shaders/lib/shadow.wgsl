@@ -1,5 +1,5 @@
 // Where shadow rays start, and the distance at which a surface blocks them.
-// uses: lib/lattice, lib/octahedral, types/frame_uniforms, types/ray, types/slice
+// uses: lib/lattice, lib/octahedral, types/frame_uniforms, types/ray, types/dispatch_params
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
@@ -12,7 +12,7 @@ struct Receiver {
     point: vec3f,
     // The point's hit distance.
     surface_distance: f32,
-    // True if the sample has a surface point that faces the slice's light.
+    // True if the sample has a surface point that faces the dispatch's light.
     faces: bool,
 }
 
@@ -21,16 +21,16 @@ fn receiver(site: Site) -> Receiver {
     let n = octahedral_unpack(seen.y);
     let ray = rays[site.ray];
     let point = ray.origin + n * (2.0 * ray.radius);
-    let toward = select(slice.light_vector, slice.light_vector - point, slice.light_kind == LIGHT_POINT);
+    let toward = select(dispatch.light_vector, dispatch.light_vector - point, dispatch.light_kind == LIGHT_POINT);
     let faces = seen.x != 0u && (frame.normals == NORMALS_NONE || dot(n, toward) > 0.0);
     return Receiver(point, ray.radius, faces);
 }
 
-// The word and the mask of the slice's light in a sample's visibility bits.
+// The word and the mask of the dispatch's light in a sample's visibility bits.
 fn light_word() -> u32 {
-    return slice.light_bit >> 5u;
+    return dispatch.light_bit >> 5u;
 }
 
 fn light_mask() -> u32 {
-    return 1u << (slice.light_bit & 31u);
+    return 1u << (dispatch.light_bit & 31u);
 }

@@ -2,22 +2,22 @@
 // `half_blurred`, along y back. The kernel's width is exact, not rounded to whole elements: the elements
 // at its ends are weighted by the part that it covers. The kernel is normalised by the pixels inside
 // the eye's part of the film, so that borders do not darken and no light reaches the other eye.
-// uses: lib/mip, types/frame_uniforms, types/post, types/slice
+// uses: lib/mip, types/frame_uniforms, types/post, types/dispatch_params
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     frame = frame_uniforms;
-    let level = slice.mip_level;
+    let level = dispatch.mip_level;
     let levels = film_levels();
     let size = mip_size(levels, level);
     let start = mip_start(levels, level);
     let index = mip_index(workgroup.x, local_index);
     if (index >= size.x * size.y) { return; }
-    let along = slice.axis;
+    let along = dispatch.axis;
     let cell = vec2u(index % size.x, index / size.x);
     let stride = select(1u, size.x, along == 1u);
     let middle = i32(cell[along]);
-    let reach = i32(ceil(slice.half_width - 0.5));
+    let reach = i32(ceil(dispatch.half_width - 0.5));
     let own_size = mip_eye_size(levels, level);
     let own = i32(cell[along] % own_size[along]);
     let ahead = i32(own_size[along]) - 1 - own;
@@ -26,7 +26,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     for (var i = max(-reach, -own); i <= min(reach, ahead); i++) {
         var other = cell;
         other[along] = u32(middle + i);
-        let covered = clamp(slice.half_width + 0.5 - f32(abs(i)), 0.0, 1.0);
+        let covered = clamp(dispatch.half_width + 0.5 - f32(abs(i)), 0.0, 1.0);
         let weight = covered * f32(mip_span(levels, level, other)[along]);
         let at = u32(i32(index) + i * i32(stride));
         if (along == 0u) {

@@ -1,7 +1,7 @@
 // Computes how far all rays of a block go before any of them may hit. Queues the blocks with rays that
 // may hit; the samples of the other blocks miss.
 // uses: lib/bundle, lib/camera, lib/eye, lib/lattice, lib/sphere, types/enqueue
-// uses: types/frame_uniforms, types/gbuffer, types/slice
+// uses: types/frame_uniforms, types/gbuffer, types/dispatch_params
 
 // The depth that all rays of a block may go to; negative if all of them miss.
 fn clear_block(fractal: Fractal, block: Block) -> f32 {
@@ -23,7 +23,7 @@ fn clear_block(fractal: Fractal, block: Block) -> f32 {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
-    if (thread.x >= slice.blocks) { return; }
+    if (thread.x >= dispatch.blocks) { return; }
     let block = block_at(thread.x);
     let clear = clear_block(frame.formula.fractal, block);
     if (clear >= 0.0) {

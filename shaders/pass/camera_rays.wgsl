@@ -1,13 +1,13 @@
-// Makes the camera ray of each sample, from the eye or from the surface point.
-// uses: lib/camera, lib/lattice, types/frame_uniforms, types/gbuffer, types/ray, types/slice
+// Makes the camera ray of each sample, from the eye, or from the surface point if its depth is known.
+// uses: lib/camera, lib/lattice, types/frame_uniforms, types/gbuffer, types/ray, types/dispatch_params
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
-    if (thread.x / BLOCK_THREADS >= slice.blocks) { return; }
+    if (thread.x / BLOCK_THREADS >= dispatch.blocks) { return; }
     let site = block_site(block_at(thread.x / BLOCK_THREADS), thread.x % BLOCK_THREADS);
     if (!site.is_there) { return; }
     var ray = camera_ray(site);
-    if (slice.starts_at_surface != 0u) { ray = advanced(ray, bitcast<f32>(surface[site.index].x)); }
+    if (dispatch.starts_at_surface != 0u) { ray = advanced(ray, bitcast<f32>(surface[site.index].x)); }
     rays[site.ray] = ray;
 }

@@ -1,10 +1,10 @@
 // Queues the blocks that have a surface point.
-// uses: lib/lattice, types/enqueue, types/frame_uniforms, types/gbuffer, types/slice
+// uses: lib/lattice, types/enqueue, types/frame_uniforms, types/gbuffer, types/dispatch_params
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
-    if (thread.x >= slice.blocks) { return; }
+    if (thread.x >= dispatch.blocks) { return; }
     let block = block_at(thread.x);
     var any = 0u;
     for (var i = 0u; i < BLOCK_THREADS; i++) {

@@ -1,7 +1,7 @@
 // Fills the pixels between those of a sparse lattice, one lattice level per dispatch. Each new
 // pixel has four known neighbours in two opposite pairs; the pair that differs less lies along
 // the edge and gets more weight.
-// uses: lib/eye, lib/lattice, lib/luminance, types/film, types/frame_uniforms, types/slice
+// uses: lib/eye, lib/lattice, lib/luminance, types/film, types/frame_uniforms, types/dispatch_params
 
 // Perceived contrast: the difference of the tone-compressed luminances.
 fn contrast(a: vec3f, b: vec3f) -> f32 {
@@ -42,11 +42,11 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = lattice_pixel(workgroup.x, local_index);
     if (!inside_region(pixel)) { return; }
     let at = vec2i(pixel);
-    let s = i32(slice.spacing);
+    let s = i32(dispatch.spacing);
     // Staggered levels have neighbours beside and above, other levels on the diagonals. One neighbour
     // toward the origin always exists: a staggered pixel of the first column lies in an odd row. A
     // neighbour of the other eye is used only if no neighbour is of the same eye.
-    let staggered = slice.stagger != 0u;
+    let staggered = dispatch.stagger != 0u;
     let one = select(vec2i(s, s), vec2i(s, 0), staggered);
     let other = select(vec2i(-s, s), vec2i(0, s), staggered);
     var sure = at - vec2i(s, s);

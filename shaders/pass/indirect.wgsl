@@ -1,10 +1,11 @@
 // Indirect light from a sample's neighbours on the screen, added to its direct light (thesis
 // 4.5, "Global Illumination"). Neighbours are centre samples, all of them or those of a lattice
 // level; pixels outside the picture and background pixels contribute nothing. The operator works on the
-// screen: it places the sample and its neighbours by their pixels and depths.
+// screen: it places the sample and its neighbours by their pixels and depths. (A binding of the rays would exceed
+// the 8 storage buffers of a stage.)
 // uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/shading
 // uses: lib/shared_exponent, types/direct, types/frame_uniforms, types/indirect, types/ray
-// uses: types/sample, types/slice
+// uses: types/sample, types/dispatch_params
 
 struct Neighbour {
     // 0 without a neighbour, less than 1 if the neighbour is far in front or behind.
@@ -18,13 +19,13 @@ struct Neighbour {
 
 const NOBODY = Neighbour(0.0, vec3f(0.0), vec3f(0.0), vec3f(0.0));
 
-// The pixel of the slice's lattice level nearest to a pixel of an eye's picture.
+// The pixel of the dispatch's lattice level nearest to a pixel of an eye's picture.
 fn on_lattice(at: vec2i) -> vec2i {
-    let shift = vec2u(slice.neighbour_level / 2u);
+    let shift = vec2u(dispatch.neighbour_level / 2u);
     let half_way = (vec2i(1) << shift) / 2;
     var cell = (at + half_way) >> shift;
     // Odd levels are chessboards.
-    if ((slice.neighbour_level & 1u) != 0u && ((cell.x + cell.y) & 1) != 0) { cell.x ^= 1; }
+    if ((dispatch.neighbour_level & 1u) != 0u && ((cell.x + cell.y) & 1) != 0) { cell.x ^= 1; }
     return cell << shift;
 }
 
@@ -132,6 +133,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    for (var i = 0u; i < slice.samples; i++) { sum += radiance_of(sample_site(first, i)); }
+    for (var i = 0u; i < dispatch.samples; i++) { sum += radiance_of(sample_site(first, i)); }
     put_on_film(first.pixel, sum);
 }

@@ -3,9 +3,9 @@
 // uses: types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // Least step, in hit distances; rays may pass thinner parts of the surface.
-const LEAST_STEP = 0.25;
+const MIN_STEP = 0.25;
 // Least step, in hit distances, if hits are checked.
-const LEAST_STEP_WITH_HIT_CHECK = 0.4;
+const MIN_STEP_WITH_HIT_CHECK = 0.4;
 
 // Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, from the depth `clear`
 // up to which the ray is known to be clear. 0 on a miss.
@@ -17,7 +17,7 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     var before = t;
     var left = 0.0;
     let checks_hits = needs_hit_check();
-    let least_step = select(LEAST_STEP, LEAST_STEP_WITH_HIT_CHECK, checks_hits);
+    let least_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);

@@ -1,11 +1,11 @@
-// Computes a mip level from the next finer one, `slice.mip_level`: each element is the mean of the two by
+// Computes a mip level from the next finer one, `dispatch.mip_level`: each element is the mean of the two by
 // two elements below it, weighted by their pixel counts, so that odd sizes are exact.
-// uses: lib/mip, types/frame_uniforms, types/post, types/slice
+// uses: lib/mip, types/frame_uniforms, types/post, types/dispatch_params
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     frame = frame_uniforms;
-    let level = slice.mip_level;
+    let level = dispatch.mip_level;
     let levels = film_levels();
     let finer_size = mip_size(levels, level);
     let size = mip_size(levels, level + 1u);

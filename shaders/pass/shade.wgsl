@@ -1,6 +1,6 @@
 // Light and colour of each sample: to the film, or to `direct` as the source of indirect light.
 // uses: lib/lattice, lib/shading, lib/shared_exponent, types/direct, types/frame_uniforms
-// uses: types/gbuffer, types/ray, types/slice
+// uses: types/gbuffer, types/ray, types/dispatch_params
 
 // True if this pipeline shades single samples: a loop of one turn is slow on llvmpipe.
 override SINGLE: bool = false;
@@ -12,7 +12,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
     if (SINGLE) { sum = direct_radiance(first, rays[first.ray]); }
-    for (var i = 0u; !SINGLE && i < slice.samples; i++) {
+    for (var i = 0u; !SINGLE && i < dispatch.samples; i++) {
         let site = sample_site(first, i);
         sum += direct_radiance(site, rays[site.ray]);
     }

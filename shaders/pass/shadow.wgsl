@@ -1,22 +1,22 @@
-// Sets the visibility bit of the slice's light if the light reaches the sample's point; keeps other bits.
+// Sets the visibility bit of the dispatch's light if the light reaches the sample's point; keeps other bits.
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 // uses: formula, lib/estimate_next, lib/over_relaxation, lib/shadow, lib/sphere
-// uses: types/frame_uniforms, types/gbuffer, types/slice, types/work_queues
+// uses: types/frame_uniforms, types/gbuffer, types/dispatch_params, types/work_queues
 
 // Least step, over the blocking distance.
-const LEAST_STEP = 0.25;
+const MIN_STEP = 0.25;
 
 fn least_step(blocks: f32, surface_distance: f32) -> f32 {
-    return max(LEAST_STEP * blocks, frame.march.shadow_least_step * surface_distance);
+    return max(MIN_STEP * blocks, frame.march.shadow_least_step * surface_distance);
 }
 
 // `clear`: the distance before the point up to which the ray is known to be clear.
 fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f32) -> bool {
-    var direction = slice.light_vector;
-    var farthest = slice.light_reach;
-    if (slice.light_kind == LIGHT_POINT) {
-        let to_light = slice.light_vector - point;
+    var direction = dispatch.light_vector;
+    var farthest = dispatch.light_reach;
+    if (dispatch.light_kind == LIGHT_POINT) {
+        let to_light = dispatch.light_vector - point;
         farthest = min(farthest, length(to_light));
         direction = to_light / max(length(to_light), 1e-30);
     }
@@ -68,7 +68,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let seen = receiver(site);
     if (!seen.faces) { return; }
     var clear = 1e30;
-    if (slice.light_kind != LIGHT_POINT) { clear = queued.clear - dot(seen.point, slice.light_vector); }
+    if (dispatch.light_kind != LIGHT_POINT) { clear = queued.clear - dot(seen.point, dispatch.light_vector); }
     if (light_reaches(frame.formula.fractal, seen.point, seen.surface_distance, clear)) {
         visibility[site.index][light_word()] |= light_mask();
     }

@@ -1,14 +1,14 @@
-// Computes how far all rays of a block toward the slice's light are unblocked. Queues the blocks that face
+// Computes how far all rays of a block toward the dispatch's light are unblocked. Queues the blocks that face
 // the light for shadow rays. Clears every point's bit; a shadow ray sets it if the light reaches the point.
 // uses: formula, lib/bundle, lib/estimate_next, lib/lattice, lib/shadow, lib/sphere, types/enqueue
-// uses: types/frame_uniforms, types/gbuffer, types/slice, types/work_queues
+// uses: types/frame_uniforms, types/gbuffer, types/dispatch_params, types/work_queues
 
 var<private> points: array<vec4f, BLOCK_THREADS>;
 
 // Position along the light's direction of the plane that rays to all points reach unblocked. Points with
 // w = 0 do not count; w is a point's hit distance.
 fn clear_plane(fractal: Fractal) -> f32 {
-    let direction = slice.light_vector;
+    let direction = dispatch.light_vector;
     var low = vec3f(1e30);
     var high = vec3f(-1e30);
     var surface_distance = 0.0;
@@ -32,7 +32,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
     let height = dot(center, direction);
     let leaves = bounding_exit(center, direction, width);
     let part = frame.march.ball_part;
-    var s = min(leaves, slice.light_reach + extent);
+    var s = min(leaves, dispatch.light_reach + extent);
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
@@ -41,7 +41,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
             if (pending.is_needed) { break; }
             // No point is farther than this from the plane at `s`.
             let blocks = blocking_distance(s + extent, surface_distance);
-            let ball = min(part * ahead.step, MOST_BALL) - blocks;
+            let ball = min(part * ahead.step, MAX_BALL) - blocks;
             let advance = sqrt(max(ball * ball - width * width, 0.0));
             if (ball <= width || advance <= width) { break; }
             s -= advance;
@@ -70,6 +70,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     }
     if (!any_faces) { return; }
     var clear = 1e30;
-    if (slice.light_kind != LIGHT_POINT) { clear = clear_plane(frame.formula.fractal); }
+    if (dispatch.light_kind != LIGHT_POINT) { clear = clear_plane(frame.formula.fractal); }
     enqueue_ray(block.index, clear);
 }

@@ -1,6 +1,6 @@
 // Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
 // uses: lib/curve, lib/exposure, lib/eye, lib/lattice, lib/mip, lib/srgb, types/film
-// uses: types/frame_uniforms, types/post, types/slice
+// uses: types/frame_uniforms, types/post, types/dispatch_params
 
 // What this pipeline is specialised for: 0 no, 1 yes, -1 reads it from the uniforms.
 override BLOOM: i32 = -1;
@@ -19,7 +19,7 @@ fn is_anaglyph() -> bool {
 
 fn is_sparse() -> bool {
     if (SPARSE >= 0) { return SPARSE == 1; }
-    return slice.spacing != 0u;
+    return dispatch.spacing != 0u;
 }
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;

@@ -2,7 +2,7 @@
 // samples: a square, which stands on its corner if the lattice is staggered. A diagonal halves the
 // cell, and each half is interpolated linearly. The diagonal whose ends differ less follows an edge
 // through the cell (Su and Willis 2004) and gets more weight.
-// uses: lib/lattice, lib/srgb, types/frame_uniforms, types/slice, types/tonemap_sparse
+// uses: lib/lattice, lib/srgb, types/frame_uniforms, types/dispatch_params, types/tonemap_sparse
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
 
@@ -11,8 +11,8 @@ const SAME = 0.024;
 
 // The nearest sample inside the region, for a cell that extends past the region's border.
 fn within(cell: vec2i) -> vec2u {
-    let cells = vec2i(((frame.size_px - 1u) >> vec2u(slice.shift)) + 1u);
-    let back = 1 + i32(slice.stagger);
+    let cells = vec2i(((frame.size_px - 1u) >> vec2u(dispatch.shift)) + 1u);
+    let back = 1 + i32(dispatch.stagger);
     var inside = cell + select(vec2i(0), vec2i(back), cell < vec2i(0));
     inside -= select(vec2i(0), vec2i(back), inside >= cells);
     // A region narrower than a cell uses its corner sample.
@@ -28,8 +28,8 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     frame = frame_uniforms;
     let pixel = workgroup.xy * WORKGROUP_SIDE + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
-    let place = vec2f(pixel) / f32(1u << slice.shift);
-    let staggered = slice.stagger != 0u;
+    let place = vec2f(pixel) / f32(1u << dispatch.shift);
+    let staggered = dispatch.stagger != 0u;
     // Coordinates in which cells have integer corners.
     let turned = select(place, 0.5 * vec2f(place.x + place.y, place.x - place.y), staggered);
     let corner = floor(turned);

@@ -1,5 +1,5 @@
 // For passes that write a work queue: the workgroup counts of the passes that read the queue.
-// uses: lib/lattice, types/slice, types/work_queues
+// uses: lib/lattice, types/dispatch_params, types/work_queues
 
 struct Workgroups {
     x: atomic<u32>,
@@ -25,8 +25,8 @@ fn enqueue_hit(block: u32) {
 }
 
 fn enqueue_ray(block: u32, clear: f32) {
-    let entry = atomicAdd(&work_queues.rays[slice.ray_queue], 1u);
+    let entry = atomicAdd(&work_queues.rays[dispatch.ray_queue], 1u);
     work_queues.entries[most_blocks() + entry] = block;
     work_queues.entries[2u * most_blocks() + entry] = bitcast<u32>(clear);
-    count_workgroup(slice.ray_queue, entry, BLOCKS);
+    count_workgroup(dispatch.ray_queue, entry, BLOCKS);
 }

@@ -1,10 +1,12 @@
-// The G-buffer: a struct of arrays, one element per sample. Host twin: `render::targets`.
+// The G-buffer, a struct of arrays with one element per sample, and the rays of the batch. Host twin:
+// `render::targets`.
 // uses: types/ray
 
 // x: depth along the camera ray in render space, the bits of an f32; 0 on a miss.
 // y: unit normal, octahedral, two 16-bit signed normalised numbers.
 @group(1) @binding(0) var<storage, read_write> surface: array<vec2u>;
-// Smooth iterations / (iterations + 1) and origin trap / 2; axis trap / 2 and plane trap / 2.
+// x: smooth iterations / (iterations + 1) and origin trap / 2; y: axis trap / 2 and plane trap / 2. All are
+// 16-bit unsigned normalised numbers.
 @group(1) @binding(1) var<storage, read_write> color_data: array<vec2u>;
 // One bit per light that casts shadows: set if the light reaches the point.
 @group(1) @binding(2) var<storage, read_write> visibility: array<vec2u>;

@@ -3,9 +3,9 @@
 // uses: types/frame_uniforms
 
 struct Ray {
-    // In render space. `march` moves it to the surface point.
+    // In render space: the eye, then the surface point.
     origin: vec3f,
-    // Radius of the cone at the origin: the distance below which the surface is hit.
+    // Radius of the cone at the origin; at a surface point, the hit distance.
     radius: f32,
     // Unit vector.
     direction: vec3f,

@@ -1,6 +1,6 @@
 // Display values of a sparse lattice's samples, row by row: 11, 11 and 10 bits of red, green and blue,
 // sRGB. They reuse the buffer of rays.
-// uses: types/frame_uniforms, types/slice
+// uses: types/frame_uniforms, types/dispatch_params
 
 @group(1) @binding(3) var<storage, read_write> sparse_display: array<u32>;
 
@@ -9,7 +9,7 @@ const DISPLAY_STEPS = vec3f(2047.0, 2047.0, 1023.0);
 // Lattice points in a row, in cells of `spacing` pixels. A staggered lattice leaves out every other
 // point of a row.
 fn sparse_columns() -> u32 {
-    return ((frame.size_px.x - 1u) >> slice.shift) + 1u;
+    return ((frame.size_px.x - 1u) >> dispatch.shift) + 1u;
 }
 
 fn sparse_index(cell: vec2u) -> u32 {

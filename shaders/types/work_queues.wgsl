@@ -1,5 +1,5 @@
 // Work queues: the blocks of threads that a later pass has work for. Host twin: `render::work_queues`.
-// uses: lib/lattice, types/slice
+// uses: lib/lattice, types/dispatch_params
 
 // One queue for camera rays, and one for the rays to each of 64 lights.
 const RAY_QUEUES = 65u;
@@ -42,7 +42,7 @@ fn queued_hit(thread: u32) -> Site {
 
 fn queued_ray(thread: u32) -> QueuedSample {
     let entry = thread / BLOCK_THREADS;
-    let is_there = entry < atomicLoad(&work_queues.rays[slice.ray_queue]);
+    let is_there = entry < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
     let clear = select(0u, work_queues.entries[2u * most_blocks() + entry], is_there);
     return queued(is_there, most_blocks() + entry, thread, clear);
 }

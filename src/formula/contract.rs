@@ -77,7 +77,7 @@ pub trait Formula: Sync {
     fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32;
 
     /// The distance field about the scene's origin.
-    fn field(&self, fractal: &Fractal) -> Arc<dyn DistanceField>;
+    fn distance_field(&self, fractal: &Fractal) -> Arc<dyn DistanceField>;
 
     /// Whether views of `fractal` finer than f32 allows can be drawn about an anchor.
     fn has_depth(&self, _fractal: &Fractal) -> bool {
@@ -347,19 +347,19 @@ pub struct PackedFor<'a> {
 pub struct Packed {
     /// The kernel.
     pub kernel: Kernel,
-    /// The bytes of `FormulaUniforms`, at most [`MOST_UNIFORM_BYTES`].
+    /// The bytes of `FormulaUniforms`, at most [`MAX_UNIFORM_BYTES`].
     pub uniforms: Vec<u8>,
     /// The bytes of the uniform buffer at group 0, binding 1; empty if the kernel reads none.
     ///
-    /// At most [`MOST_TABLE_BYTES`].
+    /// At most [`MAX_TABLE_BYTES`].
     pub table: Arc<[u8]>,
 }
 
 /// Maximum size of `FormulaUniforms`, in bytes.
-pub const MOST_UNIFORM_BYTES: usize = 640;
+pub const MAX_UNIFORM_BYTES: usize = 640;
 
 /// Maximum size of a formula's table in bytes: every adapter can bind this much as a uniform buffer.
-pub const MOST_TABLE_BYTES: usize = 65_536;
+pub const MAX_TABLE_BYTES: usize = 65_536;
 
 /// An anchor and its orbit, with enough digits for the deepest view about the anchor.
 pub trait ReferenceOrbit: fmt::Debug + Any + Send + Sync {
@@ -372,7 +372,7 @@ pub trait ReferenceOrbit: fmt::Debug + Any + Send + Sync {
     /// The distance field about the anchor, for pixels of radius `footprint` at the surface.
     ///
     /// `footprint` sets the iterations. Rays may ignore detail finer than `grain`. Both are in scene units.
-    fn field(
+    fn distance_field(
         self: Arc<Self>,
         fractal: &Fractal,
         footprint: f64,

@@ -24,9 +24,9 @@ pub const DEEP_FOOTPRINT: f64 = 4e-31;
 pub const MAX_MARCH_STEPS: u32 = 4096;
 
 /// Least step of a ray, in hit distances; rays may pass thinner parts of the surface.
-pub const LEAST_STEP: f64 = 0.25;
+pub const MIN_STEP: f64 = 0.25;
 /// Least step, in hit distances, if hits are checked ([`DistanceField::needs_hit_check`]).
-pub const LEAST_STEP_WITH_HIT_CHECK: f64 = 0.4;
+pub const MIN_STEP_WITH_HIT_CHECK: f64 = 0.4;
 /// Length over which a hit is checked, in hit distances.
 pub const CHECKED_THICKNESS: f64 = 0.5;
 /// Number of points along that length at which a hit is checked.
@@ -130,8 +130,7 @@ pub trait DistanceField: Send + Sync {
             return Ok(None);
         };
         let far = far.min(max_depth);
-        let least_step =
-            if self.needs_hit_check() { LEAST_STEP_WITH_HIT_CHECK } else { LEAST_STEP };
+        let least_step = if self.needs_hit_check() { MIN_STEP_WITH_HIT_CHECK } else { MIN_STEP };
         let (mut before, mut depth) = (near, near);
         for i in 0..max_steps {
             if depth > far {

@@ -22,7 +22,7 @@ const NEARNESS: f64 = 1e-7;
 /// Number of rays; the first passes through the picture's middle.
 const RAYS: u32 = 9;
 /// Most steps of one ray; a ray with more creeps along the surface.
-const MOST_STEPS: u32 = 600;
+const MAX_STEPS: u32 = 600;
 /// March steps per step of the search: about a tenth of a millisecond.
 const STEPS_AT_ONCE: u32 = 16;
 /// Greatest distance from the eye to an older anchor that f64 rays can use.
@@ -76,7 +76,7 @@ impl Search {
         older: Option<&Arc<dyn ReferenceOrbit>>,
     ) -> Option<Self> {
         let helpful = older.filter(|older| older.is_of(fractal)).filter(|older| {
-            let field = Arc::clone(older).field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+            let field = Arc::clone(older).distance_field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
             let eye = &camera.position - older.anchor();
             eye.length() < NEAR_ENOUGH * field.distance(eye)
         });
@@ -135,9 +135,9 @@ fn finished(steps: &mut Option<Box<dyn ReferenceSteps>>) -> Option<Arc<dyn Refer
 
 impl RayMarch {
     fn new(reference: Arc<dyn ReferenceOrbit>, fractal: &Fractal, camera: &Camera) -> Self {
-        let field = reference.clone().field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+        let field = reference.clone().distance_field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
         let away = field.distance(&camera.position - &field.origin());
-        let field = reference.clone().field(fractal, DEEP_FOOTPRINT, GRAIN_SEEN * away);
+        let field = reference.clone().distance_field(fractal, DEEP_FOOTPRINT, GRAIN_SEEN * away);
         Self { reference, field, ray: 0, steps: 0, depth: 0.0, nearest: None }
     }
 
@@ -157,7 +157,7 @@ impl RayMarch {
                 && from_center.dot(direction) > 0.0;
             let nearest = self.nearest.map_or(f64::INFINITY, DVec3::length);
             self.steps += 1;
-            if is_hit || has_left || self.depth > nearest || self.steps >= MOST_STEPS {
+            if is_hit || has_left || self.depth > nearest || self.steps >= MAX_STEPS {
                 (self.ray, self.steps, self.depth) = (self.ray + 1, 0, 0.0);
                 return self.ray < RAYS;
             }

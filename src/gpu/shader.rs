@@ -1,6 +1,6 @@
 //! Shader modules: plain WGSL files, joined by the `uses` lines of their headers.
 //!
-//! A file's leading comment may hold lines such as `// uses: lib/camera, types/slice`. A module is one
+//! A file's leading comment may hold lines such as `// uses: lib/camera, types/dispatch_params`. A module is one
 //! file with all files that it uses, directly or indirectly, each file once. The joined text is plain WGSL:
 //! tests parse and validate every module.
 

@@ -9,17 +9,17 @@ use web_time::Instant;
 
 use super::Gpu;
 
-/// A finished submit and its GPU time.
+/// Finished work and its GPU time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finished<T> {
-    /// The caller's mark of the submit.
+    /// The caller's mark of the work.
     pub mark: T,
-    /// GPU time, milliseconds: from the submit, or from the previous submit's end if later, to
-    /// this submit's end.
+    /// GPU time, milliseconds: from the last submit of the work, or from the end of the work before if
+    /// later, to the work's end.
     pub busy_ms: f64,
 }
 
-/// Measures the GPU time of submits, each with a mark of the caller.
+/// Measures the GPU time of work, each piece with a mark of the caller.
 ///
 /// A submit that is not registered here counts as part of the next registered one. Browsers
 /// report the end of work through a promise: Chrome at once, Firefox every 100 ms. The measured
@@ -42,7 +42,7 @@ fn locked(ends: &Mutex<VecDeque<Instant>>) -> MutexGuard<'_, VecDeque<Instant>> 
 }
 
 impl<T> Stopwatch<T> {
-    /// Number of submits whose end has not been read yet.
+    /// Number of pieces of work whose end has not been read yet.
     pub fn in_flight(&self) -> usize {
         self.in_flight.len()
     }

@@ -26,7 +26,7 @@ const BUDGET_MS: f64 = 2.0;
 /// The depth is the anchor's distance from the eye when it was found.
 const RENEWED_AFTER: f64 = 0.5;
 /// Greatest distance of a usable anchor, in distances from the eye to the surface.
-const MOST_AWAY: f64 = 300.0;
+const MAX_AWAY: f64 = 300.0;
 /// Greatest footprint of plain views that search for an anchor, over [`COARSEST_FOOTPRINT`].
 const AHEAD: f64 = 30.0;
 
@@ -57,7 +57,7 @@ impl Found {
         }
         let space = RenderSpace::about(model, self.reference.clone(), scene);
         let nearest = space.nearest(scene);
-        self.moved(scene) <= RENEWED_AFTER || space.scale() <= MOST_AWAY * nearest
+        self.moved(scene) <= RENEWED_AFTER || space.scale() <= MAX_AWAY * nearest
     }
 }
 

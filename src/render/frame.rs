@@ -1,13 +1,13 @@
-//! Records pieces of work: an integrator's passes over samples, and the passes of a display.
+//! Records one batch of an integrator's work, or one display.
 
 use super::{
     integrator::Integrator,
     pass::{self, Record},
-    recorder::{Display, Recorder},
+    recorder::Recorder,
     schedule::Work,
 };
 
-/// Records each pass whose `when` holds for the work, in the order of the pass's table.
+/// Records each pass whose `when` holds for the work, in the order of the table.
 pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) {
     match work {
         Work::Trace(trace) => {
@@ -20,13 +20,15 @@ pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) 
                 }
             }
         }
-        Work::Display { level, fill, .. } => {
-            let display = Display { level, fill };
+        Work::Display(display) => {
+            let sparse_level = recorder.upsample_level;
             for pass in pass::DISPLAY {
-                if let Record::Display { when, record } = pass.record
-                    && when(recorder, &display)
-                {
-                    record(recorder, &display);
+                match (&pass.record, sparse_level) {
+                    (Record::Sparse { record }, Some(level)) => record(recorder, level),
+                    (Record::Film { when, record }, None) if when(recorder, &display) => {
+                        record(recorder, &display);
+                    }
+                    _ => {}
                 }
             }
         }

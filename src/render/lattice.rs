@@ -5,7 +5,7 @@
 //! coarser level has four neighbours in that level, beside and above it or on its diagonals, which
 //! makes the picture easy to fill.
 
-use super::uniforms::Slice;
+use super::uniforms::DispatchParams;
 
 /// The coarsest level: one pixel in 1024.
 pub const COARSEST: u32 = 10;
@@ -14,7 +14,7 @@ pub const COARSEST: u32 = 10;
 pub const WORKGROUP_SIDE: u32 = 8;
 
 /// Most samples of a pixel that are marched together: they form one block of threads.
-pub const MOST_TOGETHER: u32 = 8;
+pub const MAX_SAMPLES_TOGETHER: u32 = 8;
 
 /// Threads in a workgroup.
 pub const WORKGROUP_THREADS: u32 = WORKGROUP_SIDE * WORKGROUP_SIDE;
@@ -34,9 +34,9 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// All pixels, with threads for `together` samples of each, 1 to [`MOST_TOGETHER`].
+    /// All pixels, with threads for `together` samples of each, 1 to [`MAX_SAMPLES_TOGETHER`].
     pub fn samples(together: u32, size_px: [u32; 2]) -> Self {
-        let shift = together.next_power_of_two().min(MOST_TOGETHER).ilog2();
+        let shift = together.next_power_of_two().min(MAX_SAMPLES_TOGETHER).ilog2();
         // Two by four blocks; a block has four by two pixels, two by two, two by one, or one.
         let sides = [2 * (4 >> shift.div_ceil(2)), 4 * (2 >> (shift / 2))];
         let [columns, rows] = std::array::from_fn(|axis| size_px[axis].div_ceil(sides[axis]));
@@ -97,11 +97,11 @@ impl Grid {
         self.columns * self.rows
     }
 
-    /// The slice uniform of a dispatch that starts at `first_workgroup`.
+    /// The parameters of a dispatch that starts at `first_workgroup`.
     ///
     /// The sample is the pixel's centre and replaces the film's value.
-    pub fn slice(&self, first_workgroup: u32) -> Slice {
-        Slice {
+    pub fn dispatch_params(&self, first_workgroup: u32) -> DispatchParams {
+        DispatchParams {
             step: self.step,
             offset: self.offset,
             stagger: self.stagger,
@@ -152,7 +152,7 @@ impl Grid {
 
 /// A stride that visits `count` positions in a scattered order, each once.
 ///
-/// The stride is coprime to `count` and near its golden section, so that every slice of a picture costs
+/// The stride is coprime to `count` and near its golden section, so that every piece of a picture costs
 /// about the same, wherever the expensive pixels are.
 fn scatter(count: u32) -> u32 {
     let coprime = |a: u32| {

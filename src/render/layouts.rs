@@ -19,7 +19,7 @@ const ENVIRONMENT_BINDINGS: [wgpu::BindingType; 2] = [
 pub struct Layouts {
     /// The device.
     pub gpu: Gpu,
-    /// Group 0: frame uniforms (a storage buffer), formula table (reference orbit), slice (dynamic offset),
+    /// Group 0: frame uniforms (a storage buffer), formula table (reference orbit), dispatch parameters (dynamic offset),
     /// lights, gradient.
     pub frame: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility, rays; all storage.

@@ -36,7 +36,7 @@ pub struct Memory {
     pub environment_map: u64,
     /// The display picture; also a picture of another size while that is still shown.
     pub display: u64,
-    /// Scene, lights, gradient, slices, statistics.
+    /// Frame uniforms, formula table, lights, gradient, dispatch parameters, statistics.
     pub uniforms: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Draws pictures. Start at [`frame`]: the passes in the order in which they run.
+//! Draws pictures. Start at [`pass`]: its tables list the passes in the order of a frame.
 //!
 //! | file | contents |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | [`schedule`] | what to compute next: a pure state machine |
 //! | [`shaders`] | the WGSL files, and the module of each pass |
 //! | [`lattice`] | sparse lattices of pixels, and the positions of samples in a pixel |
-//! | [`frame`] | the passes of one submit |
+//! | [`frame`] | records the passes of a batch or a display |
 //! | [`recorder`] | records the passes: bindings and dispatches |
 //! | [`integrator`] | how the light is computed that samples see |
 //! | [`indirect`] | the source of indirect light |
@@ -21,6 +21,9 @@
 //! | [`space`] | render space: origin and unit of coordinates |
 //! | [`work_queues`] | work queues: the blocks of threads that a pass has work for |
 //! | `buffers` | constructors of buffers and bind groups |
+//! | `gbuffer` | readback of the G-buffer |
+//! | `layouts` | bind group layouts |
+//! | `region` | the part of a picture that a view draws |
 //! | [`targets`] | buffers and the display texture |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | readback of a finished view's pixels |

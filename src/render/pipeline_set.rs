@@ -6,7 +6,7 @@
 //! values from the uniforms and draws until a special variant is compiled.
 
 use super::{
-    schedule::{Points, Stage, Trace, Work},
+    schedule::{Display, Points, Stage, Trace, Work},
     uniforms::Inputs,
 };
 use crate::formula::{FormulaRef, Kernel};
@@ -92,7 +92,7 @@ pub static TONE: PipelineSet = PipelineSet {
         ]
     }),
     // One display of a whole picture, and one of a sparse lattice.
-    rehearsal: || vec![show(0), show(1)],
+    rehearsal: || vec![display(0), display(1)],
 };
 
 /// Indirect light.
@@ -112,7 +112,7 @@ pub static POST: PipelineSet = PipelineSet {
     has_kernel: false,
     is_always_needed: false,
     constants: None,
-    rehearsal: || vec![show(0)],
+    rehearsal: || vec![display(0)],
 };
 
 /// Sets with special variants.
@@ -122,8 +122,8 @@ fn trace(points: Points, from: Stage) -> Work {
     Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
 }
 
-fn show(level: u32) -> Work {
-    Work::Display { level, fill: false, film: false, adapt: 1.0 }
+fn display(level: u32) -> Work {
+    Work::Display(Display { level, fill: false, from_film: false, adapt: 1.0 })
 }
 
 impl PipelineSet {

@@ -27,7 +27,7 @@ pub const FIRST_LEVEL: u32 = 2;
 /// Greatest half width of a blur's kernel, in elements of its mip level.
 ///
 /// A coarser level is faster; a finer level follows moving light in smaller steps.
-pub const MOST_HALF_WIDTH: f32 = 6.0;
+pub const MAX_HALF_WIDTH: f32 = 6.0;
 
 const ELEMENT_BYTES: u64 = 16;
 
@@ -176,7 +176,7 @@ impl Levels {
 pub struct BlurKernel {
     /// The mip level.
     pub level: u32,
-    /// Half the width, in elements; at most [`MOST_HALF_WIDTH`] unless the level is the last.
+    /// Half the width, in elements; at most [`MAX_HALF_WIDTH`] unless the level is the last.
     pub half_width: f32,
 }
 
@@ -188,7 +188,7 @@ impl BlurKernel {
         let half_width_px = radius * levels.eye_px[1] as f32 / (passes.max(1) as f32).sqrt();
         let at = |level: u32| half_width_px / (1_u32 << level) as f32;
         let last = levels.last();
-        let level = (FIRST_LEVEL..last).find(|&n| at(n) <= MOST_HALF_WIDTH).unwrap_or(last);
+        let level = (FIRST_LEVEL..last).find(|&n| at(n) <= MAX_HALF_WIDTH).unwrap_or(last);
         Self { level, half_width: at(level) }
     }
 }
@@ -230,10 +230,10 @@ mod tests {
             for radius in [0.005, 0.04, 0.25] {
                 for passes in 1..=4 {
                     let kernel = BlurKernel::new(radius, passes, levels(size_px));
-                    assert!(kernel.half_width <= MOST_HALF_WIDTH);
+                    assert!(kernel.half_width <= MAX_HALF_WIDTH);
                     // The level is coarser only if a finer level's kernel would be too wide.
                     assert!(
-                        kernel.level == FIRST_LEVEL || kernel.half_width > MOST_HALF_WIDTH / 2.0
+                        kernel.level == FIRST_LEVEL || kernel.half_width > MAX_HALF_WIDTH / 2.0
                     );
                     let px = f64::from(kernel.half_width) * f64::from(1_u32 << kernel.level);
                     let variance = f64::from(passes) * px * px;

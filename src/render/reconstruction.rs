@@ -4,7 +4,7 @@
 //! lattice's own samples. Upsampling leaves the film unfilled, and saves most of the cost of displaying a
 //! moving picture; but passes over the whole film, such as mean and bloom, need a filled film.
 
-use super::schedule::{Points, Work};
+use super::schedule::{Display, Points, Work};
 
 /// The state of the film between the pixels of a sparse lattice.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,8 +18,8 @@ impl Reconstruction {
     ///
     /// `is_plain`: no pass reads the whole film. `finest`: the finest level whose samples fit the buffer.
     pub fn upsample_level(&mut self, work: Work, is_plain: bool, finest: u32) -> Option<u32> {
-        let (level, fill, film) = match work {
-            Work::Display { level, fill, film, .. } => (level, fill, film),
+        let (level, fill, from_film) = match work {
+            Work::Display(Display { level, fill, from_film, .. }) => (level, fill, from_film),
             Work::Trace(trace) => {
                 self.is_filled &= !matches!(trace.points, Points::Level(_));
                 return None;
@@ -30,7 +30,7 @@ impl Reconstruction {
         }
         // Filling the film amid a level would overwrite the level's samples: an unfilled film waits for
         // the next complete level.
-        if (is_plain && level >= finest && !film) || !(fill || self.is_filled) {
+        if (is_plain && level >= finest && !from_film) || !(fill || self.is_filled) {
             return Some(level.max(finest));
         }
         self.is_filled = true;
@@ -54,7 +54,7 @@ mod tests {
     }
 
     fn show(fill: bool, film: bool) -> Work {
-        Work::Display { level: 4, fill, film, adapt: 1.0 }
+        Work::Display(Display { level: 4, fill, from_film: film, adapt: 1.0 })
     }
 
     #[test]

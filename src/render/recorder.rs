@@ -8,9 +8,9 @@ use super::{
     layouts::Layouts,
     pipeline_set::PipelineSet,
     post::{Post, Tasks},
-    schedule::{BATCH_WORKGROUPS, Points, Stage, Trace},
-    targets::{MOST_SLICES, SLICE_STRIDE_BYTES, Targets},
-    uniforms::{Inputs, Slice},
+    schedule::{BATCH_WORKGROUPS, Display, Points, Stage, Trace},
+    targets::{DISPATCH_PARAMS_STRIDE_BYTES, MAX_DISPATCHES, Targets},
+    uniforms::{DispatchParams, Inputs},
     work_queues::{BLOCK_THREADS, Queue},
 };
 use crate::gpu::host_shared::HostShared;
@@ -41,12 +41,17 @@ pub enum Record {
         /// Records the pass.
         record: fn(&mut Recorder<'_>, &Trace, &Grid),
     },
-    /// The pass works on a display picture.
-    Display {
+    /// The pass makes a display of the film.
+    Film {
         /// Whether a display has the pass.
         when: fn(&Recorder<'_>, &Display) -> bool,
         /// Records the pass.
         record: fn(&mut Recorder<'_>, &Display),
+    },
+    /// The pass makes a display of a sparse lattice's samples alone: the film between them is stale.
+    Sparse {
+        /// Records the pass for a lattice level.
+        record: fn(&mut Recorder<'_>, u32),
     },
     /// Another pass records this one.
     Within,
@@ -64,22 +69,12 @@ pub struct PassPipeline {
     pipeline: wgpu::ComputePipeline,
 }
 
-/// A display picture to draw.
-#[derive(Clone, Copy, Debug)]
-pub struct Display {
-    /// The finest complete lattice level; 0 if the film is complete.
-    pub level: u32,
-    /// Whether the pixels between those of the lattice must be filled first.
-    pub fill: bool,
-}
-
 /// The recorded work of one pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     /// Number of dispatches.
     pub dispatches: u64,
-    /// Number of samples that a trace covers, summed over its dispatches: a light's shadow rays, if every
-    /// sample point faced the light. 0 for passes over the film.
+    /// Samples covered, summed over dispatches: an upper bound of the rays marched. 0 for film passes.
     pub samples: u64,
 }
 
@@ -116,10 +111,10 @@ impl Dispatches {
         Self { by_pass: new.collect() }
     }
 
-    fn add(&mut self, pass: &Pass, slice: &Slice) {
+    fn add(&mut self, pass: &Pass, params: &DispatchParams) {
         let count = self.by_pass.entry(pass.name).or_default();
         count.dispatches += 1;
-        count.samples += u64::from(slice.blocks * BLOCK_THREADS);
+        count.samples += u64::from(params.blocks * BLOCK_THREADS);
     }
 }
 
@@ -149,7 +144,7 @@ pub struct Recorder<'a> {
     pub dispatches: &'a mut Dispatches,
     compute: wgpu::ComputePass<'static>,
     encoder: wgpu::CommandEncoder,
-    slices: u32,
+    recorded: u32,
 }
 
 impl<'a> Recorder<'a> {
@@ -178,7 +173,7 @@ impl<'a> Recorder<'a> {
             dispatches,
             compute,
             encoder,
-            slices: 0,
+            recorded: 0,
         }
     }
 
@@ -190,11 +185,6 @@ impl<'a> Recorder<'a> {
     /// Binds the film statistics, for passes over the whole film.
     pub fn bind_post(&mut self) {
         self.compute.set_bind_group(1, &self.post.group, &[]);
-    }
-
-    /// Binds the buffers of a batch, for passes that reuse them for other data.
-    pub fn bind_jittered(&mut self) {
-        self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
     }
 
     /// Binds the film, for passes after those that use work queues.
@@ -224,20 +214,20 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// The slice uniform of a trace; also binds the G-buffer of its samples.
-    pub fn slice(&mut self, trace: &Trace, grid: &Grid) -> Slice {
+    /// The dispatch parameters of a batch. Binds the jittered samples if the batch computes those.
+    pub fn dispatch_params(&mut self, trace: &Trace, grid: &Grid) -> DispatchParams {
         debug_assert!(trace.workgroups <= BATCH_WORKGROUPS, "buffers hold one batch");
-        let mut slice = grid.slice(trace.first_workgroup);
-        slice.starts_at_surface = u32::from(trace.from > Stage::March);
-        slice.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
+        let mut params = grid.dispatch_params(trace.first_workgroup);
+        params.starts_at_surface = u32::from(trace.from > Stage::March);
+        params.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
         if let Points::Samples { first, count } = trace.points {
-            slice.jitter = lattice::jitter(first);
-            slice.samples = count;
-            slice.compact = 1;
-            slice.accumulate = 1;
+            params.jitter = lattice::jitter(first);
+            params.samples = count;
+            params.compact = 1;
+            params.accumulate = 1;
             self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
         }
-        slice
+        params
     }
 
     /// Adds dispatches over a whole grid, for a lattice of `spacing` pixels.
@@ -246,21 +236,21 @@ impl<'a> Recorder<'a> {
         const MOST: u32 = 65_535;
         let total = grid.workgroups();
         for first in (0..total).step_by(MOST as usize) {
-            let slice = Slice { spacing, ..grid.slice(first) };
-            self.dispatch(pipeline, slice, MOST.min(total - first));
+            let params = DispatchParams { spacing, ..grid.dispatch_params(first) };
+            self.dispatch(pipeline, params, MOST.min(total - first));
         }
     }
 
     /// Adds a dispatch over all pixels of the region, row by row.
-    pub fn dispatch_plane(&mut self, pipeline: &PassPipeline, slice: Slice) {
+    pub fn dispatch_plane(&mut self, pipeline: &PassPipeline, params: DispatchParams) {
         let workgroups = self.inputs.frame.size_px.map(|side| side.div_ceil(WORKGROUP_SIDE));
-        self.dispatch_groups(pipeline, slice, workgroups);
+        self.dispatch_groups(pipeline, params, workgroups);
     }
 
     /// Adds a dispatch with one thread per pixel of a trace.
-    pub fn dispatch_pixels(&mut self, pipeline: &PassPipeline, slice: Slice) {
-        let pixels = (slice.blocks * BLOCK_THREADS) >> slice.samples_shift;
-        self.dispatch(pipeline, slice, pixels.div_ceil(WORKGROUP_THREADS));
+    pub fn dispatch_pixels(&mut self, pipeline: &PassPipeline, params: DispatchParams) {
+        let pixels = (params.blocks * BLOCK_THREADS) >> params.samples_shift;
+        self.dispatch(pipeline, params, pixels.div_ceil(WORKGROUP_THREADS));
     }
 
     /// Adds a dispatch over all blocks of a trace that queues some of the blocks.
@@ -268,10 +258,10 @@ impl<'a> Recorder<'a> {
         &mut self,
         pipeline: &PassPipeline,
         work_queues: &wgpu::BindGroup,
-        slice: Slice,
+        params: DispatchParams,
     ) {
         self.compute.set_bind_group(2, work_queues, &[]);
-        self.dispatch(pipeline, slice, slice.blocks.div_ceil(WORKGROUP_THREADS));
+        self.dispatch(pipeline, params, params.blocks.div_ceil(WORKGROUP_THREADS));
     }
 
     /// Adds a dispatch over a work queue, which may write another queue.
@@ -279,11 +269,11 @@ impl<'a> Recorder<'a> {
         &mut self,
         pipeline: &PassPipeline,
         work_queues: &wgpu::BindGroup,
-        slice: Slice,
+        params: DispatchParams,
         queue: Queue,
     ) {
         self.compute.set_bind_group(2, work_queues, &[]);
-        self.prepare(pipeline, slice);
+        self.prepare(pipeline, params);
         let (workgroups, offset) = match &self.rehearsal {
             Some(nothing) => (nothing, 0),
             None => self.targets.work_queues.workgroups(queue),
@@ -292,17 +282,17 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds a dispatch of `workgroups`.
-    pub fn dispatch(&mut self, pipeline: &PassPipeline, slice: Slice, workgroups: u32) {
-        self.dispatch_groups(pipeline, slice, [workgroups, 1]);
+    pub fn dispatch(&mut self, pipeline: &PassPipeline, params: DispatchParams, workgroups: u32) {
+        self.dispatch_groups(pipeline, params, [workgroups, 1]);
     }
 
     fn dispatch_groups(
         &mut self,
         pipeline: &PassPipeline,
-        slice: Slice,
+        params: DispatchParams,
         [columns, rows]: [u32; 2],
     ) {
-        self.prepare(pipeline, slice);
+        self.prepare(pipeline, params);
         if let Some(nothing) = &self.rehearsal {
             self.compute.dispatch_workgroups_indirect(nothing, 0);
             return;
@@ -310,18 +300,21 @@ impl<'a> Recorder<'a> {
         self.compute.dispatch_workgroups(columns, rows, 1);
     }
 
-    /// Sets the pipeline and the slice uniform of the next dispatch.
-    fn prepare(&mut self, pipeline: &PassPipeline, slice: Slice) {
-        debug_assert!(self.slices < MOST_SLICES, "one submit has room for {MOST_SLICES} slices");
-        let offset = self.slices * SLICE_STRIDE_BYTES;
-        // Queue writes and submits keep their order: earlier submits already have their own slices.
-        self.layouts.gpu.queue.write_buffer(
-            &self.targets.slices,
-            u64::from(offset),
-            &slice.to_bytes(),
+    /// Sets the pipeline and the parameters of the next dispatch.
+    fn prepare(&mut self, pipeline: &PassPipeline, params: DispatchParams) {
+        debug_assert!(
+            self.recorded < MAX_DISPATCHES,
+            "a submit has {MAX_DISPATCHES} dispatches at most"
         );
-        self.slices += 1;
-        self.dispatches.add(pipeline.pass, &slice);
+        let offset = self.recorded * DISPATCH_PARAMS_STRIDE_BYTES;
+        // Queue writes and submits keep their order: earlier submits already have their own parameters.
+        self.layouts.gpu.queue.write_buffer(
+            &self.targets.dispatch_params,
+            u64::from(offset),
+            &params.to_bytes(),
+        );
+        self.recorded += 1;
+        self.dispatches.add(pipeline.pass, &params);
         self.compute.set_pipeline(&pipeline.pipeline);
         self.compute.set_bind_group(0, &self.targets.frame_group, &[offset]);
     }

@@ -11,6 +11,7 @@
 //! | `completion` | pieces in flight, and what their completions say of costs |
 //! | `progress` | how much of the picture has been computed |
 //! | `cost`, `rate` | estimates of what work takes |
+//! | `plan` | what an integrator says of its work |
 //! | `gbuffer_validity` | which parts of the G-buffer are valid |
 //! | `adaptation` | how exposure follows the film |
 //! | `work`, `types` | plain types |
@@ -32,35 +33,35 @@ use adaptation::Adaptation;
 use completion::{InFlight, Piece};
 use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
-pub use plan::{Plan, Price, WorkKind};
+pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
 use progress::Progress;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
-pub use work::{BATCH_WORKGROUPS, Job, Points, Stage, Trace, Work};
+pub use work::{BATCH_WORKGROUPS, Display, Job, Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
-pub const MOST_IN_FLIGHT: usize = 2;
+pub const MAX_IN_FLIGHT: usize = 2;
 
 /// Most workgroups in a piece of work: a megapixel.
-pub const MOST_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
+pub const MAX_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
 
 /// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
 /// of each dispatch leave much of the GPU idle: short pieces waste time.
-pub const SLICE_MS: f64 = 25.0;
+pub const PIECE_MS: f64 = 25.0;
 
 /// Largest part of the motion budget that a refining piece aims at: two of them in flight and a
 /// sparse picture together take little more than a budget.
-const SLICE_SHARE: f64 = 0.5;
+const PIECE_SHARE: f64 = 0.5;
 
 /// GPU time that one piece of a still aims at, milliseconds.
-pub const STILL_SLICE_MS: f64 = 60.0;
+pub const STILL_PIECE_MS: f64 = 60.0;
 
 /// Least time between two displays of a refining picture, seconds.
-const SHOW_INTERVAL_SECS: f64 = 0.25;
+const DISPLAY_INTERVAL_SECS: f64 = 0.25;
 
 /// Largest part of GPU time that displays of a refining picture take.
-const SHOW_SHARE: f64 = 0.05;
+const DISPLAY_SHARE: f64 = 0.05;
 
 /// Largest part of GPU time that frames of the interface take which only report progress.
 const FRAME_SHARE: f64 = 0.1;
@@ -92,8 +93,8 @@ pub struct Schedule {
     /// Movement of auto exposure.
     adaptation: Adaptation,
     in_flight: InFlight,
-    /// Number of slices so far, modulo 2³².
-    slices: u32,
+    /// Number of pieces so far, modulo 2³².
+    pieces: u32,
     cost: Cost,
 }
 
@@ -113,7 +114,7 @@ impl Schedule {
             shown_at: f64::NEG_INFINITY,
             adaptation: Adaptation::default(),
             in_flight: InFlight::default(),
-            slices: 0,
+            pieces: 0,
             cost: Cost::new(plan),
         }
     }
@@ -222,7 +223,7 @@ impl Schedule {
     /// None where enough is in flight, where the last picture of a movement has been shown, or
     /// where all is done.
     pub fn next(&mut self, now_secs: f64) -> Option<Work> {
-        if self.in_flight.len() >= MOST_IN_FLIGHT {
+        if self.in_flight.len() >= MAX_IN_FLIGHT {
             return None;
         }
         let phase = self.phase();
@@ -231,7 +232,7 @@ impl Schedule {
             Work::Trace(trace) => {
                 self.cost.expected_ms(trace.job(), phase, trace.workgroups * WORKGROUP_THREADS)
             }
-            Work::Display { .. } => self.cost.show_ms(),
+            Work::Display(_) => self.cost.display_ms(),
         };
         self.in_flight.push(Piece { phase, arithmetic: self.cost.arithmetic, expected_ms });
         Some(work)
@@ -253,7 +254,7 @@ impl Schedule {
 
     fn choose(&mut self, now_secs: f64) -> Option<Work> {
         if (self.is_display_stale && self.is_display_due(now_secs)) || self.adapts_now(now_secs) {
-            return Some(self.show(now_secs));
+            return Some(self.display(now_secs));
         }
         if self.follows(now_secs) && !self.opening {
             return None;
@@ -262,18 +263,18 @@ impl Schedule {
             let (points, first_workgroup) = match self.progress.under_way {
                 Some(state) => state,
                 None => {
-                    let choice = self.choice(now_secs);
-                    let points = choice.next_points()?;
+                    let selection = self.point_selection(now_secs);
+                    let points = selection.next_points()?;
                     let is_blank = points == Points::All && !self.progress.is_filled;
-                    if is_blank && choice.needs_preview() {
+                    if is_blank && selection.needs_preview() {
                         self.progress.is_filled = true;
-                        return Some(self.show(now_secs));
+                        return Some(self.display(now_secs));
                     }
                     (points, 0)
                 }
             };
             if points.grid(self.progress.size_px).workgroups() > 0 {
-                return Some(Work::Trace(self.slice(points, first_workgroup)));
+                return Some(Work::Trace(self.next_trace(points, first_workgroup)));
             }
             // A small region has no pixels of this kind.
             self.is_display_stale = self.progress.complete(points);
@@ -281,7 +282,7 @@ impl Schedule {
     }
 
     /// What the next points depend on.
-    fn choice(&self, now_secs: f64) -> PointSelection<'_> {
+    fn point_selection(&self, now_secs: f64) -> PointSelection<'_> {
         PointSelection {
             progress: &self.progress,
             cost: &self.cost,
@@ -289,7 +290,7 @@ impl Schedule {
             budget_ms: self.budget_ms,
             samples_wanted: self.samples_wanted,
             is_opening: self.opening,
-            is_display_due: now_secs - self.shown_at >= self.show_interval_secs(),
+            is_display_due: now_secs - self.shown_at >= self.display_interval_secs(),
             in_flight_ms: self.in_flight.expected_ms(Phase::Refining),
         }
     }
@@ -305,13 +306,14 @@ impl Schedule {
         }
         let complete = self.progress.samples_done == 1 && self.progress.under_way.is_none();
         let waited_secs = now_secs - self.shown_at;
-        self.opening || complete || finished || waited_secs >= self.show_interval_secs()
+        self.opening || complete || finished || waited_secs >= self.display_interval_secs()
     }
 
     /// Least time between two displays of a refining picture, seconds. Each display comes with a
     /// frame of the interface.
-    fn show_interval_secs(&self) -> f64 {
-        let interval_secs = SHOW_INTERVAL_SECS.max(self.cost.show_ms() * 1e-3 / SHOW_SHARE);
+    fn display_interval_secs(&self) -> f64 {
+        let interval_secs =
+            DISPLAY_INTERVAL_SECS.max(self.cost.display_ms() * 1e-3 / DISPLAY_SHARE);
         interval_secs.max(self.frame_interval_secs())
     }
 
@@ -322,7 +324,7 @@ impl Schedule {
 
     /// Whether exposure is moving and its next step is due.
     fn adapts_now(&self, now_secs: f64) -> bool {
-        let frame_ms = self.cost.show_ms() + self.cost.interface_ms();
+        let frame_ms = self.cost.display_ms() + self.cost.interface_ms();
         let interval_secs = ADAPT_INTERVAL_SECS.max(frame_ms * 1e-3 / ADAPT_SHARE);
         self.adaptation.is_under_way()
             && self.progress.filmed().is_some()
@@ -330,7 +332,7 @@ impl Schedule {
             && now_secs - self.shown_at >= interval_secs
     }
 
-    fn show(&mut self, now_secs: f64) -> Work {
+    fn display(&mut self, now_secs: f64) -> Work {
         // Only opening pictures and complete lattices move exposure's goal: further samples
         // hardly change the film's mean.
         let is_new_goal = self.is_display_stale && self.progress.samples_done <= 1;
@@ -342,17 +344,22 @@ impl Schedule {
         self.shown_level = level;
         // Reconstruction would overwrite the pixels of a level under way.
         let fill = level > 0 && self.progress.under_way.is_none();
-        Work::Display { level, fill, film: self.progress.is_filled && level > 0, adapt }
+        Work::Display(Display {
+            level,
+            fill,
+            from_film: self.progress.is_filled && level > 0,
+            adapt,
+        })
     }
 
-    fn slice(&mut self, points: Points, first_workgroup: u32) -> Trace {
+    fn next_trace(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let job = self.progress.job(points);
         let total = points.grid(self.progress.size_px).workgroups();
         let wanted = match self.phase() {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
-            Phase::Opening => MOST_WORKGROUPS,
-            Phase::Refining => self.slice_workgroups(job).min(MOST_WORKGROUPS),
+            Phase::Opening => MAX_WORKGROUPS,
+            Phase::Refining => self.piece_workgroups(job).min(MAX_WORKGROUPS),
         };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;
@@ -366,18 +373,18 @@ impl Schedule {
         Trace { points, from, lights, first_workgroup, workgroups }
     }
 
-    /// Workgroups of a refining slice: every second or third one is half as large as the others.
-    fn slice_workgroups(&mut self, job: Job) -> u32 {
+    /// Workgroups of a refining piece: every second or third one is half as large as the others.
+    fn piece_workgroups(&mut self, job: Job) -> u32 {
         let aim_ms = match self.pace {
-            Pace::Still => STILL_SLICE_MS,
-            Pace::Interactive => SLICE_MS.min(SLICE_SHARE * self.budget_ms),
+            Pace::Still => STILL_PIECE_MS,
+            Pace::Interactive => PIECE_MS.min(PIECE_SHARE * self.budget_ms),
         };
-        let largest = self.cost.slice_workgroups(aim_ms, job);
-        // Slices of two sizes separate the fixed cost of a slice from that of its pixels. Merged
-        // completions are of two slices, so that only every third slice makes pairs of two sizes.
-        self.slices = self.slices.wrapping_add(1);
+        let largest = self.cost.piece_workgroups(aim_ms, job);
+        // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged
+        // completions are of two pieces, so that only every third piece makes pairs of two sizes.
+        self.pieces = self.pieces.wrapping_add(1);
         let period = if self.in_flight.are_merged() { 3 } else { 2 };
-        if self.slices.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
+        if self.pieces.is_multiple_of(period) { largest.div_ceil(2) } else { largest }
     }
 
     /// The state of the schedule at `now_secs`.

@@ -8,30 +8,31 @@ use std::sync::Arc;
 use super::{
     buffers::{buffer, group, storage},
     environment_texture::EnvironmentTexture,
-    lattice::{COARSEST, Grid, MOST_TOGETHER, WORKGROUP_THREADS, sample_places},
+    lattice::{COARSEST, Grid, MAX_SAMPLES_TOGETHER, WORKGROUP_THREADS, sample_places},
     layouts::DISPLAY_FORMAT,
     layouts::Layouts,
     memory::Memory,
     post::{Need, Post},
     region::Region,
     schedule::BATCH_WORKGROUPS,
-    uniforms::{self, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray, Slice},
+    uniforms::{self, DispatchParams, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray},
     work_queues::WorkQueues,
 };
 use crate::{
-    formula::contract::MOST_TABLE_BYTES,
+    formula::contract::MAX_TABLE_BYTES,
     gpu::host_shared::{HostShared, bytes_of_all},
     scene::MAX_LIGHTS,
 };
 
-/// Distance between two slices in their uniform buffer: the default alignment of dynamic offsets.
-pub const SLICE_STRIDE_BYTES: u32 = 256;
+/// Distance between two elements of `dispatch_params`: the default alignment of dynamic offsets.
+pub const DISPATCH_PARAMS_STRIDE_BYTES: u32 = 256;
 
 /// Bytes of one pixel's direct light.
 const DIRECT_BYTES: u64 = 4;
 
-/// Most dispatches of one submit: three for camera rays, hits, normal, two per light, shade.
-pub const MOST_SLICES: u32 = 2 * MAX_LIGHTS as u32 + 6;
+/// Most dispatches of one submit: `camera_rays`, `camera_cone`, `march`, `compact_hits`, `normal`, two per
+/// light, and `shade` or `indirect`.
+pub const MAX_DISPATCHES: u32 = 2 * MAX_LIGHTS as u32 + 6;
 
 /// G-buffer: one element per sample in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
@@ -51,8 +52,8 @@ pub struct Targets {
     pub frame: wgpu::Buffer,
     /// The formula's table: the reference orbit, in deep views.
     pub formula_table: wgpu::Buffer,
-    /// [`MOST_SLICES`] elements of [`Slice`], [`SLICE_STRIDE_BYTES`] apart.
-    pub slices: wgpu::Buffer,
+    /// [`MAX_DISPATCHES`] elements of [`DispatchParams`], [`DISPATCH_PARAMS_STRIDE_BYTES`] apart.
+    pub dispatch_params: wgpu::Buffer,
     /// [`MAX_LIGHTS`] elements of [`Light`].
     pub lights: wgpu::Buffer,
     /// [`GRADIENT_ENTRIES`] colours.
@@ -94,19 +95,22 @@ impl Targets {
         // A batch holds whole workgroups, some of them past the region's last pixels. Samples that are
         // computed together need the most workgroups.
         let batch_workgroups =
-            Grid::samples(MOST_TOGETHER, size_px).workgroups().min(BATCH_WORKGROUPS);
+            Grid::samples(MAX_SAMPLES_TOGETHER, size_px).workgroups().min(BATCH_WORKGROUPS);
         let batch_samples = u64::from(batch_workgroups * WORKGROUP_THREADS);
         let rays = storage(device, "rays", batch_samples * Ray::SIZE as u64);
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
         let frame = storage(device, "frame uniforms", FRAME_BYTES);
-        let formula_table = uniform("formula's table", MOST_TABLE_BYTES as u64);
-        let slices = uniform("slices", u64::from(MOST_SLICES * SLICE_STRIDE_BYTES));
+        let formula_table = uniform("formula's table", MAX_TABLE_BYTES as u64);
+        let dispatch_params = uniform(
+            "dispatch parameters",
+            u64::from(MAX_DISPATCHES * DISPATCH_PARAMS_STRIDE_BYTES),
+        );
         let lights = uniform("lights", (Light::SIZE * MAX_LIGHTS) as u64);
         let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
-        let one_slice = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &slices,
+        let one_dispatch = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &dispatch_params,
             offset: 0,
-            size: wgpu::BufferSize::new(Slice::SIZE as u64),
+            size: wgpu::BufferSize::new(DispatchParams::SIZE as u64),
         });
         let frame_group = group(
             device,
@@ -115,7 +119,7 @@ impl Targets {
             [
                 frame.as_entire_binding(),
                 formula_table.as_entire_binding(),
-                one_slice,
+                one_dispatch,
                 lights.as_entire_binding(),
                 gradient.as_entire_binding(),
             ],
@@ -128,7 +132,7 @@ impl Targets {
         Self {
             frame,
             formula_table,
-            slices,
+            dispatch_params,
             lights,
             gradient,
             frame_group,
@@ -169,7 +173,7 @@ impl Targets {
     pub fn memory(&self) -> Memory {
         let [mip_levels, blur] = self.post.bytes();
         let uniforms =
-            [&self.frame, &self.formula_table, &self.slices, &self.lights, &self.gradient];
+            [&self.frame, &self.formula_table, &self.dispatch_params, &self.lights, &self.gradient];
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
@@ -186,7 +190,7 @@ impl Targets {
         }
     }
 
-    /// The film's bind group with the direct light of another view.
+    /// The film's bind group with another buffer of direct light.
     pub fn film_with(&self, layouts: &Layouts, direct: &wgpu::Buffer) -> wgpu::BindGroup {
         film_group(layouts, [&self.film_rg, &self.film_bw, direct], &self.texture)
     }

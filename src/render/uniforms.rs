@@ -1,6 +1,6 @@
 //! Fills the uniforms that the shaders read of a scene.
 //!
-//! In: a scene, its region, a slice. Out: bytes. `tests/source/shaders.rs` compares each struct, field
+//! In: a scene, its region. Out: bytes. `tests/source/shaders.rs` compares each struct, field
 //! by field, with its twin in `shaders/types/`.
 
 mod background;
@@ -14,7 +14,7 @@ pub use shared::*;
 
 use super::{Region, region::Eyes as RegionEyes, schedule::Stale, space::RenderSpace};
 use crate::{
-    formula::{Packed, PackedFor, contract::MOST_UNIFORM_BYTES},
+    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES},
     fractal::pixel_cone,
     gpu::host_shared::HostShared,
     scene::{
@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Bytes of the shaders' `FrameUniforms`, with room for any formula's part.
-pub const FRAME_BYTES: u64 = (FrameUniforms::SIZE + MOST_UNIFORM_BYTES) as u64;
+pub const FRAME_BYTES: u64 = (FrameUniforms::SIZE + MAX_UNIFORM_BYTES) as u64;
 
 /// Number of entries of the gradient table.
 pub const GRADIENT_ENTRIES: usize = 256;

@@ -26,7 +26,7 @@ use super::{
 use crate::{
     fractal::SharedModel,
     gpu::timing::Stopwatch,
-    scene::{EnvironmentMap, IndirectKind, Quality, Scene},
+    scene::{EnvironmentMap, Quality, Scene},
 };
 
 mod parts;
@@ -75,6 +75,7 @@ impl View {
     /// Allocates the buffers of `region`, reduced to [fit](Region::fits); draws nothing without a scene.
     pub fn new(pipelines: &Arc<Pipelines>, region: Region, pace: Pace) -> Self {
         let region = drawable(region);
+        let integrator = &DIRECT;
         Self {
             pipelines: pipelines.clone(),
             region,
@@ -84,8 +85,8 @@ impl View {
             space: None,
             is_space_current: false,
             targets: Targets::new(&pipelines.layouts, region),
-            integrator: &DIRECT,
-            schedule: Schedule::new(DIRECT.plan, pace, region.film_px()),
+            integrator,
+            schedule: Schedule::new(integrator.plan, pace, region.film_px()),
             stopwatch: Stopwatch::default(),
             scene: None,
             environment_map: None,
@@ -238,7 +239,7 @@ impl View {
         self.schedule.collect(&ended);
         for (work, busy_ms) in ended {
             let Some(work) = work else { continue };
-            self.times.add(busy_ms, matches!(work, Work::Display { .. }));
+            self.times.add(busy_ms, matches!(work, Work::Display(_)));
         }
     }
 
@@ -276,7 +277,7 @@ impl View {
         self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
         self.schedule.aim(motion_budget_ms, samples);
-        self.schedule.set_indirect(scene.indirect.kind != IndirectKind::Off);
+        self.schedule.set_indirect((self.integrator.gathers)(&scene));
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.times.now_secs);
@@ -384,7 +385,7 @@ impl View {
             recorder.finish()
         });
         self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
-        if matches!(work, Work::Display { .. }) {
+        if matches!(work, Work::Display(_)) {
             self.shown.note(&self.targets);
             self.histogram_readback.note_picture();
         }

@@ -37,7 +37,7 @@ pub struct WorkQueues {
     /// Workgroup counts for each ray queue.
     ray_workgroups: wgpu::Buffer,
     /// Bound by passes that read a queue.
-    pub reading: wgpu::BindGroup,
+    pub dequeue: wgpu::BindGroup,
     /// Bound by the pass that writes the queue of hits.
     pub enqueue_hits: wgpu::BindGroup,
     /// Bound by passes that write ray queues.
@@ -47,10 +47,10 @@ pub struct WorkQueues {
 impl WorkQueues {
     /// Allocates queues for every block of `workgroups` workgroups.
     pub fn new(layouts: &Layouts, workgroups: u32) -> Self {
-        let (device, layouts) = (&layouts.gpu.device, layouts);
+        let device = &layouts.gpu.device;
         let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_THREADS / BLOCK_THREADS);
         let counters = WORD * (RAY_QUEUES as u64 + 1);
-        let blocks = storage(device, "block work_queues", counters + 3 * WORD * most);
+        let blocks = storage(device, "work queues", counters + 3 * WORD * most);
         let arguments = |label| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -68,7 +68,7 @@ impl WorkQueues {
             group(device, &layouts.enqueue, "enqueue", resources)
         };
         Self {
-            reading: group(device, &layouts.dequeue, "queued", [blocks.as_entire_binding()]),
+            dequeue: group(device, &layouts.dequeue, "dequeue", [blocks.as_entire_binding()]),
             enqueue_hits: enqueue(&hit_workgroups),
             enqueue_rays: enqueue(&ray_workgroups),
             blocks,
@@ -104,6 +104,9 @@ impl WorkQueues {
         }
     }
 }
+
+/// The ray queue of camera rays; those of lights follow.
+pub const CAMERA_RAYS: u32 = 0;
 
 /// A queue that a pass reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

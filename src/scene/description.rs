@@ -7,7 +7,7 @@ use super::{
     bloom::Bloom,
     camera::Camera,
     environment_map::EnvironmentMap,
-    indirect::Indirect,
+    indirect::{Indirect, IndirectKind},
     lighting::Lights,
     quality::Quality,
     rig::RigKind,
@@ -41,6 +41,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether the scene has indirect light.
+    pub fn has_indirect(&self) -> bool {
+        self.indirect.kind != IndirectKind::Off
+    }
+
     /// Lights the scene by `environment_map`, and shows a new map as the background.
     ///
     /// A map is new if the scene does not name it yet. A scene that names the map but has

@@ -30,7 +30,7 @@ pub enum Action {
     LoadScene,
     /// Open a file dialog for an environment map, for
     /// [`Interface::use_environment_map`](super::Interface::use_environment_map).
-    ChoosePicture,
+    ChooseEnvironmentMap,
     /// Copy a link to this view.
     CopyLink,
     /// Enter or leave fullscreen.

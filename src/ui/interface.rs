@@ -201,7 +201,7 @@ impl Interface {
         let timeline_open = self.settings.timeline_open && (wide || !open);
         self.histogram_shown = false;
         let height = ui.available_height();
-        let (can_undo, can_redo) = Context::history_of(&self.editor);
+        let (can_undo, can_redo) = (self.editor.can_undo(), self.editor.can_redo());
         let project = self.editor.project_mut();
         let mut cx = Context {
             scene: &mut project.scene,

@@ -159,8 +159,8 @@ fn a_lost_gpu_comes_back_with_the_same_scene() {
 /// bundles: those that graze the surface end elsewhere. A few pixels may differ much, all others by no
 /// more than a step. Between SwiftShader and lavapipe the worst of the opening scenes has a mean of
 /// 0.49 steps and 1.1 % notable pixels.
-const MOST_MEAN_STEPS: f64 = 0.75;
-const MOST_NOTABLE: f64 = 0.02;
+const MAX_MEAN_STEPS: f64 = 0.75;
+const MAX_NOTABLE: f64 = 0.02;
 
 #[test]
 fn the_page_and_the_native_program_draw_the_same_pictures() {
@@ -187,8 +187,8 @@ fn the_page_and_the_native_program_draw_the_same_pictures() {
         assert!(native.contrast() > 5.0, "{name} is empty");
         let difference = page.difference(&native);
         println!("{name}: {difference:?}");
-        assert!(difference.mean < MOST_MEAN_STEPS, "{name}: {difference:?}");
-        assert!(difference.notable < MOST_NOTABLE, "{name}: {difference:?}");
+        assert!(difference.mean < MAX_MEAN_STEPS, "{name}: {difference:?}");
+        assert!(difference.notable < MAX_NOTABLE, "{name}: {difference:?}");
     }
 }
 

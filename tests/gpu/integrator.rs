@@ -25,9 +25,9 @@ use super::oracle::pictures::{draw, pixels, point_at};
 
 /// Rays to the surface, and no light.
 static RAYS_ALONE: Integrator = Integrator {
-    name: "rays alone",
     passes: &[&camera_rays::PASS, &camera_cone::PASS, &march::PASS],
     plan: DIRECT.plan,
+    gathers: |_| false,
     fit_targets: |_, _, _| {},
 };
 

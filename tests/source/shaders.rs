@@ -151,13 +151,13 @@ fn host_structs_match_their_wgsl_twins() {
 fn formulas_fit_their_buffers() {
     for formula in formula::all() {
         for (name, size, _) in formula_structs(formula.id()) {
-            assert!(size <= formula::contract::MOST_UNIFORM_BYTES, "{name} of {}", formula.id());
+            assert!(size <= formula::contract::MAX_UNIFORM_BYTES, "{name} of {}", formula.id());
         }
     }
     let anchor_orbit = mandelbulb::uniforms::SERIES
         * mandelbulb::uniforms::SeriesApproximation::SIZE
-        + deep::reference::MOST_REFERENCE_POINTS * mandelbulb::uniforms::ReferencePoint::SIZE;
-    assert!(anchor_orbit <= formula::contract::MOST_TABLE_BYTES);
+        + deep::reference::MAX_REFERENCE_POINTS * mandelbulb::uniforms::ReferencePoint::SIZE;
+    assert!(anchor_orbit <= formula::contract::MAX_TABLE_BYTES);
 }
 
 /// Else it would be all zeros: see `types/frame_uniforms.wgsl`.
@@ -257,15 +257,15 @@ fn host_constants_match_their_wgsl_twins() {
         ("BLOCKS", whole(lattice::WORKGROUP_THREADS / work_queues::BLOCK_THREADS)),
         ("RAY_QUEUES", work_queues::RAY_QUEUES as f64),
         ("SERIES", mandelbulb::uniforms::SERIES as f64),
-        ("MOST_REFERENCE_POINTS", deep::reference::MOST_REFERENCE_POINTS as f64),
-        ("MOST_NEAR_STEPS", mandelbulb::variant::MOST_NEAR_STEPS as f64),
+        ("MAX_REFERENCE_POINTS", deep::reference::MAX_REFERENCE_POINTS as f64),
+        ("MAX_NEAR_STEPS", mandelbulb::variant::MAX_NEAR_STEPS as f64),
         ("FIRST_RADIUS", mandelbulb::uniforms::FIRST_RADIUS),
         ("RADII_RATIO", mandelbulb::uniforms::RADII_RATIO),
         ("CLOSE", deep::CLOSE),
         ("SIDEWAYS_MAX", estimator::SIDEWAYS_MAX),
         ("DEEP_SIDEWAYS_MAX", estimator::DEEP_SIDEWAYS_MAX),
-        ("LEAST_STEP", march::LEAST_STEP),
-        ("LEAST_STEP_WITH_HIT_CHECK", march::LEAST_STEP_WITH_HIT_CHECK),
+        ("MIN_STEP", march::MIN_STEP),
+        ("MIN_STEP_WITH_HIT_CHECK", march::MIN_STEP_WITH_HIT_CHECK),
         ("CHECKED_THICKNESS", march::CHECKED_THICKNESS),
         ("THICKNESS_CHECKS", whole(march::THICKNESS_CHECKS)),
         ("HALVINGS", whole(march::HALVINGS)),

@@ -59,7 +59,7 @@ fn without_its_picture_a_rig_keeps_its_lights() {
     assert!(rail.accesskit_node().is_disabled());
     assert_eq!(*scene(&harness), lit);
     press(&mut harness, "Choose picture…");
-    assert_eq!(harness.state().actions, [Action::ChoosePicture]);
+    assert_eq!(harness.state().actions, [Action::ChooseEnvironmentMap]);
 }
 
 #[test]

@@ -40,7 +40,7 @@ pub fn displays(view: &View) -> u64 {
 const REST_TICKS: u32 = 50;
 
 /// Most additional ticks at rest until all pixels have a sample.
-const MOST_REST_TICKS: u32 = 400;
+const MAX_REST_TICKS: u32 = 400;
 
 /// One moving picture.
 #[derive(Clone, Copy, Debug)]
@@ -213,7 +213,7 @@ impl Player {
     /// Rests for some ticks, and until all pixels have a sample.
     fn rest(&mut self) {
         let mut whole_ticks = 0;
-        for tick in 0..REST_TICKS + MOST_REST_TICKS {
+        for tick in 0..REST_TICKS + MAX_REST_TICKS {
             // The picture of the last pixels is shown some ticks later.
             whole_ticks += u32::from(self.view.report().samples_done > 0);
             if tick >= REST_TICKS && whole_ticks > 4 {

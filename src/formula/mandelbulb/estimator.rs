@@ -39,7 +39,7 @@ const JACOBIAN_STEP_FACTOR: f64 = 0.5;
 /// [`SIDEWAYS_MAX`] for the Jacobian that sets the steps of deep rays.
 pub const DEEP_SIDEWAYS_MAX: f64 = 30.0;
 /// Keeps the estimate finite if a Julia orbit passes the origin and dr vanishes.
-const LEAST_DERIVATIVE: f64 = 1e-30;
+const MIN_DERIVATIVE: f64 = 1e-30;
 
 /// The distance estimator of one fractal.
 ///
@@ -99,7 +99,7 @@ impl Estimator {
             z = raised + added;
             r = z.length();
         }
-        self.estimate_from(r, dr, self.step_factor / dg.max(LEAST_DERIVATIVE))
+        self.estimate_from(r, dr, self.step_factor / dg.max(MIN_DERIVATIVE))
     }
 
     /// [`Self::estimate`] along an orbit that carries its Jacobian, for views about an anchor.
@@ -115,7 +115,7 @@ impl Estimator {
             orbit.step(&self.power);
             r = orbit.z().length();
         }
-        self.estimate_from(r, dr, JACOBIAN_STEP_FACTOR / orbit.norm().max(LEAST_DERIVATIVE))
+        self.estimate_from(r, dr, JACOBIAN_STEP_FACTOR / orbit.norm().max(MIN_DERIVATIVE))
     }
 
     /// Derivative of the added constant by the point: 0 for the Julia form, else 1.
@@ -129,7 +129,7 @@ impl Estimator {
             return Estimate { distance: 0.0, step: 0.0 };
         }
         let height = 0.5 * r.ln() * r;
-        let distance = height / dr.max(LEAST_DERIVATIVE);
+        let distance = height / dr.max(MIN_DERIVATIVE);
         Estimate { distance, step: (careful * height).min(distance).min(self.max_step) }
     }
 

@@ -63,7 +63,7 @@ impl Formula for MandelbulbFormula {
         deep::iterations_for(&Mandelbulb::of(fractal), footprint)
     }
 
-    fn field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {
+    fn distance_field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {
         Arc::new(Estimator::new(&Mandelbulb::of(fractal)))
     }
 

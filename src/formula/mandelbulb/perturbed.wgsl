@@ -3,7 +3,7 @@
 
 const MIXES_STEPS = true;
 
-// Number of near steps: perturbed steps that all orbits near the anchor take; 0 to `MOST_NEAR_STEPS`.
+// Number of near steps: perturbed steps that all orbits near the anchor take; 0 to `MAX_NEAR_STEPS`.
 override NEAR_STEPS: u32 = 2u;
 
 // True if a series approximation precedes the near steps; else the near steps are an orbit's first.

@@ -63,7 +63,7 @@ struct SeriesApproximation {
 const SERIES = 8u;
 
 // Most points of a reference orbit; with `series` they fit into a uniform buffer of 64 KiB.
-const MOST_REFERENCE_POINTS = 1984u;
+const MAX_REFERENCE_POINTS = 1984u;
 
 // A point of the reference orbit.
 struct ReferencePoint {
@@ -75,15 +75,15 @@ struct ReferencePoint {
 }
 
 // Most near steps, and the number of their reference points.
-const MOST_NEAR_STEPS = 8u;
+const MAX_NEAR_STEPS = 8u;
 
-const NEAR_POINTS = MOST_NEAR_STEPS + 1u;
+const NEAR_POINTS = MAX_NEAR_STEPS + 1u;
 
 // The reference orbit and the series approximations.
 struct AnchorOrbit {
     series: array<SeriesApproximation, SERIES>,
     // The anchor's orbit; for the Julia form the orbit of the constant follows.
-    points: array<ReferencePoint, MOST_REFERENCE_POINTS>,
+    points: array<ReferencePoint, MAX_REFERENCE_POINTS>,
 }
 
 // The formula's part of a frame's uniforms.

@@ -11,7 +11,7 @@ use super::{
     deep::{self, Reference, jacobian::norm},
     estimator::{self, SIDEWAYS_MAX},
     parameters::{MANDELBULB, Mandelbulb},
-    variant::{MOST_NEAR_STEPS, NearSteps, Steps, Variant},
+    variant::{MAX_NEAR_STEPS, NearSteps, Steps, Variant},
 };
 use crate::{
     formula::{FormulaRef, Kernel, Packed, PackedFor, contract::COARSEST_FOOTPRINT},
@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Number of reference points that the near steps use.
-pub const NEAR_POINTS: usize = MOST_NEAR_STEPS + 1;
+pub const NEAR_POINTS: usize = MAX_NEAR_STEPS + 1;
 /// Number of series approximations in `anchor_orbit`.
 pub const SERIES: usize = 8;
 
@@ -130,7 +130,7 @@ pub const RADII_RATIO: f64 = 8.0;
 /// After the near steps, an f32 stores an orbit position to 3e-8, so it resolves points to 3e-8 over dr. That
 /// should be at most a tenth of the hit distance. Orbits whose dr falls below this over the hit cone,
 /// such as orbits that pass the origin, follow the difference for more steps.
-const LEAST_DERIVATIVE: f64 = 3e-7;
+const MIN_DERIVATIVE: f64 = 3e-7;
 /// Widest hit cone in this rule: pictures of wider pixels are as exact as with this hit cone.
 const WIDEST_CONE: f64 = 7e-4;
 
@@ -144,7 +144,7 @@ const FIRST_ROOM: f64 = 5.0;
 /// Counts of near steps after a series approximation; each count has its own pipelines.
 ///
 /// Two suffice nearly everywhere; views whose orbits pass the origin soon afterwards need more.
-const STEPS_AFTER_SERIES: [u32; 4] = [2, 4, 6, MOST_NEAR_STEPS as u32];
+const STEPS_AFTER_SERIES: [u32; 4] = [2, 4, 6, MAX_NEAR_STEPS as u32];
 /// Least dr at the anchor after those steps, as a multiple of the required dr.
 const ROOM_AFTER_SERIES: f64 = 4.0;
 /// Number of reference points over which dr must be that large; after them most orbits in view have escaped.
@@ -284,7 +284,7 @@ fn put_near(
     points: &[ReferencePoint],
 ) -> NearSteps {
     let hit_cone = f64::from(view.hit_cone);
-    let least = LEAST_DERIVATIVE / hit_cone.min(WIDEST_CONE);
+    let least = MIN_DERIVATIVE / hit_cone.min(WIDEST_CONE);
     let fractal = &mut uniforms.fractal;
     let own_points = fractal.own_points.min(fractal.iterations + 1) as usize;
     let Some(near) = Near::find(reference, view.scale, near, own_points, least) else {

@@ -4,7 +4,7 @@ use super::parameters::{HIT_CHECK_BELOW, Mandelbulb};
 use crate::{formula::KernelFiles, gpu::shader::File};
 
 /// Most steps that all orbits near the anchor take together.
-pub const MOST_NEAR_STEPS: usize = 8;
+pub const MAX_NEAR_STEPS: usize = 8;
 
 /// Files of every variant.
 const SHARED: [File; 3] = [
@@ -45,7 +45,7 @@ pub enum Steps {
 /// Perturbed steps that all orbits near the anchor take together before plain f32 steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct NearSteps {
-    /// Number of near steps, up to [`MOST_NEAR_STEPS`].
+    /// Number of near steps, up to [`MAX_NEAR_STEPS`].
     ///
     /// 0 if each orbit decides by itself how many steps it follows the difference.
     pub count: u32,
@@ -62,7 +62,7 @@ const DIVE: [NearSteps; 4] = [
 ];
 
 /// Number of different [`Steps`]: plain, rotating frame, then perturbed by count and series.
-const STEPS: u32 = 2 * (MOST_NEAR_STEPS as u32 + 1) + 2;
+const STEPS: u32 = 2 * (MAX_NEAR_STEPS as u32 + 1) + 2;
 
 impl Variant {
     /// A unique number for each variant.

@@ -79,7 +79,7 @@ const STEPS_PER_HALVING: f64 = 1.5;
 /// An orbit that passes the origin makes dr vanish, and the estimate grows without bound.
 const MAX_STEP: f64 = 0.05;
 /// Keeps the estimate finite if dr vanishes.
-const LEAST_DERIVATIVE: f64 = 1e-30;
+const MIN_DERIVATIVE: f64 = 1e-30;
 
 /// The set in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +126,7 @@ impl DistanceField for QuaternionJulia {
             q = squared(q) + self.constant;
             r = q.length();
         }
-        if r <= 1.0 { 0.0 } else { 0.5 * r.ln() * r / dr.max(LEAST_DERIVATIVE) }
+        if r <= 1.0 { 0.0 } else { 0.5 * r.ln() * r / dr.max(MIN_DERIVATIVE) }
     }
 
     fn estimate(&self, point: DVec3) -> Estimate {
@@ -168,7 +168,7 @@ impl Formula for QuaternionJuliaFormula {
         fractal.iterations + (STEPS_PER_HALVING * halvings).ceil() as u32
     }
 
-    fn field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {
+    fn distance_field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {
         Arc::new(QuaternionJulia::of(fractal))
     }
 

@@ -4,24 +4,27 @@
 //! reflects (thesis 3.2 and 4.5).
 
 use super::contract::Integrator;
-use crate::render::{
-    pass,
-    schedule::{GBufferValidity, Job, Plan, Points, Price, Stage, WorkKind},
+use crate::{
+    render::{
+        pass,
+        schedule::{GBufferValidity, Job, Plan, Points, SampleCost, Stage, WorkKind},
+    },
+    scene::Scene,
 };
 
 /// The direct integrator. Own buffer: [`Targets::direct`](crate::render::targets::Targets::direct).
 pub static DIRECT: Integrator = Integrator {
-    name: "direct",
     passes: pass::DIRECT,
-    plan: &Plan { job, price },
+    plan: &Plan { job, sample_cost },
+    gathers: Scene::has_indirect,
     fit_targets: |targets, layouts, inputs| targets.fit_direct(layouts, inputs.has_indirect()),
 };
 
 /// Centre samples start after the stages whose results the G-buffer still holds.
 fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
     let (from, lights) = match points {
-        Points::Level(level) | Points::Added(level) => valid.start(level, shining),
-        Points::All => valid.start(0, shining),
+        Points::Level(level) | Points::Added(level) => valid.first_missing(level, shining),
+        Points::All => valid.first_missing(0, shining),
         Points::Indirect(_) => (Stage::Indirect, 0),
         Points::Samples { .. } => (Stage::March, shining),
     };
@@ -30,7 +33,7 @@ fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
 
 /// Work is counted in rays, because most of the work is the shadow rays of a few lights or many: costs
 /// learned with some lights hold well enough with others.
-fn price(job: Job, casting: u64) -> Price {
+fn sample_cost(job: Job, casting: u64) -> SampleCost {
     let lights = f64::from((job.lights & casting).count_ones());
     let (kind, rays) = match job.from {
         Stage::March | Stage::Normal => (WorkKind::Tracing, 1.0 + lights),
@@ -38,5 +41,5 @@ fn price(job: Job, casting: u64) -> Price {
         Stage::Shadow | Stage::Shade => (WorkKind::Shading, 1.0),
         Stage::Indirect => (WorkKind::Indirect, 1.0),
     };
-    Price { kind, rays }
+    SampleCost { kind, rays }
 }

@@ -1,9 +1,8 @@
 //! Integrators: how the light is computed that samples see. One file per integrator.
 //!
-//! An integrator computes samples for the film. What is done with the film, and which samples come next, is
-//! the same for every integrator: the [schedule](super::schedule) and the passes of a
-//! [display](super::pass::DISPLAY). To add an integrator, add its file, its list of passes in
-//! [`pass`](super::pass), and here its module; a [`View`](super::View) holds the one that draws.
+//! An integrator computes samples for the film. The [schedule](super::schedule) chooses the samples, and the
+//! passes of a [display](super::pass::DISPLAY) show the film, for every integrator. To add an integrator,
+//! add its file, its list of passes in [`pass`](super::pass), and here its module.
 //!
 //! | file | contents |
 //! |---|---|
@@ -17,7 +16,7 @@
 //! | [`rays`](super::targets::Targets::rays) | a [`Ray`](super::uniforms::Ray) per sample of a batch: origin, direction, and the cone that the sample sees; a pass that moves or scatters the ray writes the ray there |
 //! | [`work_queues`](super::targets::Targets::work_queues) | the samples of a batch that a pass has work for |
 //! | [`center`](super::targets::Targets::center), [`jittered`](super::targets::Targets::jittered) | depth, normal, colour data and visibility of samples |
-//! | [`film_rg`](super::targets::Targets::film_rg), [`film_bw`](super::targets::Targets::film_bw) | the sums of radiance, the results |
+//! | [`film_rg`](super::targets::Targets::film_rg), [`film_bw`](super::targets::Targets::film_bw) | the sums of radiance and sample counts: the result |
 
 mod contract;
 mod direct;

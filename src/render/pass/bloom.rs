@@ -5,8 +5,9 @@ use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{BlurKernel, FIRST_LEVEL, Levels},
-    recorder::{Display, Recorder},
-    uniforms::Slice,
+    recorder::Recorder,
+    schedule::Display,
+    uniforms::DispatchParams,
 };
 
 /// The pass.
@@ -15,10 +16,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Display {
-        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.bloom,
-        record,
-    },
+    record: Record::Film { when: |recorder, _| recorder.tasks.bloom, record },
 };
 
 /// Leaves the blurred light in the mip level that the statistics name.
@@ -29,7 +27,7 @@ pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
     let passes = picture.bloom.passes;
     let kernel = BlurKernel::new(picture.bloom.radius, passes, levels);
     let pipeline = recorder.pipeline(&PASS, 0);
-    recorder.dispatch(&pipeline, Slice::default(), levels.workgroups(FIRST_LEVEL));
+    recorder.dispatch(&pipeline, DispatchParams::default(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, kernel.level);
     for _ in 0..passes {
         blur::record(recorder, kernel);

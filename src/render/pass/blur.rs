@@ -5,7 +5,7 @@ use crate::render::{
     pipeline_set,
     post::{BlurKernel, Levels},
     recorder::Recorder,
-    uniforms::Slice,
+    uniforms::DispatchParams,
 };
 
 /// The pass.
@@ -23,7 +23,8 @@ pub fn record(recorder: &mut Recorder<'_>, kernel: BlurKernel) {
     let workgroups = Levels::of(&recorder.inputs.frame).workgroups(kernel.level);
     for axis in 0..2 {
         let BlurKernel { level, half_width } = kernel;
-        let slice = Slice { mip_level: level, axis, half_width, ..Slice::default() };
-        recorder.dispatch(&pipeline, slice, workgroups);
+        let params =
+            DispatchParams { mip_level: level, axis, half_width, ..DispatchParams::default() };
+        recorder.dispatch(&pipeline, params, workgroups);
     }
 }

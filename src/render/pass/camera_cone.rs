@@ -17,11 +17,11 @@ pub const PASS: Pass = Pass {
     record: Record::Trace { when: |_, trace| trace.from <= Stage::March, record },
 };
 
-/// Marches the bundles of `trace`.
+/// Marches the cones of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
-    let slice = recorder.slice(trace, grid);
+    let params = recorder.dispatch_params(trace, grid);
     let work_queues = &recorder.targets.work_queues;
     work_queues.clear_rays(&recorder.layouts.gpu.queue);
-    recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_rays, slice);
+    recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_rays, params);
 }

@@ -20,6 +20,6 @@ pub const PASS: Pass = Pass {
 /// Makes the rays of `trace`: from the eye, or from their surface points if their depths are there.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
-    let slice = recorder.slice(trace, grid);
-    recorder.dispatch(&pipeline, slice, trace.workgroups);
+    let params = recorder.dispatch_params(trace, grid);
+    recorder.dispatch(&pipeline, params, trace.workgroups);
 }

@@ -25,8 +25,8 @@ pub const PASS: Pass = Pass {
 /// Queues the surface points of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
-    let slice = recorder.slice(trace, grid);
+    let params = recorder.dispatch_params(trace, grid);
     let work_queues = &recorder.targets.work_queues;
     work_queues.clear_hits(&recorder.layouts.gpu.queue);
-    recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_hits, slice);
+    recorder.dispatch_blocks(&pipeline, &work_queues.enqueue_hits, params);
 }

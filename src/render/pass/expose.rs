@@ -2,10 +2,7 @@
 
 use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
-    pipeline_set,
-    post::Levels,
-    recorder::{Display, Recorder},
-    uniforms::Slice,
+    pipeline_set, post::Levels, recorder::Recorder, schedule::Display, uniforms::DispatchParams,
 };
 
 /// The pass.
@@ -14,10 +11,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Display {
-        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.adapt.is_some(),
-        record,
-    },
+    record: Record::Film { when: |recorder, _| recorder.tasks.adapt.is_some(), record },
 };
 
 /// Moves exposure toward its goal.
@@ -28,5 +22,9 @@ pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
     let last = Levels::of(&recorder.inputs.frame).last();
     // Without a new mean, the pass uses the mean in the statistics: level 0.
     let mip_level = if recorder.tasks.mean { last } else { 0 };
-    recorder.dispatch(&pipeline, Slice { mip_level, adapt, ..Slice::default() }, 1);
+    recorder.dispatch(
+        &pipeline,
+        DispatchParams { mip_level, adapt, ..DispatchParams::default() },
+        1,
+    );
 }

@@ -1,11 +1,7 @@
 //! Fills the film between the pixels of a sparse lattice, along edges.
 
 use crate::render::recorder::{ONE_MODE, Pass, Record};
-use crate::render::{
-    lattice::Grid,
-    pipeline_set,
-    recorder::{Display, Recorder},
-};
+use crate::render::{lattice::Grid, pipeline_set, recorder::Recorder, schedule::Display};
 
 /// The pass.
 pub const PASS: Pass = Pass {
@@ -13,10 +9,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.film],
     set: &pipeline_set::ALWAYS,
     modes: ONE_MODE,
-    record: Record::Display {
-        when: |recorder, display| recorder.upsample_level.is_none() && display.fill,
-        record,
-    },
+    record: Record::Film { when: |_, display| display.fill, record },
 };
 
 /// Fills every level below that of `display`, coarsest first: each level reads the one before.

@@ -4,8 +4,9 @@ use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
-    recorder::{Display, Recorder},
-    uniforms::{Slice, Statistics},
+    recorder::Recorder,
+    schedule::Display,
+    uniforms::{DispatchParams, Statistics},
 };
 
 /// The pass.
@@ -14,10 +15,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Display {
-        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.histogram,
-        record,
-    },
+    record: Record::Film { when: |recorder, _| recorder.tasks.histogram, record },
 };
 
 /// Counts the film's pixels by luminance.
@@ -32,5 +30,5 @@ pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
     );
     let pipeline = recorder.pipeline(&PASS, 0);
     let workgroups = Levels::of(&recorder.inputs.frame).workgroups(FIRST_LEVEL);
-    recorder.dispatch(&pipeline, Slice::default(), workgroups);
+    recorder.dispatch(&pipeline, DispatchParams::default(), workgroups);
 }

@@ -17,7 +17,9 @@ pub const PASS: Pass = Pass {
     set: &pipeline_set::INDIRECT,
     modes: ONE_MODE,
     record: Record::Trace {
-        when: |recorder, trace| trace.from == Stage::Indirect || lights_directly(recorder, trace),
+        when: |recorder, trace| {
+            trace.from == Stage::Indirect || computes_direct_light(recorder, trace)
+        },
         record,
     },
 };
@@ -25,17 +27,17 @@ pub const PASS: Pass = Pass {
 /// Whether the pass also computes the direct light of `trace`.
 ///
 /// Indirect light of centre samples waits until all samples of a level have their direct light.
-pub fn lights_directly(recorder: &Recorder<'_>, trace: &Trace) -> bool {
+pub fn computes_direct_light(recorder: &Recorder<'_>, trace: &Trace) -> bool {
     recorder.inputs.has_indirect() && matches!(trace.points, Points::Samples { .. })
 }
 
 /// Computes the light of the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
-    let mut slice = recorder.slice(trace, grid);
+    let mut params = recorder.dispatch_params(trace, grid);
     if let Points::Indirect(level) = trace.points {
-        slice.neighbour_level = level;
+        params.neighbour_level = level;
     }
     recorder.bind_indirect(trace);
-    recorder.dispatch_pixels(&pipeline, slice);
+    recorder.dispatch_pixels(&pipeline, params);
 }

@@ -1,4 +1,4 @@
-//! Marches camera rays to surface points: writes depth and colour data of each sample.
+//! Marches rays to surface points: writes depth and colour data of each sample.
 
 use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
@@ -6,7 +6,7 @@ use crate::render::{
     pipeline_set,
     recorder::Recorder,
     schedule::{Stage, Trace},
-    work_queues::Queue,
+    work_queues::{CAMERA_RAYS, Queue},
 };
 
 /// The pass.
@@ -21,11 +21,11 @@ pub const PASS: Pass = Pass {
 /// Marches the rays of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
-    let slice = recorder.slice(trace, grid);
+    let params = recorder.dispatch_params(trace, grid);
     recorder.dispatch_queue(
         &pipeline,
-        &recorder.targets.work_queues.reading,
-        slice,
-        Queue::Rays(0),
+        &recorder.targets.work_queues.dequeue,
+        params,
+        Queue::Rays(CAMERA_RAYS),
     );
 }

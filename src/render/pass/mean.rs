@@ -5,8 +5,9 @@ use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
-    recorder::{Display, Recorder},
-    uniforms::Slice,
+    recorder::Recorder,
+    schedule::Display,
+    uniforms::DispatchParams,
 };
 
 /// The pass.
@@ -15,10 +16,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::POST,
     modes: ONE_MODE,
-    record: Record::Display {
-        when: |recorder, _| recorder.upsample_level.is_none() && recorder.tasks.mean,
-        record,
-    },
+    record: Record::Film { when: |recorder, _| recorder.tasks.mean, record },
 };
 
 /// Computes all mip levels of the film, down to one element per eye.
@@ -26,6 +24,6 @@ pub fn record(recorder: &mut Recorder<'_>, _display: &Display) {
     recorder.bind_post();
     let levels = Levels::of(&recorder.inputs.frame);
     let pipeline = recorder.pipeline(&PASS, 0);
-    recorder.dispatch(&pipeline, Slice::default(), levels.workgroups(FIRST_LEVEL));
+    recorder.dispatch(&pipeline, DispatchParams::default(), levels.workgroups(FIRST_LEVEL));
     reduce::record(recorder, levels.last());
 }

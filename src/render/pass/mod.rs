@@ -65,3 +65,28 @@ pub fn all() -> Vec<&'static Pass> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pass in the wrong table would be skipped silently.
+    #[test]
+    fn every_pass_is_of_its_table() {
+        for pass in DIRECT {
+            assert!(matches!(pass.record, Record::Trace { .. } | Record::Within), "{}", pass.name);
+        }
+        for pass in DISPLAY {
+            assert!(!matches!(pass.record, Record::Trace { .. }), "{}", pass.name);
+        }
+    }
+
+    #[test]
+    fn every_pass_is_there_once() {
+        let names: Vec<_> = all().iter().map(|pass| pass.name).collect();
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[..i].contains(name), "{name}");
+        }
+        assert_eq!(names.len(), DIRECT.len() + DISPLAY.len());
+    }
+}

@@ -21,11 +21,11 @@ pub const PASS: Pass = Pass {
 /// Computes the normals of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let pipeline = recorder.pipeline(&PASS, 0);
-    let slice = recorder.slice(trace, grid);
+    let params = recorder.dispatch_params(trace, grid);
     recorder.dispatch_queue(
         &pipeline,
-        &recorder.targets.work_queues.reading,
-        slice,
+        &recorder.targets.work_queues.dequeue,
+        params,
         Queue::HitPoints,
     );
 }

@@ -5,7 +5,7 @@ use crate::render::{
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
     recorder::Recorder,
-    uniforms::Slice,
+    uniforms::DispatchParams,
 };
 
 /// The pass.
@@ -22,7 +22,7 @@ pub fn record(recorder: &mut Recorder<'_>, last: u32) {
     let pipeline = recorder.pipeline(&PASS, 0);
     for level in FIRST_LEVEL..last {
         let workgroups = Levels::of(&recorder.inputs.frame).workgroups(level + 1);
-        let slice = Slice { mip_level: level, ..Slice::default() };
-        recorder.dispatch(&pipeline, slice, workgroups);
+        let params = DispatchParams { mip_level: level, ..DispatchParams::default() };
+        recorder.dispatch(&pipeline, params, workgroups);
     }
 }

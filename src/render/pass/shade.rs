@@ -21,7 +21,7 @@ pub const PASS: Pass = Pass {
     modes: &[&[("SINGLE", 1)], &[("SINGLE", 0)]],
     record: Record::Trace {
         when: |recorder, trace| {
-            trace.from <= Stage::Shade && !indirect::lights_directly(recorder, trace)
+            trace.from <= Stage::Shade && !indirect::computes_direct_light(recorder, trace)
         },
         record,
     },
@@ -29,10 +29,10 @@ pub const PASS: Pass = Pass {
 
 /// Shades the samples of `trace`.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let slice = recorder.slice(trace, grid);
+    let params = recorder.dispatch_params(trace, grid);
     // The first mode is for single samples, the second for several samples of a pixel.
-    let pipeline = recorder.pipeline(&PASS, usize::from(slice.samples != 1));
+    let pipeline = recorder.pipeline(&PASS, usize::from(params.samples != 1));
     recorder.bind_film();
     recorder.bind_environment();
-    recorder.dispatch_pixels(&pipeline, slice);
+    recorder.dispatch_pixels(&pipeline, params);
 }

@@ -7,7 +7,7 @@ use crate::render::{
     pipeline_set,
     recorder::Recorder,
     schedule::{Stage, Trace},
-    work_queues::Queue,
+    work_queues::{CAMERA_RAYS, Queue},
 };
 
 /// The pass.
@@ -19,22 +19,21 @@ pub const PASS: Pass = Pass {
     record: Record::Trace { when: |_, trace| trace.from <= Stage::Shadow, record },
 };
 
-/// Marches rays to those lights of `trace` that surfaces block, with two dispatches per light.
+/// Marches rays to the lights of `trace` that cast shadows: two dispatches per light.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let [shadow_cone, shadow] = [&shadow_cone::PASS, &PASS].map(|pass| recorder.pipeline(pass, 0));
     let (inputs, work_queues) = (recorder.inputs, &recorder.targets.work_queues);
     work_queues.clear_rays(&recorder.layouts.gpu.queue);
     let marched = trace.lights & inputs.casting();
     let lights = inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0);
-    // Queue 0 holds camera rays.
-    for (queue, light) in (1..).zip(lights) {
-        let mut slice = recorder.slice(trace, grid);
-        slice.ray_queue = queue;
-        slice.light_bit = light.bit;
-        slice.light_reach = light.shadow_reach;
-        slice.light_vector = light.vector;
-        slice.light_kind = light.kind;
-        recorder.dispatch_queue(&shadow_cone, &work_queues.enqueue_rays, slice, Queue::HitBlocks);
-        recorder.dispatch_queue(&shadow, &work_queues.reading, slice, Queue::Rays(queue));
+    for (queue, light) in (CAMERA_RAYS + 1..).zip(lights) {
+        let mut params = recorder.dispatch_params(trace, grid);
+        params.ray_queue = queue;
+        params.light_bit = light.bit;
+        params.light_reach = light.shadow_reach;
+        params.light_vector = light.vector;
+        params.light_kind = light.kind;
+        recorder.dispatch_queue(&shadow_cone, &work_queues.enqueue_rays, params, Queue::HitBlocks);
+        recorder.dispatch_queue(&shadow, &work_queues.dequeue, params, Queue::Rays(queue));
     }
 }

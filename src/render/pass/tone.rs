@@ -2,10 +2,7 @@
 
 use crate::render::recorder::{Pass, Record};
 use crate::render::{
-    lattice::Grid,
-    pipeline_set,
-    recorder::{Display, Recorder},
-    uniforms::Slice,
+    lattice::Grid, pipeline_set, recorder::Recorder, schedule::Display, uniforms::DispatchParams,
 };
 
 /// The pass.
@@ -14,7 +11,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
     set: &pipeline_set::TONE,
     modes: &[&[("SPARSE", 0)], &[("SPARSE", 1)]],
-    record: Record::Display { when: |recorder, _| recorder.upsample_level.is_none(), record },
+    record: Record::Film { when: |_, _| true, record },
 };
 
 /// Tone maps the film of the whole region to the display picture.
@@ -24,5 +21,5 @@ pub fn record(recorder: &mut Recorder<'_>, &Display { level, .. }: &Display) {
     recorder.bind_post();
     let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
     let whole = Grid::level(0, recorder.inputs.frame.size_px);
-    recorder.dispatch_plane(&pipeline, Slice { spacing, ..whole.slice(0) });
+    recorder.dispatch_plane(&pipeline, DispatchParams { spacing, ..whole.dispatch_params(0) });
 }

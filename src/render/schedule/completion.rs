@@ -18,7 +18,7 @@ use crate::render::lattice::WORKGROUP_THREADS;
 /// its expected time.
 const MERGED_SHARE: f64 = 0.05;
 
-/// A piece of work that has not finished.
+/// What was expected of a piece in flight.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
     /// What the piece is for.
@@ -128,7 +128,7 @@ fn learn(cost: &mut Cost, group: &[Completion]) {
     }
     for completion in group {
         match completion.work {
-            Some((Work::Display { .. }, _)) => cost.shown(took_ms(completion)),
+            Some((Work::Display(_), _)) => cost.displayed(took_ms(completion)),
             None => cost.interface_drawn(took_ms(completion)),
             Some((Work::Trace(_), _)) => {}
         }

@@ -3,35 +3,35 @@
 //! In: measured pieces. Out: estimates of others. A piece takes a fixed time and a time for each
 //! ray. The fixed part is small natively; in a browser the interface's own drawing and the
 //! completion-callback latency make it many milliseconds. Pieces that shrank on its account would
-//! only add to it, so slices of two sizes separate the two.
+//! only add to it, so pieces of two sizes separate the two.
 //!
 //! A ray of a sparse lattice has little in common with its neighbours and costs more than one of
-//! a dense lattice, by a factor that depends on the scene. So openings and refining slices are
+//! a dense lattice, by a factor that depends on the scene. So openings and refining pieces are
 //! estimated separately: what the last picture of a movement took is what its next one will take.
 //!
 //! How many rays a sample counts as, the integrator's [`Plan`] says.
 
 use super::{
-    plan::{Plan, Price, WorkKind},
+    plan::{Plan, SampleCost, WorkKind},
     rate::{CostHistory, Rate},
     types::{Arithmetic, Phase},
     work::Job,
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// Fewest workgroups of a slice: two can be halved. Slices that were all of one workgroup could not
+/// Fewest workgroups of a piece: two can be halved. Pieces that were all of one workgroup could not
 /// tell that their cost is fixed.
-const FEWEST_WORKGROUPS: f64 = 2.0;
+const MIN_WORKGROUPS: f64 = 2.0;
 
 /// Longest time that drawing the interface counts as, milliseconds: longer ones were held up.
-const MOST_INTERFACE_MS: f64 = 200.0;
+const MAX_INTERFACE_MS: f64 = 200.0;
 
 /// Part of a budget that is planned for: a picture may take more than the one before it.
 const PLANNED: f64 = 0.9;
 
-/// Least part of a budget that goes into the lattice's pixels, however long the display and the
+/// Least part of a budget that goes into the lattice's samples, however long the display and the
 /// latency take.
-const LEAST_FOR_PIXELS: f64 = 0.25;
+const MIN_FOR_SAMPLES: f64 = 0.25;
 
 /// Cost of a ray by other than specialized pipelines, in rays by those, until the first picture has
 /// been measured.
@@ -53,15 +53,15 @@ pub struct Cost {
     histories: [CostHistory; KINDS],
     /// How kernels raise powers from now on.
     pub arithmetic: Arithmetic,
-    show_ms: f64,
+    display_ms: f64,
     /// Time of the last display alone.
-    last_show_ms: f64,
+    last_display_ms: f64,
     interface_ms: f64,
     /// The visibility bits of the lights that have shadow rays.
     casting: u64,
 }
 
-/// The history of a kind.
+/// Index of a kind's history.
 fn history_index(kind: WorkKind, arithmetic: Arithmetic) -> usize {
     match kind {
         WorkKind::Tracing => arithmetic as usize,
@@ -77,8 +77,8 @@ impl Cost {
             plan,
             histories: Default::default(),
             arithmetic: Arithmetic::default(),
-            show_ms: 0.0,
-            last_show_ms: f64::INFINITY,
+            display_ms: 0.0,
+            last_display_ms: f64::INFINITY,
             interface_ms: 0.0,
             casting: u64::MAX,
         }
@@ -89,48 +89,48 @@ impl Cost {
         self.casting = casting;
     }
 
-    /// What a job costs for each of its pixels.
-    fn price(&self, job: Job) -> Price {
-        (self.plan.price)(job, self.casting)
+    /// What a job costs for each of its samples.
+    fn sample_cost(&self, job: Job) -> SampleCost {
+        (self.plan.sample_cost)(job, self.casting)
     }
 
-    /// Learns that a trace of so many pixels by `arithmetic` took `busy_ms`.
+    /// Learns that a trace of so many samples by `arithmetic` took `busy_ms`.
     pub fn traced(
         &mut self,
         job: Job,
         phase: Phase,
         arithmetic: Arithmetic,
-        pixels: f64,
+        samples: f64,
         busy_ms: f64,
     ) {
-        if pixels > 0.0 {
-            let Price { kind, rays: rays_of_pixel } = self.price(job);
+        if samples > 0.0 {
+            let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
             let history = &mut self.histories[history_index(kind, arithmetic)];
-            history.learn(phase, pixels * rays_of_pixel, busy_ms.max(1e-3));
+            history.learn(phase, samples * rays_of_sample, busy_ms.max(1e-3));
         }
     }
 
-    /// Estimated time of a trace of so many pixels, milliseconds.
-    pub fn expected_ms(&self, job: Job, phase: Phase, pixels: u32) -> f64 {
-        let Price { kind, rays: rays_of_pixel } = self.price(job);
-        self.rate(phase, kind).expected_ms(f64::from(pixels) * rays_of_pixel)
+    /// Estimated time of a trace of so many samples, milliseconds.
+    pub fn expected_ms(&self, job: Job, phase: Phase, samples: u32) -> f64 {
+        let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
+        self.rate(phase, kind).expected_ms(f64::from(samples) * rays_of_sample)
     }
 
     /// Learns the time of a display.
-    pub fn shown(&mut self, busy_ms: f64) {
+    pub fn displayed(&mut self, busy_ms: f64) {
         // Displays are much alike: one that took longer than the one before it was held up.
-        self.show_ms = busy_ms.min(self.last_show_ms);
-        self.last_show_ms = busy_ms;
+        self.display_ms = busy_ms.min(self.last_display_ms);
+        self.last_display_ms = busy_ms;
     }
 
     /// Estimated time of a display, milliseconds.
-    pub fn show_ms(&self) -> f64 {
-        self.show_ms
+    pub fn display_ms(&self) -> f64 {
+        self.display_ms
     }
 
     /// Learns the time of a frame of the interface.
     pub fn interface_drawn(&mut self, busy_ms: f64) {
-        self.interface_ms = 0.5 * (self.interface_ms + busy_ms.min(MOST_INTERFACE_MS));
+        self.interface_ms = 0.5 * (self.interface_ms + busy_ms.min(MAX_INTERFACE_MS));
     }
 
     /// Estimated time of a frame of the interface, milliseconds.
@@ -160,17 +160,17 @@ impl Cost {
         })
     }
 
-    /// Workgroups of a refining slice that takes `aim_ms`, or the fixed cost where that is longer.
-    /// It is not much larger than any slice before it.
-    pub fn slice_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
-        let Price { kind, rays: rays_of_pixel } = self.price(job);
+    /// Workgroups of a refining piece that takes `aim_ms`, or the fixed cost where that is longer.
+    /// It is not much larger than any piece before it.
+    pub fn piece_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
+        let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);
         let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(rate.most_rays);
-        let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_pixel;
-        (rays / workgroup).clamp(FEWEST_WORKGROUPS, 1e9) as u32
+        let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_sample;
+        (rays / workgroup).clamp(MIN_WORKGROUPS, 1e9) as u32
     }
 
-    /// Whether an opening of so many pixels fits `budget_ms`, with its display and with refining work
+    /// Whether an opening of so many samples fits `budget_ms`, with its display and with refining work
     /// in flight that takes `in_flight_ms`.
     ///
     /// `has_indirect`: the opening's indirect light has to fit too.
@@ -178,24 +178,24 @@ impl Cost {
         &self,
         budget_ms: f64,
         in_flight_ms: f64,
-        pixels: u32,
+        samples: u32,
         job: Job,
         has_indirect: bool,
     ) -> bool {
-        let Price { kind, rays: rays_of_pixel } = self.price(job);
+        let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Opening, kind);
         let mut fixed_ms = rate.fixed_ms;
-        let mut pixel_ms = rate.ray_ms * rays_of_pixel;
+        let mut sample_ms = rate.ray_ms * rays_of_sample;
         if has_indirect {
             let indirect = self.rate(Phase::Opening, WorkKind::Indirect);
             fixed_ms += indirect.fixed_ms;
-            pixel_ms += indirect.ray_ms;
+            sample_ms += indirect.ray_ms;
         }
-        let left_ms = PLANNED * budget_ms - in_flight_ms - self.show_ms - fixed_ms;
-        let pixels = f64::from(pixels);
+        let left_ms = PLANNED * budget_ms - in_flight_ms - self.display_ms - fixed_ms;
+        let samples = f64::from(samples);
         // The cost of few rays says little of the cost of many.
         let tried = self.histories[history_index(kind, self.arithmetic)].opening();
-        let is_near = tried.is_none_or(|rate| pixels * rays_of_pixel <= rate.most_rays);
-        is_near && pixels * pixel_ms <= left_ms.max(LEAST_FOR_PIXELS * budget_ms)
+        let is_near = tried.is_none_or(|rate| samples * rays_of_sample <= rate.most_rays);
+        is_near && samples * sample_ms <= left_ms.max(MIN_FOR_SAMPLES * budget_ms)
     }
 }

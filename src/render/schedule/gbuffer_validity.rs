@@ -18,17 +18,17 @@ fn covers(finest: Finest, level: u32) -> bool {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GBufferValidity {
     /// Level of depths and colour data.
-    marched: Finest,
+    depth: Finest,
     /// Level of normals.
-    faced: Finest,
+    normal: Finest,
     /// Level of each light's visibility bit.
-    lit: [Finest; MAX_LIGHTS],
+    visibility: [Finest; MAX_LIGHTS],
 }
 
 impl Default for GBufferValidity {
     /// Nothing is valid.
     fn default() -> Self {
-        Self { marched: None, faced: None, lit: [None; MAX_LIGHTS] }
+        Self { depth: None, normal: None, visibility: [None; MAX_LIGHTS] }
     }
 }
 
@@ -39,14 +39,14 @@ impl GBufferValidity {
         match stale {
             Stale::Geometry => *self = Self::default(),
             // Shadow rays start along the normal, and their lights depend on the side it faces.
-            Stale::Normals => *self = Self { marched: self.marched, ..Self::default() },
+            Stale::Normals => *self = Self { depth: self.depth, ..Self::default() },
             Stale::Light | Stale::Indirect | Stale::Tone => {}
         }
     }
 
     /// Discards the visibility bits of `lights`.
     pub fn invalidate_lights(&mut self, lights: u64) {
-        for (bit, finest) in self.lit.iter_mut().enumerate() {
+        for (bit, finest) in self.visibility.iter_mut().enumerate() {
             if lights >> bit & 1 == 1 {
                 *finest = None;
             }
@@ -54,21 +54,21 @@ impl GBufferValidity {
     }
 
     /// The finest level that has depths.
-    pub fn marched(&self) -> Option<u32> {
-        self.marched
+    pub fn depth(&self) -> Option<u32> {
+        self.depth
     }
 
     /// The stage at which the centre samples of a level start, and the lights of `shining` whose
     /// bits are missing.
-    pub fn start(&self, level: u32, shining: u64) -> (Stage, u64) {
-        if !covers(self.marched, level) {
+    pub fn first_missing(&self, level: u32, shining: u64) -> (Stage, u64) {
+        if !covers(self.depth, level) {
             return (Stage::March, shining);
         }
-        if !covers(self.faced, level) {
+        if !covers(self.normal, level) {
             return (Stage::Normal, shining);
         }
         let missing = (0..)
-            .zip(&self.lit)
+            .zip(&self.visibility)
             .filter(|(_, finest)| !covers(**finest, level))
             .fold(0, |bits, (bit, _)| bits | 1_u64 << bit);
         match shining & missing {
@@ -80,9 +80,9 @@ impl GBufferValidity {
     /// Marks a level as valid, with the bits of the lights that are `shining`.
     pub fn complete(&mut self, level: u32, shining: u64) {
         let reach = |finest: &mut Finest| *finest = Some(finest.map_or(level, |l| l.min(level)));
-        reach(&mut self.marched);
-        reach(&mut self.faced);
-        for (bit, finest) in self.lit.iter_mut().enumerate() {
+        reach(&mut self.depth);
+        reach(&mut self.normal);
+        for (bit, finest) in self.visibility.iter_mut().enumerate() {
             if shining >> bit & 1 == 1 {
                 reach(finest);
             }
@@ -97,24 +97,24 @@ mod tests {
     #[test]
     fn one_moved_light_is_marched_alone() {
         let mut validity = GBufferValidity::default();
-        assert_eq!(validity.start(3, 0b111), (Stage::March, 0b111));
+        assert_eq!(validity.first_missing(3, 0b111), (Stage::March, 0b111));
         validity.complete(0, 0b111);
-        assert_eq!(validity.start(0, 0b111), (Stage::Shade, 0));
+        assert_eq!(validity.first_missing(0, 0b111), (Stage::Shade, 0));
         validity.invalidate_lights(0b010);
-        assert_eq!(validity.start(0, 0b111), (Stage::Shadow, 0b010));
-        assert_eq!(validity.start(0, 0b101), (Stage::Shade, 0));
+        assert_eq!(validity.first_missing(0, 0b111), (Stage::Shadow, 0b010));
+        assert_eq!(validity.first_missing(0, 0b101), (Stage::Shade, 0));
     }
 
     #[test]
     fn a_light_that_was_off_keeps_its_bits_until_geometry_changes() {
         let mut validity = GBufferValidity::default();
         validity.complete(0, 0b11);
-        assert_eq!(validity.start(0, 0b01), (Stage::Shade, 0));
-        assert_eq!(validity.start(0, 0b11), (Stage::Shade, 0));
+        assert_eq!(validity.first_missing(0, 0b01), (Stage::Shade, 0));
+        assert_eq!(validity.first_missing(0, 0b11), (Stage::Shade, 0));
         validity.invalidate(Stale::Normals);
-        assert_eq!(validity.start(0, 0b01), (Stage::Normal, 0b01));
+        assert_eq!(validity.first_missing(0, 0b01), (Stage::Normal, 0b01));
         validity.complete(0, 0b01);
-        assert_eq!(validity.start(0, 0b11), (Stage::Shadow, 0b10));
+        assert_eq!(validity.first_missing(0, 0b11), (Stage::Shadow, 0b10));
     }
 
     #[test]
@@ -124,9 +124,9 @@ mod tests {
         validity.complete(3, 1 << 63);
         validity.invalidate_lights(1 << 63);
         validity.complete(5, 1 << 63);
-        assert_eq!(validity.start(5, 1 << 63), (Stage::Shade, 0));
-        assert_eq!(validity.start(4, 1 << 63), (Stage::Shadow, 1 << 63));
-        assert_eq!(validity.start(3, 0), (Stage::Shade, 0));
-        assert_eq!(validity.start(2, 0), (Stage::March, 0));
+        assert_eq!(validity.first_missing(5, 1 << 63), (Stage::Shade, 0));
+        assert_eq!(validity.first_missing(4, 1 << 63), (Stage::Shadow, 1 << 63));
+        assert_eq!(validity.first_missing(3, 0), (Stage::Shade, 0));
+        assert_eq!(validity.first_missing(2, 0), (Stage::March, 0));
     }
 }

@@ -15,25 +15,25 @@ pub struct Plan {
     /// What a job costs for each of its samples.
     ///
     /// In: the job, the visibility bits of the lights that cast shadows.
-    pub price: fn(Job, u64) -> Price,
+    pub sample_cost: fn(Job, u64) -> SampleCost,
 }
 
 /// What a job costs for each of its samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Price {
-    /// What the rays are: kinds have measured costs of their own.
+pub struct SampleCost {
+    /// Kind of work.
     pub kind: WorkKind,
     /// How many rays a sample counts as.
     pub rays: f64,
 }
 
-/// What the rays of a job are.
+/// A kind of work; each kind has measured costs of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkKind {
-    /// Rays that are marched.
+    /// Marching of rays.
     Tracing,
-    /// Samples that are shaded only.
+    /// Shading alone.
     Shading,
-    /// Samples that gather indirect light.
+    /// Gathering of indirect light.
     Indirect,
 }

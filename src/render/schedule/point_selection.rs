@@ -8,7 +8,7 @@ use super::{
     types::{Pace, Phase},
     work::{Job, Points},
 };
-use crate::render::lattice::{COARSEST, Grid, MOST_TOGETHER};
+use crate::render::lattice::{COARSEST, Grid, MAX_SAMPLES_TOGETHER};
 
 /// Longest full frame that is computed straight after the opening, milliseconds.
 const STRAIGHT_MS: f64 = 1000.0;
@@ -52,7 +52,7 @@ impl PointSelection<'_> {
             }
             Some(0) if progress.samples_done < self.samples_wanted => {
                 let left = self.samples_wanted - progress.samples_done;
-                let count = left.min(MOST_TOGETHER);
+                let count = left.min(MAX_SAMPLES_TOGETHER);
                 Some(Points::Samples { first: progress.samples_done, count })
             }
             Some(0) => None,
@@ -82,13 +82,14 @@ impl PointSelection<'_> {
     /// light is stale.
     fn opening_level(&self) -> u32 {
         let progress = self.progress;
-        let finest = progress.gbuffer_validity.marched().unwrap_or(0);
+        let finest = progress.gbuffer_validity.depth().unwrap_or(0);
         let job = |level| progress.job(Points::Level(level));
         self.finest_within_budget(finest, job, progress.has_indirect)
     }
 
-    /// The finest level from `finest` up that fits the budget. `has_indirect`: the level's indirect
-    /// light is part of the same picture.
+    /// The finest level, not finer than `finest`, that fits the budget.
+    ///
+    /// `has_indirect`: the level's indirect light is part of the same picture.
     fn finest_within_budget(
         &self,
         finest: u32,

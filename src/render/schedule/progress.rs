@@ -80,7 +80,7 @@ impl Progress {
         }
     }
 
-    /// Marks points as submitted to the last. True where the film has changed.
+    /// Marks points as completely submitted. True where the film has changed.
     pub fn complete(&mut self, points: Points) -> bool {
         self.under_way = None;
         let is_filmed = match points {

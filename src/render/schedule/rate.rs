@@ -7,15 +7,15 @@ use std::collections::VecDeque;
 
 use super::types::Phase;
 
-/// Rays of the first slice of a kind: few enough for a device 200 times slower than a desktop's.
+/// Rays of the first piece of a kind: few enough for a device 200 times slower than a desktop's.
 const FIRST_RAYS: f64 = 4096.0;
 
 /// Cost of a ray before anything is measured, milliseconds.
 const ASSUMED_MS: f64 = 0.001;
 
-/// Refining slices that an estimate is made of. The median slope stays right while fewer than 29 %
+/// Refining pieces that an estimate is made of. The median slope stays right while fewer than 29 %
 /// of them are held up.
-const SLICES: usize = 32;
+const REFINING_PIECES: usize = 32;
 
 /// Openings that an estimate is made of: the view changes from one to the next.
 const OPENINGS: usize = 9;
@@ -26,10 +26,10 @@ const OPENINGS_QUANTILE: f64 = 0.75;
 /// How many times as many rays as before a piece may have: two lattice levels and a margin.
 const GROWTH: f64 = 5.0;
 
-/// Largest part of a slice's time that counts as fixed, so that slices grow step by step.
-const MOST_FIXED: f64 = 0.95;
+/// Largest part of a piece's time that counts as fixed, so that pieces grow step by step.
+const MAX_FIXED: f64 = 0.95;
 
-/// Two openings in a row that cost so many times what slices predict show another view. Rays of a
+/// Two openings in a row that cost so many times what pieces predict show another view. Rays of a
 /// sparse lattice have little in common: up to twice the cost is normal.
 const OTHER_VIEW: f64 = 3.0;
 
@@ -74,7 +74,7 @@ impl Rate {
 /// What one kind of work has cost lately, in either phase.
 #[derive(Clone, Debug, Default)]
 pub struct CostHistory {
-    slices: VecDeque<Measurement>,
+    pieces: VecDeque<Measurement>,
     openings: VecDeque<Measurement>,
     /// Measured over predicted time of the last two openings.
     excess: [f64; 2],
@@ -102,8 +102,8 @@ impl CostHistory {
         match phase {
             Phase::Opening => self.learn_opening(measurement),
             Phase::Refining => {
-                push(&mut self.slices, SLICES, measurement);
-                self.refining = line(&self.slices);
+                push(&mut self.pieces, REFINING_PIECES, measurement);
+                self.refining = line(&self.pieces);
             }
         }
     }
@@ -112,9 +112,9 @@ impl CostHistory {
         if let Some(rate) = self.refining {
             self.excess = [self.excess[1], opening.ms / rate.expected_ms(opening.rays)];
         }
-        // Slices of a cheaper view would make those of this one too long.
+        // Pieces of a cheaper view would make those of this one too long.
         if self.excess.iter().all(|&excess| excess > OTHER_VIEW) {
-            self.slices.clear();
+            self.pieces.clear();
             self.refining = None;
             self.excess = [0.0; 2];
         }
@@ -122,7 +122,7 @@ impl CostHistory {
         // Openings are too few, and of too many views, to separate their own fixed cost.
         let fixed_ms = self.refining.or(self.opening).map_or(0.0, |rate| rate.fixed_ms);
         let ray_ms = |opening: &Measurement| {
-            (opening.ms - fixed_ms).max((1.0 - MOST_FIXED) * opening.ms) / opening.rays
+            (opening.ms - fixed_ms).max((1.0 - MAX_FIXED) * opening.ms) / opening.rays
         };
         self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
             .map(|ray_ms| Rate { fixed_ms, ray_ms, most_rays: GROWTH * opening.rays });
@@ -136,18 +136,18 @@ fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurem
     window.push_back(measurement);
 }
 
-/// The line through slices whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
-fn line(slices: &VecDeque<Measurement>) -> Option<Rate> {
-    let slopes = slices.iter().enumerate().flat_map(|(index, a)| {
-        let others = slices.iter().take(index).filter(|b| b.rays != a.rays);
+/// The line through pieces whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
+fn line(pieces: &VecDeque<Measurement>) -> Option<Rate> {
+    let slopes = pieces.iter().enumerate().flat_map(|(index, a)| {
+        let others = pieces.iter().take(index).filter(|b| b.rays != a.rays);
         others.map(|b| (a.ms - b.ms) / (a.rays - b.rays))
     });
-    // Slices of one size can't separate the two costs: all of theirs counts as rays'.
-    let whole_ms = median(slices.iter().map(|slice| slice.ms / slice.rays).collect())?;
+    // Pieces of one size can't separate the two costs: all of theirs counts as rays'.
+    let whole_ms = median(pieces.iter().map(|piece| piece.ms / piece.rays).collect())?;
     let ray_ms = median(slopes.collect())
-        .map_or(whole_ms, |slope| slope.clamp((1.0 - MOST_FIXED) * whole_ms, whole_ms));
-    let fixed_ms = median(slices.iter().map(|slice| slice.ms - ray_ms * slice.rays).collect())?;
-    let largest = slices.iter().map(|slice| slice.rays).fold(0.0, f64::max);
+        .map_or(whole_ms, |slope| slope.clamp((1.0 - MAX_FIXED) * whole_ms, whole_ms));
+    let fixed_ms = median(pieces.iter().map(|piece| piece.ms - ray_ms * piece.rays).collect())?;
+    let largest = pieces.iter().map(|piece| piece.rays).fold(0.0, f64::max);
     Some(Rate { fixed_ms: fixed_ms.max(0.0), ray_ms, most_rays: GROWTH * largest })
 }
 
@@ -166,14 +166,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_quarter_of_stalled_slices_does_not_move_the_line() {
+    fn a_quarter_of_stalled_pieces_does_not_move_the_line() {
         let mut history = CostHistory::default();
         for index in 0..64_u32 {
             let rays = if index % 2 == 0 { 2000.0 } else { 1000.0 };
             let stall_ms = if index % 4 == index / 8 % 4 { 50.0 } else { 0.0 };
             history.learn(Phase::Refining, rays, 3.0 + 0.004 * rays + stall_ms);
         }
-        let rate = history.rate(Phase::Refining).expect("slices");
+        let rate = history.rate(Phase::Refining).expect("pieces");
         assert!((rate.ray_ms - 0.004).abs() < 1e-9, "{rate:?}");
         assert!((rate.fixed_ms - 3.0).abs() < 1e-6, "{rate:?}");
     }

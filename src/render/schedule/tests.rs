@@ -92,7 +92,7 @@ impl Device {
                 let each = if is_sparse { self.sparser } else { 1.0 };
                 whole * each * share_of_frame(trace.from, lights)
             }
-            Work::Display { .. } => f64::from(SIZE[0] * SIZE[1]) * 0.02,
+            Work::Display(_) => f64::from(SIZE[0] * SIZE[1]) * 0.02,
         };
         let spike = if self.submits.is_multiple_of(97) { self.spike_ms } else { 0.0 };
         let ms = self.overhead() + pixels * self.pixel_ns * 1e-6 + spike;
@@ -108,7 +108,7 @@ impl Device {
         while self.queue.first().is_some_and(|(_, end, _)| *end <= now) {
             let (work, _, ms) = self.queue.remove(0);
             schedule.collect(&[(Some(work), ms)]);
-            shows += usize::from(matches!(work, Work::Display { .. }));
+            shows += usize::from(matches!(work, Work::Display(_)));
         }
         shows
     }
@@ -129,7 +129,7 @@ fn run(
         }
         while let Some(work) = schedule.next(*now) {
             device.submit(work, *now);
-            assert!(device.queue.len() <= MOST_IN_FLIGHT);
+            assert!(device.queue.len() <= MAX_IN_FLIGHT);
         }
         *now += FRAME_SECS;
     }
@@ -183,7 +183,7 @@ fn reported_progress_only_grows() {
 }
 
 #[test]
-fn slices_stay_short() {
+fn pieces_stay_short() {
     let of_16_ms = [0.05, 1.0, 20.0, 200.0].map(|slowness| (slowness, 16.0));
     for (slowness, budget_ms) in
         of_16_ms.into_iter().chain([(1.0, 4.0), (1.0, 100.0), (20.0, 100.0)])
@@ -193,8 +193,8 @@ fn slices_stay_short() {
         schedule.aim(budget_ms, 4);
         settle(&mut schedule, &mut device, &mut 0.0);
         // The display of a whole picture cannot be cut; it is small on anything but the slowest.
-        let show_ms = f64::from(SIZE[0] * SIZE[1]) * 0.02 * device.pixel_ns * 1e-6;
-        let bound = (1.5 * SLICE_MS).min(budget_ms).max(show_ms + 1.0);
+        let display_ms = f64::from(SIZE[0] * SIZE[1]) * 0.02 * device.pixel_ns * 1e-6;
+        let bound = (1.5 * PIECE_MS).min(budget_ms).max(display_ms + 1.0);
         assert!(device.longest_ms <= bound, "slowness {slowness}: {} ms", device.longest_ms);
     }
 }
@@ -302,7 +302,7 @@ fn tone_edits_only_show() {
     schedule.change(Stale::Tone, true, now);
     assert_eq!(
         schedule.next(now),
-        Some(Work::Display { level: 0, fill: false, film: false, adapt: 1.0 })
+        Some(Work::Display(Display { level: 0, fill: false, from_film: false, adapt: 1.0 }))
     );
     assert_eq!(schedule.next(now), None);
 }
@@ -313,7 +313,7 @@ fn adaptations(schedule: &mut Schedule, now: &mut f64) -> Vec<(f64, f32)> {
     let mut shows = Vec::new();
     while !schedule.status(*now).idle {
         while let Some(work) = schedule.next(*now) {
-            if let Work::Display { adapt, .. } = work {
+            if let Work::Display(Display { adapt, .. }) = work {
                 shows.push((*now, adapt));
             }
             device.submit(work, *now);
@@ -403,7 +403,7 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
             match work {
-                Work::Display { level, fill, .. } => {
+                Work::Display(Display { level, fill, .. }) => {
                     assert_eq!((level, fill), (0, false));
                     shows += 1;
                 }

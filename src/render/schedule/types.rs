@@ -3,9 +3,9 @@
 /// How a view spends GPU time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// Someone is watching: sparse lattices while things change, small slices.
+    /// Someone is watching: sparse lattices while things change, small pieces.
     Interactive,
-    /// A still: straight to all samples, larger slices.
+    /// A still: straight to all samples, larger pieces.
     Still,
 }
 

@@ -15,23 +15,23 @@ pub enum Points {
     Level(u32),
     /// Centre samples of the pixels that a level adds to the next coarser one.
     Added(u32),
-    /// Centre samples of every pixel, those of the lattice that is there once more: rays of a dense
-    /// lattice have more in common, and cost less, than those that a sparse one lacks.
+    /// Centre samples of every pixel.
+    ///
+    /// Pixels of the lattice are computed again: rays of a dense lattice cost less.
     All,
-    /// Centre samples of every pixel of a lattice level, which all have their direct light, for
-    /// the indirect light among them.
+    /// Indirect light of a lattice level whose centre samples have their direct light.
     Indirect(u32),
     /// Jittered samples of every pixel, computed together.
     Samples {
         /// The index of the first one.
         first: u32,
-        /// How many, 1 to [`MOST_TOGETHER`](crate::render::lattice::MOST_TOGETHER).
+        /// How many, 1 to [`MAX_SAMPLES_TOGETHER`](crate::render::lattice::MAX_SAMPLES_TOGETHER).
         count: u32,
     },
 }
 
 impl Points {
-    /// The lattice level that is complete with them: every pixel's unless they belong to one.
+    /// The lattice level that these points complete; 0 for `All` and `Samples`.
     pub fn level(self) -> u32 {
         match self {
             Self::Level(level) | Self::Added(level) | Self::Indirect(level) => level,
@@ -39,7 +39,7 @@ impl Points {
         }
     }
 
-    /// The grid of pixels that they lie in.
+    /// The grid of the points.
     pub fn grid(self, size_px: [u32; 2]) -> Grid {
         match self {
             Self::Level(level) | Self::Indirect(level) => Grid::level(level, size_px),
@@ -50,18 +50,18 @@ impl Points {
     }
 }
 
-/// The pass that a trace starts with; those after it follow.
+/// The first stage that a trace computes; later stages follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
-    /// Camera rays.
+    /// Marches camera rays.
     March,
-    /// Normals, of depths that are there.
+    /// Normals; depths are in the G-buffer.
     Normal,
-    /// Shadow rays, of depths and normals that are there.
+    /// Shadow rays; depths and normals are in the G-buffer.
     Shadow,
-    /// Light and colours, of visibility bits that are there.
+    /// Light and colours; visibility is in the G-buffer too.
     Shade,
-    /// Indirect light, of direct light that is there.
+    /// Indirect light; direct light is there.
     Indirect,
 }
 
@@ -106,32 +106,36 @@ impl Trace {
     }
 }
 
+/// A display picture to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// The finest complete lattice level; 0 if the film is complete.
+    pub level: u32,
+    /// Whether the pixels between those of the lattice must be filled first.
+    pub fill: bool,
+    /// True if the display shows the film although a finer level is under way.
+    pub from_film: bool,
+    /// Part of the way to its goal that auto exposure moves, above 0; 1 arrives at once.
+    pub adapt: f32,
+}
+
 /// One piece of work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Work {
     /// Compute sample points, up to the film.
     Trace(Trace),
-    /// Make the display picture from the film.
-    Display {
-        /// The finest complete lattice level; 0 where the film is complete.
-        level: u32,
-        /// Whether the pixels between that lattice's have to be filled in first.
-        fill: bool,
-        /// Whether it is made from the film, which has more than the lattice or soon will have.
-        film: bool,
-        /// How far auto exposure moves toward its goal, above 0 to 1: there at once.
-        adapt: f32,
-    },
+    /// Make the display picture.
+    Display(Display),
 }
 
 impl Work {
-    /// The work in parts that are submitted one after another: later ones reuse the buffers of a batch.
+    /// Parts to submit one after another: each part reuses the buffers of a batch.
     pub fn batches(self) -> impl Iterator<Item = Self> {
-        let (trace, show) = match self {
+        let (trace, display) = match self {
             Self::Trace(trace) => (Some(trace), None),
-            Self::Display { .. } => (None, Some(self)),
+            Self::Display(_) => (None, Some(self)),
         };
-        trace.into_iter().flat_map(Trace::batches).map(Self::Trace).chain(show)
+        trace.into_iter().flat_map(Trace::batches).map(Self::Trace).chain(display)
     }
 }
 
@@ -155,7 +159,7 @@ mod tests {
             }
             assert_eq!(next, first_workgroup + workgroups);
         }
-        let show = Work::Display { level: 3, fill: true, film: false, adapt: 1.0 };
+        let show = Work::Display(Display { level: 3, fill: true, from_film: false, adapt: 1.0 });
         assert_eq!(show.batches().collect::<Vec<_>>(), [show]);
     }
 }

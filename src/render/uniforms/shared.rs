@@ -185,7 +185,7 @@ host_shared! {
         normals: u32,
     }
     /// The part of a picture that one dispatch computes.
-    Slice {
+    DispatchParams {
         /// Lattice positions per grid position.
         step: [u32; 2],
         /// Offset of the first lattice position.
@@ -243,9 +243,9 @@ host_shared! {
     }
     /// A ray and the cone about it: all that a pass knows of a sample's way through the scene.
     Ray {
-        /// In render space; moves to the surface point.
+        /// In render space: the eye, then the surface point.
         origin: [f32; 3],
-        /// Radius of the cone at the origin: the hit distance there.
+        /// Radius of the cone at the origin; at a surface point, the hit distance.
         radius: f32,
         /// Unit vector.
         direction: [f32; 3],

@@ -6,7 +6,7 @@ use crate::render::{
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     post::{Need, Post, Tasks},
-    schedule::Work,
+    schedule::{Display, Work},
     targets::Targets,
 };
 
@@ -109,7 +109,7 @@ impl StatsValidity {
         need: Option<Need>,
         histogram: &HistogramReadback,
     ) -> Tasks {
-        let Work::Display { fill, adapt, .. } = work else {
+        let Work::Display(Display { fill, adapt, .. }) = work else {
             *self = Self::default();
             return Tasks::default();
         };

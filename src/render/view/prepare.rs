@@ -10,7 +10,7 @@ use crate::{
         post::Need,
         preparation::{Preparation, PreparationState},
     },
-    scene::{IndirectKind, Scene},
+    scene::Scene,
 };
 
 /// Time without changes after which a view is at rest, in seconds.
@@ -66,10 +66,9 @@ impl View {
 
     /// The variants that a scene needs for indirect light and for post passes.
     fn behind_shading(&self, scene: &Scene) -> Vec<PipelineVariant> {
-        let has_indirect = scene.indirect.kind != IndirectKind::Off;
         let has_post = self.lent.post.is_none() && !Need::of_scene(scene).is_none()
             || self.histogram_readback.is_wanted();
-        let sets = [has_indirect.then_some(&INDIRECT), has_post.then_some(&POST)];
+        let sets = [scene.has_indirect().then_some(&INDIRECT), has_post.then_some(&POST)];
         sets.into_iter().flatten().map(|set| self.needed(set)).collect()
     }
 

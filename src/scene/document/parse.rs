@@ -47,8 +47,8 @@ fn message_of(error: &serde_json::Error) -> String {
 
 /// `text`, cut where it is too long to show.
 pub fn clipped(text: &str) -> String {
-    const MOST_CHARS: usize = 400;
-    match text.char_indices().nth(MOST_CHARS) {
+    const MAX_CHARS: usize = 400;
+    match text.char_indices().nth(MAX_CHARS) {
         None => text.into(),
         Some((end, _)) => format!("{}…", &text[..end]),
     }

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::world::{MAX_EYE_DISTANCE, World};
 use crate::{
-    formula::{DistanceField, march::LEAST_STEP},
+    formula::{DistanceField, march::MIN_STEP},
     scene::Camera,
 };
 
@@ -84,7 +84,7 @@ fn sweep(field: &dyn DistanceField, from: DVec3, displacement: DVec3, clearance:
         // trial step comes first, then a step within the room.
         let clearance = clearance.max(RESOLVED * (from + direction * travelled).length());
         let room = here.distance - clearance;
-        let max_step = here.step.max(LEAST_STEP * clearance);
+        let max_step = here.step.max(MIN_STEP * clearance);
         let steps =
             [room.max(TRIAL_STEP * here.distance), room].map(|it| STEP_PART * it.min(max_step));
         let taken = steps.into_iter().filter(|&step| step > ARRIVED * clearance).find_map(|step| {

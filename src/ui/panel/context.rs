@@ -5,14 +5,14 @@ use egui::Ui;
 use crate::{
     scene::{EnvironmentMap, Scene},
     ui::{
-        action::Action, display_inputs::DisplayInputs, editor::Editor, navigation::CameraStatus,
-        rects::Rects, selection::Selection, settings::Settings, shortcuts::Command,
+        action::Action, display_inputs::DisplayInputs, navigation::CameraStatus, rects::Rects,
+        selection::Selection, settings::Settings, shortcuts::Command,
     },
 };
 
 /// A panel as a section of "More".
 pub struct Section {
-    /// A name, unique among sections: settings keep whether the section is open by it.
+    /// The key under which settings store whether the section is open, unique among sections.
     pub name: &'static str,
     /// The heading.
     pub title: &'static str,
@@ -24,12 +24,19 @@ pub struct Section {
 
 /// The data that the panels show and edit.
 pub struct Context<'a> {
+    /// The scene, edited in place.
     pub scene: &'a mut Scene,
+    /// Settings that are no part of a scene.
     pub settings: &'a mut Settings,
+    /// The selected light.
     pub selection: &'a mut Selection,
+    /// Output: rectangles of named widgets.
     pub rects: &'a mut Rects,
+    /// Output: commands, as from a key.
     pub commands: &'a mut Vec<Command>,
+    /// Output: requests to the program around the interface.
     pub actions: &'a mut Vec<Action>,
+    /// What the program shows through the interface.
     pub inputs: &'a DisplayInputs<'a>,
     /// Output: true if the histogram is visible.
     pub histogram_shown: &'a mut bool,
@@ -39,14 +46,10 @@ pub struct Context<'a> {
     pub camera_status: Option<CameraStatus>,
     /// Size of the view in the last frame, in pixels.
     pub view_px: [u32; 2],
+    /// True in fly mode.
     pub flying: bool,
+    /// True if there is something to undo.
     pub can_undo: bool,
+    /// True if there is something to redo.
     pub can_redo: bool,
-}
-
-impl Context<'_> {
-    /// Whether an undo and a redo are possible.
-    pub fn history_of(editor: &Editor) -> (bool, bool) {
-        (editor.can_undo(), editor.can_redo())
-    }
 }

@@ -154,7 +154,7 @@ fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
     let response = choose(ui);
     cx.rects.record("choose picture", &response);
     if response.clicked() {
-        cx.actions.push(Action::ChoosePicture);
+        cx.actions.push(Action::ChooseEnvironmentMap);
     }
     let room = cx.scene.lights.room_for_rig();
     let rig = &mut cx.scene.lights.rig;

@@ -61,9 +61,9 @@ fn buttons(
     egui::Grid::new(heading).spacing([gap, 5.0]).min_col_width(size.x).show(ui, |ui| {
         for (index, preset) in presets.iter().enumerate() {
             let button = ui.add_sized(size, Button::new(preset.name).truncate());
-            // The presets of the first list have number keys.
+            // The first nine presets of the first list have number keys.
             let hover = match first {
-                0 => format!("{} ({})", preset.blurb, index + 1),
+                0 if index < 9 => format!("{} ({})", preset.blurb, index + 1),
                 _ => preset.blurb.to_owned(),
             };
             let response = button.on_hover_text(hover);

@@ -169,7 +169,7 @@ fn quaternion_julia_sets_agree_with_the_oracle() {
         let mut fractal = Fractal::new(FormulaRef(&QUATERNION_JULIA));
         assert!(fractal.set("constant", constant) && fractal.set("slice", slice));
         let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
-        let field = fractal.formula().field(&fractal);
+        let field = fractal.formula().distance_field(&fractal);
         // Footprints of a whole view add no iterations.
         let iterations = fractal.formula().iterations_for(&fractal, 0.1);
         assert_eq!(iterations, fractal.iterations);

@@ -8,7 +8,7 @@ use std::{
 
 use glam::{DVec3, Vec3};
 use mandelight::{
-    formula::{Kernel, contract::MOST_TABLE_BYTES},
+    formula::{Kernel, contract::MAX_TABLE_BYTES},
     fractal::FractalModel,
     gpu::{
         Gpu,
@@ -155,7 +155,7 @@ pub fn bindings(gpu: &Gpu, inputs: &Inputs) -> Vec<wgpu::Buffer> {
     let mut buffers = vec![filled(gpu, wgpu::BufferUsages::STORAGE, &inputs.frame_bytes())];
     if !inputs.formula.table.is_empty() {
         let mut table = inputs.formula.table.to_vec();
-        table.resize(MOST_TABLE_BYTES, 0);
+        table.resize(MAX_TABLE_BYTES, 0);
         buffers.push(filled(gpu, wgpu::BufferUsages::UNIFORM, &table));
     }
     buffers

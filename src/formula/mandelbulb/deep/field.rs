@@ -188,7 +188,7 @@ impl ReferenceOrbit for Reference {
         fractal.formula().id() == MANDELBULB.id() && self.is_of(&Mandelbulb::of(fractal))
     }
 
-    fn field(
+    fn distance_field(
         self: Arc<Self>,
         fractal: &Fractal,
         footprint: f64,

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec2, DVec3};
 use crate::formula::mandelbulb::{estimator::DEEP_SIDEWAYS_MAX, power::TriplexPower};
 
 /// Replaces a distance of zero from the axis.
-const LEAST_RADIUS: f64 = 1e-100;
+const MIN_RADIUS: f64 = 1e-100;
 
 /// Jacobian of an orbit's current position by its starting point.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ impl RotatingJacobian {
     pub fn step(&mut self, power: &TriplexPower, z: DVec3, back: DVec2) {
         let z = off_axis(z);
         let aside = z.truncate();
-        let rho = aside.length().max(LEAST_RADIUS);
+        let rho = aside.length().max(MIN_RADIUS);
         // Gradient of the longitude by the point.
         let longitude = self.jacobian.transpose() * (aside.perp() / (rho * rho)).extend(0.0);
         let turn = (self.turn + longitude) * power.exponent();
@@ -88,7 +88,7 @@ impl RotatingJacobian {
 
 /// `z`, moved off the axis toward +x if on it: the axis has no longitude.
 fn off_axis(z: DVec3) -> DVec3 {
-    if z.x == 0.0 && z.y == 0.0 { z.with_x(LEAST_RADIUS) } else { z }
+    if z.x == 0.0 && z.y == 0.0 { z.with_x(MIN_RADIUS) } else { z }
 }
 
 /// The rotation about the polar axis by `rotor`.

@@ -24,7 +24,7 @@ use crate::{
 const ROTATING_FRAME_AXIS_DISTANCE: f64 = 0.03;
 
 /// Most points of a reference, of both orbits together: the capacity of the shaders' uniform buffer.
-pub const MOST_REFERENCE_POINTS: usize = 1984;
+pub const MAX_REFERENCE_POINTS: usize = 1984;
 
 /// An anchor and its orbit, to which the differences of other orbits are taken.
 ///
@@ -53,7 +53,7 @@ impl ReferenceBuilder {
     /// Begins the reference of `anchor`; none if the power is not a whole number.
     pub fn new(fractal: &Mandelbulb, anchor: PrecisePoint) -> Option<Self> {
         let most = iterations_for(fractal, FINEST_FOOTPRINT) as usize + 1;
-        let most = most.min(MOST_REFERENCE_POINTS / 2);
+        let most = most.min(MAX_REFERENCE_POINTS / 2);
         let critical = if fractal.julia { Some(Tracer::critical(fractal, most)?) } else { None };
         Some(Self {
             own: Tracer::of_point(fractal, &anchor, most)?,

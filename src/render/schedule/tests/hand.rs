@@ -34,7 +34,7 @@ fn picture_of_a_move(schedule: &mut Schedule, device: &mut Device, now: &mut f64
     schedule.change(Stale::Geometry, true, moved_at);
     loop {
         while let Some(work) = schedule.next(*now) {
-            let is_show = matches!(work, Work::Display { .. });
+            let is_show = matches!(work, Work::Display(_));
             device.submit(work, *now);
             if is_show {
                 let end = device.busy_until;
@@ -127,9 +127,9 @@ fn a_movement_through_views_of_varying_cost_stays_in_time() {
     }
 }
 
-/// Refining slices of a more expensive view are sized by the cost of its openings.
+/// Refining pieces of a more expensive view are sized by the cost of its openings.
 #[test]
-fn slices_of_an_expensive_view_are_no_longer() {
+fn pieces_of_an_expensive_view_are_no_longer() {
     let (mut schedule, mut device, mut now) = at_rest(1.4);
     for _ in 0..6 {
         picture_of_a_move(&mut schedule, &mut device, &mut now);
@@ -158,7 +158,7 @@ fn slices_of_an_expensive_view_are_no_longer() {
 fn pictures_get_finer_step_by_step() {
     for held_up_ms in [0.0, 1.0, 3.0, 10.0] {
         let (mut schedule, mut device, mut now) = at_rest(1.4);
-        // Nearly all of a refining slice's time is fixed.
+        // Nearly all of a refining piece's time is fixed.
         device.overhead_ms = 5.0;
         refine(&mut schedule, &mut device, &mut now, 2.0);
         device.overhead_ms = held_up_ms;
@@ -198,7 +198,7 @@ fn release(full_ms: f64, piece_ms: f64) -> (f64, Vec<Work>) {
     while schedule.status(now).shown_level > 0 {
         while let Some(work) = schedule.next(now) {
             device.submit(work, now);
-            if matches!(work, Work::Display { .. }) {
+            if matches!(work, Work::Display(_)) {
                 shows.push(work);
             }
         }
@@ -225,13 +225,17 @@ fn a_long_full_frame_is_displayed_on_its_way() {
     for full_ms in [1500.0, 4000.0] {
         let (took, shows) = release(full_ms, 0.5);
         assert!(took <= 1.2, "{full_ms} ms: {took}");
-        let is_film = |work: &&Work| matches!(work, Work::Display { film: true, .. });
+        let is_film = |work: &&Work| matches!(work, Work::Display(Display { from_film: true, .. }));
         let films: Vec<_> = shows.iter().filter(is_film).collect();
         assert!(
-            matches!(films[0], Work::Display { fill: true, level: PREVIEW_LEVEL, .. }),
+            matches!(films[0], Work::Display(Display { fill: true, level: PREVIEW_LEVEL, .. })),
             "{films:?}"
         );
         assert!(films.len() >= 3, "{films:?}");
-        assert!(films[1..].iter().all(|work| matches!(work, Work::Display { fill: false, .. })));
+        assert!(
+            films[1..]
+                .iter()
+                .all(|work| matches!(work, Work::Display(Display { fill: false, .. })))
+        );
     }
 }

@@ -15,7 +15,7 @@ fn jobs_of(stale: Stale, shining: u64, moved: u64) -> Vec<Job> {
         .into_iter()
         .filter_map(|work| match work {
             Work::Trace(trace) => Some(trace.job()),
-            Work::Display { .. } => None,
+            Work::Display(_) => None,
         })
         .collect()
 }

@@ -33,7 +33,7 @@ fn with_one_held_up(slowness: f64, which: u32, held_up_ms: f64) -> (f64, u32) {
 fn one_time_work_does_not_change_estimates() {
     for slowness in [1.0, 20.0] {
         let (usual_secs, usual_level) = with_one_held_up(slowness, 0, 0.05);
-        // An opening, its display and the first refining slices.
+        // An opening, its display and the first refining pieces.
         for (which, held_up_ms) in (0..4).flat_map(|k| [(k, 500.0), (k, 20_000.0)]) {
             let (secs, level) = with_one_held_up(slowness, which, held_up_ms);
             let secs = secs - 1e-3 * held_up_ms;
@@ -97,7 +97,7 @@ fn pieces_with_merged_completions_stay_short() {
             let completion = |work| (work, std::mem::take(&mut ms));
             schedule.collect(&finished.into_iter().map(completion).collect::<Vec<_>>());
         }
-        let bound = 2.0 * (1.5 * SLICE_MS).min(16.0) + 2.0 * overhead_ms;
+        let bound = 2.0 * (1.5 * PIECE_MS).min(16.0) + 2.0 * overhead_ms;
         assert!(longest_ms < bound, "slowness {slowness}: {longest_ms} ms");
         // Pieces are long enough that their fixed cost is not most of the time.
         assert!(device.submits < 6000, "slowness {slowness}: {} pieces", device.submits);

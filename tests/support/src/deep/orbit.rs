@@ -16,7 +16,7 @@ const STEP_PART: f64 = 0.5;
 const STRETCH_MAX: f64 = 1e6;
 
 /// Stands in for a distance of zero from the axis, so that its reciprocal is finite.
-const LEAST_RADIUS: f64 = 1e-90;
+const MIN_RADIUS: f64 = 1e-90;
 
 /// A Mandelbulb or Julia set of a whole power.
 pub struct Set {
@@ -126,7 +126,7 @@ impl Set {
         let stretch = DVec3::new(growth, mirror, along.clamp(-STRETCH_MAX, STRETCH_MAX));
         let raising = after.axes * DMat3::from_diagonal(stretch) * before.axes.transpose();
         let point = [&meridian.re * &parallel.re, &meridian.re * &parallel.im, meridian.im];
-        let longitude = before.axes.z_axis / before.from_axis.max(LEAST_RADIUS);
+        let longitude = before.axes.z_axis / before.from_axis.max(MIN_RADIUS);
         Raised { point, raising, longitude, parallel: after.axes.z_axis }
     }
 
@@ -163,7 +163,7 @@ pub struct OrbitJacobian {
 impl OrbitJacobian {
     fn new(constant: DVec3, grain: f64) -> Self {
         let around = DVec3::new(-constant.y, constant.x, 0.0);
-        let around = if around == DVec3::ZERO { DVec3::Y * LEAST_RADIUS } else { around };
+        let around = if around == DVec3::ZERO { DVec3::Y * MIN_RADIUS } else { around };
         let (derivative, unturned) = (DMat3::IDENTITY, DMat3::IDENTITY);
         Self { derivative, unturned, turn: DVec3::ZERO, around, grain }
     }

@@ -17,13 +17,13 @@ use super::{
 /// Longest step, scene units: a Julia orbit close to the origin makes estimates of any size.
 const LONGEST_STEP: f64 = 0.05;
 /// Part of the hit distance that a step covers at least.
-const LEAST_STEP: f64 = 0.1;
+const MIN_STEP: f64 = 0.1;
 /// A sphere that holds every set: from |z| ≥ 2.5 and |c| ≤ 2√3, |z|² − |c| > |z|.
 const HOLDS_ALL: f64 = 2.5;
 /// What is farther away than so many view units counts as background.
 pub const FARTHEST: f64 = 1000.0;
 /// A ray that is still on its way after so many steps is as near as it will get.
-const MOST_STEPS: u32 = 20_000;
+const MAX_STEPS: u32 = 20_000;
 /// At powers below 4, where a ray must be near for a hit: shares of the hit distance past the entry.
 const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 
@@ -82,11 +82,11 @@ impl<'a> SetView<'a> {
         let (near, far) = crossing(rounded(&self.eye), direction)?;
         let far = far.min(FARTHEST * self.unit);
         let estimate =
-            |t: f64| self.set.estimate(&self.at(direction, t), LEAST_STEP * self.hit_distance(t));
+            |t: f64| self.set.estimate(&self.at(direction, t), MIN_STEP * self.hit_distance(t));
         let is_near = |t: f64| estimate(t).distance < self.hit_distance(t);
         let mut t = near.max(0.0);
         let (mut before, mut was_near) = (t, false);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             if t > far {
                 return None;
             }
@@ -102,7 +102,7 @@ impl<'a> SetView<'a> {
                 }
             }
             (before, was_near) = (t, here.distance < hit);
-            t += step(here).clamp(LEAST_STEP * hit, LONGEST_STEP);
+            t += step(here).clamp(MIN_STEP * hit, LONGEST_STEP);
         }
         Some(t)
     }

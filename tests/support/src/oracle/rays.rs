@@ -15,13 +15,13 @@ const LONGEST_STEP: f64 = 0.05;
 /// A sphere that holds every set: from |z| ≥ 2.5 and |c| ≤ 2√3, |z|² − |c| > |z|.
 const HOLDS_ALL: f64 = 2.5;
 /// A ray that is still on its way after so many steps is as near as it will get.
-const MOST_STEPS: u32 = 20_000;
+const MAX_STEPS: u32 = 20_000;
 
 /// At powers below 4 a ray passes what it is near to for less than half of the hit distance: shares of
 /// that at which it is asked.
 const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 /// Part of the hit distance that a step covers at least inside of what is passed.
-const LEAST_STEP: f64 = 0.01;
+const MIN_STEP: f64 = 0.01;
 
 /// A picture's width and height in pixels.
 pub type Size = [u32; 2];
@@ -66,7 +66,7 @@ pub fn march(scene: &Scene, size: Size, pixel: [u32; 2]) -> Option<f64> {
     };
     let mut t = near.max(0.0);
     let (mut before, mut was_near) = (t, false);
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         if t > far {
             return None;
         }
@@ -82,7 +82,7 @@ pub fn march(scene: &Scene, size: Size, pixel: [u32; 2]) -> Option<f64> {
             }
         }
         (before, was_near) = (t, d < hit);
-        t += (STEP_PART * d).clamp(LEAST_STEP * hit, LONGEST_STEP);
+        t += (STEP_PART * d).clamp(MIN_STEP * hit, LONGEST_STEP);
     }
     Some(t)
 }
@@ -143,7 +143,7 @@ pub fn openness(
         if least < 0.5 {
             break;
         }
-        s -= (STEP_PART * d).clamp(LEAST_STEP * hit, LONGEST_STEP);
+        s -= (STEP_PART * d).clamp(MIN_STEP * hit, LONGEST_STEP);
     }
     least
 }

@@ -1,6 +1,6 @@
-// The part of a picture that one dispatch computes. Host twin: `render::uniforms::Slice`.
+// The part of a picture that one dispatch computes. Host twin: `render::uniforms::DispatchParams`.
 
-struct Slice {
+struct DispatchParams {
     // Lattice to pixel: see `lib/lattice.wgsl`.
     step: vec2u,
     offset: vec2u,
@@ -10,7 +10,7 @@ struct Slice {
     // First workgroup of the dispatch in the lattice's grid.
     first_workgroup: u32,
     // Columns and rows of workgroups in the lattice's grid, and the strides in which they are
-    // visited: coprime to the counts, so that a slice spreads over the whole region.
+    // visited: coprime to the counts, so that a dispatch spreads over the whole region.
     workgroups: vec2u,
     scatter: vec2u,
     // Position of the first sample inside its pixel, 0 to 1.
@@ -53,4 +53,4 @@ struct Slice {
 
 const LIGHT_POINT = 1u;
 
-@group(0) @binding(2) var<uniform> slice: Slice;
+@group(0) @binding(2) var<uniform> dispatch: DispatchParams;
