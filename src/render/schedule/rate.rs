@@ -29,6 +29,10 @@ const GROWTH: f64 = 5.0;
 /// Largest part of a piece's time that counts as fixed, so that pieces grow step by step.
 const MAX_FIXED: f64 = 0.95;
 
+/// The same of an opening. A fixed cost that is found too high would otherwise explain openings that are
+/// too dense, and no refining piece corrects it while a movement lasts.
+const MAX_FIXED_OF_OPENING: f64 = 0.5;
+
 /// Two openings in a row that cost so many times what pieces predict show another view. Rays of a
 /// sparse lattice have little in common: up to twice the cost is normal.
 const OTHER_VIEW: f64 = 3.0;
@@ -122,7 +126,7 @@ impl CostHistory {
         // Openings are too few, and of too many views, to separate their own fixed cost.
         let fixed_ms = self.refining.or(self.opening).map_or(0.0, |rate| rate.fixed_ms);
         let ray_ms = |opening: &Measurement| {
-            (opening.ms - fixed_ms).max((1.0 - MAX_FIXED) * opening.ms) / opening.rays
+            (opening.ms - fixed_ms).max((1.0 - MAX_FIXED_OF_OPENING) * opening.ms) / opening.rays
         };
         self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
             .map(|ray_ms| Rate { fixed_ms, ray_ms, most_rays: GROWTH * opening.rays });

@@ -43,6 +43,35 @@ fn one_time_work_does_not_change_estimates() {
     }
 }
 
+/// A movement after it must not keep the fixed cost that the stalls seem to be.
+#[test]
+fn stalls_of_every_refining_piece_do_not_slow_a_movement() {
+    let mut device = Device::with_overhead(20.0, 0.0, 100.0);
+    let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
+    schedule.aim(16.0, 8);
+    let mut now = 0.0;
+    settle(&mut schedule, &mut device, &mut now);
+    device.overhead_ms = 0.05;
+    let mut pictures = 0;
+    run(&mut schedule, &mut device, &mut now, 4000, |s, now, shows| {
+        pictures += shows;
+        if pictures < 40 && s.accepts_changes() {
+            s.change(Stale::Geometry, true, now);
+        }
+        pictures == 10
+    });
+    device.longest_ms = 0.0;
+    run(&mut schedule, &mut device, &mut now, 4000, |s, now, shows| {
+        pictures += shows;
+        if pictures < 40 && s.accepts_changes() {
+            s.change(Stale::Geometry, true, now);
+        }
+        pictures == 40
+    });
+    assert!(device.longest_ms < 20.0, "{} ms", device.longest_ms);
+    assert!(schedule.status(now).shown_level < COARSEST);
+}
+
 /// Number of displays, and seconds, until a picture of many samples is complete.
 fn displays(interface_ms: f64) -> (usize, f64) {
     let mut device = Device::new(20.0, 0.0);
