@@ -14,7 +14,7 @@ fn place_in_workgroup(local_index: u32) -> vec2u {
 }
 
 // A workgroup's threads form eight blocks, in the order of their index; a block's rays march as one
-// bundle. With single samples a block covers four by two pixels; with several samples per pixel it
+// cone. With single samples a block covers four by two pixels; with several samples per pixel it
 // covers all samples of two by two pixels, of two pixels, or of one.
 const BLOCKS = 8u;
 const BLOCK_THREADS = 8u;

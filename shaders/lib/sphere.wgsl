@@ -25,7 +25,7 @@ fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
     return vec2f(in_view(max(-b - half_chord, 0.0)), in_view(half_chord - b));
 }
 
-// The distance along a unit direction at which the last ray of a bundle leaves the sphere. The rays'
+// The distance along a unit direction at which the last ray of a cone leaves the sphere. The rays'
 // origins are at most `width` from the axis through `origin`.
 fn bounding_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
     let from_center = in_scene(origin);

@@ -1,6 +1,6 @@
 // Computes how far all rays of a block go before any of them may hit. Queues the blocks with rays that
 // may hit; the samples of the other blocks miss.
-// uses: lib/bundle, lib/camera, lib/eye, lib/lattice, lib/sphere, types/enqueue
+// uses: lib/cone, lib/camera, lib/eye, lib/lattice, lib/sphere, types/enqueue
 // uses: types/frame_uniforms, types/gbuffer, types/dispatch_params
 
 // The depth that all rays of a block may go to; negative if all of them miss.

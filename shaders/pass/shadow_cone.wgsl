@@ -1,6 +1,6 @@
 // Computes how far all rays of a block toward the dispatch's light are unblocked. Queues the blocks that face
 // the light for shadow rays. Clears every point's bit; a shadow ray sets it if the light reaches the point.
-// uses: formula, lib/bundle, lib/estimate_next, lib/lattice, lib/shadow, lib/sphere, types/enqueue
+// uses: formula, lib/cone, lib/estimate_next, lib/lattice, lib/shadow, lib/sphere, types/enqueue
 // uses: types/frame_uniforms, types/gbuffer, types/dispatch_params, types/work_queues
 
 var<private> points: array<vec4f, BLOCK_THREADS>;
@@ -36,8 +36,8 @@ fn clear_plane(fractal: Fractal) -> f32 {
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
-        for (; i < BUNDLE_STEPS; i++) {
-            let ahead = estimate_next(&pending, fractal, center + s * direction, bundle_direction());
+        for (; i < CONE_STEPS; i++) {
+            let ahead = estimate_next(&pending, fractal, center + s * direction, cone_direction());
             if (pending.is_needed) { break; }
             // No point is farther than this from the plane at `s`.
             let blocks = blocking_distance(s + extent, surface_distance);
@@ -47,7 +47,7 @@ fn clear_plane(fractal: Fractal) -> f32 {
             s -= advance;
         }
         if (!pending.is_needed) { break; }
-        pending.estimate = careful_estimate(fractal, center + s * direction, bundle_direction());
+        pending.estimate = careful_estimate(fractal, center + s * direction, cone_direction());
     }
     return height + s;
 }

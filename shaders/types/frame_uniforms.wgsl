@@ -32,7 +32,7 @@ struct March {
     finest_hit: f32,
     // Factor of over-relaxed steps.
     relaxation: f32,
-    // Radius of the ball that a bundle of rays treats as empty, over the safe step.
+    // Radius of the ball that a cone treats as empty, over the safe step.
     ball_part: f32,
     // 1 if the estimate has false minima thinner than a pixel.
     checks_hits: u32,

@@ -17,7 +17,7 @@ use crate::{gpu::shader::File, precise::PrecisePoint};
 pub struct MarchPolicy {
     /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
     pub relaxation: f32,
-    /// Radius of the ball that a bundle (rays marched as one) treats as empty, over the safe step.
+    /// Radius of the ball that a cone treats as empty, over the safe step.
     pub ball_part: f32,
     /// True if the estimate has false minima thinner than a pixel.
     ///
@@ -313,12 +313,12 @@ impl Kernel {
 /// fn distance_estimate(fractal: Fractal, point: vec3f) -> f32
 /// fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f
 /// fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors
-/// fn bundle_direction() -> vec3f
+/// fn cone_direction() -> vec3f
 /// ```
 ///
 /// A march evaluates the quick estimate, and the careful estimate where the quick estimate's step is
 /// negative; the step of `estimate` is never negative. `along` is the ray's direction; several rays that march as
-/// one use `bundle_direction` instead.
+/// one use `cone_direction` instead.
 #[derive(Clone, Debug)]
 pub struct KernelFiles {
     /// Declares the uniforms.

@@ -133,7 +133,9 @@ fn unknown<E: Error>(name: &str, formula: FormulaRef) -> E {
     E::custom(format_args!("unknown field `{name}`, expected one of {}", names.join(", ")))
 }
 
-/// Reads the value of a field, so that a value of the wrong kind is an error at the field's path.
+/// Reads the value of a field.
+///
+/// A value of the wrong kind is an error at the field's path.
 struct ValueSeed(&'static Field);
 
 impl<'de> DeserializeSeed<'de> for ValueSeed {

@@ -20,7 +20,10 @@ pub const PLAIN_FOOTPRINT: f64 = 2e-7;
 /// the surface.
 pub const DEEP_FOOTPRINT: f64 = 4e-31;
 
-/// Most steps of one ray; a ray with more counts as a miss.
+/// Most steps of one ray.
+///
+/// A ray with more creeps along the surface. It counts as a miss here, for picking, and as a hit in
+/// `shaders/pass/march.wgsl`.
 pub const MAX_MARCH_STEPS: u32 = 4096;
 
 /// Least step of a ray, in hit distances; rays may pass thinner parts of the surface.

@@ -47,7 +47,7 @@ impl<T> Stopwatch<T> {
         self.in_flight.len()
     }
 
-    /// Submits command buffers one by one, each when it is asked for, and measures all under `mark`.
+    /// Submits command buffers one by one, and measures all under `mark`.
     pub fn submit(
         &mut self,
         gpu: &Gpu,

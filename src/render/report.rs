@@ -57,8 +57,9 @@ pub struct Report {
     pub elapsed_secs: f64,
     /// GPU milliseconds of the last displayed frame's work, as far as could be measured.
     pub frame_ms: f64,
-    /// Least time between two frames of the interface that only tell how far a picture is, seconds:
-    /// what they take of the GPU's time is the picture's loss.
+    /// Least time between two frames of the interface that only report progress, seconds.
+    ///
+    /// Frames of the interface take GPU time from the picture.
     pub frame_interval_secs: f64,
     /// CPU milliseconds that the last frame of a moving view spent on its anchors.
     pub anchor_ms: f64,

@@ -119,8 +119,9 @@ impl Schedule {
         }
     }
 
-    /// Sets the GPU time of a moving picture, milliseconds, and the samples of each pixel, at
-    /// least one.
+    /// Sets the GPU time of a moving picture and the samples of each pixel.
+    ///
+    /// The time is in milliseconds; there is at least one sample.
     pub fn aim(&mut self, budget_ms: f64, samples: u32) {
         self.budget_ms = budget_ms;
         self.samples_wanted = samples.max(1);
@@ -146,8 +147,9 @@ impl Schedule {
         self.cost.arithmetic = arithmetic;
     }
 
-    /// Sets the lights that shine, and the lights whose shadow bits are stale, both by their
-    /// visibility bits. Call [`Self::change`] after it where either is not zero or was not.
+    /// Sets the lights that shine, and the lights whose shadow bits are stale.
+    ///
+    /// Both by their visibility bits. Call [`Self::change`] after it where either is not zero or was not.
     pub fn set_lights(&mut self, shining: u64, moved: u64) {
         self.progress.shining = shining;
         self.progress.gbuffer_validity.invalidate_lights(moved);

@@ -222,7 +222,7 @@ impl View {
         !idle || self.preparation.is_some()
     }
 
-    /// Waits until the oldest piece of work has finished, or all if none is in flight.
+    /// Waits for the oldest piece of work; for all work if none is in flight.
     ///
     /// For use between two pumps of a still. On the web this returns at once.
     pub fn wait(&self) {

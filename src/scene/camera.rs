@@ -45,7 +45,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera at `position` that looks at `pivot`, with +Y as close to `up` as possible.
+    /// A camera at `position` that looks at `pivot`, its +Y near `up`.
     pub fn looking_at(position: DVec3, pivot: DVec3, up: DVec3) -> Self {
         let back = (position - pivot).normalize_or(DVec3::Z);
         let right = up.cross(back).try_normalize().unwrap_or_else(|| back.any_orthonormal_vector());

@@ -231,7 +231,9 @@ impl Path {
     }
 }
 
-/// How a curve meets the stretch beyond a key, which goes by `easing` and takes so many seconds.
+/// How a curve meets the stretch beyond a key.
+///
+/// In: the easing of that stretch, and the seconds that the stretch takes.
 fn joint(beyond: Option<(Easing, f64)>) -> Joint {
     match beyond {
         None | Some((Easing::Hold, _)) => Joint::Rest,

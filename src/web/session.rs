@@ -262,7 +262,7 @@ impl Session {
     }
 }
 
-/// The project of the address or of the last visit, and the address's error, if any.
+/// The project of the address or of the last visit, and any error.
 fn initial_project(address: &Address) -> (Option<Project>, Option<String>) {
     let mut link_error = None;
     if let Some(fragment) = address.read_foreign() {

@@ -156,7 +156,7 @@ fn a_lost_gpu_comes_back_with_the_same_scene() {
 }
 
 /// Two GPUs round differently, and the page fills its lattice by and by, so that rays go in other
-/// bundles: those that graze the surface end elsewhere. A few pixels may differ much, all others by no
+/// cones: those that graze the surface end elsewhere. A few pixels may differ much, all others by no
 /// more than a step. Between SwiftShader and lavapipe the worst of the opening scenes has a mean of
 /// 0.49 steps and 1.1 % notable pixels.
 const MAX_MEAN_STEPS: f64 = 0.75;

@@ -62,7 +62,7 @@ fn samples_keep_their_places_and_colours() {
                     }
                 }
             }
-            // Rays that graze the surface end a little otherwise in other bundles.
+            // Rays that graze the surface end a little otherwise in other cones.
             assert!(far <= 3 + samples / 50, "{size:?}, {spacing}: {far} of {samples} are off");
             for pixel in shown.as_chunks::<4>().0 {
                 for channel in 0..3 {

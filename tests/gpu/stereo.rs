@@ -188,7 +188,7 @@ fn sheets_hold_the_pictures_of_a_pair() {
 }
 
 /// The part of the pixels that differ by more than a few steps: where two eyes share a film, rays
-/// of the second go in other bundles than alone, and those that graze the surface end a little
+/// of the second go in other cones than alone, and those that graze the surface end a little
 /// otherwise.
 fn part_that_differs(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
     let differs = |(a, b): (&[u8; 3], &[u8; 3])| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 12);

@@ -131,7 +131,8 @@ pub fn move_light(scene: &mut Scene, sign: f64) {
 
 /// Raises the power a little.
 pub fn raise_power(scene: &mut Scene, sign: f64) {
-    Mandelbulb::of(&scene.fractal).power += 0.01 * sign;
+    let power = Mandelbulb::of(&scene.fractal).power + 0.01 * sign;
+    assert!(scene.fractal.set("power", power), "the session shows a Mandelbulb");
 }
 
 fn change_intensity(scene: &mut Scene, sign: f64) {

@@ -8,7 +8,7 @@
 //     is_perturbed           whether the next step is a perturbed one
 //     perturbed_step, plain_step
 //     end_estimate, end_gradient, end_traps
-//     quick_estimate, careful_estimate, bundle_direction
+//     quick_estimate, careful_estimate, cone_direction
 //     orbit_of               the orbit of a point (for orbits about an anchor in `difference`)
 //     rho_of, FOLLOWS_DIRECTION   for `derivatives`, where a stepper uses that file
 // uses: types/estimate

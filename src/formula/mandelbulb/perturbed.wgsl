@@ -93,8 +93,8 @@ fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return estimate(fractal, point, along);
 }
 
-// The direction that stands for all rays of a bundle: the direction that the series stretches most.
-fn bundle_direction() -> vec3f {
+// The direction that stands for all rays of a cone: the direction that the series stretches most.
+fn cone_direction() -> vec3f {
     return frame.formula.series.widest;
 }
 

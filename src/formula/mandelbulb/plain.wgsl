@@ -82,7 +82,7 @@ fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return Estimate(0.0, 0.0);
 }
 
-// The direction that stands for all rays of a bundle: zero, since steps do not depend on it.
-fn bundle_direction() -> vec3f {
+// The direction that stands for all rays of a cone: zero, since steps do not depend on it.
+fn cone_direction() -> vec3f {
     return vec3f(0.0);
 }

@@ -91,7 +91,7 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     return OrbitColors(smooth_iterations, sqrt(traps));
 }
 
-// The direction that stands for all rays of a bundle: zero, since steps do not depend on it.
-fn bundle_direction() -> vec3f {
+// The direction that stands for all rays of a cone: zero, since steps do not depend on it.
+fn cone_direction() -> vec3f {
     return vec3f(0.0);
 }

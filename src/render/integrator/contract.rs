@@ -13,9 +13,10 @@ pub struct Integrator {
     pub passes: &'static [&'static Pass],
     /// Where work on samples starts after an edit, and what the work costs.
     pub plan: &'static Plan,
-    /// Whether the centre samples of a scene wait for light gathered from their neighbours
-    /// ([`Indirect`](crate::render::schedule::Points::Indirect)) before they count as filmed.
+    /// Whether centre samples wait for light from their neighbours before they are filmed.
+    ///
+    /// If so, the schedule asks for [`Indirect`](crate::render::schedule::Points::Indirect) points.
     pub gathers: fn(&Scene) -> bool,
-    /// Allocates the buffers that only this integrator needs for a frame, and frees the buffers of others.
+    /// Allocates the buffers that only this integrator needs; frees those of others.
     pub fit_targets: fn(&mut Targets, &Layouts, &Inputs),
 }

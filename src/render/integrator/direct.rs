@@ -31,8 +31,9 @@ fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
     Job { from, lights }
 }
 
-/// Work is counted in rays, because most of the work is the shadow rays of a few lights or many: costs
-/// learned with some lights hold well enough with others.
+/// The cost of a sample, in rays.
+///
+/// Most of the work is shadow rays: costs learned with some lights hold well enough with others.
 fn sample_cost(job: Job, casting: u64) -> SampleCost {
     let lights = f64::from((job.lights & casting).count_ones());
     let (kind, rays) = match job.from {

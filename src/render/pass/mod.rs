@@ -39,7 +39,7 @@ pub const DIRECT: &[&Pass] = &[
     &indirect::PASS,
 ];
 
-/// The passes from samples to a display picture, in the order of a frame, for every integrator.
+/// The passes from samples to a display picture, in the order of a frame.
 pub const DISPLAY: &[&Pass] = &[
     // Of a sparse lattice's samples alone.
     &tonemap_sparse::PASS,

@@ -35,7 +35,7 @@ impl Adaptation {
         self.settles_at.is_some()
     }
 
-    /// Part of the way to its goal that exposure moves in a display, above 0 to 1.
+    /// Part of the way to its goal that exposure moves, above 0 to 1.
     ///
     /// The display is at `now_secs`, `since_secs` after the one before. `is_new_goal`: the film has
     /// changed.

@@ -14,8 +14,9 @@ use super::{
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// A completion shares the time of the one before it where it follows within so small a part of
-/// its expected time.
+/// Largest delay of a merged completion behind the one before.
+///
+/// Relative to its expected time. Merged completions share their time.
 const MERGED_SHARE: f64 = 0.05;
 
 /// What was expected of a piece in flight.

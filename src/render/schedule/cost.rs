@@ -29,12 +29,10 @@ const MAX_INTERFACE_MS: f64 = 200.0;
 /// Part of a budget that is planned for: a picture may take more than the one before it.
 const PLANNED: f64 = 0.9;
 
-/// Least part of a budget that goes into the lattice's samples, however long the display and the
-/// latency take.
+/// Least part of a budget for the lattice's samples, whatever display and latency take.
 const MIN_FOR_SAMPLES: f64 = 0.25;
 
-/// Cost of a ray by other than specialized pipelines, in rays by those, until the first picture has
-/// been measured.
+/// Cost of a ray by a general pipeline, in rays by specialized ones, until measured.
 const UNSPECIALIZED: f64 = 4.0;
 
 const ARITHMETICS: [Arithmetic; 4] =
@@ -138,7 +136,7 @@ impl Cost {
         self.interface_ms
     }
 
-    /// The rate of a kind by the present arithmetic, or by the first one that has been measured.
+    /// The rate of a kind by the present arithmetic, or by one that was measured.
     fn rate(&self, phase: Phase, kind: WorkKind) -> Rate {
         let of_other = |&other: &Arithmetic| {
             let factor =
@@ -160,8 +158,9 @@ impl Cost {
         })
     }
 
-    /// Workgroups of a refining piece that takes `aim_ms`, or the fixed cost where that is longer.
-    /// It is not much larger than any piece before it.
+    /// Workgroups of a refining piece that takes `aim_ms`.
+    ///
+    /// Of one that takes the fixed cost if that is longer. The piece is not much larger than any before.
     pub fn piece_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
         let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);
@@ -170,8 +169,7 @@ impl Cost {
         (rays / workgroup).clamp(MIN_WORKGROUPS, 1e9) as u32
     }
 
-    /// Whether an opening of so many samples fits `budget_ms`, with its display and with refining work
-    /// in flight that takes `in_flight_ms`.
+    /// Whether an opening fits a budget, with its display and the work in flight.
     ///
     /// `has_indirect`: the opening's indirect light has to fit too.
     pub fn fits(

@@ -58,8 +58,9 @@ impl GBufferValidity {
         self.depth
     }
 
-    /// The stage at which the centre samples of a level start, and the lights of `shining` whose
-    /// bits are missing.
+    /// The first stage that a level's centre samples lack.
+    ///
+    /// Also the lights of `shining` whose bits are missing.
     pub fn first_missing(&self, level: u32, shining: u64) -> (Stage, u64) {
         if !covers(self.depth, level) {
             return (Stage::March, shining);

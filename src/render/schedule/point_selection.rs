@@ -16,7 +16,7 @@ const STRAIGHT_MS: f64 = 1000.0;
 /// Longer full frames first refine to this lattice level, one pixel of 32.
 pub const PREVIEW_LEVEL: u32 = 5;
 
-/// The finest lattice level that is so sparse that all pixels are computed at once after it.
+/// Finest lattice level after which all pixels are computed at once.
 const SPARSE_LEVEL: u32 = 3;
 
 /// All that the next points depend on.
@@ -78,8 +78,9 @@ impl PointSelection<'_> {
         }
     }
 
-    /// The finest lattice that fits the budget, and none finer than the G-buffer where only
-    /// light is stale.
+    /// The finest lattice that fits the budget.
+    ///
+    /// Not finer than the G-buffer if only light is stale.
     fn opening_level(&self) -> u32 {
         let progress = self.progress;
         let finest = progress.gbuffer_validity.depth().unwrap_or(0);
@@ -103,8 +104,9 @@ impl PointSelection<'_> {
         (finest..COARSEST).find(fits).unwrap_or(COARSEST)
     }
 
-    /// Whether a level gets its indirect light now, rather than a finer level its direct light: the
-    /// first level shown, the last one, and any level where a display is due.
+    /// Whether a level gets indirect light before a finer level gets direct light.
+    ///
+    /// True for the first level shown, for the last one, and whenever a display is due.
     fn is_indirect_due(&self, level: u32) -> bool {
         self.is_opening || level == 0 || self.is_display_due
     }

@@ -31,7 +31,7 @@ pub struct Progress {
     pub samples_done: u32,
     /// The points under way and the next workgroup to submit.
     pub under_way: Option<(Points, u32)>,
-    /// Whether the film is filled in, so that it can be shown while pixels are under way.
+    /// Whether a filled preview is on the film while pixels are under way.
     pub is_filled: bool,
 }
 

@@ -26,7 +26,7 @@ const OPENINGS_QUANTILE: f64 = 0.75;
 /// How many times as many rays as before a piece may have: two lattice levels and a margin.
 const GROWTH: f64 = 5.0;
 
-/// Largest part of a piece's time that counts as fixed, so that pieces grow step by step.
+/// Largest part of a piece's time that counts as fixed: pieces grow step by step.
 const MAX_FIXED: f64 = 0.95;
 
 /// The same of an opening. A fixed cost that is found too high would otherwise explain openings that are
@@ -140,7 +140,7 @@ fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurem
     window.push_back(measurement);
 }
 
-/// The line through pieces whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
+/// The line whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
 fn line(pieces: &VecDeque<Measurement>) -> Option<Rate> {
     let slopes = pieces.iter().enumerate().flat_map(|(index, a)| {
         let others = pieces.iter().take(index).filter(|b| b.rays != a.rays);

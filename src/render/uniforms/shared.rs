@@ -82,7 +82,7 @@ host_shared! {
         finest_hit: f32,
         /// Factor of over-relaxed steps.
         relaxation: f32,
-        /// Radius of the ball that a bundle treats as empty, over the safe step.
+        /// Radius of the ball that a cone treats as empty, over the safe step.
         ball_part: f32,
         /// 1 if the estimate has false minima.
         checks_hits: u32,

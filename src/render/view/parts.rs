@@ -81,7 +81,7 @@ impl Shown {
     }
 }
 
-/// What a view that draws a part of a picture has from one that draws all of it.
+/// Results that a view of a part of a picture borrows from a view of the whole.
 #[derive(Default)]
 pub struct Lent {
     /// What is known of the whole film.

@@ -226,8 +226,9 @@ impl Walk<'_> {
         serde_json::to_value(point).ok()
     }
 
-    /// The point that rides with the view, where a view is small and it is near by at every key:
-    /// its place as seen from the pivot, in view units, goes by differences.
+    /// A blended point that moves with a small view; none if a key has the point far away.
+    ///
+    /// The place as seen from the pivot, in view units, is blended by differences.
     fn near_by(&self, points: &Four<Place>) -> Option<PrecisePoint> {
         let mut is_small = false;
         let mut offsets = [None; 4];
@@ -274,8 +275,9 @@ fn unit_vector(value: &Value) -> Option<DVec3> {
     vector.is_normalized().then(|| vector.normalize())
 }
 
-/// A light that only one of the two keys has shines from nothing there, or into it. None for
-/// anything else that only one of them has.
+/// A light that only one of two keys has, with a dark twin in the other.
+///
+/// None for anything else that only one of the keys has.
 fn lit_on_both_sides(light: Four<Value>) -> Option<Four<Value>> {
     Some(match light {
         [_, Some(there), None, _] => [None, Some(there.clone()), Some(unlit(there)?), None],

@@ -27,7 +27,7 @@ pub struct Tolerance {
 }
 
 /// For pictures of the same scene by the same kernels: rays that graze the surface end a little
-/// otherwise where a bundle of other rays went before them, and how the lattice was filled decides
+/// otherwise where a cone of other rays went before them, and how the lattice was filled decides
 /// which rays these are. Measured: 3 pixels of a region, a mean of 1.0, 0.2 % of a picture.
 pub const SAME: Tolerance = Tolerance { pixels: 6, mean: 3.0, part: 0.005 };
 

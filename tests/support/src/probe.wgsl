@@ -23,8 +23,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let point = points[id.x].xyz;
     let fractal = frame.formula.fractal;
     let colors = orbit_colors(fractal, point);
-    let ahead = estimate(fractal, point, bundle_direction());
-    let quick = quick_estimate(fractal, point, bundle_direction());
+    let ahead = estimate(fractal, point, cone_direction());
+    let quick = quick_estimate(fractal, point, cone_direction());
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,

@@ -1,11 +1,11 @@
-// How far all rays of a bundle may go at once: one march with the bundle's width replaces the same first
+// How far all rays of a cone may go at once: one march with the cone's width replaces the same first
 // steps of each ray. The empty ball that a safe step guarantees about a point of the axis must contain
-// the bundle's whole width (cone marching: Seven, "Fast realistic ray marching"; here with balls
+// the cone's whole width (cone marching: Seven, "Fast realistic ray marching"; here with balls
 // instead of steps).
 // uses: formula, lib/estimate_next, types/frame_uniforms
 
-// Steps after which a bundle that creeps along a surface stops and leaves the rest to its rays.
-const BUNDLE_STEPS = 48u;
+// Steps after which a cone that creeps along a surface stops and leaves the rest to its rays.
+const CONE_STEPS = 48u;
 
 // Greatest radius of a ball, so that an f32 holds its square.
 const MAX_BALL = 1e18;
@@ -22,8 +22,8 @@ fn clear_cone(
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
-        for (; i < BUNDLE_STEPS; i++) {
-            let ahead = estimate_next(&pending, fractal, origin + t * axis, bundle_direction());
+        for (; i < CONE_STEPS; i++) {
+            let ahead = estimate_next(&pending, fractal, origin + t * axis, cone_direction());
             if (pending.is_needed) { break; }
             let ball = min(part * ahead.step, MAX_BALL) - hit_cone * t;
             let width = t * spread;
@@ -37,7 +37,7 @@ fn clear_cone(
             t += advance;
         }
         if (!pending.is_needed) { break; }
-        pending.estimate = careful_estimate(fractal, origin + t * axis, bundle_direction());
+        pending.estimate = careful_estimate(fractal, origin + t * axis, cone_direction());
     }
     return t;
 }
