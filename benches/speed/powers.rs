@@ -227,7 +227,7 @@ impl Table {
         self.worst <= WITHIN
     }
 
-    /// Tells it to people.
+    /// Prints the results.
     pub fn print(&self) {
         println!("\npowers: an orbit step of each power, over all threads");
         println!("  power  products  own kernel ns  fit ns  general kernel ns");

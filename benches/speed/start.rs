@@ -106,7 +106,7 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let picture = lap();
     drawn_until(has_picture);
     let again = lap();
-    pipelines.specialise(&scene);
+    pipelines.specialize(&scene);
     let made = lap();
     let has_sample = |report: &Report| report.samples_done > 0;
     drawn_until(has_sample);

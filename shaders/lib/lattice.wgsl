@@ -1,6 +1,6 @@
 // The pixel and sample of each thread. Threads run over a grid, a lattice of the region: every 2^shift-th
 // pixel, or every other one of those in staggered rows, and so on.
-// uses: types/frame_uniforms, types/dispatch_params
+// uses: types/dispatch_params, types/frame_uniforms
 
 const WORKGROUP_SIDE = 8u;
 const WORKGROUP_THREADS = 64u;

@@ -2,7 +2,7 @@
 // pixels that exist at the right and lower edges: each level has as many elements as cover the film.
 // If two eyes share the film, each eye's part has its own elements: no element mixes light of both
 // eyes. Host twin: `render::post::Levels`.
-// uses: types/frame_uniforms, types/dispatch_params
+// uses: types/dispatch_params, types/frame_uniforms
 
 // The finest stored level.
 const FIRST_MIP_LEVEL = 2u;

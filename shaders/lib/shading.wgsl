@@ -1,6 +1,6 @@
 // Light and colour of a sample. Shading marches no ray: it reads visibility bits.
-// uses: lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/film
-// uses: types/frame_uniforms, types/light, types/ray, types/dispatch_params
+// uses: lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/dispatch_params
+// uses: types/film, types/frame_uniforms, types/light, types/ray
 
 // Whether this pipeline shows the environment map: 0 no, 1 yes, -1 reads it from the uniforms.
 override HAS_ENVIRONMENT_MAP: i32 = -1;

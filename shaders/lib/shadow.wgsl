@@ -1,5 +1,5 @@
 // Where shadow rays start, and the distance at which a surface blocks them.
-// uses: lib/lattice, lib/octahedral, types/frame_uniforms, types/ray, types/dispatch_params
+// uses: lib/lattice, lib/octahedral, types/dispatch_params, types/frame_uniforms, types/ray
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {

@@ -2,7 +2,7 @@
 // `half_blurred`, along y back. The kernel's width is exact, not rounded to whole elements: the elements
 // at its ends are weighted by the part that it covers. The kernel is normalised by the pixels inside
 // the eye's part of the film, so that borders do not darken and no light reaches the other eye.
-// uses: lib/mip, types/frame_uniforms, types/post, types/dispatch_params
+// uses: lib/mip, types/dispatch_params, types/frame_uniforms, types/post
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {

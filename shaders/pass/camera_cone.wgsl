@@ -1,7 +1,7 @@
 // Computes how far all rays of a block go before any of them may hit. Queues the blocks with rays that
 // may hit; the samples of the other blocks miss.
-// uses: lib/cone, lib/camera, lib/eye, lib/lattice, lib/sphere, types/enqueue
-// uses: types/frame_uniforms, types/gbuffer, types/dispatch_params
+// uses: lib/camera, lib/cone, lib/eye, lib/lattice, lib/sphere, types/dispatch_params
+// uses: types/enqueue, types/frame_uniforms, types/gbuffer
 
 // The depth that all rays of a block may go to; negative if all of them miss.
 fn clear_block(fractal: Fractal, block: Block) -> f32 {

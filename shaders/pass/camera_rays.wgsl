@@ -1,5 +1,6 @@
 // Makes the camera ray of each sample, from the eye, or from the surface point if its depth is known.
-// uses: lib/camera, lib/lattice, types/frame_uniforms, types/gbuffer, types/ray, types/dispatch_params
+// uses: lib/camera, lib/lattice, types/dispatch_params, types/frame_uniforms, types/gbuffer
+// uses: types/ray
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {

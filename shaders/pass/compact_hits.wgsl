@@ -1,5 +1,5 @@
 // Queues the blocks that have a surface point.
-// uses: lib/lattice, types/enqueue, types/frame_uniforms, types/gbuffer, types/dispatch_params
+// uses: lib/lattice, types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {

@@ -1,6 +1,6 @@
 // Auto exposure: computes, from the last mip level `dispatch.mip_level`, the stops that bring the mean to
 // the key (Reinhard et al. 2002, eq. 2). Level 0 reuses the mean in the statistics.
-// uses: lib/luminance, lib/mip, types/frame_uniforms, types/post, types/dispatch_params
+// uses: lib/luminance, lib/mip, types/dispatch_params, types/frame_uniforms, types/post
 
 // Limit of auto exposure, stops: for a black film and for a very bright one.
 const MAX_STOPS = 20.0;

@@ -1,7 +1,8 @@
 // Fills the pixels between those of a sparse lattice, one lattice level per dispatch. Each new
 // pixel has four known neighbours in two opposite pairs; the pair that differs less lies along
 // the edge and gets more weight.
-// uses: lib/eye, lib/lattice, lib/luminance, types/film, types/frame_uniforms, types/dispatch_params
+// uses: lib/eye, lib/lattice, lib/luminance, types/dispatch_params, types/film
+// uses: types/frame_uniforms
 
 // Perceived contrast: the difference of the tone-compressed luminances.
 fn contrast(a: vec3f, b: vec3f) -> f32 {

@@ -4,8 +4,8 @@
 // screen: it places the sample and its neighbours by their pixels and depths. (A binding of the rays would exceed
 // the 8 storage buffers of a stage.)
 // uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/shading
-// uses: lib/shared_exponent, types/direct, types/frame_uniforms, types/indirect, types/ray
-// uses: types/sample, types/dispatch_params
+// uses: lib/shared_exponent, types/direct, types/dispatch_params, types/frame_uniforms
+// uses: types/indirect, types/ray, types/sample
 
 struct Neighbour {
     // 0 without a neighbour, less than 1 if the neighbour is far in front or behind.

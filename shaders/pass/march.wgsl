@@ -17,7 +17,7 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
     var before = t;
     var left = 0.0;
     let checks_hits = needs_hit_check();
-    let least_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
+    let min_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
@@ -52,7 +52,7 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
             }
             before = t;
             left = ahead.distance - hit;
-            t += next_step(&over, max(ahead.step, least_step * hit));
+            t += next_step(&over, max(ahead.step, min_step * hit));
         }
         if (!pending.is_needed) { break; }
         pending.estimate = careful_estimate(fractal, ray.origin + t * ray.direction, ray.direction);

@@ -1,6 +1,6 @@
 // Computes a mip level from the next finer one, `dispatch.mip_level`: each element is the mean of the two by
 // two elements below it, weighted by their pixel counts, so that odd sizes are exact.
-// uses: lib/mip, types/frame_uniforms, types/post, types/dispatch_params
+// uses: lib/mip, types/dispatch_params, types/frame_uniforms, types/post
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {

@@ -2,13 +2,13 @@
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 // uses: formula, lib/estimate_next, lib/over_relaxation, lib/shadow, lib/sphere
-// uses: types/frame_uniforms, types/gbuffer, types/dispatch_params, types/work_queues
+// uses: types/dispatch_params, types/frame_uniforms, types/gbuffer, types/work_queues
 
 // Least step, over the blocking distance.
 const MIN_STEP = 0.25;
 
-fn least_step(blocks: f32, surface_distance: f32) -> f32 {
-    return max(MIN_STEP * blocks, frame.march.shadow_least_step * surface_distance);
+fn min_step(blocks: f32, surface_distance: f32) -> f32 {
+    return max(MIN_STEP * blocks, frame.march.shadow_min_step * surface_distance);
 }
 
 // `clear`: the distance before the point up to which the ray is known to be clear.
@@ -51,7 +51,7 @@ fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f
                 continue;
             }
             looks = 0u;
-            s -= next_step(&over, max(ahead.step, least_step(blocks, surface_distance)));
+            s -= next_step(&over, max(ahead.step, min_step(blocks, surface_distance)));
         }
         if (!pending.is_needed) { break; }
         pending.estimate = careful_estimate(fractal, point + s * direction, direction);

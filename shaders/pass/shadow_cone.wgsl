@@ -1,7 +1,8 @@
 // Computes how far all rays of a block toward the dispatch's light are unblocked. Queues the blocks that face
 // the light for shadow rays. Clears every point's bit; a shadow ray sets it if the light reaches the point.
-// uses: formula, lib/cone, lib/estimate_next, lib/lattice, lib/shadow, lib/sphere, types/enqueue
-// uses: types/frame_uniforms, types/gbuffer, types/dispatch_params, types/work_queues
+// uses: formula, lib/cone, lib/estimate_next, lib/lattice, lib/shadow, lib/sphere
+// uses: types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer
+// uses: types/work_queues
 
 var<private> points: array<vec4f, BLOCK_THREADS>;
 

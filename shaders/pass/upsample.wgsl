@@ -2,7 +2,7 @@
 // samples: a square, which stands on its corner if the lattice is staggered. A diagonal halves the
 // cell, and each half is interpolated linearly. The diagonal whose ends differ less follows an edge
 // through the cell (Su and Willis 2004) and gets more weight.
-// uses: lib/lattice, lib/srgb, types/frame_uniforms, types/dispatch_params, types/tonemap_sparse
+// uses: lib/lattice, lib/srgb, types/dispatch_params, types/frame_uniforms, types/tonemap_sparse
 
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
 

@@ -26,7 +26,7 @@ fn enqueue_hit(block: u32) {
 
 fn enqueue_ray(block: u32, clear: f32) {
     let entry = atomicAdd(&work_queues.rays[dispatch.ray_queue], 1u);
-    work_queues.entries[most_blocks() + entry] = block;
-    work_queues.entries[2u * most_blocks() + entry] = bitcast<u32>(clear);
+    work_queues.entries[max_blocks() + entry] = block;
+    work_queues.entries[2u * max_blocks() + entry] = bitcast<u32>(clear);
     count_workgroup(dispatch.ray_queue, entry, BLOCKS);
 }

@@ -40,7 +40,7 @@ struct March {
     shadow_cone: f32,
     // Least clearance of an unblocked shadow ray, and its least step, in the point's hit distances.
     shadow_margin: f32,
-    shadow_least_step: f32,
+    shadow_min_step: f32,
 }
 
 struct Surface {

@@ -1,7 +1,7 @@
 // One light. Host twin: `render::uniforms::Light`.
 
 struct Light {
-    // Environment light: unit vector toward the light. Point light: position. World space.
+    // Environment light: unit vector toward the light. Point light: position in render space.
     vector: vec3f,
     // 0 environment, 1 point.
     kind: u32,

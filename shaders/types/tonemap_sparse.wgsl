@@ -1,6 +1,6 @@
 // Display values of a sparse lattice's samples, row by row: 11, 11 and 10 bits of red, green and blue,
 // sRGB. They reuse the buffer of rays.
-// uses: types/frame_uniforms, types/dispatch_params
+// uses: types/dispatch_params, types/frame_uniforms
 
 @group(1) @binding(3) var<storage, read_write> sparse_display: array<u32>;
 

@@ -16,7 +16,7 @@ struct WorkQueues {
 
 @group(2) @binding(0) var<storage, read_write> work_queues: WorkQueues;
 
-fn most_blocks() -> u32 {
+fn max_blocks() -> u32 {
     return arrayLength(&work_queues.entries) / 3u;
 }
 
@@ -43,6 +43,6 @@ fn queued_hit(thread: u32) -> Site {
 fn queued_ray(thread: u32) -> QueuedSample {
     let entry = thread / BLOCK_THREADS;
     let is_there = entry < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
-    let clear = select(0u, work_queues.entries[2u * most_blocks() + entry], is_there);
-    return queued(is_there, most_blocks() + entry, thread, clear);
+    let clear = select(0u, work_queues.entries[2u * max_blocks() + entry], is_there);
+    return queued(is_there, max_blocks() + entry, thread, clear);
 }

@@ -32,7 +32,7 @@ impl Tiling {
     ///
     /// The tiles are as equal as whole pixels allow, because the view reallocates its buffers when
     /// the size changes. All sides are at least 1. Tiles start at multiples of the workgroup's
-    /// side, so that rays are bundled as in the whole picture; smaller tiles are not aligned.
+    /// side, so that rays form the same cones as in the whole picture; smaller tiles are not aligned.
     pub fn new(sheet: Sheet, max_tile_px: [u32; 2]) -> Self {
         let picture_px = sheet.picture_px;
         let tile_px = std::array::from_fn(|i| {

@@ -30,7 +30,7 @@ pub struct MarchPolicy {
     /// Least clearance of an unblocked shadow ray, in hit distances of the shaded point.
     pub shadow_margin: f32,
     /// Least step of a shadow ray, in hit distances of the shaded point.
-    pub shadow_least_step: f32,
+    pub shadow_min_step: f32,
 }
 
 impl Default for MarchPolicy {
@@ -41,7 +41,7 @@ impl Default for MarchPolicy {
             checks_hits: false,
             shadow_cone: 0.004,
             shadow_margin: 0.5,
-            shadow_least_step: 0.0,
+            shadow_min_step: 0.0,
         }
     }
 }
@@ -106,7 +106,7 @@ pub trait Formula: Sync {
     /// The WGSL files of the kernels of `variant`.
     fn files(&self, variant: u32) -> KernelFiles;
 
-    /// The overrides that specialise the kernels of `variant`.
+    /// The overrides that specialize the kernels of `variant`.
     fn overrides(&self, _variant: u32) -> Vec<(&'static str, f64)> {
         Vec::new()
     }
@@ -289,7 +289,7 @@ impl Kernel {
         self.formula.files(self.variant)
     }
 
-    /// The overrides that specialise the kernel.
+    /// The overrides that specialize the kernel.
     pub fn overrides(self) -> Vec<(&'static str, f64)> {
         self.formula.overrides(self.variant)
     }

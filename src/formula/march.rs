@@ -133,7 +133,7 @@ pub trait DistanceField: Send + Sync {
             return Ok(None);
         };
         let far = far.min(max_depth);
-        let least_step = if self.needs_hit_check() { MIN_STEP_WITH_HIT_CHECK } else { MIN_STEP };
+        let min_step = if self.needs_hit_check() { MIN_STEP_WITH_HIT_CHECK } else { MIN_STEP };
         let (mut before, mut depth) = (near, near);
         for i in 0..max_steps {
             if depth > far {
@@ -151,7 +151,7 @@ pub trait DistanceField: Send + Sync {
                 }
             }
             before = depth;
-            depth += estimate.step.max(escalated_step).max(least_step * hit);
+            depth += estimate.step.max(escalated_step).max(min_step * hit);
         }
         Err(depth)
     }

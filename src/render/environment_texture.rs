@@ -1,7 +1,7 @@
 //! The environment map on the GPU, as the background of rays that miss.
 //!
-//! In: a decoded picture. Out: a texture of four bytes per pixel, at most 8 MiB, and its bind
-//! group; a single pixel if no picture is shown.
+//! In: a decoded environment map. Out: a texture of four bytes per pixel, at most 8 MiB, and its bind
+//! group; a single pixel if no map is shown.
 
 use super::{buffers, layouts::Layouts};
 use crate::scene::EnvironmentMap;

@@ -141,7 +141,7 @@ impl Pipelines {
     }
 
     /// Compiles all special variants for a scene. This may take a second and blocks.
-    pub fn specialise(&self, scene: &Scene) {
+    pub fn specialize(&self, scene: &Scene) {
         let inputs = Inputs::new(scene, Region::whole([64, 64]));
         self.prepare_together(&pipeline_set::specialized(&inputs));
     }

@@ -233,11 +233,11 @@ impl<'a> Recorder<'a> {
     /// Adds dispatches over a whole grid, for a lattice of `spacing` pixels.
     pub fn dispatch_grid(&mut self, pipeline: &PassPipeline, grid: &Grid, spacing: u32) {
         // Splits a grid that exceeds the limit of workgroups per dispatch.
-        const MOST: u32 = 65_535;
+        const MAX_WORKGROUPS: u32 = 65_535;
         let total = grid.workgroups();
-        for first in (0..total).step_by(MOST as usize) {
+        for first in (0..total).step_by(MAX_WORKGROUPS as usize) {
             let params = DispatchParams { spacing, ..grid.dispatch_params(first) };
-            self.dispatch(pipeline, params, MOST.min(total - first));
+            self.dispatch(pipeline, params, MAX_WORKGROUPS.min(total - first));
         }
     }
 

@@ -93,7 +93,7 @@ pub struct Schedule {
     /// Movement of auto exposure.
     adaptation: Adaptation,
     in_flight: InFlight,
-    /// Number of pieces so far, modulo 2³².
+    /// Number of refining pieces so far, modulo 2³².
     pieces: u32,
     cost: Cost,
 }

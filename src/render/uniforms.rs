@@ -184,7 +184,7 @@ fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,
         shadow_margin: policy.shadow_margin,
-        shadow_least_step: policy.shadow_least_step,
+        shadow_min_step: policy.shadow_min_step,
     }
 }
 

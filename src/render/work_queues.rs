@@ -28,7 +28,7 @@ const NONE_YET: Workgroups = [0, 1, 1];
 
 const WORKGROUPS_BYTES: u64 = size_of::<Workgroups>() as u64;
 
-/// The work queues of one region's traces.
+/// The work queues between the passes of a batch.
 pub struct WorkQueues {
     /// Counters and entries.
     blocks: wgpu::Buffer,

@@ -5,7 +5,7 @@
 //! format. A field left out takes its default, so the defaults belong to the version: a test
 //! keeps those of versions 1 and 2, which are the same. A camera path stands beside the scene.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | `envelope` | kind, version and path around a scene |
 //! | `error` | why a document cannot be read |

@@ -7,7 +7,7 @@
 //! The upper edge is +z, the centre is +y, and +x is to the right of the centre: the map as seen
 //! from inside the sphere.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | `map` | [`EnvironmentMap`]: its pixels and their light |
 //! | `projection` | directions, and their positions in a map |

@@ -3,7 +3,7 @@
 //! In: edits from panels, files and links. Out: a [`Scene`] that is always within its
 //! ranges. This layer knows no GPU and no user interface.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
 //! | `description` | [`Scene`], the whole of its parts |

@@ -3,7 +3,7 @@
 //! In: key frames. Out: the scene at a time, a function of that time alone: no frame needs the
 //! one before. `docs/paths.md` has the equations.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | `curve` | smooth curves through keys, in any space that has shortest lines |
 //! | `place` | positions that go with the zoom: hyperbolic space |

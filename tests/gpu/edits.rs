@@ -118,7 +118,7 @@ fn edited(pipelines: &'static std::sync::Arc<Pipelines>, dice: &mut Dice) -> (Sc
 fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
     let pipelines = pipelines();
     // A view that comes to rest sooner compiles them later.
-    pipelines.specialise(&Scene::default());
+    pipelines.specialize(&Scene::default());
     for seed in 0..40 {
         let (scene, view) = edited(pipelines, &mut Dice(seed));
         let mut fresh = View::new(pipelines, view.region(), Pace::Still);
@@ -132,7 +132,7 @@ fn edits_at_any_moment_end_in_the_picture_of_a_fresh_view() {
 /// The same where nothing is interrupted: each of a few edits of lights, one after the other.
 #[test]
 fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     let mut scene = sampled(Scene::default(), 1);
     let mut view = finished(&scene, SIZE, Pace::Interactive);
     let edits: [fn(&mut Scene); 4] = [

@@ -66,7 +66,7 @@ fn what_is_off_costs_nothing() {
 /// However the lattice was completed, the picture is the one that a still makes at once.
 #[test]
 fn refinement_with_indirect_light_ends_in_the_still() {
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     for kind in KINDS {
         let scene = lit(kind, 3);
         for size in [SIZE, [37, 21]] {

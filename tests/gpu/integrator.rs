@@ -41,7 +41,7 @@ fn rays_lie_at_the_surface_points_of_their_pixels() {
     let inputs = Inputs::new(&scene, region);
     (RAYS_ALONE.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
     targets.upload(&gpu.queue, &inputs);
-    pipelines.specialise(&scene);
+    pipelines.specialize(&scene);
     let passes = pipelines.of_frame(&inputs);
     let mut dispatches = Dispatches::default();
     let points = Points::Level(0);

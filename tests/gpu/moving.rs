@@ -33,7 +33,7 @@ fn moved(view: &mut View, scene: &Scene) -> (u32, bool) {
 /// no pixel between them goes beyond what the samples have.
 #[test]
 fn samples_keep_their_places_and_colours() {
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     let mut seen = std::collections::BTreeSet::new();
     for size in [[96, 64], [101, 67], [41, 3], [1, 1]] {
         for generosity in [1.0, 3e4, 1e5, 3e5] {
@@ -78,7 +78,7 @@ fn samples_keep_their_places_and_colours() {
 /// What needs to know the film as a whole can be switched on while the film is unfilled.
 #[test]
 fn an_unfilled_film_gives_way_to_what_needs_it_whole() {
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     let scene = hurried(1.0);
     let mut view = View::new(pipelines(), Region::whole([96, 64]), Pace::Interactive);
     view.set_scene(&Scene::default(), false);

@@ -120,7 +120,7 @@ fn exposure_goes_straight_to_its_goal_and_rests_there() {
 /// Whatever a live view went through, its exposure ends as that of the picture alone.
 #[test]
 fn a_live_view_ends_with_the_exposure_of_a_still() {
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     let mut scene = exposed_scene();
     let mut view = finished(&scene, [96, 64], Pace::Interactive);
     for stops in [3.0_f64, -2.0] {

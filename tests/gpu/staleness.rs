@@ -287,7 +287,7 @@ fn the_same_scene_costs_nothing() {
 #[test]
 fn a_resting_view_submits_nothing() {
     // A view that comes to rest sooner compiles them later.
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     let mut view = finished(&sampled(Scene::default(), 2), SIZE, Pace::Interactive);
     let before = view.dispatches().clone();
     for frame in 0..50 {
@@ -302,7 +302,7 @@ fn a_resting_view_submits_nothing() {
 #[test]
 fn refinement_ends_in_the_still() {
     let scene = sampled(Scene::default(), 3);
-    pipelines().specialise(&Scene::default());
+    pipelines().specialize(&Scene::default());
     for size in [SIZE, [101, 67], [5, 3]] {
         let refined = pixels(&finished(&scene, size, Pace::Interactive));
         let direct = pixels(&finished(&scene, size, Pace::Still));

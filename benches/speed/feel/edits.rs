@@ -150,7 +150,7 @@ fn edit_times_ms<const N: usize>(
 ) -> [f64; N] {
     let mut scene = with_motion_budget(scene, UNLIMITED_BUDGET_MS);
     scene.quality.samples = 1;
-    pipelines.specialise(&scene);
+    pipelines.specialize(&scene);
     let mut view = View::new(pipelines, Region::whole(SIZE_PX), Pace::Interactive);
     let start = Instant::now();
     let mut times = [(); N].map(|()| Vec::new());

@@ -191,7 +191,7 @@ impl Mandelbulb {
             checks_hits: self.power < HIT_CHECK_BELOW,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
             shadow_margin: mix(usual.shadow_margin, 0.15),
-            shadow_least_step: (5.0 - 1.5 * power).clamp(0.0, 2.0),
+            shadow_min_step: (5.0 - 1.5 * power).clamp(0.0, 2.0),
         }
     }
 }

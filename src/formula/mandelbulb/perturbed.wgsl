@@ -169,7 +169,7 @@ fn near_step(
 
 // The estimate by near steps, or by plain steps far from the anchor. If neither is exact enough, the
 // returned step is negative: outside the radius of the near steps, and for orbits whose
-// dr falls below `least_derivative` after the near steps.
+// dr falls below `min_derivative` after the near steps.
 fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     let orbit = orbit_of(fractal, point);
     var state = initial_state(orbit, point);
@@ -189,7 +189,7 @@ fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     if (NEAR_STEPS > 7u) { near_step(7u, &state, &derivatives, fractal, orbit, along); }
     var q = squares(state.z);
     var is_quick = is_near(fractal, point);
-    var least = fractal.least_derivative / max(0.5 * length(point), 1.0);
+    var least = fractal.min_derivative / max(0.5 * length(point), 1.0);
     if (HAS_SERIES && is_far(fractal, point)) {
         is_quick = true;
         least = 0.0;

@@ -16,7 +16,7 @@ struct Fractal {
     derivative_max: f32,
     log2_bailout: f32,
     // Orbits whose dr falls below this, in units of 1 / scale, use the careful estimate.
-    least_derivative: f32,
+    min_derivative: f32,
     // Origin and unit of render space, in scene units.
     anchor: vec3f,
     scale: f32,

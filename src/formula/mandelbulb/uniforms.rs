@@ -47,7 +47,7 @@ host_shared! {
         /// Binary logarithm of the bailout.
         log2_bailout: f32,
         /// Orbits with a dr below this, in 1 / scale, use the careful estimate.
-        least_derivative: f32,
+        min_derivative: f32,
         /// Origin of render space, in scene units.
         anchor: [f32; 3],
         /// Unit of render space, in scene units.
@@ -199,7 +199,7 @@ fn fractal(set: &Mandelbulb, view: &PackedFor<'_>, reference: Option<&Reference>
         max_step: (max_step / view.scale).min(1e30) as f32,
         derivative_max: (1e38 / stretch_max).min(1e36) as f32,
         log2_bailout: set.bailout.log2() as f32,
-        least_derivative: 0.0,
+        min_derivative: 0.0,
         anchor: anchor.as_vec3().to_array(),
         scale: view.scale as f32,
         reference_points: reference.map_or(0, |reference| reference.points().len() as u32),
@@ -291,7 +291,7 @@ fn put_near(
         return NearSteps { count: 0, has_series: false };
     };
     fractal.near_radius_squared = near.radius.powi(2).min(1e37) as f32;
-    fractal.least_derivative = least as f32;
+    fractal.min_derivative = least as f32;
     // The eye is one scale from the anchor.
     let far_radius = 1.0 + COARSEST_FOOTPRINT / (hit_cone * view.scale);
     fractal.far_radius = far_radius.min(1e37) as f32;

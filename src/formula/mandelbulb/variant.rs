@@ -104,7 +104,7 @@ impl Variant {
         self.steps != Steps::Plain
     }
 
-    /// The overrides that specialise the variant's kernels.
+    /// The overrides that specialize the variant's kernels.
     pub fn overrides(self) -> Vec<(&'static str, f64)> {
         let mut overrides = Vec::new();
         if self.power > 0 {

@@ -2,9 +2,9 @@
 // uses: types/estimate
 
 // Derivatives are clamped to this so that the next step cannot overflow.
-const DERIVATIVE_MAX = 1e34;
+const MAX_DERIVATIVE = 1e34;
 // Lower bound of derivatives and squared lengths, which vanish if an orbit meets the origin.
-const LEAST = 1e-18;
+const MIN_DERIVATIVE = 1e-18;
 
 // q^2, the real part first.
 fn squared(q: vec4f) -> vec4f {
@@ -25,12 +25,12 @@ fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     var s = dot(q, q);
     var dr = 1.0;
     for (var n = 0u; n < fractal.iterations && s <= fractal.limit; n++) {
-        dr = 2.0 * sqrt(s) * min(dr, DERIVATIVE_MAX);
+        dr = 2.0 * sqrt(s) * min(dr, MAX_DERIVATIVE);
         q = squared(q) + fractal.constant;
         s = dot(q, q);
     }
     if (s <= 1.0) { return Estimate(0.0, 0.0); }
-    let distance = 0.25 * log(s) * sqrt(s) / max(dr, LEAST);
+    let distance = 0.25 * log(s) * sqrt(s) / max(dr, MIN_DERIVATIVE);
     return Estimate(distance, min(distance, fractal.max_step));
 }
 
@@ -58,7 +58,7 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     var z = vec4f(0.0, 0.0, 1.0, 0.0);
     var slope = vec3f(0.0);
     for (var n = 0u; n < fractal.iterations && s <= fractal.limit; n++) {
-        let r = sqrt(max(s, LEAST));
+        let r = sqrt(max(s, MIN_DERIVATIVE));
         let toward = vec3f(dot(x, q), dot(y, q), dot(z, q));
         slope = (slope + toward / (r * r)) / (2.0 * r);
         x = half_pushed(q, x) / r;

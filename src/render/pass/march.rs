@@ -1,4 +1,4 @@
-//! Marches rays to surface points: writes depth and colour data of each sample.
+//! Marches rays to surface points: writes depth and colour data, and moves the ray there.
 
 use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{

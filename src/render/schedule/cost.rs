@@ -164,7 +164,7 @@ impl Cost {
     pub fn piece_workgroups(&self, aim_ms: f64, job: Job) -> u32 {
         let SampleCost { kind, rays: rays_of_sample } = self.sample_cost(job);
         let rate = self.rate(Phase::Refining, kind);
-        let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(rate.most_rays);
+        let rays = (aim_ms.max(rate.fixed_ms) / rate.ray_ms).min(rate.max_rays);
         let workgroup = f64::from(WORKGROUP_THREADS) * rays_of_sample;
         (rays / workgroup).clamp(MIN_WORKGROUPS, 1e9) as u32
     }
@@ -193,7 +193,7 @@ impl Cost {
         let samples = f64::from(samples);
         // The cost of few rays says little of the cost of many.
         let tried = self.histories[history_index(kind, self.arithmetic)].opening();
-        let is_near = tried.is_none_or(|rate| samples * rays_of_sample <= rate.most_rays);
+        let is_near = tried.is_none_or(|rate| samples * rays_of_sample <= rate.max_rays);
         is_near && samples * sample_ms <= left_ms.max(MIN_FOR_SAMPLES * budget_ms)
     }
 }

@@ -26,14 +26,18 @@ const OPENINGS_QUANTILE: f64 = 0.75;
 /// How many times as many rays as before a piece may have: two lattice levels and a margin.
 const GROWTH: f64 = 5.0;
 
-/// Largest part of a piece's time that counts as fixed: pieces grow step by step.
+/// Largest part of a piece's time that counts as fixed.
+///
+/// Below 1, so that pieces grow step by step.
 const MAX_FIXED: f64 = 0.95;
 
-/// The same of an opening. A fixed cost that is found too high would otherwise explain openings that are
-/// too dense, and no refining piece corrects it while a movement lasts.
+/// Largest part of an opening's time that counts as fixed.
+///
+/// A fixed cost found too high would otherwise explain openings that are too dense, and no refining piece
+/// corrects it while a movement lasts.
 const MAX_FIXED_OF_OPENING: f64 = 0.5;
 
-/// Two openings in a row that cost so many times what pieces predict show another view. Rays of a
+/// Two openings in a row that cost so many times what refining pieces predict show another view. Rays of a
 /// sparse lattice have little in common: up to twice the cost is normal.
 const OTHER_VIEW: f64 = 3.0;
 
@@ -52,12 +56,12 @@ pub struct Rate {
     /// Time that each ray adds, milliseconds.
     pub ray_ms: f64,
     /// Most rays for which the estimate holds.
-    pub most_rays: f64,
+    pub max_rays: f64,
 }
 
 impl Rate {
     /// The rate before anything is measured.
-    pub const ASSUMED: Self = Self { fixed_ms: 0.0, ray_ms: ASSUMED_MS, most_rays: FIRST_RAYS };
+    pub const ASSUMED: Self = Self { fixed_ms: 0.0, ray_ms: ASSUMED_MS, max_rays: FIRST_RAYS };
 
     /// Estimated time of a piece of so many rays, milliseconds.
     pub fn expected_ms(&self, rays: f64) -> f64 {
@@ -71,7 +75,7 @@ impl Rate {
 
     /// The same rate for a kind of work that has not been tried.
     pub fn untried(self) -> Self {
-        Self { most_rays: FIRST_RAYS, ..self }
+        Self { max_rays: FIRST_RAYS, ..self }
     }
 }
 
@@ -129,7 +133,7 @@ impl CostHistory {
             (opening.ms - fixed_ms).max((1.0 - MAX_FIXED_OF_OPENING) * opening.ms) / opening.rays
         };
         self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
-            .map(|ray_ms| Rate { fixed_ms, ray_ms, most_rays: GROWTH * opening.rays });
+            .map(|ray_ms| Rate { fixed_ms, ray_ms, max_rays: GROWTH * opening.rays });
     }
 }
 
@@ -152,7 +156,7 @@ fn line(pieces: &VecDeque<Measurement>) -> Option<Rate> {
         .map_or(whole_ms, |slope| slope.clamp((1.0 - MAX_FIXED) * whole_ms, whole_ms));
     let fixed_ms = median(pieces.iter().map(|piece| piece.ms - ray_ms * piece.rays).collect())?;
     let largest = pieces.iter().map(|piece| piece.rays).fold(0.0, f64::max);
-    Some(Rate { fixed_ms: fixed_ms.max(0.0), ray_ms, most_rays: GROWTH * largest })
+    Some(Rate { fixed_ms: fixed_ms.max(0.0), ray_ms, max_rays: GROWTH * largest })
 }
 
 fn median(values: Vec<f64>) -> Option<f64> {

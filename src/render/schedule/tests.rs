@@ -104,13 +104,13 @@ impl Device {
     }
 
     fn collect(&mut self, schedule: &mut Schedule, now: f64) -> usize {
-        let mut shows = 0;
+        let mut displays = 0;
         while self.queue.first().is_some_and(|(_, end, _)| *end <= now) {
             let (work, _, ms) = self.queue.remove(0);
             schedule.collect(&[(Some(work), ms)]);
-            shows += usize::from(matches!(work, Work::Display(_)));
+            displays += usize::from(matches!(work, Work::Display(_)));
         }
-        shows
+        displays
     }
 }
 
@@ -123,8 +123,8 @@ fn run(
     mut each: impl FnMut(&mut Schedule, f64, usize) -> bool,
 ) -> usize {
     for frame in 0..most_frames {
-        let shows = device.collect(schedule, *now);
-        if each(schedule, *now, shows) {
+        let displays = device.collect(schedule, *now);
+        if each(schedule, *now, displays) {
             return frame;
         }
         while let Some(work) = schedule.next(*now) {
@@ -207,8 +207,8 @@ fn pictures_of_a_movement(slowness: f64, spike_ms: f64) -> usize {
     let mut now = 0.0;
     settle(&mut schedule, &mut device, &mut now);
     let mut pictures = 0;
-    run(&mut schedule, &mut device, &mut now, 600, |s, now, shows| {
-        pictures += shows;
+    run(&mut schedule, &mut device, &mut now, 600, |s, now, displays| {
+        pictures += displays;
         if s.accepts_changes() {
             s.change(Stale::Geometry, true, now);
         }
@@ -310,18 +310,18 @@ fn tone_edits_only_show() {
 /// Time of each display until rest, and the part of the way to its goal that exposure moves in it.
 fn adaptations(schedule: &mut Schedule, now: &mut f64) -> Vec<(f64, f32)> {
     let mut device = Device::new(1.0, 0.0);
-    let mut shows = Vec::new();
+    let mut displays = Vec::new();
     while !schedule.status(*now).idle {
         while let Some(work) = schedule.next(*now) {
             if let Work::Display(Display { adapt, .. }) = work {
-                shows.push((*now, adapt));
+                displays.push((*now, adapt));
             }
             device.submit(work, *now);
         }
         *now += FRAME_SECS;
         device.collect(schedule, *now);
     }
-    shows
+    displays
 }
 
 #[test]
@@ -335,13 +335,13 @@ fn exposure_settles_and_the_view_rests() {
 
     schedule.change(Stale::Light, false, now);
     let changed_at = now;
-    let shows = adaptations(&mut schedule, &mut now);
-    let (last, before) = shows.split_last().expect("shows");
+    let displays = adaptations(&mut schedule, &mut now);
+    let (last, before) = displays.split_last().expect("displays");
     assert_eq!(last.1, 1.0, "it ends at its goal");
     assert!(before[0].1 < 1.0, "it does not jump there");
-    let half_way = |shows: &[(f64, f32)]| {
+    let half_way = |displays: &[(f64, f32)]| {
         let mut left = 1.0;
-        shows
+        displays
             .iter()
             .find(|(_, adapt)| {
                 left *= 1.0 - adapt;
@@ -349,7 +349,7 @@ fn exposure_settles_and_the_view_rests() {
             })
             .map(|(at, _)| at - changed_at)
     };
-    let secs = half_way(&shows).expect("half of the way");
+    let secs = half_way(&displays).expect("half of the way");
     assert!((0.05..0.4).contains(&secs), "half of the way after {secs} s");
     // The last step is invisible even after a change by four stops.
     let left: f32 = before.iter().map(|(_, adapt)| 1.0 - adapt).product();
@@ -366,14 +366,14 @@ fn tone_edits_and_stills_have_their_exposure_at_once() {
     let mut now = 0.0;
     adaptations(&mut schedule, &mut now);
     schedule.change(Stale::Tone, false, now);
-    let shows = adaptations(&mut schedule, &mut now);
-    assert_eq!(shows.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
+    let displays = adaptations(&mut schedule, &mut now);
+    assert_eq!(displays.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
 
     let mut still = schedule_of_lights(Pace::Still, SIZE);
     still.aim(16.0, 2);
     still.set_adapting(true);
-    let shows = adaptations(&mut still, &mut now);
-    assert_eq!(shows.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
+    let displays = adaptations(&mut still, &mut now);
+    assert_eq!(displays.iter().map(|(_, adapt)| *adapt).collect::<Vec<_>>(), [1.0]);
 }
 
 #[test]
@@ -399,13 +399,13 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
     let mut schedule = schedule_of_lights(Pace::Still, SIZE);
     schedule.aim(16.0, 3);
     let mut now = 0.0;
-    let mut shows = 0;
+    let mut displays = 0;
     while !schedule.status(now).idle {
         while let Some(work) = schedule.next(now) {
             match work {
                 Work::Display(Display { level, fill, .. }) => {
                     assert_eq!((level, fill), (0, false));
-                    shows += 1;
+                    displays += 1;
                 }
                 Work::Trace(trace) => {
                     assert!(matches!(trace.points, Points::Level(0) | Points::Samples { .. }));
@@ -416,7 +416,7 @@ fn a_still_goes_straight_to_every_pixel_and_shows_once() {
         now += FRAME_SECS;
         device.collect(&mut schedule, now);
     }
-    assert_eq!(shows, 1);
+    assert_eq!(displays, 1);
 }
 
 #[test]

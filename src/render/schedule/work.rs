@@ -159,7 +159,7 @@ mod tests {
             }
             assert_eq!(next, first_workgroup + workgroups);
         }
-        let show = Work::Display(Display { level: 3, fill: true, from_film: false, adapt: 1.0 });
-        assert_eq!(show.batches().collect::<Vec<_>>(), [show]);
+        let display = Work::Display(Display { level: 3, fill: true, from_film: false, adapt: 1.0 });
+        assert_eq!(display.batches().collect::<Vec<_>>(), [display]);
     }
 }

@@ -91,7 +91,7 @@ host_shared! {
         /// Least clearance of an unblocked shadow ray, in hit distances.
         shadow_margin: f32,
         /// Least step of a shadow ray, in hit distances.
-        shadow_least_step: f32,
+        shadow_min_step: f32,
     }
     /// Blinn-Phong terms and colouring.
     Surface {
@@ -224,7 +224,7 @@ host_shared! {
         adapt: f32,
         /// The lattice level of the neighbours for indirect light.
         neighbour_level: u32,
-        /// Direction toward a shadow dispatch's light, or its position; world space.
+        /// Direction toward a shadow dispatch's light, or its position; render space.
         light_vector: [f32; 3],
         /// 0 environment, 1 point.
         light_kind: u32,
@@ -271,7 +271,7 @@ host_shared! {
     }
     /// One light.
     Light {
-        /// Unit vector toward the light, or the light's position; world space.
+        /// Unit vector toward the light, or the light's position; render space.
         vector: [f32; 3],
         /// 0 environment, 1 point.
         kind: u32,

@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     match cx.scene.lights.rig.kind {
         RigKind::None => {}
         RigKind::Sky => sky(ui, cx),
-        RigKind::EnvironmentMap => picture(ui, cx),
+        RigKind::EnvironmentMap => map_settings(ui, cx),
     }
     // A scene can show an environment map and be lit by another source.
     if !cx.scene.lights.rig.environment_map.name.is_empty() {
@@ -150,7 +150,7 @@ fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider_count(ui, &param::RIG_COUNT, &mut rig.count);
 }
 
-fn picture(ui: &mut Ui, cx: &mut Context<'_>) {
+fn map_settings(ui: &mut Ui, cx: &mut Context<'_>) {
     let response = choose(ui);
     cx.rects.record("choose picture", &response);
     if response.clicked() {

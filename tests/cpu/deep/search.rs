@@ -19,7 +19,7 @@ use mandelight_test_support::{
 };
 
 /// What the estimate is at an anchor, scene units.
-const LEAST: f64 = 1e-33;
+const MIN_DISTANCE: f64 = 1e-33;
 
 /// A way to the surface: where it ends, where it led, and what orbits needed on it, estimates with
 /// steps.
@@ -29,7 +29,7 @@ struct Way {
     orbits: Vec<(f64, u32)>,
 }
 
-/// Marches from `start` along `direction` until the estimate is below [`LEAST`].
+/// Marches from `start` along `direction` until the estimate is below [`MIN_DISTANCE`].
 fn approach(set: &Set, kind: &str, start: DVec3, direction: DVec3) -> Option<Way> {
     let mut point = start.to_array().map(Real::from_f64);
     let mut orbits = vec![];
@@ -39,7 +39,7 @@ fn approach(set: &Set, kind: &str, start: DVec3, direction: DVec3) -> Option<Way
     let (mut gone, mut part, mut here) = (0.0, 1.0, set.estimate(&point, 1e-2));
     for _ in 0..if is_axis { 10_000 } else { 1500 } {
         orbits.push((here.distance, here.steps));
-        if here.distance < LEAST {
+        if here.distance < MIN_DISTANCE {
             return Some(Way { end: point, direction, orbits });
         }
         let step = if is_axis { 0.2 * here.distance } else { here.step };

@@ -23,7 +23,7 @@ fn each_is_a_valid_document_and_the_one_of_its_link() {
         assert_eq!(scene.validate(), Ok(()), "{}", dive.name);
         assert_eq!(document::from_json(&document::to_json(&scene)).as_ref(), Ok(&scene));
         let fragment = link::to_fragment(&scene).unwrap();
-        // docs/scene.md tells these lengths.
+        // docs/scene.md states these lengths.
         assert!((600..=850).contains(&fragment.len()), "{}: {}", dive.name, fragment.len());
         let (_, told) = row_of(dive);
         assert_eq!(link::from_fragment(&told).as_ref(), Ok(&scene), "{}: #{fragment}", dive.name);

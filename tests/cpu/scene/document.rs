@@ -323,7 +323,7 @@ fn links_are_short() {
     );
     scene.fractal.set("power", 7.25);
     let moved = to_fragment(&scene).unwrap();
-    // docs/scene.md tells these lengths.
+    // docs/scene.md states these lengths.
     assert_eq!(default.len(), 9, "{default}");
     assert!((210..=250).contains(&moved.len()), "{} characters", moved.len());
 }

@@ -62,7 +62,7 @@ fn each_is_valid_and_fits_a_link() {
         scene.validate().unwrap_or_else(|error| panic!("{}: {error}", preset.name));
         assert_eq!(document::from_json(&document::to_json(&scene)), Ok(scene.clone()));
         let fragment = link::to_fragment(&scene).unwrap();
-        // docs/scene.md tells these lengths.
+        // docs/scene.md states these lengths.
         let lengths = if scene == Scene::default() { 9..=9 } else { 450..=650 };
         assert!(
             lengths.contains(&fragment.len()),

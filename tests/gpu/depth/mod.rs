@@ -1,7 +1,7 @@
 //! What has to hold of deep views whatever is seen in them. That it is the right thing, the module
 //! `deep` tests, which has another arithmetic to compare with.
 //!
-//! | file | what lives there |
+//! | file | contents |
 //! |---|---|
 //! | `places` | where the views are, and their passes in coordinates of one's choice |
 //! | `anchors` | another anchor makes no other picture, and none at all the same |

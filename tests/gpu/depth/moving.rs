@@ -41,7 +41,7 @@ fn what_a_dive_shows_is_what_stills_show() {
     let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
     // Frames would wait for pipelines that no other test has had compiled.
     for index in (0..=frames).step_by(3) {
-        pipelines().specialise(&frame(index));
+        pipelines().specialize(&frame(index));
     }
     let inputs = Inputs::new(&frame(0), Region::whole(SIZE));
     let kernel = inputs.formula.kernel;

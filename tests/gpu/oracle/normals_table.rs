@@ -97,7 +97,7 @@ fn costs(scene: &Scene) -> Vec<f64> {
         let mut scene = scene.clone();
         scene.quality.normals = way.unwrap_or(Normals::None);
         let inputs = Inputs::new(&scene, Region::whole(PICTURE_PX));
-        pipelines.specialise(&scene);
+        pipelines.specialize(&scene);
         let passes = pipelines.of_frame(&inputs);
         targets.upload(&pipelines.gpu.queue, &inputs);
         let mut recorder =

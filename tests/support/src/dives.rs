@@ -1,4 +1,4 @@
-//! The dives as `docs/dives.md` tells of them, and a flight down one of them.
+//! The dives that `docs/dives.md` lists, and a flight down one of them.
 
 use mandelight::scene::{
     Camera, Path, PrecisePoint, Project, Quality, Scene,

@@ -1,6 +1,6 @@
 //! What the tests and the benchmark share, compiled once.
 //!
-//! | module | what lives there |
+//! | module | contents |
 //! |---|---|
 //! | `device` | the one device of a test binary, and devices of one's own |
 //! | `view` | short ways to a finished picture and its pixels |

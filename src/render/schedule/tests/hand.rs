@@ -34,9 +34,9 @@ fn picture_of_a_move(schedule: &mut Schedule, device: &mut Device, now: &mut f64
     schedule.change(Stale::Geometry, true, moved_at);
     loop {
         while let Some(work) = schedule.next(*now) {
-            let is_show = matches!(work, Work::Display(_));
+            let is_display = matches!(work, Work::Display(_));
             device.submit(work, *now);
-            if is_show {
+            if is_display {
                 let end = device.busy_until;
                 *now = end;
                 device.collect(schedule, end);
@@ -194,28 +194,28 @@ fn release(full_ms: f64, piece_ms: f64) -> (f64, Vec<Work>) {
     }
     schedule.set_moving(false);
     let released_at = now;
-    let mut shows = Vec::new();
+    let mut displays = Vec::new();
     while schedule.status(now).shown_level > 0 {
         while let Some(work) = schedule.next(now) {
             device.submit(work, now);
             if matches!(work, Work::Display(_)) {
-                shows.push(work);
+                displays.push(work);
             }
         }
         now += 0.001;
         device.collect(&mut schedule, now);
     }
-    ((now - released_at) * 1e3 / full_ms, shows)
+    ((now - released_at) * 1e3 / full_ms, displays)
 }
 
 /// After a release all pixels take little longer than a full frame in one piece.
 #[test]
 fn all_pixels_come_soon_after_a_release() {
     for full_ms in [100.0, 300.0, 500.0, 900.0] {
-        let (took, shows) = release(full_ms, 0.01 * full_ms / 20.0);
+        let (took, displays) = release(full_ms, 0.01 * full_ms / 20.0);
         assert!(took <= 1.2, "{full_ms} ms: {took}");
         // There is no display between the lattice and the whole picture.
-        assert_eq!(shows.len(), 1, "{full_ms} ms: {shows:?}");
+        assert_eq!(displays.len(), 1, "{full_ms} ms: {displays:?}");
     }
 }
 
@@ -223,10 +223,10 @@ fn all_pixels_come_soon_after_a_release() {
 #[test]
 fn a_long_full_frame_is_displayed_on_its_way() {
     for full_ms in [1500.0, 4000.0] {
-        let (took, shows) = release(full_ms, 0.5);
+        let (took, displays) = release(full_ms, 0.5);
         assert!(took <= 1.2, "{full_ms} ms: {took}");
         let is_film = |work: &&Work| matches!(work, Work::Display(Display { from_film: true, .. }));
-        let films: Vec<_> = shows.iter().filter(is_film).collect();
+        let films: Vec<_> = displays.iter().filter(is_film).collect();
         assert!(
             matches!(films[0], Work::Display(Display { fill: true, level: PREVIEW_LEVEL, .. })),
             "{films:?}"

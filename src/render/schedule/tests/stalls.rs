@@ -18,8 +18,8 @@ fn with_one_held_up(slowness: f64, which: u32, held_up_ms: f64) -> (f64, u32) {
         now += FRAME_SECS;
     }
     let (complete_secs, mut pictures) = (now, 0);
-    run(&mut schedule, &mut device, &mut now, 1000, |s, now, shows| {
-        pictures += shows;
+    run(&mut schedule, &mut device, &mut now, 1000, |s, now, new| {
+        pictures += new;
         if pictures < 5 && s.accepts_changes() {
             s.change(Stale::Geometry, true, now);
         }
@@ -43,7 +43,7 @@ fn one_time_work_does_not_change_estimates() {
     }
 }
 
-/// A movement after it must not keep the fixed cost that the stalls seem to be.
+/// A movement after the stalls must not keep the fixed cost that they seem to be.
 #[test]
 fn stalls_of_every_refining_piece_do_not_slow_a_movement() {
     let mut device = Device::with_overhead(20.0, 0.0, 100.0);
@@ -53,16 +53,16 @@ fn stalls_of_every_refining_piece_do_not_slow_a_movement() {
     settle(&mut schedule, &mut device, &mut now);
     device.overhead_ms = 0.05;
     let mut pictures = 0;
-    run(&mut schedule, &mut device, &mut now, 4000, |s, now, shows| {
-        pictures += shows;
+    run(&mut schedule, &mut device, &mut now, 4000, |s, now, new| {
+        pictures += new;
         if pictures < 40 && s.accepts_changes() {
             s.change(Stale::Geometry, true, now);
         }
         pictures == 10
     });
     device.longest_ms = 0.0;
-    run(&mut schedule, &mut device, &mut now, 4000, |s, now, shows| {
-        pictures += shows;
+    run(&mut schedule, &mut device, &mut now, 4000, |s, now, new| {
+        pictures += new;
         if pictures < 40 && s.accepts_changes() {
             s.change(Stale::Geometry, true, now);
         }
@@ -78,8 +78,8 @@ fn displays(interface_ms: f64) -> (usize, f64) {
     let mut schedule = schedule_of_lights(Pace::Interactive, SIZE);
     schedule.aim(16.0, 64);
     let (mut now, mut displays) = (0.0, 0);
-    run(&mut schedule, &mut device, &mut now, 400_000, |s, now, shows| {
-        displays += shows;
+    run(&mut schedule, &mut device, &mut now, 400_000, |s, now, new| {
+        displays += new;
         s.collect(&[(None, interface_ms)]);
         s.status(now).idle
     });

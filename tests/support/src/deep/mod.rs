@@ -1,7 +1,7 @@
 //! The deepest views by a march with numbers of 256 bits, written from the thesis's formulas
 //! without a look at `src/fractal` or the shaders.
 //!
-//! | module | what lives there |
+//! | module | contents |
 //! |---|---|
 //! | `arithmetic` | real and complex numbers of 256 bits |
 //! | `orbit` | distance estimates, and how far rays may step |

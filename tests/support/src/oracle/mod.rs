@@ -1,7 +1,7 @@
 //! The oracle: the thesis's formulas, written once more in f64, plainly and without a look at
 //! `src/fractal` or the shaders.
 //!
-//! | module | what lives there |
+//! | module | contents |
 //! |---|---|
 //! | `estimate` | orbits, distance estimate, smooth iteration count, orbit traps |
 //! | `quaternion` | the quaternion Julia set, by Hamilton's product |
