@@ -1,4 +1,4 @@
-// The part of a picture that one dispatch computes. Host twin: `render::uniforms::DispatchParams`.
+// The parameters of one dispatch. Host twin: `render::uniforms::DispatchParams`.
 
 struct DispatchParams {
     // Lattice to pixel: see `lib/lattice.wgsl`.

@@ -7,10 +7,8 @@ use std::sync::Arc;
 
 use super::{PictureFormat, sheet::Sheet};
 use crate::{
-    render::{
-        Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need, uniforms::FrameUniforms,
-    },
-    scene::{EnvironmentMap, IndirectKind, Scene},
+    render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need},
+    scene::{EnvironmentMap, Scene},
 };
 
 /// Maximum number of pixels of an overview, both eyes together.
@@ -47,10 +45,9 @@ impl Overview {
         format: PictureFormat,
     ) -> Option<Self> {
         let region = region(sheet.picture_px, sheet.overview_eyes());
-        let has_indirect = scene.indirect.kind != IndirectKind::Off;
+        let has_indirect = scene.has_indirect();
         // An OpenEXR file stores radiance before exposure and bloom.
-        let has_post =
-            format != PictureFormat::Exr && !Need::of(&FrameUniforms::new(scene, region)).is_none();
+        let has_post = format != PictureFormat::Exr && !Need::of_scene(scene).is_none();
         if !has_post && !has_indirect {
             return None;
         }

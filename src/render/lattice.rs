@@ -110,25 +110,11 @@ impl Grid {
             workgroups: [self.columns.max(1), self.rows.max(1)],
             scatter: [scatter(self.columns), scatter(self.rows)],
             first_workgroup,
-            compact: 0,
-            accumulate: 0,
-            light_bit: 0,
-            light_reach: 0.0,
             jitter: [0.5, 0.5],
-            spacing: 0,
-            mip_level: 0,
-            axis: 0,
-            half_width: 0.0,
-            adapt: 0.0,
-            neighbour_level: 0,
-            light_vector: [0.0; 3],
-            light_kind: 0,
-            blocks: 0,
-            ray_queue: 0,
             samples: 1,
             samples_shift: self.samples_shift,
             jitter_step: JITTER_STEP.map(|step| step as f32),
-            starts_at_surface: 0,
+            ..DispatchParams::default()
         }
     }
 

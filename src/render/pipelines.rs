@@ -46,7 +46,7 @@ impl Pipelines {
     /// Compiles the general variants that every picture of the first formula needs.
     pub fn new(gpu: &Gpu) -> Arc<Self> {
         let pipelines = Self::for_stills(gpu);
-        for pass in pass::all().into_iter().filter(|pass| pass.set.is_always_needed) {
+        for pass in pass::all().filter(|pass| pass.set.is_always_needed) {
             let general = PipelineVariant::general_of(pass.set, FormulaRef::default());
             // A general pipeline serves every mode.
             pipelines.pipeline(pass, 0, &general);
@@ -242,7 +242,7 @@ impl Pipelines {
 fn parts(variant: &PipelineVariant) -> impl Iterator<Item = (&'static Pass, usize)> + use<> {
     let set = variant.set;
     let is_general = variant.is_general();
-    let passes = pass::all().into_iter().filter(move |pass| pass.set == set);
+    let passes = pass::all().filter(move |pass| pass.set == set);
     passes.flat_map(move |pass| {
         let modes = if is_general { 1 } else { pass.modes.len() };
         (0..modes).map(move |mode| (pass, mode))

@@ -53,21 +53,21 @@ mod tests {
         })
     }
 
-    fn show(fill: bool, film: bool) -> Work {
-        Work::Display(Display { level: 4, fill, from_film: film, adapt: 1.0 })
+    fn display(fill: bool, from_film: bool) -> Work {
+        Work::Display(Display { level: 4, fill, from_film, adapt: 1.0 })
     }
 
     #[test]
-    fn a_film_that_is_shown_while_pixels_come_is_filled_once_and_not_spread() {
+    fn a_film_that_is_shown_while_pixels_come_is_filled_once_and_not_upsampled() {
         let mut reconstruction = Reconstruction::default();
         let mut upsample_level = |work| reconstruction.upsample_level(work, true, 2);
         assert_eq!(upsample_level(trace(Points::Level(4))), None);
-        assert_eq!(upsample_level(show(true, false)), Some(4));
-        assert_eq!(upsample_level(show(true, true)), None);
+        assert_eq!(upsample_level(display(true, false)), Some(4));
+        assert_eq!(upsample_level(display(true, true)), None);
         assert_eq!(upsample_level(trace(Points::All)), None);
-        assert_eq!(upsample_level(show(false, true)), None);
+        assert_eq!(upsample_level(display(false, true)), None);
         // Values that the last scene left between the pixels of the next scene are not shown.
         assert_eq!(upsample_level(trace(Points::Level(4))), None);
-        assert_eq!(upsample_level(show(false, true)), Some(4));
+        assert_eq!(upsample_level(display(false, true)), Some(4));
     }
 }

@@ -177,7 +177,7 @@ impl View {
             return;
         }
         self.environment_map = environment_map.cloned();
-        // The scene is read again, in its turn.
+        // The next pump that accepts a change applies the scene again.
         self.is_environment_map_new = true;
         self.pending = self.pending.take().or_else(|| self.scene.clone());
     }
@@ -193,7 +193,7 @@ impl View {
             if self.pending.is_none() {
                 return false;
             }
-            if !self.look() {
+            if !self.apply_pending() {
                 return true;
             }
         }
@@ -205,7 +205,7 @@ impl View {
             return true;
         }
         // The new scene may need other pipelines.
-        if self.schedule.accepts_changes() && self.look() && self.prepare() {
+        if self.schedule.accepts_changes() && self.apply_pending() && self.prepare() {
             return true;
         }
         self.schedule.set_arithmetic(self.arithmetic());
@@ -244,7 +244,7 @@ impl View {
     }
 
     /// Applies the pending scene, if any, once its render space is known; returns whether it did.
-    fn look(&mut self) -> bool {
+    fn apply_pending(&mut self) -> bool {
         let Some(scene) = self.pending.take() else { return false };
         // The render space depends on camera and fractal only: an anchor found since then can wait.
         let is_same_view = self.scene.as_ref().is_some_and(|old| {

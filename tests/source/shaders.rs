@@ -45,7 +45,7 @@ static MODULES: LazyLock<Vec<Module>> = LazyLock::new(|| {
         false => vec![shaders::module(pass.name, None)],
         true => kernels().into_iter().map(|k| shaders::module(pass.name, Some(k))).collect(),
     };
-    pass::all().into_iter().flat_map(of).chain(kernels().into_iter().map(probe::module)).collect()
+    pass::all().flat_map(of).chain(kernels().into_iter().map(probe::module)).collect()
 });
 
 /// Name, offset and size of each field, and the whole size: of a WGSL struct.

@@ -1,11 +1,10 @@
 //! Bloom: reduces the light above the threshold to a mip level and blurs it there.
 
 use super::{blur, reduce};
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{BlurKernel, FIRST_LEVEL, Levels},
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::Display,
     uniforms::DispatchParams,
 };

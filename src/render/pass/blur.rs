@@ -1,10 +1,9 @@
 //! A uniform kernel over a mip level, along x, then along y (thesis 4.5, "Bloom").
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{BlurKernel, Levels},
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     uniforms::DispatchParams,
 };
 

@@ -1,10 +1,9 @@
 //! Cones of camera rays: queues the blocks of samples that may hit, and the depth to which they are clear.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Stage, Trace},
 };
 

@@ -1,10 +1,9 @@
 //! Makes the camera ray of each sample; the passes that follow read it.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Stage, Trace},
 };
 

@@ -1,10 +1,9 @@
 //! Queues the blocks of samples that have surface points.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Stage, Trace},
 };
 

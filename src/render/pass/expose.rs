@@ -1,8 +1,11 @@
 //! Auto exposure from the film's mean.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
-    pipeline_set, post::Levels, recorder::Recorder, schedule::Display, uniforms::DispatchParams,
+    pipeline_set,
+    post::Levels,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
+    schedule::Display,
+    uniforms::DispatchParams,
 };
 
 /// The pass.

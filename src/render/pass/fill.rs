@@ -1,7 +1,11 @@
 //! Fills the film between the pixels of a sparse lattice, along edges.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
-use crate::render::{lattice::Grid, pipeline_set, recorder::Recorder, schedule::Display};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
+    schedule::Display,
+};
 
 /// The pass.
 pub const PASS: Pass = Pass {

@@ -1,10 +1,9 @@
 //! The film's histogram.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::Display,
     uniforms::{DispatchParams, Statistics},
 };

@@ -2,11 +2,10 @@
 //!
 //! Marches no rays.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Points, Stage, Trace},
 };
 

@@ -1,10 +1,9 @@
 //! Marches rays to surface points: writes depth and colour data, and moves the ray there.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Stage, Trace},
     work_queues::{CAMERA_RAYS, Queue},
 };

@@ -1,11 +1,10 @@
 //! The film's mean colour and mean log luminance, by mip levels.
 
 use super::reduce;
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::Display,
     uniforms::DispatchParams,
 };

@@ -23,6 +23,8 @@ pub mod tone;
 pub mod tonemap_sparse;
 pub mod upsample;
 
+use std::sync::LazyLock;
+
 pub use super::recorder::{ONE_MODE, Pass, Record};
 
 /// The passes of the direct integrator, in the order of a frame: rays to the surface, normals, shadows,
@@ -59,14 +61,17 @@ pub const DISPLAY: &[&Pass] = &[
 const INTEGRATORS: &[&[&Pass]] = &[DIRECT];
 
 /// Every pass once, also if several integrators share it.
-pub fn all() -> Vec<&'static Pass> {
-    let mut found: Vec<&Pass> = Vec::new();
-    for pass in INTEGRATORS.iter().copied().chain([DISPLAY]).flatten() {
-        if !found.iter().any(|known| known.name == pass.name) {
-            found.push(pass);
+pub fn all() -> impl Iterator<Item = &'static Pass> {
+    static ALL: LazyLock<Vec<&Pass>> = LazyLock::new(|| {
+        let mut found: Vec<&Pass> = Vec::new();
+        for pass in INTEGRATORS.iter().copied().chain([DISPLAY]).flatten() {
+            if !found.iter().any(|known| known.name == pass.name) {
+                found.push(pass);
+            }
         }
-    }
-    found
+        found
+    });
+    ALL.iter().copied()
 }
 
 #[cfg(test)]

@@ -1,10 +1,9 @@
 //! Computes normals: reads each sample's depth, writes its normal.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Stage, Trace},
     work_queues::Queue,
 };

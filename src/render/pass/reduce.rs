@@ -1,10 +1,9 @@
 //! Computes mip levels from the finest level.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     pipeline_set,
     post::{FIRST_LEVEL, Levels},
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     uniforms::DispatchParams,
 };
 

@@ -3,11 +3,10 @@
 //! Marches no rays.
 
 use super::indirect;
-use crate::render::recorder::{Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{Pass, Record, Recorder},
     schedule::{Stage, Trace},
 };
 

@@ -1,11 +1,10 @@
 //! Shadow rays: writes one visibility bit per light for each sample.
 
 use super::shadow_cone;
-use crate::render::recorder::{ONE_MODE, Pass, Record};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
-    recorder::Recorder,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
     schedule::{Stage, Trace},
     work_queues::{CAMERA_RAYS, Queue},
 };

@@ -1,8 +1,11 @@
 //! Film to display: exposure, tone curve, bloom, sRGB, dither.
 
-use crate::render::recorder::{Pass, Record};
 use crate::render::{
-    lattice::Grid, pipeline_set, recorder::Recorder, schedule::Display, uniforms::DispatchParams,
+    lattice::Grid,
+    pipeline_set,
+    recorder::{Pass, Record, Recorder},
+    schedule::Display,
+    uniforms::DispatchParams,
 };
 
 /// The pass.

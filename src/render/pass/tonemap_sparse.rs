@@ -1,7 +1,10 @@
 //! Tone maps the samples of a sparse lattice to display values.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
-use crate::render::{lattice::Grid, pipeline_set, recorder::Recorder};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
+};
 
 /// The pass.
 pub const PASS: Pass = Pass {

@@ -1,7 +1,10 @@
 //! Upsamples the tone-mapped samples of a sparse lattice to the display picture.
 
-use crate::render::recorder::{ONE_MODE, Pass, Record};
-use crate::render::{lattice::Grid, pipeline_set, recorder::Recorder};
+use crate::render::{
+    lattice::Grid,
+    pipeline_set,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
+};
 
 /// The pass.
 pub const PASS: Pass = Pass {

@@ -124,8 +124,8 @@ fn learn(cost: &mut Cost, group: &[Completion]) {
     let workgroups = mean(traces.iter().map(|(trace, ..)| f64::from(trace.workgroups)).sum());
     let trace_ms = mean(traces.iter().map(|(.., ms)| ms).sum());
     for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
-        let pixels = workgroups * f64::from(WORKGROUP_THREADS);
-        cost.traced(trace.job(), *phase, *arithmetic, pixels, trace_ms);
+        let samples = workgroups * f64::from(WORKGROUP_THREADS);
+        cost.traced(trace.job(), *phase, *arithmetic, samples, trace_ms);
     }
     for completion in group {
         match completion.work {

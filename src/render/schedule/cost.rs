@@ -9,7 +9,7 @@
 //! a dense lattice, by a factor that depends on the scene. So openings and refining pieces are
 //! estimated separately: what the last picture of a movement took is what its next one will take.
 //!
-//! How many rays a sample counts as, the integrator's [`Plan`] says.
+//! The integrator's [`Plan`] says how many rays a sample counts as.
 
 use super::{
     plan::{Plan, SampleCost, WorkKind},
@@ -19,8 +19,9 @@ use super::{
 };
 use crate::render::lattice::WORKGROUP_THREADS;
 
-/// Fewest workgroups of a piece: two can be halved. Pieces that were all of one workgroup could not
-/// tell that their cost is fixed.
+/// Fewest workgroups of a piece: two can be halved.
+///
+/// Pieces of one workgroup each can't separate the fixed cost from the cost of rays.
 const MIN_WORKGROUPS: f64 = 2.0;
 
 /// Longest time that drawing the interface counts as, milliseconds: longer ones were held up.

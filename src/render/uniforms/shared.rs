@@ -184,7 +184,7 @@ host_shared! {
         /// Kind of normals: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
         normals: u32,
     }
-    /// The part of a picture that one dispatch computes.
+    /// The parameters of one dispatch.
     DispatchParams {
         /// Lattice positions per grid position.
         step: [u32; 2],
