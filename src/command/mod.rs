@@ -8,6 +8,7 @@
 //! | [`render`] | `mandelight render`: a picture of a scene |
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
+//! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`info`] | `mandelight info`: the GPU |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | atomic writing of a file |
@@ -23,6 +24,7 @@ mod frames;
 mod info;
 mod input;
 mod output;
+mod places;
 mod render;
 mod scene;
 mod stereo;
@@ -51,6 +53,8 @@ enum Command {
     Frames(frames::FramesArguments),
     /// Prints a scene document, to edit or to pipe into `render -`
     Scene(scene::SceneArguments),
+    /// Prints scenes at the places of a view that stay beautiful at every depth
+    Places(places::PlacesArguments),
     /// Prints the GPU that would be used, its limits, and the other GPUs
     Info(info::InfoArguments),
 }
@@ -90,6 +94,7 @@ pub fn run() -> ExitCode {
         Command::Render(arguments) => render::run(arguments),
         Command::Frames(arguments) => frames::run(arguments),
         Command::Scene(arguments) => scene::run(arguments),
+        Command::Places(arguments) => places::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
     match outcome {

@@ -3,9 +3,12 @@
 
 use std::{any::Any, fmt, hash, ops::Deref, sync::Arc};
 
+use glam::DVec3;
+
 use super::{
     march::DistanceField,
     param,
+    recurrence::Recurrence,
     table::{Field, Value},
 };
 use crate::{gpu::shader::File, precise::PrecisePoint};
@@ -97,6 +100,18 @@ pub trait Formula: Sync {
         _fractal: &Fractal,
         _anchor: PrecisePoint,
     ) -> Option<Box<dyn ReferenceSteps>> {
+        None
+    }
+
+    /// The error of `recurrence` at the exact orbit of `point`, computed with many digits.
+    ///
+    /// None without [depth](Self::has_depth), and where the orbit escapes first.
+    fn recurrence_error(
+        &self,
+        _fractal: &Fractal,
+        _point: &PrecisePoint,
+        _recurrence: Recurrence,
+    ) -> Option<DVec3> {
         None
     }
 

@@ -9,6 +9,7 @@
 
 use glam::DVec3;
 
+use super::recurrence::OrbitPosition;
 use crate::precise::PrecisePoint;
 
 /// Least radius of a pixel's cone that plain f32 can draw, in scene units.
@@ -72,6 +73,13 @@ pub trait DistanceField: Send + Sync {
     fn estimate(&self, point: DVec3) -> Estimate {
         let distance = self.distance(point);
         Estimate { distance, step: distance }
+    }
+
+    /// The first positions of the orbit of `point`, at most `length`; it ends where orbits escape.
+    ///
+    /// Empty if the formula's steps have no derivatives there.
+    fn orbit(&self, _point: DVec3, _length: usize) -> Vec<OrbitPosition> {
+        Vec::new()
     }
 
     /// Centre of a sphere that holds the surface.

@@ -12,6 +12,7 @@
 //! | [`param`] | numbers with unit, range and help |
 //! | [`bounds`] | spheres that hold a set |
 //! | [`march`] | distance fields, and rays against them |
+//! | [`recurrence`] | points whose orbits recur |
 //! | [`mandelbulb`], [`quaternion_julia`] | the formulas |
 
 pub mod bounds;
@@ -19,6 +20,7 @@ pub mod contract;
 pub mod document;
 pub mod march;
 pub mod param;
+pub mod recurrence;
 pub mod table;
 
 pub use contract::{
@@ -26,6 +28,7 @@ pub use contract::{
     ReferenceOrbit, ReferenceSteps,
 };
 pub use march::{DistanceField, Estimate, Ray};
+pub use recurrence::{OrbitPosition, Recurrence};
 
 /// Declares each formula's folder and lists the formulas in the order of the panels.
 macro_rules! formulas {

@@ -11,6 +11,7 @@
 
 pub mod camera_ray;
 pub mod model;
+pub mod places;
 pub mod search;
 
 pub use camera_ray::{camera_ray, pixel_cone};

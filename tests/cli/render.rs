@@ -207,6 +207,32 @@ fn the_scene_command_prints_documents() {
 }
 
 #[test]
+fn the_places_command_prints_scenes_at_a_depth() {
+    let document = default_document().to_string();
+    let output =
+        run_with_input(&["places", "-", "--depth", "1e-9", "--count", "3"], document.as_bytes());
+    assert_eq!((code(&output), said(&output)), (0, String::new()));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let scenes: Vec<_> =
+        text.lines().map(|line| mandelight::scene::document::from_json(line).unwrap()).collect();
+    assert_eq!(scenes.len(), 3);
+    let opening = mandelight::scene::document::from_json(&document).unwrap();
+    for scene in &scenes {
+        assert!((scene.camera.view_unit() / 1e-9 - 1.0).abs() < 1e-6);
+        let same = mandelight::scene::Scene { camera: opening.camera.clone(), ..scene.clone() };
+        assert_eq!(same, opening, "only the camera is another");
+    }
+    assert_ne!(scenes[0].camera, scenes[1].camera);
+
+    let turned = with(default_document(), "/scene/camera/orientation", json!([1.0, 0.0, 0.0, 0.0]));
+    let output = run_with_input(&["places", "-"], turned.as_bytes());
+    assert_eq!(code(&output), 1);
+    assert!(said(&output).contains("no place in view"), "{}", said(&output));
+    let output = run_with_input(&["places", "-", "--depth", "1e-30"], document.as_bytes());
+    assert_eq!(code(&output), 2);
+}
+
+#[test]
 fn a_reader_that_leaves_is_no_failure() {
     let mut child = program(PROGRAM, ["scene"]).spawn().unwrap();
     drop(child.stdout.take());
@@ -364,7 +390,7 @@ fn a_higher_picture_takes_no_more_memory() {
 fn the_manual_names_every_option() {
     let manual =
         fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/command-line.md")).unwrap();
-    for command in ["render", "scene", "info"] {
+    for command in ["render", "scene", "places", "info"] {
         let section = manual
             .split("\n## ")
             .find(|s| s.starts_with(&format!("`mandelight {command}")))

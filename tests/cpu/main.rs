@@ -4,5 +4,6 @@
 mod compare;
 mod deep;
 mod fractal;
+mod places;
 mod property;
 mod scene;

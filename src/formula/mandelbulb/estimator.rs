@@ -20,13 +20,13 @@
 //! the polar axis among them, mostly far from the set. So a ray hits only if the distance stays below
 //! the hit distance ([`DistanceField::needs_hit_check`]).
 
-use glam::DVec3;
+use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     parameters::{HIT_CHECK_BELOW, Mandelbulb},
     power::TriplexPower,
 };
-use crate::formula::{DistanceField, Estimate, bounds::slowest_escape};
+use crate::formula::{DistanceField, Estimate, OrbitPosition, bounds::slowest_escape};
 
 /// Greatest stretch along the parallels that one step adds to dg, over n·r^(n−1).
 ///
@@ -105,7 +105,7 @@ impl Estimator {
     /// [`Self::estimate`] along an orbit that carries its Jacobian, for views about an anchor.
     ///
     /// Over the many steps of a deep orbit dg grows far past the Jacobian's norm, and a ray would creep.
-    pub(super) fn estimate_along(&self, mut orbit: impl Orbit) -> Estimate {
+    pub(super) fn estimate_along(&self, mut orbit: impl NormedOrbit) -> Estimate {
         let (mut r, mut dr) = (orbit.z().length(), 1.0);
         for _ in 0..self.iterations {
             if r > self.bailout {
@@ -116,6 +116,24 @@ impl Estimator {
             r = orbit.z().length();
         }
         self.estimate_from(r, dr, JACOBIAN_STEP_FACTOR / orbit.norm().max(MIN_DERIVATIVE))
+    }
+
+    /// The first positions of `orbit` until it escapes, at most `length`, with their derivatives.
+    pub(super) fn positions(&self, mut orbit: impl Orbit, length: usize) -> Vec<OrbitPosition> {
+        let mut positions = Vec::with_capacity(length);
+        let constant_derivative = DMat3::from_diagonal(DVec3::splat(self.constant_derivative()));
+        let mut jacobian = DMat3::IDENTITY;
+        while positions.len() < length {
+            let z = orbit.z();
+            if z.truncate() == DVec2::ZERO || z.length() > self.bailout {
+                break;
+            }
+            let step = self.power.jacobian(z, f64::INFINITY);
+            positions.push(OrbitPosition { z, jacobian, step });
+            jacobian = step * jacobian + constant_derivative;
+            orbit.step(&self.power);
+        }
+        positions
     }
 
     /// Derivative of the added constant by the point: 0 for the Julia form, else 1.
@@ -151,7 +169,10 @@ pub(super) trait Orbit {
 
     /// Steps to the next orbit position.
     fn step(&mut self, power: &TriplexPower);
+}
 
+/// An orbit that carries its Jacobian.
+pub(super) trait NormedOrbit: Orbit {
     /// The norm of the Jacobian: of the orbit position's derivative by the point.
     fn norm(&self) -> f64;
 }
@@ -169,8 +190,28 @@ impl DistanceField for Estimator {
         self.needs_hit_check
     }
 
+    fn orbit(&self, point: DVec3, length: usize) -> Vec<OrbitPosition> {
+        self.positions(PlainOrbit { z: point, constant: self.julia_constant.unwrap_or(point) }, length)
+    }
+
     fn bounding_radius(&self) -> f64 {
         self.bounding_radius
+    }
+}
+
+/// An orbit in f64 about the scene's origin.
+struct PlainOrbit {
+    z: DVec3,
+    constant: DVec3,
+}
+
+impl Orbit for PlainOrbit {
+    fn z(&self) -> DVec3 {
+        self.z
+    }
+
+    fn step(&mut self, power: &TriplexPower) {
+        self.z = power.apply(self.z) + self.constant;
     }
 }
 

@@ -22,14 +22,16 @@ pub mod variant;
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 pub use parameters::{JULIA_CONSTANT, MANDELBULB, Mandelbulb, MandelbulbFormula, POWER, Sine};
 
 use super::{
-    DistanceField, Formula, Fractal, KernelFiles, MarchPolicy, Packed, PackedFor, ReferenceSteps,
-    table::Field,
+    DistanceField, Formula, Fractal, KernelFiles, MarchPolicy, Packed, PackedFor, Recurrence,
+    ReferenceSteps, table::Field,
 };
 use crate::precise::PrecisePoint;
-use deep::reference::ReferenceBuilder;
+use deep::{orbit::recurrence_error, reference::ReferenceBuilder};
 use estimator::Estimator;
 use parameters::FIELDS;
 use variant::{Steps, Variant};
@@ -81,6 +83,15 @@ impl Formula for MandelbulbFormula {
         anchor: PrecisePoint,
     ) -> Option<Box<dyn ReferenceSteps>> {
         Some(Box::new(ReferenceBuilder::new(&Mandelbulb::of(fractal), anchor)?))
+    }
+
+    fn recurrence_error(
+        &self,
+        fractal: &Fractal,
+        point: &PrecisePoint,
+        recurrence: Recurrence,
+    ) -> Option<DVec3> {
+        recurrence_error(&Mandelbulb::of(fractal), point, recurrence)
     }
 
     fn pack(&self, fractal: &Fractal, view: &PackedFor<'_>) -> Packed {

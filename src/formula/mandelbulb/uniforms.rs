@@ -8,13 +8,15 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::{
-    deep::{self, Reference, jacobian::norm},
+    deep::{self, Reference},
     estimator::{self, SIDEWAYS_MAX},
     parameters::{MANDELBULB, Mandelbulb},
     variant::{MAX_NEAR_STEPS, NearSteps, Steps, Variant},
 };
 use crate::{
-    formula::{FormulaRef, Kernel, Packed, PackedFor, contract::COARSEST_FOOTPRINT},
+    formula::{
+        FormulaRef, Kernel, Packed, PackedFor, contract::COARSEST_FOOTPRINT, recurrence::norm,
+    },
     gpu::host_shared::{Array, HostShared, bytes_of_all, host_shared},
 };
 

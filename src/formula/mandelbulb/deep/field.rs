@@ -12,10 +12,10 @@ use super::{
 };
 use crate::{
     formula::{
-        DistanceField, Estimate, Formula, Fractal, ReferenceOrbit, ReferenceSteps,
+        DistanceField, Estimate, Formula, Fractal, OrbitPosition, ReferenceOrbit, ReferenceSteps,
         mandelbulb::{
             MANDELBULB, Mandelbulb,
-            estimator::{Estimator, Orbit},
+            estimator::{Estimator, NormedOrbit, Orbit},
             power::TriplexPower,
         },
     },
@@ -70,6 +70,14 @@ impl DistanceField for DeepField {
 
     fn needs_hit_check(&self) -> bool {
         self.estimator.needs_hit_check()
+    }
+
+    fn orbit(&self, point: DVec3, length: usize) -> Vec<OrbitPosition> {
+        // In a rotating frame, positions lack their longitudes.
+        if self.reference.rotates() {
+            return Vec::new();
+        }
+        self.estimator.positions(DeepOrbit::new(self, point), length)
     }
 
     fn bounding_radius(&self) -> f64 {
@@ -171,6 +179,9 @@ impl Orbit for DeepOrbit<'_> {
         };
     }
 
+}
+
+impl NormedOrbit for DeepOrbit<'_> {
     fn norm(&self) -> f64 {
         match &self.frame {
             Frame::Fixed(jacobian) => jacobian.norm(),

@@ -2,7 +2,10 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::formula::mandelbulb::{estimator::DEEP_SIDEWAYS_MAX, power::TriplexPower};
+use crate::formula::{
+    mandelbulb::{estimator::DEEP_SIDEWAYS_MAX, power::TriplexPower},
+    recurrence::norm,
+};
 
 /// Replaces a distance of zero from the axis.
 const MIN_RADIUS: f64 = 1e-100;
@@ -94,9 +97,4 @@ fn off_axis(z: DVec3) -> DVec3 {
 /// The rotation about the polar axis by `rotor`.
 fn about_axis(rotor: DVec2) -> DMat3 {
     DMat3::from_cols(rotor.extend(0.0), rotor.perp().extend(0.0), DVec3::Z)
-}
-
-/// A matrix's Frobenius norm.
-pub fn norm(matrix: &DMat3) -> f64 {
-    matrix.to_cols_array().into_iter().map(|part| part * part).sum::<f64>().sqrt()
 }

@@ -6,7 +6,10 @@
 use dashu_float::{FBig, round::mode};
 use glam::{DVec2, DVec3};
 
-use crate::{formula::mandelbulb::parameters::Mandelbulb, precise::PrecisePoint};
+use crate::{
+    formula::{mandelbulb::parameters::Mandelbulb, recurrence::Recurrence},
+    precise::PrecisePoint,
+};
 
 /// Bits of a coordinate. An error grows along an orbit as distances do: to 10²⁷ times 2⁻²⁵⁶.
 const BITS: usize = 256;
@@ -104,6 +107,30 @@ impl Tracer {
         while self.step() {}
         self.reference_points
     }
+}
+
+/// The error of `recurrence` at the orbit of `point`.
+///
+/// None if the power is not a whole number, and where the orbit escapes first.
+pub fn recurrence_error(
+    fractal: &Mandelbulb,
+    point: &PrecisePoint,
+    recurrence: Recurrence,
+) -> Option<DVec3> {
+    let last = recurrence.last();
+    let mut tracer = Tracer::of_point(fractal, point, last + 1)?;
+    let mut first = [Big::ZERO, Big::ZERO, Big::ZERO];
+    for index in 0..last {
+        if recurrence.first() == Some(index) {
+            first = tracer.z.clone();
+        }
+        let is_last = index + 1 == last;
+        if !tracer.step() && !is_last {
+            return None;
+        }
+    }
+    let [x, y, z] = &tracer.z;
+    Some(rounded(&[x - &first[0], y - &first[1], z - &first[2]]))
 }
 
 fn big(value: f64) -> Big {

@@ -1,0 +1,440 @@
+//! The search for the places of a view.
+//!
+//! Rays through the picture find surface points, and Newton's method finds the recurring points beside them.
+//! The best of those are made exact, and the space about them is probed. The search runs in small steps, so
+//! that a frame can run as many as fit its time.
+
+use std::{collections::HashMap, sync::Arc};
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    newton::{Solution, refined, solve},
+    spectrum::spread_directions,
+    vantage::{Vantage, most_open},
+};
+use crate::{
+    formula::{
+        DistanceField, Recurrence, ReferenceSteps, contract::COARSEST_FOOTPRINT,
+        march::DEEP_FOOTPRINT, recurrence::norm,
+    },
+    fractal::{FractalModel, Search, camera_ray},
+    scene::{Camera, PrecisePoint},
+};
+
+/// Rows of the picture whose pixels set the search's detail.
+const ROWS: f64 = 400.0;
+/// Distance from the surface at which Newton's method starts, per unit of depth.
+///
+/// Orbits of points farther out escape before they come near a cycle.
+const NEARNESS: f64 = 1e-7;
+/// Most steps of one ray.
+const MAX_STEPS: u32 = 500;
+/// Enlargement of the view's height, along an orbit, after which its shapes begin to repeat.
+const ORDER_ONE: f64 = 0.5;
+/// Longest orbit of a search.
+const MAX_ORBIT: usize = 160;
+/// Most positions before a cycle, after the view's height has grown to order one.
+const PREPERIODS: usize = 5;
+/// Longest cycle.
+const MAX_PERIOD: usize = 3;
+/// Greatest elongation of a place.
+const MAX_ELONGATION: f64 = 1.06;
+/// Greatest distortion of a place.
+const MAX_DISTORTION: f64 = 6.0;
+/// The depth by which elongations are compared.
+const DEEP: f64 = 1e-20;
+/// How far behind the visible surface a place may be, as a part of the view's height.
+const BEHIND: f64 = 0.02;
+/// Places nearer to each other than this part of the view's height count as one.
+const SAME: f64 = 0.03;
+/// Scales at which the space about a place is probed, over the eye's distance.
+const PROBED: [f64; 4] = [0.3, 0.05, 5e-3, 1e-4];
+/// Least distance of an eye from a small copy's centre, in the copy's radii.
+const COPY_DISTANCE: f64 = 2.5;
+/// Distance of an eye that has arrived at a small copy, in the copy's radii.
+const ARRIVAL_AT_COPY: f64 = 5.0;
+/// Distance of an eye that has arrived at a cycle, over its distance before.
+const ARRIVAL: f64 = 1.0 / 30.0;
+/// Least openness of a place at every probed scale.
+const MIN_OPENNESS: f64 = 0.06;
+
+/// A place that a dive can go to.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// The point, as exact as the deepest dive needs.
+    pub position: PrecisePoint,
+    /// The equation that its orbit fulfils.
+    pub recurrence: Recurrence,
+    /// How shapes are drawn out with depth; see [`Solution::elongation`].
+    pub elongation: f64,
+    /// How much the place is drawn out at every depth; see [`Solution::distortion`].
+    pub distortion: f64,
+    /// Least openness at the probed scales; see [`Vantage::openness`].
+    pub openness: f64,
+    /// Radius of the small copy about the point, in scene units; 0 at a cycle, where shapes go on for ever.
+    pub radius: f64,
+    /// Where the place is in the picture, in normalised device coordinates.
+    pub ndc: DVec2,
+    /// The place's cost: the lower, the better.
+    pub cost: f64,
+    field: PlaceField,
+}
+
+/// The distance field about a place.
+#[derive(Clone)]
+struct PlaceField(Arc<dyn DistanceField>);
+
+impl std::fmt::Debug for PlaceField {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("PlaceField")
+    }
+}
+
+/// The part of the picture in which places are searched, and how many.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchArea {
+    /// Where the nearest places count most, in normalised device coordinates.
+    pub center: DVec2,
+    /// Half the side of the square of rays about the centre, in half heights of the picture.
+    pub radius: f64,
+    /// Number of rays.
+    pub rays: u32,
+    /// Most places.
+    pub count: usize,
+    /// Whether small copies count as places, at which dives end.
+    pub has_copies: bool,
+}
+
+impl SearchArea {
+    /// The whole picture.
+    pub const PICTURE: Self =
+        Self { center: DVec2::ZERO, radius: 1.0, rays: 256, count: 40, has_copies: true };
+}
+
+/// A search in progress.
+pub struct PlaceSearch {
+    model: FractalModel,
+    camera: Camera,
+    aspect: f64,
+    area: SearchArea,
+    stage: Stage,
+    candidates: Vec<Candidate>,
+    places: Vec<Place>,
+}
+
+enum Stage {
+    Anchor(Box<Search>),
+    Rays { field: Arc<dyn DistanceField>, ray: u32, pending: Vec<(DVec3, f64, Recurrence)> },
+    Candidates { field: Arc<dyn DistanceField>, index: usize, reference: Option<Pending> },
+    Done,
+}
+
+/// An exact place whose reference orbit is computed.
+struct Pending {
+    position: PrecisePoint,
+    steps: Box<dyn ReferenceSteps>,
+}
+
+/// A solution that is in the picture.
+struct Candidate {
+    solution: Solution,
+    ndc: DVec2,
+    cost: f64,
+}
+
+impl PlaceSearch {
+    /// A search for places in `area` of the picture that `camera` sees; its width over height is `aspect`.
+    pub fn new(model: &FractalModel, camera: &Camera, aspect: f64, area: SearchArea) -> Self {
+        let cone = camera.half_height(aspect) / (0.5 * ROWS);
+        let footprint = cone * model.clear_distance(&camera.position);
+        let deep = (footprint < COARSEST_FOOTPRINT)
+            .then(|| Search::new(model.fractal(), camera, aspect, None))
+            .flatten();
+        let stage = match deep {
+            Some(search) => Stage::Anchor(Box::new(search)),
+            None => Stage::of_rays(model.finer(NEARNESS * footprint)),
+        };
+        let (model, camera) = (model.clone(), camera.clone());
+        Self { model, camera, aspect, area, stage, candidates: Vec::new(), places: Vec::new() }
+    }
+
+    /// The places found so far, the best first.
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// Runs all steps and returns the places, the best first.
+    pub fn finish(mut self) -> Vec<Place> {
+        while self.step() {}
+        self.places
+    }
+
+    /// Runs one step of about 0.2 ms; returns false once the search has ended.
+    pub fn step(&mut self) -> bool {
+        let stage = std::mem::replace(&mut self.stage, Stage::Done);
+        self.stage = match stage {
+            Stage::Anchor(mut search) => match search.step() {
+                Some(reference) => {
+                    let fractal = self.model.fractal();
+                    let away = &self.camera.position - reference.anchor();
+                    let grain = (1e-4 * away.length()).max(DEEP_FOOTPRINT);
+                    let field = reference.distance_field(fractal, DEEP_FOOTPRINT, grain);
+                    Stage::of_rays(field)
+                }
+                None => Stage::Anchor(search),
+            },
+            Stage::Rays { field, ray, mut pending } => {
+                if let Some((start, extent, recurrence)) = pending.pop() {
+                    if let Some(solution) = solve(field.as_ref(), start, recurrence, extent) {
+                        self.add(field.as_ref(), &solution);
+                    }
+                    Stage::Rays { field, ray, pending }
+                } else if ray < self.area.rays {
+                    let pending = self.starts(field.as_ref(), ray);
+                    Stage::Rays { field, ray: ray + 1, pending }
+                } else {
+                    self.sort_candidates();
+
+                    Stage::Candidates { field, index: 0, reference: None }
+                }
+            }
+            Stage::Candidates { field, index, reference } => {
+                self.candidate_step(field, index, reference)
+            }
+            Stage::Done => return false,
+        };
+        true
+    }
+
+    /// The Newton searches that start at the surface point of ray `ray`.
+    fn starts(&self, field: &dyn DistanceField, ray: u32) -> Vec<(DVec3, f64, Recurrence)> {
+        let ndc = self.area.ndc(ray, self.aspect);
+        let half_height = self.camera.half_height(self.aspect);
+        let ray = camera_ray(&self.camera, &field.origin(), ndc, self.aspect);
+        let cone = NEARNESS * half_height;
+        let Some(depth) = field.trace(ray, cone, f64::INFINITY, MAX_STEPS).unwrap_or_else(Some)
+        else {
+            return Vec::new();
+        };
+        let (start, extent) = (ray.at(depth), 2.0 * half_height * depth);
+        let orbit = field.orbit(start, MAX_ORBIT);
+        let enlarged = orbit
+            .iter()
+            .position(|position| norm(&position.jacobian) * extent > ORDER_ONE)
+            .unwrap_or(orbit.len());
+        // Without the point among the addends, as in Julia forms, no copies surround such points.
+        let has_copies = self.area.has_copies
+            && orbit.get(1).is_some_and(|second| second.jacobian != orbit[0].step);
+        let cycles = (1..=PREPERIODS).flat_map(move |more| {
+            (1..=MAX_PERIOD)
+                .map(move |period| Recurrence::Cycle { preperiod: enlarged + more, period })
+        });
+        let copies = (1..=PREPERIODS).map(|more| Recurrence::Center { returns: enlarged + more });
+        cycles.chain(copies.filter(|_| has_copies)).map(|it| (start, extent, it)).collect()
+    }
+
+    /// Adds a solution to the candidates if a dive there keeps its shapes, and the picture shows it.
+    fn add(&mut self, field: &dyn DistanceField, solution: &Solution) {
+        let (elongation, distortion) = (solution.elongation(), solution.distortion());
+        if elongation.is_nan() || elongation > MAX_ELONGATION || distortion > MAX_DISTORTION {
+            return;
+        }
+        let offset = solution.point - field.local(&self.camera.position);
+        let seen = self.camera.rotation().inverse() * offset;
+        if seen.z >= 0.0 {
+            return;
+        }
+        let half_height = self.camera.half_height(self.aspect) * -seen.z;
+        let ndc = DVec2::new(seen.x / (half_height * self.aspect), seen.y / half_height);
+        if ndc.abs().max_element() > 0.95 {
+            return;
+        }
+        let drawn_out = (1.0 - elongation.recip()) * -DEEP.ln() + distortion.ln();
+        let aside = (ndc - self.area.center) * DVec2::new(self.aspect, 1.0);
+        let cost = drawn_out + aside.length() / self.area.radius;
+        self.candidates.push(Candidate { solution: *solution, ndc, cost });
+    }
+
+    /// Sorts the candidates by cost and drops those beside a better one.
+    fn sort_candidates(&mut self) {
+        self.candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut taken: HashMap<[i64; 2], ()> = HashMap::new();
+        let cell = 2.0 * SAME;
+        self.candidates.retain(|candidate| {
+            let place = candidate.ndc * DVec2::new(self.aspect, 1.0) / cell;
+            taken.insert([place.x.floor() as i64, place.y.floor() as i64], ()).is_none()
+        });
+    }
+
+    fn candidate_step(
+        &mut self,
+        field: Arc<dyn DistanceField>,
+        index: usize,
+        pending: Option<Pending>,
+    ) -> Stage {
+        let Some(candidate) = self.candidates.get(index) else { return self.done() };
+        if self.places.len() >= self.area.count {
+            return self.done();
+        }
+        let next =
+            |reference| Stage::Candidates { field: field.clone(), index: index + 1, reference };
+        match pending {
+            None => {
+                if !self.is_visible(field.as_ref(), candidate) {
+                    return next(None);
+                }
+                let solution = &candidate.solution;
+                let guess = field.origin().moved_by(solution.point, 0.0);
+                let fractal = self.model.fractal();
+                let Some(position) =
+                    refined(fractal, guess, solution.recurrence, solution.derivative)
+                else {
+                    return next(None);
+                };
+                match fractal.formula().begin_reference(fractal, position.clone()) {
+                    Some(steps) => Stage::Candidates {
+                        field,
+                        index,
+                        reference: Some(Pending { position, steps }),
+                    },
+                    None => {
+                        let about = self.model.finer(1e-6);
+                        self.probe(index, position, about);
+                        next(None)
+                    }
+                }
+            }
+            Some(mut pending) => {
+                if pending.steps.step() {
+                    return Stage::Candidates { field, index, reference: Some(pending) };
+                }
+                let reference = pending.steps.finish();
+                let about =
+                    reference.distance_field(self.model.fractal(), DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+                self.probe(index, pending.position, about);
+                next(None)
+            }
+        }
+    }
+
+    /// True if no surface hides the candidate.
+    fn is_visible(&self, field: &dyn DistanceField, candidate: &Candidate) -> bool {
+        let ray = camera_ray(&self.camera, &field.origin(), candidate.ndc, self.aspect);
+        let depth = candidate.solution.point.distance(ray.origin);
+        let half_height = self.camera.half_height(self.aspect);
+        let cone = half_height / (0.5 * ROWS);
+        let hit = field.trace(ray, cone, depth, MAX_STEPS).unwrap_or_else(Some);
+        hit.is_none_or(|hit| depth - hit < 2.0 * BEHIND * half_height * depth)
+    }
+
+    /// Adds the candidate to the places if there is space about it at every depth.
+    fn probe(&mut self, index: usize, position: PrecisePoint, about: Arc<dyn DistanceField>) {
+        let candidate = &self.candidates[index];
+        let depth = (&position - &self.camera.position).length();
+        let point = about.local(&position);
+        let radius = match candidate.solution.recurrence {
+            Recurrence::Cycle { .. } => 0.0,
+            Recurrence::Center { .. } => {
+                let most = 1.0 / candidate.solution.derivative.determinant().abs().cbrt();
+                copy_radius(about.as_ref(), point, most)
+            }
+        };
+        let finest = 1e3 * about.finest_footprint();
+        let openness = PROBED
+            .into_iter()
+            .map(|part| part * depth)
+            .filter(|scale| *scale > finest.max(COPY_DISTANCE * radius))
+            .map(|scale| most_open(about.as_ref(), point, scale).1)
+            .fold(1.0, f64::min);
+        let is_lost =
+            radius == 0.0 && matches!(candidate.solution.recurrence, Recurrence::Center { .. });
+        if openness < MIN_OPENNESS || is_lost {
+            return;
+        }
+        let cost = candidate.cost - openness.min(0.4).ln();
+        let solution = &candidate.solution;
+        let place = Place {
+            position,
+            recurrence: solution.recurrence,
+            elongation: solution.elongation(),
+            distortion: solution.distortion(),
+            openness,
+            radius,
+            ndc: candidate.ndc,
+            cost,
+            field: PlaceField(about),
+        };
+        let at = self.places.partition_point(|other| other.cost <= place.cost);
+        self.places.insert(at, place);
+    }
+
+    fn done(&mut self) -> Stage {
+        self.candidates.clear();
+        Stage::Done
+    }
+}
+
+impl Stage {
+    fn of_rays(field: Arc<dyn DistanceField>) -> Self {
+        Self::Rays { field, ray: 0, pending: Vec::new() }
+    }
+}
+
+impl SearchArea {
+    /// Where ray `ray` passes through the picture: rays spiral outward from the centre.
+    fn ndc(&self, ray: u32, aspect: f64) -> DVec2 {
+        const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
+        let radius = self.radius * (f64::from(ray) / f64::from(self.rays.max(1))).sqrt();
+        let offset = radius * DVec2::from_angle(f64::from(ray) * GOLDEN_ANGLE_RAD);
+        let wide = if self.radius < 1.0 { offset / DVec2::new(aspect, 1.0) } else { offset };
+        self.center + wide
+    }
+}
+
+impl Place {
+    /// The distance from which the place's own shapes fill the picture, in scene units.
+    ///
+    /// At a cycle, a thirtieth of the distance from which `camera` sees it.
+    pub fn arrival(&self, camera: &Camera) -> f64 {
+        let away = (&self.position - &camera.position).length();
+        if self.radius > 0.0 { ARRIVAL_AT_COPY * self.radius } else { ARRIVAL * away }
+    }
+
+    /// Whether an eye `depth` scene units from the place is outside of its small copy.
+    pub fn reaches(&self, depth: f64) -> bool {
+        depth >= COPY_DISTANCE * self.radius
+    }
+
+    /// The camera that looks at the place from `depth` scene units, with the rest of `camera`.
+    ///
+    /// None if the place does not [reach](Self::reaches) so deep, and where nothing free sees it.
+    pub fn camera(&self, camera: &Camera, depth: f64) -> Option<Camera> {
+        if !self.reaches(depth) {
+            return None;
+        }
+        let field = self.field.0.as_ref();
+        let point = field.local(&self.position);
+        let vantage = Vantage::find(field, point, self.radius, depth, None)?;
+        let grain = 1e-9 * depth;
+        Some(Camera {
+            position: self.position.moved_by(vantage.direction * depth, grain),
+            pivot: self.position.clone(),
+            orientation: vantage.rotation().into(),
+            ..camera.clone()
+        })
+    }
+}
+
+/// Radius about `center` of the small copy there, which free space within `most` surrounds.
+///
+/// Zero if no copy is found.
+fn copy_radius(field: &dyn DistanceField, center: DVec3, most: f64) -> f64 {
+    const STEP: f64 = 0.75;
+    const STEPS: i32 = 60;
+    let is_free = |radius: &f64| {
+        spread_directions(24).all(|toward| field.distance(center + toward * radius) > 0.0)
+    };
+    let radii = (0..STEPS).map(|step| most * STEP.powi(step));
+    radii.skip_while(|radius| !is_free(radius)).find(|radius| !is_free(radius)).unwrap_or(0.0)
+}
