@@ -12,6 +12,8 @@
 //! | [`collide`] | collision of the eye with the surface, and sliding along it |
 //! | [`turntable`] | rotations that keep the horizon level |
 //! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
+//! | [`descent`] | zooms about a place, with a turn toward the best view |
+//! | [`guide`] | draws the zoom to places, and dives by itself |
 //! | [`flight`] | animated flights: home, frame-all, level |
 //! | `route` | collision-free routes of flights |
 //!
@@ -28,8 +30,10 @@
 //!   are vectors from the field's origin, so that all zoom levels behave alike.
 
 pub mod collide;
+pub mod descent;
 pub mod flight;
 pub mod fly;
+pub mod guide;
 mod placement;
 mod route;
 pub mod turntable;

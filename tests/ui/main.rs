@@ -3,6 +3,7 @@
 
 mod controls;
 mod depth;
+mod descent;
 mod dive;
 mod environment_map;
 mod fit;

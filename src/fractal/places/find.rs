@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::{
     newton::{Solution, refined, solve},
     spectrum::spread_directions,
-    vantage::{Vantage, most_open},
+    vantage::{VantageSearch, most_open},
 };
 use crate::{
     formula::{
@@ -46,6 +46,12 @@ const MAX_DISTORTION: f64 = 6.0;
 const DEEP: f64 = 1e-20;
 /// How far behind the visible surface a place may be, as a part of the view's height.
 const BEHIND: f64 = 0.02;
+/// Cost of a place as far from the area's centre as the area's edge.
+const ASIDE_COST: f64 = 0.7;
+/// Equations that are solved in one step of a search.
+const SOLVED_AT_ONCE: usize = 4;
+/// Positions of a reference orbit that are computed in one step of a search.
+const TRACED_AT_ONCE: u32 = 8;
 /// Places nearer to each other than this part of the view's height count as one.
 const SAME: f64 = 0.03;
 /// Scales at which the space about a place is probed, over the eye's distance.
@@ -185,9 +191,12 @@ impl PlaceSearch {
                 None => Stage::Anchor(search),
             },
             Stage::Rays { field, ray, mut pending } => {
-                if let Some((start, extent, recurrence)) = pending.pop() {
-                    if let Some(solution) = solve(field.as_ref(), start, recurrence, extent) {
-                        self.add(field.as_ref(), &solution);
+                if !pending.is_empty() {
+                    let first = pending.len().saturating_sub(SOLVED_AT_ONCE);
+                    for (start, extent, recurrence) in pending.drain(first..) {
+                        if let Some(solution) = solve(field.as_ref(), start, recurrence, extent) {
+                            self.add(field.as_ref(), &solution);
+                        }
                     }
                     Stage::Rays { field, ray, pending }
                 } else if ray < self.area.rays {
@@ -250,9 +259,9 @@ impl PlaceSearch {
         if ndc.abs().max_element() > 0.95 {
             return;
         }
-        let drawn_out = (1.0 - elongation.recip()) * -DEEP.ln() + distortion.ln();
         let aside = (ndc - self.area.center) * DVec2::new(self.aspect, 1.0);
-        let cost = drawn_out + aside.length() / self.area.radius;
+        let cost =
+            drawn_out(elongation, distortion) + ASIDE_COST * aside.length() / self.area.radius;
         self.candidates.push(Candidate { solution: *solution, ndc, cost });
     }
 
@@ -306,7 +315,7 @@ impl PlaceSearch {
                 }
             }
             Some(mut pending) => {
-                if pending.steps.step() {
+                if (0..TRACED_AT_ONCE).all(|_| pending.steps.step()) {
                     return Stage::Candidates { field, index, reference: Some(pending) };
                 }
                 let reference = pending.steps.finish();
@@ -345,7 +354,7 @@ impl PlaceSearch {
             .into_iter()
             .map(|part| part * depth)
             .filter(|scale| *scale > finest.max(COPY_DISTANCE * radius))
-            .map(|scale| most_open(about.as_ref(), point, scale).1)
+            .map(|scale| most_open(about.as_ref(), point, scale))
             .fold(1.0, f64::min);
         let is_lost =
             radius == 0.0 && matches!(candidate.solution.recurrence, Recurrence::Center { .. });
@@ -401,21 +410,36 @@ impl Place {
         if self.radius > 0.0 { ARRIVAL_AT_COPY * self.radius } else { ARRIVAL * away }
     }
 
-    /// Whether an eye `depth` scene units from the place is outside of its small copy.
-    pub fn reaches(&self, depth: f64) -> bool {
-        depth >= COPY_DISTANCE * self.radius
+    /// The logarithm of how much a deep view of the place is drawn out, at least 0.
+    pub fn drawn_out(&self) -> f64 {
+        drawn_out(self.elongation, self.distortion)
+    }
+
+    /// Least distance of an eye from the place, in scene units: outside of its small copy, or 0.
+    pub fn nearest(&self) -> f64 {
+        COPY_DISTANCE * self.radius
+    }
+
+    /// The distance field about the place.
+    pub fn field(&self) -> &dyn DistanceField {
+        self.field.0.as_ref()
+    }
+
+    /// A search for the best vantage `depth` scene units from the place, preferably near direction `near`.
+    pub fn vantage_search(&self, depth: f64, near: Option<DVec3>) -> VantageSearch {
+        let field = self.field.0.clone();
+        let point = field.local(&self.position);
+        VantageSearch::new(field, point, self.radius, depth, near)
     }
 
     /// The camera that looks at the place from `depth` scene units, with the rest of `camera`.
     ///
-    /// None if the place does not [reach](Self::reaches) so deep, and where nothing free sees it.
+    /// None below [`Self::nearest`], and where nothing free sees the place.
     pub fn camera(&self, camera: &Camera, depth: f64) -> Option<Camera> {
-        if !self.reaches(depth) {
+        if depth < self.nearest() {
             return None;
         }
-        let field = self.field.0.as_ref();
-        let point = field.local(&self.position);
-        let vantage = Vantage::find(field, point, self.radius, depth, None)?;
+        let vantage = self.vantage_search(depth, None).finish()?;
         let grain = 1e-9 * depth;
         Some(Camera {
             position: self.position.moved_by(vantage.direction * depth, grain),
@@ -424,6 +448,11 @@ impl Place {
             ..camera.clone()
         })
     }
+}
+
+/// The logarithm of how much the elongation at depth and the constant distortion draw shapes out.
+fn drawn_out(elongation: f64, distortion: f64) -> f64 {
+    (1.0 - elongation.recip()) * -DEEP.ln() + distortion.ln()
 }
 
 /// Radius about `center` of the small copy there, which free space within `most` surrounds.

@@ -18,3 +18,4 @@ mod spectrum;
 pub mod vantage;
 
 pub use find::{Place, PlaceSearch, SearchArea};
+pub use vantage::{Vantage, VantageSearch};

@@ -8,6 +8,7 @@
 //! | `picture` | what a PNG holds |
 //! | `program` | the built program, run as a script runs it |
 //! | `probe` | the formula's kernels at given points |
+//! | `descent` | a person who only turns the wheel |
 //! | `dives`, `stereo` | scenes of several tests |
 //! | `oracle` | the thesis's formulas in f64, written without a look at `src/fractal` or the shaders |
 //! | `deep` | the same with numbers of 256 bits, for the deepest views |
@@ -16,6 +17,7 @@
 
 pub mod compare;
 pub mod deep;
+pub mod descent;
 pub mod device;
 pub mod dives;
 pub mod oracle;

@@ -1,0 +1,172 @@
+//! A descent to a place: zooms about the place, and turns the eye to where the view is best.
+//!
+//! In: a [`Place`], a camera that sees it, amounts of zoom. Out: the moved camera. With every zoom the eye
+//! turns a little about the place toward the planned vantage, the place drifts toward the picture's middle, and
+//! the picture turns upright. The plan runs in small steps.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::{collide, placement::place_pivot, world::World};
+use crate::{
+    fractal::places::{Place, Vantage, VantageSearch},
+    scene::Camera,
+};
+
+/// Distance from the place for which a vantage is planned, over the present distance.
+const AHEAD: f64 = 0.35;
+/// Distance at which the next plan begins, over the distance of the last.
+const PLAN_AGAIN: f64 = 1.6;
+/// Rate at which the eye turns toward the vantage, per unit of zoom.
+const TURN_RATE: f64 = 0.9;
+/// Most radians that the eye turns about the place per unit of zoom.
+const MAX_TURN_RAD: f64 = 0.5;
+/// Rate at which the place drifts toward the middle, per unit of zoom.
+const CENTER_RATE: f64 = 0.35;
+/// Rate at which the picture turns upright, per unit of zoom.
+const ROLL_RATE: f64 = 0.35;
+/// Most radians that the picture turns upright per unit of zoom.
+const MAX_ROLL_RAD: f64 = 0.3;
+/// Rate at which the pivot comes to the place, per unit of zoom.
+const UNIT_RATE: f64 = 1.5;
+/// Longest single step, as a natural logarithm: longer zooms take several.
+const MAX_STEP: f64 = 0.25;
+/// Least room about the eye, over its distance to the place, while it comes nearer.
+const MIN_ROOM: f64 = 0.04;
+
+/// A descent in progress.
+pub struct Descent {
+    place: Place,
+    vantage: Option<Vantage>,
+    /// The distance for which `vantage` was planned.
+    planned: f64,
+    plan: Option<VantageSearch>,
+}
+
+impl Descent {
+    /// A descent to `place`.
+    pub fn new(place: Place) -> Self {
+        Self { place, vantage: None, planned: f64::INFINITY, plan: None }
+    }
+
+    /// The place.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// The eye's distance to the place, in scene units.
+    pub fn distance(&self, camera: &Camera) -> f64 {
+        (&camera.position - &self.place.position).length()
+    }
+
+    /// Where the place is in the picture, in normalised device coordinates; none behind the eye.
+    pub fn ndc(&self, camera: &Camera, world: World<'_>) -> Option<DVec2> {
+        world.ndc_of(camera, &self.place.position - &camera.position)
+    }
+
+    /// True while a vantage is planned.
+    pub fn is_planning(&self) -> bool {
+        self.plan.is_some()
+    }
+
+    /// Plans the next vantage for about 0.1 ms; returns false while the plan is complete.
+    pub fn plan_step(&mut self, camera: &Camera) -> bool {
+        let distance = self.distance(camera);
+        if self.plan.is_none() && AHEAD * distance * PLAN_AGAIN < self.planned {
+            let toward_eye = (&camera.position - &self.place.position).try_normalize();
+            let scale = (AHEAD * distance).max(self.nearest());
+            self.plan = Some(self.place.vantage_search(scale, toward_eye));
+            self.planned = AHEAD * distance;
+        }
+        let Some(plan) = &mut self.plan else { return false };
+        if !plan.step() {
+            self.vantage = plan.vantage().or(self.vantage);
+            self.plan = None;
+        }
+        true
+    }
+
+    /// Zooms in by a factor of `exp(amount)`. Returns whether the eye came nearer.
+    ///
+    /// `viewport` and precision are those of `world`; the surface is that about the place.
+    pub fn advance(&self, camera: &mut Camera, world: World<'_>, amount: f64) -> bool {
+        let world = World { field: self.place.field(), ..world };
+        let steps = (amount / MAX_STEP).ceil().clamp(1.0, 64.0);
+        (0..steps as u32).fold(false, |came, _| self.step(camera, world, amount / steps) || came)
+    }
+
+    fn step(&self, camera: &mut Camera, world: World<'_>, amount: f64) -> bool {
+        let arm = &camera.position - &self.place.position;
+        let (distance, from) = (arm.length(), arm.normalize_or(DVec3::Z));
+        let wanted = (distance * (-amount).exp()).max(self.nearest().max(world.nearest(camera)));
+        let turn = self.turn(from, amount);
+        // Nearer if there is room, else about the place until there is.
+        for to in [wanted.min(distance), distance] {
+            let eye = (turn * from) * to;
+            let has_room = |eye: DVec3, distance: f64| {
+                world.field.clear_distance(world.field.local(&self.place.position) + eye)
+                    >= MIN_ROOM * distance
+            };
+            if to < distance && !has_room(eye, to) && has_room(arm, distance) {
+                continue;
+            }
+            let moved = collide::advance(world, camera, eye - arm);
+            if moved != eye - arm {
+                continue;
+            }
+            self.place_camera(camera, world, eye, turn, amount);
+            return to < distance;
+        }
+        false
+    }
+
+    /// The rotation about the place that a zoom by `amount` from direction `from` brings.
+    fn turn(&self, from: DVec3, amount: f64) -> DQuat {
+        let Some(vantage) = &self.vantage else { return DQuat::IDENTITY };
+        let angle = from.angle_between(vantage.direction);
+        let axis = from.cross(vantage.direction).normalize_or(from.any_orthonormal_vector());
+        DQuat::from_axis_angle(axis, part(angle, TURN_RATE, MAX_TURN_RAD, amount))
+    }
+
+    /// Sets the eye to the place + `eye`, where the camera turned along by `turn`.
+    fn place_camera(
+        &self,
+        camera: &mut Camera,
+        world: World<'_>,
+        eye: DVec3,
+        turn: DQuat,
+        amount: f64,
+    ) {
+        let rotation = turn * camera.rotation();
+        let toward = rotation.inverse() * -eye.normalize_or(DVec3::Z);
+        // The camera turns toward the place, so that the place drifts to the middle.
+        let aside = toward.angle_between(DVec3::NEG_Z);
+        let axis = DVec3::NEG_Z.cross(toward).normalize_or(DVec3::Y);
+        let drift = DQuat::from_axis_angle(axis, part(aside, CENTER_RATE, MAX_TURN_RAD, amount));
+        let rotation = rotation * drift;
+        let roll = self.vantage.as_ref().map_or(0.0, |vantage| {
+            let up = rotation.inverse() * vantage.up;
+            part(DVec2::Y.angle_to(up.truncate()), ROLL_RATE, MAX_ROLL_RAD, amount)
+        });
+        let rotation = rotation * DQuat::from_rotation_z(roll);
+        let grain = world.grain_at(camera, eye.length());
+        // Light reaches as far as the view unit, which must not jump where another place is chosen.
+        let before = (&camera.position - &self.place.position).length();
+        let unit = camera.view_unit() * eye.length() / before;
+        let settled = 1.0 - (-UNIT_RATE * amount).exp();
+        let unit = unit * (eye.length() / unit).powf(settled);
+        camera.position = self.place.position.moved_by(eye, grain);
+        camera.orientation = rotation.normalize().into();
+        place_pivot(camera, -eye.normalize_or(DVec3::Z) * unit, grain);
+    }
+
+    /// Least distance of the eye from the place, in scene units.
+    fn nearest(&self) -> f64 {
+        self.place.nearest()
+    }
+}
+
+/// The part of `angle` that a zoom by `amount` covers: at `rate`, and at most `most` per unit of zoom.
+fn part(angle: f64, rate: f64, most: f64, amount: f64) -> f64 {
+    let covered = angle * (1.0 - (-rate * amount).exp());
+    if covered.is_finite() { covered.clamp(-most * amount, most * amount) } else { 0.0 }
+}

@@ -1,0 +1,60 @@
+//! A person who only turns the wheel: the camera of every notch, by the program's navigation.
+
+use glam::DVec2;
+use mandelight::{
+    fractal::FractalModel,
+    scene::{Camera, Scene},
+    ui::navigation::{Navigator, Viewport, World, guide::Guide},
+};
+
+/// The window in which the wheel is turned.
+pub const VIEWPORT: Viewport = Viewport { aspect: 1.5, height_px: 600.0, detail: 1.0 };
+/// Zoom of one notch, as a natural logarithm.
+pub const NOTCH: f64 = 0.2;
+/// Steps of searches and plans between two notches: ten frames of two milliseconds.
+const STEPS_PER_NOTCH: u32 = 100;
+/// Most notches, against an endless loop: 1e-27 takes about 320.
+const MAX_NOTCHES: u32 = 600;
+
+/// Sixteen pixels of the picture that see the surface, spread over it.
+pub fn sixteen_pixels(scene: &Scene) -> Vec<DVec2> {
+    let model = FractalModel::new(&scene.fractal);
+    let world = World { field: model.whole().as_ref(), viewport: VIEWPORT };
+    let spiral = (0..400).map(|i| {
+        let (sin, cos) = (2.399_963 * f64::from(i)).sin_cos();
+        DVec2::new(cos / VIEWPORT.aspect, sin) * 0.9 * (f64::from(i) / 400.0).sqrt()
+    });
+    let seen: Vec<_> = spiral.filter(|ndc| world.pick(&scene.camera, *ndc).is_some()).collect();
+    (0..16).map(|i| seen[(i * (seen.len() - 1)) / 15]).collect()
+}
+
+/// The cameras of a wheel that is turned at `pointer` until the eye is `until` scene units from the surface.
+///
+/// With `pull` off the zoom goes where the pointer is. Ends early where the zoom stops.
+pub fn wheel_in(scene: &Scene, pointer: DVec2, until: f64, pull: bool) -> Vec<Camera> {
+    let model = FractalModel::new(&scene.fractal);
+    let (mut guide, mut navigator) = (Guide::default(), Navigator::default());
+    let mut cameras = vec![scene.camera.clone()];
+    for _ in 0..MAX_NOTCHES {
+        let mut camera = cameras[cameras.len() - 1].clone();
+        let cone = camera.half_height(VIEWPORT.aspect) * 2.0 / VIEWPORT.height_px;
+        let field = model.finer((model.clear_distance(&camera.position) * cone).max(2e-7));
+        let world = World { field: field.as_ref(), viewport: VIEWPORT };
+        let is_guided = pull && guide.zoom(&model, &mut camera, world, pointer, NOTCH);
+        if !is_guided {
+            navigator.dolly(&mut camera, world, pointer, NOTCH);
+        }
+        for _ in 0..STEPS_PER_NOTCH {
+            guide.work(&camera, world);
+        }
+        let unit = camera.view_unit();
+        if camera == cameras[cameras.len() - 1] && !is_guided {
+            break;
+        }
+        cameras.push(camera);
+        if unit < until {
+            break;
+        }
+    }
+    cameras
+}
