@@ -37,6 +37,8 @@ pub enum Icon {
     Home,
     /// A ball in a frame: the whole fractal.
     Whole,
+    /// An arrow that points down to a line.
+    Dive,
 }
 
 /// A square button with an icon; `name` is for screen readers.
@@ -130,6 +132,11 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
             if icon == Icon::Whole {
                 painter.circle_filled(center, 3.2 * size / 16.0, color);
             }
+        }
+        Icon::Dive => {
+            line(&[(0.0, -7.0), (0.0, 2.5)]);
+            line(&[(-4.5, -2.0), (0.0, 2.5), (4.5, -2.0)]);
+            line(&[(-6.0, 6.5), (6.0, 6.5)]);
         }
         Icon::Home => {
             line(&[(-7.0, 0.0), (0.0, -6.5), (7.0, 0.0)]);

@@ -7,6 +7,7 @@ use egui::{Align2, Color32, Margin, Panel, Rect, Ui, vec2};
 use super::{
     action::Action,
     display_inputs::{DisplayInputs, Notice},
+    dive,
     editor::Editor,
     handles,
     home::HomeTarget,
@@ -279,11 +280,19 @@ impl Interface {
         let scene = self.editor.scene_mut();
         let response = view::show(ui, frame, inputs.picture);
         self.rects.record("view", &response);
-        // The button precedes the pilot, which executes this frame's commands.
+        // The buttons precede the pilot, which executes this frame's commands.
+        let side = button_side(ui);
+        let first = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
+        let button_at =
+            |index: f32| rect.left_bottom() + vec2(first + index * (10.0 + side), -10.0 - side);
+        let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
+        let button = floating_button(ui, button_at(0.0), Icon::Dive, hover);
+        self.rects.record("dive", &button);
+        if button.clicked() {
+            commands.push(Command::Dive);
+        }
         if let Some(target) = HomeTarget::of(&scene.camera, &self.home) {
-            let side = button_side(ui);
-            let left = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
-            let at = rect.left_bottom() + vec2(left, -10.0 - side);
+            let at = button_at(1.0);
             let (icon, hover) = target.button();
             let button = floating_button(ui, at, icon, hover);
             self.rects.record("home", &button);
@@ -294,7 +303,10 @@ impl Interface {
         // A drag belongs to the eye's picture in which it began.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
+        self.pilot.draw_to_places(self.settings.drawn_to_places);
         self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
+        let has_record = self.pilot.dive_record().len() > 1;
+        dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
         if !self.pilot.is_flying()
             && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)
         {
@@ -373,6 +385,7 @@ impl Interface {
             Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
             Command::Preset(index) => self.choose_preset(index),
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
+            Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,
             Command::Leave => self.pilot.set_flying(false),
             Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
@@ -388,9 +401,21 @@ impl Interface {
             | Command::NextKey
             | Command::Home
             | Command::FrameAll
+            | Command::Dive
             | Command::Orbit(..)
             | Command::Pan(..)
             | Command::Dolly(_) => {}
+        }
+    }
+
+    /// Makes the last dive the camera path, as one undo step, and shows the timeline.
+    fn keep_dive(&mut self, wide: bool) {
+        let mut project = self.project().clone();
+        project.path.keys = dive::keys(self.pilot.dive_record(), &project.scene);
+        self.pilot.forget_dive();
+        self.editor.replace(project);
+        if !self.settings.timeline_open {
+            self.toggle_timeline(wide);
         }
     }
 

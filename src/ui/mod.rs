@@ -14,7 +14,7 @@
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
 //! | `field` | the distance field for the camera's movements |
-//! | `home` | the target of the Home button |
+//! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
 //! | [`editor`] | the edited scene and path, and their history |
@@ -23,6 +23,7 @@
 
 mod action;
 mod display_inputs;
+mod dive;
 mod export_size;
 mod field;
 mod handles;

@@ -5,15 +5,19 @@
 
 use egui::{Context, PointerButton, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
+use web_time::Instant;
 
 use super::{
     field::field_of,
     home::HomeTarget,
-    navigation::{CameraStatus, FlyInput, Navigator, Viewport, World},
+    navigation::{
+        CameraStatus, FlyInput, Navigator, Viewport, World,
+        guide::{Guide, GuideStatus},
+    },
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
-    fractal::SharedModel,
+    fractal::{FractalModel, SharedModel},
     scene::{Camera, Scene, StereoLayout},
 };
 
@@ -25,6 +29,8 @@ const KEY_DOLLY: f64 = 0.2;
 const KEY_ORBIT: f64 = 1.0 / 18.0;
 /// Pan per arrow key press, in half heights of the picture.
 const KEY_PAN: f64 = 0.1;
+/// Travel of two fingers in one frame, in points, from which on they pan.
+const PAN_POINTS: f32 = 3.0;
 /// Maximum pause between notches of one undo step.
 const STEP_SECS: f64 = 0.5;
 /// Maximum pause between notches in frames, for low frame rates.
@@ -32,10 +38,16 @@ const STEP_FRAMES: f64 = 2.5;
 /// Upper limit of the pause that [`STEP_FRAMES`] gives.
 const MAX_STEP_SECS: f64 = 3.0;
 
+/// Most seconds of a frame for searches and plans of the guide.
+const GUIDE_SECS: f64 = 0.002;
+
 /// The camera's input state.
 #[derive(Debug, Default)]
 pub struct Pilot {
     navigator: Navigator,
+    guide: Guide,
+    /// True if zooms are drawn to places.
+    is_drawn: bool,
     keys: HeldKeys,
     flying: bool,
     /// True during a two-finger gesture.
@@ -107,19 +119,22 @@ impl Pilot {
     pub fn set_flying(&mut self, flying: bool) {
         self.flying = flying;
         self.navigator.cancel();
+        self.guide.cancel();
         self.looking = false;
     }
 
     /// Cancels gestures and flights, because the scene was replaced.
     pub fn cancel(&mut self) {
         self.navigator.cancel();
+        self.guide.cancel();
+        self.guide.forget_record();
         self.pinching = false;
         self.step_until_secs = 0.0;
     }
 
     /// True if changes at `now_secs` continue the last movement.
     pub fn is_moving(&self, now_secs: f64) -> bool {
-        self.navigator.is_active() || now_secs < self.step_until_secs
+        self.navigator.is_active() || self.guide.is_diving() || now_secs < self.step_until_secs
     }
 
     /// Lets changes of the next [`STEP_SECS`] join the current undo step.
@@ -143,6 +158,31 @@ impl Pilot {
         World { field: &*field, viewport }.camera_status(&scene.camera)
     }
 
+    /// What the guide does.
+    pub fn guide_status(&self) -> GuideStatus {
+        self.guide.status()
+    }
+
+    /// True during a dive.
+    pub fn is_diving(&self) -> bool {
+        self.guide.is_diving()
+    }
+
+    /// The cameras of the last dive with their times in seconds; empty without one.
+    pub fn dive_record(&self) -> &[(f64, Camera)] {
+        self.guide.record()
+    }
+
+    /// Forgets the cameras of the last dive.
+    pub fn forget_dive(&mut self) {
+        self.guide.forget_record();
+    }
+
+    /// Sets whether zooms are drawn to places.
+    pub fn draw_to_places(&mut self, is_drawn: bool) {
+        self.is_drawn = is_drawn;
+    }
+
     /// Moves the scene's camera by this frame's input.
     pub fn move_camera(
         &mut self,
@@ -154,24 +194,83 @@ impl Pilot {
         commands: &[Command],
     ) {
         let viewport = viewport(scene, frame);
-        let field = field_of(&self.models.of(&scene.fractal), scene, viewport);
+        let model = self.models.of(&scene.fractal);
+        let field = field_of(&model, scene, viewport);
         let mut camera = scene.camera.clone();
         let world = World { field: &*field, viewport };
         let ctx = ui.ctx();
-        for &command in commands {
-            self.command(command, &mut camera, world, home, ctx);
+        if ui.input(|i| i.pointer.any_pressed()) && view.contains_pointer() {
+            if !self.guide.is_diving() {
+                self.guide.forget_record();
+            }
+            self.guide.cancel();
         }
-        self.touch(ui, &mut camera, world, frame);
+        for &command in commands {
+            if command.moves_camera() {
+                self.guide.cancel();
+            }
+            match command {
+                Command::Dive => self.toggle_dive(&model, &camera, world),
+                Command::Dolly(steps) => {
+                    let amount = f64::from(steps) * KEY_DOLLY;
+                    self.zoom(&model, &mut camera, world, DVec2::ZERO, amount);
+                    self.extend_step(ctx);
+                }
+                _ => self.command(command, &mut camera, world, home, ctx),
+            }
+        }
+        self.touch(ui, &model, &mut camera, world, frame);
         if !self.pinching {
             self.drag(ui, view, &mut camera, world, frame);
         }
-        self.wheel(ui, view, &mut camera, world, frame);
+        self.wheel(ui, view, &model, &mut camera, world, frame);
         self.fly(ui, view, &mut camera, world);
         let dt_secs = f64::from(ctx.input(|i| i.stable_dt));
-        if self.navigator.advance(&mut camera, dt_secs) {
+        if self.navigator.advance(&mut camera, dt_secs)
+            || self.guide.advance(&model, &mut camera, world, dt_secs)
+        {
             ctx.request_repaint();
         }
         scene.camera = camera;
+        self.guide_work(ctx, &scene.camera, world);
+    }
+
+    /// Begins a dive, or stops the one in progress.
+    fn toggle_dive(&mut self, model: &FractalModel, camera: &Camera, world: World<'_>) {
+        let was_diving = self.guide.is_diving();
+        self.navigator.cancel();
+        self.guide.cancel();
+        if !was_diving {
+            self.flying = false;
+            self.guide.begin_dive(model, camera, world);
+        }
+    }
+
+    /// Runs searches and plans of the guide for [`GUIDE_SECS`].
+    fn guide_work(&mut self, ctx: &Context, camera: &Camera, world: World<'_>) {
+        let began = Instant::now();
+        while self.guide.work(camera, world) {
+            if began.elapsed().as_secs_f64() > GUIDE_SECS {
+                ctx.request_repaint();
+                break;
+            }
+        }
+    }
+
+    /// Zooms by a factor of `exp(amount)` at `ndc`, inward drawn to a place near the pointer.
+    fn zoom(
+        &mut self,
+        model: &FractalModel,
+        camera: &mut Camera,
+        world: World<'_>,
+        ndc: DVec2,
+        amount: f64,
+    ) {
+        let is_drawn = self.is_drawn && !self.flying && amount > 0.0;
+        if !(is_drawn && self.guide.zoom(model, camera, world, ndc, amount)) {
+            self.guide.pause_dive();
+            self.navigator.dolly(camera, world, ndc, amount);
+        }
     }
 
     fn command(
@@ -202,16 +301,19 @@ impl Pilot {
                 self.navigator.end();
                 self.extend_step(ctx);
             }
-            Command::Dolly(steps) => {
-                self.navigator.dolly(camera, world, DVec2::ZERO, f64::from(steps) * KEY_DOLLY);
-                self.extend_step(ctx);
-            }
             _ => {}
         }
     }
 
     /// Two fingers pan and zoom; the point between the fingers stays there.
-    fn touch(&mut self, ui: &Ui, camera: &mut Camera, world: World<'_>, frame: Frame) {
+    fn touch(
+        &mut self,
+        ui: &Ui,
+        model: &FractalModel,
+        camera: &mut Camera,
+        world: World<'_>,
+        frame: Frame,
+    ) {
         let touch = ui.input(|i| i.multi_touch());
         let Some(touch) =
             touch.filter(|touch| self.pinching || frame.rect.contains(touch.start_pos))
@@ -227,8 +329,18 @@ impl Pilot {
             self.pinching = true;
             self.navigator.begin_pan(camera, world, ndc);
         }
-        self.navigator.dolly(camera, world, ndc, f64::from(touch.zoom_delta).ln());
-        self.navigator.drag(camera, world, ndc);
+        // Fingers that travel pan, and are not drawn to a place.
+        let travelled = touch.translation_delta.length() > PAN_POINTS;
+        let amount = f64::from(touch.zoom_delta).ln();
+        if travelled {
+            self.guide.cancel();
+            self.navigator.dolly(camera, world, ndc, amount);
+            self.navigator.drag(camera, world, ndc);
+        } else {
+            self.zoom(model, camera, world, ndc, amount);
+            // The fingers grab what is under them now.
+            self.navigator.begin_pan(camera, world, ndc);
+        }
     }
 
     fn drag(
@@ -268,6 +380,7 @@ impl Pilot {
         &mut self,
         ui: &Ui,
         view: &Response,
+        model: &FractalModel,
         camera: &mut Camera,
         world: World<'_>,
         frame: Frame,
@@ -279,7 +392,7 @@ impl Pilot {
         let (scrolled, zoomed) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
         let amount = f64::from(scrolled) * WHEEL_PER_POINT + f64::from(zoomed.max(1e-3)).ln();
         if amount != 0.0 {
-            self.navigator.dolly(camera, world, frame.ndc(at), amount);
+            self.zoom(model, camera, world, frame.ndc(at), amount);
             self.extend_step(ui.ctx());
         }
     }

@@ -18,6 +18,8 @@ pub struct Settings {
     pub more_open: bool,
     /// The open sections within "More".
     pub sections: Sections,
+    /// True if wheel and pinch are drawn to places that stay beautiful.
+    pub drawn_to_places: bool,
     /// The size of saved pictures.
     pub export: ExportSize,
 }
@@ -29,6 +31,7 @@ impl Default for Settings {
             timeline_open: false,
             more_open: false,
             sections: Sections::default(),
+            drawn_to_places: true,
             export: ExportSize::default(),
         }
     }

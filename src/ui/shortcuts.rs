@@ -28,6 +28,10 @@ pub enum Command {
     Home,
     /// Show the whole fractal.
     FrameAll,
+    /// Begin a dive, or stop it.
+    Dive,
+    /// Keep the last dive as the camera path.
+    KeepDive,
     /// Switch fly mode on or off.
     ToggleFlight,
     /// Close the help window, or leave fly mode.
@@ -58,6 +62,13 @@ pub enum Command {
     Pan(i8, i8),
     /// Move closer (positive) or farther, in steps.
     Dolly(i8),
+}
+
+impl Command {
+    /// Whether the command moves the camera, which ends the guide's descent.
+    pub fn moves_camera(self) -> bool {
+        matches!(self, Self::Home | Self::FrameAll | Self::Orbit(..) | Self::Pan(..))
+    }
 }
 
 /// One row of the shortcut table.
@@ -118,6 +129,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     also(NONE, Key::Minus, Command::Dolly(-1)),
     row(NONE, Key::H, Command::Home, "H", "Home: back to the first view, or out of a deep one"),
     row(NONE, Key::A, Command::FrameAll, "A", "Show the whole fractal"),
+    row(NONE, Key::D, Command::Dive, "D", "Dive: go down by itself, or stop"),
     row(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
     row(NONE, Key::Escape, Command::Leave, "Esc", "Leave fly mode, close help"),
     row(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),
@@ -174,7 +186,7 @@ pub const FLIGHT: &[FlightKey] = &[
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "Orbit around the point under the pointer"),
     ("Right drag, Shift + drag", "Pan"),
-    ("Wheel, pinch", "Move closer or farther, toward the pointer"),
+    ("Wheel, pinch", "Move closer, drawn to good places near the pointer, or farther"),
     ("Two fingers", "Pan and zoom"),
     ("Drag a light's handle", "Move a point light; with Shift toward or away from you"),
     ("Drag in fly mode", "Look around"),

@@ -2,21 +2,28 @@
 
 use std::sync::Arc;
 
+use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, TouchPhase};
+use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 use mandelight::{
     formula::{DistanceField, mandelbulb::Mandelbulb},
     fractal::{FractalModel, camera_ray},
     gpu::device::in_parallel,
     scene::{Camera, Scene},
-    ui::navigation::{
-        World,
-        guide::{Guide, GuideStatus},
+    ui::{
+        Settings,
+        navigation::{
+            World,
+            guide::{Guide, GuideStatus},
+        },
     },
 };
 use mandelight_test_support::{
     deep::{arithmetic::Real, orbit::Set},
     descent::{NOTCH, VIEWPORT, sixteen_pixels, wheel_in},
 };
+
+use crate::stage::{pointer, scene, stage};
 
 /// The field about the point that `camera` looks at.
 fn field_about_pivot(scene: &Scene, camera: &Camera) -> Arc<dyn DistanceField> {
@@ -128,4 +135,71 @@ fn a_touch_stops_a_dive_and_keeps_its_record() {
     assert!(!guide.advance(&model, &mut camera, world, 0.05) && camera == here);
     guide.forget_record();
     assert!(guide.record().is_empty());
+}
+
+#[test]
+fn the_button_dives_a_touch_stops_and_the_dive_becomes_a_path() {
+    let mut harness = stage(Scene::default(), Settings::default(), [900.0, 600.0]);
+    harness.run();
+    let opening = scene(&harness).clone();
+    harness.get_by_label("Dive").click();
+    // The search ends after some frames, whatever the machine's speed; then the eye comes nearer.
+    let mut frames = 0;
+    while scene(&harness).camera.view_unit() > 0.05 * opening.camera.view_unit() {
+        harness.step();
+        frames += 1;
+        assert!(frames < 100_000, "no dive: {:e}", scene(&harness).camera.view_unit());
+    }
+    let view = harness.state().interface.rects().get("view").expect("a view").center();
+    pointer(&mut harness, view, PointerButton::Primary, true, Modifiers::NONE);
+    pointer(&mut harness, view, PointerButton::Primary, false, Modifiers::NONE);
+    harness.run_steps(3);
+    let here = scene(&harness).camera.clone();
+    harness.run_steps(20);
+    assert_eq!(scene(&harness).camera, here, "goes on after a touch");
+
+    harness.get_by_label("Keep as a path").click();
+    harness.run_steps(3);
+    let project = harness.state().interface.project().clone();
+    let keys = &project.path.keys;
+    assert!(keys.len() >= 3, "{} keys", keys.len());
+    assert_eq!(*keys[0].scene, opening);
+    let depths: Vec<_> = keys.iter().map(|key| key.scene.camera.view_unit()).collect();
+    assert!(depths.is_sorted_by(|a, b| a > b), "{depths:?}");
+    assert!(harness.query_by_label("Keep as a path").is_none());
+
+    // The dive was one step of undo.
+    let editor = harness.state_mut().interface.editor_mut();
+    editor.undo();
+    editor.undo();
+    assert_eq!(scene(&harness).camera, opening.camera);
+}
+
+#[test]
+fn the_wheel_is_drawn_to_a_place_only_with_the_switch() {
+    let ends = [true, false].map(|drawn_to_places| {
+        let settings = Settings { drawn_to_places, ..Settings::default() };
+        let mut harness = stage(Scene::default(), settings, [900.0, 600.0]);
+        harness.run();
+        let at = harness.state().interface.rects().get("view").expect("a view").center();
+        harness.event(Event::PointerMoved(at));
+        let mut frames = 0;
+        while scene(&harness).camera.view_unit() > 1e-3 && frames < 2000 {
+            harness.event(Event::MouseWheel {
+                unit: MouseWheelUnit::Point,
+                delta: egui::vec2(0.0, 30.0),
+                phase: TouchPhase::Move,
+                source: egui::MouseWheelSource::Unknown,
+                modifiers: Modifiers::NONE,
+            });
+            harness.step();
+            frames += 1;
+        }
+        scene(&harness).camera.clone()
+    });
+    // Drawn, the eye turns about the place; without, it keeps its direction.
+    let turned =
+        |camera: &Camera| camera.rotation().angle_between(Scene::default().camera.rotation());
+    assert!(turned(&ends[0]) > 0.05, "{}", turned(&ends[0]));
+    assert!(turned(&ends[1]) < 1e-6, "{}", turned(&ends[1]));
 }

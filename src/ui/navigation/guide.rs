@@ -109,6 +109,8 @@ impl Guide {
     }
 
     /// Forgets places and stops a dive: the person moves the camera, or the scene was replaced.
+    ///
+    /// The last dive's record stays.
     pub fn cancel(&mut self) {
         self.stop_dive();
         (self.inquiry, self.descent, self.ended) = (None, None, None);
@@ -256,6 +258,13 @@ impl Guide {
         };
         if let Some(best) = places.iter().filter(is_in_view).find(is_as_good) {
             self.descent = Some((Descent::new(best.clone()), pointer));
+        }
+    }
+
+    /// Stops a dive but keeps the place: the person zooms by hand.
+    pub fn pause_dive(&mut self) {
+        if self.is_diving() {
+            self.stop_dive();
         }
     }
 

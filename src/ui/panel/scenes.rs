@@ -5,7 +5,7 @@ use egui::{Button, Id, RichText, Ui, vec2};
 use super::context::Context;
 use crate::{
     scene::presets::{self, Preset},
-    ui::{shortcuts::Command, status::zoom, theme},
+    ui::{shortcuts::Command, status::zoom},
 };
 
 /// Zoom from which on the list of dives is shown first.
@@ -38,8 +38,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         buttons(ui, cx, heading, presets, first);
     }
     if chosen == 1 {
-        let hint = "Scroll or pinch on the picture to dive elsewhere.";
-        ui.add(egui::Label::new(RichText::new(hint).small().color(theme::TEXT_DIM)).wrap());
+        let drawn = ui
+            .checkbox(&mut cx.settings.drawn_to_places, "Zoom finds good places")
+            .on_hover_text("The wheel and two fingers lead to a place near the pointer that stays beautiful at every depth. Off: straight to the pointer.");
+        cx.rects.record("drawn to places", &drawn);
     }
 }
 
