@@ -2,17 +2,18 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, Margin, Panel, Rect, Ui, vec2};
+use egui::{Align2, Margin, Panel, Rect, Ui, vec2};
 
 use super::{
     action::Action,
-    display_inputs::{DisplayInputs, Notice},
+    display_inputs::DisplayInputs,
     dive,
     editor::Editor,
     handles,
     home::HomeTarget,
     icon::{Icon, icon_button},
     navigation::CameraStatus,
+    notice,
     panel::{self, Context},
     pilot::{Frame, Pilot},
     rects::Rects,
@@ -167,7 +168,7 @@ impl Interface {
         self.panels(ui, inputs, wide, &mut commands, &mut actions);
         self.status(ui, inputs);
         self.view(ui, inputs, wide, &mut commands);
-        notice(ui, inputs.notice, self.rects.get("view"), &mut actions);
+        notice::show(ui, inputs.notice, self.rects.get("view"), &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open);
 
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
@@ -469,44 +470,4 @@ fn stepped_by_key(input: &egui::InputState) -> bool {
     let keys =
         [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::PageUp, Key::PageDown];
     keys.into_iter().any(|key| input.key_pressed(key))
-}
-
-/// The shell's message, at the view's upper edge.
-fn notice(ui: &mut Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut Vec<Action>) {
-    let (Some(notice), Some(view)) = (notice, view) else {
-        return;
-    };
-    let width = (view.width() - 24.0).clamp(120.0, 460.0);
-    egui::Area::new(egui::Id::unique("notice"))
-        .fixed_pos(view.center_top() + vec2(0.0, 12.0))
-        .pivot(Align2::CENTER_TOP)
-        .constrain_to(view)
-        .show(ui.ctx(), |ui| {
-            let edge = if notice.is_error { theme::ERROR } else { theme::ACCENT };
-            egui::Frame::new()
-                .fill(theme::PANEL)
-                .stroke(egui::Stroke::new(1.0, edge))
-                .corner_radius(8)
-                .inner_margin(Margin { left: 12, right: 6, top: 6, bottom: 6 })
-                .show(ui, |ui| {
-                    ui.horizontal(|ui| {
-                        let color = if notice.is_error { theme::ERROR } else { Color32::WHITE };
-                        let font = egui::FontId::proportional(13.5);
-                        let text = notice.text.clone();
-                        let text = ui.painter().layout(text, font, color, width - 52.0);
-                        let size = vec2(text.size().x, text.size().y.max(28.0));
-                        let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
-                        ui.ctx().accesskit_node_builder(shown.id, |node| {
-                            node.set_role(egui::accesskit::Role::Alert);
-                            node.set_label(notice.text.as_str());
-                        });
-                        let at = rect.left_center() - vec2(0.0, text.size().y / 2.0);
-                        ui.painter().galley(at, text, color);
-                        let dismiss = icon_button(ui, Icon::Cross, "Dismiss", "Close this message");
-                        if dismiss.clicked() {
-                            actions.push(Action::DismissNotice);
-                        }
-                    });
-                });
-        });
 }

@@ -14,6 +14,7 @@
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
 //! | `field` | the distance field for the camera's movements |
+//! | `notice` | the shell's message over the picture |
 //! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
@@ -30,6 +31,7 @@ mod handles;
 mod home;
 mod icon;
 mod interface;
+mod notice;
 mod panel;
 mod pilot;
 mod selection;

@@ -151,8 +151,8 @@ fn the_button_dives_a_touch_stops_and_the_dive_becomes_a_path() {
         assert!(frames < 100_000, "no dive: {:e}", scene(&harness).camera.view_unit());
     }
     let view = harness.state().interface.rects().get("view").expect("a view").center();
-    pointer(&mut harness, view, PointerButton::Primary, true, Modifiers::NONE);
-    pointer(&mut harness, view, PointerButton::Primary, false, Modifiers::NONE);
+    pointer(&harness, view, PointerButton::Primary, true, Modifiers::NONE);
+    pointer(&harness, view, PointerButton::Primary, false, Modifiers::NONE);
     harness.run_steps(3);
     let here = scene(&harness).camera.clone();
     harness.run_steps(20);
