@@ -9,7 +9,7 @@ use std::{process::Command, time::Instant};
 use mandelight::{
     gpu::Gpu,
     render::{Pace, Pipelines, Region, Report, View},
-    scene::Scene,
+    scene::presets,
 };
 use serde::{Deserialize, Serialize};
 
@@ -88,7 +88,7 @@ pub fn once(arguments: &Arguments) -> Result<(), Failure> {
     let device = lap();
     let pipelines = Pipelines::new(&gpu);
     let compiled = lap();
-    let mut scene = Scene::default();
+    let mut scene = presets::opening();
     scene.quality.samples = 1;
     let size_px = arguments.size.unwrap_or(SIZE_PX);
     let drawn_until = |is_enough: fn(&Report) -> bool| {

@@ -19,7 +19,7 @@ use crate::{
     gpu::host_shared::HostShared,
     scene::{
         self, BloomOrder, ColorSource, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
-        ToneChannels, ToneCurve, ToneMean, color,
+        ToneChannels, ToneCurve, ToneMean, color, follow,
     },
 };
 
@@ -220,7 +220,7 @@ fn surface(scene: &Scene) -> Surface {
         },
         color_repeats: surface.coloring.repeats as f32,
         color_offset: surface.coloring.offset as f32,
-        light_count: scene.lights.len() as u32,
+        light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
     }
 }
 

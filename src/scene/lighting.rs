@@ -21,6 +21,9 @@ pub struct Lights {
     pub point: Vec<PointLight>,
     /// Directional lights generated from a sky or an environment map.
     pub rig: Rig,
+    /// True if lights fixed to the scene turn into a set tied to the view near a surface:
+    /// [`follow`](super::follow).
+    pub follow_view: bool,
 }
 
 impl Lights {
@@ -79,6 +82,7 @@ impl Default for Lights {
             ],
             point: Vec::new(),
             rig: Rig::default(),
+            follow_view: false,
         }
     }
 }

@@ -10,6 +10,7 @@
 //! | `camera`, `stereo`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | `lighting` | the part that holds all lights |
 //! | `light`, `rig` | single lights; lights generated together |
+//! | [`follow`] | the lights of close views, which follow the view |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
 //! | [`environment_map`] | an environment map, decoded, and cut into lights |
@@ -35,6 +36,7 @@ mod tone;
 pub mod color;
 pub mod document;
 pub mod environment_map;
+pub mod follow;
 pub mod history;
 mod indirect;
 pub mod link;

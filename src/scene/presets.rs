@@ -1,7 +1,7 @@
 //! The opening scenes, and the dives.
 //!
 //! In: nothing. Out: scenes to start from, each valid, the eye outside of the set and
-//! the pivot on or near what it shows, the first the default scene; and places at depth.
+//! the pivot on or near what it shows; and places at depth.
 
 mod dives;
 mod preset;
@@ -12,6 +12,7 @@ use super::{
     background::Background,
     camera::Camera,
     description::Scene,
+    indirect::{Indirect, IndirectKind},
     light::{EnvironmentLight, LightFrame, PointLight},
     lighting::Lights,
     surface::{ColorSource, Coloring, GradientStop, Surface},
@@ -24,53 +25,61 @@ use crate::formula::{
 pub use dives::dives;
 pub use preset::Preset;
 
-/// The opening scenes, the default first.
+/// Strength of new scenes' indirect light: crevices fill, and shapes keep their shadows.
+const INDIRECT_STRENGTH: f64 = 0.35;
+
+/// The scene that the program opens on: the first of [`all`].
+pub fn opening() -> Scene {
+    new_scene(mandelbulb())
+}
+
+/// The opening scenes.
 pub fn all() -> &'static [Preset] {
     &[
         Preset {
             name: "Mandelbulb",
             blurb: "Power 8, whole: the set that gave the others their name.",
-            scene: Scene::default,
+            scene: || new_scene(mandelbulb()),
         },
         Preset {
             name: "Coral reef",
             blurb: "Close to the power-8 bulb, where lobes grow on lobes.",
-            scene: coral_reef,
+            scene: || new_scene(coral_reef()),
         },
         Preset {
             name: "Four petals",
             blurb: "Power 4: few lobes, deep folds.",
-            scene: four_petals,
+            scene: || new_scene(four_petals()),
         },
         Preset {
             name: "Quadratic",
             blurb: "Power 2, the Mandelbrot set's own exponent in space.",
-            scene: quadratic,
+            scene: || new_scene(quadratic()),
         },
         Preset {
             name: "Sea urchin",
             blurb: "Power 16: a ball beset with small buds.",
-            scene: sea_urchin,
+            scene: || new_scene(sea_urchin()),
         },
         Preset {
             name: "In between",
             blurb: "Power 5.5: the seam where the turns do not close.",
-            scene: in_between,
+            scene: || new_scene(in_between()),
         },
         Preset {
             name: "Julia",
             blurb: "One constant for every point: the bulb's Julia form.",
-            scene: julia,
+            scene: || new_scene(julia()),
         },
         Preset {
             name: "Whorls",
             blurb: "A quaternion Julia set: a shell of four dimensions, cut open.",
-            scene: whorls,
+            scene: || new_scene(whorls()),
         },
         Preset {
             name: "Lantern",
             blurb: "A crevice of the power-8 bulb, lit from within by two points of light.",
-            scene: lantern,
+            scene: || new_scene(lantern()),
         },
     ]
 }
@@ -79,6 +88,19 @@ pub fn all() -> &'static [Preset] {
 pub fn every() -> impl ExactSizeIterator<Item = &'static Preset> + Clone {
     let count = all().len();
     (0..count + dives().len()).map(move |i| if i < count { &all()[i] } else { &dives()[i - count] })
+}
+
+/// `scene` with what documents leave off and new scenes have: lights that follow, indirect light.
+fn new_scene(scene: Scene) -> Scene {
+    Scene {
+        lights: Lights { follow_view: true, ..scene.lights },
+        indirect: Indirect {
+            kind: IndirectKind::Horizon,
+            strength: INDIRECT_STRENGTH,
+            ..scene.indirect
+        },
+        ..scene
+    }
 }
 
 /// The camera at `eye`, looking at `pivot`, the world's z upward.
@@ -100,6 +122,10 @@ fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> Environmen
 
 fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
     list.iter().map(|&(position, color)| GradientStop { position, color }).collect()
+}
+
+fn mandelbulb() -> Scene {
+    Scene::default()
 }
 
 fn coral_reef() -> Scene {

@@ -7,7 +7,7 @@ use egui::{Rect, RichText, Sense, Ui, pos2};
 use super::{navigation::CameraStatus, theme};
 use crate::{
     render::report::{Activity, Report},
-    scene::{Camera, Fractal, Scene},
+    scene::{Camera, Fractal, Scene, presets},
 };
 
 /// Height of the line, in points.
@@ -173,10 +173,10 @@ fn limit_help(scene: &Scene) -> String {
     )
 }
 
-/// Magnification at the pivot, relative to a new scene.
+/// Magnification at the pivot, relative to the scene that the program opens on.
 pub fn zoom(camera: &Camera) -> f64 {
     let height = |camera: &Camera| camera.view_unit() * camera.half_height(1.0);
-    height(&Camera::default()) / height(camera).max(f64::MIN_POSITIVE)
+    height(&presets::opening().camera) / height(camera).max(f64::MIN_POSITIVE)
 }
 
 /// A zoom as text: `1.5×`, from 10000 on `3.2 × 10⁵`.
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn a_new_scene_has_zoom_one() {
-        assert!((zoom(&Camera::default()) - 1.0).abs() < 1e-12);
+        assert!((zoom(&presets::opening().camera) - 1.0).abs() < 1e-12);
     }
 
     #[test]

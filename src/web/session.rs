@@ -17,7 +17,7 @@ use crate::{
     export,
     gpu::Gpu,
     render::Report,
-    scene::{BackgroundKind, Project, Scene, document, environment_map, link},
+    scene::{BackgroundKind, Project, Scene, document, environment_map, link, presets},
     ui::{Interface, Notice, Settings, theme},
 };
 
@@ -69,7 +69,8 @@ impl Session {
         let (project, error) = initial_project(&address);
         let has_link = project.is_some() && address.read_foreign().is_some();
         let settings = stored_settings().unwrap_or_else(|| first_settings(has_link));
-        let interface = Interface::new(project.unwrap_or_default(), settings);
+        let interface =
+            Interface::new(project.unwrap_or_else(|| presets::opening().into()), settings);
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
         let mut session = Self {

@@ -16,7 +16,7 @@ use std::{
 use mandelight::{
     export,
     scene::{
-        Camera, Path, Project, Scene, document, link,
+        Path, Project, Scene, document, link,
         path::{Easing, Key},
         presets,
     },
@@ -45,9 +45,10 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     let fragment = link::to_fragment(&linked()).unwrap();
     let visit = Visit::run_with("explore", [("MANDELIGHT_LINK", fragment)]);
 
-    // The page opens on the default scene, and takes a scene to its last sample.
+    // The page opens on the first scene, and takes a scene to its last sample.
     let opened = visit.scene("opened");
-    assert_eq!(Scene { camera: Camera::default(), ..opened.clone() }, Scene::default());
+    let first = presets::opening();
+    assert_eq!(Scene { camera: first.camera.clone(), ..opened.clone() }, first);
     let quick = visit.scene("quick");
     assert_eq!(visit.number("/quick/samplesDone"), f64::from(quick.quality.samples));
 
@@ -248,5 +249,5 @@ fn a_dive_by_the_wheel_goes_on_below_single_precision_and_comes_home() {
     assert_eq!(visit.scene("linked"), dive());
     assert!(visit.number("/linked_zoom") > 1e19);
     assert!(visit.pixels("linked").contrast() > 5.0, "the linked picture is empty");
-    assert_eq!(visit.scene("home").camera, Camera::default());
+    assert_eq!(visit.scene("home").camera, presets::opening().camera);
 }

@@ -4,7 +4,7 @@
 
 use std::{fs, path::PathBuf};
 
-use mandelight::scene::{ColorSource, PointLight, PrecisePoint, Scene};
+use mandelight::scene::{ColorSource, PointLight, PrecisePoint, Scene, presets};
 use mandelight_test_support::{
     compare::{Tolerance, complaint},
     picture::Picture,
@@ -55,7 +55,7 @@ fn a_missing_golden_picture_is_a_fault() {
 
 #[test]
 fn the_opening_scene_looks_as_it_did() {
-    check("default", &Scene::default());
+    check("opening", &presets::opening());
 }
 
 #[test]

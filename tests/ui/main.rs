@@ -7,6 +7,7 @@ mod descent;
 mod dive;
 mod environment_map;
 mod fit;
+mod follow;
 mod gestures;
 mod hostile;
 mod navigation;

@@ -159,7 +159,7 @@ impl Session {
     }
 }
 
-/// The page's first scene, with shadows from each of its three lights.
+/// The default scene of documents, with shadows from each of its three lights.
 fn first_scene() -> Scene {
     let mut scene = Scene::default();
     for light in &mut scene.lights.environment {

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::shared::Light;
 use crate::{
     render::space::RenderSpace,
-    scene::{LightFrame, MAX_LIGHTS, Scene},
+    scene::{LightFrame, MAX_LIGHTS, Scene, follow},
 };
 
 /// Distance in view units beyond which a point light is treated as a directional light.
@@ -14,11 +14,12 @@ use crate::{
 /// display resolves.
 const FAR_VIEWS: f64 = 1e6;
 
-/// The scene's lights: environment lights, then point lights, then the rig's.
+/// The scene's [effective](follow::effective) lights: environment, then point lights, then the rig's.
 ///
 /// Each light's visibility bit is its index. Muted lights stay, in black.
 pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
-    let any_solo = scene.lights.any_solo();
+    let shining = follow::effective(&scene.lights, &scene.camera);
+    let any_solo = shining.any_solo();
     let color = |[r, g, b]: [f32; 3], intensity: f64, muted: bool, solo: bool| {
         let shines = !muted && (solo || !any_solo);
         let strength = if shines { intensity as f32 } else { 0.0 };
@@ -33,7 +34,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
         };
         direction.as_vec3().normalize_or(Vec3::Z).to_array()
     };
-    let environment = scene.lights.environment.iter().map(|light| {
+    let environment = shining.environment.iter().map(|light| {
         let direction = DVec3::from_array(light.direction);
         let radiance = color(light.color, light.intensity, light.muted, light.solo);
         Light {
@@ -45,7 +46,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             ..Light::default()
         }
     });
-    let point = scene.lights.point.iter().map(|light| {
+    let point = shining.point.iter().map(|light| {
         let place = space.point(&light.position);
         let way = place - space.point(&scene.camera.position);
         let casts_shadows = casts(light.casts_shadows);
@@ -65,7 +66,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             ..Light::default()
         }
     });
-    let rig = &scene.lights.rig;
+    let rig = &shining.rig;
     let rig_lights = rig.lights().into_iter().map(|(direction, strength)| {
         let radiance = color(strength.as_vec3().to_array(), 1.0, rig.muted, rig.solo);
         Light {

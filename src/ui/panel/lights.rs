@@ -8,7 +8,7 @@ use super::{
     light, rig,
 };
 use crate::{
-    scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, param},
+    scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, follow, param},
     ui::{
         selection::LightRef,
         theme,
@@ -20,12 +20,20 @@ use crate::{
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     caption(ui, "Light");
     // The open section of all lights has its own ball.
-    let section_open = cx.settings.more_open && cx.settings.sections.is_open(SECTION.name);
+    if !(cx.settings.more_open && cx.settings.sections.is_open(SECTION.name)) {
+        edit_as_seen(ui, cx, key_ball);
+    }
+    let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
+    cx.rects.record("exposure", &response);
+}
+
+/// The direction and colour of the selected light, or of the first.
+fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
     let key = match cx.selection.light {
         Some(LightRef::Environment(index)) => index,
         _ => 0,
     };
-    if !section_open && let Some(light) = cx.scene.lights.environment.get_mut(key) {
+    if let Some(light) = cx.scene.lights.environment.get_mut(key) {
         let camera = &cx.scene.camera;
         ui.horizontal(|ui| {
             let response = light::direction_ball(ui, 84.0, light, camera);
@@ -44,8 +52,17 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
             });
         });
     }
-    let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
-    cx.rects.record("exposure", &response);
+}
+
+/// Shows and edits the lights as they shine in this view, which may have turned toward it.
+fn edit_as_seen(ui: &mut Ui, cx: &mut Context<'_>, show: fn(&mut Ui, &mut Context<'_>)) {
+    let Some(seen) = follow::shown(&cx.scene.lights, &cx.scene.camera) else {
+        return show(ui, cx);
+    };
+    let document = std::mem::replace(&mut cx.scene.lights, seen.clone());
+    show(ui, cx);
+    let edited = std::mem::take(&mut cx.scene.lights);
+    cx.scene.lights = follow::with_edit(document, &seen, edited, &cx.scene.camera);
 }
 
 /// The section of the panel.
@@ -56,8 +73,19 @@ pub(super) const SECTION: Section = Section {
     show,
 };
 
-/// All lights and the selected one's properties.
+/// The switch of lights that follow, and all lights.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    let follows = ui
+        .checkbox(&mut cx.scene.lights.follow_view, "Follow close views")
+        .on_hover_text(
+            "Very close to the surface, the lights turn with you and shadows of far surfaces fade, so that what you see stays lit. The whole fractal keeps its lights in place. Turning a light there ends this.",
+        );
+    cx.rects.record("follow view", &follows);
+    edit_as_seen(ui, cx, list_and_selected);
+}
+
+/// The list of all lights, the selected one's properties, and the rig.
+fn list_and_selected(ui: &mut Ui, cx: &mut Context<'_>) {
     if cx.selection.light.is_none_or(|light| !light.exists(&cx.scene.lights)) {
         cx.selection.light = first(&cx.scene.lights);
     }

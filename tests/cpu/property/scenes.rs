@@ -194,8 +194,9 @@ fn rig() -> impl Strategy<Value = Rig> {
 }
 
 fn lights() -> impl Strategy<Value = Lights> {
-    (vec(environment_light(), 0..4), vec(point_light(), 0..4), rig())
-        .prop_map(|(environment, point, rig)| Lights { environment, point, rig })
+    (vec(environment_light(), 0..4), vec(point_light(), 0..4), rig(), any::<bool>()).prop_map(
+        |(environment, point, rig, follow_view)| Lights { environment, point, rig, follow_view },
+    )
 }
 
 fn surface() -> impl Strategy<Value = Surface> {

@@ -29,6 +29,7 @@ fn full_document(formula: FormulaRef) -> Value {
         rig: Rig { environment_map, ..Default::default() },
         environment: vec![EnvironmentLight { shadow_reach: Some(1.0), ..Default::default() }],
         point: vec![PointLight::default()],
+        follow_view: true,
     };
     scene.surface.gradient = vec![GradientStop { position: 0.5, color: [1.0; 3] }];
     serde_json::from_str(&to_json(&scene)).unwrap()

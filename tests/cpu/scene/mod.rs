@@ -2,6 +2,7 @@
 
 mod dives;
 mod document;
+mod follow;
 mod path_document;
 mod presets;
 mod versions;

@@ -43,15 +43,26 @@ fn mandelbulb_distance(fractal: &Mandelbulb, point: DVec3) -> f64 {
 }
 
 #[test]
-fn the_first_is_the_default_and_names_differ() {
+fn the_program_opens_on_the_first_and_names_differ() {
     let presets = presets::all();
-    assert_eq!((presets[0].scene)(), Scene::default());
+    assert_eq!((presets[0].scene)(), presets::opening());
     for (i, preset) in presets.iter().enumerate() {
         assert!(!preset.name.is_empty() && preset.blurb.ends_with('.'));
         for other in &presets[..i] {
             assert_ne!(preset.name, other.name);
             assert_ne!((preset.scene)(), (other.scene)(), "{} and {}", preset.name, other.name);
         }
+    }
+}
+
+/// Documents that leave the switches out keep the look they had before there were switches.
+#[test]
+fn each_switches_on_what_documents_leave_off() {
+    let default = Scene::default();
+    assert!(!default.lights.follow_view && !default.has_indirect());
+    for preset in presets::all() {
+        let scene = (preset.scene)();
+        assert!(scene.lights.follow_view && scene.has_indirect(), "{}", preset.name);
     }
 }
 
@@ -63,7 +74,7 @@ fn each_is_valid_and_fits_a_link() {
         assert_eq!(document::from_json(&document::to_json(&scene)), Ok(scene.clone()));
         let fragment = link::to_fragment(&scene).unwrap();
         // docs/scene.md states these lengths.
-        let lengths = if scene == Scene::default() { 9..=9 } else { 450..=650 };
+        let lengths = if scene == presets::opening() { 90..=110 } else { 530..=680 };
         assert!(
             lengths.contains(&fragment.len()),
             "{}: {} characters",
