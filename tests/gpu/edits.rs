@@ -3,8 +3,13 @@
 
 use glam::DVec3;
 use mandelight::{
+    formula::Ray,
+    fractal::FractalModel,
     render::{Pace, Pipelines, Region, View},
-    scene::{EnvironmentLight, IndirectKind, Normals, PointLight, RigKind, Scene},
+    scene::{
+        EnvironmentLight, IndirectKind, Normals, PointLight, PrecisePoint, RigKind, Scene, follow,
+        presets,
+    },
 };
 use mandelight_test_support::{
     compare::assert_same,
@@ -151,5 +156,48 @@ fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
         let after = pixels(&view);
         assert!(after != before, "the edit shows");
         assert_same(&after, &still(&scene, SIZE), SIZE, "an edit of lights");
+    }
+}
+
+/// The opening scene, its eye moved to `unit` from the surface, toward the pivot.
+fn close(unit: f64) -> Scene {
+    let mut scene = sampled(presets::opening(), 1);
+    let model = FractalModel::new(&scene.fractal);
+    let camera = &mut scene.camera;
+    let ray = Ray { origin: camera.position.to_dvec3(), direction: camera.forward() };
+    let depth = model.whole().march(ray, 1e-7, f64::INFINITY).expect("the set is there");
+    camera.pivot = PrecisePoint::from(ray.at(depth));
+    camera.position = PrecisePoint::from(ray.at(depth - unit));
+    scene
+}
+
+/// Lights that follow the view turn while it comes closer, and while it turns there.
+#[test]
+fn lights_that_follow_end_in_the_picture_of_their_effective_set() {
+    pipelines().specialize(&close(0.5));
+    let mut view = finished(&close(0.5), SIZE, Pace::Interactive);
+    let turned = |unit: f64| {
+        let mut scene = close(unit);
+        let turn = glam::DQuat::from_rotation_z(0.3) * scene.camera.rotation();
+        scene.camera.orientation = turn.normalize().into();
+        scene
+    };
+    let off = |unit: f64| {
+        let mut scene = close(unit);
+        scene.lights.follow_view = false;
+        scene
+    };
+    for scene in [close(5e-3), close(2e-3), turned(2e-3), close(8e-4), off(8e-4), turned(8e-4)] {
+        let before = pixels(&view);
+        view.set_scene(&scene, false);
+        settle(&mut view);
+        let after = pixels(&view);
+        assert!(after != before, "the change shows");
+        let lights = follow::effective(&scene.lights, &scene.camera).into_owned();
+        let fixed = Scene { lights, ..scene.clone() };
+        let fresh = still(&scene, SIZE);
+        assert!(fresh == still(&fixed, SIZE), "the lights are not the effective ones");
+        let what = format!("a view of {:e}", scene.camera.view_unit());
+        assert_same(&after, &fresh, SIZE, &what);
     }
 }
