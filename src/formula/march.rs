@@ -179,16 +179,16 @@ pub trait DistanceField: Send + Sync {
         (1..=THICKNESS_CHECKS).all(|k| is_near(place(k))).then_some(hit)
     }
 
-    /// The depth at which a ray that misses comes closest to the surface.
+    /// The depth at which a ray comes closest to the surface, by at most `max_steps` steps.
     ///
-    /// Closest as seen from the ray's origin: least distance over depth. The depth is at least zero.
-    fn closest_approach(&self, ray: Ray, max_depth: f64) -> f64 {
+    /// Closest as seen from the ray's origin: least distance over depth. A ray that comes within the hit
+    /// distance, `cone` per unit of depth, ends there. The depth is at least zero.
+    fn closest_approach(&self, ray: Ray, cone: f64, max_steps: u32) -> f64 {
         let Some((near, far)) = ray.sphere_span(self.center(), self.bounding_radius()) else {
-            return ray.depth_beside(self.center()).clamp(0.0, max_depth);
+            return ray.depth_beside(self.center()).max(0.0);
         };
-        let far = far.min(max_depth);
         let (mut depth, mut best, mut best_ratio) = (near, near, f64::INFINITY);
-        for _ in 0..MAX_MARCH_STEPS {
+        for _ in 0..max_steps {
             if depth > far {
                 break;
             }
@@ -197,7 +197,7 @@ pub trait DistanceField: Send + Sync {
             if ratio < best_ratio {
                 (best, best_ratio) = (depth, ratio);
             }
-            if distance <= 0.0 {
+            if ratio <= cone {
                 break;
             }
             // At least a quarter of the estimate: a crawl takes too long, and the exact minimum does not matter.

@@ -8,8 +8,10 @@
 //! |---|---|
 //! | `navigation.rs` | the navigator: the pointer's gestures, and which movement is active |
 //! | `world` | the surface around the camera: picking, limits, rounding |
+//! | `aim` | the surface in the picture nearest to the pointer |
 //! | `placement` | rounded positions of eye and pivot |
 //! | [`collide`] | collision of the eye with the surface, and sliding along it |
+//! | `way_back` | the way back from where the picture shows nothing |
 //! | [`turntable`] | rotations that keep the horizon level |
 //! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
 //! | [`descent`] | zooms about a place, with a turn toward the best view |
@@ -29,6 +31,7 @@
 //! - no measurement uses absolute f64 coordinates: positions are exact points, and nearby positions
 //!   are vectors from the field's origin, so that all zoom levels behave alike.
 
+mod aim;
 pub mod collide;
 pub mod descent;
 pub mod flight;
@@ -37,6 +40,7 @@ pub mod guide;
 mod placement;
 mod route;
 pub mod turntable;
+mod way_back;
 mod world;
 
 use std::ops::RangeInclusive;
@@ -53,6 +57,8 @@ pub use world::{CameraStatus, MAX_EYE_DISTANCE, Viewport, World};
 
 /// Range of the pivot's distance during a dolly, as a fraction of the target's depth.
 const PIVOT_PARTS: RangeInclusive<f64> = 0.02..=50.0;
+/// Movement of the pointer, in pixels, within which a run of zooms holds on to its target.
+const REST_PX: f64 = 3.0;
 /// Rotation for a drag over half the picture's height, in radians.
 const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
@@ -60,13 +66,35 @@ const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
 #[derive(Clone, Debug)]
 enum Gesture {
     Orbit { last: DVec2, turntable: Turntable },
-    Pan { grabbed: PrecisePoint },
+    Pan(Pan),
+}
+
+/// A pan in progress.
+#[derive(Clone, Debug)]
+struct Pan {
+    grabbed: PrecisePoint,
+    /// Where the grabbed point is seen from the pointer, in normalised device coordinates.
+    from_pointer: DVec2,
+    /// False if the picture shows no surface.
+    is_surface: bool,
+}
+
+/// What a run of zooms holds on to while the pointer rests.
+#[derive(Clone, Copy, Debug)]
+struct Hold {
+    pointer: DVec2,
+    /// Where the target is in the picture: zooming toward it keeps it there.
+    aim: DVec2,
 }
 
 /// The state of movements between events.
 #[derive(Clone, Debug, Default)]
 pub struct Navigator {
     gesture: Option<Gesture>,
+    hold: Option<Hold>,
+    nothing_ahead: bool,
+    /// True on the way back from a picture without a surface.
+    is_lost: bool,
     fly_speed: FlySpeed,
     flight: Option<Flight>,
 }
@@ -77,31 +105,42 @@ impl Navigator {
         self.gesture.is_some() || self.flight.is_some()
     }
 
-    /// Begins an orbit around the surface point under the pointer, which becomes the pivot.
+    /// Begins an orbit, and chooses its pivot.
     ///
-    /// Over the background, a pivot inside the picture stays. A pivot outside the picture moves
-    /// to the point of the pointer's ray closest to the surface.
+    /// The set's centre, while the picture shows the whole set. In closer views the surface point under
+    /// the pointer; over the background the present pivot if it is on a surface in the picture, else the
+    /// surface point nearest to the pointer. Nothing in the picture moves.
     pub fn begin_orbit(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) {
         self.cancel();
-        let pivot_in_picture = world
-            .ndc_of(camera, &camera.pivot - &camera.position)
-            .is_some_and(|seen| seen.abs().max_element() <= 1.0);
-        let pivot = match world.pick(camera, ndc) {
-            Some(picked) => Some(picked),
-            None if pivot_in_picture => None,
-            None => Some(world.target(camera, ndc)),
+        let offset = &camera.pivot - &camera.position;
+        let pivot = if world.shows_whole(camera) {
+            Some(world.field.center() - world.eye(camera))
+        } else if let Some(picked) = world.pick(camera, ndc) {
+            Some(picked)
+        } else if world.is_surface_in_picture(camera, offset) {
+            None
+        } else {
+            let nearest = aim::nearest(world, camera, ndc);
+            Some(nearest.map_or_else(|| world.target(camera, ndc), |aim| aim.offset))
         };
-        if let Some(offset) = pivot {
-            camera.pivot = camera.position.moved_by(offset, world.grain(camera));
+        if let Some(pivot) = pivot.filter(|pivot| pivot.distance(offset) > world.grain(camera)) {
+            camera.pivot = camera.position.moved_by(pivot, world.grain(camera));
         }
         self.gesture = Some(Gesture::Orbit { last: ndc, turntable: Turntable::of(camera) });
     }
 
-    /// Begins a pan: [`Self::drag`] keeps the grabbed surface point under the pointer.
+    /// Begins a pan: [`Self::drag`] keeps the grabbed surface point at its place from the pointer.
+    ///
+    /// Over the background, that is the surface point nearest to the pointer.
     pub fn begin_pan(&mut self, camera: &Camera, world: World<'_>, ndc: DVec2) {
         self.cancel();
-        let grabbed = camera.position.moved_by(world.target(camera, ndc), world.grain(camera));
-        self.gesture = Some(Gesture::Pan { grabbed });
+        let aim = aim::nearest(world, camera, ndc);
+        let target = aim.map_or_else(|| world.target(camera, ndc), |aim| aim.offset);
+        self.gesture = Some(Gesture::Pan(Pan {
+            grabbed: camera.position.moved_by(target, world.grain(camera)),
+            from_pointer: aim.map_or(DVec2::ZERO, |aim| aim.ndc - ndc),
+            is_surface: aim.is_some(),
+        }));
     }
 
     /// Continues the gesture with the pointer at `ndc`. Returns whether the camera changed.
@@ -116,8 +155,11 @@ impl Navigator {
                 // The scene follows the pointer, so the eye moves in the opposite direction.
                 turntable.orbit(camera, world, DVec2::new(-moved.x, moved.y));
             }
-            Some(Gesture::Pan { grabbed }) => pan(camera, world, grabbed, ndc),
-            None => {}
+            // The way back turns, so what was grabbed is no longer where it was.
+            Some(Gesture::Pan(held)) if !self.is_lost => {
+                pan(camera, world, &held.grabbed, ndc + held.from_pointer);
+            }
+            _ => {}
         }
         *camera != before
     }
@@ -130,15 +172,25 @@ impl Navigator {
     /// Cancels the gesture, flying and the flight; the camera stays in place.
     pub fn cancel(&mut self) {
         self.gesture = None;
+        self.hold = None;
+        self.nothing_ahead = false;
+        self.is_lost = false;
         self.flight = None;
         self.fly_speed.reset();
     }
 
-    /// Moves the eye toward the target under the pointer, nearer by a factor of `exp(amount)`.
+    /// True if the last zoom found no surface in the picture to come nearer to.
+    pub fn found_nothing(&self) -> bool {
+        self.nothing_ahead
+    }
+
+    /// Moves the eye toward the target at the pointer, nearer by a factor of `exp(amount)`.
     ///
-    /// The target keeps its place in the picture, and so does the pivot. A negative `amount` moves
-    /// the eye away. During a pan (two fingers), the target is the grabbed point. Returns whether
-    /// the camera changed.
+    /// The target is the surface under the pointer, or the nearest in the picture; it stays the same
+    /// while the pointer rests. It keeps its place in the picture, and so does the pivot. A negative
+    /// `amount` moves the eye away. During a pan (two fingers), the target is the grabbed point. In a
+    /// picture without a surface the eye comes no nearer, and moving away turns toward the surface.
+    /// Returns whether the camera changed.
     pub fn dolly(
         &mut self,
         camera: &mut Camera,
@@ -148,12 +200,24 @@ impl Navigator {
     ) -> bool {
         self.flight = None;
         self.fly_speed.reset();
+        if !amount.is_finite() || amount == 0.0 {
+            return false;
+        }
         let target = match &self.gesture {
-            Some(Gesture::Pan { grabbed }) => grabbed - &camera.position,
-            _ => world.target(camera, ndc),
+            Some(Gesture::Pan(held)) => held.is_surface.then(|| &held.grabbed - &camera.position),
+            _ => self.held_target(camera, world, ndc),
+        };
+        self.nothing_ahead = target.is_none() && amount > 0.0;
+        self.is_lost = target.is_none() || (self.is_lost && amount < 0.0);
+        let before = camera.clone();
+        let Some(target) = target.filter(|_| !self.is_lost) else {
+            if amount < 0.0 {
+                self.is_lost = !way_back::step(camera, world, -amount);
+            }
+            return *camera != before;
         };
         let depth = target.length();
-        if !amount.is_finite() || amount == 0.0 || !(depth > 0.0 && depth.is_finite()) {
+        if !(depth > 0.0 && depth.is_finite()) {
             return false;
         }
         let wanted = depth * (-amount.clamp(-20.0, 20.0)).exp();
@@ -170,12 +234,22 @@ impl Navigator {
             .length()
             .clamp(PIVOT_PARTS.start() * new_depth, PIVOT_PARTS.end() * new_depth)
             .max(world.clearance(camera));
-        let before = camera.clone();
         camera.position =
             camera.position.moved_by(moved, grain.min(world.grain_at(camera, new_depth)));
         let pivot_offset = pivot_offset.normalize_or(camera.forward()) * pivot_distance;
         place_pivot(camera, pivot_offset, grain);
         *camera != before
+    }
+
+    /// The target of a zoom; beside the pointer, it stays the same while the pointer rests.
+    fn held_target(&mut self, camera: &Camera, world: World<'_>, pointer: DVec2) -> Option<DVec3> {
+        let to_px = DVec2::new(world.viewport.aspect, 1.0) * 0.5 * world.viewport.height_px;
+        let rests = |hold: &Hold| ((pointer - hold.pointer) * to_px).length() <= REST_PX;
+        let hold = self.hold.filter(rests).unwrap_or(Hold { pointer, aim: pointer });
+        let found = aim::nearest(world, camera, hold.aim);
+        let beside = found.filter(|found| found.ndc != pointer);
+        self.hold = beside.map(|found| Hold { aim: found.ndc, ..hold });
+        found.map(|found| found.offset)
     }
 
     /// Flies for `dt_secs`. Returns whether the camera changed.
@@ -195,6 +269,9 @@ impl Navigator {
             return false;
         }
         self.gesture = None;
+        self.hold = None;
+        self.nothing_ahead = false;
+        self.is_lost = false;
         self.flight = None;
         fly::fly(&mut self.fly_speed, camera, world, input, dt_secs)
     }

@@ -155,7 +155,11 @@ impl Pilot {
     pub fn camera_status(&mut self, scene: &Scene, frame: Frame) -> CameraStatus {
         let viewport = viewport(scene, frame);
         let field = field_of(&self.models.of(&scene.fractal), scene, viewport);
-        World { field: &*field, viewport }.camera_status(&scene.camera)
+        let nothing_ahead = self.navigator.found_nothing();
+        CameraStatus {
+            nothing_ahead,
+            ..World { field: &*field, viewport }.camera_status(&scene.camera)
+        }
     }
 
     /// What the guide does.

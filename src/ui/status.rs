@@ -17,6 +17,9 @@ const SHORT_BELOW: f32 = 560.0;
 /// Width below which the text of the precision limit is short, in points.
 const SHORT_LIMIT_BELOW: f32 = 860.0;
 
+/// The text while the picture shows no surface to zoom toward.
+pub const NOTHING_AHEAD: &str = "Nothing to zoom into here: zoom out";
+
 /// The data that the status line displays.
 #[derive(Clone, Copy, Debug)]
 pub struct StatusInputs<'a> {
@@ -51,6 +54,10 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
     painter.galley(right_at, right, theme::TEXT_DIM);
 
     let words = activity_text(report, short);
+    let words = match status.camera_status {
+        Some(CameraStatus { nothing_ahead: true, .. }) => format!("{NOTHING_AHEAD} · {words}"),
+        _ => words,
+    };
     let words = match status.flight {
         Some(speed) if speed > 0.0 => format!("Flying at {speed:.2e} u/s · {words}"),
         Some(_) => format!("Fly mode · {words}"),

@@ -13,3 +13,4 @@ mod hostile;
 mod navigation;
 mod stage;
 mod timeline;
+mod zoom;

@@ -8,8 +8,8 @@ use mandelight::{
         mandelbulb::{Mandelbulb, estimator::Estimator},
         march::PLAIN_FOOTPRINT,
     },
-    fractal::{camera_ray, pixel_cone},
-    scene::{Camera, PrecisePoint},
+    fractal::{FractalModel, camera_ray, pixel_cone},
+    scene::{Camera, PrecisePoint, presets},
     ui::navigation::{
         FlyInput, MAX_EYE_DISTANCE, Navigator, Viewport, World, collide,
         flight::{FLIGHT_SECS, MAX_ZOOM_PER_SEC},
@@ -147,22 +147,79 @@ fn orbit_keeps_its_radius_its_pivot_in_the_picture_and_the_horizon() {
 }
 
 #[test]
-fn orbit_begins_about_the_point_under_the_pointer() {
+fn an_orbit_close_up_begins_about_the_point_under_the_pointer() {
     let (field, mut camera, mut navigator) = (bulb(), Camera::default(), Navigator::default());
     let ndc = DVec2::new(0.1, -0.1);
+    navigator.dolly(&mut camera, world(&field), ndc, 0.5);
+    assert!(!world(&field).shows_whole(&camera));
     navigator.begin_orbit(&mut camera, world(&field), ndc);
     assert!((seen_px(&camera, &camera.pivot) - to_px(ndc)).length() < 1e-3);
-    let pivot = camera.pivot.to_dvec3();
+    let pivot = camera.pivot.clone();
     assert!(
-        field.distance(pivot)
+        field.distance(pivot.to_dvec3())
             < 2.0 * pixel_cone(&camera, VIEWPORT.aspect, VIEWPORT.height_px) * camera.view_unit()
     );
-    // Over the background the pivot stays, as long as it is in the picture.
-    navigator.begin_orbit(&mut camera, world(&field), DVec2::new(0.95, 0.95));
-    assert_eq!(camera.pivot.to_dvec3(), pivot);
-    camera.pivot = PrecisePoint::from(DVec3::new(50.0, 50.0, 0.0));
-    navigator.begin_orbit(&mut camera, world(&field), DVec2::new(0.95, 0.95));
-    assert!((seen_px(&camera, &camera.pivot) - to_px(DVec2::splat(0.95))).length() < 1e-3);
+    // Over the background the pivot stays, as long as it is on a surface in the picture.
+    let sky = (0..40).map(|i| DVec2::from_angle(0.3 * f64::from(i)) * DVec2::new(1.0, 0.9));
+    let mut sky = sky.filter(|&ndc| picked(&camera, &field, ndc).is_none());
+    let sky = sky.next().expect("there is background");
+    navigator.begin_orbit(&mut camera, world(&field), sky);
+    assert_eq!(camera.pivot, pivot);
+    // Else it is what the picture shows nearest to the pointer.
+    for elsewhere in [DVec3::new(50.0, 50.0, 0.0), DVec3::ZERO] {
+        camera.pivot = PrecisePoint::from(elsewhere);
+        navigator.begin_orbit(&mut camera, world(&field), sky);
+        assert!(field.distance(camera.pivot.to_dvec3()) < 0.01 * camera.view_unit());
+        let seen = seen_px(&camera, &camera.pivot) / to_px(DVec2::ONE);
+        assert!(seen.abs().max_element() <= 1.0, "{seen}");
+    }
+}
+
+/// A sphere's silhouette in the picture: its extent in half heights, left, right, below and above.
+fn silhouette(camera: &Camera, center: DVec3, radius: f64) -> [f64; 4] {
+    let seen = camera.rotation().inverse() * (center - camera.position.to_dvec3());
+    let bounds = |across: f64| {
+        let (depth, reach) = (-seen.z, across.hypot(seen.z));
+        let (middle, half) = (across.atan2(depth), (radius / reach).asin());
+        [middle - half, middle + half]
+            .map(|angle| angle.tan() / camera.half_height(VIEWPORT.aspect))
+    };
+    let ([left, right], [below, above]) = (bounds(seen.x), bounds(seen.y));
+    [left, right, below, above]
+}
+
+#[test]
+fn turning_the_whole_keeps_it_in_the_picture_at_its_size() {
+    let mut random = random();
+    for preset in presets::all() {
+        let scene = (preset.scene)();
+        let model = FractalModel::new(&scene.fractal);
+        let field = &**model.whole();
+        let (center, radius) = (field.center(), field.bounding_radius());
+        let (mut camera, mut navigator) = (scene.camera.clone(), Navigator::default());
+        if !world(field).shows_whole(&camera) {
+            navigator.frame_all(&mut camera, world(field));
+            while navigator.advance(&mut camera, 0.1) {}
+        }
+        assert!(world(field).shows_whole(&camera), "{}", preset.name);
+        let start = camera.clone();
+        for _ in 0..8 {
+            camera = start.clone();
+            let mut pointer = random.ndc();
+            let before = silhouette(&camera, center, radius);
+            navigator.begin_orbit(&mut camera, world(field), pointer);
+            assert_eq!(camera.position, start.position, "{}: it begins with a jump", preset.name);
+            assert_eq!(camera.orientation, start.orientation);
+            for _ in 0..12 {
+                pointer += random.ndc() * 0.7;
+                navigator.drag(&mut camera, world(field), pointer);
+                let after = silhouette(&camera, center, radius);
+                for (a, b) in before.iter().zip(after) {
+                    assert!((a - b).abs() < 1e-3, "{}: {before:?} {after:?}", preset.name);
+                }
+            }
+        }
+    }
 }
 
 #[test]

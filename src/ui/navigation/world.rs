@@ -15,6 +15,10 @@ use crate::{
 pub const MAX_EYE_DISTANCE: f64 = 90.0;
 /// Maximum steps of a picking ray, so that the pointer responds at once.
 const PICK_STEPS: u32 = 400;
+/// Maximum steps of a short ray, of which a search has many.
+const SHORT_STEPS: u32 = 128;
+/// Distance of a short ray's end that counts as a hit, in hit distances.
+const NEAR_HIT: f64 = 4.0;
 /// Minimum distance of the eye from any surface, as a fraction of [`World::nearest`].
 const CLEARANCE: f64 = 0.25;
 /// Maximum distance of an eye at the limit, in units of [`World::nearest`].
@@ -23,6 +27,10 @@ const CLEARANCE: f64 = 0.25;
 const AT_LIMIT: f64 = 2.0;
 /// As [`AT_LIMIT`], if the pivot is at the limit.
 const AT_LIMIT_OF_PIVOT: f64 = 100.0;
+/// Maximum distance of a pivot on the surface from what is seen there, as a fraction of its depth.
+const ON_SURFACE: f64 = 0.2;
+/// Part of the bounding sphere that is in a picture of the whole set: the set itself is smaller.
+const WHOLE_PART: f64 = 0.8;
 /// Rounding of positions, in pixels at the surface's distance.
 const GRAIN_PX: f64 = 1e-4;
 
@@ -55,6 +63,8 @@ pub struct CameraStatus {
     pub footprint: f64,
     /// True if a nearer eye would show rounding errors instead of detail.
     pub at_precision_limit: bool,
+    /// True if the last zoom found no surface in the picture to come nearer to.
+    pub nothing_ahead: bool,
 }
 
 impl World<'_> {
@@ -69,7 +79,7 @@ impl World<'_> {
     }
 
     /// The ray through `ndc`, in the field's coordinates.
-    fn ray(&self, camera: &Camera, ndc: DVec2) -> Ray {
+    pub(super) fn ray(&self, camera: &Camera, ndc: DVec2) -> Ray {
         camera_ray(camera, &self.field.origin(), ndc, self.viewport.aspect)
     }
 
@@ -94,6 +104,7 @@ impl World<'_> {
             distance,
             footprint: distance * self.cone(camera),
             at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,
+            nothing_ahead: false,
         }
     }
 
@@ -113,9 +124,25 @@ impl World<'_> {
         self.pick(camera, ndc).unwrap_or_else(|| {
             let ray = self.ray(camera, ndc);
             let min = self.field.clear_distance(ray.origin).max(self.nearest(camera));
-            ray.direction
-                * self.field.closest_approach(ray, f64::INFINITY).clamp(min, 2.0 * MAX_EYE_DISTANCE)
+            let depth = self.closest_approach(camera, ray);
+            ray.direction * depth.clamp(min, 2.0 * MAX_EYE_DISTANCE)
         })
+    }
+
+    /// The depth at which a ray of the camera comes closest to the surface.
+    pub(super) fn closest_approach(&self, camera: &Camera, ray: Ray) -> f64 {
+        self.field.closest_approach(ray, self.hit_cone(camera), SHORT_STEPS)
+    }
+
+    /// As [`Self::pick`] by a short ray: none if the ray runs out of steps far from the surface.
+    pub(super) fn glance(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
+        let (ray, cone) = (self.ray(camera, ndc), self.hit_cone(camera));
+        let depth = match self.field.trace(ray, cone, f64::INFINITY, SHORT_STEPS) {
+            Ok(hit) => hit?,
+            Err(depth) => Some(depth)
+                .filter(|&depth| self.field.distance(ray.at(depth)) <= NEAR_HIT * cone * depth)?,
+        };
+        Some(ray.direction * depth.max(self.nearest(camera)))
     }
 
     fn hit_cone(&self, camera: &Camera) -> f64 {
@@ -137,6 +164,24 @@ impl World<'_> {
     /// Rounding of positions for a surface at `depth`, in scene units.
     pub(super) fn grain_at(&self, camera: &Camera, depth: f64) -> f64 {
         GRAIN_PX * 2.0 * self.cone(camera) * depth.max(self.clearance(camera))
+    }
+
+    /// True if the point at `offset` from the eye is in the picture, at about the surface seen there.
+    pub(super) fn is_surface_in_picture(&self, camera: &Camera, offset: DVec3) -> bool {
+        let seen = self.ndc_of(camera, offset).filter(|seen| seen.abs().max_element() <= 1.0);
+        let surface = seen.and_then(|seen| self.pick(camera, seen));
+        surface.is_some_and(|surface| surface.distance(offset) <= ON_SURFACE * surface.length())
+    }
+
+    /// True if the set as a whole, but for little of it, is in the picture.
+    pub fn shows_whole(&self, camera: &Camera) -> bool {
+        let centre = camera.rotation().inverse() * (self.field.center() - self.eye(camera));
+        let half_height = camera.half_height(self.viewport.aspect);
+        let half_size = DVec2::new(half_height * self.viewport.aspect, half_height);
+        // Distance from the centre to the planes through the eye and the picture's edges.
+        let room = (half_size * -centre.z - centre.truncate().abs())
+            / (half_size * half_size + 1.0).map(f64::sqrt);
+        room.min_element() >= WHOLE_PART * self.field.bounding_radius()
     }
 
     /// The picture position of the point at `offset` from the eye; none behind the eye.
