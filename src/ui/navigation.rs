@@ -51,12 +51,14 @@ use crate::scene::{Camera, PrecisePoint};
 use flight::Flight;
 pub use fly::FlyInput;
 use fly::FlySpeed;
-use placement::{place_pivot, shift};
+use placement::{glide_pivot, place_pivot, shift};
 use turntable::Turntable;
 pub use world::{CameraStatus, MAX_EYE_DISTANCE, Viewport, World};
 
 /// Range of the pivot's distance during a dolly, as a fraction of the target's depth.
 const PIVOT_PARTS: RangeInclusive<f64> = 0.02..=50.0;
+/// Turn of an orbit, in radians, that brings the pivot nearer to the centre by a factor of e.
+const GLIDE_RAD: f64 = 0.12;
 /// Movement of the pointer, in pixels, within which a run of zooms holds on to its target.
 const REST_PX: f64 = 3.0;
 /// Rotation for a drag over half the picture's height, in radians.
@@ -65,7 +67,7 @@ const TURN_PER_HALF_HEIGHT_RAD: f64 = std::f64::consts::FRAC_PI_2;
 /// A pointer's gesture in progress.
 #[derive(Clone, Debug)]
 enum Gesture {
-    Orbit { last: DVec2, turntable: Turntable },
+    Orbit { last: DVec2, turntable: Turntable, center: PrecisePoint },
     Pan(Pan),
 }
 
@@ -105,28 +107,39 @@ impl Navigator {
         self.gesture.is_some() || self.flight.is_some()
     }
 
-    /// Begins an orbit, and chooses its pivot.
+    /// Begins an orbit, and chooses its centre. Nothing changes until [`Self::drag`].
     ///
     /// The set's centre, while the picture shows the whole set. In closer views the surface point under
     /// the pointer; over the background the present pivot if it is on a surface in the picture, else the
-    /// surface point nearest to the pointer. Nothing in the picture moves.
-    pub fn begin_orbit(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) {
+    /// surface point nearest to the pointer. While the orbit turns, the pivot glides to its centre.
+    pub fn begin_orbit(&mut self, camera: &Camera, world: World<'_>, ndc: DVec2) {
         self.cancel();
-        let offset = &camera.pivot - &camera.position;
-        let pivot = if world.shows_whole(camera) {
-            Some(world.field.center() - world.eye(camera))
+        let pivot = &camera.pivot - &camera.position;
+        let center = if world.shows_whole(camera) {
+            world.field.center() - world.eye(camera)
         } else if let Some(picked) = world.pick(camera, ndc) {
-            Some(picked)
-        } else if world.is_surface_in_picture(camera, offset) {
-            None
+            picked
+        } else if world.is_surface_in_picture(camera, pivot) {
+            pivot
         } else {
             let nearest = aim::nearest(world, camera, ndc);
-            Some(nearest.map_or_else(|| world.target(camera, ndc), |aim| aim.offset))
+            nearest.map_or_else(|| world.target(camera, ndc), |aim| aim.offset)
         };
-        if let Some(pivot) = pivot.filter(|pivot| pivot.distance(offset) > world.grain(camera)) {
-            camera.pivot = camera.position.moved_by(pivot, world.grain(camera));
+        let grain = world.grain(camera);
+        let center = if center.distance(pivot) <= grain {
+            camera.pivot.clone()
+        } else {
+            camera.position.moved_by(center, grain)
+        };
+        self.gesture = Some(Gesture::Orbit { last: ndc, turntable: Turntable::of(camera), center });
+    }
+
+    /// The point that the orbit in progress turns about.
+    pub fn orbit_center(&self) -> Option<&PrecisePoint> {
+        match &self.gesture {
+            Some(Gesture::Orbit { center, .. }) => Some(center),
+            _ => None,
         }
-        self.gesture = Some(Gesture::Orbit { last: ndc, turntable: Turntable::of(camera) });
     }
 
     /// Begins a pan: [`Self::drag`] keeps the grabbed surface point at its place from the pointer.
@@ -147,13 +160,14 @@ impl Navigator {
     pub fn drag(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) -> bool {
         let before = camera.clone();
         match &mut self.gesture {
-            Some(Gesture::Orbit { last, turntable }) => {
+            Some(Gesture::Orbit { last, turntable, center }) => {
                 let moved = (ndc - *last)
                     * DVec2::new(world.viewport.aspect, 1.0)
                     * TURN_PER_HALF_HEIGHT_RAD;
                 *last = ndc;
                 // The scene follows the pointer, so the eye moves in the opposite direction.
-                turntable.orbit(camera, world, DVec2::new(-moved.x, moved.y));
+                turntable.orbit(camera, world, center, DVec2::new(-moved.x, moved.y));
+                glide_pivot(camera, center, -(-moved.length() / GLIDE_RAD).exp_m1());
             }
             // The way back turns, so what was grabbed is no longer where it was.
             Some(Gesture::Pan(held)) if !self.is_lost => {

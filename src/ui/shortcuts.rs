@@ -184,7 +184,7 @@ pub const FLIGHT: &[FlightKey] = &[
 
 /// The pointer's gestures in the view, each with its effect.
 pub const GESTURES: &[(&str, &str)] = &[
-    ("Drag", "Orbit around the point under the pointer"),
+    ("Drag", "Orbit; in close views around the point under the pointer"),
     ("Right drag, Shift + drag", "Pan"),
     ("Wheel, pinch", "Move closer, drawn to good places near the pointer, or farther"),
     ("Two fingers", "Pan and zoom"),

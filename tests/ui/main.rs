@@ -11,6 +11,7 @@ mod follow;
 mod gestures;
 mod hostile;
 mod navigation;
+mod orbit;
 mod stage;
 mod timeline;
 mod zoom;

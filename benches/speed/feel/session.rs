@@ -178,7 +178,7 @@ fn play_part(part: &Part, start: &Scene) -> Vec<Scene> {
     let mut navigator = Navigator::default();
     let (first, _) = part.pointer(0);
     if part.hold == Hold::Orbit {
-        navigator.begin_orbit(&mut scene.camera, world, first);
+        navigator.begin_orbit(&scene.camera, world, first);
     }
     let mut scenes = vec![scene.clone()];
     let mut last_wheel = 0.0;

@@ -11,7 +11,7 @@ use super::{
     placement::{place_pivot, shift},
     world::World,
 };
-use crate::scene::Camera;
+use crate::scene::{Camera, PrecisePoint};
 
 /// Maximum elevation of an upright camera, up or down.
 const MAX_ELEVATION_RAD: f64 = 89.5 * std::f64::consts::PI / 180.0;
@@ -68,10 +68,10 @@ impl Turntable {
         place_pivot(camera, rotation * pivot_offset, grain);
     }
 
-    /// Rotates the eye and the view about the pivot by `turn` radians, at constant distance.
+    /// Rotates the eye, the view and the pivot about `center` by `turn` radians, at constant distances.
     ///
     /// If the surface blocks a step, the horizontal or the vertical part of the step is tried.
-    pub fn orbit(self, camera: &mut Camera, world: World<'_>, turn: DVec2) {
+    pub fn orbit(self, camera: &mut Camera, world: World<'_>, center: &PrecisePoint, turn: DVec2) {
         if !turn.is_finite() {
             return;
         }
@@ -81,7 +81,7 @@ impl Turntable {
             let parts = [step, DVec2::new(step.x, 0.0), DVec2::new(0.0, step.y)];
             if !parts
                 .into_iter()
-                .any(|part| part != DVec2::ZERO && self.orbit_step(camera, world, part))
+                .any(|part| part != DVec2::ZERO && self.orbit_step(camera, world, center, part))
             {
                 return;
             }
@@ -89,16 +89,27 @@ impl Turntable {
     }
 
     /// Makes one straight step of an orbit. False, without a change, if the surface blocks it.
-    fn orbit_step(self, camera: &mut Camera, world: World<'_>, turn: DVec2) -> bool {
+    fn orbit_step(
+        self,
+        camera: &mut Camera,
+        world: World<'_>,
+        center: &PrecisePoint,
+        turn: DVec2,
+    ) -> bool {
         let rotation = self.rotation(camera, turn);
-        let arm = &camera.position - &camera.pivot;
+        let arm = &camera.position - center;
         let displacement = rotation * arm - arm;
         if collide::advance(world, camera, displacement) != displacement {
             return false;
         }
-        let pivot = camera.pivot.clone();
+        let pivot_offset = &camera.pivot - &camera.position;
+        let is_pivot = camera.pivot == *center;
         shift(camera, world, displacement);
-        camera.pivot = pivot;
+        if is_pivot {
+            camera.pivot = center.clone();
+        } else {
+            place_pivot(camera, rotation * pivot_offset, world.grain(camera));
+        }
         camera.orientation = (rotation * camera.rotation()).normalize().into();
         true
     }
