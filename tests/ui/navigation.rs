@@ -395,3 +395,32 @@ fn level_puts_the_horizon_right() {
     assert!((camera.forward() - forward).length() < 1e-9);
     assert_eq!(camera.position, eye);
 }
+
+/// The zoom rate rises evenly at the start, falls evenly at the end, and never turns back.
+#[test]
+fn flights_set_off_and_arrive_gently_between_whole_and_close_views() {
+    let field = bulb();
+    for i in 0..12 {
+        let (mut close, mut navigator) = (Camera::default(), Navigator::default());
+        let ndc = DVec2::from_angle(f64::from(i)) * 0.3;
+        for _ in 0..24 {
+            navigator.dolly(&mut close, world(&field), ndc, 0.25);
+        }
+        let home = Camera::default();
+        for (from, to, direction) in [(&close, &home, 1.0), (&home, &close, -1.0)] {
+            let mut camera = from.clone();
+            navigator.fly_to(&mut camera, world(&field), to);
+            let mut units = vec![from.view_unit()];
+            while navigator.advance(&mut camera, 1.0 / 60.0) {
+                units.push(camera.view_unit());
+            }
+            let rates = units.windows(2).map(|pair| direction * (pair[1] / pair[0]).ln());
+            let rates: Vec<f64> = [0.0].into_iter().chain(rates).chain([0.0]).collect();
+            let most = rates.iter().copied().fold(0.0, f64::max);
+            assert!(rates.len() > 50 && most > 0.15, "{} frames, {most}", rates.len());
+            for pair in rates.windows(2) {
+                assert!(pair[0] >= 0.0 && (pair[1] - pair[0]).abs() < 0.05 * most, "{pair:?}");
+            }
+        }
+    }
+}
