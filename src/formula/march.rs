@@ -179,10 +179,11 @@ pub trait DistanceField: Send + Sync {
         (1..=THICKNESS_CHECKS).all(|k| is_near(place(k))).then_some(hit)
     }
 
-    /// The depth at which a ray comes closest to the surface, by at most `max_steps` steps.
+    /// The depth at which a ray comes closest to the surface.
     ///
-    /// Closest as seen from the ray's origin: least distance over depth. A ray that comes within the hit
-    /// distance, `cone` per unit of depth, ends there. The depth is at least zero.
+    /// The search takes at most `max_steps` steps. Closest as seen from the ray's origin: least
+    /// distance over depth. A ray that comes within the hit distance, `cone` per unit of depth,
+    /// ends there. The depth is at least zero.
     fn closest_approach(&self, ray: Ray, cone: f64, max_steps: u32) -> f64 {
         let Some((near, far)) = ray.sphere_span(self.center(), self.bounding_radius()) else {
             return ray.depth_beside(self.center()).max(0.0);

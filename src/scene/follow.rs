@@ -1,21 +1,21 @@
-//! Lights that follow the view: near a surface, the scene's lights turn into a set tied to the view.
+//! Lights that follow close views: a scene's lights turn into a set tied to the view.
 //!
-//! In: the lights of a scene and its camera. Out: the lights as they shine, a pure function of both, so
-//! tiles, eyes and frames of a sequence agree.
+//! In: the lights of a scene and its camera. Out: the lights as they shine, a pure function of
+//! both, so tiles, eyes and frames of a sequence agree.
 //!
-//! Down to a view unit of [`FAR_UNIT`] the lights shine as the document has them. From [`NEAR_UNIT`] on
-//! they are tied to the view: one rotation brings the key to the upper left front of the view and turns
-//! the other lights along, so all angles between them stay. Between both, the rotation grows with the
-//! logarithm of the view unit.
+//! Down to a view unit of [`FAR_UNIT`] the lights shine as the document has them. From
+//! [`NEAR_UNIT`] on they are tied to the view: one rotation brings the key to the upper left front
+//! of the view and turns the other lights along, so all angles between them stay. Between both, the
+//! rotation grows with the logarithm of the view unit.
 //!
-//! Turning the camera changes the rotation's axis and angle. At half a turn the axis changes sign, and
-//! no blend is continuous there for every camera: rotations are not contractible. So the blend is
-//! steeper the closer the angle is to half a turn, where it becomes a step in the middle, and the lights
-//! fade out at that single point.
+//! Turning the camera changes the rotation's axis and angle. At half a turn the axis changes sign,
+//! and no blend is continuous there for every camera: rotations are not contractible. So the blend
+//! is steeper the closer the angle is to half a turn, where it becomes a step in the middle, and
+//! the lights fade out at that single point.
 //!
 //! Point lights and the rig stay in place. A point light has a position, and a rig shines from all
-//! sides, so some of it lights every view; it is also the background, and a document has no form for
-//! a sky that is turned over.
+//! sides, so some of it lights every view; it is also the background, and a document has no form
+//! for a sky that is turned over.
 
 use std::{borrow::Cow, f64::consts::PI};
 
@@ -75,8 +75,8 @@ pub fn shown(lights: &Lights, camera: &Camera) -> Option<Lights> {
 
 /// The document's lights after the edit of [`shown`] lights from `before` to `edited`.
 ///
-/// An edit of colour, strength or position changes just that. Any other edit, such as of a direction,
-/// stores the whole set as it is seen, tied to the view, and ends the following.
+/// An edit of colour, strength or position changes just that. Any other edit, such as of a
+/// direction, stores the whole set as it is seen, tied to the view, and ends the following.
 pub fn with_edit(document: Lights, before: &Lights, edited: Lights, camera: &Camera) -> Lights {
     if edited == *before {
         return document;
@@ -201,7 +201,8 @@ fn strength(light: &EnvironmentLight) -> f64 {
 
 /// The rotation from the scene's frame to that of a close view.
 ///
-/// Brings `key` to [`KEY_IN_VIEW`], and the scene's upward axis as near to the picture's as then possible.
+/// Brings `key` to [`KEY_IN_VIEW`], and the scene's upward axis as near to the picture's as then
+/// possible.
 fn near_rotation(key: DVec3) -> DQuat {
     let frame = |front: DVec3, up: DVec3| {
         // The fallback is for a key straight above or below.

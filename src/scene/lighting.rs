@@ -21,8 +21,7 @@ pub struct Lights {
     pub point: Vec<PointLight>,
     /// Directional lights generated from a sky or an environment map.
     pub rig: Rig,
-    /// True if lights fixed to the scene turn into a set tied to the view near a surface:
-    /// [`follow`](super::follow).
+    /// True if the lights [follow](super::follow) close views.
     pub follow_view: bool,
 }
 

@@ -82,9 +82,11 @@ struct Pan {
 }
 
 /// What a run of zooms holds on to while the pointer rests.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Hold {
     pointer: DVec2,
+    /// The eye after the last zoom: other movements end the run.
+    eye: PrecisePoint,
     /// Where the target is in the picture: zooming toward it keeps it there.
     aim: DVec2,
 }
@@ -109,9 +111,10 @@ impl Navigator {
 
     /// Begins an orbit, and chooses its centre. Nothing changes until [`Self::drag`].
     ///
-    /// The set's centre, while the picture shows the whole set. In closer views the surface point under
-    /// the pointer; over the background the present pivot if it is on a surface in the picture, else the
-    /// surface point nearest to the pointer. While the orbit turns, the pivot glides to its centre.
+    /// The set's centre, while the picture shows the whole set. In closer views the surface point
+    /// under the pointer; over the background the present pivot if it is on a surface in the
+    /// picture, else the surface point nearest to the pointer. While the orbit turns, the pivot
+    /// glides to its centre.
     pub fn begin_orbit(&mut self, camera: &Camera, world: World<'_>, ndc: DVec2) {
         self.cancel();
         let pivot = &camera.pivot - &camera.position;
@@ -200,11 +203,11 @@ impl Navigator {
 
     /// Moves the eye toward the target at the pointer, nearer by a factor of `exp(amount)`.
     ///
-    /// The target is the surface under the pointer, or the nearest in the picture; it stays the same
-    /// while the pointer rests. It keeps its place in the picture, and so does the pivot. A negative
-    /// `amount` moves the eye away. During a pan (two fingers), the target is the grabbed point. In a
-    /// picture without a surface the eye comes no nearer, and moving away turns toward the surface.
-    /// Returns whether the camera changed.
+    /// The target is the surface under the pointer, or the nearest in the picture; it stays the
+    /// same while the pointer rests. It keeps its place in the picture, and so does the pivot. A
+    /// negative `amount` moves the eye away. During a pan (two fingers), the target is the grabbed
+    /// point. In a picture without a surface the eye comes no nearer, and moving away turns toward
+    /// the surface. Returns whether the camera changed.
     pub fn dolly(
         &mut self,
         camera: &mut Camera,
@@ -252,17 +255,27 @@ impl Navigator {
             camera.position.moved_by(moved, grain.min(world.grain_at(camera, new_depth)));
         let pivot_offset = pivot_offset.normalize_or(camera.forward()) * pivot_distance;
         place_pivot(camera, pivot_offset, grain);
+        if let Some(hold) = &mut self.hold {
+            hold.eye = camera.position.clone();
+        }
         *camera != before
     }
 
     /// The target of a zoom; beside the pointer, it stays the same while the pointer rests.
     fn held_target(&mut self, camera: &Camera, world: World<'_>, pointer: DVec2) -> Option<DVec3> {
         let to_px = DVec2::new(world.viewport.aspect, 1.0) * 0.5 * world.viewport.height_px;
-        let rests = |hold: &Hold| ((pointer - hold.pointer) * to_px).length() <= REST_PX;
-        let hold = self.hold.filter(rests).unwrap_or(Hold { pointer, aim: pointer });
-        let found = aim::nearest(world, camera, hold.aim);
-        let beside = found.filter(|found| found.ndc != pointer);
-        self.hold = beside.map(|found| Hold { aim: found.ndc, ..hold });
+        let lasts = |hold: &Hold| {
+            ((pointer - hold.pointer) * to_px).length() <= REST_PX && hold.eye == camera.position
+        };
+        let hold = self.hold.take().filter(lasts);
+        let start = hold.as_ref().map_or(pointer, |hold| hold.aim);
+        let found = aim::nearest(world, camera, start);
+        let pointer = hold.map_or(pointer, |hold| hold.pointer);
+        self.hold = found.filter(|found| found.ndc != pointer).map(|found| Hold {
+            pointer,
+            eye: camera.position.clone(),
+            aim: found.ndc,
+        });
         found.map(|found| found.offset)
     }
 

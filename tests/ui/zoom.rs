@@ -22,7 +22,8 @@ use crate::stage::*;
 
 const VIEWPORT: Viewport = Viewport { aspect: 16.0 / 9.0, height_px: 720.0, detail: 1.0 };
 
-/// A plain f64 field that lets the eye come nearer than f32 pictures would, and counts its estimates.
+/// A plain f64 field that lets the eye come nearer than f32 pictures would, and counts its
+/// estimates.
 struct Deeper {
     field: Arc<dyn DistanceField>,
     asked: AtomicU32,

@@ -14,7 +14,7 @@ use crate::{
 /// display resolves.
 const FAR_VIEWS: f64 = 1e6;
 
-/// The scene's [effective](follow::effective) lights: environment, then point lights, then the rig's.
+/// The [effective](follow::effective) lights: environment lights, point lights, the rig's.
 ///
 /// Each light's visibility bit is its index. Muted lights stay, in black.
 pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {

@@ -1,10 +1,10 @@
 //! What a zoom or an orbit holds on to: the surface in the picture nearest to the pointer.
 //!
-//! In: the world, a camera, the pointer. Out: a place in the picture where the surface is, and how far
-//! it is. Where the pointer's ray misses, the search goes from the ray's closest approach toward the
-//! surface there; then outward on a spiral; then to the middle of a set too small for the spiral. What it
-//! finds is brought back toward the pointer by bisection. A search has at most 70 rays, most of them
-//! short.
+//! In: the world, a camera, the pointer. Out: a place in the picture where the surface is, and how
+//! far it is. Where the pointer's ray misses, the search goes from the ray's closest approach
+//! toward the surface there; then outward on a spiral; then to the middle of a set too small for
+//! the spiral. What it finds is brought back toward the pointer by bisection. A search has at most
+//! 70 rays, most of them short.
 
 use glam::DVec2;
 

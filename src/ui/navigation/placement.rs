@@ -26,9 +26,10 @@ pub fn place_pivot(camera: &mut Camera, offset: DVec3, grain: f64) {
     camera.pivot = camera.position.moved_by(offset, grain.min(PIVOT_GRAIN * offset.length()));
 }
 
-/// Moves the pivot by the fraction `part` toward `target`: by distance in equal factors, and by angle.
+/// Moves the pivot by the fraction `part` of the way to `target`.
 ///
-/// All that is measured in view units, such as the reach of shadows, changes smoothly.
+/// Its distance changes by equal factors, its direction by equal angles. All that is measured in
+/// view units, such as the reach of shadows, changes smoothly.
 pub fn glide_pivot(camera: &mut Camera, target: &PrecisePoint, part: f64) {
     if camera.pivot == *target {
         return;

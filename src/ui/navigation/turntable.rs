@@ -68,7 +68,7 @@ impl Turntable {
         place_pivot(camera, rotation * pivot_offset, grain);
     }
 
-    /// Rotates the eye, the view and the pivot about `center` by `turn` radians, at constant distances.
+    /// Rotates eye, view and pivot about `center` by `turn` radians, at constant distances.
     ///
     /// If the surface blocks a step, the horizontal or the vertical part of the step is tried.
     pub fn orbit(self, camera: &mut Camera, world: World<'_>, center: &PrecisePoint, turn: DVec2) {

@@ -1,4 +1,5 @@
-//! The way back from a view that shows no surface: away from the nearest surface, turning toward it.
+//! The way back from a view that shows no surface: away from the nearest surface, turning toward
+//! it.
 
 use glam::{DVec2, DVec3};
 

@@ -134,7 +134,9 @@ impl World<'_> {
         self.field.closest_approach(ray, self.hit_cone(camera), SHORT_STEPS)
     }
 
-    /// As [`Self::pick`] by a short ray: none if the ray runs out of steps far from the surface.
+    /// The surface at `ndc`, as [`Self::pick`], by a short ray.
+    ///
+    /// None also if the ray runs out of steps far from the surface.
     pub(super) fn glance(&self, camera: &Camera, ndc: DVec2) -> Option<DVec3> {
         let (ray, cone) = (self.ray(camera, ndc), self.hit_cone(camera));
         let depth = match self.field.trace(ray, cone, f64::INFINITY, SHORT_STEPS) {
@@ -166,7 +168,7 @@ impl World<'_> {
         GRAIN_PX * 2.0 * self.cone(camera) * depth.max(self.clearance(camera))
     }
 
-    /// True if the point at `offset` from the eye is in the picture, at about the surface seen there.
+    /// True if a visible surface is at about `offset` from the eye.
     pub(super) fn is_surface_in_picture(&self, camera: &Camera, offset: DVec3) -> bool {
         let seen = self.ndc_of(camera, offset).filter(|seen| seen.abs().max_element() <= 1.0);
         let surface = seen.and_then(|seen| self.pick(camera, seen));

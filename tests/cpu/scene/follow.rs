@@ -97,8 +97,8 @@ fn small_steps_change_little() {
     }
 }
 
-/// Once around the pivot, and once through the whole blend, in ever finer steps: every change shrinks
-/// with the step, so nothing jumps.
+/// Once around the pivot, and once through the whole blend, in ever finer steps: every change
+/// shrinks with the step, so nothing jumps.
 #[test]
 fn nothing_jumps_on_full_turns_at_any_stage_of_the_blend() {
     let lights = presets::opening().lights;
