@@ -12,7 +12,7 @@ use mandelight::{
     },
 };
 use mandelight_test_support::{
-    compare::assert_same,
+    compare::{Tolerance, assert_same, assert_within, complaint},
     view::{finished, pipelines, pixels, sampled, settle, still},
 };
 
@@ -162,6 +162,7 @@ fn a_light_that_moves_ends_in_the_picture_of_a_fresh_view() {
 /// The opening scene, its eye moved to `unit` from the surface, toward the pivot.
 fn close(unit: f64) -> Scene {
     let mut scene = sampled(presets::opening(), 1);
+    scene.indirect.kind = IndirectKind::Off;
     let model = FractalModel::new(&scene.fractal);
     let camera = &mut scene.camera;
     let ray = Ray { origin: camera.position.to_dvec3(), direction: camera.forward() };
@@ -170,6 +171,10 @@ fn close(unit: f64) -> Scene {
     camera.position = PrecisePoint::from(ray.at(depth - unit));
     scene
 }
+
+/// Close surfaces have more grazing rays, which end elsewhere where they start elsewhere: a few
+/// pixels of a region, where a stale light changes most of them.
+const CLOSE: Tolerance = Tolerance { pixels: 20, mean: 12.0, part: 0.04 };
 
 /// Lights that follow the view turn while it comes closer, and while it turns there.
 #[test]
@@ -192,12 +197,12 @@ fn lights_that_follow_end_in_the_picture_of_their_effective_set() {
         view.set_scene(&scene, false);
         settle(&mut view);
         let after = pixels(&view);
-        assert!(after != before, "the change shows");
+        assert!(complaint(&after, &before, SIZE, CLOSE).is_some(), "the change shows");
         let lights = follow::effective(&scene.lights, &scene.camera).into_owned();
         let fixed = Scene { lights, ..scene.clone() };
         let fresh = still(&scene, SIZE);
         assert!(fresh == still(&fixed, SIZE), "the lights are not the effective ones");
         let what = format!("a view of {:e}", scene.camera.view_unit());
-        assert_same(&after, &fresh, SIZE, &what);
+        assert_within(&after, &fresh, SIZE, CLOSE, &what);
     }
 }
