@@ -7,15 +7,54 @@ const MIN_STEP = 0.25;
 // Least step, in hit distances, if hits are checked.
 const MIN_STEP_WITH_HIT_CHECK = 0.4;
 
+// A ray stays with a surface until it is so many colour distances away: gaps that only a fine picture
+// resolves keep the colours of their rim. A larger factor paints wider rims on what lies behind.
+const LEAVING = 8.0;
+
+// The way of a ray to the point whose orbit gives its colours. Rays of all pixels come within the colour
+// distance at the same points, but hit at points that depend on the pixel.
+struct ColorPoint {
+    // Depth at which the ray came within the colour distance; 0 before, and once it has left again.
+    depth: f32,
+    // Distance that was missing at the last point of the march.
+    left: f32,
+}
+
+// The colour point after a march's step from depth `before` to `t`; `within`: the colour distance there.
+fn next_color_point(point: ColorPoint, before: f32, t: f32, distance: f32, within: f32) -> ColorPoint {
+    let left = max(distance - within, 0.0);
+    var depth = select(point.depth, 0.0, distance > LEAVING * within);
+    if (depth == 0.0 && distance < within) {
+        depth = mix(before, t, point.left / max(point.left + within - distance, 1e-30));
+    }
+    return ColorPoint(depth, left);
+}
+
+// Where a ray ends.
+struct RayEnd {
+    // Depth of the surface; 0 on a miss.
+    surface: f32,
+    // Depth of the point whose orbit gives the colours.
+    colors: f32,
+}
+
+// Colours are taken at the surface if the hit distance is greater than the colour distance.
+fn ray_end(surface: f32, colors: ColorPoint) -> RayEnd {
+    return RayEnd(surface, select(surface, colors.depth, colors.depth > 0.0));
+}
+
 // Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, from the depth `clear`
-// up to which the ray is known to be clear. 0 on a miss.
-fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
+// up to which the ray is known to be clear.
+fn march(fractal: Fractal, ray: Ray, clear: f32) -> RayEnd {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
     var over = over_relaxation();
     // Depth of the last point, and the distance that was missing to a hit there.
     var before = t;
     var left = 0.0;
+    // Depth along `forward` is the same for both eyes.
+    let color_spread = frame.camera.color_cone * dot(ray.direction, frame.camera.forward);
+    var colors = ColorPoint(0.0, 0.0);
     let checks_hits = needs_hit_check();
     let min_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
@@ -37,18 +76,22 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
                     t -= back;
                     continue;
                 }
-                if (!is_inside) { return 0.0; }
+                if (!is_inside) { return RayEnd(0.0, 0.0); }
             }
             let hit = hit_distance(ray, t);
+            let within = color_spread * t;
+            if (!is_looking && within > hit) {
+                colors = next_color_point(colors, before, t, ahead.distance, within);
+            }
             if (checks_hits && (is_looking || ahead.distance < hit)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
-                if (crossing.looks > LOOKS) { return max(t, 1e-30); }
+                if (crossing.looks > LOOKS) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
             }
             if (ahead.distance < hit) {
                 // Interpolates the crossing of the hit distance on the last step.
                 let past = hit - ahead.distance;
-                return max(mix(before, t, left / max(left + past, 1e-30)), 1e-30);
+                return ray_end(max(mix(before, t, left / max(left + past, 1e-30)), 1e-30), colors);
             }
             before = t;
             left = ahead.distance - hit;
@@ -58,7 +101,7 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> f32 {
         pending.estimate = careful_estimate(fractal, ray.origin + t * ray.direction, ray.direction);
     }
     // Out of steps while creeping along the surface: closer than a pixel resolves.
-    return t;
+    return ray_end(t, colors);
 }
 
 @compute @workgroup_size(64)
@@ -69,13 +112,13 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!site.is_there) { return; }
     let fractal = frame.formula.fractal;
     let ray = rays[site.ray];
-    let t = march(fractal, ray, queued.clear);
-    surface[site.index].x = bitcast<u32>(t);
-    if (t == 0.0) { return; }
-    let at_surface = advanced(ray, t);
+    let end = march(fractal, ray, queued.clear);
+    surface[site.index].x = bitcast<u32>(end.surface);
+    if (end.surface == 0.0) { return; }
+    let at_surface = advanced(ray, end.surface);
     rays[site.ray].origin = at_surface.origin;
     rays[site.ray].radius = at_surface.radius;
-    let colors = orbit_colors(fractal, at_surface.origin);
+    let colors = orbit_colors(fractal, ray.origin + end.colors * ray.direction);
     let iterations = colors.smooth_iterations / f32(frame.march.iterations + 1u);
     color_data[site.index] = vec2u(
         pack2x16unorm(vec2f(iterations, colors.traps.x * 0.5)), pack2x16unorm(colors.traps.yz * 0.5));

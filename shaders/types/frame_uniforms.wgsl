@@ -15,6 +15,8 @@ struct Camera {
     // Hit distance per unit of depth.
     hit_cone: f32,
     forward: vec3f,
+    // Distance from the surface at which colours are taken, per unit of depth along `forward`.
+    color_cone: f32,
 }
 
 // The range of rays, and how a ray steps: the formula's march policy.

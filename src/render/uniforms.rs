@@ -46,6 +46,12 @@ const SHADOW_STEPS: u32 = 320;
 /// Least hit distance in render space: below it f32 positions near the surface coincide.
 const FINEST_HIT: f32 = 4e-7;
 
+/// Distance from the surface at which colours are taken, over the height that the picture shows there.
+///
+/// The hit distance of a picture 150 pixels high. Pictures of any greater height take colours at the same
+/// points; a smaller distance would show finer bands of colour, but only in higher pictures.
+const COLOR_DISTANCE: f64 = 1.0 / 300.0;
+
 impl FrameUniforms {
     /// The uniforms of `scene` in `region`; finds the render space itself.
     pub fn new(scene: &Scene, region: Region) -> Self {
@@ -67,6 +73,7 @@ impl FrameUniforms {
                 up: (rotation * DVec3::Y).as_vec3().to_array(),
                 hit_cone: (scene.quality.detail * pixel_cone(camera, aspect, height)) as f32,
                 forward: camera.forward().as_vec3().to_array(),
+                color_cone: (COLOR_DISTANCE * 2.0 * camera.half_height(aspect)) as f32,
             },
             eyes: eyes(camera, region, space),
             march: march(scene, region, space),

@@ -2,6 +2,7 @@
 //! run, and whether they agree with pictures and mathematics made elsewhere.
 
 mod benchmark;
+mod colors;
 mod compiling;
 mod deep;
 mod depth;

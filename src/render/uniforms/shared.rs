@@ -27,6 +27,8 @@ host_shared! {
         hit_cone: f32,
         /// Unit vector into the picture.
         forward: [f32; 3],
+        /// Distance from the surface at which colours are taken, per unit of depth along `forward`.
+        color_cone: f32,
     }
     /// Indirect light.
     Indirect {

@@ -152,6 +152,37 @@ fn visibility_of_lights_agrees_with_the_oracle() {
     }
 }
 
+/// Colours of fine pictures, in which rays go on to hits within the colour distance.
+#[test]
+fn colors_of_fine_pictures_agree_with_the_oracle() {
+    let finer_than =
+        |name: &&views::View| ["power 8", "power 8 at 0.15", "Julia 8"].contains(&name.name);
+    for view in views::all().iter().filter(finer_than) {
+        let mut scene = view.scene.clone();
+        // Hit distances as in a picture of 512 lines.
+        scene.quality.detail = 0.125;
+        scene.surface.ambient = 1.0;
+        scene.surface.diffuse = 0.0;
+        scene.surface.specular = 0.0;
+        let picture = draw(&scene);
+        let indexed: Vec<_> = pixels().into_iter().zip(0..).collect();
+        let off = in_parallel(&indexed, |&(pixel, index): &([u32; 2], usize)| {
+            let depth = picture.samples.depth[index];
+            (depth > 0.0).then(|| {
+                let depth = rays::color_depth(&scene, views::SIZE, pixel, depth.into());
+                let color = light::surface_color(&scene, point_at(&scene, pixel, depth as f32));
+                (light::display(&scene, color) - picture.display[index]).abs().max_element()
+            })
+        });
+        let off: Vec<_> = off.into_iter().flatten().collect();
+        assert!(off.len() > 2000, "{}: {} hits", view.name, off.len());
+        // Rays meet the colour distance between two steps; beside the rim of a gap, on either side of it.
+        let (typical, most) = (quantile(off.clone(), 0.8), quantile(off, 0.99));
+        assert!(typical < 2.0, "{}: display values differ by {typical}", view.name);
+        assert!(most < 12.0, "{}: display values differ by {most}", view.name);
+    }
+}
+
 #[test]
 fn shading_and_tone_of_whole_views_agree_with_the_oracle() {
     for view in views::lit() {

@@ -5,6 +5,7 @@
 //! | `device` | the one device of a test binary, and devices of one's own |
 //! | `view` | short ways to a finished picture and its pixels |
 //! | `compare` | two pictures, region by region |
+//! | `histogram` | means and histograms of pictures |
 //! | `picture` | what a PNG holds |
 //! | `program` | the built program, run as a script runs it |
 //! | `probe` | the formula's kernels at given points |
@@ -20,6 +21,7 @@ pub mod deep;
 pub mod descent;
 pub mod device;
 pub mod dives;
+pub mod histogram;
 pub mod oracle;
 pub mod picture;
 pub mod probe;
