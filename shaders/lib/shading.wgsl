@@ -1,5 +1,5 @@
 // Light and colour of a sample. Shading marches no ray: it reads visibility bits.
-// uses: lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/dispatch_params
+// uses: lib/color_value, lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/dispatch_params
 // uses: types/film, types/frame_uniforms, types/light, types/ray
 
 // Whether this pipeline shows the environment map: 0 no, 1 yes, -1 reads it from the uniforms.
@@ -9,10 +9,6 @@ fn has_environment_map() -> bool {
     if (HAS_ENVIRONMENT_MAP >= 0) { return HAS_ENVIRONMENT_MAP == 1; }
     return frame.background.map_gain > 0.0;
 }
-
-const SOURCE_ITERATIONS = 0u;
-const SOURCE_ORIGIN_TRAP = 1u;
-const SOURCE_AXIS_TRAP = 2u;
 
 const GRADIENT_ENTRIES = 256u;
 // The surface's colour gradient, linear Rec. 709, periodic.
@@ -24,17 +20,25 @@ fn gradient_color(u: f32) -> vec3f {
     return mix(gradient[low].rgb, gradient[(low + 1u) % GRADIENT_ENTRIES].rgb, fract(x));
 }
 
+// Number of knots of the colour curve.
+const COLOR_KNOTS = 64u;
+
+// The colour curve at a value: linear between knots, constant beyond them.
+fn color_curve(value: f32) -> f32 {
+    let along = (value - frame.surface.color_low) * frame.surface.color_per_value;
+    let place = clamp(along, 0.0, 1.0) * f32(COLOR_KNOTS - 1u);
+    let low = min(u32(place), COLOR_KNOTS - 2u);
+    // Read from the uniforms themselves: an index into the private copy would keep the copy in memory.
+    let a = frame_uniforms.color_curve[low / 4u][low % 4u];
+    let b = frame_uniforms.color_curve[(low + 1u) / 4u][(low + 1u) % 4u];
+    return mix(a, b, place - f32(low));
+}
+
 fn surface_color(data: vec2u) -> vec3f {
-    let first = unpack2x16unorm(data.x);
-    let second = unpack2x16unorm(data.y) * 2.0;
-    var value = second.y;
-    if (frame.surface.color_source == SOURCE_ITERATIONS) {
-        value = first.x * f32(frame.march.iterations + 1u);
-    } else if (frame.surface.color_source == SOURCE_ORIGIN_TRAP) {
-        value = first.y * 2.0;
-    } else if (frame.surface.color_source == SOURCE_AXIS_TRAP) {
-        value = second.x;
-    }
+    let is_count = frame.surface.color_source == SOURCE_ITERATIONS;
+    let greatest = select(2.0, f32(frame.march.iterations + 1u), is_count);
+    var value = color_value(data) * greatest;
+    if (frame.surface.color_follows != 0u) { value = color_curve(value); }
     return gradient_color(value * frame.surface.color_repeats + frame.surface.color_offset);
 }
 

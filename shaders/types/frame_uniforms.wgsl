@@ -54,6 +54,10 @@ struct Surface {
     color_repeats: f32,
     color_offset: f32,
     light_count: u32,
+    // 1: the colour curve replaces the value; then the value at its first knot, and one over its range.
+    color_follows: u32,
+    color_low: f32,
+    color_per_value: f32,
 }
 
 struct Background {
@@ -157,6 +161,8 @@ struct FrameUniforms {
     size_px: vec2u,
     // One of the `NORMALS_` constants.
     normals: u32,
+    // The colour curve: positions in the gradient at 64 knots.
+    color_curve: array<vec4f, 16>,
     // Declared by the formula.
     formula: FormulaUniforms,
 }

@@ -1,7 +1,7 @@
 //! Overview: a small rendering of the whole picture, before its tiles.
 //!
-//! Auto exposure, bloom and indirect light depend on the whole picture. The overview provides all
-//! three to every tile. A picture without these effects has no overview and no extra cost.
+//! Auto exposure, bloom, indirect light and gradients that follow the view depend on the whole picture.
+//! The overview provides all four to every tile. A picture without these effects has no overview and no extra cost.
 
 use std::sync::Arc;
 
@@ -32,6 +32,7 @@ pub(super) struct Overview {
     samples: u32,
     has_post: bool,
     has_indirect: bool,
+    has_colors: bool,
     is_finished: bool,
 }
 
@@ -48,19 +49,20 @@ impl Overview {
         let has_indirect = scene.has_indirect();
         // An OpenEXR file stores radiance before exposure and bloom.
         let has_post = format != PictureFormat::Exr && !Need::of_scene(scene).is_none();
-        if !has_post && !has_indirect {
+        let has_colors = scene.surface.coloring.follows_view;
+        if !has_post && !has_indirect && !has_colors {
             return None;
         }
         let mut scene = scene.clone();
         let min_samples = (MIN_TOTAL_SAMPLES / pixels(region)) as u32;
-        // Indirect light reads the centre samples only.
+        // Indirect light and colours read the centre samples only.
         let enough_samples = if has_post { min_samples.max(MAX_SAMPLES) } else { 1 };
         let samples = scene.quality.samples.min(enough_samples);
         scene.quality.samples = samples;
         let mut view = View::new(pipelines, region, Pace::Still);
         view.set_environment_map(environment_map);
         view.set_scene(&scene, false);
-        Some(Self { view, samples, has_post, has_indirect, is_finished: false })
+        Some(Self { view, samples, has_post, has_indirect, has_colors, is_finished: false })
     }
 
     /// Continues the rendering without waiting. True if the overview is complete.
@@ -74,13 +76,16 @@ impl Overview {
         self.is_finished
     }
 
-    /// Lends exposure, bloom and indirect light to the view of a tile.
+    /// Lends exposure, bloom, indirect light and the colour curve to the view of a tile.
     pub fn lend_to(&self, tile: &mut View) {
         if self.has_post {
             tile.lend_post(Some(self.view.post()));
         }
         if self.has_indirect {
             tile.lend_indirect_source(Some(self.view.indirect_source()));
+        }
+        if self.has_colors {
+            tile.lend_color_curve(self.view.color_curve());
         }
     }
 

@@ -32,6 +32,8 @@ pub struct Layouts {
     pub dequeue: wgpu::BindGroupLayout,
     /// Group 2 of passes that write work queues: the queues, and the workgroup counts of their readers.
     pub enqueue: wgpu::BindGroupLayout,
+    /// Group 2 of the pass that counts colour values: its bins.
+    pub color_bins: wgpu::BindGroupLayout,
     /// Group 2: the film's two halves, the display texture, direct light.
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the environment map and its sampler.
@@ -67,6 +69,7 @@ impl Layouts {
             post: group("post", &[STORAGE; 3]),
             dequeue: group("dequeue", &[STORAGE]),
             enqueue: group("enqueue", &[STORAGE; 2]),
+            color_bins: group("colour bins", &[STORAGE]),
             film: group("film", &[STORAGE, STORAGE, display, STORAGE]),
             environment_texture: group(
                 "environment map",

@@ -33,6 +33,7 @@
 
 mod anchors;
 mod buffers;
+pub mod color_curve;
 pub mod environment_texture;
 pub mod frame;
 pub mod gbuffer;

@@ -192,6 +192,11 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(2, &self.targets.film_group, &[]);
     }
 
+    /// Binds the bins of colour values.
+    pub fn bind_color_bins(&mut self) {
+        self.compute.set_bind_group(2, &self.targets.color_bins_group, &[]);
+    }
+
     /// Binds any group, for pipelines from outside this crate.
     pub fn bind(&mut self, index: u32, group: &wgpu::BindGroup) {
         self.compute.set_bind_group(index, group, &[]);

@@ -160,6 +160,11 @@ impl Schedule {
         self.cost.set_casting(casting);
     }
 
+    /// The finest lattice level whose every centre sample has been submitted; none before the first.
+    pub fn center_level(&self) -> Option<u32> {
+        self.progress.gbuffer_validity.depth()
+    }
+
     /// Requests another display of the film as it is.
     pub fn show_again(&mut self) {
         self.is_display_stale |= self.progress.filmed().is_some();

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::{
     buffers::{buffer, group, storage},
+    color_curve::COLOR_BINS,
     environment_texture::EnvironmentTexture,
     lattice::{COARSEST, Grid, MAX_SAMPLES_TOGETHER, WORKGROUP_THREADS, sample_places},
     layouts::DISPLAY_FORMAT,
@@ -78,6 +79,10 @@ pub struct Targets {
     pub direct: wgpu::Buffer,
     /// The bind group of the film, the display texture and direct light.
     pub film_group: wgpu::BindGroup,
+    /// u32 per bin: the number of hits by the value that selects their colour.
+    pub color_bins: wgpu::Buffer,
+    /// The bind group of the bins.
+    pub color_bins_group: wgpu::BindGroup,
     /// Film statistics: a few bytes until a pass needs them.
     pub post: Arc<Post>,
     /// The environment map: a single pixel until a map is shown.
@@ -129,6 +134,9 @@ impl Targets {
         let texture = display_texture(device, region.display_px());
         let direct = storage(device, "direct light", DIRECT_BYTES);
         let film_group = film_group(layouts, [&film_rg, &film_bw, &direct], &texture);
+        let color_bins = storage(device, "colour bins", 4 * COLOR_BINS as u64);
+        let color_bins_group =
+            group(device, &layouts.color_bins, "colour bins", [color_bins.as_entire_binding()]);
         Self {
             frame,
             formula_table,
@@ -144,6 +152,8 @@ impl Targets {
             film_bw,
             direct,
             film_group,
+            color_bins,
+            color_bins_group,
             post: Arc::new(Post::new(layouts, region, Need::default())),
             environment_texture: Arc::new(EnvironmentTexture::new(layouts, None)),
             texture,
@@ -186,6 +196,7 @@ impl Targets {
             environment_map: self.environment_texture.bytes,
             display: texture_bytes(&self.texture),
             uniforms: uniforms.into_iter().map(wgpu::Buffer::size).sum::<u64>()
+                + self.color_bins.size()
                 + self.post.statistics.size(),
         }
     }

@@ -12,7 +12,10 @@ use glam::DVec3;
 pub use lights::lights;
 pub use shared::*;
 
-use super::{Region, region::Eyes as RegionEyes, schedule::Stale, space::RenderSpace};
+use super::{
+    Region, color_curve::ColorCurve, region::Eyes as RegionEyes, schedule::Stale,
+    space::RenderSpace,
+};
 use crate::{
     formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES},
     fractal::pixel_cone,
@@ -93,6 +96,7 @@ impl FrameUniforms {
                 Normals::TwentySix => 4,
                 Normals::Analytic => 5,
             },
+            color_curve: ColorCurve::line(1.0).packed(),
         }
     }
 }
@@ -228,6 +232,9 @@ fn surface(scene: &Scene) -> Surface {
         color_repeats: surface.coloring.repeats as f32,
         color_offset: surface.coloring.offset as f32,
         light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
+        color_follows: u32::from(surface.coloring.follows_view),
+        color_low: 0.0,
+        color_per_value: 1.0,
     }
 }
 
@@ -295,6 +302,25 @@ impl Inputs {
         self
     }
 
+    /// The greatest value that can select a colour.
+    pub fn greatest_color_value(&self) -> f64 {
+        match self.frame.surface.color_source {
+            0 => f64::from(self.frame.march.iterations + 1),
+            _ => 2.0,
+        }
+    }
+
+    /// The inputs with a colour curve, if their colours follow one; the straight line if there is none.
+    pub fn with_color_curve(mut self, curve: Option<&ColorCurve>) -> Self {
+        if self.frame.surface.color_follows != 0 {
+            let line = ColorCurve::line(self.greatest_color_value());
+            let curve = curve.unwrap_or(&line);
+            [self.frame.surface.color_low, self.frame.surface.color_per_value] = curve.range();
+            self.frame.color_curve = curve.packed();
+        }
+        self
+    }
+
     /// The inputs with the visibility bits that `old` gave to the same lights.
     pub fn with_bits_of(mut self, old: Option<&Self>) -> Self {
         if let Some(old) = old {
@@ -354,6 +380,7 @@ impl Inputs {
             && new_frame.size_px == old_frame.size_px;
         let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.frame.surface };
         let same_light = surface(self) == surface(old)
+            && new_frame.color_curve == old_frame.color_curve
             && new_frame.background == old_frame.background
             && self.environment_map == old.environment_map
             && self.is_lit_as(old)

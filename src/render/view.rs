@@ -29,10 +29,13 @@ use crate::{
     scene::{EnvironmentMap, Quality, Scene},
 };
 
+mod color_following;
+mod colors;
 mod parts;
 mod prepare;
 mod read;
 
+use color_following::ColorFollowing;
 use parts::{Lent, Shown, StatsValidity, Times};
 
 /// One picture in progress.
@@ -64,6 +67,7 @@ pub struct View {
     reconstruction: Reconstruction,
     histogram_readback: HistogramReadback,
     lent: Lent,
+    colors: ColorFollowing,
     /// The pipelines in preparation.
     preparation: Option<Preparation>,
     dispatches: Dispatches,
@@ -98,6 +102,7 @@ impl View {
             reconstruction: Reconstruction::default(),
             histogram_readback: HistogramReadback::default(),
             lent: Lent::default(),
+            colors: ColorFollowing::default(),
             preparation: None,
             dispatches: Dispatches::default(),
             shown: Shown::default(),
@@ -209,12 +214,16 @@ impl View {
             return true;
         }
         self.schedule.set_arithmetic(self.arithmetic());
-        while let Some(work) = self.schedule.next(now_secs) {
+        while !self.waits_for_colors()
+            && let Some(work) = self.schedule.next(now_secs)
+        {
             self.submit(work);
         }
+        self.follow_colors();
         self.histogram_readback.read(&self.pipelines.gpu, &self.targets.post.statistics);
         let idle = self.schedule.status(now_secs).idle
             && !self.histogram_readback.is_reading()
+            && !self.waits_for_colors()
             && self.pending.is_none();
         if !idle {
             self.times.finished_secs = now_secs;
@@ -300,12 +309,14 @@ impl View {
             .with_environment_map(scene, self.environment_map.as_deref())
             .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
+            .with_color_curve(self.colors.curve())
     }
 
     fn upload(&mut self, inputs: Inputs) {
         let moved = self.inputs.as_ref().map_or(u64::MAX, |old| inputs.moved_since(old));
         self.schedule.set_lights(inputs.shining(), moved);
         self.schedule.set_casting(inputs.casting());
+        self.colors.follow(self.inputs.as_ref(), &inputs);
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_post(Need::of(&inputs.frame));
         (self.integrator.fit_targets)(&mut self.targets, &self.pipelines.layouts, &inputs);
@@ -472,19 +483,6 @@ impl View {
     /// Number of dispatches of each pass so far.
     pub fn dispatches(&self) -> &Dispatches {
         &self.dispatches
-    }
-
-    /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; none before the first picture.
-    ///
-    /// Usages TEXTURE_BINDING and COPY_SRC. The picture is always complete, never a half-filled lattice.
-    /// After a change of size it is the old picture, in its own size, until there is a new one.
-    pub fn texture(&self) -> Option<&wgpu::Texture> {
-        self.shown.texture()
-    }
-
-    /// A counter that changes whenever [`Self::texture`] becomes another texture.
-    pub fn texture_generation(&self) -> u64 {
-        self.shown.generation()
     }
 }
 

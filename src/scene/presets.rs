@@ -141,7 +141,12 @@ fn coral_reef() -> Scene {
             ..Default::default()
         },
         surface: Surface {
-            coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.4, offset: 0.1 },
+            coloring: Coloring {
+                source: ColorSource::OriginTrap,
+                repeats: 1.4,
+                offset: 0.1,
+                ..Default::default()
+            },
             gradient: stops(&[
                 (0.0, [0.02, 0.08, 0.13]),
                 (0.3, [0.75, 0.18, 0.14]),
@@ -229,7 +234,12 @@ fn sea_urchin() -> Scene {
             ..Default::default()
         },
         surface: Surface {
-            coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.0, offset: 0.0 },
+            coloring: Coloring {
+                source: ColorSource::OriginTrap,
+                repeats: 1.0,
+                offset: 0.0,
+                ..Default::default()
+            },
             gradient: stops(&[
                 (0.0, [0.03, 0.02, 0.12]),
                 (0.3, [0.16, 0.12, 0.50]),
@@ -260,7 +270,12 @@ fn in_between() -> Scene {
             ..Default::default()
         },
         surface: Surface {
-            coloring: Coloring { source: ColorSource::AxisTrap, repeats: 1.2, offset: 0.05 },
+            coloring: Coloring {
+                source: ColorSource::AxisTrap,
+                repeats: 1.2,
+                offset: 0.05,
+                ..Default::default()
+            },
             gradient: stops(&[
                 (0.0, [0.08, 0.04, 0.02]),
                 (0.3, [0.50, 0.26, 0.05]),
@@ -288,7 +303,12 @@ fn whorls() -> Scene {
             ..Default::default()
         },
         surface: Surface {
-            coloring: Coloring { source: ColorSource::OriginTrap, repeats: 1.1, offset: 0.12 },
+            coloring: Coloring {
+                source: ColorSource::OriginTrap,
+                repeats: 1.1,
+                offset: 0.12,
+                ..Default::default()
+            },
             gradient: stops(&[
                 (0.0, [0.10, 0.05, 0.09]),
                 (0.25, [0.52, 0.16, 0.20]),

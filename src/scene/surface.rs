@@ -28,7 +28,9 @@ pub enum ColorSource {
 pub struct Coloring {
     /// The orbit value.
     pub source: ColorSource,
-    /// Repeats of the gradient per unit of the value, range [`param::COLOR_REPEATS`].
+    /// Whether the gradient spans the values in view, instead of those from 0 to 1.
+    pub follows_view: bool,
+    /// Repeats of the gradient per unit of the value, or over the values in view, range [`param::COLOR_REPEATS`].
     pub repeats: f64,
     /// Start position in the gradient, range [`param::COLOR_OFFSET`].
     pub offset: f64,
@@ -38,6 +40,7 @@ impl Default for Coloring {
     fn default() -> Self {
         Self {
             source: ColorSource::default(),
+            follows_view: false,
             repeats: param::COLOR_REPEATS.default,
             offset: param::COLOR_OFFSET.default,
         }

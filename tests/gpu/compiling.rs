@@ -125,6 +125,7 @@ fn nothing_is_compiled_unannounced() {
         "shadow_cone",
         "shadow",
         "shade",
+        "color_histogram",
         "tonemap_sparse",
         "upsample",
         "fill",
@@ -263,7 +264,7 @@ fn a_still_compiles_at_once() {
     let mut view = View::new(&pipelines, Region::whole(SIZE), Pace::Still);
     view.set_scene(&scene, false);
     view.pump(0.0);
-    assert_eq!(pipelines.made().len(), 12 + 5 + 4 + 6);
+    assert_eq!(pipelines.made().len(), 13 + 5 + 4 + 6);
     assert_eq!(view.report().activity, Activity::Refining);
 }
 

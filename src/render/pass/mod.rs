@@ -7,6 +7,7 @@ pub mod bloom;
 pub mod blur;
 pub mod camera_cone;
 pub mod camera_rays;
+pub mod color_histogram;
 pub mod compact_hits;
 pub mod expose;
 pub mod fill;
@@ -43,6 +44,8 @@ pub const DIRECT: &[&Pass] = &[
 
 /// The passes from samples to a display picture, in the order of a frame.
 pub const DISPLAY: &[&Pass] = &[
+    // Of centre samples, beside the frames.
+    &color_histogram::PASS,
     // Of a sparse lattice's samples alone.
     &tonemap_sparse::PASS,
     &upsample::PASS,

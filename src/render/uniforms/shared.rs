@@ -113,6 +113,12 @@ host_shared! {
         color_offset: f32,
         /// Number of lights in use.
         light_count: u32,
+        /// 1: the colour curve replaces the colour source.
+        color_follows: u32,
+        /// The value at the colour curve's first knot.
+        color_low: f32,
+        /// One over the range of the colour curve.
+        color_per_value: f32,
     }
     /// Vertical gradient, linear Rec. 709, and the orientation of the environment map.
     Background {
@@ -185,6 +191,8 @@ host_shared! {
         size_px: [u32; 2],
         /// Kind of normals: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
         normals: u32,
+        /// The knots of the colour curve: see [`ColorCurve`](crate::render::color_curve::ColorCurve).
+        color_curve: Array<[f32; 4], 16>,
     }
     /// The parameters of one dispatch.
     DispatchParams {

@@ -1,4 +1,4 @@
-//! Reads a view's results back from the GPU.
+//! A view's results: its picture, and what is read back from the GPU.
 
 use super::View;
 use crate::{
@@ -12,6 +12,19 @@ use crate::{
 };
 
 impl View {
+    /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; none before the first picture.
+    ///
+    /// Usages TEXTURE_BINDING and COPY_SRC. The picture is always complete, never a half-filled lattice.
+    /// After a change of size it is the old picture, in its own size, until there is a new one.
+    pub fn texture(&self) -> Option<&wgpu::Texture> {
+        self.shown.texture()
+    }
+
+    /// A counter that changes whenever [`Self::texture`] becomes another texture.
+    pub fn texture_generation(&self) -> u64 {
+        self.shown.generation()
+    }
+
     /// Scene units per unit of the view's render space.
     fn scale(&self) -> f64 {
         self.space.as_ref().map_or(1.0, RenderSpace::scale)

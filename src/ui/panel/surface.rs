@@ -56,6 +56,10 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     cx.rects.record("gradient", &bar);
     stop(ui, cx);
     let coloring = &mut cx.scene.surface.coloring;
+    ui.checkbox(&mut coloring.follows_view, "Follow the view").on_hover_text(
+        "Spreads the whole gradient over what is in view, at any depth. Off: the colours of a place \
+         stay the same wherever you look from",
+    );
     param_slider(ui, &param::COLOR_REPEATS, &mut coloring.repeats);
     param_slider(ui, &param::COLOR_OFFSET, &mut coloring.offset);
 }

@@ -206,8 +206,11 @@ fn surface() -> impl Strategy<Value = Surface> {
         ColorSource::AxisTrap,
         ColorSource::PlaneTrap,
     ]);
-    let coloring = (source, value(&param::COLOR_REPEATS), value(&param::COLOR_OFFSET))
-        .prop_map(|(source, repeats, offset)| Coloring { source, repeats, offset });
+    let numbers = (value(&param::COLOR_REPEATS), value(&param::COLOR_OFFSET));
+    let coloring =
+        (source, any::<bool>(), numbers).prop_map(|(source, follows_view, (repeats, offset))| {
+            Coloring { source, follows_view, repeats, offset }
+        });
     let gradient = vec((value(&param::STOP_POSITION), color()), 1..=16).prop_map(|mut stops| {
         stops.sort_by(|a, b| a.0.total_cmp(&b.0));
         stops.into_iter().map(|(position, color)| GradientStop { position, color }).collect()

@@ -79,17 +79,43 @@ pub fn shade(
     sum
 }
 
-/// The surface's colour at `point`.
+/// The surface's colour at `point`, for a gradient that does not follow the view.
 pub fn surface_color(scene: &Scene, point: DVec3) -> DVec3 {
-    let coloring = &scene.surface.coloring;
+    color_at(scene, color_value(scene, point))
+}
+
+/// The value that selects the colour at `point`.
+pub fn color_value(scene: &Scene, point: DVec3) -> f64 {
     let traps = orbit(&Mandelbulb::of(&scene.fractal), point).traps;
-    let value = match coloring.source {
+    match scene.surface.coloring.source {
         ColorSource::Iterations => smooth_iterations(&Mandelbulb::of(&scene.fractal), point),
         ColorSource::OriginTrap => traps[0],
         ColorSource::AxisTrap => traps[1],
         ColorSource::PlaneTrap => traps[2],
-    };
+    }
+}
+
+/// The colour of a value, or of a position on its way through the values in view.
+pub fn color_at(scene: &Scene, value: f64) -> DVec3 {
+    let coloring = &scene.surface.coloring;
     gradient(&scene.surface.gradient, value * coloring.repeats + coloring.offset)
+}
+
+/// Positions of `values` among all of them: half the rank, half the way from the least to the greatest,
+/// both without the fiftieth part at either end.
+pub fn positions_in_view(values: &[f64]) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len() as f64;
+    let low = sorted[(0.02 * count) as usize];
+    let high = sorted[(0.98 * count) as usize];
+    let position = |&value: &f64| {
+        let within = value.clamp(low, high);
+        let rank = sorted.partition_point(|&other| other < within) as f64 / count;
+        let rank = ((rank - 0.02) / 0.96).clamp(0.0, 1.0);
+        0.5 * (rank + (within - low) / (high - low))
+    };
+    values.iter().map(position).collect()
 }
 
 /// The gradient at `u`, around a circle of length one: linear between neighbouring stops.
