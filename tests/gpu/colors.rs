@@ -251,7 +251,16 @@ fn followed_colors_rest_as_the_still_has_them() {
     }
     view.set_scene(&scene, false);
     settle(&mut view);
-    assert_same(&pixels(&view), &still(&scene, size), size, "after another view");
+    let still = still(&scene, size);
+    assert_same(&pixels(&view), &still, size, "after another view");
+    // A drag that is held until the picture is complete, and then let go.
+    let mut turned = scene.clone();
+    turned.camera.vertical_fov_deg = 20.0;
+    for (scene, moving) in [(&turned, true), (&scene, true), (&scene, false)] {
+        view.set_scene(scene, moving);
+        settle(&mut view);
+    }
+    assert_same(&pixels(&view), &still, size, "after a drag");
     let (rested, shaded) = (pixels(&view), view.dispatches().clone());
     for frame in 0..50 {
         assert!(!view.pump(1000.0 + f64::from(frame)));

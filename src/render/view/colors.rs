@@ -37,7 +37,10 @@ impl View {
         self.collect_colors();
         let Some(level) = self.schedule.center_level() else { return };
         let is_wanted = level == 0 || self.moving || self.colors.curve.is_none();
-        if self.colors.reading.is_some() || self.colors.measured == Some(level) || !is_wanted {
+        // A movement that ends at a complete picture has eased toward its count, but not arrived there.
+        let is_final = self.colors.is_settled || self.moving || level > 0;
+        let is_measured = self.colors.measured == Some(level) && is_final;
+        if self.colors.reading.is_some() || is_measured || !is_wanted {
             return;
         }
         let Some(inputs) = &self.inputs else { return };
