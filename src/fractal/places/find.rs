@@ -9,9 +9,9 @@ use std::{collections::HashMap, sync::Arc};
 use glam::{DVec2, DVec3};
 
 use super::{
-    newton::{Solution, refined, solve},
-    spectrum::spread_directions,
-    vantage::{VantageSearch, most_open},
+    newton::{Refined, Refinement, Solution, solve},
+    probe::{COPY_DISTANCE, Probe},
+    vantage::CameraSearch,
 };
 use crate::{
     formula::{
@@ -54,16 +54,12 @@ const SOLVED_AT_ONCE: usize = 4;
 const TRACED_AT_ONCE: u32 = 8;
 /// Places nearer to each other than this part of the view's height count as one.
 const SAME: f64 = 0.03;
-/// Scales at which the space about a place is probed, over the eye's distance.
-const PROBED: [f64; 4] = [0.3, 0.05, 5e-3, 1e-4];
-/// Least distance of an eye from a small copy's centre, in the copy's radii.
-const COPY_DISTANCE: f64 = 2.5;
 /// Distance of an eye that has arrived at a small copy, in the copy's radii.
 const ARRIVAL_AT_COPY: f64 = 5.0;
 /// Distance of an eye that has arrived at a cycle, over its distance before.
 const ARRIVAL: f64 = 1.0 / 30.0;
-/// Least openness of a place at every probed scale.
-const MIN_OPENNESS: f64 = 0.06;
+/// Part of a search's time that its rays take.
+const RAYS_SHARE: f64 = 0.7;
 
 /// A place that a dive can go to.
 #[derive(Clone, Debug)]
@@ -76,7 +72,7 @@ pub struct Place {
     pub elongation: f64,
     /// How much the place is drawn out at every depth; see [`Solution::distortion`].
     pub distortion: f64,
-    /// Least openness at the probed scales; see [`Vantage::openness`].
+    /// Least openness at the probed scales; see [`Vantage::openness`](super::vantage::Vantage::openness).
     pub openness: f64,
     /// Radius of the small copy about the point, in scene units; 0 at a cycle, where shapes go on for ever.
     pub radius: f64,
@@ -132,14 +128,18 @@ pub struct PlaceSearch {
 enum Stage {
     Anchor(Box<Search>),
     Rays { field: Arc<dyn DistanceField>, ray: u32, pending: Vec<(DVec3, f64, Recurrence)> },
-    Candidates { field: Arc<dyn DistanceField>, index: usize, reference: Option<Pending> },
+    Candidates { field: Arc<dyn DistanceField>, index: usize, pending: Option<Pending> },
     Done,
 }
 
-/// An exact place whose reference orbit is computed.
-struct Pending {
-    position: PrecisePoint,
-    steps: Box<dyn ReferenceSteps>,
+/// What is computed of a candidate that no surface hides.
+enum Pending {
+    /// The exact point.
+    Refinement(Box<Refinement>),
+    /// The reference orbit about it.
+    Reference { position: PrecisePoint, steps: Box<dyn ReferenceSteps> },
+    /// The space about it.
+    Probe(Box<Probe>),
 }
 
 /// A solution that is in the picture.
@@ -168,6 +168,25 @@ impl PlaceSearch {
     /// The places found so far, the best first.
     pub fn places(&self) -> &[Place] {
         &self.places
+    }
+
+    /// The part of the search that is done, 0 to 1.
+    ///
+    /// An estimate: the number of candidates is not known before all rays are.
+    pub fn progress(&self) -> f64 {
+        let part = |done: usize, of: usize| (done as f64 / of.max(1) as f64).min(1.0);
+        match &self.stage {
+            Stage::Anchor(_) => 0.0,
+            Stage::Rays { ray, .. } => {
+                RAYS_SHARE * f64::from(*ray) / f64::from(self.area.rays.max(1))
+            }
+            Stage::Candidates { index, .. } => {
+                let probed = part(*index, self.candidates.len());
+                let found = part(self.places.len(), self.area.count);
+                RAYS_SHARE + (1.0 - RAYS_SHARE) * probed.max(found)
+            }
+            Stage::Done => 1.0,
+        }
     }
 
     /// Runs all steps and returns the places, the best first.
@@ -205,11 +224,11 @@ impl PlaceSearch {
                 } else {
                     self.sort_candidates();
 
-                    Stage::Candidates { field, index: 0, reference: None }
+                    Stage::Candidates { field, index: 0, pending: None }
                 }
             }
-            Stage::Candidates { field, index, reference } => {
-                self.candidate_step(field, index, reference)
+            Stage::Candidates { field, index, pending } => {
+                self.candidate_step(field, index, pending)
             }
             Stage::Done => return false,
         };
@@ -286,45 +305,41 @@ impl PlaceSearch {
         if self.places.len() >= self.area.count {
             return self.done();
         }
-        let next =
-            |reference| Stage::Candidates { field: field.clone(), index: index + 1, reference };
-        match pending {
+        let (next, pending) = match pending {
+            None if !self.is_visible(field.as_ref(), candidate) => (index + 1, None),
             None => {
-                if !self.is_visible(field.as_ref(), candidate) {
-                    return next(None);
-                }
-                let solution = &candidate.solution;
-                let guess = field.origin().moved_by(solution.point, 0.0);
+                let Solution { point, recurrence, derivative, .. } = candidate.solution;
+                let guess = field.origin().moved_by(point, 0.0);
                 let fractal = self.model.fractal();
-                let Some(position) =
-                    refined(fractal, guess, solution.recurrence, solution.derivative)
-                else {
-                    return next(None);
+                let refinement = Refinement::new(fractal, guess, recurrence, derivative);
+                (index, Some(Pending::Refinement(Box::new(refinement))))
+            }
+            Some(Pending::Refinement(mut refinement)) => match refinement.step() {
+                Refined::Unfinished => (index, Some(Pending::Refinement(refinement))),
+                Refined::Diverging => (index + 1, None),
+                Refined::Exact(position) => (index, Some(self.at_exact(index, position))),
+            },
+            Some(Pending::Reference { position, mut steps }) => {
+                let pending = if (0..TRACED_AT_ONCE).all(|_| steps.step()) {
+                    Pending::Reference { position, steps }
+                } else {
+                    let fractal = self.model.fractal();
+                    let reference = steps.finish();
+                    let about = reference.distance_field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+                    self.probe(index, position, about)
                 };
-                match fractal.formula().begin_reference(fractal, position.clone()) {
-                    Some(steps) => Stage::Candidates {
-                        field,
-                        index,
-                        reference: Some(Pending { position, steps }),
-                    },
-                    None => {
-                        let about = self.model.finer(1e-6);
-                        self.probe(index, position, about);
-                        next(None)
-                    }
+                (index, Some(pending))
+            }
+            Some(Pending::Probe(mut probe)) => {
+                if probe.step() {
+                    (index, Some(Pending::Probe(probe)))
+                } else {
+                    self.add_place(index, *probe);
+                    (index + 1, None)
                 }
             }
-            Some(mut pending) => {
-                if (0..TRACED_AT_ONCE).all(|_| pending.steps.step()) {
-                    return Stage::Candidates { field, index, reference: Some(pending) };
-                }
-                let reference = pending.steps.finish();
-                let about =
-                    reference.distance_field(self.model.fractal(), DEEP_FOOTPRINT, DEEP_FOOTPRINT);
-                self.probe(index, pending.position, about);
-                next(None)
-            }
-        }
+        };
+        Stage::Candidates { field, index: next, pending }
     }
 
     /// True if no surface hides the candidate.
@@ -337,42 +352,45 @@ impl PlaceSearch {
         hit.is_none_or(|hit| depth - hit < 2.0 * BEHIND * half_height * depth)
     }
 
-    /// Adds the candidate to the places if there is space about it at every depth.
-    fn probe(&mut self, index: usize, position: PrecisePoint, about: Arc<dyn DistanceField>) {
-        let candidate = &self.candidates[index];
-        let depth = (&position - &self.camera.position).length();
-        let point = about.local(&position);
-        let radius = match candidate.solution.recurrence {
-            Recurrence::Cycle { .. } => 0.0,
-            Recurrence::Center { .. } => {
-                let most = 1.0 / candidate.solution.derivative.determinant().abs().cbrt();
-                copy_radius(about.as_ref(), point, most)
-            }
-        };
-        let finest = 1e3 * about.finest_footprint();
-        let openness = PROBED
-            .into_iter()
-            .map(|part| part * depth)
-            .filter(|scale| *scale > finest.max(COPY_DISTANCE * radius))
-            .map(|scale| most_open(about.as_ref(), point, scale))
-            .fold(1.0, f64::min);
-        let is_lost =
-            radius == 0.0 && matches!(candidate.solution.recurrence, Recurrence::Center { .. });
-        if openness < MIN_OPENNESS || is_lost {
-            return;
+    /// What follows once the exact point of a candidate is known.
+    fn at_exact(&self, index: usize, position: PrecisePoint) -> Pending {
+        let fractal = self.model.fractal();
+        match fractal.formula().begin_reference(fractal, position.clone()) {
+            Some(steps) => Pending::Reference { position, steps },
+            None => self.probe(index, position, self.model.finer(1e-6)),
         }
-        let cost = candidate.cost - openness.min(0.4).ln();
-        let solution = &candidate.solution;
+    }
+
+    /// The probe of a candidate whose exact `position` is known.
+    fn probe(
+        &self,
+        index: usize,
+        position: PrecisePoint,
+        about: Arc<dyn DistanceField>,
+    ) -> Pending {
+        let solution = &self.candidates[index].solution;
+        let depth = (&position - &self.camera.position).length();
+        let most_radius = match solution.recurrence {
+            Recurrence::Cycle { .. } => None,
+            Recurrence::Center { .. } => Some(1.0 / solution.derivative.determinant().abs().cbrt()),
+        };
+        Pending::Probe(Box::new(Probe::new(about, position, depth, most_radius)))
+    }
+
+    /// Adds the probed candidate to the places if there is space about it at every depth.
+    fn add_place(&mut self, index: usize, probe: Probe) {
+        let Some((radius, openness)) = probe.finish() else { return };
+        let Candidate { solution, ndc, cost } = &self.candidates[index];
         let place = Place {
-            position,
+            position: probe.position,
             recurrence: solution.recurrence,
             elongation: solution.elongation(),
             distortion: solution.distortion(),
             openness,
             radius,
-            ndc: candidate.ndc,
-            cost,
-            field: PlaceField(about),
+            ndc: *ndc,
+            cost: cost - openness.min(0.4).ln(),
+            field: PlaceField(probe.about),
         };
         let at = self.places.partition_point(|other| other.cost <= place.cost);
         self.places.insert(at, place);
@@ -420,50 +438,33 @@ impl Place {
         COPY_DISTANCE * self.radius
     }
 
-    /// The distance field about the place.
-    pub fn field(&self) -> &dyn DistanceField {
-        self.field.0.as_ref()
-    }
-
-    /// A search for the best vantage `depth` scene units from the place, preferably near direction `near`.
-    pub fn vantage_search(&self, depth: f64, near: Option<DVec3>) -> VantageSearch {
-        let field = self.field.0.clone();
-        let point = field.local(&self.position);
-        VantageSearch::new(field, point, self.radius, depth, near)
-    }
-
     /// The camera that looks at the place from `depth` scene units, with the rest of `camera`.
     ///
     /// None below [`Self::nearest`], and where nothing free sees the place.
     pub fn camera(&self, camera: &Camera, depth: f64) -> Option<Camera> {
-        if depth < self.nearest() {
-            return None;
-        }
-        let vantage = self.vantage_search(depth, None).finish()?;
-        let grain = 1e-9 * depth;
-        Some(Camera {
-            position: self.position.moved_by(vantage.direction * depth, grain),
-            pivot: self.position.clone(),
-            orientation: vantage.rotation().into(),
-            ..camera.clone()
-        })
+        let mut search = self.begin_camera(depth)?;
+        while search.step() {}
+        search.camera(camera)
+    }
+
+    /// The search of [`Self::camera`], in steps; none below [`Self::nearest`].
+    pub fn begin_camera(&self, depth: f64) -> Option<CameraSearch> {
+        (depth >= self.nearest()).then(|| self.camera_search(depth, None))
+    }
+
+    /// A search for the best camera `depth` scene units from the place, preferably from near direction `near`.
+    pub fn camera_search(&self, depth: f64, near: Option<DVec3>) -> CameraSearch {
+        let (field, position) = (self.field.0.clone(), self.position.clone());
+        CameraSearch::new(field, position, self.radius, depth, near)
+    }
+
+    /// The distance field about the place, exact from the whole scene down to the deepest views of it.
+    pub fn field(&self) -> &dyn DistanceField {
+        self.field.0.as_ref()
     }
 }
 
 /// The logarithm of how much the elongation at depth and the constant distortion draw shapes out.
 fn drawn_out(elongation: f64, distortion: f64) -> f64 {
     (1.0 - elongation.recip()) * -DEEP.ln() + distortion.ln()
-}
-
-/// Radius about `center` of the small copy there, which free space within `most` surrounds.
-///
-/// Zero if no copy is found.
-fn copy_radius(field: &dyn DistanceField, center: DVec3, most: f64) -> f64 {
-    const STEP: f64 = 0.75;
-    const STEPS: i32 = 60;
-    let is_free = |radius: &f64| {
-        spread_directions(24).all(|toward| field.distance(center + toward * radius) > 0.0)
-    };
-    let radii = (0..STEPS).map(|step| most * STEP.powi(step));
-    radii.skip_while(|radius| !is_free(radius)).find(|radius| !is_free(radius)).unwrap_or(0.0)
 }

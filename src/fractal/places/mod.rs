@@ -10,12 +10,14 @@
 //! | `spectrum` | eigenvalues of 3×3 matrices, spread directions |
 //! | [`newton`] | points whose orbits recur |
 //! | [`vantage`] | where to look at a place from |
+//! | `probe` | the space about a place |
 //! | [`find`] | the search for the places of a view |
 
 pub mod find;
 pub mod newton;
+mod probe;
 mod spectrum;
 pub mod vantage;
 
 pub use find::{Place, PlaceSearch, SearchArea};
-pub use vantage::{Vantage, VantageSearch};
+pub use vantage::{CameraSearch, Vantage};

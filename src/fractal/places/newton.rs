@@ -89,30 +89,59 @@ pub fn solve(
     None
 }
 
-/// The exact point of a solution near `guess`; none if the steps do not become tiny.
+/// The exact point of a solution, found in steps.
 ///
-/// `derivative` is that of the solution in f64: with it, every round gains about ten digits. A point of a
-/// fractal without depth stays as it is.
-pub fn refined(
-    fractal: &Fractal,
-    guess: PrecisePoint,
+/// Every round with the derivative of the solution in f64 gains about ten digits.
+pub struct Refinement {
+    fractal: Fractal,
+    point: PrecisePoint,
     recurrence: Recurrence,
     derivative: DMat3,
-) -> Option<PrecisePoint> {
-    if !fractal.formula().has_depth(fractal) {
-        return Some(guess);
+    rounds: u32,
+}
+
+/// What a round of a [`Refinement`] found.
+pub enum Refined {
+    /// More rounds are necessary.
+    Unfinished,
+    /// The exact point.
+    Exact(PrecisePoint),
+    /// The steps do not become tiny.
+    Diverging,
+}
+
+impl Refinement {
+    /// A refinement of a solution near `guess`, which has the equation `recurrence`.
+    ///
+    /// `derivative` is that of the solution in f64.
+    pub fn new(
+        fractal: &Fractal,
+        guess: PrecisePoint,
+        recurrence: Recurrence,
+        derivative: DMat3,
+    ) -> Self {
+        Self { fractal: fractal.clone(), point: guess, recurrence, derivative, rounds: 0 }
     }
-    let mut point = guess;
-    for _ in 0..MAX_REFINEMENTS {
-        let error = fractal.formula().recurrence_error(fractal, &point, recurrence)?;
-        let step = newton_step(error, derivative)?;
-        // Two digits more than are needed keep the document's numbers short.
-        point = point.moved_by(-step, 0.01 * EXACT);
-        if step.length() < EXACT {
-            return Some(point);
+
+    /// Runs one round. A point of a fractal without depth stays as it is.
+    pub fn step(&mut self) -> Refined {
+        let formula = self.fractal.formula();
+        if !formula.has_depth(&self.fractal) {
+            return Refined::Exact(self.point.clone());
         }
+        let error = formula.recurrence_error(&self.fractal, &self.point, self.recurrence);
+        let step = error.and_then(|error| newton_step(error, self.derivative));
+        let Some(step) = step.filter(|_| self.rounds < MAX_REFINEMENTS) else {
+            return Refined::Diverging;
+        };
+        self.rounds += 1;
+        // Two digits more than are needed keep the document's numbers short.
+        self.point = self.point.moved_by(-step, 0.01 * EXACT);
+        if step.length() < EXACT {
+            return Refined::Exact(self.point.clone());
+        }
+        Refined::Unfinished
     }
-    None
 }
 
 fn newton_step(error: DVec3, derivative: DMat3) -> Option<DVec3> {

@@ -5,10 +5,15 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 
 use super::spectrum::spread_directions;
-use crate::formula::{DistanceField, Ray};
+use crate::{
+    formula::{DistanceField, Ray},
+    scene::{Camera, PrecisePoint},
+};
 
 /// Number of directions that are tried.
 const DIRECTIONS: u32 = 96;
+/// Directions that one step measures.
+const DIRECTIONS_PER_STEP: usize = 8;
 /// Hit distance of the rays that try a direction, per unit of depth.
 const CONE: f64 = 0.004;
 /// Most steps of such a ray.
@@ -32,19 +37,17 @@ const JUDGED: usize = 12;
 const ENOUGH_ROOM: f64 = 0.4;
 /// How far the wider view is, whose open side becomes the picture's upright.
 const WIDER: f64 = 4.0;
-/// Loss of liking for a turn by a radian.
-const TURN_COST: f64 = 0.15;
 /// Part of the framing that relief decides.
 const RELIEF_WEIGHT: f64 = 0.3;
 /// A small copy's front, in its radii from its centre.
 const COPY_FRONT: f64 = 1.2;
 /// Least part of the wider view's open direction across the picture that decides the upright.
 const MIN_ACROSS: f64 = 0.15;
-/// Directions that are tried in one step of a search.
-const TRIED_AT_ONCE: u32 = 8;
+/// Loss of liking for a turn by a radian.
+const TURN_COST: f64 = 0.15;
 
 /// Where a place is looked at from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Vantage {
     /// From the place to the eye: a unit vector.
     pub direction: DVec3,
@@ -56,6 +59,39 @@ pub struct Vantage {
     pub framing: f64,
 }
 
+/// The openness of directions about a point, measured in steps.
+#[derive(Clone, Debug)]
+pub struct Openings {
+    point: DVec3,
+    scale: f64,
+    /// Directions with their openness.
+    measured: Vec<(DVec3, f64)>,
+}
+
+impl Openings {
+    /// Openings about `point` at `scale`, both in a field's coordinates.
+    pub fn new(point: DVec3, scale: f64) -> Self {
+        Self { point, scale, measured: Vec::new() }
+    }
+
+    /// Measures some directions; returns false once all are measured.
+    pub fn step(&mut self, field: &dyn DistanceField) -> bool {
+        let from = self.measured.len();
+        let next = spread_directions(DIRECTIONS).skip(from).take(DIRECTIONS_PER_STEP);
+        self.measured.extend(next.map(|direction| {
+            let distance = field.clear_distance(self.point + direction * self.scale);
+            (direction, (distance / self.scale).min(1.0))
+        }));
+        self.measured.len() > from
+    }
+
+    /// The most open direction measured, and its openness.
+    pub fn most_open(&self) -> (DVec3, f64) {
+        let open = self.measured.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1));
+        open.unwrap_or((DVec3::Z, 0.0))
+    }
+}
+
 impl Vantage {
     /// The rotation `world_from_camera`.
     pub fn rotation(&self) -> DQuat {
@@ -64,38 +100,20 @@ impl Vantage {
     }
 }
 
-/// A direction from the place with its openness.
-#[derive(Clone, Copy, Debug)]
-struct Opening {
-    direction: DVec3,
-    openness: f64,
-    /// Openness up to what is enough, less the cost of the turn.
-    liking: f64,
-}
-
-/// A search for the best vantage, in progress.
+/// The search for the best vantage, in steps.
+#[derive(Clone, Debug)]
 pub struct VantageSearch {
-    field: Arc<dyn DistanceField>,
-    /// The place, in the field's coordinates.
     point: DVec3,
     radius: f64,
     scale: f64,
     near: Option<DVec3>,
-    /// The most open direction of the wider view.
-    wide: Opening,
-    openings: Vec<Opening>,
-    stage: Stage,
-    best: Option<(f64, Vantage)>,
-}
-
-enum Stage {
-    /// The first direction that was not tried in the wider view.
-    Wider(u32),
-    /// The first direction that was not tried at the scale.
-    Openings(u32),
-    /// The opening that is judged, and its picture so far.
-    Pictures(usize, PictureTest),
-    Done,
+    openings: Openings,
+    /// The wider view's openings.
+    wider: Openings,
+    /// Direction, openness and liking of those to judge, the last first; none until all are measured.
+    pending: Option<Vec<(DVec3, f64, f64)>>,
+    framing: Option<Framing>,
+    best: Option<(Vantage, f64)>,
 }
 
 impl VantageSearch {
@@ -103,109 +121,111 @@ impl VantageSearch {
     ///
     /// `radius` is that of a small copy about the point, or 0. With `near`, directions near that one are
     /// preferred.
+    pub fn new(point: DVec3, radius: f64, scale: f64, near: Option<DVec3>) -> Self {
+        let openings = Openings::new(point, scale);
+        let wider = Openings::new(point, WIDER * scale);
+        let (pending, framing, best) = (None, None, None);
+        Self { point, radius, scale, near, openings, wider, pending, framing, best }
+    }
+
+    /// Measures some directions or one ray; returns false once the search has ended.
+    pub fn step(&mut self, field: &dyn DistanceField) -> bool {
+        if self.openings.step(field) || self.wider.step(field) {
+            return true;
+        }
+        if let Some(framing) = &mut self.framing {
+            if framing.step(field) {
+                return true;
+            }
+            if let Some((vantage, liking)) = framing.judged()
+                && self.best.as_ref().is_none_or(|(_, most)| liking >= *most)
+            {
+                self.best = Some((vantage, liking));
+            }
+        }
+        let pending = match &mut self.pending {
+            Some(pending) => pending,
+            None => self.pending.insert(self.openings.to_judge(self.near)),
+        };
+        let next = pending.pop().map(|(direction, openness, liking)| {
+            let up = upright(direction, self.wider.most_open().0);
+            let vantage = Vantage { direction, up, openness, framing: 0.0 };
+            let in_front = IN_FRONT * (self.scale - COPY_FRONT * self.radius);
+            Framing::new(vantage, liking, self.point, self.scale, in_front)
+        });
+        self.framing = next;
+        self.framing.is_some()
+    }
+
+    /// The best vantage so far; none where no free direction sees the place.
+    pub fn best(&self) -> Option<Vantage> {
+        self.best.as_ref().map(|(vantage, _)| *vantage)
+    }
+}
+
+impl Openings {
+    /// The most open directions with openness and liking, the best last.
+    fn to_judge(&self, near: Option<DVec3>) -> Vec<(DVec3, f64, f64)> {
+        let mut directions: Vec<_> = self
+            .measured
+            .iter()
+            .map(|&(direction, openness)| {
+                let turned = near.map_or(0.0, |near| direction.angle_between(near));
+                (direction, openness, openness.min(ENOUGH_ROOM) - TURN_COST * turned)
+            })
+            .collect();
+        directions.sort_by(|a, b| b.2.total_cmp(&a.2));
+        directions.truncate(JUDGED);
+        directions.reverse();
+        directions
+    }
+}
+
+/// The search for the camera that looks at a place, in steps.
+pub struct CameraSearch {
+    field: Arc<dyn DistanceField>,
+    position: PrecisePoint,
+    depth: f64,
+    vantage: VantageSearch,
+}
+
+impl CameraSearch {
+    /// A search for the camera `depth` scene units from `position`, by the field about that place.
+    ///
+    /// `radius` is that of a small copy about the place, or 0. With `near`, directions near that one are
+    /// preferred.
     pub fn new(
         field: Arc<dyn DistanceField>,
-        point: DVec3,
+        position: PrecisePoint,
         radius: f64,
-        scale: f64,
+        depth: f64,
         near: Option<DVec3>,
     ) -> Self {
-        let wide = Opening { direction: DVec3::Z, openness: 0.0, liking: 0.0 };
-        let (openings, stage, best) = (Vec::new(), Stage::Wider(0), None);
-        Self { field, point, radius, scale, near, wide, openings, stage, best }
+        let vantage = VantageSearch::new(field.local(&position), radius, depth, near);
+        Self { field, position, depth, vantage }
     }
 
-    /// Runs one step of about 0.1 ms; returns false once the search has ended.
+    /// Runs one step of about 0.2 ms; returns false once the search has ended.
     pub fn step(&mut self) -> bool {
-        let stage = std::mem::replace(&mut self.stage, Stage::Done);
-        self.stage = match stage {
-            Stage::Wider(from) => {
-                let found = self.tried(from, WIDER * self.scale);
-                let widest = found.into_iter().max_by(|a, b| a.openness.total_cmp(&b.openness));
-                if let Some(widest) = widest.filter(|it| it.openness > self.wide.openness) {
-                    self.wide = widest;
-                }
-                let next = from + TRIED_AT_ONCE;
-                if next < DIRECTIONS { Stage::Wider(next) } else { Stage::Openings(0) }
-            }
-            Stage::Openings(from) => {
-                let found = self.tried(from, self.scale);
-                self.openings.extend(found);
-                let next = from + TRIED_AT_ONCE;
-                if next < DIRECTIONS {
-                    Stage::Openings(next)
-                } else {
-                    self.openings.sort_by(|a, b| b.liking.total_cmp(&a.liking));
-                    self.openings.truncate(JUDGED);
-                    Stage::Pictures(0, PictureTest::default())
-                }
-            }
-            Stage::Pictures(index, mut test) => {
-                let Some(opening) = self.openings.get(index).copied() else {
-                    self.stage = Stage::Done;
-                    return false;
-                };
-                let Opening { direction, openness, liking } = opening;
-                let up = upright(direction, self.wide.direction);
-                match test.next_ray(self, direction, up) {
-                    Verdict::Unknown => Stage::Pictures(index, test),
-                    Verdict::Hidden => Stage::Pictures(index + 1, PictureTest::default()),
-                    Verdict::Framing(framing) => {
-                        let value = liking + framing;
-                        if self.best.is_none_or(|(best, _)| value > best) {
-                            let vantage = Vantage { direction, up, openness, framing };
-                            self.best = Some((value, vantage));
-                        }
-                        Stage::Pictures(index + 1, PictureTest::default())
-                    }
-                }
-            }
-            Stage::Done => return false,
-        };
-        true
+        self.vantage.step(self.field.as_ref())
     }
 
-    /// Runs the remaining steps; none where no free direction sees the place.
-    pub fn finish(mut self) -> Option<Vantage> {
-        while self.step() {}
-        self.vantage()
-    }
-
-    /// The best vantage so far.
+    /// The best vantage so far; none where nothing free sees the place.
     pub fn vantage(&self) -> Option<Vantage> {
-        self.best.map(|(_, vantage)| vantage)
+        self.vantage.best()
     }
 
-    /// The distance between place and eye for which the search looks.
-    pub fn scale(&self) -> f64 {
-        self.scale
+    /// The best camera so far, with the rest of `camera`; none where nothing free sees the place.
+    pub fn camera(&self, camera: &Camera) -> Option<Camera> {
+        let vantage = self.vantage.best()?;
+        let grain = 1e-9 * self.depth;
+        Some(Camera {
+            position: self.position.moved_by(vantage.direction * self.depth, grain),
+            pivot: self.position.clone(),
+            orientation: vantage.rotation().into(),
+            ..camera.clone()
+        })
     }
-
-    /// The next directions from the `from`-th, at `scale`.
-    fn tried(&self, from: u32, scale: f64) -> Vec<Opening> {
-        let directions = spread_directions(DIRECTIONS).skip(from as usize);
-        directions
-            .take(TRIED_AT_ONCE as usize)
-            .map(|direction| {
-                let openness = openness(self.field.as_ref(), self.point, direction, scale);
-                let turned = self.near.map_or(0.0, |near| direction.angle_between(near));
-                let liking = openness.min(ENOUGH_ROOM) - TURN_COST * turned;
-                Opening { direction, openness, liking }
-            })
-            .collect()
-    }
-}
-
-/// The greatest openness about `point` at `scale`.
-pub fn most_open(field: &dyn DistanceField, point: DVec3, scale: f64) -> f64 {
-    spread_directions(DIRECTIONS)
-        .map(|direction| openness(field, point, direction, scale))
-        .fold(0.0, f64::max)
-}
-
-/// The distance to the surface from `scale` away in `direction`, over `scale`; at most 1.
-fn openness(field: &dyn DistanceField, point: DVec3, direction: DVec3, scale: f64) -> f64 {
-    (field.clear_distance(point + direction * scale) / scale).min(1.0)
 }
 
 /// The part of `wide` across `direction`, as a unit vector; any such if there is none.
@@ -219,51 +239,67 @@ fn upright(direction: DVec3, wide: DVec3) -> DVec3 {
         .unwrap_or_else(|| direction.any_orthonormal_vector())
 }
 
-/// How much a picture shows, one ray at a time.
+/// How much the picture of a vantage shows, by a grid of rays.
 ///
-/// A grid of rays counts what is surface, neither background nor far nearer than the place, and how much the
-/// depths differ. The first ray leads to the place.
-#[derive(Default)]
-struct PictureTest {
+/// The rays count what is surface, neither background nor far nearer than the place, and how much the depths
+/// differ.
+#[derive(Clone, Debug)]
+struct Framing {
+    vantage: Vantage,
+    liking: f64,
+    eye: DVec3,
+    scale: f64,
+    /// Least depth of the surface in the picture's middle.
+    in_front: f64,
+    /// Number of rays so far: the first through the middle, then those of the grid.
     rays: u32,
-    /// Logarithms of the counted depths over the place's.
-    logs: Vec<f64>,
+    is_hidden: bool,
+    /// Logarithms of the depths in depths of the place.
+    depths_ln: Vec<f64>,
 }
 
-enum Verdict {
-    Unknown,
-    /// A surface in front hides the place.
-    Hidden,
-    /// How good the picture is framed, 0 to 1.
-    Framing(f64),
-}
+impl Framing {
+    fn new(vantage: Vantage, liking: f64, point: DVec3, scale: f64, in_front: f64) -> Self {
+        let eye = point + vantage.direction * scale;
+        let (rays, is_hidden, depths_ln) = (0, false, Vec::new());
+        Self { vantage, liking, eye, scale, in_front, rays, is_hidden, depths_ln }
+    }
 
-impl PictureTest {
-    fn next_ray(&mut self, search: &VantageSearch, direction: DVec3, up: DVec3) -> Verdict {
-        let (scale, right) = (search.scale, up.cross(direction));
-        let march = |x: f64, y: f64| {
-            let toward = (HALF_HEIGHT * (1.5 * x * right + y * up) - direction).normalize();
-            let ray = Ray { origin: search.point + direction * scale, direction: toward };
-            search.field.trace(ray, CONE, FAR * scale, MAX_STEPS).unwrap_or_else(Some)
-        };
-        let Some(index) = self.rays.checked_sub(1) else {
-            self.rays = 1;
-            let in_front = IN_FRONT * (scale - COPY_FRONT * search.radius);
-            let is_hidden = march(0.0, 0.0).is_some_and(|depth| depth < in_front);
-            return if is_hidden { Verdict::Hidden } else { Verdict::Unknown };
-        };
-        let side = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(GRID) - 1.0;
-        let depth = march(side(index % GRID), side(index / GRID));
-        self.logs.extend(depth.map(|it| (it / scale).ln()).filter(|it| *it > NEAR_LN));
-        self.rays += 1;
-        if self.rays <= GRID * GRID {
-            return Verdict::Unknown;
+    /// Marches one ray; returns false once no ray is left, or a surface in front hides the place.
+    fn step(&mut self, field: &dyn DistanceField) -> bool {
+        if self.is_hidden || self.rays > GRID * GRID {
+            return false;
         }
-        let count = self.logs.len().max(1) as f64;
-        let mean = self.logs.iter().sum::<f64>() / count;
-        let variance = self.logs.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / count;
+        let side = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(GRID) - 1.0;
+        let at = self.rays.checked_sub(1).map(|k| (side(k % GRID), side(k / GRID)));
+        let depth = self.march(field, at.unwrap_or((0.0, 0.0)));
+        self.rays += 1;
+        if at.is_none() {
+            self.is_hidden = depth.is_some_and(|depth| depth < self.in_front);
+        } else if let Some(depth) = depth {
+            self.depths_ln.extend(Some((depth / self.scale).ln()).filter(|it| *it > NEAR_LN));
+        }
+        true
+    }
+
+    fn march(&self, field: &dyn DistanceField, (x, y): (f64, f64)) -> Option<f64> {
+        let Vantage { direction, up, .. } = self.vantage;
+        let right = up.cross(direction);
+        let toward = HALF_HEIGHT * (1.5 * x * right + y * up) - direction;
+        let ray = Ray { origin: self.eye, direction: toward.normalize() };
+        field.trace(ray, CONE, FAR * self.scale, MAX_STEPS).unwrap_or_else(Some)
+    }
+
+    /// The vantage and how much it is liked; none if a surface in front hides the place.
+    fn judged(&self) -> Option<(Vantage, f64)> {
+        let logs = &self.depths_ln;
+        let count = logs.len().max(1) as f64;
+        let mean = logs.iter().sum::<f64>() / count;
+        let variance = logs.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / count;
         let relief = (variance.sqrt() / ENOUGH_RELIEF).min(1.0);
-        let seen = self.logs.len() as f64 / f64::from(GRID * GRID);
-        Verdict::Framing((1.0 - RELIEF_WEIGHT) * seen + RELIEF_WEIGHT * relief)
+        let seen = logs.len() as f64 / f64::from(GRID * GRID);
+        let framing = (1.0 - RELIEF_WEIGHT) * seen + RELIEF_WEIGHT * relief;
+        let vantage = Vantage { framing, ..self.vantage };
+        (!self.is_hidden).then_some((vantage, self.liking + framing))
     }
 }

@@ -8,7 +8,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::{collide, placement::place_pivot, world::World};
 use crate::{
-    fractal::places::{Place, Vantage, VantageSearch},
+    fractal::places::{CameraSearch, Place, Vantage},
     scene::Camera,
 };
 
@@ -39,7 +39,7 @@ pub struct Descent {
     vantage: Option<Vantage>,
     /// The distance for which `vantage` was planned.
     planned: f64,
-    plan: Option<VantageSearch>,
+    plan: Option<CameraSearch>,
 }
 
 impl Descent {
@@ -74,7 +74,7 @@ impl Descent {
         if self.plan.is_none() && AHEAD * distance * PLAN_AGAIN < self.planned {
             let toward_eye = (&camera.position - &self.place.position).try_normalize();
             let scale = (AHEAD * distance).max(self.nearest());
-            self.plan = Some(self.place.vantage_search(scale, toward_eye));
+            self.plan = Some(self.place.camera_search(scale, toward_eye));
             self.planned = AHEAD * distance;
         }
         let Some(plan) = &mut self.plan else { return false };
