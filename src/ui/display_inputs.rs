@@ -1,5 +1,6 @@
 //! Data of the shell for the interface to display: the picture, progress and messages.
 
+use super::small_picture::SmallTextures;
 use crate::render::report::Report;
 
 /// The data of one frame that the interface displays.
@@ -15,6 +16,8 @@ pub struct DisplayInputs<'a> {
     pub notice: Option<&'a Notice>,
     /// The name of the GPU adapter.
     pub adapter: &'a str,
+    /// Those of [`Interface::small_pictures`](super::Interface::small_pictures) that are drawn.
+    pub small_pictures: &'a SmallTextures,
 }
 
 /// The rendered picture as an egui texture.

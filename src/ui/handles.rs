@@ -67,7 +67,7 @@ pub fn point_lights(
 }
 
 /// The window position of the point at `offset` from the eye; none outside the picture.
-fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
+pub fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
     let seen = camera.rotation().inverse() * offset;
     if seen.z >= -f64::MIN_POSITIVE {
         return None;

@@ -39,6 +39,8 @@ pub enum Icon {
     Whole,
     /// An arrow that points down to a line.
     Dive,
+    /// A map pin.
+    Pin,
 }
 
 /// A square button with an icon; `name` is for screen readers.
@@ -137,6 +139,18 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
             line(&[(0.0, -7.0), (0.0, 2.5)]);
             line(&[(-4.5, -2.0), (0.0, 2.5), (4.5, -2.0)]);
             line(&[(-6.0, 6.5), (6.0, 6.5)]);
+        }
+        Icon::Pin => {
+            // Two tangents from the tip to a circle.
+            let (center, radius) = ((0.0, -2.5_f32), 4.7_f32);
+            let mut outline = vec![(0.0, 7.5)];
+            outline.extend((0..=12).map(|i| {
+                let a = (150.0 + 20.0 * i as f32).to_radians();
+                (center.0 + radius * a.cos(), center.1 + radius * a.sin())
+            }));
+            outline.push((0.0, 7.5));
+            line(&outline);
+            painter.circle_filled(at(center.0, center.1), 1.9 * size / 16.0, color);
         }
         Icon::Home => {
             line(&[(-7.0, 0.0), (0.0, -6.5), (7.0, 0.0)]);

@@ -3,23 +3,27 @@
 use std::sync::Arc;
 
 use egui::{Align2, Margin, Panel, Rect, Ui, vec2};
+use web_time::Instant;
 
 use super::{
     action::Action,
     display_inputs::DisplayInputs,
     dive,
     editor::Editor,
+    floating::{self, ButtonRow},
     handles,
     home::HomeTarget,
-    icon::{Icon, icon_button},
+    icon::Icon,
     navigation::CameraStatus,
     notice,
     panel::{self, Context},
     pilot::{Frame, Pilot},
+    places::{self, PinInputs, Places},
     rects::Rects,
     selection::Selection,
     settings::Settings,
     shortcuts::{self, Command},
+    small_picture::SmallPicture,
     status, theme,
     timeline::Timeline,
     view,
@@ -43,6 +47,7 @@ pub struct Interface {
     settings: Settings,
     selection: Selection,
     pilot: Pilot,
+    places: Places,
     timeline: Timeline,
     /// The target of Home.
     home: Camera,
@@ -66,6 +71,7 @@ impl Interface {
             settings,
             selection: Selection::default(),
             pilot: Pilot::default(),
+            places: Places::default(),
             timeline: Timeline::default(),
             help_open: false,
             camera_status: None,
@@ -130,6 +136,11 @@ impl Interface {
     /// True if the film's histogram is visible and must be computed.
     pub fn wants_histogram(&self) -> bool {
         self.histogram_shown
+    }
+
+    /// The small pictures to draw when idle, the first ones first.
+    pub fn small_pictures(&self) -> impl Iterator<Item = &SmallPicture> + Clone {
+        self.places.small_pictures()
     }
 
     /// The positions of named widgets.
@@ -282,20 +293,29 @@ impl Interface {
         let response = view::show(ui, frame, inputs.picture);
         self.rects.record("view", &response);
         // The buttons precede the pilot, which executes this frame's commands.
-        let side = button_side(ui);
-        let first = if self.settings.timeline_open { 10.0 } else { 20.0 + side };
-        let button_at =
-            |index: f32| rect.left_bottom() + vec2(first + index * (10.0 + side), -10.0 - side);
+        let mut buttons = ButtonRow::new(ui, rect);
+        if !self.settings.timeline_open {
+            let hover = ("Show timeline", "Animate the camera and all settings with keys (T)");
+            let button = buttons.add(ui, Icon::Timeline, hover);
+            self.rects.record("timeline toggle", &button);
+            if button.clicked() {
+                commands.push(Command::ToggleTimeline);
+            }
+        }
+        let button = buttons.add(ui, Icon::Pin, self.places.button());
+        self.rects.record("find places", &button);
+        if button.clicked() {
+            commands.push(Command::FindPlaces);
+        }
         let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
-        let button = floating_button(ui, button_at(0.0), Icon::Dive, hover);
+        let button = buttons.add(ui, Icon::Dive, hover);
         self.rects.record("dive", &button);
         if button.clicked() {
             commands.push(Command::Dive);
         }
         if let Some(target) = HomeTarget::of(&scene.camera, &self.home) {
-            let at = button_at(1.0);
             let (icon, hover) = target.button();
-            let button = floating_button(ui, at, icon, hover);
+            let button = buttons.add(ui, icon, hover);
             self.rects.record("home", &button);
             if button.clicked() {
                 commands.push(Command::Home);
@@ -314,23 +334,36 @@ impl Interface {
             self.selection.light = Some(light);
         }
         self.camera_status = Some(self.pilot.camera_status(scene, frame));
+        let is_moving = self.timeline.is_playing()
+            || self.pilot.is_moving(ui.input(|i| i.time))
+            || self.pilot.speed() > 0.0;
+        let model = self.pilot.models().of(&scene.fractal);
+        let clock = Instant::now();
+        let mut now_ms = || clock.elapsed().as_secs_f64() * 1e3;
+        self.places.advance(scene, &model, frame, is_moving, &mut now_ms);
+        self.places.request_repaint(ui);
+        let mut toggle = Rect::NOTHING;
         if wide && !self.settings.panel_open {
-            let at = rect.right_top() + vec2(-10.0 - button_side(ui), 10.0);
+            let at = rect.right_top() + vec2(-10.0 - floating::button_side(ui), 10.0);
             let hover = ("Show panel", "Show the panel (P)");
-            let button = floating_button(ui, at, Icon::Controls, hover);
+            let button = floating::button(ui, at, Icon::Controls, hover);
             self.rects.record("panel toggle", &button);
+            toggle = button.rect;
             if button.clicked() {
                 commands.push(Command::TogglePanel);
             }
         }
-        if !self.settings.timeline_open {
-            let at = rect.left_bottom() + vec2(10.0, -10.0 - button_side(ui));
-            let hover = ("Show timeline", "Animate the camera and all settings with keys (T)");
-            let button = floating_button(ui, at, Icon::Timeline, hover);
-            self.rects.record("timeline toggle", &button);
-            if button.clicked() {
-                commands.push(Command::ToggleTimeline);
-            }
+        let pins = PinInputs {
+            frame,
+            camera: &scene.camera,
+            textures: inputs.small_pictures,
+            buttons: [buttons.area(rect), toggle],
+        };
+        let chosen = places::show(ui, &mut self.places, &pins, &mut self.rects);
+        if let Some(pin) = chosen.and_then(|index| self.places.pins().get(index)) {
+            self.pilot.fly_to(scene, frame, pin.place.field(), &pin.to);
+            self.places.put_away();
+            ui.ctx().request_repaint();
         }
         if inputs.picture.is_none() {
             ui.painter().text(
@@ -388,6 +421,8 @@ impl Interface {
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
             Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,
+            Command::Leave if self.places.are_shown() => self.places.put_away(),
+            Command::FindPlaces => self.places.toggle(),
             Command::Leave => self.pilot.set_flying(false),
             Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
             Command::ToggleTimeline => self.toggle_timeline(wide),
@@ -445,23 +480,6 @@ impl Interface {
             self.selection = Selection::default();
         }
     }
-}
-
-/// Width and height of a button over the picture, in points.
-fn button_side(ui: &Ui) -> f32 {
-    ui.spacing().interact_size.y.max(34.0)
-}
-
-/// An icon button over the picture.
-fn floating_button(
-    ui: &mut Ui,
-    at: egui::Pos2,
-    icon: Icon,
-    (name, hover): (&str, &str),
-) -> egui::Response {
-    let at = Rect::from_min_size(at, vec2(1.0, 1.0) * button_side(ui));
-    ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
-    ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
 }
 
 /// True if this frame's keys step a value: repeated presses are one undo step.

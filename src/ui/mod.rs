@@ -14,7 +14,9 @@
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
 //! | `field` | the distance field for the camera's movements |
-//! | `notice` | the shell's message over the picture |
+//! | `places/` | the search for places of the view, and its pins |
+//! | `small_picture` | small pictures that the shell draws when idle |
+//! | `floating`, `notice` | buttons and the shell's message over the picture |
 //! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
@@ -27,6 +29,7 @@ mod display_inputs;
 mod dive;
 mod export_size;
 mod field;
+mod floating;
 mod handles;
 mod home;
 mod icon;
@@ -34,8 +37,10 @@ mod interface;
 mod notice;
 mod panel;
 mod pilot;
+mod places;
 mod selection;
 mod settings;
+mod small_picture;
 mod status;
 mod timeline;
 mod view;
@@ -53,4 +58,5 @@ pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use interface::Interface;
 pub use panel::all_sections_open;
 pub use settings::{Sections, Settings};
+pub use small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId, SmallTextures};
 pub use status::zoom;

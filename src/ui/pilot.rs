@@ -17,6 +17,7 @@ use super::{
     shortcuts::{Command, HeldKeys},
 };
 use crate::{
+    formula::DistanceField,
     fractal::{FractalModel, SharedModel},
     scene::{Camera, Scene, StereoLayout},
 };
@@ -185,6 +186,19 @@ impl Pilot {
     /// Sets whether zooms are drawn to places.
     pub fn draw_to_places(&mut self, is_drawn: bool) {
         self.is_drawn = is_drawn;
+    }
+
+    /// Starts a flight to `to`, planned by the distance field about its target.
+    pub fn fly_to(
+        &mut self,
+        scene: &mut Scene,
+        frame: Frame,
+        field: &dyn DistanceField,
+        to: &Camera,
+    ) {
+        self.guide.cancel();
+        let world = World { field, viewport: viewport(scene, frame) };
+        self.navigator.fly_to(&mut scene.camera, world, to);
     }
 
     /// Moves the scene's camera by this frame's input.

@@ -34,7 +34,9 @@ pub enum Command {
     KeepDive,
     /// Switch fly mode on or off.
     ToggleFlight,
-    /// Close the help window, or leave fly mode.
+    /// Search the view for places and show pins on them, or put the pins away.
+    FindPlaces,
+    /// Close the help window, put the pins away, or leave fly mode.
     Leave,
     /// Show or hide the panel.
     TogglePanel,
@@ -130,8 +132,9 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(NONE, Key::H, Command::Home, "H", "Home: back to the first view, or out of a deep one"),
     row(NONE, Key::A, Command::FrameAll, "A", "Show the whole fractal"),
     row(NONE, Key::D, Command::Dive, "D", "Dive: go down by itself, or stop"),
+    row(NONE, Key::N, Command::FindPlaces, "N", "Find places to dive to, or put the pins away"),
     row(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
-    row(NONE, Key::Escape, Command::Leave, "Esc", "Leave fly mode, close help"),
+    row(NONE, Key::Escape, Command::Leave, "Esc", "Close help, put pins away, leave fly mode"),
     row(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),
     row(COMMAND_SHIFT, Key::Z, Command::Redo, "Ctrl Shift Z, Ctrl Y", "Redo"),
     also(COMMAND, Key::Y, Command::Redo),

@@ -57,6 +57,7 @@ impl eframe::App for App {
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),
             adapter: &self.adapter_name,
+            small_pictures: engine.small_textures(),
         };
         let actions = session.interface.show(ui, &inputs);
         show_drop_hint(ui);

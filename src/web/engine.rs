@@ -18,11 +18,12 @@ use super::{
     live_view::LiveView,
     page,
     session::{AppStatus, Session},
+    small_pictures::SmallPictures,
 };
 use crate::{
     gpu::Gpu,
     render::{Activity, Pipelines, Report},
-    ui,
+    ui::{self, SmallTextures},
 };
 
 /// Milliseconds between two ticks: the shortest timer that browsers allow.
@@ -45,6 +46,7 @@ pub struct Engine {
     pub exporter: Exporter,
     gpu: Gpu,
     view: LiveView,
+    small_pictures: SmallPictures,
     context: egui::Context,
     /// Whether a tick is scheduled.
     is_tick_scheduled: bool,
@@ -73,7 +75,8 @@ impl Engine {
         let engine = Rc::new(RefCell::new(Self {
             exporter: Exporter::new(pipelines.clone()),
             gpu,
-            view: LiveView::new(pipelines, render_state, &models),
+            view: LiveView::new(pipelines.clone(), render_state.clone(), &models),
+            small_pictures: SmallPictures::new(pipelines, render_state),
             context,
             is_tick_scheduled: false,
             has_drawn: false,
@@ -90,6 +93,11 @@ impl Engine {
     /// The picture for egui; `None` before the first one.
     pub fn picture(&self) -> Option<ui::ViewTexture> {
         self.view.shown()
+    }
+
+    /// The small pictures that are finished.
+    pub fn small_textures(&self) -> &SmallTextures {
+        self.small_pictures.textures()
     }
 
     /// Applies this frame's scene and view size, and starts the work. Returns the seconds until the
@@ -109,6 +117,9 @@ impl Engine {
         self.view.set_environment_map(interface.environment_map());
         self.view.set_scene(interface.scene(), interface.is_moving());
         self.view.watch_histogram(interface.wants_histogram());
+        self.small_pictures.want(interface.small_pictures());
+        self.small_pictures.set_environment_map(interface.environment_map());
+        self.small_pictures.note_frame();
         if self.step(session, now_secs) {
             self.schedule_tick();
         }
@@ -125,8 +136,17 @@ impl Engine {
             true
         } else if session.update_safe_mode() == SafeMode::Paused {
             false
+        } else if self.is_turn_of_small_pictures(session) {
+            if self.small_pictures.pump(now_secs) {
+                self.context.request_repaint();
+            }
+            if self.small_pictures.is_compiling() {
+                self.view.pump(now_secs);
+            }
+            // The view waited, so it may have work left.
+            true
         } else {
-            let busy = self.view.pump(now_secs);
+            let busy = self.view.pump(now_secs) || self.small_pictures.has_work();
             let report = self.view.report();
             if !busy && report.activity == Activity::Idle && report.pictures > 0 {
                 session.note_complete_picture();
@@ -142,6 +162,11 @@ impl Engine {
             is_exporting: self.exporter.is_busy(),
         };
         busy
+    }
+
+    /// Whether a small picture is drawn now: only while nothing moves and the view's picture is sharp.
+    fn is_turn_of_small_pictures(&self, session: &Session) -> bool {
+        self.small_pictures.has_work() && self.view.is_sharp() && !session.interface.is_moving()
     }
 
     /// Shows a notice where the device has reported new errors.

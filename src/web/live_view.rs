@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     fractal::SharedModel,
-    render::{Pace, Pipelines, Region, Report, View},
+    render::{Activity, Pace, Pipelines, Region, Report, View},
     scene::{EnvironmentMap, Scene, StereoLayout},
     ui,
 };
@@ -57,6 +57,14 @@ impl LiveView {
     /// The view's report.
     pub fn report(&self) -> Report {
         self.view.as_ref().map(View::report).unwrap_or_default()
+    }
+
+    /// True once the first sharp picture of the newest scene is complete.
+    pub fn is_sharp(&self) -> bool {
+        let Some(view) = &self.view else { return false };
+        let report = view.report();
+        let is_at_rest = matches!(report.activity, Activity::Idle | Activity::Refining);
+        is_at_rest && report.samples_done > 0 && !view.has_pending_scene()
     }
 
     /// Compute dispatches so far.

@@ -23,6 +23,7 @@
 //! | `storage` | texts in the browser's storage |
 //! | `error_log` | panics and errors of the visit |
 //! | `live_view` | the picture in the window and its texture in egui |
+//! | `small_pictures` | small pictures of the interface, drawn when the view rests |
 //! | `async_compile` | pipelines compiled while the page goes on |
 //! | `mailbox` | messages from callbacks to the next frame |
 //! | `page` | the window: clocks, timers, listeners |
@@ -42,6 +43,7 @@ mod mailbox;
 mod page;
 mod sequence_export;
 mod session;
+mod small_pictures;
 pub mod start;
 mod still_export;
 mod storage;

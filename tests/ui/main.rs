@@ -12,6 +12,7 @@ mod gestures;
 mod hostile;
 mod navigation;
 mod orbit;
+mod places;
 mod stage;
 mod timeline;
 mod zoom;

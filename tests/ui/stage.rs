@@ -6,8 +6,8 @@ use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
     ui::{
-        Action, DisplayInputs, ExportProgress, Interface, Notice, Settings, all_sections_open,
-        theme,
+        Action, DisplayInputs, ExportProgress, Interface, Notice, Settings, SmallTextures,
+        all_sections_open, theme,
     },
 };
 
@@ -18,6 +18,7 @@ pub struct Stage {
     pub report: Report,
     pub export: Option<ExportProgress>,
     pub notice: Option<Notice>,
+    pub small_pictures: SmallTextures,
 }
 
 /// Settings with everything unfolded.
@@ -52,6 +53,7 @@ pub fn stage(
         report,
         export: None,
         notice: None,
+        small_pictures: SmallTextures::default(),
     };
     Harness::builder()
         .with_size(Vec2::from(size))
@@ -66,6 +68,7 @@ pub fn stage(
                     export: stage.export,
                     notice: stage.notice.as_ref(),
                     adapter: "a test",
+                    small_pictures: &stage.small_pictures,
                 };
                 // The harness insets what it shows; the page doesn't.
                 let whole = egui::UiBuilder::new().max_rect(ui.ctx().content_rect());

@@ -25,6 +25,11 @@ impl View {
         self.shown.generation()
     }
 
+    /// True while a scene waits to be applied.
+    pub fn has_pending_scene(&self) -> bool {
+        self.pending.is_some()
+    }
+
     /// Scene units per unit of the view's render space.
     fn scale(&self) -> f64 {
         self.space.as_ref().map_or(1.0, RenderSpace::scale)

@@ -31,6 +31,10 @@ fn memory(ui: &mut Ui, cx: &Context<'_>) {
         let textures = ui.ctx().tex_manager();
         let interface: usize = textures.read().allocated().map(|(_, meta)| meta.bytes_used()).sum();
         line(ui, "the interface's textures", interface as u64);
+        let small = cx.inputs.small_pictures.memory_bytes;
+        if small > 0 {
+            line(ui, "small pictures", small);
+        }
     });
 }
 
