@@ -1,6 +1,8 @@
 //! Data of the shell for the interface to display: the picture, progress and messages.
 
-use super::small_picture::SmallTextures;
+use std::collections::BTreeMap;
+
+use super::small_picture::SmallPictureId;
 use crate::render::report::Report;
 
 /// The data of one frame that the interface displays.
@@ -27,6 +29,15 @@ pub struct ViewTexture {
     pub texture: egui::TextureId,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
+}
+
+/// The small pictures that have been drawn.
+#[derive(Clone, Debug, Default)]
+pub struct SmallTextures {
+    /// Their textures.
+    pub by_id: BTreeMap<SmallPictureId, ViewTexture>,
+    /// GPU memory of the pictures and of the view that draws them.
+    pub memory_bytes: u64,
 }
 
 /// Progress of an export.

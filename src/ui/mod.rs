@@ -53,10 +53,10 @@ pub mod shortcuts;
 pub mod theme;
 
 pub use action::Action;
-pub use display_inputs::{DisplayInputs, ExportProgress, Notice, ViewTexture};
+pub use display_inputs::{DisplayInputs, ExportProgress, Notice, SmallTextures, ViewTexture};
 pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use interface::Interface;
 pub use panel::all_sections_open;
 pub use settings::{Sections, Settings};
-pub use small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId, SmallTextures};
+pub use small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId};
 pub use status::zoom;

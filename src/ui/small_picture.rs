@@ -1,8 +1,5 @@
 //! Small pictures that the shell draws when idle, such as those of places.
 
-use std::collections::BTreeMap;
-
-use super::display_inputs::ViewTexture;
 use crate::scene::Scene;
 
 /// Width and height of a small picture, in pixels.
@@ -24,13 +21,4 @@ pub struct SmallPicture {
     pub id: SmallPictureId,
     /// What it shows, with the quality to draw it in.
     pub scene: Scene,
-}
-
-/// The small pictures that have been drawn.
-#[derive(Clone, Debug, Default)]
-pub struct SmallTextures {
-    /// Their textures.
-    pub by_id: BTreeMap<SmallPictureId, ViewTexture>,
-    /// GPU memory of the pictures and of the view that draws them.
-    pub memory_bytes: u64,
 }

@@ -42,6 +42,38 @@ fn places_of(scene: &Scene) -> Vec<Place> {
     PlaceSearch::new(&model, &scene.camera, ASPECT, SearchArea::PICTURE).finish()
 }
 
+#[test]
+fn the_progress_of_a_search_grows_until_its_end() {
+    let scene = Scene::default();
+    let model = FractalModel::new(&scene.fractal);
+    let area = SearchArea { rays: 64, count: 6, ..SearchArea::PICTURE };
+    let mut search = PlaceSearch::new(&model, &scene.camera, ASPECT, area);
+    let (mut last, mut distinct) = (search.progress(), 0);
+    assert_eq!(last, 0.0);
+    while search.step() {
+        let progress = search.progress();
+        assert!((last..=1.0).contains(&progress), "{progress} after {last}");
+        distinct += u32::from(progress > last);
+        last = progress;
+    }
+    assert_eq!(last, 1.0);
+    assert!(distinct > 64, "{distinct} values");
+}
+
+#[test]
+fn a_camera_found_in_steps_is_the_one_found_at_once() {
+    let scene = Scene::default();
+    for place in places_of(&scene).iter().take(4) {
+        let depth = place.arrival(&scene.camera);
+        let mut search = place.begin_camera(depth).expect("the place reaches so deep");
+        assert!(search.camera(&scene.camera).is_none());
+        let steps = std::iter::from_fn(|| search.step().then_some(())).count();
+        assert!(steps > 100, "{steps} steps");
+        assert_eq!(search.camera(&scene.camera), place.camera(&scene.camera, depth));
+        assert!(place.begin_camera(0.0).is_none() || place.radius == 0.0);
+    }
+}
+
 fn exact(point: &PrecisePoint) -> Point {
     point.0.each_ref().map(|it| Real::parse(&it.to_string()))
 }

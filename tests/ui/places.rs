@@ -10,7 +10,7 @@ use mandelight::{
     formula,
     formula::Fractal,
     scene::{Camera, PrecisePoint, Scene},
-    ui::{Settings, SmallPicture},
+    ui::{SMALL_PICTURE_PX, Settings, SmallPicture, ViewTexture},
 };
 
 use crate::stage::*;
@@ -101,6 +101,13 @@ fn the_button_searches_and_puts_the_pins_away() {
             }
         }
         assert_eq!(wanted(&harness).len(), count);
+        for (index, node) in pins(&harness).iter().enumerate() {
+            let name = node.accesskit_node().label().expect("a name");
+            let is_named = ["cycle", "small copy"]
+                .iter()
+                .any(|kind| name.starts_with(&format!("Place {}: {kind}, zoom ", index + 1)));
+            assert!(is_named, "{name}");
+        }
         press(&mut harness, "Put places away");
         assert!(pins(&harness).is_empty() && wanted(&harness).is_empty());
         assert_eq!(words(&harness), "");
@@ -181,6 +188,47 @@ fn the_point_of_a_pin_follows_its_place_to_the_pixel() {
         harness.key_press(Key::ArrowUp);
         harness.run_steps(60);
     }
+}
+
+#[test]
+fn a_pin_shows_its_small_picture_once_it_is_drawn() {
+    let mut harness = stage(Scene::default(), unfolded(), WIDE);
+    harness.run();
+    harness.key_press(Key::N);
+    found(&mut harness);
+    let wanted = wanted(&harness);
+    let shown = |harness: &Harness<'_, Stage>| -> Vec<(egui::TextureId, Rect)> {
+        let shapes = harness.output().shapes.iter();
+        let with_texture = shapes.filter_map(|clipped| match &clipped.shape {
+            egui::Shape::Rect(rect) => Some((rect.brush.as_ref()?.fill_texture_id, rect.rect)),
+            _ => None,
+        });
+        with_texture.collect()
+    };
+    assert_eq!(shown(&harness), []);
+    let drawn = |number: u64| ViewTexture {
+        texture: egui::TextureId::User(number),
+        size_px: SMALL_PICTURE_PX,
+    };
+    for (index, picture) in wanted.iter().enumerate().skip(1) {
+        assert_eq!(picture.scene.quality.samples, 2);
+        harness.state_mut().small_pictures.by_id.insert(picture.id, drawn(index as u64));
+    }
+    harness.step();
+    let shown = shown(&harness);
+    assert_eq!(shown.len(), wanted.len() - 1);
+    for (texture, rect) in shown {
+        let egui::TextureId::User(number) = texture else { panic!("{texture:?}") };
+        assert!(pin(&harness, number as usize + 1).rect().center().distance(rect.center()) < 0.1);
+    }
+    // Another look is another picture.
+    assert_eq!(self::wanted(&harness), wanted);
+    slider(&harness, "Exposure").set_value_accesskit(1.5);
+    harness.run_steps(4);
+    let redrawn = self::wanted(&harness);
+    assert_ne!(redrawn[0].id, wanted[0].id);
+    assert_eq!(redrawn[0].scene.tone.exposure, 1.5);
+    assert_eq!(redrawn[0].scene.camera, wanted[0].scene.camera);
 }
 
 #[test]

@@ -249,7 +249,7 @@ mod tests {
         let before = ids(&hunt);
         hunt.redraw(&scene);
         assert_eq!(ids(&hunt), before);
-        scene.tone.exposure_stops += 1.0;
+        scene.tone.exposure += 1.0;
         hunt.redraw(&scene);
         assert!(ids(&hunt).iter().all(|id| !before.contains(id)));
         let pin = &hunt.pins()[0];

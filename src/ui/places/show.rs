@@ -5,15 +5,18 @@ use egui::{
     Ui, WidgetInfo, accesskit::Role, epaint::RectShape, pos2, vec2,
 };
 
-use super::{Pin, Places, Progress};
+use super::{
+    pin::Pin,
+    state::{Places, Progress},
+};
 use crate::{
     scene::Camera,
     ui::{
+        display_inputs::SmallTextures,
         floating::GAP,
         icon::{self, Icon},
         pilot::Frame,
         rects::Rects,
-        small_picture::SmallTextures,
         theme,
     },
 };
