@@ -1,6 +1,6 @@
 //! Buttons over the picture.
 
-use egui::{Pos2, Rect, Response, Ui, vec2};
+use egui::{Pos2, Rect, Response, Stroke, StrokeKind, Ui, vec2};
 
 use super::{
     icon::{Icon, icon_button},
@@ -20,6 +20,12 @@ pub fn button(ui: &mut Ui, at: Pos2, icon: Icon, (name, hover): (&str, &str)) ->
     let at = Rect::from_min_size(at, vec2(1.0, 1.0) * button_side(ui));
     ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
     ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
+}
+
+/// Marks a button whose function is on.
+pub fn mark(ui: &Ui, button: &Response) {
+    let edge = Stroke::new(1.0, theme::ACCENT);
+    ui.painter().rect_stroke(button.rect, theme::RADIUS, edge, StrokeKind::Inside);
 }
 
 /// A row of buttons in the picture's lower left corner.

@@ -304,6 +304,9 @@ impl Interface {
         }
         let button = buttons.add(ui, Icon::Pin, self.places.button());
         self.rects.record("find places", &button);
+        if self.places.are_shown() {
+            floating::mark(ui, &button);
+        }
         if button.clicked() {
             commands.push(Command::FindPlaces);
         }

@@ -22,6 +22,8 @@ pub struct SmallPictures {
     render_state: RenderState,
     wanted: Vec<SmallPicture>,
     textures: SmallTextures,
+    /// Textures that only the last frame's drawing still uses.
+    discarded: Vec<egui::TextureId>,
     view: Option<View>,
     /// The picture that the view draws.
     drawn: Option<SmallPictureId>,
@@ -30,8 +32,15 @@ pub struct SmallPictures {
 impl SmallPictures {
     /// No pictures.
     pub fn new(pipelines: Arc<Pipelines>, render_state: RenderState) -> Self {
-        let (wanted, textures) = (Vec::new(), SmallTextures::default());
-        Self { pipelines, render_state, wanted, textures, view: None, drawn: None }
+        Self {
+            pipelines,
+            render_state,
+            wanted: Vec::new(),
+            textures: SmallTextures::default(),
+            discarded: Vec::new(),
+            view: None,
+            drawn: None,
+        }
     }
 
     /// The finished pictures.
@@ -39,18 +48,16 @@ impl SmallPictures {
         &self.textures
     }
 
-    /// Sets the wanted pictures, the first ones first, and frees the others.
+    /// Sets the wanted pictures, the first ones first, and frees the others. Call it once a frame.
+    ///
+    /// This frame's drawing is not submitted yet, so its textures are freed by the next call.
     pub fn want<'a>(&mut self, wanted: impl Iterator<Item = &'a SmallPicture> + Clone) {
+        self.free_discarded();
         if !wanted.clone().map(|it| it.id).eq(self.wanted.iter().map(|it| it.id)) {
             self.wanted = wanted.cloned().collect();
             let is_wanted = |id: &SmallPictureId| self.wanted.iter().any(|it| it.id == *id);
-            let mut renderer = self.render_state.renderer.write();
-            self.textures.by_id.retain(|id, picture| {
-                if !is_wanted(id) {
-                    renderer.free_texture(&picture.texture);
-                }
-                is_wanted(id)
-            });
+            let unwanted = self.textures.by_id.extract_if(.., |id, _| !is_wanted(id));
+            self.discarded.extend(unwanted.map(|(_, picture)| picture.texture));
         }
         if !self.has_work() {
             self.view = None;
@@ -110,6 +117,16 @@ impl SmallPictures {
         self.wanted.iter().find(|wanted| !self.textures.by_id.contains_key(&wanted.id))
     }
 
+    fn free_discarded(&mut self) {
+        if self.discarded.is_empty() {
+            return;
+        }
+        let mut renderer = self.render_state.renderer.write();
+        for texture in self.discarded.drain(..) {
+            renderer.free_texture(&texture);
+        }
+    }
+
     fn count_memory(&mut self) {
         let view = self.view.as_ref().map_or(0, |view| view.report().memory.total());
         self.textures.memory_bytes = view + PICTURE_BYTES * self.textures.by_id.len() as u64;
@@ -118,10 +135,9 @@ impl SmallPictures {
 
 impl Drop for SmallPictures {
     fn drop(&mut self) {
-        let mut renderer = self.render_state.renderer.write();
-        for picture in self.textures.by_id.values() {
-            renderer.free_texture(&picture.texture);
-        }
+        let shown = std::mem::take(&mut self.textures.by_id);
+        self.discarded.extend(shown.into_values().map(|picture| picture.texture));
+        self.free_discarded();
     }
 }
 

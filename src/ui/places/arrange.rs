@@ -20,12 +20,23 @@ const COVERED: f32 = 8.0;
 const COVERED_POINT: f32 = 1.0;
 /// Cost of a point of stem.
 const PER_STEM: f32 = 0.004;
-/// Cost of standing below the point rather than above it.
-const BELOW: f32 = 0.1;
+/// Cost of standing straight below the point rather than straight above it.
+const BELOW: f32 = 0.3;
 
 /// The picture of a pin at `at`, moved into `within` where it would stick out.
 pub fn placed(at: Pos2, offset: Vec2, within: Rect) -> Rect {
-    let (room, rect) = (within.shrink(MARGIN), Rect::from_center_size(at + offset, SIZE));
+    moved_into(Rect::from_center_size(at + offset, SIZE), within)
+}
+
+/// A picture enlarged away from the pin's point `at`, which it still does not cover.
+pub fn enlarged(rect: Rect, at: Pos2, factor: f32, within: Rect) -> Rect {
+    let edge = rect.clamp(at);
+    let grown = |corner: Pos2| edge + (corner - edge) * factor;
+    moved_into(Rect::from_min_max(grown(rect.min), grown(rect.max)), within)
+}
+
+fn moved_into(rect: Rect, within: Rect) -> Rect {
+    let room = within.shrink(MARGIN);
     let into = |low: f32, high: f32, from: f32, to: f32| (to - high).min(0.0).max(from - low);
     rect.translate(vec2(
         into(rect.left(), rect.right(), room.left(), room.right()),
@@ -52,8 +63,8 @@ pub fn best_offset(at: Pos2, within: Rect, others: &[Rect], points: &[Pos2]) -> 
         let by_others: f32 = others.iter().map(|other| covered(rect.expand(GAP), other)).sum();
         let room = rect.expand(POINT_ROOM);
         let by_points = points.iter().chain([&at]).filter(|point| room.contains(**point)).count();
-        let is_below = if offset.y > 0.0 { BELOW } else { 0.0 };
-        COVERED * by_others + COVERED_POINT * by_points as f32 + PER_STEM * stem + is_below
+        let below = 0.5 + 0.5 * offset.y / (0.5 * SIZE.y + stem);
+        COVERED * by_others + COVERED_POINT * by_points as f32 + PER_STEM * stem + BELOW * below
     };
     candidates
         .map(|candidate| (cost(&candidate), candidate.1))
@@ -90,6 +101,17 @@ mod tests {
                 assert!(!rect.intersects(*other), "{index}: {rect:?} covers {other:?}");
             }
             taken.push(rect);
+        }
+    }
+
+    #[test]
+    fn an_enlarged_picture_still_shows_its_point() {
+        let rect = Rect::from_center_size(pos2(400.0, 250.0), SIZE);
+        for k in 0..16 {
+            let at = rect.center() + Vec2::angled(0.4 * k as f32) * 90.0;
+            let grown = enlarged(rect, at, 1.5, WITHIN);
+            assert!((grown.size() - 1.5 * SIZE).length() < 1e-3);
+            assert!((grown.distance_to_pos(at) - rect.distance_to_pos(at)).abs() < 1e-3);
         }
     }
 

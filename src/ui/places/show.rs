@@ -6,6 +6,7 @@ use egui::{
 };
 
 use super::{
+    arrange,
     pin::Pin,
     state::{Places, Progress},
 };
@@ -83,8 +84,8 @@ fn respond(ui: &Ui, pin: &Pin, index: usize, rect: Rect) -> Response {
 }
 
 fn paint(painter: &Painter, inputs: &PinInputs<'_>, pin: &Pin, at: Pos2, rect: Rect, is_lit: bool) {
-    let size = if is_lit { rect.size() * ENLARGED } else { rect.size() };
-    let grown = Rect::from_center_size(rect.center(), size);
+    let factor = if is_lit { ENLARGED } else { 1.0 };
+    let grown = arrange::enlarged(rect, at, factor, inputs.frame.rect);
     let from = grown.clamp(at);
     let color = if is_lit { theme::ACCENT } else { Color32::WHITE };
     let dark = Color32::from_black_alpha(170);
