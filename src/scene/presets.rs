@@ -90,9 +90,13 @@ pub fn every() -> impl ExactSizeIterator<Item = &'static Preset> + Clone {
     (0..count + dives().len()).map(move |i| if i < count { &all()[i] } else { &dives()[i - count] })
 }
 
-/// `scene` with what documents leave off and new scenes have: lights that follow, indirect light.
+/// `scene` with what documents leave off and new scenes have.
+///
+/// Lights and gradient follow the view, and indirect light is on.
 fn new_scene(scene: Scene) -> Scene {
+    let coloring = Coloring { follows_view: true, ..scene.surface.coloring };
     Scene {
+        surface: Surface { coloring, ..scene.surface },
         lights: Lights { follow_view: true, ..scene.lights },
         indirect: Indirect {
             kind: IndirectKind::Horizon,

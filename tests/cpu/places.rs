@@ -12,30 +12,15 @@ use mandelight::{
     gpu::device::in_parallel,
     scene::{Camera, PrecisePoint, Scene},
 };
-use mandelight_test_support::deep::{
-    arithmetic::{Point, Real, moved, rounded},
-    orbit::Set,
+use mandelight_test_support::{
+    deep::{
+        arithmetic::{Point, Real, moved, rounded},
+        orbit::Set,
+    },
+    descent::opening_views,
 };
 
 const ASPECT: f64 = 1.5;
-
-/// The opening view of whole powers from 3 to 16, and of two Julia forms.
-fn opening_views() -> Vec<(String, Scene)> {
-    let mut views: Vec<_> = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 16.0]
-        .map(|power| {
-            let mut scene = Scene::default();
-            scene.fractal.set("power", power);
-            (format!("power {power}"), scene)
-        })
-        .into();
-    for power in [8.0, 5.0] {
-        let mut scene = Scene::default();
-        scene.fractal.set("power", power);
-        scene.fractal.set("julia", true);
-        views.push((format!("Julia form of power {power}"), scene));
-    }
-    views
-}
 
 fn places_of(scene: &Scene) -> Vec<Place> {
     let model = FractalModel::new(&scene.fractal);

@@ -17,6 +17,7 @@ mod memory;
 mod moving;
 mod oracle;
 mod picture;
+mod places;
 mod post;
 mod samples;
 mod staleness;

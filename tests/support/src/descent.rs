@@ -3,7 +3,7 @@
 use glam::DVec2;
 use mandelight::{
     fractal::FractalModel,
-    scene::{Camera, Scene},
+    scene::{Camera, Scene, presets},
     ui::navigation::{Navigator, Viewport, World, guide::Guide},
 };
 
@@ -15,6 +15,21 @@ pub const NOTCH: f64 = 0.2;
 const STEPS_PER_NOTCH: u32 = 100;
 /// Most notches, against an endless loop: 1e-27 takes about 320.
 const MAX_NOTCHES: u32 = 600;
+
+/// The opening scene's look on the whole of powers from 3 to 16 and of two Julia forms, with names.
+pub fn opening_views() -> Vec<(String, Scene)> {
+    let whole = |power: f64, julia: bool| {
+        let mut scene = Scene { camera: Camera::default(), ..presets::opening() };
+        scene.fractal.set("power", power);
+        scene.fractal.set("julia", julia);
+        scene
+    };
+    let powers = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0, 16.0];
+    let bulbs = powers.map(|power| (format!("power {power}"), whole(power, false)));
+    let forms =
+        [8.0, 5.0].map(|power| (format!("Julia form of power {power}"), whole(power, true)));
+    bulbs.into_iter().chain(forms).collect()
+}
 
 /// Sixteen pixels of the picture that see the surface, spread over it.
 pub fn sixteen_pixels(scene: &Scene) -> Vec<DVec2> {

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `device` | the one device of a test binary, and devices of one's own |
 //! | `view` | short ways to a finished picture and its pixels |
+//! | `beauty` | measures of pictures worth seeing |
 //! | `compare` | two pictures, region by region |
 //! | `histogram` | means and histograms of pictures |
 //! | `picture` | what a PNG holds |
@@ -16,6 +17,7 @@
 //! | `random` | numbers that come out the same each time |
 //! | `statistics` | quantiles |
 
+pub mod beauty;
 pub mod compare;
 pub mod deep;
 pub mod descent;
