@@ -38,7 +38,7 @@ pub fn all() -> &'static [Preset] {
     &[
         Preset {
             name: "Mandelbulb",
-            blurb: "Power 8, whole: the set that gave the others their name.",
+            blurb: "Power 8: the set that gave the others their name.",
             scene: || new_scene(mandelbulb()),
         },
         Preset {
@@ -50,11 +50,6 @@ pub fn all() -> &'static [Preset] {
             name: "Four petals",
             blurb: "Power 4: few lobes, deep folds.",
             scene: || new_scene(four_petals()),
-        },
-        Preset {
-            name: "Quadratic",
-            blurb: "Power 2, the Mandelbrot set's own exponent in space.",
-            scene: || new_scene(quadratic()),
         },
         Preset {
             name: "Sea urchin",
@@ -128,8 +123,35 @@ fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
     list.iter().map(|&(position, color)| GradientStop { position, color }).collect()
 }
 
+/// The opening picture: a warm key from the left, a cool rim behind, dark ground.
 fn mandelbulb() -> Scene {
-    Scene::default()
+    Scene {
+        camera: camera([0.95, -2.05, 1.05], [0.08, 0.0, 0.06], 41.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.75, -0.55, 0.62], [1.0, 0.8, 0.56], 2.9),
+                light([0.8, 0.6, 0.25], [0.4, 0.62, 1.0], 2.6),
+                EnvironmentLight {
+                    casts_shadows: false,
+                    ..headlight([0.5, 0.35, 0.8], [0.5, 0.66, 1.0], 0.4)
+                },
+            ],
+            point: vec![],
+            ..Default::default()
+        },
+        surface: Surface {
+            gradient: stops(&[
+                (0.0, [0.015, 0.05, 0.085]),
+                (0.22, [0.05, 0.20, 0.26]),
+                (0.42, [0.46, 0.09, 0.05]),
+                (0.63, [0.90, 0.46, 0.17]),
+                (0.86, [0.97, 0.88, 0.70]),
+            ]),
+            ..Default::default()
+        },
+        background: Background::gradient([0.002, 0.003, 0.006], [0.010, 0.014, 0.022]),
+        ..Default::default()
+    }
 }
 
 fn coral_reef() -> Scene {
@@ -170,7 +192,7 @@ fn coral_reef() -> Scene {
 fn four_petals() -> Scene {
     Scene {
         fractal: Mandelbulb { power: 4.0, iterations: 14, ..Default::default() }.into(),
-        camera: camera([1.7, -2.6, 1.5], [0.0, 0.0, 0.0], 42.0),
+        camera: camera([1.55, -2.4, 1.35], [0.0, 0.0, 0.0], 40.0),
         lights: Lights {
             environment: vec![
                 light([-0.4, -0.8, 0.7], [1.0, 0.9, 0.95], 2.4),
@@ -195,39 +217,11 @@ fn four_petals() -> Scene {
     }
 }
 
-fn quadratic() -> Scene {
-    Scene {
-        fractal: Mandelbulb { power: 2.0, iterations: 18, ..Default::default() }.into(),
-        camera: camera([0.9, -1.75, 1.3], [-0.2, 0.0, 0.0], 40.0),
-        lights: Lights {
-            environment: vec![
-                light([0.5, -0.6, 0.9], [1.0, 0.93, 0.8], 2.4),
-                light([-0.9, -0.4, 0.1], [0.4, 0.6, 1.0], 0.8),
-                light([-0.2, 0.9, 0.3], [0.6, 1.0, 0.8], 1.0),
-            ],
-            point: vec![],
-            ..Default::default()
-        },
-        surface: Surface {
-            gradient: stops(&[
-                (0.0, [0.01, 0.05, 0.05]),
-                (0.3, [0.05, 0.30, 0.22]),
-                (0.55, [0.45, 0.62, 0.26]),
-                (0.75, [0.93, 0.86, 0.55]),
-                (0.88, [0.20, 0.35, 0.35]),
-            ]),
-            ..Default::default()
-        },
-        background: Background::gradient([0.004, 0.012, 0.012], [0.03, 0.06, 0.055]),
-        ..Default::default()
-    }
-}
-
 fn sea_urchin() -> Scene {
     Scene {
         fractal: Mandelbulb { power: 16.0, iterations: 12, bailout: 3.0, ..Default::default() }
             .into(),
-        camera: camera([1.5, -2.3, 1.2], [0.0, 0.0, 0.0], 44.0),
+        camera: camera([1.3, -2.0, 1.05], [0.0, 0.0, 0.03], 44.0),
         lights: Lights {
             environment: vec![
                 light([-0.7, -0.5, 0.7], [0.85, 0.9, 1.0], 2.4),
@@ -296,7 +290,7 @@ fn in_between() -> Scene {
 fn whorls() -> Scene {
     Scene {
         fractal: Fractal::new(FormulaRef(&QUATERNION_JULIA)),
-        camera: camera([2.1, -3.0, 2.0], [0.0, 0.0, 0.0], 38.0),
+        camera: camera([2.1, -3.0, 2.0], [0.0, 0.0, 0.0], 31.0),
         lights: Lights {
             environment: vec![
                 light([-0.6, -0.6, 0.8], [1.0, 0.93, 0.84], 2.5),
@@ -329,7 +323,7 @@ fn whorls() -> Scene {
 fn julia() -> Scene {
     Scene {
         fractal: Mandelbulb { iterations: 14, julia: true, ..Default::default() }.into(),
-        camera: camera([1.5, -2.5, 1.4], [0.0, 0.0, 0.0], 45.0),
+        camera: camera([1.3, -2.2, 1.2], [0.0, 0.0, 0.0], 44.0),
         lights: Lights {
             environment: vec![
                 light([-0.5, -0.7, 0.7], [1.0, 0.95, 0.88], 2.4),

@@ -108,7 +108,7 @@ const COMMAND_SHIFT: Modifiers =
 
 /// All shortcuts, in the order of the help window.
 pub const SHORTCUTS: &[Shortcut] = &[
-    row(NONE, Key::Num1, Command::Preset(0), "1 … 9", "Opening scenes"),
+    row(NONE, Key::Num1, Command::Preset(0), "1 … 8", "Opening scenes"),
     also(NONE, Key::Num2, Command::Preset(1)),
     also(NONE, Key::Num3, Command::Preset(2)),
     also(NONE, Key::Num4, Command::Preset(3)),
@@ -116,7 +116,6 @@ pub const SHORTCUTS: &[Shortcut] = &[
     also(NONE, Key::Num6, Command::Preset(5)),
     also(NONE, Key::Num7, Command::Preset(6)),
     also(NONE, Key::Num8, Command::Preset(7)),
-    also(NONE, Key::Num9, Command::Preset(8)),
     row(NONE, Key::ArrowLeft, Command::Orbit(-1, 0), "Arrows", "Orbit"),
     also(NONE, Key::ArrowRight, Command::Orbit(1, 0)),
     also(NONE, Key::ArrowUp, Command::Orbit(0, 1)),

@@ -4,8 +4,10 @@ use mandelight::scene::{document, link, presets};
 use mandelight_test_support::dives::{fall, row_of};
 
 #[test]
-fn there_are_at_least_six_and_every_name_is_its_own() {
-    assert!(presets::dives().len() >= 6);
+fn there_are_sixteen_half_of_them_off_the_equator_and_every_name_is_its_own() {
+    assert_eq!((presets::all().len(), presets::dives().len()), (8, 16));
+    let height = |dive: &presets::Preset| (dive.scene)().camera.pivot.to_dvec3().z.abs();
+    assert!(presets::dives().iter().filter(|dive| height(dive) > 0.1).count() >= 8);
     let names: std::collections::HashSet<&str> = presets::every().map(|p| p.name).collect();
     assert_eq!(names.len(), presets::all().len() + presets::dives().len());
     let power = |dive: &presets::Preset| (dive.scene)().fractal.number("power");

@@ -60,9 +60,11 @@ fn the_program_opens_on_the_first_and_names_differ() {
 fn each_switches_on_what_documents_leave_off() {
     let default = Scene::default();
     assert!(!default.lights.follow_view && !default.has_indirect());
+    assert!(!default.surface.coloring.follows_view);
     for preset in presets::all() {
         let scene = (preset.scene)();
         assert!(scene.lights.follow_view && scene.has_indirect(), "{}", preset.name);
+        assert!(scene.surface.coloring.follows_view, "{}", preset.name);
     }
 }
 
@@ -74,9 +76,8 @@ fn each_is_valid_and_fits_a_link() {
         assert_eq!(document::from_json(&document::to_json(&scene)), Ok(scene.clone()));
         let fragment = link::to_fragment(&scene).unwrap();
         // docs/scene.md states these lengths.
-        let lengths = if scene == presets::opening() { 90..=110 } else { 530..=680 };
         assert!(
-            lengths.contains(&fragment.len()),
+            (550..=700).contains(&fragment.len()),
             "{}: {} characters",
             preset.name,
             fragment.len()
