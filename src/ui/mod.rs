@@ -17,6 +17,7 @@
 //! | `places/` | the search for places of the view, and its pins |
 //! | `small_picture` | small pictures that the shell draws when idle |
 //! | `floating`, `notice` | buttons and the shell's message over the picture |
+//! | [`thumbnail`] | pictures on the buttons of scenes and dives |
 //! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
@@ -51,6 +52,7 @@ pub mod navigation;
 pub mod rects;
 pub mod shortcuts;
 pub mod theme;
+pub mod thumbnail;
 
 pub use action::Action;
 pub use display_inputs::{DisplayInputs, ExportProgress, Notice, SmallTextures, ViewTexture};

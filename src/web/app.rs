@@ -3,11 +3,12 @@
 //! In: eframe's calls. Out: downloads, work for the engine, repaint requests. An idle page requests no
 //! repaint and so draws nothing.
 
-use std::{cell::RefCell, rc::Rc};
+use std::{cell::RefCell, rc::Rc, sync::Arc};
 
 use super::{
     engine::Engine,
     files,
+    image_decoder::ImageDecoder,
     mailbox::{Mailbox, Message},
     page,
     session::Session,
@@ -35,6 +36,7 @@ impl App {
     ) -> Option<Self> {
         let render_state = context.wgpu_render_state.clone()?;
         theme::install(&context.egui_ctx);
+        context.egui_ctx.add_image_loader(Arc::new(ImageDecoder::default()));
         session.borrow().mailbox.set_context(&context.egui_ctx);
         let adapter_name = gpu.name();
         let engine = Engine::new(gpu, render_state, context.egui_ctx.clone(), session.clone());

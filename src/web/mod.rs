@@ -25,6 +25,7 @@
 //! | `live_view` | the picture in the window and its texture in egui |
 //! | `small_pictures` | small pictures of the interface, drawn when the view rests |
 //! | `async_compile` | pipelines compiled while the page goes on |
+//! | `image_decoder` | pictures in the interface, decoded by the browser |
 //! | `mailbox` | messages from callbacks to the next frame |
 //! | `page` | the window: clocks, timers, listeners |
 
@@ -38,6 +39,7 @@ mod error_log;
 mod exporter;
 mod file_access;
 mod files;
+mod image_decoder;
 mod live_view;
 mod mailbox;
 mod page;

@@ -1,6 +1,7 @@
 //! The interface, driven as people drive it: by pointer, keys and the accessibility tree; and the
 //! movements of its camera.
 
+mod cards;
 mod controls;
 mod depth;
 mod descent;

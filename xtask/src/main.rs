@@ -11,6 +11,7 @@ mod pictures;
 mod serve;
 mod shell;
 mod test;
+mod thumbnails;
 
 use std::process::ExitCode;
 
@@ -24,6 +25,8 @@ Usage: cargo xtask <command>
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   pictures [NAME…]  render the pictures of the README and the docs again
+  thumbnails [NAME…]
+                    render the small pictures on the buttons of scenes and dives again
   help              print this text
 ";
 
@@ -37,6 +40,7 @@ enum Command {
     Bless,
     Bench { options: Vec<String> },
     Pictures { names: Vec<String> },
+    Thumbnails { names: Vec<String> },
     Help,
 }
 
@@ -57,6 +61,7 @@ fn main() -> ExitCode {
         Command::Bless => test::bless(),
         Command::Bench { options } => bench::bench(&options),
         Command::Pictures { names } => pictures::pictures(&names),
+        Command::Thumbnails { names } => thumbnails::thumbnails(&names),
         Command::Help => {
             print!("{HELP}");
             Ok(())
@@ -91,6 +96,9 @@ fn parse(words: &[String]) -> Result<Command, String> {
         ["pictures", names @ ..] => {
             Ok(Command::Pictures { names: names.iter().map(|&name| name.to_owned()).collect() })
         }
+        ["thumbnails", names @ ..] => {
+            Ok(Command::Thumbnails { names: names.iter().map(|&name| name.to_owned()).collect() })
+        }
         other => Err(format!("unknown command `cargo xtask {}`", other.join(" "))),
     }
 }
@@ -111,6 +119,7 @@ mod tests {
         let options = vec!["--views".into(), "whole,filled".into()];
         assert_eq!(parsed("bench --views whole,filled"), Ok(Command::Bench { options }));
         assert_eq!(parsed("pictures bloom"), Ok(Command::Pictures { names: vec!["bloom".into()] }));
+        assert_eq!(parsed("thumbnails"), Ok(Command::Thumbnails { names: Vec::new() }));
         assert_eq!(parsed(""), Ok(Command::Help));
     }
 

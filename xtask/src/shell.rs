@@ -31,6 +31,12 @@ pub fn cargo() -> Result<Command> {
     Ok(cargo)
 }
 
+/// Builds the command line program and returns its path.
+pub fn renderer() -> Result<PathBuf> {
+    run(cargo()?.args(["build", "--release", "--bin", "mandelight"]))?;
+    Ok(target()?.join("release").join(format!("mandelight{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// Runs `command` with its output on the terminal; anything but exit code 0 is an error.
 pub fn run(command: &mut Command) -> Result<()> {
     let line = line_of(command);

@@ -1,17 +1,27 @@
 //! The scenes panel: opening scenes and dives.
 
-use egui::{Button, Id, RichText, Ui, vec2};
+use std::sync::LazyLock;
+
+use egui::{Button, Id, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::context::Context;
 use crate::{
-    scene::presets::{self, Preset},
-    ui::{shortcuts::Command, status::zoom},
+    scene::{
+        Scene,
+        presets::{self, Preset},
+    },
+    ui::{shortcuts::Command, status::zoom, thumbnail, widgets::card},
 };
 
 /// Zoom from which on the list of dives is shown first.
 const DIVE_ZOOM: f64 = 1e4;
 
-/// The headings of both lists, and a button for each scene of the chosen list.
+/// Gap between cards, in points.
+const GAP: f32 = 6.0;
+/// Smallest width of a card in a row of more than two, in points.
+const MIN_CARD_WIDTH: f32 = 100.0;
+
+/// The headings of both lists, and a card for each scene of the chosen list.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let lists = [
         ("Scenes", "Whole fractals and near views", presets::all(), 0),
@@ -34,8 +44,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             }
         }
     });
-    if let Some(&(heading, _, presets, first)) = lists.get(chosen) {
-        buttons(ui, cx, heading, presets, first);
+    if let Some(&(.., presets, first)) = lists.get(chosen) {
+        cards(ui, cx, presets, first);
     }
     if chosen == 1 {
         let drawn = ui
@@ -45,40 +55,57 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     }
 }
 
-/// Buttons of a list, two per row, or four per row on touch screens.
+/// A card for each preset of a list, as many per row as fit.
 ///
 /// `first` is the index of the list's first preset among all presets.
-fn buttons(
-    ui: &mut Ui,
-    cx: &mut Context<'_>,
-    heading: &str,
-    presets: &'static [Preset],
-    first: usize,
-) {
-    let gap = 6.0;
-    let height = ui.spacing().interact_size.y.max(28.0);
-    let columns = if height > 40.0 { 4 } else { 2 };
-    let size = vec2((ui.available_width() - gap * (columns - 1) as f32) / columns as f32, height);
-    ui.spacing_mut().button_padding.x = 2.0;
-    egui::Grid::new(heading).spacing([gap, 5.0]).min_col_width(size.x).show(ui, |ui| {
-        for (index, preset) in presets.iter().enumerate() {
-            let button = ui.add_sized(size, Button::new(preset.name).truncate());
-            // The first nine presets of the first list have number keys.
-            let hover = match first {
-                0 if index < 9 => format!("{} ({})", preset.blurb, index + 1),
-                _ => preset.blurb.to_owned(),
-            };
-            let response = button.on_hover_text(hover);
-            if index == 0 {
-                let name = if first == 0 { "first scene" } else { "first dive" };
-                cx.rects.record(name, &response);
-            }
-            if response.clicked() {
-                cx.commands.push(Command::Preset(first + index));
-            }
-            if index % columns == columns - 1 {
-                ui.end_row();
-            }
+fn cards(ui: &mut Ui, cx: &mut Context<'_>, presets: &'static [Preset], first: usize) {
+    let width = ui.available_width();
+    let fitting = ((width + GAP) / (MIN_CARD_WIDTH + GAP)).floor() as usize;
+    let columns = fitting.clamp(2, 4);
+    let card_width = (width - GAP * (columns - 1) as f32) / columns as f32;
+    let [width_px, height_px] = thumbnail::SIZE_PX.map(|side| side as f32);
+    let size = vec2(card_width, (card_width * height_px / width_px).round());
+    let rows = presets.len().div_ceil(columns);
+    let height = (size.y + GAP) * rows as f32 - GAP;
+    let (area, _) = ui.allocate_exact_size(vec2(width, height.max(0.0)), Sense::hover());
+    let chosen = chosen(cx.scene);
+    for (index, preset) in presets.iter().enumerate() {
+        let place = vec2((index % columns) as f32, (index / columns) as f32);
+        let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
+        let is_chosen = chosen == Some(first + index);
+        let card = card(ui, rect, preset.name, thumbnail::image(preset), is_chosen);
+        // The first nine presets of the first list have number keys.
+        let hover = match first {
+            0 if index < 9 => format!("{} ({})", preset.blurb, index + 1),
+            _ => preset.blurb.to_owned(),
+        };
+        let response = card.on_hover_text(hover);
+        if index == 0 {
+            let name = if first == 0 { "first scene" } else { "first dive" };
+            cx.rects.record(name, &response);
         }
-    });
+        if response.clicked() {
+            cx.commands.push(Command::Preset(first + index));
+        }
+    }
+}
+
+/// The preset, by its place among all, that the scene still is but for quality and view.
+///
+/// Of presets that differ by their view only, it is the one whose view the scene has.
+fn chosen(scene: &Scene) -> Option<usize> {
+    /// The scenes of all presets: dives take a while to read.
+    static SCENES: LazyLock<Vec<Scene>> =
+        LazyLock::new(|| presets::every().map(|preset| (preset.scene)()).collect());
+    let alike = |preset: &Scene| {
+        let Scene { quality, camera, .. } = scene;
+        preset.fractal == scene.fractal
+            && Scene { quality: quality.clone(), camera: camera.clone(), ..preset.clone() }
+                == *scene
+    };
+    let found: Vec<usize> = (0..SCENES.len()).filter(|&index| alike(&SCENES[index])).collect();
+    match found.as_slice() {
+        [only] => Some(*only),
+        several => several.iter().copied().find(|&index| SCENES[index].camera == scene.camera),
+    }
 }

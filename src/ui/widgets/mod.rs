@@ -1,6 +1,7 @@
 //! Widgets that egui does not have. Each takes a plain value and returns a `Response`.
 
 mod ball;
+mod card;
 mod color;
 mod gradient;
 mod histogram;
@@ -9,6 +10,7 @@ mod scale;
 mod section;
 
 pub use ball::ball;
+pub use card::card;
 pub use color::color;
 pub use gradient::{gradient, move_stop};
 pub use histogram::{DisplayRange, histogram};

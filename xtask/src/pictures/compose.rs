@@ -34,6 +34,11 @@ impl Image {
         Ok(Self { size_px: [info.width, info.height], pixels })
     }
 
+    /// Width and height in pixels, and RGBA bytes.
+    pub fn as_rgba(&self) -> ([u32; 2], &[u8]) {
+        (self.size_px, self.pixels.as_flattened())
+    }
+
     /// Reads the depth or the normals of an OpenEXR file of the renderer.
     ///
     /// Near points are bright, far points dark. A normal's axes from −1 to 1 become channels from

@@ -4,7 +4,7 @@
 //! A picture of one panel is the renderer's file and contains its scene. A picture of several
 //! panels is a montage without a scene.
 
-mod compose;
+pub mod compose;
 mod dusk;
 mod table;
 
@@ -61,14 +61,11 @@ struct Painter {
 
 impl Painter {
     fn new() -> Result<Self> {
-        shell::run(shell::cargo()?.args(["build", "--release", "--bin", "mandelight"]))?;
-        let target = shell::target()?;
-        let parts = target.join("pictures");
+        let renderer = shell::renderer()?;
+        let parts = shell::target()?.join("pictures");
         fs::create_dir_all(&parts)?;
         let environment_map = parts.join("dusk.hdr");
         fs::write(&environment_map, dusk::radiance_file())?;
-        let renderer =
-            target.join("release").join(format!("mandelight{}", std::env::consts::EXE_SUFFIX));
         Ok(Self { renderer, docs: shell::root()?.join("docs"), parts, environment_map })
     }
 
