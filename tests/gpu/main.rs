@@ -23,3 +23,4 @@ mod samples;
 mod staleness;
 mod stereo;
 mod still;
+mod thumbnails;

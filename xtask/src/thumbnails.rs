@@ -28,7 +28,7 @@ const SIZE_PX: [u32; 2] = [192, 120];
 /// Samples per pixel: noise costs bytes.
 const SAMPLES: u32 = 32;
 
-/// Quality of the JPEG files, 1 to 100: 24 pictures stay below 120 kB.
+/// Quality of the JPEG files, 1 to 100; `tests/gpu/thumbnails.rs` limits the bytes of all.
 const QUALITY: u8 = 52;
 
 /// Renders the pictures of these presets; without names, all, and deletes pictures of no preset.
