@@ -17,7 +17,7 @@ const RADIUS: u8 = 8;
 const SHADE_PART: f32 = 0.55;
 
 /// Opacity of the gradient at the card's lower edge.
-const SHADE_ALPHA: f32 = 0.88;
+const SHADE_ALPHA: f32 = 0.85;
 
 /// A button in `rect` that shows `picture` and `name`; a plain button while there is no picture.
 ///
@@ -101,7 +101,7 @@ fn shade(rect: Rect) -> Mesh {
         let below = (y - corner).max(0.0);
         let inset = radius - (radius * radius - below * below).max(0.0).sqrt();
         let depth = (y - top) / (rect.bottom() - top);
-        let color = Color32::BLACK.gamma_multiply(SHADE_ALPHA * depth.clamp(0.0, 1.0).sqrt());
+        let color = Color32::BLACK.gamma_multiply(SHADE_ALPHA * depth.clamp(0.0, 1.0));
         for x in [rect.left() + inset, rect.right() - inset] {
             let (pos, uv) = (Pos2::new(x, y), egui::epaint::WHITE_UV);
             mesh.vertices.push(Vertex { pos, uv, color });
