@@ -129,8 +129,8 @@ fn mandelbulb() -> Scene {
         camera: camera([0.95, -2.05, 1.05], [0.08, 0.0, 0.06], 41.0),
         lights: Lights {
             environment: vec![
-                light([-0.75, -0.55, 0.62], [1.0, 0.8, 0.56], 2.9),
-                light([0.8, 0.6, 0.25], [0.4, 0.62, 1.0], 2.6),
+                light([-0.75, -0.55, 0.62], [1.0, 0.8, 0.56], 2.4),
+                light([0.8, 0.6, 0.25], [0.4, 0.62, 1.0], 2.0),
                 EnvironmentLight {
                     casts_shadows: false,
                     ..headlight([0.5, 0.35, 0.8], [0.5, 0.66, 1.0], 0.4)
@@ -144,8 +144,8 @@ fn mandelbulb() -> Scene {
                 (0.0, [0.015, 0.05, 0.085]),
                 (0.22, [0.05, 0.20, 0.26]),
                 (0.42, [0.46, 0.09, 0.05]),
-                (0.63, [0.90, 0.46, 0.17]),
-                (0.86, [0.97, 0.88, 0.70]),
+                (0.63, [0.84, 0.42, 0.15]),
+                (0.86, [0.86, 0.76, 0.58]),
             ]),
             ..Default::default()
         },
@@ -290,7 +290,7 @@ fn in_between() -> Scene {
 fn whorls() -> Scene {
     Scene {
         fractal: Fractal::new(FormulaRef(&QUATERNION_JULIA)),
-        camera: camera([2.1, -3.0, 2.0], [0.0, 0.0, 0.0], 31.0),
+        camera: camera([2.1, -3.0, 2.0], [0.0, 0.0, 0.0], 38.0),
         lights: Lights {
             environment: vec![
                 light([-0.6, -0.6, 0.8], [1.0, 0.93, 0.84], 2.5),

@@ -127,7 +127,11 @@ fn spacing(style: &mut Style) {
     spacing.icon_width_inner = 10.0;
     spacing.icon_spacing = 7.0;
     spacing.combo_width = 60.0;
-    spacing.scroll = egui::style::ScrollStyle::thin();
+    // A bar with a width of its own would change what is beside it, and with that whether it is needed.
+    spacing.scroll = egui::style::ScrollStyle {
+        floating_allocated_width: 0.0,
+        ..egui::style::ScrollStyle::thin()
+    };
     spacing.default_area_size = Vec2::new(320.0, 480.0);
     style.interaction.tooltip_delay = 0.4;
     style.interaction.selectable_labels = false;

@@ -358,8 +358,10 @@ fn an_interrupted_render_leaves_nothing() {
 fn peak_kb(height_px: u32) -> u64 {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.json");
-    // The overview of a picture with indirect light grows with the picture, up to a limit.
-    let plain = ["scene", "--set", "quality.shadows=false", "--set", "indirect.kind=off"];
+    // The overview of a picture with indirect light, or a gradient that follows the view, grows with the
+    // picture, up to a limit.
+    let mut plain = vec!["scene", "--set", "quality.shadows=false", "--set", "indirect.kind=off"];
+    plain.extend(["--set", "surface.coloring.follows_view=false"]);
     fs::write(&scene, run(&plain).stdout).unwrap();
     let (size, out) = (format!("512x{height_px}"), folder.path().join("out.png"));
     let (scene, out) = (scene.to_str().unwrap(), out.to_str().unwrap());

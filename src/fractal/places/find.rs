@@ -72,7 +72,7 @@ pub struct Place {
     pub elongation: f64,
     /// How much the place is drawn out at every depth; see [`Solution::distortion`].
     pub distortion: f64,
-    /// Least openness at the probed scales; see [`Vantage::openness`](super::vantage::Vantage::openness).
+    /// Least openness at the probed scales; see [`super::Vantage`](super::vantage::Vantage::openness).
     pub openness: f64,
     /// Radius of the small copy about the point, in scene units; 0 at a cycle, where shapes go on for ever.
     pub radius: f64,

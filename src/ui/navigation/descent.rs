@@ -13,9 +13,9 @@ use crate::{
 };
 
 /// Distance from the place for which a vantage is planned, over the present distance.
-const AHEAD: f64 = 0.35;
+const AHEAD: f64 = 0.65;
 /// Distance at which the next plan begins, over the distance of the last.
-const PLAN_AGAIN: f64 = 1.6;
+const PLAN_AGAIN: f64 = 1.3;
 /// Rate at which the eye turns toward the vantage, per unit of zoom.
 const TURN_RATE: f64 = 0.9;
 /// Most radians that the eye turns about the place per unit of zoom.
@@ -99,22 +99,23 @@ impl Descent {
         let (distance, from) = (arm.length(), arm.normalize_or(DVec3::Z));
         let wanted = (distance * (-amount).exp()).max(self.nearest().max(world.nearest(camera)));
         let turn = self.turn(from, amount);
-        // Nearer if there is room, else about the place until there is.
-        for to in [wanted.min(distance), distance] {
-            let eye = (turn * from) * to;
-            let has_room = |eye: DVec3, distance: f64| {
-                world.field.clear_distance(world.field.local(&self.place.position) + eye)
-                    >= MIN_ROOM * distance
-            };
-            if to < distance && !has_room(eye, to) && has_room(arm, distance) {
-                continue;
-            }
-            let moved = collide::advance(world, camera, eye - arm);
-            if moved != eye - arm {
-                continue;
-            }
+        let room = |arm: DVec3| {
+            let point = world.field.local(&self.place.position) + arm;
+            world.field.clear_distance(point) / arm.length()
+        };
+        let nearer = (turn * from) * wanted.min(distance);
+        let is_free = room(nearer) >= MIN_ROOM.min(room(arm))
+            && collide::advance(world, camera, nearer - arm) == nearer - arm;
+        if is_free && wanted < distance {
+            self.place_camera(camera, world, nearer, turn, amount);
+            return true;
+        }
+        // About the place, and along the surface if that is in the way.
+        let beside = (turn * from) * distance;
+        let eye = arm + collide::slide(world, camera, beside - arm);
+        if let Some(toward) = eye.try_normalize() {
+            let turn = DQuat::from_rotation_arc(from, toward);
             self.place_camera(camera, world, eye, turn, amount);
-            return to < distance;
         }
         false
     }

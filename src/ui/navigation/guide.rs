@@ -58,6 +58,8 @@ pub enum GuideStatus {
 struct Inquiry {
     search: PlaceSearch,
     pointer: DVec2,
+    /// True if the surface blocks the present place: any other is better.
+    is_blocked: bool,
 }
 
 /// A dive in progress.
@@ -165,6 +167,9 @@ impl Guide {
             self.blocked = 0;
             let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
             self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE });
+            if let Some(inquiry) = &mut self.inquiry {
+                inquiry.is_blocked = true;
+            }
         }
         true
     }
@@ -223,8 +228,8 @@ impl Guide {
     pub fn work(&mut self, camera: &Camera, world: World<'_>) -> bool {
         if let Some(inquiry) = &mut self.inquiry {
             if !inquiry.search.step() {
-                let Some(Inquiry { search, pointer }) = self.inquiry.take() else { return false };
-                self.choose(search.places(), pointer, camera, world);
+                let Some(inquiry) = self.inquiry.take() else { return false };
+                self.choose(&inquiry, camera, world);
             }
             return true;
         }
@@ -239,11 +244,11 @@ impl Guide {
         area: SearchArea,
     ) {
         let search = PlaceSearch::new(model, camera, world.viewport.aspect, area);
-        self.inquiry = Some(Inquiry { search, pointer: area.center });
+        self.inquiry = Some(Inquiry { search, pointer: area.center, is_blocked: false });
     }
 
-    /// Descends to the best of `places` that is still in view; keeps the present one if none is as good.
-    fn choose(&mut self, places: &[Place], pointer: DVec2, camera: &Camera, world: World<'_>) {
+    /// Descends to the best found place that is still in view; keeps the present one if none is as good.
+    fn choose(&mut self, inquiry: &Inquiry, camera: &Camera, world: World<'_>) {
         let present = self.descent.as_ref().map(|(descent, _)| descent.place());
         let is_in_view = |place: &&Place| {
             let offset = &place.position - &camera.position;
@@ -253,11 +258,13 @@ impl Guide {
             present.is_none_or(|present| {
                 let away = (&camera.position - &present.position).length();
                 let aside = (&place.position - &present.position).length();
-                aside > ASIDE * away && place.drawn_out() < present.drawn_out() + WORSE
+                let is_drawn_out = place.drawn_out() > present.drawn_out() + WORSE;
+                aside > ASIDE * away && (inquiry.is_blocked || !is_drawn_out)
             })
         };
+        let places = inquiry.search.places();
         if let Some(best) = places.iter().filter(is_in_view).find(is_as_good) {
-            self.descent = Some((Descent::new(best.clone()), pointer));
+            self.descent = Some((Descent::new(best.clone()), inquiry.pointer));
         }
     }
 

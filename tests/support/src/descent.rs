@@ -11,8 +11,8 @@ use mandelight::{
 pub const VIEWPORT: Viewport = Viewport { aspect: 1.5, height_px: 600.0, detail: 1.0 };
 /// Zoom of one notch, as a natural logarithm.
 pub const NOTCH: f64 = 0.2;
-/// Steps of searches and plans between two notches: ten frames of two milliseconds.
-const STEPS_PER_NOTCH: u32 = 100;
+/// Steps of searches and plans between two notches: about ten frames of two milliseconds.
+const STEPS_PER_NOTCH: u32 = 300;
 /// Most notches, against an endless loop: 1e-27 takes about 320.
 const MAX_NOTCHES: u32 = 600;
 
