@@ -42,7 +42,8 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   });
   await page.settled();
 
-  scenes.powered = await page.changed("the power's slider", () => page.drag("power", [-30, 0]));
+  scenes.powered = await page.changed("the power's slider", async () =>
+    page.drag(await page.scrollTo("power"), [-30, 0]));
   await page.settled();
   await v.screenshot("another-power-720x420");
 
