@@ -1,6 +1,9 @@
 //! `mandelight scene`: prints a scene document.
 
-use mandelight::scene::{document, presets};
+use mandelight::scene::{
+    document,
+    presets::{self, Preset},
+};
 
 use super::{
     Failure,
@@ -25,26 +28,21 @@ pub struct SceneArguments {
 /// Prints the scene document, or the list of presets.
 pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
     if arguments.list_presets {
-        let names: Vec<String> = presets::every().map(|preset| name_of(preset.name)).collect();
+        let names: Vec<String> = presets::every().map(Preset::id).collect();
         let width = names.iter().map(String::len).max().unwrap_or(0);
         let lines = names.iter().zip(presets::every());
         let list: String =
             lines.map(|(name, preset)| format!("{name:width$}  {}\n", preset.blurb)).collect();
         return print(&list);
     }
-    let wanted = arguments.preset.as_deref().map(name_of);
+    let wanted = arguments.preset.as_deref().map(Preset::id_of);
     let preset = presets::every()
-        .find(|preset| wanted.as_ref().is_none_or(|wanted| name_of(preset.name) == *wanted))
+        .find(|preset| wanted.as_ref().is_none_or(|wanted| preset.id() == *wanted))
         .ok_or_else(|| {
-            let names: Vec<String> = presets::every().map(|p| name_of(p.name)).collect();
+            let names: Vec<String> = presets::every().map(Preset::id).collect();
             let wanted = wanted.unwrap_or_default();
             Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
         })?;
     let scene = input::changed((preset.scene)(), &arguments.set)?;
     print(&document::to_json(&scene))
-}
-
-/// A preset's name on the command line: `coral-reef` for "Coral reef".
-fn name_of(name: &str) -> String {
-    name.to_lowercase().replace(' ', "-")
 }

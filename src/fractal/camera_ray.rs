@@ -22,6 +22,15 @@ pub fn camera_ray(camera: &Camera, origin: &PrecisePoint, ndc: DVec2, aspect: f6
     Ray { origin: &camera.position - origin, direction: camera.rotation() * in_camera.normalize() }
 }
 
+/// Where `camera` sees the point at `offset` from the eye; none behind the eye.
+///
+/// `aspect` is the picture's width over its height.
+pub fn ndc_of(camera: &Camera, offset: DVec3, aspect: f64) -> Option<DVec2> {
+    let seen = camera.rotation().inverse() * offset;
+    let scale = camera.half_height(aspect) * -seen.z;
+    (seen.z < 0.0).then(|| DVec2::new(seen.x / (scale * aspect), seen.y / scale))
+}
+
 /// The radius of a pixel's cone per unit of depth.
 ///
 /// `aspect` is the picture's width over its height, `height_px` its height in pixels.

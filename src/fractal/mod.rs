@@ -7,13 +7,16 @@
 //! |---|---|
 //! | [`model`] | a fractal's distance fields, made once per edit |
 //! | [`camera_ray`](mod@camera_ray) | camera rays through a picture's pixels |
+//! | [`places`] | finds points of the surface that stay beautiful at every depth |
+//! | [`spiral`] | directions and places that are spread evenly |
 //! | [`search`] | finds the anchor of a view |
 
 pub mod camera_ray;
 pub mod model;
 pub mod places;
 pub mod search;
+pub mod spiral;
 
-pub use camera_ray::{camera_ray, pixel_cone};
+pub use camera_ray::{camera_ray, ndc_of, pixel_cone};
 pub use model::{FractalModel, SharedModel};
 pub use search::Search;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::camera_ray;
+use super::{camera_ray, spiral::in_disc};
 use crate::{
     formula::{DistanceField, ReferenceOrbit, ReferenceSteps, march::DEEP_FOOTPRINT},
     scene::{Camera, Fractal, PrecisePoint},
@@ -169,7 +169,5 @@ impl RayMarch {
 
 /// Where a ray passes through the picture: the first through its middle, the others on a spiral.
 fn ndc(ray: u32) -> DVec2 {
-    const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
-    let frame = DVec2::from_angle(f64::from(ray) * GOLDEN_ANGLE_RAD);
-    0.85 * (f64::from(ray) / f64::from(RAYS - 1)).sqrt() * frame
+    0.85 * in_disc(ray, RAYS - 1)
 }

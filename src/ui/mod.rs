@@ -15,6 +15,7 @@
 //! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
+//! | `slice` | slices of a frame for searches |
 //! | `small_picture` | small pictures that the shell draws when idle |
 //! | `floating`, `notice` | buttons and the shell's message over the picture |
 //! | [`thumbnail`] | pictures on the buttons of scenes and dives |
@@ -41,6 +42,7 @@ mod pilot;
 mod places;
 mod selection;
 mod settings;
+mod slice;
 mod small_picture;
 mod status;
 mod timeline;

@@ -11,7 +11,7 @@
 //! | `aim` | the surface in the picture nearest to the pointer |
 //! | `placement` | rounded positions of eye and pivot |
 //! | [`collide`] | collision of the eye with the surface, and sliding along it |
-//! | `way_back` | the way back from where the picture shows nothing |
+//! | `recovery` | turns a view that shows no surface toward the nearest |
 //! | [`turntable`] | rotations that keep the horizon level |
 //! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
 //! | [`descent`] | zooms about a place, with a turn toward the best view |
@@ -38,9 +38,9 @@ pub mod flight;
 pub mod fly;
 pub mod guide;
 mod placement;
+mod recovery;
 mod route;
 pub mod turntable;
-mod way_back;
 mod world;
 
 use std::ops::RangeInclusive;
@@ -97,8 +97,8 @@ pub struct Navigator {
     gesture: Option<Gesture>,
     hold: Option<Hold>,
     nothing_ahead: bool,
-    /// True on the way back from a picture without a surface.
-    is_lost: bool,
+    /// True while zooming out turns a view without a surface toward the nearest.
+    is_recovering: bool,
     fly_speed: FlySpeed,
     flight: Option<Flight>,
 }
@@ -172,8 +172,8 @@ impl Navigator {
                 turntable.orbit(camera, world, center, DVec2::new(-moved.x, moved.y));
                 glide_pivot(camera, center, -(-moved.length() / GLIDE_RAD).exp_m1());
             }
-            // The way back turns, so what was grabbed is no longer where it was.
-            Some(Gesture::Pan(held)) if !self.is_lost => {
+            // Recovery turns the view, so the grabbed point is no longer where it was.
+            Some(Gesture::Pan(held)) if !self.is_recovering => {
                 pan(camera, world, &held.grabbed, ndc + held.from_pointer);
             }
             _ => {}
@@ -191,7 +191,7 @@ impl Navigator {
         self.gesture = None;
         self.hold = None;
         self.nothing_ahead = false;
-        self.is_lost = false;
+        self.is_recovering = false;
         self.flight = None;
         self.fly_speed.reset();
     }
@@ -225,11 +225,11 @@ impl Navigator {
             _ => self.held_target(camera, world, ndc),
         };
         self.nothing_ahead = target.is_none() && amount > 0.0;
-        self.is_lost = target.is_none() || (self.is_lost && amount < 0.0);
+        self.is_recovering = target.is_none() || (self.is_recovering && amount < 0.0);
         let before = camera.clone();
-        let Some(target) = target.filter(|_| !self.is_lost) else {
+        let Some(target) = target.filter(|_| !self.is_recovering) else {
             if amount < 0.0 {
-                self.is_lost = !way_back::step(camera, world, -amount);
+                self.is_recovering = !recovery::step(camera, world, -amount);
             }
             return *camera != before;
         };
@@ -298,7 +298,7 @@ impl Navigator {
         self.gesture = None;
         self.hold = None;
         self.nothing_ahead = false;
-        self.is_lost = false;
+        self.is_recovering = false;
         self.flight = None;
         fly::fly(&mut self.fly_speed, camera, world, input, dt_secs)
     }

@@ -15,6 +15,7 @@ use super::{
         guide::{Guide, GuideStatus},
     },
     shortcuts::{Command, HeldKeys},
+    slice,
 };
 use crate::{
     formula::DistanceField,
@@ -38,9 +39,6 @@ const STEP_SECS: f64 = 0.5;
 const STEP_FRAMES: f64 = 2.5;
 /// Upper limit of the pause that [`STEP_FRAMES`] gives.
 const MAX_STEP_SECS: f64 = 3.0;
-
-/// Most seconds of a frame for searches and plans of the guide.
-const GUIDE_SECS: f64 = 0.002;
 
 /// The camera's input state.
 #[derive(Debug, Default)]
@@ -264,14 +262,12 @@ impl Pilot {
         }
     }
 
-    /// Runs searches and plans of the guide for [`GUIDE_SECS`].
+    /// Runs searches and plans of the guide for a slice of the frame.
     fn guide_work(&mut self, ctx: &Context, camera: &Camera, world: World<'_>) {
-        let began = Instant::now();
-        while self.guide.work(camera, world) {
-            if began.elapsed().as_secs_f64() > GUIDE_SECS {
-                ctx.request_repaint();
-                break;
-            }
+        let clock = Instant::now();
+        let mut now_ms = || clock.elapsed().as_secs_f64() * 1e3;
+        if slice::run(&mut now_ms, || self.guide.work(camera, world)) {
+            ctx.request_repaint();
         }
     }
 
@@ -286,7 +282,7 @@ impl Pilot {
     ) {
         let is_drawn = self.is_drawn && !self.flying && amount > 0.0;
         if !(is_drawn && self.guide.zoom(model, camera, world, ndc, amount)) {
-            self.guide.pause_dive();
+            self.guide.stop_dive();
             self.navigator.dolly(camera, world, ndc, amount);
         }
     }

@@ -25,7 +25,7 @@ pub(super) fn image(preset: &Preset) -> Option<Image<'static>> {
     Some(Image::from_bytes(format!("bytes://{}", file_name(preset)), jpeg(preset)?))
 }
 
-/// A thumbnail's file, named as the preset is on the command line: `coral-reef.jpg`.
+/// The name of a thumbnail's file.
 fn file_name(preset: &Preset) -> String {
-    format!("{}.jpg", preset.name.to_lowercase().replace(' ', "-"))
+    format!("{}.jpg", preset.id())
 }

@@ -172,7 +172,7 @@ fn the_page_and_the_native_program_draw_the_same_pictures() {
         .map(|preset| {
             let mut scene = (preset.scene)();
             scene.quality.samples = 2;
-            let name = preset.name.to_lowercase().replace(' ', "-");
+            let name = preset.id();
             let file = scenes.join(format!("{name}.json"));
             fs::write(&file, document::to_json(&scene)).unwrap();
             file

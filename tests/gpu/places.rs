@@ -66,9 +66,7 @@ fn contact_sheet(name: &str, rows: &[Vec<Shot>]) {
     let mut sheet = vec![[16_u8; 3]; columns * width * rows.len() * height];
     for (row, shots) in rows.iter().enumerate() {
         for (column, shot) in shots.iter().enumerate() {
-            for (i, target) in (0..width * height).map(|i| (i % width, i / width)).enumerate() {
-                let _ = i;
-                let (x, y) = target;
+            for (x, y) in (0..width * height).map(|i| (i % width, i / width)) {
                 // Four pixels of the picture make one of the sheet.
                 let source = |dx: usize, dy: usize| {
                     shot.pixels[(2 * y + dy) * SIZE_PX[0] as usize + 2 * x + dx]
@@ -142,7 +140,7 @@ fn a_wheel_from_sixteen_pixels_passes_only_views_worth_seeing() {
         rows.push(row);
     }
     contact_sheet("wheel", &rows);
-    assert!(bad.is_empty(), "{} fail:\\n{}", bad.len(), bad.join("\\n"));
+    assert!(bad.is_empty(), "{} fail:\n{}", bad.len(), bad.join("\n"));
 }
 
 #[test]

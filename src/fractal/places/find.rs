@@ -4,26 +4,26 @@
 //! The best of those are made exact, and the space about them is probed. The search runs in small steps, so
 //! that a frame can run as many as fit its time.
 
-use std::{collections::HashMap, sync::Arc};
+use std::{collections::HashSet, sync::Arc};
 
 use glam::{DVec2, DVec3};
 
 use super::{
     newton::{Refined, Refinement, Solution, solve},
     probe::{COPY_DISTANCE, Probe},
-    vantage::CameraSearch,
+    vantage::{CameraSearch, ENOUGH_ROOM},
 };
 use crate::{
     formula::{
         DistanceField, Recurrence, ReferenceSteps, contract::COARSEST_FOOTPRINT,
         march::DEEP_FOOTPRINT, recurrence::norm,
     },
-    fractal::{FractalModel, Search, camera_ray},
+    fractal::{FractalModel, Search, camera_ray, ndc_of, pixel_cone, spiral::in_disc},
     scene::{Camera, PrecisePoint},
 };
 
 /// Rows of the picture whose pixels set the search's detail.
-const ROWS: f64 = 400.0;
+const ROWS: f64 = 200.0;
 /// Distance from the surface at which Newton's method starts, per unit of depth.
 ///
 /// Orbits of points farther out escape before they come near a cycle.
@@ -54,6 +54,12 @@ const SOLVED_AT_ONCE: usize = 4;
 const TRACED_AT_ONCE: u32 = 8;
 /// Places nearer to each other than this part of the view's height count as one.
 const SAME: f64 = 0.03;
+/// Greatest normalised device coordinate of a place: not at the picture's very edge.
+const IN_PICTURE: f64 = 0.95;
+/// Footprint of the field about places of fractals without depth, in scene units.
+const FOOTPRINT_WITHOUT_DEPTH: f64 = 1e-6;
+/// Finest detail of rays in a deep view, over the eye's distance to the anchor.
+const GRAIN: f64 = 1e-4;
 /// Distance of an eye that has arrived at a small copy, in the copy's radii.
 const ARRIVAL_AT_COPY: f64 = 5.0;
 /// Distance of an eye that has arrived at a cycle, over its distance before.
@@ -98,7 +104,9 @@ impl std::fmt::Debug for PlaceField {
 pub struct SearchArea {
     /// Where the nearest places count most, in normalised device coordinates.
     pub center: DVec2,
-    /// Half the side of the square of rays about the centre, in half heights of the picture.
+    /// Radius of the disc of rays about the centre, in half heights of the picture.
+    ///
+    /// From 1 up, the disc is as much wider than high as the picture.
     pub radius: f64,
     /// Number of rays.
     pub rays: u32,
@@ -152,7 +160,7 @@ struct Candidate {
 impl PlaceSearch {
     /// A search for places in `area` of the picture that `camera` sees; its width over height is `aspect`.
     pub fn new(model: &FractalModel, camera: &Camera, aspect: f64, area: SearchArea) -> Self {
-        let cone = camera.half_height(aspect) / (0.5 * ROWS);
+        let cone = pixel_cone(camera, aspect, ROWS);
         let footprint = cone * model.clear_distance(&camera.position);
         let deep = (footprint < COARSEST_FOOTPRINT)
             .then(|| Search::new(model.fractal(), camera, aspect, None))
@@ -203,7 +211,7 @@ impl PlaceSearch {
                 Some(reference) => {
                     let fractal = self.model.fractal();
                     let away = &self.camera.position - reference.anchor();
-                    let grain = (1e-4 * away.length()).max(DEEP_FOOTPRINT);
+                    let grain = (GRAIN * away.length()).max(DEEP_FOOTPRINT);
                     let field = reference.distance_field(fractal, DEEP_FOOTPRINT, grain);
                     Stage::of_rays(field)
                 }
@@ -223,7 +231,6 @@ impl PlaceSearch {
                     Stage::Rays { field, ray: ray + 1, pending }
                 } else {
                     self.sort_candidates();
-
                     Stage::Candidates { field, index: 0, pending: None }
                 }
             }
@@ -269,15 +276,8 @@ impl PlaceSearch {
             return;
         }
         let offset = solution.point - field.local(&self.camera.position);
-        let seen = self.camera.rotation().inverse() * offset;
-        if seen.z >= 0.0 {
-            return;
-        }
-        let half_height = self.camera.half_height(self.aspect) * -seen.z;
-        let ndc = DVec2::new(seen.x / (half_height * self.aspect), seen.y / half_height);
-        if ndc.abs().max_element() > 0.95 {
-            return;
-        }
+        let seen = ndc_of(&self.camera, offset, self.aspect);
+        let Some(ndc) = seen.filter(|ndc| ndc.abs().max_element() <= IN_PICTURE) else { return };
         let aside = (ndc - self.area.center) * DVec2::new(self.aspect, 1.0);
         let cost =
             drawn_out(elongation, distortion) + ASIDE_COST * aside.length() / self.area.radius;
@@ -287,11 +287,11 @@ impl PlaceSearch {
     /// Sorts the candidates by cost and drops those beside a better one.
     fn sort_candidates(&mut self) {
         self.candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut taken: HashMap<[i64; 2], ()> = HashMap::new();
+        let mut taken = HashSet::new();
         let cell = 2.0 * SAME;
         self.candidates.retain(|candidate| {
             let place = candidate.ndc * DVec2::new(self.aspect, 1.0) / cell;
-            taken.insert([place.x.floor() as i64, place.y.floor() as i64], ()).is_none()
+            taken.insert([place.x.floor() as i64, place.y.floor() as i64])
         });
     }
 
@@ -347,7 +347,7 @@ impl PlaceSearch {
         let ray = camera_ray(&self.camera, &field.origin(), candidate.ndc, self.aspect);
         let depth = candidate.solution.point.distance(ray.origin);
         let half_height = self.camera.half_height(self.aspect);
-        let cone = half_height / (0.5 * ROWS);
+        let cone = pixel_cone(&self.camera, self.aspect, ROWS);
         let hit = field.trace(ray, cone, depth, MAX_STEPS).unwrap_or_else(Some);
         hit.is_none_or(|hit| depth - hit < 2.0 * BEHIND * half_height * depth)
     }
@@ -357,7 +357,7 @@ impl PlaceSearch {
         let fractal = self.model.fractal();
         match fractal.formula().begin_reference(fractal, position.clone()) {
             Some(steps) => Pending::Reference { position, steps },
-            None => self.probe(index, position, self.model.finer(1e-6)),
+            None => self.probe(index, position, self.model.finer(FOOTPRINT_WITHOUT_DEPTH)),
         }
     }
 
@@ -389,7 +389,7 @@ impl PlaceSearch {
             openness,
             radius,
             ndc: *ndc,
-            cost: cost - openness.min(0.4).ln(),
+            cost: cost - openness.min(ENOUGH_ROOM).ln(),
             field: PlaceField(probe.about),
         };
         let at = self.places.partition_point(|other| other.cost <= place.cost);
@@ -411,9 +411,7 @@ impl Stage {
 impl SearchArea {
     /// Where ray `ray` passes through the picture: rays spiral outward from the centre.
     fn ndc(&self, ray: u32, aspect: f64) -> DVec2 {
-        const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
-        let radius = self.radius * (f64::from(ray) / f64::from(self.rays.max(1))).sqrt();
-        let offset = radius * DVec2::from_angle(f64::from(ray) * GOLDEN_ANGLE_RAD);
+        let offset = self.radius * in_disc(ray, self.rays);
         let wide = if self.radius < 1.0 { offset / DVec2::new(aspect, 1.0) } else { offset };
         self.center + wide
     }

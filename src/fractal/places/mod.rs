@@ -7,7 +7,7 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `spectrum` | eigenvalues of 3×3 matrices, spread directions |
+//! | `spectrum` | eigenvalues of 3×3 matrices |
 //! | [`newton`] | points whose orbits recur |
 //! | [`vantage`] | where to look at a place from |
 //! | `probe` | the space about a place |

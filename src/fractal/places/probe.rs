@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{spectrum::spread_directions, vantage::Openings};
-use crate::{formula::DistanceField, scene::PrecisePoint};
+use super::vantage::Openings;
+use crate::{formula::DistanceField, fractal::spiral::directions, scene::PrecisePoint};
 
 /// Scales at which the space about a place is probed, over the eye's distance.
 const PROBED: [f64; 4] = [0.3, 0.05, 5e-3, 1e-4];
@@ -102,5 +102,5 @@ impl Probe {
 }
 
 fn is_free(field: &dyn DistanceField, center: DVec3, radius: f64) -> bool {
-    spread_directions(DIRECTIONS).all(|toward| field.distance(center + toward * radius) > 0.0)
+    directions(DIRECTIONS).all(|toward| field.distance(center + toward * radius) > 0.0)
 }

@@ -1,6 +1,6 @@
 //! Eigenvalues and singular values of 3×3 matrices.
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 
 /// Halvings that locate a real eigenvalue to an f64's precision.
 const HALVINGS: u32 = 64;
@@ -46,19 +46,10 @@ pub fn condition(matrix: &DMat3) -> f64 {
     if least > 0.0 { (greatest / least).sqrt() } else { f64::INFINITY }
 }
 
-/// Evenly spread directions: a golden spiral of `count` unit vectors.
-pub fn spread_directions(count: u32) -> impl Iterator<Item = DVec3> {
-    const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
-    (0..count).map(move |index| {
-        let z = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(count);
-        let (sin, cos) = (GOLDEN_RAD * f64::from(index)).sin_cos();
-        let radius = (1.0 - z * z).sqrt();
-        DVec3::new(radius * cos, radius * sin, z)
-    })
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     fn diagonal(x: f64, y: f64, z: f64) -> DMat3 {

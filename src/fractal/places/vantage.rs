@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::spectrum::spread_directions;
 use crate::{
     formula::{DistanceField, Ray},
+    fractal::spiral::directions,
     scene::{Camera, PrecisePoint},
 };
 
@@ -34,7 +34,7 @@ const HALF_HEIGHT: f64 = 0.36;
 /// Number of the most open directions whose pictures are judged.
 const JUDGED: usize = 12;
 /// Openness beyond which more space makes no better picture.
-const ENOUGH_ROOM: f64 = 0.4;
+pub const ENOUGH_ROOM: f64 = 0.4;
 /// How far the wider view is, whose open side becomes the picture's upright.
 const WIDER: f64 = 4.0;
 /// Part of the framing that relief decides.
@@ -77,7 +77,7 @@ impl Openings {
     /// Measures some directions; returns false once all are measured.
     pub fn step(&mut self, field: &dyn DistanceField) -> bool {
         let from = self.measured.len();
-        let next = spread_directions(DIRECTIONS).skip(from).take(DIRECTIONS_PER_STEP);
+        let next = directions(DIRECTIONS).skip(from).take(DIRECTIONS_PER_STEP);
         self.measured.extend(next.map(|direction| {
             let distance = field.clear_distance(self.point + direction * self.scale);
             (direction, (distance / self.scale).min(1.0))

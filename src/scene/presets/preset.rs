@@ -12,3 +12,15 @@ pub struct Preset {
     /// The scene.
     pub scene: fn() -> Scene,
 }
+
+impl Preset {
+    /// The name on the command line and of files: `coral-reef` for "Coral reef".
+    pub fn id(&self) -> String {
+        Self::id_of(self.name)
+    }
+
+    /// The id of a preset called `name`.
+    pub fn id_of(name: &str) -> String {
+        name.to_lowercase().replace(' ', "-")
+    }
+}

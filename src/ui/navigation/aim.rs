@@ -9,7 +9,7 @@
 use glam::DVec2;
 
 use super::world::World;
-use crate::scene::Camera;
+use crate::{fractal::spiral::GOLDEN_ANGLE_RAD, scene::Camera};
 
 /// Rays from a closest approach toward the surface.
 const APPROACHES: u32 = 3;
@@ -19,8 +19,6 @@ const SPIRAL_RAYS: u32 = 48;
 const SPIRAL_RADII: [f64; 2] = [0.008, 2.4];
 /// Bisections between the pointer and what was found.
 const BISECTIONS: u32 = 8;
-/// Turn from ray to ray, which spreads the spiral evenly.
-const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
 /// A place of the picture where the surface is.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +79,7 @@ fn on_spiral(world: World<'_>, camera: &Camera, pointer: DVec2) -> Option<Aim> {
     let [first, last] = SPIRAL_RADII;
     (0..SPIRAL_RAYS).find_map(|i| {
         let radius = first * (last / first).powf(f64::from(i) / f64::from(SPIRAL_RAYS - 1));
-        let aside = DVec2::from_angle(GOLDEN_RAD * f64::from(i)) * radius;
+        let aside = DVec2::from_angle(GOLDEN_ANGLE_RAD * f64::from(i)) * radius;
         hit(world, camera, pointer + aside / DVec2::new(world.viewport.aspect, 1.0))
     })
 }

@@ -73,9 +73,9 @@ impl Descent {
         let distance = self.distance(camera);
         if self.plan.is_none() && AHEAD * distance * PLAN_AGAIN < self.planned {
             let toward_eye = (&camera.position - &self.place.position).try_normalize();
-            let scale = (AHEAD * distance).max(self.nearest());
-            self.plan = Some(self.place.camera_search(scale, toward_eye));
             self.planned = AHEAD * distance;
+            let scale = self.planned.max(self.place.nearest());
+            self.plan = Some(self.place.camera_search(scale, toward_eye));
         }
         let Some(plan) = &mut self.plan else { return false };
         if !plan.step() {
@@ -97,7 +97,8 @@ impl Descent {
     fn step(&self, camera: &mut Camera, world: World<'_>, amount: f64) -> bool {
         let arm = &camera.position - &self.place.position;
         let (distance, from) = (arm.length(), arm.normalize_or(DVec3::Z));
-        let wanted = (distance * (-amount).exp()).max(self.nearest().max(world.nearest(camera)));
+        let wanted =
+            (distance * (-amount).exp()).max(self.place.nearest()).max(world.nearest(camera));
         let turn = self.turn(from, amount);
         let room = |arm: DVec3| {
             let point = world.field.local(&self.place.position) + arm;
@@ -151,18 +152,12 @@ impl Descent {
         let rotation = rotation * DQuat::from_rotation_z(roll);
         let grain = world.grain_at(camera, eye.length());
         // Light reaches as far as the view unit, which must not jump where another place is chosen.
-        let before = (&camera.position - &self.place.position).length();
-        let unit = camera.view_unit() * eye.length() / before;
+        let unit = camera.view_unit() * eye.length() / self.distance(camera);
         let settled = 1.0 - (-UNIT_RATE * amount).exp();
         let unit = unit * (eye.length() / unit).powf(settled);
         camera.position = self.place.position.moved_by(eye, grain);
         camera.orientation = rotation.normalize().into();
         place_pivot(camera, -eye.normalize_or(DVec3::Z) * unit, grain);
-    }
-
-    /// Least distance of the eye from the place, in scene units.
-    fn nearest(&self) -> f64 {
-        self.place.nearest()
     }
 }
 

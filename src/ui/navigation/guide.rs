@@ -54,9 +54,10 @@ pub enum GuideStatus {
     AtEnd,
 }
 
-/// A search in progress, and the pointer's position for which it runs.
-struct Inquiry {
+/// A search of a part of the picture, in progress.
+struct AreaSearch {
     search: PlaceSearch,
+    /// The pointer's position for which the search runs, in normalised device coordinates.
     pointer: DVec2,
     /// True if the surface blocks the present place: any other is better.
     is_blocked: bool,
@@ -73,7 +74,7 @@ struct Dive {
 /// The guide's state.
 #[derive(Default)]
 pub struct Guide {
-    inquiry: Option<Inquiry>,
+    area_search: Option<AreaSearch>,
     /// The descent, and the pointer's position for which its place was chosen.
     descent: Option<(Descent, DVec2)>,
     /// Number of successive zooms that did not bring the eye nearer to the place.
@@ -115,7 +116,7 @@ impl Guide {
     /// The last dive's record stays.
     pub fn cancel(&mut self) {
         self.stop_dive();
-        (self.inquiry, self.descent, self.ended) = (None, None, None);
+        (self.area_search, self.descent, self.ended) = (None, None, None);
     }
 
     /// Forgets the last dive's record.
@@ -142,7 +143,7 @@ impl Guide {
             self.descent = None;
         }
         if self.descent.is_none()
-            && self.inquiry.as_ref().is_none_or(|inquiry| is_elsewhere(inquiry.pointer))
+            && self.area_search.as_ref().is_none_or(|area_search| is_elsewhere(area_search.pointer))
         {
             let area = SearchArea { center: pointer, ..NEAR_POINTER };
             self.begin_search(model, camera, world, area);
@@ -163,12 +164,12 @@ impl Guide {
         let Some((descent, _)) = &self.descent else { return false };
         let is_blocked = !descent.advance(camera, world, amount);
         self.blocked = if is_blocked && !descent.is_planning() { self.blocked + 1 } else { 0 };
-        if self.blocked > MAX_BLOCKED && self.inquiry.is_none() {
+        if self.blocked > MAX_BLOCKED && self.area_search.is_none() {
             self.blocked = 0;
             let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
             self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE });
-            if let Some(inquiry) = &mut self.inquiry {
-                inquiry.is_blocked = true;
+            if let Some(area_search) = &mut self.area_search {
+                area_search.is_blocked = true;
             }
         }
         true
@@ -198,7 +199,7 @@ impl Guide {
             dive.secs += dt_secs;
         }
         let speed = DIVE_PER_SEC * (dive.secs / DIVE_START_SECS).min(1.0);
-        if !self.descend(model, camera, world, speed * dt_secs) && self.inquiry.is_none() {
+        if !self.descend(model, camera, world, speed * dt_secs) && self.area_search.is_none() {
             self.end_dive(GuideStatus::NoPlace);
         }
         let (Some(dive), Some((descent, _))) = (&mut self.dive, &self.descent) else {
@@ -216,7 +217,7 @@ impl Guide {
         let limit = World { field: descent.place().field(), ..world }.nearest(camera);
         if distance <= AT_END * limit {
             self.end_dive(GuideStatus::AtEnd);
-        } else if is_due && self.inquiry.is_none() {
+        } else if is_due && self.area_search.is_none() {
             dive.chosen_at = distance;
             let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
             self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE });
@@ -226,10 +227,10 @@ impl Guide {
 
     /// Runs one step of the searches and plans, about 0.2 ms; returns false if there is nothing to do.
     pub fn work(&mut self, camera: &Camera, world: World<'_>) -> bool {
-        if let Some(inquiry) = &mut self.inquiry {
-            if !inquiry.search.step() {
-                let Some(inquiry) = self.inquiry.take() else { return false };
-                self.choose(&inquiry, camera, world);
+        if let Some(area_search) = &mut self.area_search {
+            if !area_search.search.step() {
+                let Some(area_search) = self.area_search.take() else { return false };
+                self.choose(&area_search, camera, world);
             }
             return true;
         }
@@ -244,11 +245,11 @@ impl Guide {
         area: SearchArea,
     ) {
         let search = PlaceSearch::new(model, camera, world.viewport.aspect, area);
-        self.inquiry = Some(Inquiry { search, pointer: area.center, is_blocked: false });
+        self.area_search = Some(AreaSearch { search, pointer: area.center, is_blocked: false });
     }
 
     /// Descends to the best found place that is still in view; keeps the present one if none is as good.
-    fn choose(&mut self, inquiry: &Inquiry, camera: &Camera, world: World<'_>) {
+    fn choose(&mut self, area_search: &AreaSearch, camera: &Camera, world: World<'_>) {
         let present = self.descent.as_ref().map(|(descent, _)| descent.place());
         let is_in_view = |place: &&Place| {
             let offset = &place.position - &camera.position;
@@ -259,27 +260,21 @@ impl Guide {
                 let away = (&camera.position - &present.position).length();
                 let aside = (&place.position - &present.position).length();
                 let is_drawn_out = place.drawn_out() > present.drawn_out() + WORSE;
-                aside > ASIDE * away && (inquiry.is_blocked || !is_drawn_out)
+                aside > ASIDE * away && (area_search.is_blocked || !is_drawn_out)
             })
         };
-        let places = inquiry.search.places();
+        let places = area_search.search.places();
         if let Some(best) = places.iter().filter(is_in_view).find(is_as_good) {
-            self.descent = Some((Descent::new(best.clone()), inquiry.pointer));
+            self.descent = Some((Descent::new(best.clone()), area_search.pointer));
         }
     }
 
-    /// Stops a dive but keeps the place: the person zooms by hand.
-    pub fn pause_dive(&mut self) {
-        if self.is_diving() {
-            self.stop_dive();
-        }
-    }
-
-    fn stop_dive(&mut self) {
+    /// Stops a dive, and forgets its place; the record stays.
+    pub fn stop_dive(&mut self) {
         if let Some(dive) = self.dive.take() {
             self.record = dive.record;
             self.descent = None;
-            self.inquiry = None;
+            self.area_search = None;
         }
     }
 

@@ -11,6 +11,7 @@ use glam::{DQuat, DVec3};
 use super::{collide, world::World};
 use crate::{
     formula::{DistanceField, Ray},
+    fractal::spiral,
     scene::{Camera, PrecisePoint},
 };
 
@@ -211,7 +212,7 @@ fn longest_free_ray(field: &dyn DistanceField, eye: DVec3, waypoint: &Waypoint) 
     let backward = waypoint.rotation * DVec3::Z;
     let unresolved = UNRESOLVED * eye.length();
     let spacing = 0.5 * field.clear_distance(eye).max(unresolved);
-    let mut directions: Vec<_> = (0..RAYS).map(spread_direction).collect();
+    let mut directions: Vec<_> = spiral::directions(RAYS).collect();
     directions.sort_by(|a, b| b.dot(backward).total_cmp(&a.dot(backward)));
     let likely = [backward, field.normal(eye, spacing)];
     let mut best = (backward, 0.0);
@@ -243,13 +244,4 @@ fn free_length(field: &dyn DistanceField, ray: Ray) -> f64 {
         travelled += (STEP * distance).max(MIN_STEP * travelled);
     }
     f64::INFINITY
-}
-
-/// The `index`-th of [`RAYS`] directions, spread evenly on a golden spiral.
-fn spread_direction(index: u32) -> DVec3 {
-    const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
-    let z = 1.0 - (2.0 * f64::from(index) + 1.0) / f64::from(RAYS);
-    let (sin, cos) = (GOLDEN_RAD * f64::from(index)).sin_cos();
-    let radius = (1.0 - z * z).sqrt();
-    DVec3::new(radius * cos, radius * sin, z)
 }

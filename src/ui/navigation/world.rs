@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use crate::{
     formula::{DistanceField, Ray},
-    fractal::{camera_ray, pixel_cone},
+    fractal::{camera_ray, ndc_of, pixel_cone},
     scene::Camera,
 };
 
@@ -188,8 +188,6 @@ impl World<'_> {
 
     /// The picture position of the point at `offset` from the eye; none behind the eye.
     pub(super) fn ndc_of(&self, camera: &Camera, offset: DVec3) -> Option<DVec2> {
-        let seen = camera.rotation().inverse() * offset;
-        let scale = camera.half_height(self.viewport.aspect) * -seen.z;
-        (seen.z < 0.0).then(|| DVec2::new(seen.x / (scale * self.viewport.aspect), seen.y / scale))
+        ndc_of(camera, offset, self.viewport.aspect)
     }
 }

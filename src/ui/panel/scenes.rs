@@ -74,7 +74,7 @@ fn cards(ui: &mut Ui, cx: &mut Context<'_>, presets: &'static [Preset], first: u
         let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
         let is_chosen = chosen == Some(first + index);
         let card = card(ui, rect, preset.name, thumbnail::image(preset), is_chosen);
-        // The first nine presets of the first list have number keys.
+        // The opening scenes have number keys, of which there are nine.
         let hover = match first {
             0 if index < 9 => format!("{} ({})", preset.blurb, index + 1),
             _ => preset.blurb.to_owned(),

@@ -8,13 +8,13 @@
 //! |---|---|
 //! | `show` | how pins and words are drawn |
 //! | `state` | whether there is a search, and its pins |
-//! | `hunt` | the search for places of one view, in slices |
+//! | `pin_search` | the search for places of one view, in slices |
 //! | `pin` | one place with its view and picture |
 //! | `arrange` | where the pictures stand |
 
 mod arrange;
-mod hunt;
 mod pin;
+mod pin_search;
 mod show;
 mod state;
 

@@ -6,8 +6,8 @@ use egui::{Rect, Ui};
 
 use super::{
     arrange,
-    hunt::{Hunt, Picture},
     pin::Pin,
+    pin_search::{Picture, PinSearch},
 };
 use crate::{
     fractal::FractalModel,
@@ -29,7 +29,7 @@ const SPACING: f32 = 64.0;
 pub struct Places {
     /// True if a search was requested and has not begun.
     is_requested: bool,
-    hunt: Option<Hunt>,
+    search: Option<PinSearch>,
     /// The camera of the last frame.
     last_camera: Option<Camera>,
     is_at_rest: bool,
@@ -53,7 +53,7 @@ pub enum Progress {
 impl Places {
     /// True while a search runs or pins are shown.
     pub fn are_shown(&self) -> bool {
-        self.is_requested || self.hunt.is_some()
+        self.is_requested || self.search.is_some()
     }
 
     /// Name and hover text of the button.
@@ -75,16 +75,19 @@ impl Places {
     /// Cancels the search and puts the pins away.
     pub fn put_away(&mut self) {
         self.is_requested = false;
-        self.next_number = self.hunt.take().map_or(self.next_number, |hunt| hunt.next_number());
+        self.next_number =
+            self.search.take().map_or(self.next_number, |search| search.next_number());
     }
 
     /// The progress of the search; none without one.
     pub fn progress(&self) -> Option<Progress> {
-        let Some(hunt) = &self.hunt else { return self.is_requested.then_some(Progress::Waiting) };
-        Some(if hunt.is_over() {
-            Progress::Found(hunt.pins().len())
+        let Some(search) = &self.search else {
+            return self.is_requested.then_some(Progress::Waiting);
+        };
+        Some(if search.is_over() {
+            Progress::Found(search.pins().len())
         } else if self.is_at_rest {
-            Progress::Searching(hunt.progress())
+            Progress::Searching(search.progress())
         } else {
             Progress::Waiting
         })
@@ -92,7 +95,7 @@ impl Places {
 
     /// The small pictures of the pins, in the order in which they are wanted.
     pub fn small_pictures(&self) -> impl Iterator<Item = &SmallPicture> + Clone {
-        self.hunt.iter().flat_map(Hunt::pins).map(|pin| &pin.picture)
+        self.search.iter().flat_map(PinSearch::pins).map(|pin| &pin.picture)
     }
 
     /// Continues the search for a slice of a frame, if the camera stands still.
@@ -114,7 +117,7 @@ impl Places {
         let is_new = self.last_camera.as_ref().is_some_and(|last| *last != scene.camera);
         self.is_at_rest = !is_moving && !is_new;
         self.last_camera = Some(scene.camera.clone());
-        if self.hunt.as_mut().is_some_and(|hunt| !hunt.keep_up_with(scene)) {
+        if self.search.as_mut().is_some_and(|search| !search.keep_up_with(scene)) {
             self.put_away();
         }
         if !self.is_at_rest {
@@ -122,12 +125,12 @@ impl Places {
         }
         if std::mem::take(&mut self.is_requested) {
             let picture = picture(frame);
-            self.hunt = Some(Hunt::new(model, scene, picture, self.next_number));
+            self.search = Some(PinSearch::new(model, scene, picture, self.next_number));
         }
-        if let Some(hunt) = &mut self.hunt {
-            hunt.redraw(scene);
-            if !hunt.is_over() {
-                hunt.run(now_ms);
+        if let Some(search) = &mut self.search {
+            search.redraw(scene);
+            if !search.is_over() {
+                search.run(now_ms);
             }
         }
     }
@@ -141,8 +144,8 @@ impl Places {
         frame: Frame,
         obstacles: &[Rect],
     ) -> Vec<Option<(egui::Pos2, Rect)>> {
-        let Some(hunt) = &mut self.hunt else { return Vec::new() };
-        let pins = hunt.pins_mut();
+        let Some(search) = &mut self.search else { return Vec::new() };
+        let pins = search.pins_mut();
         if self.arranged_in.replace(frame.rect) != Some(frame.rect) {
             pins.iter_mut().for_each(|pin| pin.offset = None);
         }
@@ -171,7 +174,7 @@ impl Places {
 
     /// The pins.
     pub fn pins(&self) -> &[Pin] {
-        self.hunt.as_ref().map_or(&[], |hunt| hunt.pins())
+        self.search.as_ref().map_or(&[], |search| search.pins())
     }
 
     /// Requests frames while a search has work.

@@ -1,5 +1,4 @@
-//! The way back from a view that shows no surface: away from the nearest surface, turning toward
-//! it.
+//! Recovery of a view that shows no surface: zooming out turns it toward the nearest surface.
 
 use glam::{DVec2, DVec3};
 

@@ -9,10 +9,9 @@ use crate::{
         places::{CameraSearch, Place, PlaceSearch, SearchArea},
     },
     scene::{Camera, PrecisePoint, Scene},
+    ui::slice,
 };
 
-/// Longest slice of a frame, in milliseconds; a step that has begun is finished.
-const SLICE_MS: f64 = 2.0;
 /// Places known at a time: the best of them becomes the next pin.
 const AHEAD: usize = 4;
 /// Greatest distance between place and arrival, as a part of the distance now.
@@ -32,7 +31,7 @@ pub struct Picture {
 }
 
 /// The search for places of one view, and the pins found so far.
-pub struct Hunt {
+pub struct PinSearch {
     /// The scene of the search, whose camera is the searched view.
     scene: Scene,
     picture: Picture,
@@ -49,13 +48,16 @@ pub struct Hunt {
     is_over: bool,
 }
 
-impl std::fmt::Debug for Hunt {
+impl std::fmt::Debug for PinSearch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Hunt").field("pins", &self.pins).field("is_over", &self.is_over).finish()
+        f.debug_struct("PinSearch")
+            .field("pins", &self.pins)
+            .field("is_over", &self.is_over)
+            .finish()
     }
 }
 
-impl Hunt {
+impl PinSearch {
     /// A search of the view of `scene`; small pictures are numbered from `next_number`.
     pub fn new(model: &FractalModel, scene: &Scene, picture: Picture, next_number: u64) -> Self {
         let search = PlaceSearch::new(model, &scene.camera, picture.aspect, SearchArea::PICTURE);
@@ -100,8 +102,7 @@ impl Hunt {
 
     /// Runs steps for a slice of a frame, at least one; `now_ms` is any steady clock.
     pub fn run(&mut self, now_ms: &mut dyn FnMut() -> f64) {
-        let began_ms = now_ms();
-        while self.step() && now_ms() - began_ms < SLICE_MS {}
+        slice::run(now_ms, || self.step());
     }
 
     /// Drops the pins that `scene` no longer shows; false if the search is of another view.
@@ -200,16 +201,16 @@ mod tests {
 
     const PICTURE: Picture = Picture { aspect: 1.5, height_px: 400.0, most: 5, spacing: 0.3 };
 
-    fn hunt(scene: &Scene) -> Hunt {
-        Hunt::new(&FractalModel::new(&scene.fractal), scene, PICTURE, 10)
+    fn pin_search(scene: &Scene) -> PinSearch {
+        PinSearch::new(&FractalModel::new(&scene.fractal), scene, PICTURE, 10)
     }
 
     #[test]
     fn a_slice_has_the_steps_that_fit_its_time() {
-        let mut hunt = hunt(&Scene::default());
+        let mut search = pin_search(&Scene::default());
         for (step_ms, steps) in [(0.25, 8), (0.5, 4), (1.5, 2), (30.0, 1)] {
             let (mut calls, mut now_ms) = (0, 1e6);
-            hunt.run(&mut || {
+            search.run(&mut || {
                 calls += 1;
                 now_ms += step_ms;
                 now_ms
@@ -221,10 +222,10 @@ mod tests {
 
     #[test]
     fn pins_are_apart_and_their_pictures_have_numbers_of_their_own() {
-        let mut hunt = hunt(&Scene::default());
-        while hunt.step() {}
-        assert_eq!(hunt.progress(), 1.0);
-        let pins = hunt.pins();
+        let mut search = pin_search(&Scene::default());
+        while search.step() {}
+        assert_eq!(search.progress(), 1.0);
+        let pins = search.pins();
         assert_eq!(pins.len(), PICTURE.most);
         for (index, pin) in pins.iter().enumerate() {
             assert_eq!(pin.picture.id.number, 10 + index as u64);
@@ -243,16 +244,17 @@ mod tests {
     #[test]
     fn other_looks_are_other_pictures_of_the_same_views() {
         let mut scene = Scene::default();
-        let mut hunt = hunt(&scene);
-        while hunt.step() {}
-        let ids = |hunt: &Hunt| hunt.pins().iter().map(|pin| pin.picture.id).collect::<Vec<_>>();
-        let before = ids(&hunt);
-        hunt.redraw(&scene);
-        assert_eq!(ids(&hunt), before);
+        let mut search = pin_search(&scene);
+        while search.step() {}
+        let ids =
+            |search: &PinSearch| search.pins().iter().map(|pin| pin.picture.id).collect::<Vec<_>>();
+        let before = ids(&search);
+        search.redraw(&scene);
+        assert_eq!(ids(&search), before);
         scene.tone.exposure += 1.0;
-        hunt.redraw(&scene);
-        assert!(ids(&hunt).iter().all(|id| !before.contains(id)));
-        let pin = &hunt.pins()[0];
+        search.redraw(&scene);
+        assert!(ids(&search).iter().all(|id| !before.contains(id)));
+        let pin = &search.pins()[0];
         assert_eq!(pin.picture.scene.tone, scene.tone);
         assert_eq!(pin.picture.scene.camera, pin.to);
     }
