@@ -15,7 +15,7 @@ const OUTSIDE: f64 = 0.02;
 /// Part that the equalised histogram has in a curve; a straight line has the rest.
 ///
 /// Alone, it would draw out the noise of frequent values; a line would leave rare colours to most pixels.
-const EQUALIZED: f64 = 0.5;
+const EQUALIZED: f64 = 0.7;
 /// Least range of a curve, over the range of the histogram.
 ///
 /// A nearly constant value would otherwise show its noise in all colours.

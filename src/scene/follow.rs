@@ -33,9 +33,13 @@ pub const FAR_UNIT: f64 = 1e-2;
 /// View unit, in scene units, from which on lights are tied to the view.
 pub const NEAR_UNIT: f64 = 1e-3;
 /// Toward the key in a close view: upper left, in front of the surface. Not normalised.
-pub const KEY_IN_VIEW: DVec3 = DVec3::new(-0.5, 0.62, 0.6);
+pub const KEY_IN_VIEW: DVec3 = DVec3::new(-0.6, 0.64, 0.45);
 /// Reach of shadows in a close view of lights without a limit, in view units.
 pub const NEAR_REACH: f64 = 1.25;
+/// Factor on the strength of lights tied to a close view.
+///
+/// The surface fills such a view and faces the key. The whole before its dark ground takes more light.
+const NEAR_STRENGTH: f64 = 0.65;
 /// Reach that a limit starts from, in scene units: larger than any set.
 const FAR_REACH: f64 = 8.0;
 /// Toward the fill, in the view; opposite the key.
@@ -63,6 +67,10 @@ pub fn effective<'a>(lights: &'a Lights, camera: &Camera) -> Cow<'a, Lights> {
         light.intensity *= if followed { follow.fade } else { 1.0 };
     }
     add_fill(&mut shining, lights, follow.part);
+    let strength = NEAR_STRENGTH.powf(follow.part);
+    for light in &mut shining.environment {
+        light.intensity *= strength;
+    }
     Cow::Owned(shining)
 }
 

@@ -22,6 +22,8 @@ use crate::{
     scene::{Camera, PrecisePoint},
 };
 
+/// Size of the finest shapes in a view at [`DEEP`], in scene units: a view's iterations must reach them.
+const FINEST_SHAPES: f64 = 1e-3 * DEEP;
 /// Rows of the picture whose pixels set the search's detail.
 const ROWS: f64 = 200.0;
 /// Distance from the surface at which Newton's method starts, per unit of depth.
@@ -273,6 +275,13 @@ impl PlaceSearch {
     fn add(&mut self, field: &dyn DistanceField, solution: &Solution) {
         let (elongation, distortion) = (solution.elongation(), solution.distortion());
         if elongation.is_nan() || elongation > MAX_ELONGATION || distortion > MAX_DISTORTION {
+            return;
+        }
+        let fractal = self.model.fractal();
+        let most = self.model.iterations_for(FINEST_SHAPES);
+        if fractal.formula().has_depth(fractal)
+            && solution.iterations_to(FINEST_SHAPES) > f64::from(most)
+        {
             return;
         }
         let offset = solution.point - field.local(&self.camera.position);

@@ -51,6 +51,15 @@ impl Solution {
         if least > REPELLING { greatest.ln() / least.ln() } else { f64::INFINITY }
     }
 
+    /// Number of iterations until shapes of size `scale` about the point are as large as the set.
+    ///
+    /// 0 for a small copy, which has a size.
+    pub fn iterations_to(&self, scale: f64) -> f64 {
+        let Recurrence::Cycle { preperiod, period } = self.recurrence else { return 0.0 };
+        let [least, ..] = eigenvalue_moduli(&self.turn);
+        preperiod as f64 + period as f64 * -scale.ln() / least.max(REPELLING).ln()
+    }
+
     /// How much a picture of the point is drawn out at every depth, at least 1.
     ///
     /// The surface around the point looks like that around its cycle, seen through the derivative. A small

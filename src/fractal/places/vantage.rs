@@ -31,12 +31,18 @@ const ENOUGH_RELIEF: f64 = 0.3;
 /// Half the height of the judged picture at distance 1.
 const HALF_HEIGHT: f64 = 0.36;
 
-/// Number of the most open directions whose pictures are judged.
+/// Number of the best directions whose pictures are judged; more if surfaces hide the place from all of them.
 const JUDGED: usize = 12;
 /// Openness beyond which more space makes no better picture.
 pub const ENOUGH_ROOM: f64 = 0.4;
 /// How far the wider view is, whose open side becomes the picture's upright.
 const WIDER: f64 = 4.0;
+/// Radius about an eye where estimates must agree with the eye's own, as a part of that.
+const STEADY_RADIUS: f64 = 0.3;
+/// Greatest factor between those estimates and the eye's own.
+const STEADY_FACTOR: f64 = 4.0;
+/// Number of those estimates.
+const STEADY_SAMPLES: u32 = 12;
 /// Part of the framing that relief decides.
 const RELIEF_WEIGHT: f64 = 0.3;
 /// A small copy's front, in its radii from its centre.
@@ -80,7 +86,8 @@ impl Openings {
         let next = directions(DIRECTIONS).skip(from).take(DIRECTIONS_PER_STEP);
         self.measured.extend(next.map(|direction| {
             let distance = field.clear_distance(self.point + direction * self.scale);
-            (direction, (distance / self.scale).min(1.0))
+            // The point is part of the surface. What claims more room is the noise of an orbit that never escapes.
+            (direction, Some(distance / self.scale).filter(|it| *it <= 1.0).unwrap_or(0.0))
         }));
         self.measured.len() > from
     }
@@ -147,7 +154,11 @@ impl VantageSearch {
             Some(pending) => pending,
             None => self.pending.insert(self.openings.to_judge(self.near)),
         };
-        let next = pending.pop().map(|(direction, openness, liking)| {
+        let judged = DIRECTIONS as usize - pending.len();
+        let next = pending
+            .pop()
+            .filter(|(_, openness, _)| *openness > 0.0 && (judged < JUDGED || self.best.is_none()));
+        let next = next.map(|(direction, openness, liking)| {
             let up = upright(direction, self.wider.most_open().0);
             let vantage = Vantage { direction, up, openness, framing: 0.0 };
             let in_front = IN_FRONT * (self.scale - COPY_FRONT * self.radius);
@@ -174,9 +185,7 @@ impl Openings {
                 (direction, openness, openness.min(ENOUGH_ROOM) - TURN_COST * turned)
             })
             .collect();
-        directions.sort_by(|a, b| b.2.total_cmp(&a.2));
-        directions.truncate(JUDGED);
-        directions.reverse();
+        directions.sort_by(|a, b| a.2.total_cmp(&b.2));
         directions
     }
 }
@@ -228,6 +237,16 @@ impl CameraSearch {
     }
 }
 
+/// True if estimates near `eye` agree with `distance`, the one there.
+///
+/// Where orbits never escape, estimates are noise, and some look like room.
+fn is_steady(field: &dyn DistanceField, eye: DVec3, distance: f64) -> bool {
+    directions(STEADY_SAMPLES).all(|toward| {
+        let near = field.clear_distance(eye + toward * STEADY_RADIUS * distance);
+        (distance / STEADY_FACTOR..distance * STEADY_FACTOR).contains(&near)
+    })
+}
+
 /// The part of `wide` across `direction`, as a unit vector; any such if there is none.
 fn upright(direction: DVec3, wide: DVec3) -> DVec3 {
     let across = wide.reject_from_normalized(direction);
@@ -275,7 +294,9 @@ impl Framing {
         let depth = self.march(field, at.unwrap_or((0.0, 0.0)));
         self.rays += 1;
         if at.is_none() {
-            self.is_hidden = depth.is_some_and(|depth| depth < self.in_front);
+            let is_blocked = depth.is_some_and(|depth| depth < self.in_front);
+            let room = self.vantage.openness * self.scale;
+            self.is_hidden = is_blocked || !is_steady(field, self.eye, room);
         } else if let Some(depth) = depth {
             self.depths_ln.extend(Some((depth / self.scale).ln()).filter(|it| *it > NEAR_LN));
         }

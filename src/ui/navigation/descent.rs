@@ -4,6 +4,8 @@
 //! turns a little about the place toward the planned vantage, the place drifts toward the picture's middle, and
 //! the picture turns upright. The plan runs in small steps.
 
+use std::f64::consts::TAU;
+
 use glam::{DQuat, DVec2, DVec3};
 
 use super::{collide, placement::place_pivot, world::World};
@@ -20,6 +22,12 @@ const PLAN_AGAIN: f64 = 1.3;
 const TURN_RATE: f64 = 0.9;
 /// Most radians that the eye turns about the place per unit of zoom.
 const MAX_TURN_RAD: f64 = 0.5;
+/// Radians per unit of zoom that the eye turns toward more room where it has little.
+const DETOUR_RAD: f64 = 1.0;
+/// Number of directions that a detour tries.
+const DETOURS: u32 = 8;
+/// Room about the eye, over its distance to the place, that needs no detour.
+const COMFORT: f64 = 0.2;
 /// Rate at which the place drifts toward the middle, per unit of zoom.
 const CENTER_RATE: f64 = 0.35;
 /// Rate at which the picture turns upright, per unit of zoom.
@@ -99,12 +107,14 @@ impl Descent {
         let (distance, from) = (arm.length(), arm.normalize_or(DVec3::Z));
         let wanted =
             (distance * (-amount).exp()).max(self.place.nearest()).max(world.nearest(camera));
-        let turn = self.turn(from, amount);
         let room = |arm: DVec3| {
             let point = world.field.local(&self.place.position) + arm;
             world.field.clear_distance(point) / arm.length()
         };
-        let nearer = (turn * from) * wanted.min(distance);
+        let next = wanted.min(distance);
+        let toward = roomiest(self.turn(from, amount) * from, next, amount, room);
+        let nearer = toward * next;
+        let turn = DQuat::from_rotation_arc(from, toward);
         let is_free = room(nearer) >= MIN_ROOM.min(room(arm))
             && collide::advance(world, camera, nearer - arm) == nearer - arm;
         if is_free && wanted < distance {
@@ -112,7 +122,7 @@ impl Descent {
             return true;
         }
         // About the place, and along the surface if that is in the way.
-        let beside = (turn * from) * distance;
+        let beside = toward * distance;
         let eye = arm + collide::slide(world, camera, beside - arm);
         if let Some(toward) = eye.try_normalize() {
             let turn = DQuat::from_rotation_arc(from, toward);
@@ -159,6 +169,25 @@ impl Descent {
         camera.orientation = rotation.normalize().into();
         place_pivot(camera, -eye.normalize_or(DVec3::Z) * unit, grain);
     }
+}
+
+/// The direction near `toward` with the most room at `distance`; `toward` itself where that has enough.
+fn roomiest(toward: DVec3, distance: f64, amount: f64, room: impl Fn(DVec3) -> f64) -> DVec3 {
+    let mut best = (toward, room(toward * distance));
+    if best.1 >= COMFORT {
+        return toward;
+    }
+    let (x, y) = toward.any_orthonormal_pair();
+    let (aside, along) = (DETOUR_RAD * amount).sin_cos();
+    for k in 0..DETOURS {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(DETOURS)).sin_cos();
+        let direction = (along * toward + aside * (cos * x + sin * y)).normalize();
+        let found = room(direction * distance);
+        if found > best.1 {
+            best = (direction, found);
+        }
+    }
+    best.0
 }
 
 /// The part of `angle` that a zoom by `amount` covers: at `rate`, and at most `most` per unit of zoom.
