@@ -1,11 +1,16 @@
 //! Places as pictures: sixty dives and the ways of a wheel, held to measures of what is worth seeing.
 //!
-//! The ignored tests render hundreds of pictures; their contact sheets are in `docs/pictures/`:
+//! The ignored tests render hundreds of pictures; their contact sheets are in `docs/sheets/`:
 //! `MANDELIGHT_BLESS=1 cargo test --release --test gpu places:: -- --ignored --nocapture`
 
 use std::{fs::File, io::BufWriter};
 
 use glam::DVec2;
+use image::{
+    RgbImage,
+    codecs::jpeg::JpegEncoder,
+    imageops::{self, FilterType},
+};
 use mandelight::{
     fractal::{
         FractalModel,
@@ -25,6 +30,14 @@ const SIZE_PX: [u32; 2] = [144, 96];
 const ASPECT: f64 = 1.5;
 const SAMPLES: u32 = 2;
 const DEPTHS: [f64; 4] = [1e-3, 1e-6, 1e-10, 1e-20];
+/// Size of a shot on a contact sheet.
+const SHEET_SHOT_PX: [u32; 2] = [96, 64];
+/// Gap between groups of shots.
+const SHEET_GAP_PX: u32 = 8;
+/// Quality of a contact sheet's JPEG, 1 to 100.
+const SHEET_QUALITY: u8 = 80;
+/// Depth of the zooms without a place, for comparison.
+const BLIND_DEPTH: f64 = 1e-6;
 /// Dives of each of the twelve opening views.
 const DIVES: usize = 5;
 
@@ -56,37 +69,33 @@ fn blind(scene: &Scene, pixel: DVec2, depth: f64) -> Camera {
     way[way.len() - 1].clone()
 }
 
-/// Rows of shots as one picture, in `docs/pictures/` if pictures are to be replaced.
-fn contact_sheet(name: &str, rows: &[Vec<Shot>]) {
+/// Rows of shots as one picture in `docs/sheets/`, if pictures are to be replaced.
+///
+/// A gap follows every `group` shots of a row.
+fn contact_sheet(name: &str, rows: &[Vec<Shot>], group: usize) {
     if std::env::var_os("MANDELIGHT_BLESS").is_none() {
         return;
     }
-    let [width, height] = SIZE_PX.map(|side| side as usize / 2);
+    let [width, height] = SHEET_SHOT_PX;
+    let left = |column: usize| column as u32 * width + (column / group) as u32 * SHEET_GAP_PX;
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let mut sheet = vec![[16_u8; 3]; columns * width * rows.len() * height];
+    let mut sheet = RgbImage::new(left(columns - 1) + width, rows.len() as u32 * height);
     for (row, shots) in rows.iter().enumerate() {
         for (column, shot) in shots.iter().enumerate() {
-            for (x, y) in (0..width * height).map(|i| (i % width, i / width)) {
-                // Four pixels of the picture make one of the sheet.
-                let source = |dx: usize, dy: usize| {
-                    shot.pixels[(2 * y + dy) * SIZE_PX[0] as usize + 2 * x + dx]
-                };
-                let four = [source(0, 0), source(1, 0), source(0, 1), source(1, 1)];
-                let mean: [u8; 3] = std::array::from_fn(|c| {
-                    (four.iter().map(|p| u32::from(p[c])).sum::<u32>() / 4) as u8
-                });
-                sheet[(row * height + y) * columns * width + column * width + x] = mean;
-            }
+            let pixels = shot.pixels.as_flattened().to_vec();
+            let picture = RgbImage::from_raw(SIZE_PX[0], SIZE_PX[1], pixels).expect("all pixels");
+            let small = imageops::resize(&picture, width, height, FilterType::Triangle);
+            imageops::replace(
+                &mut sheet,
+                &small,
+                left(column).into(),
+                (row as u32 * height).into(),
+            );
         }
     }
-    let path = format!("{}/docs/pictures/{name}.png", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/docs/sheets/{name}.jpg", env!("CARGO_MANIFEST_DIR"));
     let file = BufWriter::new(File::create(path).expect("a file"));
-    let mut encoder =
-        png::Encoder::new(file, (columns * width) as u32, (rows.len() * height) as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header().expect("a header");
-    writer.write_image_data(sheet.as_flattened()).expect("a picture");
+    JpegEncoder::new_with_quality(file, SHEET_QUALITY).encode_image(&sheet).expect("a picture");
 }
 
 #[test]
@@ -107,15 +116,16 @@ fn sixty_dives_are_worth_seeing_at_every_depth() {
                 is_good &= shot.beauty.is_good();
                 row.push(shot);
             }
-            let blind = shot(scene, &blind(scene, place.ndc, 1e-4));
-            println!("{name} {:.2?} blind: {}", place.ndc, blind.beauty);
+            let blind_camera = blind(scene, place.ndc, BLIND_DEPTH);
+            let blind = shot(scene, &blind_camera);
+            println!("{name} {:.2?} blind {:.1e}: {}", place.ndc, blind_camera.view_unit(), blind.beauty);
             row.push(blind);
             println!("{name} {:.2?}: {}", place.ndc, if is_good { "good" } else { "FAILS" });
             good += usize::from(is_good);
         }
         rows.push(row);
     }
-    contact_sheet("sixty-dives", &rows);
+    contact_sheet("sixty-dives", &rows, DEPTHS.len() + 1);
     assert!(good >= 57, "{good} of 60");
 }
 
@@ -139,7 +149,7 @@ fn a_wheel_from_sixteen_pixels_passes_only_views_worth_seeing() {
         }
         rows.push(row);
     }
-    contact_sheet("wheel", &rows);
+    contact_sheet("wheel", &rows, usize::MAX);
     assert!(bad.is_empty(), "{} fail:\n{}", bad.len(), bad.join("\n"));
 }
 

@@ -1,8 +1,15 @@
 //! A person who only turns the wheel: the camera of every notch, by the program's navigation.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use mandelight::{
-    fractal::FractalModel,
+    formula::{
+        DistanceField,
+        contract::COARSEST_FOOTPRINT,
+        march::{DEEP_FOOTPRINT, PLAIN_FOOTPRINT},
+    },
+    fractal::{FractalModel, Search, pixel_cone},
     scene::{Camera, Scene, presets},
     ui::navigation::{Navigator, Viewport, World, guide::Guide},
 };
@@ -13,6 +20,8 @@ pub const VIEWPORT: Viewport = Viewport { aspect: 1.5, height_px: 600.0, detail:
 pub const NOTCH: f64 = 0.2;
 /// Steps of searches and plans between two notches: about ten frames of two milliseconds.
 const STEPS_PER_NOTCH: u32 = 300;
+/// Zoom after which the plain zoom's anchor is sought again.
+const ANCHOR_AGAIN: f64 = 0.2;
 /// Most notches, against an endless loop: 1e-27 takes about 320.
 const MAX_NOTCHES: u32 = 600;
 
@@ -50,10 +59,25 @@ pub fn wheel_in(scene: &Scene, pointer: DVec2, until: f64, pull: bool) -> Vec<Ca
     let model = FractalModel::new(&scene.fractal);
     let (mut guide, mut navigator) = (Guide::default(), Navigator::default());
     let mut cameras = vec![scene.camera.clone()];
+    let mut deep: Option<(f64, Arc<dyn DistanceField>)> = None;
     for _ in 0..MAX_NOTCHES {
         let mut camera = cameras[cameras.len() - 1].clone();
-        let cone = camera.half_height(VIEWPORT.aspect) * 2.0 / VIEWPORT.height_px;
-        let field = model.finer((model.clear_distance(&camera.position) * cone).max(2e-7));
+        let cone = pixel_cone(&camera, VIEWPORT.aspect, VIEWPORT.height_px);
+        let footprint = model.clear_distance(&camera.position).min(camera.view_unit()) * cone;
+        // As in the page, an anchor near the eye gives the field of views that are too deep for the plain one.
+        if pull || footprint > COARSEST_FOOTPRINT {
+            deep = None;
+        } else if deep.as_ref().is_none_or(|(unit, _)| camera.view_unit() < ANCHOR_AGAIN * unit) {
+            let search = Search::new(&scene.fractal, &camera, VIEWPORT.aspect, None);
+            deep = search.map(|search| {
+                let reference = search.finish();
+                let field =
+                    reference.distance_field(&scene.fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+                (camera.view_unit(), field)
+            });
+        }
+        let plain = || model.finer(footprint.max(PLAIN_FOOTPRINT));
+        let field = deep.as_ref().map_or_else(plain, |(_, field)| field.clone());
         let world = World { field: field.as_ref(), viewport: VIEWPORT };
         let is_guided = pull && guide.zoom(&model, &mut camera, world, pointer, NOTCH);
         if !is_guided {
