@@ -113,7 +113,7 @@ pub fn positions_in_view(values: &[f64]) -> Vec<f64> {
         let within = value.clamp(low, high);
         let rank = sorted.partition_point(|&other| other < within) as f64 / count;
         let rank = ((rank - 0.02) / 0.96).clamp(0.0, 1.0);
-        0.5 * (rank + (within - low) / (high - low))
+        0.7 * rank + 0.3 * (within - low) / (high - low)
     };
     values.iter().map(position).collect()
 }
