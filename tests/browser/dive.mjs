@@ -4,8 +4,8 @@
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
-/** The zoom at which the dive ends. */
-const DEEP_ZOOM = 1e8;
+/** The zoom at which the dive ends: the eye is 1e-12 scene units from the surface. */
+const DEEP_ZOOM = 4e12;
 /** Wheel notches after which the dive is stuck. */
 const MAX_NOTCHES = 300;
 

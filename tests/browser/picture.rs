@@ -2,6 +2,8 @@
 
 use std::{fs::File, io::BufReader, path::Path};
 
+use mandelight_test_support::beauty::Beauty;
+
 /// An RGBA picture, eight bits a channel, row by row from the top.
 pub struct Picture {
     /// Width and height in pixels.
@@ -55,6 +57,12 @@ impl Picture {
             notable += usize::from(steps.iter().any(|&step| step > Difference::NOTABLE));
         }
         Difference { mean: sum as f64 / (3 * count) as f64, notable: notable as f64 / count as f64 }
+    }
+
+    /// Measures of whether the picture is worth seeing.
+    pub fn beauty(&self) -> Beauty {
+        let rgb: Vec<[u8; 3]> = self.rgba.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect();
+        Beauty::of(&rgb, self.size_px[0] as usize)
     }
 
     /// Standard deviation of brightness (0 to 255); near zero for an empty picture.

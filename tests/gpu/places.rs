@@ -118,7 +118,12 @@ fn sixty_dives_are_worth_seeing_at_every_depth() {
             }
             let blind_camera = blind(scene, place.ndc, BLIND_DEPTH);
             let blind = shot(scene, &blind_camera);
-            println!("{name} {:.2?} blind {:.1e}: {}", place.ndc, blind_camera.view_unit(), blind.beauty);
+            println!(
+                "{name} {:.2?} blind {:.1e}: {}",
+                place.ndc,
+                blind_camera.view_unit(),
+                blind.beauty
+            );
             row.push(blind);
             println!("{name} {:.2?}: {}", place.ndc, if is_good { "good" } else { "FAILS" });
             good += usize::from(is_good);
