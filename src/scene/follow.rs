@@ -36,9 +36,9 @@ pub const NEAR_UNIT: f64 = 1e-3;
 pub const KEY_IN_VIEW: DVec3 = DVec3::new(-0.6, 0.64, 0.45);
 /// Reach of shadows in a close view of lights without a limit, in view units.
 pub const NEAR_REACH: f64 = 1.25;
-/// Factor on the strength of lights tied to a close view.
+/// Factor on the strength of environment lights in a close view.
 ///
-/// The surface fills such a view and faces the key. The whole before its dark ground takes more light.
+/// The surface fills such a view and faces the key. A view of the whole set has a dark background and needs more light.
 const NEAR_STRENGTH: f64 = 0.65;
 /// Reach that a limit starts from, in scene units: larger than any set.
 const FAR_REACH: f64 = 8.0;
@@ -67,10 +67,7 @@ pub fn effective<'a>(lights: &'a Lights, camera: &Camera) -> Cow<'a, Lights> {
         light.intensity *= if followed { follow.fade } else { 1.0 };
     }
     add_fill(&mut shining, lights, follow.part);
-    let strength = NEAR_STRENGTH.powf(follow.part);
-    for light in &mut shining.environment {
-        light.intensity *= strength;
-    }
+    dim(&mut shining, follow.part);
     Cow::Owned(shining)
 }
 
@@ -84,7 +81,8 @@ pub fn shown(lights: &Lights, camera: &Camera) -> Option<Lights> {
 /// The document's lights after the edit of [`shown`] lights from `before` to `edited`.
 ///
 /// An edit of colour, strength or position changes just that. Any other edit, such as of a
-/// direction, stores the whole set as it is seen, tied to the view, and ends the following.
+/// direction, stores the whole set as it is seen, tied to the view, and ends the following. The set that is stored
+/// does not fade where the shorter way changes sides.
 pub fn with_edit(document: Lights, before: &Lights, edited: Lights, camera: &Camera) -> Lights {
     if edited == *before {
         return document;
@@ -95,6 +93,7 @@ pub fn with_edit(document: Lights, before: &Lights, edited: Lights, camera: &Cam
     let part = blend_part(camera.view_unit());
     let mut lights = edited;
     add_fill(&mut lights, &document, part);
+    dim(&mut lights, part);
     lights
 }
 
@@ -235,6 +234,14 @@ fn blend(rotation: DQuat, part: f64) -> (DQuat, f64) {
     let from_seam = ((PI - angle_rad) / FADE_RAD).hypot((part - 0.5) / FADE_PART).min(1.0);
     let fade = from_seam * from_seam * (3.0 - 2.0 * from_seam);
     (DQuat::from_axis_angle(axis, turned_rad), fade)
+}
+
+/// Dims the environment lights of a close view.
+fn dim(lights: &mut Lights, part: f64) {
+    let strength = NEAR_STRENGTH.powf(part);
+    for light in &mut lights.environment {
+        light.intensity *= strength;
+    }
 }
 
 /// Adds a weak light without shadows to close views, as far as `document` has none.

@@ -11,8 +11,7 @@ use crate::scene::{
 };
 
 /// Name and hover text of the button that begins a dive.
-pub const BEGIN: (&str, &str) =
-    ("Dive", "Go down by itself, from one beautiful place to the next (D)");
+pub const BEGIN: (&str, &str) = ("Dive", "Fly down by itself, from one place to the next (D)");
 /// Name and hover text of the button during a dive.
 pub const STOP: (&str, &str) = ("Stop the dive", "Stop here (D, or touch the picture)");
 
@@ -61,7 +60,7 @@ pub fn show(
                         ui.add(Label::new(RichText::new(text)).selectable(false));
                     }
                     if is_over && has_record {
-                        let hover = "Make this dive the camera path, to play, edit and save it";
+                        let hover = "Make this dive the camera path, instead of the present one, to play, edit and save it";
                         let keep = ui.add(Button::new("Keep as a path")).on_hover_text(hover);
                         rects.record("keep dive", &keep);
                         if keep.clicked() {

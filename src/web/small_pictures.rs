@@ -27,6 +27,7 @@ pub struct SmallPictures {
     view: Option<View>,
     /// The picture that the view draws.
     drawn: Option<SmallPictureId>,
+    environment_map: Option<Arc<EnvironmentMap>>,
 }
 
 impl SmallPictures {
@@ -40,6 +41,7 @@ impl SmallPictures {
             discarded: Vec::new(),
             view: None,
             drawn: None,
+            environment_map: None,
         }
     }
 
@@ -68,6 +70,7 @@ impl SmallPictures {
 
     /// Sets the loaded environment map.
     pub fn set_environment_map(&mut self, environment_map: Option<&Arc<EnvironmentMap>>) {
+        self.environment_map = environment_map.cloned();
         if let Some(view) = &mut self.view {
             view.set_environment_map(environment_map);
         }
@@ -94,9 +97,12 @@ impl SmallPictures {
     /// Submits as much work as fits now. Returns whether a picture was finished.
     pub fn pump(&mut self, now_secs: f64) -> bool {
         let Some(next) = self.next().cloned() else { return false };
-        let pipelines = &self.pipelines;
+        let (pipelines, environment_map) = (&self.pipelines, self.environment_map.as_ref());
         let view = self.view.get_or_insert_with(|| {
-            View::new(pipelines, Region::whole(SMALL_PICTURE_PX), Pace::Interactive)
+            let region = Region::whole(SMALL_PICTURE_PX);
+            let mut view = View::new(pipelines, region, Pace::Interactive);
+            view.set_environment_map(environment_map);
+            view
         });
         if self.drawn.replace(next.id) != Some(next.id) {
             view.set_scene(&next.scene, false);

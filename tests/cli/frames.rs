@@ -31,6 +31,9 @@ fn project() -> Project {
         scene.fractal.set("power", power);
         scene.fractal.iterations = 6;
         scene.quality.samples = 2;
+        // What follows the view is a function of the frame alone, too.
+        scene.surface.coloring.follows_view = true;
+        scene.lights.follow_view = true;
         scene.camera =
             Camera::looking_at(glam::DVec3::new(x, -2.6, 0.8), glam::DVec3::ZERO, glam::DVec3::Z);
         Arc::new(scene)

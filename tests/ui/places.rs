@@ -108,7 +108,7 @@ fn the_button_searches_and_puts_the_pins_away() {
                 .any(|kind| name.starts_with(&format!("Place {}: {kind}, zoom ", index + 1)));
             assert!(is_named, "{name}");
         }
-        press(&mut harness, "Put places away");
+        press(&mut harness, "Hide places");
         assert!(pins(&harness).is_empty() && wanted(&harness).is_empty());
         assert_eq!(words(&harness), "");
         assert_eq!(*scene(&harness), Scene::default());
@@ -323,7 +323,7 @@ fn the_search_waits_while_the_camera_moves() {
         harness.event(Event::PointerMoved(at + egui::vec2(2.0 * i as f32, 0.0)));
         harness.step();
         if i > 4 {
-            assert_eq!(words(&harness), "Looking for places when the view stands still");
+            assert_eq!(words(&harness), "Waiting until the view stands still");
         }
     }
     pointer(&harness, at, PointerButton::Primary, false, egui::Modifiers::NONE);
@@ -341,6 +341,6 @@ fn a_view_without_places_says_so() {
     found(&mut harness);
     assert!(words(&harness).starts_with("No places in this view."), "{}", words(&harness));
     assert!(pins(&harness).is_empty());
-    press(&mut harness, "Put places away");
+    press(&mut harness, "Hide places");
     assert_eq!(words(&harness), "");
 }

@@ -15,6 +15,7 @@ use glam::{DVec3, DVec4, Vec4Swizzles};
 use super::{
     DistanceField, Estimate, Formula, FormulaRef, Fractal, Kernel, KernelFiles, Packed, PackedFor,
     bounds::slowest_escape,
+    march::PLAIN_FOOTPRINT,
     param::params,
     table::{Field, Kind, Value},
 };
@@ -70,6 +71,8 @@ host_shared! {
     }
 }
 
+/// Finest footprint that gets iterations of its own, in scene units: an eye on the surface has none.
+const FINEST_FOOTPRINT: f64 = 0.1 * PLAIN_FOOTPRINT;
 /// Least footprint that needs no more than the scene's own iterations, in scene units.
 const WHOLE_FOOTPRINT: f64 = 1e-3;
 /// Orbit steps per halving of the footprint: enough nearly everywhere to separate neighbouring points.
@@ -164,7 +167,7 @@ impl Formula for QuaternionJuliaFormula {
     }
 
     fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32 {
-        let halvings = (WHOLE_FOOTPRINT / footprint.max(f64::MIN_POSITIVE)).max(1.0).log2();
+        let halvings = (WHOLE_FOOTPRINT / footprint.max(FINEST_FOOTPRINT)).max(1.0).log2();
         fractal.iterations + (STEPS_PER_HALVING * halvings).ceil() as u32
     }
 

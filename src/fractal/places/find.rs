@@ -4,13 +4,13 @@
 //! The best of those are made exact, and the space about them is probed. The search runs in small steps, so
 //! that a frame can run as many as fit its time.
 
-use std::{collections::HashSet, sync::Arc};
+use std::{collections::HashMap, sync::Arc};
 
 use glam::{DVec2, DVec3};
 
 use super::{
     newton::{Refined, Refinement, Solution, solve},
-    probe::{COPY_DISTANCE, Probe},
+    probe::{ARRIVAL_AT_COPY, COPY_DISTANCE, Probe},
     vantage::{CameraSearch, ENOUGH_ROOM},
 };
 use crate::{
@@ -26,7 +26,7 @@ use crate::{
 const FINEST_SHAPES: f64 = 1e-3 * DEEP;
 /// Rows of the picture whose pixels set the search's detail.
 const ROWS: f64 = 200.0;
-/// Distance from the surface at which Newton's method starts, per unit of depth.
+/// Distance from the surface at which Newton's method starts, in half heights of the picture at its depth.
 ///
 /// Orbits of points farther out escape before they come near a cycle.
 const NEARNESS: f64 = 1e-7;
@@ -44,7 +44,7 @@ const MAX_PERIOD: usize = 3;
 const MAX_ELONGATION: f64 = 1.06;
 /// Greatest distortion of a place.
 const MAX_DISTORTION: f64 = 6.0;
-/// The depth by which elongations are compared.
+/// The depth at which elongations are compared.
 const DEEP: f64 = 1e-20;
 /// How far behind the visible surface a place may be, as a part of the view's height.
 const BEHIND: f64 = 0.02;
@@ -55,15 +55,13 @@ const SOLVED_AT_ONCE: usize = 4;
 /// Positions of a reference orbit that are computed in one step of a search.
 const TRACED_AT_ONCE: u32 = 8;
 /// Places nearer to each other than this part of the view's height count as one.
-const SAME: f64 = 0.03;
+const SAME: f64 = 0.006;
 /// Greatest normalised device coordinate of a place: not at the picture's very edge.
 const IN_PICTURE: f64 = 0.95;
 /// Footprint of the field about places of fractals without depth, in scene units.
 const FOOTPRINT_WITHOUT_DEPTH: f64 = 1e-6;
 /// Finest detail of rays in a deep view, over the eye's distance to the anchor.
 const GRAIN: f64 = 1e-4;
-/// Distance of an eye that has arrived at a small copy, in the copy's radii.
-const ARRIVAL_AT_COPY: f64 = 5.0;
 /// Distance of an eye that has arrived at a cycle, over its distance before.
 const ARRIVAL: f64 = 1.0 / 30.0;
 /// Part of a search's time that its rays take.
@@ -229,8 +227,10 @@ impl PlaceSearch {
                     }
                     Stage::Rays { field, ray, pending }
                 } else if ray < self.area.rays {
-                    let pending = self.starts(field.as_ref(), ray);
-                    Stage::Rays { field, ray: ray + 1, pending }
+                    match self.starts(field.as_ref(), ray) {
+                        Some(pending) => Stage::Rays { field, ray: ray + 1, pending },
+                        None => self.done(),
+                    }
                 } else {
                     self.sort_candidates();
                     Stage::Candidates { field, index: 0, pending: None }
@@ -244,18 +244,21 @@ impl PlaceSearch {
         true
     }
 
-    /// The Newton searches that start at the surface point of ray `ray`.
-    fn starts(&self, field: &dyn DistanceField, ray: u32) -> Vec<(DVec3, f64, Recurrence)> {
+    /// The Newton searches that start at the surface point of ray `ray`; none if the field has no orbits.
+    fn starts(&self, field: &dyn DistanceField, ray: u32) -> Option<Vec<(DVec3, f64, Recurrence)>> {
         let ndc = self.area.ndc(ray, self.aspect);
         let half_height = self.camera.half_height(self.aspect);
         let ray = camera_ray(&self.camera, &field.origin(), ndc, self.aspect);
         let cone = NEARNESS * half_height;
         let Some(depth) = field.trace(ray, cone, f64::INFINITY, MAX_STEPS).unwrap_or_else(Some)
         else {
-            return Vec::new();
+            return Some(Vec::new());
         };
         let (start, extent) = (ray.at(depth), 2.0 * half_height * depth);
         let orbit = field.orbit(start, MAX_ORBIT);
+        if orbit.is_empty() {
+            return None;
+        }
         let enlarged = orbit
             .iter()
             .position(|position| norm(&position.jacobian) * extent > ORDER_ONE)
@@ -268,13 +271,15 @@ impl PlaceSearch {
                 .map(move |period| Recurrence::Cycle { preperiod: enlarged + more, period })
         });
         let copies = (1..=PREPERIODS).map(|more| Recurrence::Center { returns: enlarged + more });
-        cycles.chain(copies.filter(|_| has_copies)).map(|it| (start, extent, it)).collect()
+        Some(cycles.chain(copies.filter(|_| has_copies)).map(|it| (start, extent, it)).collect())
     }
 
     /// Adds a solution to the candidates if a dive there keeps its shapes, and the picture shows it.
     fn add(&mut self, field: &dyn DistanceField, solution: &Solution) {
         let (elongation, distortion) = (solution.elongation(), solution.distortion());
-        if elongation.is_nan() || elongation > MAX_ELONGATION || distortion > MAX_DISTORTION {
+        // Also false for what is not a number.
+        let keeps_shapes = elongation <= MAX_ELONGATION && distortion <= MAX_DISTORTION;
+        if !keeps_shapes {
             return;
         }
         let fractal = self.model.fractal();
@@ -296,11 +301,18 @@ impl PlaceSearch {
     /// Sorts the candidates by cost and drops those beside a better one.
     fn sort_candidates(&mut self) {
         self.candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut taken = HashSet::new();
-        let cell = 2.0 * SAME;
+        // Kept points by cells of a grid, as wide as the least distance: nearer ones are in cells beside.
+        let mut kept: HashMap<[i64; 2], Vec<DVec2>> = HashMap::new();
+        let least = 2.0 * SAME;
         self.candidates.retain(|candidate| {
-            let place = candidate.ndc * DVec2::new(self.aspect, 1.0) / cell;
-            taken.insert([place.x.floor() as i64, place.y.floor() as i64])
+            let point = candidate.ndc * DVec2::new(self.aspect, 1.0);
+            let [x, y] = (point / least).to_array().map(|it| it.floor() as i64);
+            let mut around = (0..9).filter_map(|k| kept.get(&[x + k % 3 - 1, y + k / 3 - 1]));
+            let is_apart = !around.any(|cell| cell.iter().any(|it| it.distance(point) < least));
+            if is_apart {
+                kept.entry([x, y]).or_default().push(point);
+            }
+            is_apart
         });
     }
 

@@ -11,6 +11,8 @@ use crate::{formula::DistanceField, fractal::spiral::directions, scene::PreciseP
 const PROBED: [f64; 4] = [0.3, 0.05, 5e-3, 1e-4];
 /// Least distance of an eye from a small copy's centre, in the copy's radii.
 pub const COPY_DISTANCE: f64 = 2.5;
+/// Distance of an eye that has arrived at a small copy, in the copy's radii.
+pub const ARRIVAL_AT_COPY: f64 = 5.0;
 /// Least openness of a place at every probed scale.
 const MIN_OPENNESS: f64 = 0.06;
 /// Factor between two radii at which a small copy's surroundings are tried.
@@ -57,7 +59,10 @@ impl Probe {
         let copy = most_radius.map(|most| CopySearch { most, index: 0, was_free: false });
         let finest = 1e3 * about.finest_footprint();
         let scales = PROBED.map(|part| part * depth).into_iter().filter(|it| *it > finest);
-        let scales = scales.collect();
+        let mut scales: Vec<f64> = scales.collect();
+        if scales.is_empty() {
+            scales.push(PROBED[0] * depth);
+        }
         let (radius, openings, openness) = (0.0, None, 1.0);
         Self { about, position, point, copy, radius, scales, openings, openness }
     }
@@ -77,6 +82,9 @@ impl Probe {
             if !is_free && copy.was_free {
                 self.radius = radius;
                 self.scales.retain(|scale| *scale > COPY_DISTANCE * radius);
+                if self.scales.is_empty() {
+                    self.scales.push(ARRIVAL_AT_COPY * radius);
+                }
                 self.copy = None;
             } else {
                 copy.was_free |= is_free;

@@ -86,7 +86,7 @@ impl Openings {
         let next = directions(DIRECTIONS).skip(from).take(DIRECTIONS_PER_STEP);
         self.measured.extend(next.map(|direction| {
             let distance = field.clear_distance(self.point + direction * self.scale);
-            // The point is part of the surface. What claims more room is the noise of an orbit that never escapes.
+            // The point is part of the surface: larger estimates are noise of orbits that never escape.
             (direction, Some(distance / self.scale).filter(|it| *it <= 1.0).unwrap_or(0.0))
         }));
         self.measured.len() > from
@@ -119,6 +119,8 @@ pub struct VantageSearch {
     wider: Openings,
     /// Direction, openness and liking of those to judge, the last first; none until all are measured.
     pending: Option<Vec<(DVec3, f64, f64)>>,
+    /// Number of directions judged so far.
+    judged: usize,
     framing: Option<Framing>,
     best: Option<(Vantage, f64)>,
 }
@@ -131,8 +133,8 @@ impl VantageSearch {
     pub fn new(point: DVec3, radius: f64, scale: f64, near: Option<DVec3>) -> Self {
         let openings = Openings::new(point, scale);
         let wider = Openings::new(point, WIDER * scale);
-        let (pending, framing, best) = (None, None, None);
-        Self { point, radius, scale, near, openings, wider, pending, framing, best }
+        let (pending, judged, framing, best) = (None, 0, None, None);
+        Self { point, radius, scale, near, openings, wider, pending, judged, framing, best }
     }
 
     /// Measures some directions or one ray; returns false once the search has ended.
@@ -154,10 +156,9 @@ impl VantageSearch {
             Some(pending) => pending,
             None => self.pending.insert(self.openings.to_judge(self.near)),
         };
-        let judged = DIRECTIONS as usize - pending.len();
-        let next = pending
-            .pop()
-            .filter(|(_, openness, _)| *openness > 0.0 && (judged < JUDGED || self.best.is_none()));
+        let has_enough = self.judged >= JUDGED && self.best.is_some();
+        let next = pending.pop().filter(|_| !has_enough);
+        self.judged += 1;
         let next = next.map(|(direction, openness, liking)| {
             let up = upright(direction, self.wider.most_open().0);
             let vantage = Vantage { direction, up, openness, framing: 0.0 };
@@ -180,6 +181,7 @@ impl Openings {
         let mut directions: Vec<_> = self
             .measured
             .iter()
+            .filter(|(_, openness)| *openness > 0.0)
             .map(|&(direction, openness)| {
                 let turned = near.map_or(0.0, |near| direction.angle_between(near));
                 (direction, openness, openness.min(ENOUGH_ROOM) - TURN_COST * turned)

@@ -93,10 +93,11 @@ impl Descent {
         true
     }
 
-    /// Zooms in by a factor of `exp(amount)`. Returns whether the eye came nearer.
+    /// Zooms in by a factor of `exp(amount)`, at least 1. Returns whether the eye came nearer.
     ///
-    /// `viewport` and precision are those of `world`; the surface is that about the place.
+    /// The viewport is that of `world`; the surface is that about the place.
     pub fn advance(&self, camera: &mut Camera, world: World<'_>, amount: f64) -> bool {
+        let amount = amount.max(0.0);
         let world = World { field: self.place.field(), ..world };
         let steps = (amount / MAX_STEP).ceil().clamp(1.0, 64.0);
         (0..steps as u32).fold(false, |came, _| self.step(camera, world, amount / steps) || came)

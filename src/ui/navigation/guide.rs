@@ -34,7 +34,7 @@ const WORSE: f64 = 0.2;
 const AT_END: f64 = 5.0;
 /// Zooms without coming nearer after which another place is chosen.
 const MAX_BLOCKED: u32 = 4;
-/// Distance from a place that was given up to the next, over the eye's distance.
+/// Least distance from a replaced place to the next, over the eye's distance.
 const ASIDE: f64 = 0.02;
 /// Zoom between two cameras of a dive's record, as a natural logarithm.
 const RECORD_STEP: f64 = 1.0;
@@ -69,6 +69,8 @@ struct Dive {
     /// The eye's distance to the place at the last choice.
     chosen_at: f64,
     record: Vec<(f64, Camera)>,
+    /// The newest camera and its time, in seconds.
+    newest: (f64, Camera),
 }
 
 /// The guide's state.
@@ -146,7 +148,7 @@ impl Guide {
             && self.area_search.as_ref().is_none_or(|area_search| is_elsewhere(area_search.pointer))
         {
             let area = SearchArea { center: pointer, ..NEAR_POINTER };
-            self.begin_search(model, camera, world, area);
+            self.begin_search(model, camera, world, area, pointer);
         }
         self.descend(model, camera, world, amount)
     }
@@ -161,13 +163,14 @@ impl Guide {
         world: World<'_>,
         amount: f64,
     ) -> bool {
-        let Some((descent, _)) = &self.descent else { return false };
+        let Some((descent, pointer)) = &self.descent else { return false };
+        let pointer = *pointer;
         let is_blocked = !descent.advance(camera, world, amount);
         self.blocked = if is_blocked && !descent.is_planning() { self.blocked + 1 } else { 0 };
         if self.blocked > MAX_BLOCKED && self.area_search.is_none() {
             self.blocked = 0;
             let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
-            self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE });
+            self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE }, pointer);
             if let Some(area_search) = &mut self.area_search {
                 area_search.is_blocked = true;
             }
@@ -179,9 +182,10 @@ impl Guide {
     pub fn begin_dive(&mut self, model: &FractalModel, camera: &Camera, world: World<'_>) {
         self.cancel();
         self.record.clear();
-        let record = vec![(0.0, camera.clone())];
-        self.dive = Some(Dive { secs: 0.0, chosen_at: f64::INFINITY, record });
-        self.begin_search(model, camera, world, NEAR_MIDDLE);
+        let newest = (0.0, camera.clone());
+        let record = vec![newest.clone()];
+        self.dive = Some(Dive { secs: 0.0, chosen_at: f64::INFINITY, record, newest });
+        self.begin_search(model, camera, world, NEAR_MIDDLE, DVec2::ZERO);
     }
 
     /// Continues a dive by `dt_secs`. Returns whether a dive is in progress.
@@ -207,8 +211,9 @@ impl Guide {
         };
         let distance = descent.distance(camera);
         let last = dive.record.last().map_or(f64::INFINITY, |(_, last)| last.view_unit());
+        dive.newest = (dive.secs, camera.clone());
         if (last / camera.view_unit()).ln() >= RECORD_STEP {
-            dive.record.push((dive.secs, camera.clone()));
+            dive.record.push(dive.newest.clone());
         }
         if dive.chosen_at.is_infinite() {
             dive.chosen_at = distance;
@@ -220,7 +225,13 @@ impl Guide {
         } else if is_due && self.area_search.is_none() {
             dive.chosen_at = distance;
             let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
-            self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE });
+            self.begin_search(
+                model,
+                camera,
+                world,
+                SearchArea { center, ..NEAR_MIDDLE },
+                DVec2::ZERO,
+            );
         }
         self.dive.is_some()
     }
@@ -243,12 +254,15 @@ impl Guide {
         camera: &Camera,
         world: World<'_>,
         area: SearchArea,
+        pointer: DVec2,
     ) {
         let search = PlaceSearch::new(model, camera, world.viewport.aspect, area);
-        self.area_search = Some(AreaSearch { search, pointer: area.center, is_blocked: false });
+        self.area_search = Some(AreaSearch { search, pointer, is_blocked: false });
     }
 
-    /// Descends to the best found place that is still in view; keeps the present one if none is as good.
+    /// Descends to the best found place that is still in view.
+    ///
+    /// Keeps the present one if all are more drawn out than it by over [`WORSE`], unless the surface blocks it.
     fn choose(&mut self, area_search: &AreaSearch, camera: &Camera, world: World<'_>) {
         let present = self.descent.as_ref().map(|(descent, _)| descent.place());
         let is_in_view = |place: &&Place| {
@@ -273,6 +287,10 @@ impl Guide {
     pub fn stop_dive(&mut self) {
         if let Some(dive) = self.dive.take() {
             self.record = dive.record;
+            // The path that is kept ends where the dive did.
+            if self.record.last().is_some_and(|(secs, _)| *secs < dive.newest.0) {
+                self.record.push(dive.newest);
+            }
             self.descent = None;
             self.area_search = None;
         }

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::scene::Camera;
 
-/// Part of the angle to the surface that a step turns by, per natural logarithm of its zoom.
+/// Rate at which the view turns toward the surface, per unit of zoom.
 const TURN_RATE: f64 = 2.0;
 
 /// Part of the picture, from its middle to its edge, where the surface is back in view.

@@ -47,7 +47,7 @@ impl Pin {
     /// The pin's name for screen readers; `index` counts from 0.
     pub fn name(&self, index: usize) -> String {
         let kind = match self.place.recurrence {
-            Recurrence::Cycle { .. } => "cycle",
+            Recurrence::Cycle { .. } => "repeating shapes",
             Recurrence::Center { .. } => "small copy",
         };
         format!("Place {}: {kind}, zoom {}", index + 1, zoom_text(zoom(&self.to)))

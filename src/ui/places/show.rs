@@ -114,9 +114,9 @@ fn paint(painter: &Painter, inputs: &PinInputs<'_>, pin: &Pin, at: Pos2, rect: R
 fn words(ui: &Ui, inputs: &PinInputs<'_>, progress: Progress, rects: &mut Rects) -> Rect {
     let text = match progress {
         Progress::Searching(part) => format!("Looking for places: {:.0} %", 100.0 * part),
-        Progress::Waiting => "Looking for places when the view stands still".to_owned(),
-        Progress::Found(0) => "No places in this view. Turn the surface to the middle, or \
-                               choose another fractal: Mandelbulbs have places."
+        Progress::Waiting => "Waiting until the view stands still".to_owned(),
+        Progress::Found(0) => "No places in this view. Zoom out, turn the surface to the \
+                               middle, or choose a Mandelbulb: these have places."
             .to_owned(),
         Progress::Found(1) => "1 place. Choose it to fly there.".to_owned(),
         Progress::Found(count) => format!("{count} places. Choose one to fly there."),

@@ -59,9 +59,12 @@ impl Places {
     /// Name and hover text of the button.
     pub fn button(&self) -> (&'static str, &'static str) {
         if self.are_shown() {
-            ("Put places away", "Put the pins away (N, Esc)")
+            ("Hide places", "Hide the pins (N, Esc)")
         } else {
-            ("Find places", "Find places where a dive stays beautiful at every depth (N)")
+            (
+                "Find places",
+                "Find places whose surroundings stay detailed however far you zoom in (N)",
+            )
         }
     }
 

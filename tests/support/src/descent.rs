@@ -25,7 +25,7 @@ const ANCHOR_AGAIN: f64 = 0.2;
 /// Most notches, against an endless loop: 1e-27 takes about 320.
 const MAX_NOTCHES: u32 = 600;
 
-/// The opening scene's look on the whole of powers from 3 to 16 and of two Julia forms, with names.
+/// The opening scene's look, applied to the whole bulbs of powers from 3 to 16 and to two Julia forms, with names.
 pub fn opening_views() -> Vec<(String, Scene)> {
     let whole = |power: f64, julia: bool| {
         let mut scene = Scene { camera: Camera::default(), ..presets::opening() };
@@ -52,7 +52,7 @@ pub fn sixteen_pixels(scene: &Scene) -> Vec<DVec2> {
     (0..16).map(|i| seen[(i * (seen.len() - 1)) / 15]).collect()
 }
 
-/// The cameras of a wheel that is turned at `pointer` until the eye is `until` scene units from the surface.
+/// The cameras of a wheel that is turned at `pointer` until the view unit is below `until`, in scene units.
 ///
 /// With `pull` off the zoom goes where the pointer is. Ends early where the zoom stops.
 pub fn wheel_in(scene: &Scene, pointer: DVec2, until: f64, pull: bool) -> Vec<Camera> {
