@@ -103,7 +103,7 @@ fn the_button_searches_and_puts_the_pins_away() {
         assert_eq!(wanted(&harness).len(), count);
         for (index, node) in pins(&harness).iter().enumerate() {
             let name = node.accesskit_node().label().expect("a name");
-            let is_named = ["cycle", "small copy"]
+            let is_named = ["repeating shapes", "small copy"]
                 .iter()
                 .any(|kind| name.starts_with(&format!("Place {}: {kind}, zoom ", index + 1)));
             assert!(is_named, "{name}");
@@ -323,7 +323,7 @@ fn the_search_waits_while_the_camera_moves() {
         harness.event(Event::PointerMoved(at + egui::vec2(2.0 * i as f32, 0.0)));
         harness.step();
         if i > 4 {
-            assert_eq!(words(&harness), "Waiting until the view stands still");
+            assert_eq!(words(&harness), "Looking for places once the view stands still");
         }
     }
     pointer(&harness, at, PointerButton::Primary, false, egui::Modifiers::NONE);

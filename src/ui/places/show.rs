@@ -114,7 +114,7 @@ fn paint(painter: &Painter, inputs: &PinInputs<'_>, pin: &Pin, at: Pos2, rect: R
 fn words(ui: &Ui, inputs: &PinInputs<'_>, progress: Progress, rects: &mut Rects) -> Rect {
     let text = match progress {
         Progress::Searching(part) => format!("Looking for places: {:.0} %", 100.0 * part),
-        Progress::Waiting => "Waiting until the view stands still".to_owned(),
+        Progress::Waiting => "Looking for places once the view stands still".to_owned(),
         Progress::Found(0) => "No places in this view. Zoom out, turn the surface to the \
                                middle, or choose a Mandelbulb: these have places."
             .to_owned(),
