@@ -8,7 +8,7 @@
 //! | [`model`] | a fractal's distance fields, made once per edit |
 //! | [`camera_ray`](mod@camera_ray) | camera rays through a picture's pixels |
 //! | [`places`] | finds points of the surface that stay beautiful at every depth |
-//! | [`spiral`] | directions and places that are spread evenly |
+//! | [`spiral`] | directions, and points of a disc, spread evenly |
 //! | [`search`] | finds the anchor of a view |
 
 pub mod camera_ray;

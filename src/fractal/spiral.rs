@@ -1,4 +1,4 @@
-//! Spirals by the golden angle: directions and places that are spread evenly.
+//! Spirals by the golden angle: directions, and points of a disc, spread evenly.
 
 use glam::{DVec2, DVec3};
 
