@@ -115,8 +115,8 @@ fn moving_pictures_have_the_colors_of_resting_ones() {
             view.pump(0.0);
             pipelines().gpu.wait();
         }
-        // On a fast device all pixels, on llvmpipe one of 16.
         let sparse = view.report().pixels_per_sample;
+        assert!(sparse > 8, "{name}: one pixel of {sparse} is drawn");
         let [moving, resting] =
             [rgb(&view), resting].map(|all| lattice_samples(&all, size[0], sparse.ilog2()));
         assert_same_colors(&moving, &resting, name);

@@ -68,9 +68,25 @@ struct Dive {
     secs: f64,
     /// The eye's distance to the place at the last choice.
     chosen_at: f64,
+    /// The cameras with their times in seconds; the last is the newest.
     record: Vec<(f64, Camera)>,
-    /// The newest camera and its time, in seconds.
-    newest: (f64, Camera),
+}
+
+impl Dive {
+    /// Adds the newest camera, instead of the last if that is not a step from the one before.
+    fn add_to_record(&mut self, camera: &Camera) {
+        let newest = (self.secs, camera.clone());
+        match self.record.as_mut_slice() {
+            // No time has passed.
+            [.., (secs, _)] if *secs >= self.secs => {}
+            [.., (_, before), last]
+                if (before.view_unit() / last.1.view_unit()).ln() < RECORD_STEP =>
+            {
+                *last = newest;
+            }
+            _ => self.record.push(newest),
+        }
+    }
 }
 
 /// The guide's state.
@@ -148,7 +164,7 @@ impl Guide {
             && self.area_search.as_ref().is_none_or(|area_search| is_elsewhere(area_search.pointer))
         {
             let area = SearchArea { center: pointer, ..NEAR_POINTER };
-            self.begin_search(model, camera, world, area, pointer);
+            self.begin_search(model, camera, world, area);
         }
         self.descend(model, camera, world, amount)
     }
@@ -163,17 +179,12 @@ impl Guide {
         world: World<'_>,
         amount: f64,
     ) -> bool {
-        let Some((descent, pointer)) = &self.descent else { return false };
-        let pointer = *pointer;
+        let Some((descent, _)) = &self.descent else { return false };
         let is_blocked = !descent.advance(camera, world, amount);
         self.blocked = if is_blocked && !descent.is_planning() { self.blocked + 1 } else { 0 };
         if self.blocked > MAX_BLOCKED && self.area_search.is_none() {
             self.blocked = 0;
-            let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
-            self.begin_search(model, camera, world, SearchArea { center, ..NEAR_MIDDLE }, pointer);
-            if let Some(area_search) = &mut self.area_search {
-                area_search.is_blocked = true;
-            }
+            self.search_about_place(model, camera, world, true);
         }
         true
     }
@@ -182,10 +193,9 @@ impl Guide {
     pub fn begin_dive(&mut self, model: &FractalModel, camera: &Camera, world: World<'_>) {
         self.cancel();
         self.record.clear();
-        let newest = (0.0, camera.clone());
-        let record = vec![newest.clone()];
-        self.dive = Some(Dive { secs: 0.0, chosen_at: f64::INFINITY, record, newest });
-        self.begin_search(model, camera, world, NEAR_MIDDLE, DVec2::ZERO);
+        let record = vec![(0.0, camera.clone())];
+        self.dive = Some(Dive { secs: 0.0, chosen_at: f64::INFINITY, record });
+        self.begin_search(model, camera, world, NEAR_MIDDLE);
     }
 
     /// Continues a dive by `dt_secs`. Returns whether a dive is in progress.
@@ -210,11 +220,7 @@ impl Guide {
             return self.dive.is_some();
         };
         let distance = descent.distance(camera);
-        let last = dive.record.last().map_or(f64::INFINITY, |(_, last)| last.view_unit());
-        dive.newest = (dive.secs, camera.clone());
-        if (last / camera.view_unit()).ln() >= RECORD_STEP {
-            dive.record.push(dive.newest.clone());
-        }
+        dive.add_to_record(camera);
         if dive.chosen_at.is_infinite() {
             dive.chosen_at = distance;
         }
@@ -224,14 +230,7 @@ impl Guide {
             self.end_dive(GuideStatus::AtEnd);
         } else if is_due && self.area_search.is_none() {
             dive.chosen_at = distance;
-            let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
-            self.begin_search(
-                model,
-                camera,
-                world,
-                SearchArea { center, ..NEAR_MIDDLE },
-                DVec2::ZERO,
-            );
+            self.search_about_place(model, camera, world, false);
         }
         self.dive.is_some()
     }
@@ -248,16 +247,31 @@ impl Guide {
         self.descent.as_mut().is_some_and(|(descent, _)| descent.plan_step(camera))
     }
 
+    /// Begins a search about the present place, if there is one; what it finds is for the same pointer.
+    fn search_about_place(
+        &mut self,
+        model: &FractalModel,
+        camera: &Camera,
+        world: World<'_>,
+        is_blocked: bool,
+    ) {
+        let Some((descent, pointer)) = &self.descent else { return };
+        let center = descent.ndc(camera, world).unwrap_or(DVec2::ZERO);
+        let area = SearchArea { center, ..NEAR_MIDDLE };
+        let search = PlaceSearch::new(model, camera, world.viewport.aspect, area);
+        self.area_search = Some(AreaSearch { search, pointer: *pointer, is_blocked });
+    }
+
+    /// Begins a search of `area`, whose centre is the pointer.
     fn begin_search(
         &mut self,
         model: &FractalModel,
         camera: &Camera,
         world: World<'_>,
         area: SearchArea,
-        pointer: DVec2,
     ) {
         let search = PlaceSearch::new(model, camera, world.viewport.aspect, area);
-        self.area_search = Some(AreaSearch { search, pointer, is_blocked: false });
+        self.area_search = Some(AreaSearch { search, pointer: area.center, is_blocked: false });
     }
 
     /// Descends to the best found place that is still in view.
@@ -287,10 +301,6 @@ impl Guide {
     pub fn stop_dive(&mut self) {
         if let Some(dive) = self.dive.take() {
             self.record = dive.record;
-            // The path that is kept ends where the dive did.
-            if self.record.last().is_some_and(|(secs, _)| *secs < dive.newest.0) {
-                self.record.push(dive.newest);
-            }
             self.descent = None;
             self.area_search = None;
         }
