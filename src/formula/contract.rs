@@ -63,6 +63,16 @@ pub trait Formula: Sync {
     /// The formula's own parameters in document order, without iterations and bailout.
     fn fields(&self) -> &'static [Field];
 
+    /// The iterations of a new scene; none for the default of [`param::ITERATIONS`].
+    fn default_iterations(&self) -> Option<u32> {
+        None
+    }
+
+    /// The bailout of a new scene; none for the default of [`param::BAILOUT`].
+    fn default_bailout(&self) -> Option<f64> {
+        None
+    }
+
     /// The largest bailout with which no step overflows an f32.
     fn max_bailout(&self, _fractal: &Fractal) -> f64 {
         f64::INFINITY
@@ -200,8 +210,8 @@ impl Fractal {
     pub fn new(formula: FormulaRef) -> Self {
         Self {
             formula,
-            iterations: param::ITERATIONS.default as u32,
-            bailout: param::BAILOUT.default,
+            iterations: formula.default_iterations().unwrap_or(param::ITERATIONS.default as u32),
+            bailout: formula.default_bailout().unwrap_or(param::BAILOUT.default),
             values: formula.fields().iter().map(Field::default).collect(),
         }
     }

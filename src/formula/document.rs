@@ -64,7 +64,8 @@ impl<'de> Visitor<'de> for FractalVisitor {
                     if values.iter().any(|(known, _)| known.name == field.name) {
                         return Err(A::Error::duplicate_field(field.name));
                     }
-                    values.push((field, map.next_value_seed(ValueSeed(field))?));
+                    let is_certain = formula.is_some();
+                    values.push((field, map.next_value_seed(ValueSeed { field, is_certain })?));
                 }
             }
         }
@@ -72,8 +73,20 @@ impl<'de> Visitor<'de> for FractalVisitor {
         fractal.iterations = iterations.unwrap_or(fractal.iterations);
         fractal.bailout = bailout.unwrap_or(fractal.bailout);
         for (field, value) in values {
+            let length = match &value {
+                Value::Vector(numbers) => numbers.len(),
+                _ => 1,
+            };
             if !fractal.set(field.name, value) {
-                return Err(unknown(field.name, fractal.formula()));
+                // A formula that was named later may have a vector of another length.
+                return Err(match fractal.get(field.name) {
+                    Some(Value::Vector(own)) => A::Error::custom(format_args!(
+                        "field `{}`: invalid length {length}, expected an array of length {}",
+                        field.name,
+                        own.len()
+                    )),
+                    _ => unknown(field.name, fractal.formula()),
+                });
             }
         }
         Ok(fractal)
@@ -117,7 +130,7 @@ impl<'de> DeserializeSeed<'de> for NameSeed {
 /// The field called `name` of `formula`, or of the first formula with such a field.
 ///
 /// A document may name a field before its formula. Formulas that share a field name also share the kind of
-/// its values; a test checks that.
+/// its values, but for the length of a vector; a test checks that.
 fn field_called<E: Error>(name: &str, formula: Option<FormulaRef>) -> Result<&'static Field, E> {
     let fields = |formula: FormulaRef| formula.fields().iter().find(|field| field.name == name);
     let found = match formula {
@@ -136,13 +149,17 @@ fn unknown<E: Error>(name: &str, formula: FormulaRef) -> E {
 /// Reads the value of a field.
 ///
 /// A value of the wrong kind is an error at the field's path.
-struct ValueSeed(&'static Field);
+struct ValueSeed {
+    field: &'static Field,
+    /// False before the document named the formula: a vector's length is then checked later.
+    is_certain: bool,
+}
 
 impl<'de> DeserializeSeed<'de> for ValueSeed {
     type Value = Value;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Value, D::Error> {
-        Ok(match self.0.kind {
+        Ok(match self.field.kind {
             Kind::Number { .. } => Value::Number(f64::deserialize(deserializer)?),
             Kind::Switch { .. } => Value::Switch(bool::deserialize(deserializer)?),
             Kind::Choice { options, .. } => {
@@ -150,14 +167,17 @@ impl<'de> DeserializeSeed<'de> for ValueSeed {
             }
             Kind::Vector { default, .. } => {
                 let numbers = Vec::<f64>::deserialize(deserializer)?;
-                if numbers.len() != default.len() {
-                    let wanted = format!("an array of length {}", default.len());
-                    return Err(D::Error::invalid_length(numbers.len(), &wanted.as_str()));
+                if self.is_certain && numbers.len() != default.len() {
+                    return Err(wrong_length(numbers.len(), default.len()));
                 }
                 Value::Vector(numbers.into())
             }
         })
     }
+}
+
+fn wrong_length<E: Error>(found: usize, wanted: usize) -> E {
+    E::invalid_length(found, &format!("an array of length {wanted}").as_str())
 }
 
 fn word_of<E: Error>(options: &'static [Choice], word: &str) -> Result<&'static str, E> {

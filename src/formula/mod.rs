@@ -15,9 +15,15 @@
 //! | [`recurrence`] | points whose orbits recur |
 //! | [`mandelbulb`], [`quaternion_julia`] | the formulas |
 
+use std::sync::LazyLock;
+
+use include_dir::{Dir, include_dir};
+
 pub mod bounds;
 pub mod contract;
 pub mod document;
+pub mod language;
+pub mod mandelbulb;
 pub mod march;
 pub mod param;
 pub mod recurrence;
@@ -27,27 +33,44 @@ pub use contract::{
     Formula, FormulaRef, Fractal, Kernel, KernelFiles, MarchPolicy, Packed, PackedFor,
     ReferenceOrbit, ReferenceSteps,
 };
+pub use language::{TextError, TextFormula};
 pub use march::{DistanceField, Estimate, Ray};
 pub use recurrence::{OrbitPosition, Recurrence};
 
-/// Declares each formula's folder and lists the formulas in the order of the panels.
-macro_rules! formulas {
-    ($($folder:ident::$formula:ident),* $(,)?) => {
-        $(pub mod $folder;)*
+/// The folder of formula texts: one file per formula, whose stem is the formula's id.
+static TEXTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/formulas");
 
-        /// Every formula; a new scene uses the first.
-        const FORMULAS: &[FormulaRef] = &[$(FormulaRef(&$folder::$formula)),*];
-    };
+/// Every formula: those with kernels of their own, then the texts by name. A new scene uses the first.
+static FORMULAS: LazyLock<Vec<FormulaRef>> = LazyLock::new(|| {
+    let mut texts: Vec<_> = texts().map(|(id, text)| text_formula(id, text)).collect();
+    texts.sort_by_key(|formula| formula.name());
+    [FormulaRef(&mandelbulb::MANDELBULB)].into_iter().chain(texts).collect()
+});
+
+/// The ids and texts of `formulas/`, by id.
+pub fn texts() -> impl Iterator<Item = (&'static str, &'static str)> {
+    TEXTS
+        .files()
+        .filter_map(|file| Some((file.path().file_stem()?.to_str()?, file.contents_utf8()?)))
 }
 
-formulas! {
-    mandelbulb::MANDELBULB,
-    quaternion_julia::QUATERNION_JULIA,
+/// # Panics
+///
+/// If the text has an error: a test compiles every text.
+fn text_formula(id: &'static str, text: &str) -> FormulaRef {
+    let formula =
+        TextFormula::new(id, text).unwrap_or_else(|error| panic!("formulas/{id}.formula: {error}"));
+    FormulaRef(Box::leak(Box::new(formula)))
 }
 
 /// Every formula.
 pub fn all() -> impl Iterator<Item = FormulaRef> {
     FORMULAS.iter().copied()
+}
+
+/// The formula called `id` in documents.
+pub fn find(id: &str) -> Option<FormulaRef> {
+    all().find(|formula| formula.id() == id)
 }
 
 impl Default for FormulaRef {

@@ -34,8 +34,10 @@ pub enum Kind {
         /// The values of a new scene, one per label.
         default: &'static [f64],
     },
-    /// Off or on; a new scene has off.
+    /// Off or on.
     Switch {
+        /// Whether the switch is on in a new scene.
+        default: bool,
         /// The switch's label in the panel.
         label: &'static str,
         /// The option of off, then that of on.
@@ -75,7 +77,7 @@ impl Field {
         match self.kind {
             Kind::Number { param, .. } => Value::Number(param.default),
             Kind::Vector { default, .. } => Value::Vector(default.into()),
-            Kind::Switch { .. } => Value::Switch(false),
+            Kind::Switch { default, .. } => Value::Switch(default),
             Kind::Choice { options, .. } => Value::Choice(options[0].word),
         }
     }

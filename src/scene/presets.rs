@@ -18,15 +18,18 @@ use super::{
     surface::{ColorSource, Coloring, GradientStop, Surface},
     tone::Tone,
 };
-use crate::formula::{
-    FormulaRef, Fractal, mandelbulb::Mandelbulb, quaternion_julia::QUATERNION_JULIA,
-};
+use crate::formula::{self, Fractal, mandelbulb::Mandelbulb};
 
 pub use dives::dives;
 pub use preset::Preset;
 
 /// Strength of new scenes' indirect light: crevices fill, and shapes keep their shadows.
 const INDIRECT_STRENGTH: f64 = 0.35;
+
+/// A fractal of the formula called `id`, with default values; a test checks the ids.
+fn of_formula(id: &str) -> Fractal {
+    Fractal::new(formula::find(id).unwrap_or_default())
+}
 
 /// The scene that the program opens on: the first of [`all`].
 pub fn opening() -> Scene {
@@ -289,7 +292,7 @@ fn in_between() -> Scene {
 
 fn whorls() -> Scene {
     Scene {
-        fractal: Fractal::new(FormulaRef(&QUATERNION_JULIA)),
+        fractal: of_formula("quaternion_julia"),
         camera: camera([2.1, -3.0, 2.0], [0.0, 0.0, 0.0], 38.0),
         lights: Lights {
             environment: vec![

@@ -4,6 +4,7 @@
 mod compare;
 mod deep;
 mod fractal;
+mod language;
 mod places;
 mod property;
 mod scene;

@@ -13,6 +13,7 @@ mod exr;
 mod golden;
 mod indirect;
 mod integrator;
+mod language;
 mod memory;
 mod moving;
 mod oracle;

@@ -5,12 +5,12 @@ use std::{collections::BTreeMap, sync::LazyLock};
 
 use mandelight::{
     formula::{
-        self, Kernel,
+        self, Kernel, language,
         mandelbulb::{
             self, deep, estimator,
             variant::{Steps, Variant},
         },
-        march, quaternion_julia,
+        march,
     },
     gpu::{host_shared::HostShared, shader::Module},
     render::{
@@ -106,11 +106,12 @@ type HostStruct = (&'static str, usize, &'static [(&'static str, usize, usize)])
 fn formula_structs(id: &str) -> Vec<HostStruct> {
     match id {
         "mandelbulb" => mandelbulb::uniforms::HOST_SHARED.to_vec(),
-        "quaternion_julia" => {
-            let [(_, size, fields)] = *quaternion_julia::HOST_SHARED else { panic!("one struct") };
+        _ => {
+            let [(_, size, fields)] = *language::uniforms::HOST_SHARED else {
+                panic!("one struct")
+            };
             vec![("Fractal", size, fields)]
         }
-        other => panic!("no structs of {other} are compared"),
     }
 }
 

@@ -191,7 +191,10 @@ impl DistanceField for Estimator {
     }
 
     fn orbit(&self, point: DVec3, length: usize) -> Vec<OrbitPosition> {
-        self.positions(PlainOrbit { z: point, constant: self.julia_constant.unwrap_or(point) }, length)
+        self.positions(
+            PlainOrbit { z: point, constant: self.julia_constant.unwrap_or(point) },
+            length,
+        )
     }
 
     fn bounding_radius(&self) -> f64 {
@@ -236,7 +239,6 @@ pub fn max_step(fractal: &Mandelbulb, bounding_radius: f64) -> f64 {
 /// Radius about the origin beyond which every orbit escapes, in scene units.
 pub fn bounding_radius(mandelbulb: &Mandelbulb) -> f64 {
     let Mandelbulb { power, iterations, bailout, .. } = *mandelbulb;
-    let constant =
-        mandelbulb.julia.then(|| DVec3::from_array(mandelbulb.julia_constant).length());
+    let constant = mandelbulb.julia.then(|| DVec3::from_array(mandelbulb.julia_constant).length());
     slowest_escape(power, constant, iterations, bailout)
 }

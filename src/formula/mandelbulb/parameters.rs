@@ -51,6 +51,7 @@ pub const FIELDS: &[Field] = &[
     Field {
         name: "julia",
         kind: Kind::Switch {
+            default: false,
             label: "Form",
             options: [
                 Choice {
@@ -149,8 +150,12 @@ impl Mandelbulb {
     ///
     /// If `fractal` is of another formula.
     pub fn of(fractal: &Fractal) -> Self {
-        let [Value::Number(power), Value::Choice(word), Value::Switch(julia), Value::Vector(constant)] =
-            fractal.values()
+        let [
+            Value::Number(power),
+            Value::Choice(word),
+            Value::Switch(julia),
+            Value::Vector(constant),
+        ] = fractal.values()
         else {
             panic!("a Mandelbulb has other values than a {:?}", fractal.formula());
         };
@@ -234,10 +239,10 @@ mod tests {
     fn high_powers_march_by_the_usual_policy() {
         for power in [4.0, 8.0, 16.0] {
             let policy = Mandelbulb { power, ..Default::default() }.march_policy();
-            assert_eq!(MarchPolicy { ball_part: policy.ball_part, ..policy }, MarchPolicy {
-                ball_part: policy.ball_part,
-                ..Default::default()
-            });
+            assert_eq!(
+                MarchPolicy { ball_part: policy.ball_part, ..policy },
+                MarchPolicy { ball_part: policy.ball_part, ..Default::default() }
+            );
         }
     }
 }

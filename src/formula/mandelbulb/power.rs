@@ -169,8 +169,7 @@ mod tests {
     #[test]
     fn the_negative_sine_mirrors_the_result() {
         let z = DVec3::new(0.6, -0.5, 0.4);
-        let (plus, minus) =
-            (map(8.0, Sine::Positive).apply(z), map(8.0, Sine::Negative).apply(z));
+        let (plus, minus) = (map(8.0, Sine::Positive).apply(z), map(8.0, Sine::Negative).apply(z));
         assert_eq!(minus, DVec3::new(plus.x, plus.y, -plus.z));
     }
 

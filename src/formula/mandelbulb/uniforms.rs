@@ -162,7 +162,8 @@ type SeriesList = Array<SeriesApproximation, SERIES>;
 /// Packs the uniforms of a view of `mandelbulb` and selects its kernel.
 pub fn pack(mandelbulb: &Mandelbulb, view: &PackedFor<'_>) -> Packed {
     let reference = view.reference.and_then(|reference| deep::reference_of(reference));
-    let mut uniforms = FormulaUniforms { fractal: fractal(mandelbulb, view, reference), ..Default::default() };
+    let mut uniforms =
+        FormulaUniforms { fractal: fractal(mandelbulb, view, reference), ..Default::default() };
     let power = mandelbulb.integer_power().unwrap_or(0);
     let Some(reference) = reference else {
         let variant = Variant { power, steps: Steps::Plain };

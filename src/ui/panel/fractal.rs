@@ -115,7 +115,7 @@ fn edit(ui: &mut Ui, kind: Kind, value: &mut Value) {
                 ui.push_id(axis, |ui| param_slider(ui, &param, number));
             }
         }
-        (Kind::Switch { label, options: [off, on] }, Value::Switch(is_on)) => {
+        (Kind::Switch { label, options: [off, on], .. }, Value::Switch(is_on)) => {
             let options = [(false, off.label, off.help), (true, on.label, on.help)];
             choice(ui, label, is_on, &options);
         }

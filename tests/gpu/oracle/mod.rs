@@ -2,6 +2,7 @@
 //!
 //! | file | what it tests |
 //! |---|---|
+//! | `formulas` | estimates, gradients and colours of the formulas of `formulas/` |
 //! | `points` | estimates and gradients at random points, on the axis and inside |
 //! | `pictures` | hits, normals, shadows and shading of whole views |
 //! | `normals_table` | every way to find normals, and the table of `docs/normals.md` |
@@ -10,6 +11,7 @@
 //! | `film` | no test: films of any colours, given to the kernels |
 
 mod film;
+mod formulas;
 mod indirect;
 mod normals_table;
 pub mod pictures;

@@ -3,9 +3,8 @@
 use glam::DVec3;
 use mandelight::{
     formula::{
-        FormulaRef, Fractal,
+        self, Fractal,
         mandelbulb::{Mandelbulb, Sine, estimator::Estimator},
-        quaternion_julia::QUATERNION_JULIA,
     },
     gpu::device::in_parallel,
     render::Pace,
@@ -166,7 +165,7 @@ fn gradients_are_finite_on_the_axis_and_zero_inside() {
 fn quaternion_julia_sets_agree_with_the_oracle() {
     let constants = [[-0.125, -0.256, 0.847, 0.0895], [-0.2, 0.8, 0.0, 0.0], [0.0; 4]];
     for (constant, slice) in constants.into_iter().zip([0.0, 0.3, -0.4]) {
-        let mut fractal = Fractal::new(FormulaRef(&QUATERNION_JULIA));
+        let mut fractal = Fractal::new(formula::find("quaternion_julia").expect("a formula"));
         assert!(fractal.set("constant", constant) && fractal.set("slice", slice));
         let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
         let field = fractal.formula().distance_field(&fractal);
@@ -215,7 +214,7 @@ fn quaternion_julia_sets_agree_with_the_oracle() {
 #[test]
 fn a_quaternion_julia_set_without_a_constant_is_a_ball() {
     for slice in [0.0, 0.6] {
-        let mut fractal = Fractal::new(FormulaRef(&QUATERNION_JULIA));
+        let mut fractal = Fractal::new(formula::find("quaternion_julia").expect("a formula"));
         assert!(fractal.set("constant", [0.0; 4]) && fractal.set("slice", slice));
         let radius = (1.0 - slice * slice).sqrt();
         let camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);

@@ -6,6 +6,7 @@
 //! | `view` | short ways to a finished picture and its pixels |
 //! | `beauty` | measures of pictures worth seeing |
 //! | `compare` | two pictures, region by region |
+//! | `expressions` | random formulas of the language |
 //! | `histogram` | means and histograms of pictures |
 //! | `picture` | what a PNG holds |
 //! | `program` | the built program, run as a script runs it |
@@ -23,6 +24,7 @@ pub mod deep;
 pub mod descent;
 pub mod device;
 pub mod dives;
+pub mod expressions;
 pub mod histogram;
 pub mod oracle;
 pub mod picture;

@@ -51,7 +51,8 @@ pub fn raised_on_meridian(
     n: u32,
     sine_sign: f64,
 ) -> DVec3 {
-    let deviation = Deviation { rho: reference_point.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
+    let deviation =
+        Deviation { rho: reference_point.rotor.dot(delta.truncate()), rotor: DVec2::ZERO };
     raised_by(reference_point, deviation, delta.z, n, sine_sign)
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{
     FINEST_FOOTPRINT, difference, iterations_for,
     jacobian::{OrbitJacobian, RotatingJacobian},
-    reference::{ReferenceBuilder, Reference},
+    reference::{Reference, ReferenceBuilder},
     rotating_frame::RotatingFrame,
 };
 use crate::{
@@ -171,14 +171,12 @@ impl Orbit for DeepOrbit<'_> {
                 *frame = frame.raised();
                 jacobian.step(power, z, frame.back());
                 let difference = raised + frame.added(reference.constant(), offset);
-                let (difference, rotor) =
-                    frame.settle(&reference.points()[self.index], difference);
+                let (difference, rotor) = frame.settle(&reference.points()[self.index], difference);
                 jacobian.settle(rotor);
                 difference
             }
         };
     }
-
 }
 
 impl NormedOrbit for DeepOrbit<'_> {
@@ -219,4 +217,3 @@ impl ReferenceSteps for ReferenceBuilder {
         Arc::new(ReferenceBuilder::finish(*self))
     }
 }
-

@@ -29,8 +29,8 @@ pub mod rotating_frame;
 pub mod series;
 
 pub use field::{CLOSE, DeepField};
-pub use orbit::ReferencePoint;
 pub use iterations::{FINEST_FOOTPRINT, iterations_for};
+pub use orbit::ReferencePoint;
 pub use reference::{Reference, reference_of};
 
 pub use series::SeriesApproximation;

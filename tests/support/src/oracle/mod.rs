@@ -5,6 +5,8 @@
 //! |---|---|
 //! | `estimate` | orbits, distance estimate, smooth iteration count, orbit traps |
 //! | `quaternion` | the quaternion Julia set, by Hamilton's product |
+//! | `folds` | folds, turns and powers of several formulas |
+//! | `formulas` | the formulas of `formulas/` |
 //! | `rays` | camera rays, march, six-sample normals, shadow rays |
 //! | `normals` | the estimate's gradient, by differences |
 //! | `light` | Blinn-Phong, the gradient of colours, sRGB |
@@ -14,6 +16,8 @@
 
 pub mod bloom;
 pub mod estimate;
+pub mod folds;
+pub mod formulas;
 pub mod light;
 pub mod normals;
 pub mod quaternion;

@@ -5,7 +5,7 @@ use glam::{DMat4, DVec3, DVec4};
 use mandelight::formula::{Fractal, table::Value};
 
 /// Hamilton's product, real parts first.
-fn product(p: DVec4, q: DVec4) -> DVec4 {
+pub fn product(p: DVec4, q: DVec4) -> DVec4 {
     DVec4::new(
         p.x * q.x - p.y * q.y - p.z * q.z - p.w * q.w,
         p.x * q.y + p.y * q.x + p.z * q.w - p.w * q.z,

@@ -1,0 +1,120 @@
+// Orbits of a formula's text. The text's own functions come from `kernel.rs`:
+//     State                  vec3f or vec4f
+//     IS_POWER               whether orbits grow as a power, not by a factor
+//     INITIAL_DERIVATIVE     the running derivative at the start
+//     initial, initial_tangent, initial_rows     the state at the start, its derivatives
+//     next_with_derivative   a step, with the running derivative if the text gives it
+//     extent_test, extent    what is compared with `limit`, and the size itself
+// uses: types/estimate, lib/numeric
+
+// Derivatives are clamped to this before each step, which must not overflow.
+const MAX_DERIVATIVE = 1e30;
+// Directions of derivatives where a ray gives none: along no axis or diagonal.
+const ANY_DIRECTION = vec3f(0.48, 0.6, 0.64);
+
+// Derivatives of a vector's components in three directions.
+struct Rows {
+    x: vec3f,
+    y: vec3f,
+    z: vec3f,
+    w: vec3f,
+}
+
+const POINT_ROWS = Rows(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0), vec3f(0.0));
+
+fn scaled_rows(rows: Rows, by: f32) -> Rows {
+    return Rows(by * rows.x, by * rows.y, by * rows.z, by * rows.w);
+}
+
+fn natural_log(x: f32) -> f32 {
+    return 0.69314718 * accurate_log2(max(x, 1.1754944e-38));
+}
+
+fn exponential(x: f32) -> f32 {
+    return accurate_exp2(min(1.442695 * x, 127.0));
+}
+
+fn power(x: f32, y: f32) -> f32 {
+    return accurate_exp2(min(y * accurate_log2(max(x, 1.1754944e-38)), 127.0));
+}
+
+fn sine(x: f32) -> f32 {
+    return cos_sin_turns(0.15915494 * x).y;
+}
+
+fn cosine(x: f32) -> f32 {
+    return cos_sin_turns(0.15915494 * x).x;
+}
+
+fn angle(y: f32, x: f32) -> f32 {
+    // The origin's angle is 0.
+    let is_origin = max(abs(x), abs(y)) < 1e-37;
+    return 6.2831853 * angle_turns(y, select(x, 1.0, is_origin));
+}
+
+// What each step adds.
+fn addend(fractal: Fractal, point: vec3f) -> State {
+    return select(as_state(fractal.julia_constant), initial(point), fractal.addend_derivative > 0.0);
+}
+
+fn is_escaped(fractal: Fractal, z: State) -> bool {
+    // True for not-a-number too, so that such orbits end.
+    return !(extent_test(z) <= fractal.limit);
+}
+
+fn estimate_of(fractal: Fractal, distance: f32) -> Estimate {
+    // Not-a-number and negative distances count as inside.
+    let outside = clamp(select(0.0, distance, distance > 0.0), 0.0, 1e30);
+    return Estimate(outside, min(fractal.march * outside, fractal.max_step));
+}
+
+fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+    return estimate(fractal, point, along);
+}
+
+// Never called: the quick estimate is exact.
+fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+    return Estimate(0.0, 0.0);
+}
+
+// The direction that stands for all rays of a cone: none, so that estimates take their own.
+fn cone_direction() -> vec3f {
+    return vec3f(0.0);
+}
+
+fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
+    return estimate(fractal, point, vec3f(0.0)).distance;
+}
+
+// Part of the last step that lies beyond the bailout, 0 to 1: thesis eq. 3.1 with the exponent, or for
+// linear growth the factor, that the last step shows.
+fn excess(fractal: Fractal, before: f32, last: f32) -> f32 {
+    let grown = natural_log(last);
+    let least = natural_log(before);
+    if (IS_POWER) {
+        let ratio = natural_log(max(grown / fractal.log_bailout, 1.0));
+        return clamp(ratio / natural_log(max(grown / max(least, 1e-4), 1.0001)), 0.0, 1.0);
+    }
+    return clamp((grown - fractal.log_bailout) / max(grown - least, 1e-4), 0.0, 1.0);
+}
+
+fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
+    let c = addend(fractal, point);
+    var z = initial(point);
+    var before = z;
+    var dr = INITIAL_DERIVATIVE;
+    var traps = vec3f(4.0 / (fractal.trap_scale * fractal.trap_scale));
+    var n = 0u;
+    for (; n < fractal.iterations && !is_escaped(fractal, z); n++) {
+        before = z;
+        let next = next_with_derivative(z, c, point, dr, fractal.addend_derivative);
+        z = next.z;
+        dr = min(next.dr, MAX_DERIVATIVE);
+        traps = min(traps, vec3f(dot(z.xyz, z.xyz), dot(z.xy, z.xy), z.z * z.z));
+    }
+    var smooth_iterations = f32(n);
+    if (is_escaped(fractal, z) && n > 0u) {
+        smooth_iterations -= excess(fractal, extent(before), extent(z));
+    }
+    return OrbitColors(smooth_iterations, fractal.trap_scale * sqrt(traps));
+}

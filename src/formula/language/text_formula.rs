@@ -1,0 +1,311 @@
+//! A formula made from a text: its parameters, field and kernels.
+
+use std::sync::Arc;
+
+use super::{
+    check::{self, Checked, CheckedParam},
+    field::{MAX_STEP, Programs, TextField},
+    kernel::Compiled,
+    syntax,
+    tree::{EstimateDeclaration, RangeUnit, Span, TextError},
+    uniforms::{MAX_SLOTS, Uniforms},
+};
+use crate::{
+    formula::{
+        DistanceField, Formula, Fractal, Kernel, KernelFiles, MarchPolicy, Packed, PackedFor,
+        march::PLAIN_FOOTPRINT,
+        param::{Param, Scale, Unit},
+        table::{Choice, Field, Kind, Value},
+    },
+    gpu::{host_shared::HostShared, shader::File},
+};
+
+/// Finest footprint that gets iterations of its own, in scene units: an eye on the surface has none.
+const FINEST_FOOTPRINT: f64 = 0.1 * PLAIN_FOOTPRINT;
+/// Least footprint that needs no more than the scene's own iterations, in scene units.
+const WHOLE_FOOTPRINT: f64 = 1e-3;
+/// Orbit steps per halving of the footprint: enough for formulas that stretch by half or more a step.
+const STEPS_PER_HALVING: f64 = 1.5;
+
+/// Largest orbit trap that a picture stores.
+const LARGEST_TRAP: f64 = 2.0;
+
+/// A formula made from a text.
+#[derive(Debug)]
+pub struct TextFormula {
+    id: &'static str,
+    title: &'static str,
+    about: &'static str,
+    fields: &'static [Field],
+    checked: Checked,
+    programs: Arc<Programs>,
+    files: KernelFiles,
+    tests_square: bool,
+}
+
+impl TextFormula {
+    /// Reads, checks and compiles a text. The formula is called `id` in documents.
+    ///
+    /// Names and kernels stay in memory as long as the program.
+    ///
+    /// # Errors
+    ///
+    /// The first error with its place in the text.
+    pub fn new(id: &'static str, text: &str) -> Result<Self, TextError> {
+        let tree = syntax::parse(text)?;
+        let checked = check::check(text, &tree)?;
+        let is_power = matches!(tree.estimate, None | Some(EstimateDeclaration::Log));
+        let compiled = Compiled::new(checked, is_power);
+        if compiled.slots.len() > MAX_SLOTS {
+            let message = format!(
+                "{} values are computed from the parameters, and {MAX_SLOTS} may be: simplify it",
+                compiled.slots.len()
+            );
+            return Err(TextError::new(text, Span::default(), message));
+        }
+        Ok(Self {
+            id,
+            title: kept(compiled.checked.title.clone()),
+            about: kept(compiled.checked.about.clone()),
+            fields: fields(&compiled.checked).leak(),
+            programs: Arc::new(Programs::new(&compiled)),
+            files: files(id, &compiled),
+            tests_square: compiled.tests_square,
+            checked: compiled.checked,
+        })
+    }
+
+    /// Where the equations are from.
+    pub fn sources(&self) -> &[String] {
+        &self.checked.sources
+    }
+
+    /// The field of `fractal`, which is of this formula.
+    pub fn field(&self, fractal: &Fractal) -> TextField {
+        TextField::new(
+            &self.programs,
+            &self.param_values(fractal),
+            [f64::from(fractal.iterations), self.checked.march],
+            fractal.bailout,
+            self.julia_constant(fractal),
+        )
+    }
+
+    /// The numbers of the parameters in order; a switch is 0 or 1.
+    fn param_values(&self, fractal: &Fractal) -> Vec<f64> {
+        let own = fractal.values().iter().take(self.checked.params.len());
+        own.flat_map(|value| match value {
+            Value::Number(number) => vec![*number],
+            Value::Vector(numbers) => numbers.to_vec(),
+            Value::Switch(is_on) => vec![f64::from(u8::from(*is_on))],
+            Value::Choice(_) => Vec::new(),
+        })
+        .collect()
+    }
+
+    /// The addend of the Julia form, if `fractal` has that form.
+    fn julia_constant(&self, fractal: &Fractal) -> Option<[f64; 4]> {
+        if !fractal.is_on(JULIA) {
+            return None;
+        }
+        let Some(Value::Vector(numbers)) = fractal.get(JULIA_CONSTANT) else { return None };
+        Some(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or_default()))
+    }
+}
+
+/// The switch of the Julia form in documents.
+const JULIA: &str = "julia";
+/// The Julia form's addend in documents.
+const JULIA_CONSTANT: &str = "julia_constant";
+
+/// Text that lives as long as the program.
+fn kept(text: String) -> &'static str {
+    Box::leak(text.into_boxed_str())
+}
+
+fn fields(checked: &Checked) -> Vec<Field> {
+    let own = checked.params.iter().map(|param| Field {
+        name: kept(param.name.clone()),
+        kind: kind(param),
+        only_with: None,
+    });
+    let mut all: Vec<_> = own.collect();
+    if checked.has_addend {
+        all.extend(julia_fields(checked.size));
+    }
+    all
+}
+
+fn kind(param: &CheckedParam) -> Kind {
+    let (label, help) = (kept(param.label.clone()), kept(param.help.clone()));
+    if param.is_switch {
+        let option = |word, label| Choice { word, label, help };
+        let default = param.default[0] != 0.0;
+        return Kind::Switch {
+            default,
+            label,
+            options: [option("false", "Off"), option("true", "On")],
+        };
+    }
+    let is_vector = param.default.len() > 1;
+    let brackets = if is_vector { "[]" } else { "" };
+    let (unit, scale) = match param.unit {
+        RangeUnit::Number => (Unit::None, Scale::Linear),
+        RangeUnit::Degrees => (Unit::Degrees, Scale::Linear),
+        RangeUnit::Whole => (Unit::Count, Scale::Integer),
+        RangeUnit::Logarithmic => (Unit::None, Scale::Logarithmic),
+    };
+    let own: &'static Param = Box::leak(Box::new(Param {
+        path: kept(format!("fractal.{}{brackets}", param.name)),
+        label,
+        unit,
+        min: param.min,
+        max: param.max,
+        default: param.default[0],
+        scale,
+        step: slider_step(param),
+        help,
+    }));
+    if !is_vector {
+        return Kind::Number { param: own, quick: &[] };
+    }
+    let labels: Vec<_> =
+        ["x", "y", "z", "w"].iter().map(|axis| kept(format!("{label} {axis}"))).collect();
+    Kind::Vector {
+        param: own,
+        labels: &labels.leak()[..param.default.len()],
+        default: param.default.clone().leak(),
+    }
+}
+
+/// The change of one key press: about a hundredth of the range, as a power of ten.
+fn slider_step(param: &CheckedParam) -> f64 {
+    match param.unit {
+        RangeUnit::Whole | RangeUnit::Degrees => 1.0,
+        _ => 10.0_f64.powf((0.01 * (param.max - param.min)).log10().floor()),
+    }
+}
+
+/// The Julia form's switch and constant, which all formulas name alike.
+fn julia_fields(size: usize) -> [Field; 2] {
+    static CONSTANT: Param = Param {
+        path: "fractal.julia_constant[]",
+        label: "Julia constant",
+        unit: Unit::SceneUnits,
+        min: -2.0,
+        max: 2.0,
+        default: 0.0,
+        scale: Scale::Linear,
+        step: 0.01,
+        help: "One coordinate of the Julia constant c. Changes the shape of the fractal.",
+    };
+    let option = |word, label, help| Choice { word, label, help };
+    [
+        Field {
+            name: JULIA,
+            kind: Kind::Switch {
+                default: false,
+                label: "Form",
+                options: [
+                    option("false", "Mandelbrot", "Each point adds itself at every step"),
+                    option("true", "Julia", "All points add the same constant at every step"),
+                ],
+            },
+            only_with: None,
+        },
+        Field {
+            name: JULIA_CONSTANT,
+            kind: Kind::Vector {
+                param: &CONSTANT,
+                labels: &["Constant x", "Constant y", "Constant z", "Constant w"][..size],
+                default: &[0.35, -0.4, 0.55, 0.0][..size],
+            },
+            only_with: Some(JULIA),
+        },
+    ]
+}
+
+fn files(id: &'static str, compiled: &Compiled) -> KernelFiles {
+    let by = if compiled.checked.derivative.is_some() {
+        File { path: "language/by_derivative", text: include_str!("by_derivative.wgsl") }
+    } else {
+        File { path: "language/by_tangent", text: include_str!("by_tangent.wgsl") }
+    };
+    KernelFiles {
+        types: File { path: "language/types", text: include_str!("types.wgsl") },
+        files: vec![
+            File { path: "language/orbit", text: include_str!("orbit.wgsl") },
+            File { path: kept(format!("{id}/operations")), text: kept(compiled.functions()) },
+            by,
+        ],
+    }
+}
+
+impl Formula for TextFormula {
+    fn id(&self) -> &'static str {
+        self.id
+    }
+
+    fn name(&self) -> &'static str {
+        self.title
+    }
+
+    fn about(&self) -> &'static str {
+        self.about
+    }
+
+    fn fields(&self) -> &'static [Field] {
+        self.fields
+    }
+
+    fn default_iterations(&self) -> Option<u32> {
+        self.checked.iterations
+    }
+
+    fn default_bailout(&self) -> Option<f64> {
+        self.checked.radius
+    }
+
+    fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {
+        let usual = MarchPolicy::default();
+        // Shortened steps say that the estimate is no bound: longer ones would pass the surface.
+        let relaxation = if self.checked.march < 1.0 { 1.0 } else { usual.relaxation };
+        MarchPolicy { relaxation, ball_part: self.checked.march as f32, ..usual }
+    }
+
+    fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32 {
+        let halvings = (WHOLE_FOOTPRINT / footprint.max(FINEST_FOOTPRINT)).max(1.0).log2();
+        fractal.iterations + (STEPS_PER_HALVING * halvings).ceil() as u32
+    }
+
+    fn distance_field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {
+        Arc::new(self.field(fractal))
+    }
+
+    fn pack(&self, fractal: &Fractal, view: &PackedFor<'_>) -> Packed {
+        let constant = self.julia_constant(fractal);
+        let bailout = fractal.bailout;
+        let uniforms = Uniforms {
+            julia_constant: constant.unwrap_or_default().map(|x| x as f32),
+            iterations: view.iterations,
+            limit: if self.tests_square { bailout * bailout } else { bailout } as f32,
+            log_bailout: bailout.ln() as f32,
+            max_step: (MAX_STEP * view.bounding_radius) as f32,
+            march: self.checked.march as f32,
+            addend_derivative: if constant.is_some() { 0.0 } else { 1.0 },
+            trap_scale: (LARGEST_TRAP / view.bounding_radius).min(1.0) as f32,
+        };
+        let mut slots = self.programs.slots(&self.param_values(fractal));
+        // Whole vectors of four.
+        slots.resize(slots.len().next_multiple_of(4), 0.0);
+        Packed {
+            kernel: Kernel { formula: fractal.formula(), variant: 0 },
+            uniforms: uniforms.to_bytes(),
+            table: slots.iter().flat_map(|slot| (*slot as f32).to_le_bytes()).collect(),
+        }
+    }
+
+    fn files(&self, _variant: u32) -> KernelFiles {
+        self.files.clone()
+    }
+}

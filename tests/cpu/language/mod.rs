@@ -1,0 +1,9 @@
+//! The formula language: its functions, errors, derivatives and docs.
+//!
+//! | file | what it tests |
+//! |---|---|
+//! | `texts` | texts that are right, texts that are wrong, and the docs |
+//! | `derivatives` | derived derivatives against differences, for generated steps |
+
+mod derivatives;
+mod texts;

@@ -1,0 +1,226 @@
+//! Texts that are right, texts that are wrong, and the docs of both.
+
+use std::fmt::Write;
+
+use mandelight::formula::{
+    self, TextFormula,
+    language::{
+        check,
+        functions::FUNCTIONS,
+        syntax,
+        tree::{Span, TextError},
+    },
+    table::Kind,
+};
+use proptest::prelude::*;
+
+fn step(statements: &str) -> String {
+    format!("name \"Test\";\nstep {{\n{statements}\n}}")
+}
+
+fn checked(text: &str) -> Result<check::Checked, TextError> {
+    check::check(text, &syntax::parse(text)?)
+}
+
+#[test]
+fn every_text_is_a_formula_with_a_source_and_a_sentence() {
+    let mut count = 0;
+    for (id, text) in formula::texts() {
+        let made = TextFormula::new(id, text).unwrap_or_else(|error| panic!("{id}: {error}"));
+        assert!(!made.sources().is_empty(), "{id} cites no source");
+        let formula = formula::find(id).expect("a listed formula");
+        assert!(!formula.about().is_empty() && !formula.about().ends_with('.'), "{id}");
+        for param in formula.fields().iter().filter_map(|field| field.param()) {
+            assert!(param.help.ends_with('.'), "{id}: {}", param.path);
+        }
+        count += 1;
+    }
+    assert!(count >= 24, "{count} texts");
+}
+
+#[test]
+fn every_example_of_a_function_compiles() {
+    for function in FUNCTIONS {
+        assert!(function.example.contains(&format!("{}(", function.name)));
+        let text = step(&format!("let x = {}; z = z + c;", function.example));
+        checked(&text).unwrap_or_else(|error| panic!("{}: {error}", function.example));
+    }
+}
+
+#[test]
+fn errors_name_their_place_and_what_to_do() {
+    let cases = [
+        ("", 1, 1, "the text has no name"),
+        ("name \"A\";", 1, 1, "the text has no step"),
+        ("name \"A\";\nname \"B\";", 2, 1, "`name` is declared twice"),
+        ("name \"A\";\nstep { z = z * }", 2, 16, "found `}`, expected an expression"),
+        ("name \"A\"\nstep { }", 2, 1, "`;`"),
+        ("name \"A\";\nstep { z = y; }", 2, 12, "`y` is unknown"),
+        ("name \"A\";\nstep { z = lenght(z) * z; }", 2, 12, "is `length` meant?"),
+        ("name \"A\";\nstep { z = 1; }", 2, 12, "found a float, but `z` takes a vec3"),
+        ("name \"A\";\nstep { z = z + vec2(1, 2); }", 2, 12, "cannot be joined"),
+        ("name \"A\";\nstep { z = z.xyw; }", 2, 14, "does not name components"),
+        ("name \"A\";\nstep { z = cross(z, 1); }", 2, 21, "`cross(x: a vec3, y: a vec3)`"),
+        ("name \"A\";\nstep { z = min(z); }", 2, 12, "found 1 arguments"),
+        ("name \"A\";\nstep { c = z; }", 2, 8, "only `z` and `dr` can be assigned"),
+        ("name \"A\";\nstep { z.xx = z.xy; }", 2, 10, "assigned twice"),
+        ("name \"A\";\nstep { let z = 1; }", 2, 12, "has a meaning already"),
+        ("name \"A\";\nstep { z = select(z.x, z, c); }", 2, 19, "select(condition: a condition"),
+        ("name \"A\";\nstep { z = dr * z; }", 2, 1, "does not assign `dr`"),
+        (
+            "name \"A\";\nparam a = 3 from 0 to 2 label \"A\";\nstep { z = z; }",
+            2,
+            11,
+            "from 0 to 2",
+        ),
+        (
+            "name \"A\";\nparam a = 3 from 4 to 2 label \"A\";\nstep { z = z; }",
+            2,
+            18,
+            "range is empty",
+        ),
+        (
+            "name \"A\";\nparam a = 1 from 0 to 2 label \"A\";\nparam a = 1 from 0 to 2 label \"A\";",
+            3,
+            7,
+            "declared twice",
+        ),
+        (
+            "name \"A\";\nparam a = 1.5 from 0 to 2 whole label \"A\";\nstep { z = z; }",
+            2,
+            7,
+            "whole numbers",
+        ),
+        ("name \"A\";\nstep { z = 1e99 * z; }", 2, 12, "too large"),
+    ];
+    for (text, line, column, message) in cases {
+        let error = checked(text).expect_err(text);
+        assert!(error.message.contains(message), "{text}: {error}");
+        assert_eq!((error.line, error.column), (line, column), "{text}: {error}");
+        assert!(error.span.start <= error.span.end && error.span.end <= text.len(), "{text}");
+    }
+}
+
+#[test]
+fn limits_are_named_where_they_are_passed() {
+    let long = format!("name \"A\";\n// {}", "é".repeat(5000));
+    assert!(checked(&long).expect_err("long").message.contains("8192"));
+    let deep = step(&format!("z = {}z{};", "(".repeat(40), ")".repeat(40)));
+    assert!(checked(&deep).expect_err("deep").message.contains("nested more than 32"));
+    let many = step(&"z = sin(z) * cos(z) + c;\n".repeat(80));
+    let error = checked(&many).expect_err("many");
+    assert!(error.message.contains("may have 512"), "{error}");
+    let params: String =
+        (0..13).map(|i| format!("param a{i} = vec4(0) from -1 to 1 label \"A\";\n")).collect();
+    let error = checked(&format!("name \"A\";\n{params}step {{ z = z; }}")).expect_err("wide");
+    assert!(error.message.contains("48 numbers"), "{error}");
+    // The longest chain that fits.
+    let chain = step(&format!("z = z{};", " + z".repeat(2000)));
+    assert!(checked(&chain).is_err());
+}
+
+proptest! {
+    #[test]
+    fn no_text_panics(text in "(name \"A\";)?(step|param|let|[a-z.=;{}()+*/,0-9 \"-])*") {
+        let _ = checked(&text);
+    }
+
+    #[test]
+    fn no_damaged_formula_panics(
+        which in 0..24_usize, at in 0.0..1.0_f64, length in 0..40_usize, insert in "[a-z0-9(){};=.,\"* +-]{0,12}"
+    ) {
+        let (_, text) = formula::texts().nth(which).expect("a text");
+        let start = (at * text.len() as f64) as usize;
+        let end = (start + length).min(text.len());
+        let damaged = format!("{}{insert}{}", &text[..start], &text[end..]);
+        if let Ok(tree) = syntax::parse(&damaged)
+            && let Err(error) = check::check(&damaged, &tree)
+        {
+            let Span { start, end } = error.span;
+            prop_assert!(damaged.get(start..end).is_some());
+        }
+    }
+}
+
+/// The table of functions in the docs.
+fn function_table() -> String {
+    let mut table = "| function | what it computes | example |\n|---|---|---|\n".to_owned();
+    for function in FUNCTIONS {
+        let arguments: Vec<_> = function.arguments.iter().map(|(name, _)| *name).collect();
+        let call = format!("{}({})", function.name, arguments.join(", "));
+        writeln!(table, "| `{call}` | {} | `{}` |", function.help, function.example).unwrap();
+    }
+    table
+}
+
+/// The sections of the formulas in the docs.
+fn formula_sections() -> String {
+    let mut text = String::new();
+    for (id, source) in formula::texts() {
+        let made = TextFormula::new(id, source).expect("a formula");
+        let formula = formula::find(id).expect("a formula");
+        writeln!(text, "### {}\n\n`{id}`: {}.\n", formula.name(), formula.about()).unwrap();
+        for source in made.sources() {
+            writeln!(text, "- Source: {source}").unwrap();
+        }
+        let own = formula.fields().iter().filter(|field| !field.name.starts_with("julia"));
+        for field in own {
+            let (label, range, help) = match field.kind {
+                Kind::Number { param, .. } => (
+                    param.label,
+                    format!("{}, default {}", param.range_text(), param.default),
+                    param.help,
+                ),
+                Kind::Vector { param, default, .. } => (
+                    param.label,
+                    format!("{} each, default {default:?}", param.range_text()),
+                    param.help,
+                ),
+                Kind::Switch { label, default, options } => {
+                    (label, format!("a switch, default {default}"), options[1].help)
+                }
+                Kind::Choice { label, .. } => (label, String::new(), ""),
+            };
+            writeln!(text, "- `{}`, {label} ({range}): {help}", field.name).unwrap();
+        }
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn the_docs_list_functions_and_formulas() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/formulas.md");
+    let mut text = std::fs::read_to_string(file).expect("docs/formulas.md");
+    for (mark, expected) in [("functions", function_table()), ("formulas", formula_sections())] {
+        let begin = format!("<!-- {mark}:");
+        let end = format!("<!-- end of {mark} -->");
+        let (before, rest) = text.split_once(&begin).expect("the mark before");
+        let (note, rest) = rest.split_once("-->\n").expect("the mark's end");
+        let (found, after) = rest.split_once(&end).expect("the mark after");
+        if std::env::var_os("MANDELIGHT_BLESS").is_some() {
+            text = format!("{before}{begin}{note}-->\n{expected}{end}{after}");
+        } else {
+            assert_eq!(
+                found, expected,
+                "MANDELIGHT_BLESS=1 cargo test --test cpu language writes it"
+            );
+        }
+    }
+    if std::env::var_os("MANDELIGHT_BLESS").is_some() {
+        std::fs::write(file, text).unwrap();
+    }
+}
+
+/// The text in the docs is a formula, and its declarations are all there are.
+#[test]
+fn the_docs_example_compiles() {
+    let text =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/formulas.md")).unwrap();
+    let example: String = text
+        .lines()
+        .skip_while(|line| !line.starts_with("    name"))
+        .take_while(|line| line.is_empty() || line.starts_with("    "))
+        .fold(String::new(), |all, line| all + line.trim_start() + "\n");
+    checked(&example).unwrap_or_else(|error| panic!("{error}"));
+}
