@@ -1,35 +1,29 @@
-//! The opening scenes, and the dives.
+//! The opening scenes, the dives, and a scene for each formula.
 //!
 //! In: nothing. Out: scenes to start from, each valid, the eye outside of the set and
 //! the pivot on or near what it shows; and places at depth.
 
 mod dives;
+mod formulas;
+mod parts;
 mod preset;
 
 use glam::DVec3;
 
 use super::{
     background::Background,
-    camera::Camera,
     description::Scene,
-    indirect::{Indirect, IndirectKind},
-    light::{EnvironmentLight, LightFrame, PointLight},
+    light::{EnvironmentLight, PointLight},
     lighting::Lights,
-    surface::{ColorSource, Coloring, GradientStop, Surface},
+    surface::{ColorSource, Coloring, Surface},
     tone::Tone,
 };
-use crate::formula::{self, Fractal, mandelbulb::Mandelbulb};
+use crate::formula::mandelbulb::Mandelbulb;
 
 pub use dives::dives;
+pub use formulas::formulas;
+use parts::{camera, headlight, key_and_rim, light, new_scene, of_formula, stops};
 pub use preset::Preset;
-
-/// Strength of new scenes' indirect light: crevices fill, and shapes keep their shadows.
-const INDIRECT_STRENGTH: f64 = 0.35;
-
-/// A fractal of the formula called `id`, with default values; a test checks the ids.
-fn of_formula(id: &str) -> Fractal {
-    Fractal::new(formula::find(id).unwrap_or_default())
-}
 
 /// The scene that the program opens on: the first of [`all`].
 pub fn opening() -> Scene {
@@ -82,66 +76,20 @@ pub fn all() -> &'static [Preset] {
     ]
 }
 
-/// The opening scenes, and behind them the dives.
+/// The opening scenes, behind them the dives, behind those the formulas' scenes.
 pub fn every() -> impl ExactSizeIterator<Item = &'static Preset> + Clone {
-    let count = all().len();
-    (0..count + dives().len()).map(move |i| if i < count { &all()[i] } else { &dives()[i - count] })
-}
-
-/// `scene` with what documents leave off and new scenes have.
-///
-/// Lights and gradient follow the view, and indirect light is on.
-fn new_scene(scene: Scene) -> Scene {
-    let coloring = Coloring { follows_view: true, ..scene.surface.coloring };
-    Scene {
-        surface: Surface { coloring, ..scene.surface },
-        lights: Lights { follow_view: true, ..scene.lights },
-        indirect: Indirect {
-            kind: IndirectKind::Horizon,
-            strength: INDIRECT_STRENGTH,
-            ..scene.indirect
-        },
-        ..scene
-    }
-}
-
-/// The camera at `eye`, looking at `pivot`, the world's z upward.
-fn camera(eye: [f64; 3], pivot: [f64; 3], vertical_fov_deg: f64) -> Camera {
-    let (eye, pivot) = (DVec3::from_array(eye), DVec3::from_array(pivot));
-    Camera { vertical_fov_deg, ..Camera::looking_at(eye, pivot, DVec3::Z) }
-}
-
-/// A light from `direction`, of any length.
-fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    let direction = DVec3::from_array(direction).normalize_or(DVec3::Z).to_array();
-    EnvironmentLight { direction, color, intensity, ..Default::default() }
-}
-
-/// A light that stays with the camera, from `direction` in its frame.
-fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    EnvironmentLight { frame: LightFrame::View, ..light(direction, color, intensity) }
-}
-
-fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
-    list.iter().map(|&(position, color)| GradientStop { position, color }).collect()
+    let (opening, dives, formulas) = (all(), dives(), formulas());
+    (0..opening.len() + dives.len() + formulas.len()).map(move |i| {
+        let lists = opening.get(i).or_else(|| dives.get(i - opening.len()));
+        lists.unwrap_or_else(|| &formulas[i - opening.len() - dives.len()])
+    })
 }
 
 /// The opening picture: a warm key from the left, a cool rim behind, dark ground.
 fn mandelbulb() -> Scene {
     Scene {
         camera: camera([0.95, -2.05, 1.05], [0.08, 0.0, 0.06], 41.0),
-        lights: Lights {
-            environment: vec![
-                light([-0.75, -0.55, 0.62], [1.0, 0.8, 0.56], 2.4),
-                light([0.8, 0.6, 0.25], [0.4, 0.62, 1.0], 2.0),
-                EnvironmentLight {
-                    casts_shadows: false,
-                    ..headlight([0.5, 0.35, 0.8], [0.5, 0.66, 1.0], 0.4)
-                },
-            ],
-            point: vec![],
-            ..Default::default()
-        },
+        lights: Lights { environment: key_and_rim(), point: vec![], ..Default::default() },
         surface: Surface {
             gradient: stops(&[
                 (0.0, [0.015, 0.05, 0.085]),

@@ -24,9 +24,9 @@ use crate::stage::*;
 /// Desktop windows, and a phone's.
 const WINDOWS: [[f32; 2]; 3] = [[1440.0, 900.0], [1280.0, 720.0], [390.0, 844.0]];
 
-/// Both lists: the heading's button and the presets.
-fn lists() -> [(&'static str, &'static [Preset]); 2] {
-    [("Scenes", presets::all()), ("Dives", presets::dives())]
+/// The lists: the heading's button and the presets.
+fn lists() -> [(&'static str, &'static [Preset]); 3] {
+    [("Scenes", presets::all()), ("Dives", presets::dives()), ("Formulas", presets::formulas())]
 }
 
 fn opened(size: [f32; 2]) -> Harness<'static, Stage> {

@@ -203,6 +203,9 @@ fn presets_open_and_keep_the_quality_that_was_chosen() {
         if index == presets::all().len() {
             press(&mut harness, "Dives");
         }
+        if index == presets::all().len() + presets::dives().len() {
+            press(&mut harness, "Formulas");
+        }
         press(&mut harness, preset.name);
         let expected = (preset.scene)();
         assert_eq!(scene(&harness).fractal, expected.fractal, "{}", preset.name);

@@ -4,10 +4,7 @@ use egui::{Button, Ui, vec2};
 
 use super::context::{Context, Section};
 use crate::{
-    formula::{
-        self, FormulaRef,
-        table::{Kind, Value},
-    },
+    formula::table::{Kind, Value},
     scene::{
         Fractal,
         param::{self, Param},
@@ -67,8 +64,8 @@ pub(super) const SECTION: Section = Section {
 
 /// The formula, its other parameters, iterations and bailout.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    super::formula::choose(ui, cx);
     let fractal = &mut cx.scene.fractal;
-    choose_formula(ui, fractal);
     let is_on: Vec<bool> = fractal
         .fields()
         .map(|(field, _)| field.only_with.is_none_or(|switch| fractal.is_on(switch)))
@@ -85,22 +82,6 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider_count(ui, &param::ITERATIONS, &mut fractal.iterations);
     let bailout = Param { max: fractal.max_bailout(), ..param::BAILOUT };
     param_slider(ui, &bailout, &mut fractal.bailout);
-}
-
-fn choose_formula(ui: &mut Ui, fractal: &mut Fractal) {
-    let formulas: Vec<FormulaRef> = formula::all().collect();
-    let options: Vec<_> =
-        formulas.iter().map(|formula| (formula.id(), formula.name(), formula.about())).collect();
-    if options.len() < 2 {
-        return;
-    }
-    let mut id = fractal.formula().id();
-    choice(ui, "Formula", &mut id, &options);
-    if id != fractal.formula().id()
-        && let Some(chosen) = formulas.into_iter().find(|formula| formula.id() == id)
-    {
-        *fractal = Fractal::new(chosen);
-    }
 }
 
 fn edit(ui: &mut Ui, kind: Kind, value: &mut Value) {

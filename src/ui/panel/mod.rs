@@ -8,6 +8,7 @@ mod bloom;
 mod camera;
 mod context;
 mod export;
+mod formula;
 mod fractal;
 mod help;
 mod indirect;

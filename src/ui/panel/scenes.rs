@@ -1,4 +1,4 @@
-//! The scenes panel: opening scenes and dives.
+//! The scenes panel: opening scenes, dives, and a scene for each formula.
 
 use std::sync::LazyLock;
 
@@ -26,6 +26,12 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let lists = [
         ("Scenes", "Whole fractals and near views", presets::all(), 0),
         ("Dives", "Views at very deep zooms", presets::dives(), presets::all().len()),
+        (
+            "Formulas",
+            "One view of each formula",
+            presets::formulas(),
+            presets::all().len() + presets::dives().len(),
+        ),
     ];
     let id = Id::unique("list of scenes");
     // A user who opens a link to a dive sees the list of dives.
@@ -81,7 +87,12 @@ fn cards(ui: &mut Ui, cx: &mut Context<'_>, presets: &'static [Preset], first: u
         };
         let response = card.on_hover_text(hover);
         if index == 0 {
-            let name = if first == 0 { "first scene" } else { "first dive" };
+            let dives = presets::all().len();
+            let name = match first {
+                0 => "first scene",
+                first if first == dives => "first dive",
+                _ => "first formula",
+            };
             cx.rects.record(name, &response);
         }
         if response.clicked() {

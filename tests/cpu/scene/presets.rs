@@ -3,7 +3,7 @@
 use glam::DVec3;
 use mandelight::{
     formula::{
-        Fractal,
+        self, Fractal, Ray,
         mandelbulb::{Mandelbulb, Sine},
     },
     scene::{Scene, document, link, presets},
@@ -126,5 +126,35 @@ fn each_shows_a_surface_in_the_middle() {
         });
         let hits = hits.count();
         assert!(hits > 12, "{}: {hits} of 25 rays hit", preset.name);
+    }
+}
+
+/// Each formula has a scene of its name: the chooser shows its picture.
+#[test]
+fn each_formula_has_a_scene_that_shows_it() {
+    for (id, _) in formula::texts() {
+        let formula = formula::find(id).expect("a formula");
+        let mut own = presets::formulas().iter().filter(|preset| preset.name == formula.name());
+        let preset = own.next().unwrap_or_else(|| panic!("no scene of {id}"));
+        assert!(own.next().is_none(), "two scenes of {id}");
+        let scene = (preset.scene)();
+        scene.validate().unwrap_or_else(|error| panic!("{id}: {error}"));
+        assert_eq!(scene.fractal.formula(), formula);
+        let fragment = link::to_fragment(&scene).unwrap();
+        assert!(fragment.len() < 800, "{id}: a link of {} characters", fragment.len());
+        assert_eq!(link::from_fragment(&fragment), Ok(scene.clone()));
+        // The eye is outside, and sees a surface about the middle.
+        let field = scene.fractal.formula().distance_field(&scene.fractal);
+        let camera = &scene.camera;
+        let eye = camera.position.to_dvec3();
+        assert!(field.clear_distance(eye) > 0.02 * camera.view_unit(), "{id}");
+        let hits = (0..25).filter(|i| {
+            let place = DVec3::new(f64::from(i % 5) - 2.0, f64::from(i / 5) - 2.0, 0.0);
+            let spread = 0.2 * camera.half_height(1.0);
+            let direction = (camera.rotation() * (spread * place - DVec3::Z)).normalize();
+            field.march(Ray { origin: eye, direction }, 2e-3, 1e3).is_some()
+        });
+        let hits = hits.count();
+        assert!(hits >= 8, "{id}: {hits} of 25 rays hit");
     }
 }

@@ -1,0 +1,207 @@
+//! One scene for each formula of `formulas/`, called by the formula's name.
+//!
+//! In: nothing. Out: scenes whose pictures also stand for the formulas in the panel that chooses one.
+
+use super::{
+    parts::{camera, key_and_rim, new_scene, of_formula, stops},
+    preset::Preset,
+};
+use crate::{
+    formula::table::Value,
+    scene::{
+        background::Background,
+        description::Scene,
+        lighting::Lights,
+        surface::{ColorSource, Coloring, GradientStop, Surface},
+    },
+};
+
+/// What a formula's scene has of its own.
+#[derive(Clone, Copy)]
+struct Row {
+    formula: &'static str,
+    eye: [f64; 3],
+    pivot: [f64; 3],
+    fov: f64,
+    palette: fn() -> Vec<GradientStop>,
+    source: ColorSource,
+    repeats: f64,
+    values: fn() -> Vec<(&'static str, Value)>,
+}
+
+/// A row with the usual values.
+const ROW: Row = Row {
+    formula: "",
+    eye: [1.0, -2.0, 1.0],
+    pivot: [0.0; 3],
+    fov: 40.0,
+    palette: dawn,
+    source: ColorSource::OriginTrap,
+    repeats: 1.2,
+    values: Vec::new,
+};
+
+fn scene(row: &Row) -> Scene {
+    let mut fractal = of_formula(row.formula);
+    for (name, value) in (row.values)() {
+        fractal.set(name, value);
+    }
+    new_scene(Scene {
+        fractal,
+        camera: camera(row.eye, row.pivot, row.fov),
+        lights: Lights { environment: key_and_rim(), ..Lights::default() },
+        surface: Surface {
+            coloring: Coloring { source: row.source, repeats: row.repeats, ..Default::default() },
+            gradient: (row.palette)(),
+            ..Default::default()
+        },
+        background: Background::gradient([0.004, 0.006, 0.012], [0.02, 0.028, 0.045]),
+        ..Default::default()
+    })
+}
+
+fn dawn() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.02, 0.04, 0.09]),
+        (0.25, [0.10, 0.28, 0.42]),
+        (0.5, [0.93, 0.80, 0.62]),
+        (0.75, [0.86, 0.42, 0.18]),
+        (0.9, [0.30, 0.10, 0.10]),
+    ])
+}
+
+fn moss() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.03, 0.06, 0.04]),
+        (0.3, [0.20, 0.33, 0.12]),
+        (0.55, [0.80, 0.76, 0.42]),
+        (0.78, [0.93, 0.90, 0.78]),
+        (0.9, [0.30, 0.24, 0.14]),
+    ])
+}
+
+fn ice() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.01, 0.04, 0.09]),
+        (0.3, [0.05, 0.30, 0.45]),
+        (0.55, [0.45, 0.76, 0.82]),
+        (0.78, [0.96, 0.97, 0.96]),
+        (0.9, [0.20, 0.22, 0.42]),
+    ])
+}
+
+fn ember() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.06, 0.01, 0.02]),
+        (0.28, [0.48, 0.06, 0.05]),
+        (0.52, [0.93, 0.42, 0.10]),
+        (0.75, [0.99, 0.86, 0.55]),
+        (0.9, [0.20, 0.08, 0.16]),
+    ])
+}
+
+fn stone() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.10, 0.09, 0.09]),
+        (0.3, [0.42, 0.37, 0.32]),
+        (0.55, [0.80, 0.74, 0.64]),
+        (0.78, [0.95, 0.93, 0.88]),
+        (0.9, [0.30, 0.33, 0.38]),
+    ])
+}
+
+fn orchid() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.05, 0.02, 0.09]),
+        (0.28, [0.33, 0.10, 0.38]),
+        (0.52, [0.86, 0.46, 0.58]),
+        (0.76, [0.98, 0.88, 0.80]),
+        (0.9, [0.16, 0.26, 0.40]),
+    ])
+}
+
+fn brass() -> Vec<GradientStop> {
+    stops(&[
+        (0.0, [0.06, 0.04, 0.02]),
+        (0.3, [0.42, 0.26, 0.08]),
+        (0.55, [0.88, 0.68, 0.30]),
+        (0.78, [0.99, 0.94, 0.78]),
+        (0.9, [0.16, 0.28, 0.28]),
+    ])
+}
+
+/// A preset of a row, whose missing fields are the usual ones.
+macro_rules! formula_scene {
+    ($name:literal, $blurb:literal, $($field:ident: $value:expr),* $(,)?) => {
+        Preset {
+            name: $name,
+            blurb: $blurb,
+            scene: || {
+                const OWN: Row = Row { $($field: $value,)* ..ROW };
+                scene(&OWN)
+            },
+        }
+    };
+}
+
+/// The formulas' scenes, by name.
+pub fn formulas() -> &'static [Preset] {
+    const FORMULAS: &[Preset] = &[
+        formula_scene!("Aexion", "A quadratic set of crossed pairs: four towers on a terrace.",
+            formula: "aexion", eye: [0.36, -0.72, 0.4], palette: brass, repeats: 1.6),
+        formula_scene!("Amazing Box mod", "A Mandelbox that turns at every step: seals in carved stone.",
+            formula: "amazing_box_mod", eye: [2.6, -4.6, 2.4], palette: stone, repeats: 1.5,
+            values: || vec![("scale", (-1.7).into()), ("rotation", [0.0, 0.0, 14.0].into()), ("inner_radius", 0.4.into())]),
+        formula_scene!("Amazing Surf", "A land of rosettes, folded in two directions.",
+            formula: "amazing_surf", eye: [0.6, -2.3, 1.4], pivot: [0.0, 0.0, 0.1], fov: 50.0, palette: moss, repeats: 2.0,
+            values: || vec![("scale", 1.35.into()), ("rotation", [12.0, 0.0, 0.0].into()), ("inner_radius", 0.35.into())]),
+        formula_scene!("Apollonian", "Spheres in the gaps between spheres, on a disc of stars.",
+            formula: "apollonian", eye: [1.25, -2.7, 1.55], palette: orchid, repeats: 2.0, source: ColorSource::AxisTrap),
+        formula_scene!("Benesi pine tree", "A square about the x axis: branches in tiers.",
+            formula: "benesi_pine_tree", eye: [1.1, -2.4, 1.1], palette: moss),
+        formula_scene!("Bicomplex Mandelbrot", "Two complex numbers squared as one: cut like a crystal.",
+            formula: "bicomplex_mandelbrot", eye: [-1.5, -2.4, 1.6], pivot: [-0.4, 0.0, 0.0], palette: ice, repeats: 1.6),
+        formula_scene!("Box-fold bulb", "A fold before the square: a cathedral of organs.",
+            formula: "box_fold_bulb", eye: [2.2, -4.6, 2.2], palette: ember, repeats: 1.5,
+            values: || vec![("inner_radius", 0.8.into())]),
+        formula_scene!("Bristorbrot", "A shell that is torn and mended.",
+            formula: "bristorbrot", eye: [-1.6, -2.6, 1.4], pivot: [-0.4, 0.0, 0.0]),
+        formula_scene!("Burning ship bulb", "Power 8 of absolute values: a helmet with spikes.",
+            formula: "burning_ship_bulb", eye: [1.3, -2.2, 1.4], palette: ember, source: ColorSource::AxisTrap,
+            values: || vec![("power", 8.0.into())]),
+        formula_scene!("Coastalbrot", "Sines of sines: an island and its reefs.",
+            formula: "coastalbrot", eye: [1.1, -2.45, 1.2], palette: ice),
+        formula_scene!("Juliabulb", "One constant for all points: a coral in layers.",
+            formula: "juliabulb", eye: [1.35, -2.4, 1.15]),
+        formula_scene!("Kaleidoscopic icosahedron", "A ball of flowers with five petals.",
+            formula: "kaleidoscopic_icosahedron", eye: [0.95, -2.0, 1.05], palette: orchid, repeats: 1.4),
+        formula_scene!("Kaleidoscopic octahedron", "A snow crystal that grows into space.",
+            formula: "kaleidoscopic_octahedron", eye: [1.0, -2.1, 1.1], palette: ice, repeats: 1.4),
+        formula_scene!("Kaleidoscopic tetrahedron", "Cauliflower on the mirrors of a tetrahedron.",
+            formula: "kaleidoscopic_tetrahedron", eye: [1.25, -2.9, 1.35], palette: moss, repeats: 1.6),
+        formula_scene!("Kleinian", "A chain of touching spheres between two floors.",
+            formula: "kleinian", eye: [0.4, -1.7, 0.1], fov: 50.0, palette: ember, repeats: 1.5),
+        formula_scene!("Koch cube", "Cubes on the faces of cubes.",
+            formula: "koch_cube", eye: [2.2, -3.8, 2.2], palette: brass, repeats: 1.0),
+        formula_scene!("Mandelbox", "The box that folds and inverts itself.",
+            formula: "mandelbox", eye: [8.2, -17.5, 8.8], palette: stone, repeats: 1.4),
+        formula_scene!("Mandelbulb, cosine", "The bulb from the pole: a crown of lobes.",
+            formula: "mandelbulb_cosine", eye: [1.25, -2.6, 1.4], palette: orchid, source: ColorSource::AxisTrap),
+        formula_scene!("Menger sponge", "A cube with a third of its inside taken away, again and again.",
+            formula: "menger_sponge", eye: [2.3, -3.5, 2.2], palette: brass, repeats: 1.4),
+        formula_scene!("Newton", "Where Newton's method does not settle: agate, cut open.",
+            formula: "newton", eye: [1.5, -3.3, 1.8], palette: ice, source: ColorSource::Iterations, repeats: 3.0),
+        formula_scene!("Pseudo-Kleinian", "An arcade of folded spheres.",
+            formula: "pseudo_kleinian", eye: [1.0, -1.9, 0.3], fov: 55.0, palette: stone, repeats: 1.6),
+        formula_scene!("Quaternion Julia", "Curtains of four dimensions, cut by three.",
+            formula: "quaternion_julia", eye: [1.6, -2.6, 1.5], palette: ember,
+            values: || vec![("constant", [-0.2, 0.8, 0.0, 0.0].into())]),
+        formula_scene!("Quaternion Mandelbrot", "The Mandelbrot set, turned on a lathe.",
+            formula: "quaternion_mandelbrot", eye: [-1.9, -2.5, 1.3], pivot: [-0.4, 0.0, 0.0], repeats: 1.6),
+        formula_scene!("Riemann sphere", "Directions raised to a power: a drop with a fringe.",
+            formula: "riemann_sphere", eye: [0.75, -1.75, 0.75], palette: ice),
+        formula_scene!("Sierpinski tetrahedron", "Four tetrahedra in the corners of one.",
+            formula: "sierpinski_tetrahedron", eye: [-1.3, -2.9, 1.8], repeats: 1.5),
+    ];
+    FORMULAS
+}

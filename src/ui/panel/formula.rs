@@ -1,0 +1,126 @@
+//! The formula chooser: a button with the formula's name, and below it a list to search.
+
+use egui::{Button, Id, Label, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, vec2};
+use glam::DVec3;
+
+use super::context::Context;
+use crate::{
+    formula::{self, FormulaRef},
+    scene::{
+        Camera, Fractal, PrecisePoint,
+        presets::{self, Preset},
+    },
+    ui::{
+        theme, thumbnail,
+        widgets::{caption, card},
+    },
+};
+
+/// Columns of the list.
+const COLUMNS: usize = 3;
+/// Gap between cards, in points.
+const GAP: f32 = 6.0;
+/// Greatest height of the list, in points.
+const MAX_LIST_HEIGHT: f32 = 300.0;
+/// Distance of the eye from a new formula's set, in radii over the sine of half the field of view.
+const ROOM: f64 = 1.05;
+
+/// What the list remembers between frames.
+#[derive(Clone, Debug, Default)]
+struct ListState {
+    is_open: bool,
+    words: String,
+}
+
+/// The formula's name as a button, which opens and closes the list.
+pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
+    caption(ui, "Formula");
+    let id = Id::unique("formula list");
+    let mut state: ListState = ui.data_mut(|data| data.get_temp(id)).unwrap_or_default();
+    let current = cx.scene.fractal.formula();
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let button =
+        Button::selectable(state.is_open, format!("{} …", current.name())).fill(theme::RAISED);
+    let response = ui
+        .add_sized(size, button)
+        .on_hover_text("Choose another formula")
+        .accessible_name(format!("Formula: {}", current.name()));
+    cx.rects.record("formula", &response);
+    if response.clicked() {
+        state.is_open = !state.is_open;
+    }
+    if state.is_open {
+        ui.add_space(GAP);
+        if let Some(chosen) = list(ui, &mut state.words, current) {
+            if chosen != current {
+                change(cx, chosen);
+            }
+            state.is_open = false;
+        }
+    }
+    let about = RichText::new(cx.scene.fractal.formula().about()).small().color(theme::TEXT_DIM);
+    ui.add(Label::new(about).wrap());
+    ui.data_mut(|data| data.insert_temp(id, state));
+}
+
+/// The search field and a card for each formula that matches; returns the formula that was clicked.
+fn list(ui: &mut Ui, words: &mut String, current: FormulaRef) -> Option<FormulaRef> {
+    let search = TextEdit::singleline(words).hint_text("Search").desired_width(f32::INFINITY);
+    ui.add(search).accessible_name("Search formulas");
+    let found: Vec<_> = formula::all().filter(|&formula| matches(formula, words)).collect();
+    if found.is_empty() {
+        let none = format!("No formula has \"{}\" in its name or description.", words.trim());
+        ui.add(Label::new(RichText::new(none).small()).wrap());
+        return None;
+    }
+    let mut clicked = None;
+    ScrollArea::vertical().max_height(MAX_LIST_HEIGHT).id_salt("formulas").show(ui, |ui| {
+        let width = ui.available_width();
+        let card_width = (width - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32;
+        let [width_px, height_px] = thumbnail::SIZE_PX.map(|side| side as f32);
+        let size = vec2(card_width, (card_width * height_px / width_px).round());
+        let rows = found.len().div_ceil(COLUMNS);
+        let height = (size.y + GAP) * rows as f32;
+        let (area, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+        for (index, &formula) in found.iter().enumerate() {
+            let place = vec2((index % COLUMNS) as f32, (index / COLUMNS) as f32);
+            let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
+            let picture = preset_of(formula).and_then(thumbnail::image);
+            let card = card(ui, rect, formula.name(), picture, formula == current);
+            if card.on_hover_text(formula.about()).clicked() {
+                clicked = Some(formula);
+            }
+        }
+    });
+    clicked
+}
+
+/// Whether all of `words` are in the formula's name, id or description.
+fn matches(formula: FormulaRef, words: &str) -> bool {
+    let text = format!("{} {} {}", formula.name(), formula.id(), formula.about()).to_lowercase();
+    words.to_lowercase().split_whitespace().all(|word| text.contains(word))
+}
+
+/// The scene that shows a formula: it has the formula's name.
+fn preset_of(formula: FormulaRef) -> Option<&'static Preset> {
+    presets::every().find(|preset| preset.name == formula.name())
+}
+
+/// Takes the formula with its default values, and the camera to where it sees the whole set.
+fn change(cx: &mut Context<'_>, formula: FormulaRef) {
+    let fractal = Fractal::new(formula);
+    let radius = formula.distance_field(&fractal).bounding_radius();
+    cx.scene.fractal = fractal;
+    cx.scene.camera = seeing_all(&cx.scene.camera, radius);
+}
+
+/// `camera` with its orientation, where it sees a whole ball about the origin.
+fn seeing_all(camera: &Camera, radius: f64) -> Camera {
+    let half = 0.5 * camera.vertical_fov_deg.to_radians();
+    let distance = ROOM * radius / half.sin().min(0.5);
+    Camera {
+        position: PrecisePoint::from(-distance * camera.forward()),
+        pivot: PrecisePoint::from(DVec3::ZERO),
+        ..camera.clone()
+    }
+}
