@@ -150,6 +150,8 @@ fn with_noise(
             Node::Binary(Binary::Power, a, b) => {
                 power_in_range(Binary::Power.apply(of(a), of(b)) * (1.0 + noise()))
             }
+            // A divisor that may be rounding decides nothing.
+            Node::Binary(Binary::Divide, _, b) if of(b).abs() < 1e-5 => f64::NAN,
             // Their errors are absolute.
             Node::Unary(operation @ (Unary::Sin | Unary::Cos), a) => {
                 in_range(operation.apply(of(a)) + noise())
