@@ -19,7 +19,7 @@ use mandelight::{
 };
 use serde_json::Value;
 
-use super::Failure;
+use super::{Failure, formulas};
 
 /// How much of a source is looked at, in bytes: one more than of a document, so that what is too
 /// large is known as such. A picture's text stands at its start.
@@ -75,6 +75,15 @@ pub fn parse_change(text: &str) -> Result<Change, String> {
     }
 }
 
+/// `scene` with the formula of the text in `file`, if one is given, and the camera where it sees the whole set.
+pub fn with_formula(scene: Scene, file: Option<&Path>) -> Result<Scene, Failure> {
+    let Some(file) = file else { return Ok(scene) };
+    let formula = formulas::read(file).map_err(Failure::usage)?;
+    let fractal = Fractal::new(formula);
+    let radius = formula.distance_field(&fractal).bounding_radius();
+    Ok(Scene { fractal, camera: scene.camera.seeing_ball(radius), ..scene })
+}
+
 /// `scene` after all of `changes`, checked as a document is.
 pub fn changed(scene: Scene, changes: &[Change]) -> Result<Scene, Failure> {
     if changes.is_empty() {
@@ -105,6 +114,10 @@ fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Fail
         .map_err(Failure::failed)?;
     for Change { path, text } in changes {
         let parent = if root.is_empty() { &mut json } else { &mut json[root] };
+        // A parameter of the formula goes by its own name too.
+        let is_own =
+            !path.contains('.') && parent.get("fractal").is_some_and(|f| f.get(path).is_some());
+        let path = &if is_own { format!("fractal.{path}") } else { path.clone() };
         let field = field_mut(parent, path)
             .ok_or_else(|| Failure::usage(format!("--set: {path}: there is no such field")))?;
         *field = value_like(field, text);

@@ -8,6 +8,7 @@
 //! | [`render`] | `mandelight render`: a picture of a scene |
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
+//! | [`formulas`] | `mandelight formulas`, `mandelight formula check`: formulas and their texts |
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`info`] | `mandelight info`: the GPU |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
@@ -20,6 +21,7 @@
 mod adapter;
 mod environment;
 mod folder;
+mod formulas;
 mod frames;
 mod info;
 mod input;
@@ -53,6 +55,10 @@ enum Command {
     Frames(frames::FramesArguments),
     /// Prints a scene document, to edit or to pipe into `render -`
     Scene(scene::SceneArguments),
+    /// Lists the formulas
+    Formulas(formulas::FormulasArguments),
+    /// Checks the text of a formula
+    Formula(formulas::FormulaArguments),
     /// Prints scenes at the places of a view that stay beautiful at every depth
     Places(places::PlacesArguments),
     /// Prints the GPU that would be used, its limits, and the other GPUs
@@ -94,6 +100,8 @@ pub fn run() -> ExitCode {
         Command::Render(arguments) => render::run(arguments),
         Command::Frames(arguments) => frames::run(arguments),
         Command::Scene(arguments) => scene::run(arguments),
+        Command::Formulas(arguments) => formulas::list(arguments),
+        Command::Formula(arguments) => formulas::run(arguments),
         Command::Places(arguments) => places::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };

@@ -51,6 +51,10 @@ pub struct RenderArguments {
     /// Samples per pixel, instead of the scene's number
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
+    /// Draw the formula of this text instead of the scene's, seen whole
+    #[arg(long, value_name = "FILE")]
+    formula: Option<PathBuf>,
+
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -72,6 +76,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     if let Some(environment) = &environment {
         environment.surround(&mut scene);
     }
+    let scene = input::with_formula(scene, arguments.formula.as_deref())?;
     let mut scene = input::changed(scene, &arguments.set)?;
     arguments.stereo.apply(&mut scene);
     if environment.is_none() && !arguments.quiet {

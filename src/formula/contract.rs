@@ -60,6 +60,11 @@ pub trait Formula: Sync {
     /// What the formula draws, in one sentence.
     fn about(&self) -> &'static str;
 
+    /// The text that documents carry instead of the id; none for formulas that come with the program.
+    fn text(&self) -> Option<&'static str> {
+        None
+    }
+
     /// The formula's own parameters in document order, without iterations and bailout.
     fn fields(&self) -> &'static [Field];
 

@@ -1,6 +1,6 @@
 //! A fractal in the scene document: `formula`, the shared fields and the formula's own fields.
 //!
-//! Fields may have any order. A missing field takes the formula's default; a document without `formula`,
+//! Fields may have any order, but for those of a formula that the document brings as a text: they follow it. A missing field takes the formula's default; a document without `formula`,
 //! such as one of version 1, means the Mandelbulb.
 
 use std::fmt;
@@ -12,7 +12,7 @@ use serde::{
 };
 
 use super::{
-    FormulaRef, Fractal, all,
+    FormulaRef, Fractal, all, find, own,
     table::{Choice, Field, Kind, Value},
 };
 
@@ -22,7 +22,7 @@ const SHARED: [&str; 3] = ["formula", "iterations", "bailout"];
 impl Serialize for Fractal {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("formula", self.formula().id())?;
+        map.serialize_entry("formula", &self.formula())?;
         map.serialize_entry("iterations", &self.iterations)?;
         map.serialize_entry("bailout", &self.bailout)?;
         for (field, value) in self.fields() {
@@ -188,12 +188,51 @@ fn word_of<E: Error>(options: &'static [Choice], word: &str) -> Result<&'static 
     })
 }
 
+impl Serialize for FormulaRef {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.text() {
+            None => serializer.serialize_str(self.id()),
+            Some(text) => {
+                let mut map = serializer.serialize_map(Some(1))?;
+                map.serialize_entry("text", text)?;
+                map.end()
+            }
+        }
+    }
+}
+
 impl<'de> Deserialize<'de> for FormulaRef {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let id = String::deserialize(deserializer)?;
-        all().find(|formula| formula.id() == id).ok_or_else(|| {
+        deserializer.deserialize_any(FormulaVisitor)
+    }
+}
+
+/// Reads a formula's id, or `{"text": "…"}`.
+struct FormulaVisitor;
+
+impl<'de> Visitor<'de> for FormulaVisitor {
+    type Value = FormulaRef;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a formula's id or text")
+    }
+
+    fn visit_str<E: Error>(self, id: &str) -> Result<FormulaRef, E> {
+        find(id).ok_or_else(|| {
             let ids: Vec<_> = all().map(|formula| formula.id()).collect();
-            D::Error::invalid_value(Unexpected::Str(&id), &ids.join(" or ").as_str())
+            E::invalid_value(Unexpected::Str(id), &ids.join(" or ").as_str())
         })
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FormulaRef, A::Error> {
+        let mut found = None;
+        while let Some(name) = map.next_key::<String>()? {
+            if name != "text" {
+                return Err(A::Error::unknown_field(&name, &["text"]));
+            }
+            once("text", &mut found, map.next_value::<String>()?)?;
+        }
+        let text = found.ok_or_else(|| A::Error::missing_field("text"))?;
+        own::of_text(&text).map_err(A::Error::custom)
     }
 }

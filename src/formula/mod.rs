@@ -8,12 +8,14 @@
 //! |---|---|
 //! | [`contract`] | the trait of a formula, and the types that its methods take and give |
 //! | [`document`] | a fractal in the scene document |
+//! | [`language`] | formulas from texts |
+//! | [`own`] | texts that documents and people bring |
 //! | [`table`] | a formula's parameters: kinds, labels, defaults |
 //! | [`param`] | numbers with unit, range and help |
 //! | [`bounds`] | spheres that hold a set |
 //! | [`march`] | distance fields, and rays against them |
 //! | [`recurrence`] | points whose orbits recur |
-//! | [`mandelbulb`], [`quaternion_julia`] | the formulas |
+//! | [`mandelbulb`] | the formula with kernels of its own; `formulas/` has the texts of the others |
 
 use std::sync::LazyLock;
 
@@ -25,6 +27,7 @@ pub mod document;
 pub mod language;
 pub mod mandelbulb;
 pub mod march;
+pub mod own;
 pub mod param;
 pub mod recurrence;
 pub mod table;

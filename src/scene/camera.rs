@@ -59,6 +59,19 @@ impl Camera {
         }
     }
 
+    /// The camera with this orientation that sees a whole ball of `radius` about the origin.
+    pub fn seeing_ball(&self, radius: f64) -> Self {
+        /// Room about the ball; a wide field of view needs no less distance than 60 degrees.
+        const ROOM: f64 = 1.05;
+        let half = 0.5 * self.vertical_fov_deg.to_radians();
+        let distance = ROOM * radius / half.sin().min(0.5);
+        Self {
+            position: PrecisePoint::from(-distance * self.forward()),
+            pivot: PrecisePoint::from(DVec3::ZERO),
+            ..self.clone()
+        }
+    }
+
     /// The rotation `world_from_camera`.
     pub fn rotation(&self) -> DQuat {
         self.orientation.into()

@@ -11,7 +11,7 @@ use miniz_oxide::{
     inflate::{TINFLStatus, decompress_to_vec_with_limit},
 };
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::{
     description::Scene,
@@ -20,7 +20,7 @@ use super::{
     path::Path,
     project::Project,
 };
-use crate::formula::{self, FormulaRef, Fractal};
+use crate::formula::{FormulaRef, Fractal};
 
 /// Maximum length of a fragment, in bytes.
 pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
@@ -173,12 +173,18 @@ fn payload_of(fragment: &str) -> Result<&str, LinkError> {
 /// A scene's JSON without the fields equal to their default.
 fn differences(mut value: Value) -> Value {
     // A field's default is that of the formula that has the field.
-    let id = value.pointer("/fractal/formula").and_then(Value::as_str);
-    let formula = formula::all().find(|formula| Some(formula.id()) == id).unwrap_or_default();
+    let formula = value.pointer("/fractal/formula").cloned();
+    let formula =
+        formula.and_then(|formula| serde_json::from_value(formula).ok()).unwrap_or_default();
     let default = Scene { fractal: Fractal::new(formula), ..Scene::default() };
     drop_defaults(&mut value, &value_of(&default));
     if formula != FormulaRef::default() {
-        value["fractal"]["formula"] = formula.id().into();
+        // First: the fields of a text are known only after it.
+        let mut fractal = Map::from_iter([("formula".to_owned(), value_of(&formula))]);
+        if let Some(Value::Object(fields)) = value.get_mut("fractal") {
+            fractal.append(fields);
+        }
+        value["fractal"] = fractal.into();
     }
     drop_list_defaults(&mut value, "environment", &EnvironmentLight::default());
     drop_list_defaults(&mut value, "point", &PointLight::default());

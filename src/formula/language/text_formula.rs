@@ -34,6 +34,8 @@ const LARGEST_TRAP: f64 = 2.0;
 #[derive(Debug)]
 pub struct TextFormula {
     id: &'static str,
+    /// The text, for formulas that documents bring.
+    text: Option<&'static str>,
     title: &'static str,
     about: &'static str,
     fields: &'static [Field],
@@ -65,6 +67,7 @@ impl TextFormula {
         }
         Ok(Self {
             id,
+            text: None,
             title: kept(compiled.checked.title.clone()),
             about: kept(compiled.checked.about.clone()),
             fields: fields(&compiled.checked).leak(),
@@ -73,6 +76,15 @@ impl TextFormula {
             tests_square: compiled.tests_square,
             checked: compiled.checked,
         })
+    }
+
+    /// Like [`Self::new`], for a text that documents carry whole.
+    ///
+    /// # Errors
+    ///
+    /// The first error with its place in the text.
+    pub fn own(id: &'static str, text: &str) -> Result<Self, TextError> {
+        Ok(Self { text: Some(kept(text.to_owned())), ..Self::new(id, text)? })
     }
 
     /// Where the equations are from.
@@ -252,6 +264,10 @@ impl Formula for TextFormula {
 
     fn about(&self) -> &'static str {
         self.about
+    }
+
+    fn text(&self) -> Option<&'static str> {
+        self.text
     }
 
     fn fields(&self) -> &'static [Field] {

@@ -1,13 +1,12 @@
 //! The formula chooser: a button with the formula's name, and below it a list to search.
 
 use egui::{Button, Id, Label, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, vec2};
-use glam::DVec3;
 
 use super::context::Context;
 use crate::{
     formula::{self, FormulaRef},
     scene::{
-        Camera, Fractal, PrecisePoint,
+        Fractal,
         presets::{self, Preset},
     },
     ui::{
@@ -22,9 +21,6 @@ const COLUMNS: usize = 3;
 const GAP: f32 = 6.0;
 /// Greatest height of the list, in points.
 const MAX_LIST_HEIGHT: f32 = 300.0;
-/// Distance of the eye from a new formula's set, in radii over the sine of half the field of view.
-const ROOM: f64 = 1.05;
-
 /// What the list remembers between frames.
 #[derive(Clone, Debug, Default)]
 struct ListState {
@@ -111,16 +107,5 @@ fn change(cx: &mut Context<'_>, formula: FormulaRef) {
     let fractal = Fractal::new(formula);
     let radius = formula.distance_field(&fractal).bounding_radius();
     cx.scene.fractal = fractal;
-    cx.scene.camera = seeing_all(&cx.scene.camera, radius);
-}
-
-/// `camera` with its orientation, where it sees a whole ball about the origin.
-fn seeing_all(camera: &Camera, radius: f64) -> Camera {
-    let half = 0.5 * camera.vertical_fov_deg.to_radians();
-    let distance = ROOM * radius / half.sin().min(0.5);
-    Camera {
-        position: PrecisePoint::from(-distance * camera.forward()),
-        pivot: PrecisePoint::from(DVec3::ZERO),
-        ..camera.clone()
-    }
+    cx.scene.camera = cx.scene.camera.seeing_ball(radius);
 }

@@ -1,16 +1,22 @@
 //! Texts that are right, texts that are wrong, and the docs of both.
 
-use std::fmt::Write;
+use std::{fmt::Write, sync::Arc};
 
-use mandelight::formula::{
-    self, TextFormula,
-    language::{
-        check,
-        functions::FUNCTIONS,
-        syntax,
-        tree::{Span, TextError},
+use mandelight::{
+    formula::{
+        self, Fractal, TextFormula,
+        language::{
+            check,
+            functions::FUNCTIONS,
+            syntax,
+            tree::{Span, TextError},
+        },
+        table::Kind,
     },
-    table::Kind,
+    scene::{
+        Project, Scene, document, link,
+        path::{Easing, Key},
+    },
 };
 use proptest::prelude::*;
 
@@ -223,4 +229,44 @@ fn the_docs_example_compiles() {
         .take_while(|line| line.is_empty() || line.starts_with("    "))
         .fold(String::new(), |all, line| all + line.trim_start() + "\n");
     checked(&example).unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// A formula that no file of the program has.
+const OWN: &str = "name \"Own\";\n// A comment.\nparam alpha = vec3(0.1, 0.2, 0.3) from -1 to 1 label \"Alpha\";\n\
+                   param zoom = 2 from 1 to 3 label \"Zoom\";\nstep { z = zoom * box_fold(z, 1) + alpha + c; }\nestimate linear;\n";
+
+#[test]
+fn texts_travel_in_documents_and_links() {
+    let formula = formula::own::of_text(OWN).expect("a formula");
+    assert_eq!(formula::own::of_text(OWN), Ok(formula), "one formula of one text");
+    let mut scene = Scene { fractal: Fractal::new(formula), ..Scene::default() };
+    assert!(scene.fractal.set("alpha", [0.4, 0.5, 0.6]) && scene.fractal.set("julia", true));
+    let json = document::to_json(&scene);
+    assert!(json.contains("A comment."), "{json}");
+    assert_eq!(document::from_json(&json), Ok(scene.clone()));
+    let fragment = link::to_fragment(&scene).expect("a link");
+    assert_eq!(link::from_fragment(&fragment), Ok(scene.clone()));
+    // A key of a path has it too.
+    let mut project = Project::from(scene.clone());
+    project.path.keys.push(Key {
+        time_secs: 0.0,
+        easing: Easing::default(),
+        scene: Arc::new(scene),
+    });
+    let json = document::project_to_json(&project);
+    assert_eq!(document::project_from_json(&json), Ok(project));
+}
+
+#[test]
+fn a_wrong_text_in_a_document_is_named_by_line_and_column() {
+    let read = |formula: serde_json::Value| {
+        let document = serde_json::json!({ "mandelight": "scene", "version": 2,
+            "scene": { "fractal": { "formula": formula } } });
+        document::from_json(&document.to_string()).expect_err("refused").to_string()
+    };
+    let wrong = read(serde_json::json!({ "text": "name \"A\";\nstep { z = zz; }" }));
+    assert!(wrong.starts_with("fractal.formula: line 2, column 12: `zz` is unknown"), "{wrong}");
+    assert!(read(serde_json::json!({ "source": "x" })).contains("unknown field `source`"));
+    assert!(read(serde_json::json!({})).contains("missing field `text`"));
+    assert!(read(serde_json::json!(3)).contains("a formula's id or text"));
 }

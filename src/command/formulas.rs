@@ -1,0 +1,64 @@
+//! `mandelight formulas` and `mandelight formula check`: the formulas, and texts of one's own.
+
+use std::{fs, path::PathBuf};
+
+use clap::{Args, Subcommand};
+use mandelight::formula::{self, FormulaRef, TextError, own};
+
+use super::{Failure, print};
+
+/// The arguments of `mandelight formulas`.
+#[derive(Args)]
+pub struct FormulasArguments {}
+
+/// The arguments of `mandelight formula`.
+#[derive(Args)]
+pub struct FormulaArguments {
+    #[command(subcommand)]
+    command: FormulaCommand,
+}
+
+#[derive(Subcommand)]
+enum FormulaCommand {
+    /// Checks a formula's text and prints its parameters
+    Check {
+        /// The text
+        file: PathBuf,
+    },
+}
+
+/// Prints each formula's id, name and description.
+pub fn list(_arguments: FormulasArguments) -> Result<(), Failure> {
+    let width = formula::all().map(|formula| formula.id().len()).max().unwrap_or(0);
+    let lines = formula::all().map(|formula| {
+        format!("{:width$}  {}: {}\n", formula.id(), formula.name(), formula.about())
+    });
+    print(&lines.collect::<String>())
+}
+
+/// Runs `mandelight formula …`.
+pub fn run(arguments: FormulaArguments) -> Result<(), Failure> {
+    let FormulaCommand::Check { file } = arguments.command;
+    let formula = read(&file).map_err(Failure::usage)?;
+    let fields = formula.fields().iter().map(|field| format!(" {}", field.name));
+    print(&format!("{}: right; its fields:{}\n", formula.name(), fields.collect::<String>()))
+}
+
+/// Reads the formula of a text in a file.
+pub fn read(file: &std::path::Path) -> Result<FormulaRef, String> {
+    let name = file.display();
+    let length = fs::metadata(file).map_err(|error| format!("{name}: {error}"))?.len();
+    let most = formula::language::syntax::MAX_TEXT_BYTES as u64;
+    if length > most {
+        return Err(format!("{name}: the text has {length} bytes, and a formula may have {most}"));
+    }
+    let text = fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
+    own::of_text(&text).map_err(|error| located(&name.to_string(), &text, &error))
+}
+
+/// The error as compilers show one: the place, the message, the line and a mark below it.
+fn located(name: &str, text: &str, error: &TextError) -> String {
+    let line = text.lines().nth(error.line - 1).unwrap_or_default();
+    let mark = " ".repeat(error.column - 1);
+    format!("{name}:{}:{}: {}\n  {line}\n  {mark}^", error.line, error.column, error.message)
+}
