@@ -1,8 +1,8 @@
-//! Formulas: one folder each, and the types that all formulas share.
+//! Formulas: the Mandelbulb with kernels of its own, and formulas from texts.
 //!
 //! In: the values of a formula's parameters. Out: the formula's parameter table, its distance field in f64,
 //! the WGSL files of its kernels and the uniforms that they read. Apart from presets and tests, no other code names
-//! a formula's parameters or kernels: to add a formula, add its folder and its line in `formulas!`.
+//! a formula's parameters or kernels: to add a formula, add its text to `formulas/`.
 //!
 //! | file | contents |
 //! |---|---|

@@ -126,10 +126,7 @@ fn fields_of_another_formula_are_named() {
     let unknown = error(json!({ "formula": "no_such" }));
     assert!(unknown.starts_with("fractal.formula: invalid value: string \"no_such\""), "{unknown}");
     let short = error(json!({ "formula": "quaternion_julia", "constant": [1, 2] }));
-    assert!(
-        short.contains("`constant`: invalid length 2, expected an array of length 4"),
-        "{short}"
-    );
+    assert!(short.starts_with("fractal.constant: invalid length 2"), "{short}");
     let text = "{\"mandelight\":\"scene\",\"version\":2,\"scene\":{\"fractal\":{\"formula\":\"aexion\",\"julia_constant\":[0.1,0.2,0.3]}}}";
     let first = from_json(text).expect_err("refused").to_string();
     assert!(first.starts_with("fractal.julia_constant: invalid length 3"), "{first}");
