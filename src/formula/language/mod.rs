@@ -10,7 +10,7 @@
 //! | [`syntax`], `grammar.pest` | from text to syntax tree |
 //! | [`graph`] | scalar operations, simplified |
 //! | [`functions`] | the functions that a text can call |
-//! | [`derive`] | derivatives of operations |
+//! | [`derive`](mod@derive) | derivatives of operations |
 //! | [`evaluate`] | operations in f64 |
 //! | `scope` | names, types and values of expressions |
 //! | `distance` | the estimated distance at an orbit's end |
