@@ -90,9 +90,10 @@ fn edit(ui: &mut Ui, kind: Kind, value: &mut Value) {
             param_slider(ui, param, number);
             quick_values(ui, param, quick, number);
         }
-        (Kind::Vector { param, labels, .. }, Value::Vector(numbers)) => {
-            for (axis, (number, label)) in numbers.iter_mut().zip(labels).enumerate() {
-                let param = Param { label, ..*param };
+        (Kind::Vector { param, labels, default }, Value::Vector(numbers)) => {
+            let components = numbers.iter_mut().zip(labels).zip(default);
+            for (axis, ((number, label), &default)) in components.enumerate() {
+                let param = Param { label, default, ..*param };
                 ui.push_id(axis, |ui| param_slider(ui, &param, number));
             }
         }

@@ -146,7 +146,8 @@ mod tests {
 
     #[test]
     fn defaults_can_be_reached_by_dragging() {
-        for param in param::all() {
+        // A vector's slider has the default of its component, which its parameter does not tell.
+        for param in param::all().filter(|param| !param.path.ends_with("[]")) {
             assert_eq!(round_dragged(param, param.default), param.default, "{}", param.path);
         }
     }
