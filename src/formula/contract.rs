@@ -1,56 +1,20 @@
 //! The contract between a formula and the program: the trait that a formula implements, and the types
-//! that its methods take and give. They name each other, so they share a file.
+//! that its methods take and give: fractals, with the steps of hybrids, and kernels. They name each other, so they share a file.
 
 use std::{any::Any, fmt, hash, ops::Deref, sync::Arc};
 
 use glam::DVec3;
 
 use super::{
-    march::DistanceField,
+    march::{DistanceField, MarchPolicy},
     param,
     recurrence::Recurrence,
     table::{Field, Value},
 };
 use crate::{gpu::shader::File, precise::PrecisePoint};
 
-/// How rays march through a formula's fractals.
-///
-/// The defaults suit an estimate that is a lower bound of the distance nearly everywhere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MarchPolicy {
-    /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
-    pub relaxation: f32,
-    /// Radius of the ball that a cone treats as empty, over the safe step.
-    pub ball_part: f32,
-    /// True if the estimate has false minima thinner than a pixel.
-    ///
-    /// Hits are then checked over half a hit distance.
-    pub checks_hits: bool,
-    /// Half width of the cone about a shadow ray that a blocker has to fill.
-    ///
-    /// Per unit of distance to the shaded point. The default is half the sun's apparent size.
-    pub shadow_cone: f32,
-    /// Least clearance of an unblocked shadow ray, in hit distances of the shaded point.
-    pub shadow_margin: f32,
-    /// Least step of a shadow ray, in hit distances of the shaded point.
-    pub shadow_min_step: f32,
-}
-
-impl Default for MarchPolicy {
-    fn default() -> Self {
-        Self {
-            relaxation: 1.4,
-            ball_part: 1.0,
-            checks_hits: false,
-            shadow_cone: 0.004,
-            shadow_margin: 0.5,
-            shadow_min_step: 0.0,
-        }
-    }
-}
-
 /// One formula. Each `fractal` argument must be of this formula and within its ranges.
-pub trait Formula: Sync {
+pub trait Formula: Any + Sync {
     /// The formula's identifier in the document.
     fn id(&self) -> &'static str;
 
@@ -208,6 +172,78 @@ pub struct Fractal {
     pub bailout: f64,
     /// One value per field of the formula, in the table's order.
     values: Vec<Value>,
+    /// The steps of a hybrid; none for formulas that draw alone.
+    hybrid: Option<Box<HybridSteps>>,
+}
+
+/// The steps of a hybrid. [`super::hybrid`] makes fractals of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HybridSteps {
+    /// The steps in order.
+    pub steps: Vec<HybridStep>,
+    /// The step that follows the last one; steps before it are taken once.
+    pub loop_start: usize,
+}
+
+/// One step of a hybrid.
+#[derive(Clone, Debug)]
+pub struct HybridStep {
+    formula: FormulaRef,
+    fields: &'static [Field],
+    /// One value per field.
+    values: Vec<Value>,
+    /// How often the step is taken before the next one, in [`super::hybrid::REPEATS`].
+    pub repeats: u32,
+}
+
+impl PartialEq for HybridStep {
+    fn eq(&self, other: &Self) -> bool {
+        // The fields are the formula's.
+        (self.formula, &self.values, self.repeats) == (other.formula, &other.values, other.repeats)
+    }
+}
+
+impl HybridStep {
+    /// A step of `formula`, whose parameters in hybrids are `fields`, with default values.
+    pub(super) fn new(formula: FormulaRef, fields: &'static [Field]) -> Self {
+        let values = fields.iter().map(Field::default).collect();
+        Self { formula, fields, values, repeats: 1 }
+    }
+
+    /// The formula.
+    pub fn formula(&self) -> FormulaRef {
+        self.formula
+    }
+
+    /// The step's fields with their values, in the table's order.
+    pub fn fields(&self) -> impl Iterator<Item = (&'static Field, &Value)> {
+        self.fields.iter().zip(&self.values)
+    }
+
+    /// The step's fields with their values, mutable.
+    pub fn fields_mut(&mut self) -> impl Iterator<Item = (&'static Field, &mut Value)> {
+        self.fields.iter().zip(&mut self.values)
+    }
+
+    /// The values, in the table's order.
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// Sets the field called `name`, and returns whether it did.
+    pub fn set(&mut self, name: &str, value: impl Into<Value>) -> bool {
+        set(self.fields_mut(), name, value.into())
+    }
+}
+
+/// Gives the field called `name` a value that fits it; false if there is none.
+fn set<'a>(
+    mut fields: impl Iterator<Item = (&'static Field, &'a mut Value)>,
+    name: &str,
+    new: Value,
+) -> bool {
+    let found = fields.find(|(field, _)| field.name == name && new.fits(field));
+    found.map(|(_, value)| *value = new).is_some()
 }
 
 impl Fractal {
@@ -218,7 +254,23 @@ impl Fractal {
             iterations: formula.default_iterations().unwrap_or(param::ITERATIONS.default as u32),
             bailout: formula.default_bailout().unwrap_or(param::BAILOUT.default),
             values: formula.fields().iter().map(Field::default).collect(),
+            hybrid: None,
         }
+    }
+
+    /// A fractal of `formula`, which is that of `steps`, with default values.
+    pub(super) fn of_steps(formula: FormulaRef, steps: HybridSteps) -> Self {
+        Self { hybrid: Some(Box::new(steps)), ..Self::new(formula) }
+    }
+
+    /// The steps of a hybrid; none for formulas that draw alone.
+    pub fn hybrid(&self) -> Option<&HybridSteps> {
+        self.hybrid.as_deref()
+    }
+
+    /// The steps of a hybrid, for changes of their values and repeats.
+    pub fn steps_mut(&mut self) -> &mut [HybridStep] {
+        self.hybrid.as_deref_mut().map_or(&mut [], |hybrid| &mut hybrid.steps)
     }
 
     /// The same fractal with `iterations`.
@@ -263,9 +315,7 @@ impl Fractal {
     ///
     /// Returns false, and changes nothing, if the formula has no such field or `value` is of another kind.
     pub fn set(&mut self, name: &str, value: impl Into<Value>) -> bool {
-        let new = value.into();
-        let found = self.fields_mut().find(|(field, _)| field.name == name && new.fits(field));
-        found.map(|(_, value)| *value = new).is_some()
+        set(self.fields_mut(), name, value.into())
     }
 
     /// The values, in the table's order.

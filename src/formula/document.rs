@@ -1,7 +1,9 @@
 //! A fractal in the scene document: `formula`, the shared fields and the formula's own fields.
 //!
-//! Fields may have any order, but for those of a formula that the document brings as a text: they follow it. A missing field takes the formula's default; a document without `formula`,
-//! such as one of version 1, means the Mandelbulb.
+//! Fields may have any order, but for those of a formula that the document brings as a text: they follow it. A
+//! missing field takes the formula's default; a document without `formula`, such as one of version 1, means the
+//! Mandelbulb. A hybrid has the formula `hybrid`, `loop_start`, and in `steps` an object per step: `formula`,
+//! `repeats` and the formula's own fields, which follow `formula`.
 
 use std::fmt;
 
@@ -12,29 +14,56 @@ use serde::{
 };
 
 use super::{
-    FormulaRef, Fractal, all, find, own,
+    FormulaRef, Fractal, HybridStep, HybridSteps, all, hybrid, own,
     table::{Choice, Field, Kind, Value},
 };
 
 /// Fields of every formula.
 const SHARED: [&str; 3] = ["formula", "iterations", "bailout"];
+/// What a document calls the formula of a hybrid.
+const HYBRID: &str = "hybrid";
 
 impl Serialize for Fractal {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("formula", &self.formula())?;
+        match self.hybrid() {
+            None => map.serialize_entry("formula", &self.formula())?,
+            Some(_) => map.serialize_entry("formula", HYBRID)?,
+        }
         map.serialize_entry("iterations", &self.iterations)?;
         map.serialize_entry("bailout", &self.bailout)?;
-        for (field, value) in self.fields() {
-            match value {
-                Value::Number(number) => map.serialize_entry(field.name, number)?,
-                Value::Vector(numbers) => map.serialize_entry(field.name, numbers)?,
-                Value::Switch(is_on) => map.serialize_entry(field.name, is_on)?,
-                Value::Choice(word) => map.serialize_entry(field.name, word)?,
-            }
+        write_values(&mut map, self.fields())?;
+        if let Some(hybrid) = self.hybrid() {
+            map.serialize_entry("loop_start", &hybrid.loop_start)?;
+            map.serialize_entry("steps", &hybrid.steps)?;
         }
         map.end()
     }
+}
+
+impl Serialize for HybridStep {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("formula", &self.formula())?;
+        map.serialize_entry("repeats", &self.repeats)?;
+        write_values(&mut map, self.fields())?;
+        map.end()
+    }
+}
+
+fn write_values<'a, M: SerializeMap>(
+    map: &mut M,
+    values: impl Iterator<Item = (&'static Field, &'a Value)>,
+) -> Result<(), M::Error> {
+    for (field, value) in values {
+        match value {
+            Value::Number(number) => map.serialize_entry(field.name, number)?,
+            Value::Vector(numbers) => map.serialize_entry(field.name, numbers)?,
+            Value::Switch(is_on) => map.serialize_entry(field.name, is_on)?,
+            Value::Choice(word) => map.serialize_entry(field.name, word)?,
+        }
+    }
+    Ok(())
 }
 
 impl<'de> Deserialize<'de> for Fractal {
@@ -53,13 +82,21 @@ impl<'de> Visitor<'de> for FractalVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Fractal, A::Error> {
-        let (mut formula, mut iterations, mut bailout) = (None, None, None);
+        let (mut named, mut iterations, mut bailout) = (None, None, None);
+        let (mut loop_start, mut steps) = (None, None);
         let mut values: Vec<(&'static Field, Value)> = Vec::new();
-        while let Some(name) = map.next_key_seed(NameSeed { formula })? {
+        loop {
+            let formula = match named {
+                Some(Named::Formula(formula)) => Some(formula),
+                _ => None,
+            };
+            let Some(name) = map.next_key_seed(NameSeed { formula })? else { break };
             match name {
-                Name::Formula => once("formula", &mut formula, map.next_value::<FormulaRef>()?)?,
+                Name::Formula => once("formula", &mut named, map.next_value::<Named>()?)?,
                 Name::Iterations => once("iterations", &mut iterations, map.next_value()?)?,
                 Name::Bailout => once("bailout", &mut bailout, map.next_value()?)?,
+                Name::LoopStart => once("loop_start", &mut loop_start, map.next_value()?)?,
+                Name::Steps => once("steps", &mut steps, map.next_value::<Vec<HybridStep>>()?)?,
                 Name::Own(field) => {
                     if values.iter().any(|(known, _)| known.name == field.name) {
                         return Err(A::Error::duplicate_field(field.name));
@@ -69,7 +106,19 @@ impl<'de> Visitor<'de> for FractalVisitor {
                 }
             }
         }
-        let mut fractal = formula.map_or_else(Fractal::default, Fractal::new);
+        let mut fractal = match named {
+            Some(Named::Hybrid) => {
+                let steps = steps.ok_or_else(|| A::Error::missing_field("steps"))?;
+                let hybrid = HybridSteps { steps, loop_start: loop_start.unwrap_or_default() };
+                hybrid::fractal(hybrid).map_err(A::Error::custom)?
+            }
+            _ if steps.is_some() || loop_start.is_some() => {
+                let message = "`steps` and `loop_start` need the formula `hybrid`";
+                return Err(A::Error::custom(message));
+            }
+            Some(Named::Formula(formula)) => Fractal::new(formula),
+            None => Fractal::default(),
+        };
         fractal.iterations = iterations.unwrap_or(fractal.iterations);
         fractal.bailout = bailout.unwrap_or(fractal.bailout);
         for (field, value) in values {
@@ -100,11 +149,133 @@ fn once<T, E: Error>(name: &'static str, place: &mut Option<T>, value: T) -> Res
     }
 }
 
+impl<'de> Deserialize<'de> for HybridStep {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(StepVisitor)
+    }
+}
+
+struct StepVisitor;
+
+impl<'de> Visitor<'de> for StepVisitor {
+    type Value = HybridStep;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a step of a hybrid")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<HybridStep, A::Error> {
+        let (mut step, mut repeats) = (None::<HybridStep>, None);
+        let mut met: Vec<&'static str> = Vec::new();
+        while let Some(name) = map.next_key_seed(StepNameSeed { step: step.as_ref() })? {
+            match name {
+                StepName::Formula => once("formula", &mut step, map.next_value_seed(StepSeed)?)?,
+                StepName::Repeats => once("repeats", &mut repeats, map.next_value()?)?,
+                StepName::Own(field) => {
+                    if met.contains(&field.name) {
+                        return Err(A::Error::duplicate_field(field.name));
+                    }
+                    met.push(field.name);
+                    let value = map.next_value_seed(ValueSeed { field, is_certain: true })?;
+                    if let Some(step) = &mut step {
+                        step.set(field.name, value);
+                    }
+                }
+            }
+        }
+        let mut step = step.ok_or_else(|| A::Error::missing_field("formula"))?;
+        step.repeats = repeats.unwrap_or(step.repeats);
+        Ok(step)
+    }
+}
+
+/// A field's name in a step.
+enum StepName {
+    Formula,
+    Repeats,
+    Own(&'static Field),
+}
+
+/// Reads a name of a step whose formula may be known.
+struct StepNameSeed<'a> {
+    step: Option<&'a HybridStep>,
+}
+
+impl<'de> DeserializeSeed<'de> for StepNameSeed<'_> {
+    type Value = StepName;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<StepName, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        match (name.as_str(), self.step) {
+            ("formula", _) => Ok(StepName::Formula),
+            ("repeats", _) => Ok(StepName::Repeats),
+            (_, None) => {
+                let message =
+                    format!("`{name}` stands before the step's `formula`: put that first");
+                Err(D::Error::custom(message))
+            }
+            (_, Some(step)) => {
+                if let Some((field, _)) = step.fields().find(|(field, _)| field.name == name) {
+                    return Ok(StepName::Own(field));
+                }
+                let own = step.fields().map(|(field, _)| field.name);
+                Err(unknown_of(&name, ["formula", "repeats"].into_iter().chain(own)))
+            }
+        }
+    }
+}
+
+/// Reads a step's formula: an id or a text.
+struct StepSeed;
+
+impl<'de> DeserializeSeed<'de> for StepSeed {
+    type Value = HybridStep;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<HybridStep, D::Error> {
+        let formula = deserializer
+            .deserialize_any(FormulaVisitor { all: || hybrid::step_formulas().collect() })?;
+        hybrid::step(formula).map_err(D::Error::custom)
+    }
+}
+
+/// What a fractal's `formula` names.
+#[derive(Clone, Copy)]
+enum Named {
+    Formula(FormulaRef),
+    Hybrid,
+}
+
+impl<'de> Deserialize<'de> for Named {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NamedVisitor)
+    }
+}
+
+struct NamedVisitor;
+
+impl<'de> Visitor<'de> for NamedVisitor {
+    type Value = Named;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        FORMULA.expecting(f)
+    }
+
+    fn visit_str<E: Error>(self, id: &str) -> Result<Named, E> {
+        if id == HYBRID { Ok(Named::Hybrid) } else { FORMULA.visit_str(id).map(Named::Formula) }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Named, A::Error> {
+        FORMULA.visit_map(map).map(Named::Formula)
+    }
+}
+
 /// A field's name in the document.
 enum Name {
     Formula,
     Iterations,
     Bailout,
+    LoopStart,
+    Steps,
     Own(&'static Field),
 }
 
@@ -122,6 +293,8 @@ impl<'de> DeserializeSeed<'de> for NameSeed {
             "formula" => Name::Formula,
             "iterations" => Name::Iterations,
             "bailout" => Name::Bailout,
+            "loop_start" => Name::LoopStart,
+            "steps" => Name::Steps,
             name => Name::Own(field_called(name, self.formula)?),
         })
     }
@@ -142,7 +315,11 @@ fn field_called<E: Error>(name: &str, formula: Option<FormulaRef>) -> Result<&'s
 
 fn unknown<E: Error>(name: &str, formula: FormulaRef) -> E {
     let own = formula.fields().iter().map(|field| field.name);
-    let names: Vec<_> = SHARED.into_iter().chain(own).map(|name| format!("`{name}`")).collect();
+    unknown_of(name, SHARED.into_iter().chain(own))
+}
+
+fn unknown_of<E: Error>(name: &str, known: impl Iterator<Item = &'static str>) -> E {
+    let names: Vec<_> = known.map(|name| format!("`{name}`")).collect();
     E::custom(format_args!("unknown field `{name}`, expected one of {}", names.join(", ")))
 }
 
@@ -203,12 +380,19 @@ impl Serialize for FormulaRef {
 
 impl<'de> Deserialize<'de> for FormulaRef {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(FormulaVisitor)
+        deserializer.deserialize_any(FORMULA)
     }
 }
 
 /// Reads a formula's id, or `{"text": "…"}`.
-struct FormulaVisitor;
+#[derive(Clone, Copy)]
+struct FormulaVisitor {
+    /// The formulas that an id may name.
+    all: fn() -> Vec<FormulaRef>,
+}
+
+/// Reads a formula that draws alone.
+const FORMULA: FormulaVisitor = FormulaVisitor { all: || all().collect() };
 
 impl<'de> Visitor<'de> for FormulaVisitor {
     type Value = FormulaRef;
@@ -218,8 +402,9 @@ impl<'de> Visitor<'de> for FormulaVisitor {
     }
 
     fn visit_str<E: Error>(self, id: &str) -> Result<FormulaRef, E> {
-        find(id).ok_or_else(|| {
-            let ids: Vec<_> = all().map(|formula| formula.id()).collect();
+        let all = (self.all)();
+        all.iter().copied().find(|formula| formula.id() == id).ok_or_else(|| {
+            let ids: Vec<_> = all.iter().map(|formula| formula.id()).collect();
             E::invalid_value(Unexpected::Str(id), &ids.join(" or ").as_str())
         })
     }

@@ -1,4 +1,4 @@
-//! Distance fields, sphere tracing and normals.
+//! Distance fields, sphere tracing and normals, and how rays march on a GPU.
 //!
 //! A pixel's cone has half the pixel's width as radius. A ray hits where the distance is below the cone's
 //! radius times the scene's detail setting; if the estimate has false minima, the distance must stay
@@ -37,6 +37,42 @@ pub const CHECKED_THICKNESS: f64 = 0.5;
 pub const THICKNESS_CHECKS: u32 = 6;
 /// Halvings of the step that crossed the hit distance, to find the crossing.
 pub const HALVINGS: u32 = 5;
+
+/// How rays march through a formula's fractals.
+///
+/// The defaults suit an estimate that is a lower bound of the distance nearly everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarchPolicy {
+    /// Factor of over-relaxed steps (Keinert et al. 2014), at least 1; 1 takes plain steps.
+    pub relaxation: f32,
+    /// Radius of the ball that a cone treats as empty, over the safe step.
+    pub ball_part: f32,
+    /// True if the estimate has false minima thinner than a pixel.
+    ///
+    /// Hits are then checked over half a hit distance.
+    pub checks_hits: bool,
+    /// Half width of the cone about a shadow ray that a blocker has to fill.
+    ///
+    /// Per unit of distance to the shaded point. The default is half the sun's apparent size.
+    pub shadow_cone: f32,
+    /// Least clearance of an unblocked shadow ray, in hit distances of the shaded point.
+    pub shadow_margin: f32,
+    /// Least step of a shadow ray, in hit distances of the shaded point.
+    pub shadow_min_step: f32,
+}
+
+impl Default for MarchPolicy {
+    fn default() -> Self {
+        Self {
+            relaxation: 1.4,
+            ball_part: 1.0,
+            checks_hits: false,
+            shadow_cone: 0.004,
+            shadow_margin: 0.5,
+            shadow_min_step: 0.0,
+        }
+    }
+}
 
 /// Distance estimate at a point, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,6 +9,7 @@
 //! | [`contract`] | the trait of a formula, and the types that its methods take and give |
 //! | [`document`] | a fractal in the scene document |
 //! | [`language`] | formulas from texts |
+//! | [`hybrid`] | steps of several formulas in turn |
 //! | [`own`] | texts that documents and people bring |
 //! | [`table`] | a formula's parameters: kinds, labels, defaults |
 //! | [`param`] | numbers with unit, range and help |
@@ -19,11 +20,12 @@
 
 use std::sync::LazyLock;
 
-use include_dir::{Dir, include_dir};
+use include_dir::{Dir, File, include_dir};
 
 pub mod bounds;
 pub mod contract;
 pub mod document;
+pub mod hybrid;
 pub mod language;
 pub mod mandelbulb;
 pub mod march;
@@ -33,11 +35,12 @@ pub mod recurrence;
 pub mod table;
 
 pub use contract::{
-    Formula, FormulaRef, Fractal, Kernel, KernelFiles, MarchPolicy, Packed, PackedFor,
+    Formula, FormulaRef, Fractal, HybridStep, HybridSteps, Kernel, KernelFiles, Packed, PackedFor,
     ReferenceOrbit, ReferenceSteps,
 };
+pub use hybrid::HybridError;
 pub use language::{TextError, TextFormula};
-pub use march::{DistanceField, Estimate, Ray};
+pub use march::{DistanceField, Estimate, MarchPolicy, Ray};
 pub use recurrence::{OrbitPosition, Recurrence};
 
 /// The folder of formula texts: one file per formula, whose stem is the formula's id.
@@ -45,24 +48,48 @@ static TEXTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/formulas");
 
 /// Every formula: those with kernels of their own, then the texts by name. A new scene uses the first.
 static FORMULAS: LazyLock<Vec<FormulaRef>> = LazyLock::new(|| {
-    let mut texts: Vec<_> = texts().map(|(id, text)| text_formula(id, text)).collect();
-    texts.sort_by_key(|formula| formula.name());
+    let texts = formulas_in(&TEXTS);
     [FormulaRef(&mandelbulb::MANDELBULB)].into_iter().chain(texts).collect()
 });
 
+/// The formulas of `formulas/steps/` by name: steps of hybrids only.
+///
+/// They are transforms, and formulas with kernels of their own in the language.
+static STEPS_ONLY: LazyLock<Vec<FormulaRef>> =
+    LazyLock::new(|| TEXTS.get_dir("steps").map_or_else(Vec::new, formulas_in));
+
 /// The ids and texts of `formulas/`, by id.
 pub fn texts() -> impl Iterator<Item = (&'static str, &'static str)> {
-    TEXTS
-        .files()
-        .filter_map(|file| Some((file.path().file_stem()?.to_str()?, file.contents_utf8()?)))
+    texts_in(&TEXTS)
 }
 
+/// The ids and texts of `formulas/steps/`, by id.
+pub fn step_texts() -> impl Iterator<Item = (&'static str, &'static str)> {
+    TEXTS.get_dir("steps").into_iter().flat_map(texts_in)
+}
+
+fn texts_in(folder: &'static Dir<'static>) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let of = |file: &'static File<'static>| {
+        Some((file.path().file_stem()?.to_str()?, file.contents_utf8()?))
+    };
+    folder.files().filter_map(of)
+}
+
+/// The formulas of a folder of texts, by name.
+fn formulas_in(folder: &'static Dir<'static>) -> Vec<FormulaRef> {
+    let mut all: Vec<_> = texts_in(folder).map(|(id, text)| text_formula(id, text)).collect();
+    all.sort_by_key(|formula| formula.name());
+    all
+}
+
+/// The formula of a text of the program.
+///
 /// # Panics
 ///
 /// If the text has an error: a test compiles every text.
 fn text_formula(id: &'static str, text: &str) -> FormulaRef {
     let formula =
-        TextFormula::new(id, text).unwrap_or_else(|error| panic!("formulas/{id}.formula: {error}"));
+        TextFormula::new(id, text).unwrap_or_else(|error| panic!("{id}.formula: {error}"));
     FormulaRef(Box::leak(Box::new(formula)))
 }
 

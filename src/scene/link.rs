@@ -20,7 +20,7 @@ use super::{
     path::Path,
     project::Project,
 };
-use crate::formula::{FormulaRef, Fractal};
+use crate::formula::{FormulaRef, Fractal, HybridStep, hybrid};
 
 /// Maximum length of a fragment, in bytes.
 pub const MAX_FRAGMENT_BYTES: usize = 8 << 10;
@@ -173,22 +173,48 @@ fn payload_of(fragment: &str) -> Result<&str, LinkError> {
 /// A scene's JSON without the fields equal to their default.
 fn differences(mut value: Value) -> Value {
     // A field's default is that of the formula that has the field.
+    let fractal = value.get("fractal").cloned();
+    let fractal: Fractal =
+        fractal.and_then(|fractal| serde_json::from_value(fractal).ok()).unwrap_or_default();
+    let steps = fractal.hybrid().map(|hybrid| hybrid.steps.iter().map(step_differences).collect());
+    let default = match fractal.hybrid() {
+        // The steps are those of the default too, so it is valid.
+        Some(steps) => hybrid::fractal(steps.clone()).unwrap_or_default(),
+        None => Fractal::new(fractal.formula()),
+    };
+    let loop_start = value.pointer("/fractal/loop_start").cloned();
     let formula = value.pointer("/fractal/formula").cloned();
-    let formula =
-        formula.and_then(|formula| serde_json::from_value(formula).ok()).unwrap_or_default();
-    let default = Scene { fractal: Fractal::new(formula), ..Scene::default() };
-    drop_defaults(&mut value, &value_of(&default));
-    if formula != FormulaRef::default() {
+    drop_defaults(&mut value, &value_of(&Scene { fractal: default, ..Scene::default() }));
+    if let Some(formula) = formula.filter(|_| fractal.formula() != FormulaRef::default()) {
         // First: the fields of a text are known only after it.
-        let mut fractal = Map::from_iter([("formula".to_owned(), value_of(&formula))]);
+        let mut whole = Map::from_iter([("formula".to_owned(), formula)]);
         if let Some(Value::Object(fields)) = value.get_mut("fractal") {
-            fractal.append(fields);
+            whole.append(fields);
         }
-        value["fractal"] = fractal.into();
+        if let Some(steps) = steps {
+            whole.extend(loop_start.map(|start| ("loop_start".to_owned(), start)));
+            whole.insert("steps".to_owned(), Value::Array(steps));
+        }
+        value["fractal"] = whole.into();
     }
     drop_list_defaults(&mut value, "environment", &EnvironmentLight::default());
     drop_list_defaults(&mut value, "point", &PointLight::default());
     value
+}
+
+/// A hybrid's step without the fields equal to their default.
+fn step_differences(step: &HybridStep) -> Value {
+    let mut value = value_of(step);
+    let formula = value["formula"].clone();
+    // The formula is a step's already.
+    if let Ok(default) = hybrid::step(step.formula()) {
+        drop_defaults(&mut value, &value_of(&default));
+    }
+    let mut whole = Map::from_iter([("formula".to_owned(), formula)]);
+    if let Value::Object(fields) = &mut value {
+        whole.append(fields);
+    }
+    whole.into()
 }
 
 fn drop_list_defaults(scene: &mut Value, list: &str, default: &impl Serialize) {

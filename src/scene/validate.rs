@@ -16,8 +16,8 @@ use super::{
     surface::{MAX_GRADIENT_STOPS, Surface},
 };
 use crate::formula::{
-    Fractal,
-    table::{Kind, Value},
+    Fractal, hybrid,
+    table::{Field, Kind, Value},
 };
 
 /// How far the length of a direction or orientation may be from 1.
@@ -93,15 +93,14 @@ fn shown(value: f64) -> String {
 fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
     check(&param::ITERATIONS, fractal.iterations.into())?;
     check(&param::BAILOUT, fractal.bailout)?;
-    for (field, value) in fractal.fields() {
-        match (field.kind, value) {
-            (Kind::Number { param, .. }, Value::Number(number)) => check(param, *number)?,
-            (Kind::Vector { param, .. }, Value::Vector(numbers)) => {
-                (0..).zip(numbers).try_for_each(|(i, number)| check_at(param, i, *number))?;
-            }
-            // Whatever a switch or a choice can hold is allowed.
-            _ => {}
-        }
+    check_values(fractal.fields())?;
+    let steps = fractal.hybrid().map_or(&[][..], |hybrid| &hybrid.steps);
+    for (i, step) in steps.iter().enumerate() {
+        check_at(&hybrid::REPEATS, i, step.repeats.into())?;
+        check_values(step.fields()).map_err(|error| Invalid {
+            path: error.path.replacen("fractal.", &format!("fractal.steps[{i}]."), 1),
+            ..error
+        })?;
     }
     let most = fractal.max_bailout();
     if fractal.bailout > most {
@@ -111,6 +110,20 @@ fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
         return Err(Invalid::new(param::BAILOUT.path, message));
     }
     Ok(())
+}
+
+/// A formula's own values.
+fn check_values<'a>(
+    mut values: impl Iterator<Item = (&'static Field, &'a Value)>,
+) -> Result<(), Invalid> {
+    values.try_for_each(|(field, value)| match (field.kind, value) {
+        (Kind::Number { param, .. }, Value::Number(number)) => check(param, *number),
+        (Kind::Vector { param, .. }, Value::Vector(numbers)) => {
+            (0..).zip(numbers).try_for_each(|(i, number)| check_at(param, i, *number))
+        }
+        // Whatever a switch or a choice can hold is allowed.
+        _ => Ok(()),
+    })
 }
 
 /// What the fractal's first field says of it: `power 8`.

@@ -60,10 +60,15 @@ fn colored_by(source: ColorSource, mut scene: Scene) -> Scene {
 }
 
 fn assert_same_colors(a: &[[u8; 3]], b: &[[u8; 3]], what: &str) {
+    assert_colors_within(a, b, 1.0, what);
+}
+
+/// `slack` loosens the limits: of fewer samples, colours scatter more.
+fn assert_colors_within(a: &[[u8; 3]], b: &[[u8; 3]], slack: f64, what: &str) {
     let mean = apart(mean_color(a), mean_color(b));
     let distance = earth_movers_distance(a, b);
-    assert!(mean <= MEAN, "{what}: mean colours are {mean} of 255 apart");
-    assert!(distance <= HISTOGRAMS, "{what}: histograms are {distance} apart");
+    assert!(mean <= slack * MEAN, "{what}: mean colours are {mean} of 255 apart");
+    assert!(distance <= slack * HISTOGRAMS, "{what}: histograms are {distance} apart");
 }
 
 #[test]
@@ -98,28 +103,47 @@ fn lattice_samples(pixels: &[[u8; 3]], width: u32, level: u32) -> Vec<[u8; 3]> {
     (0..).zip(pixels).filter(|(i, _)| is_sample(*i)).map(|(_, pixel)| *pixel).collect()
 }
 
+/// The first picture of a movement with few milliseconds a picture, and that of the same view at rest.
+fn moving_and_resting(
+    scene: &Scene,
+    size: [u32; 2],
+    motion_budget_ms: f64,
+) -> (View, Vec<[u8; 3]>) {
+    let mut scene = scene.clone();
+    let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
+    scene.quality.motion_budget_ms = motion_budget_ms;
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    let resting = rgb(&view);
+    // Work of the scene before counts as done only now, on a busy machine.
+    pipelines().gpu.wait();
+    view.pump(0.0);
+    // Another scene, to the schedule; the same picture.
+    scene.camera.vertical_fov_deg *= 1.0 + 1e-6;
+    view.set_scene(&scene, true);
+    let pictures = view.report().pictures;
+    while view.report().pictures == pictures {
+        view.pump(0.0);
+        pipelines().gpu.wait();
+    }
+    (view, resting)
+}
+
 #[test]
 fn moving_pictures_have_the_colors_of_resting_ones() {
-    for (name, mut scene) in [("near", near()), ("Vine", dive("Vine"))] {
+    for (name, scene) in [("near", near()), ("Vine", dive("Vine"))] {
         let size = [336, 240];
-        let mut view = View::new(pipelines(), Region::whole(size), Pace::Interactive);
-        scene.quality.motion_budget_ms = 4.0;
-        view.set_scene(&scene, false);
-        settle(&mut view);
-        let resting = rgb(&view);
-        // Another scene, to the schedule; the same picture.
-        scene.camera.vertical_fov_deg *= 1.0 + 1e-6;
-        view.set_scene(&scene, true);
-        let pictures = view.report().pictures;
-        while view.report().pictures == pictures {
-            view.pump(0.0);
-            pipelines().gpu.wait();
-        }
+        // How many pixels fit a budget depends on the machine and what else it does.
+        let budgets = [4.0, 2.0, 1.0, 0.5, 0.25].into_iter();
+        let found = budgets
+            .map(|budget| moving_and_resting(&scene, size, budget))
+            .find(|(view, _)| view.report().pixels_per_sample > 8);
+        let (view, resting) = found.unwrap_or_else(|| panic!("{name}: all pictures were dense"));
         let sparse = view.report().pixels_per_sample;
-        assert!(sparse > 8, "{name}: one pixel of {sparse} is drawn");
         let [moving, resting] =
             [rgb(&view), resting].map(|all| lattice_samples(&all, size[0], sparse.ilog2()));
-        assert_same_colors(&moving, &resting, name);
+        let slack = (f64::from(sparse) / 16.0).sqrt().max(1.0);
+        assert_colors_within(&moving, &resting, slack, name);
     }
 }
 

@@ -60,6 +60,7 @@ fn shader(batch: &[Generated]) -> String {
             slots: &HashMap::new(),
             non_negative: &graph.non_negative(),
             lane: Lane::One,
+            base: "",
         };
         let (body, v) = emitter.body(&[&one.checked.step[..], &one.tangents].concat());
         let _ = writeln!(

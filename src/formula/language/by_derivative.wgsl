@@ -1,13 +1,13 @@
-// Estimates and gradients of a text that gives its running derivative, dr. From `kernel.rs`, besides those of `orbit`:
+// Estimates and gradients of a text that gives its running derivative, dr. From `operations.rs`, besides those of `orbit`:
 //     next_with_rows                           a step with the derivatives of state and dr
 //     distance_at, distance_slope              the estimate at an orbit's end, and its derivatives
 
 fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     let c = addend(fractal, point);
     var z = initial(point);
-    var dr = INITIAL_DERIVATIVE;
+    var dr = fractal.initial_derivative;
     for (var n = 0u; n < fractal.iterations && !is_escaped(fractal, z); n++) {
-        let next = next_with_derivative(z, c, point, min(dr, MAX_DERIVATIVE), fractal.addend_derivative);
+        let next = next_with_derivative(n, z, c, point, min(dr, MAX_DERIVATIVE), fractal.addend_derivative);
         z = next.z;
         dr = next.dr;
     }
@@ -20,7 +20,7 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     let c = addend(fractal, point);
     let moved = initial_rows(point, POINT_ROWS);
     var z = initial(point);
-    var dr = INITIAL_DERIVATIVE;
+    var dr = fractal.initial_derivative;
     var unit = max(dr, 1e-30);
     var rows = scaled_rows(moved, 1.0 / unit);
     // The gradient of dr, over the square of `unit`.
@@ -28,7 +28,7 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     for (var n = 0u; n < fractal.iterations && !is_escaped(fractal, z); n++) {
         let shrink = 1.0 / unit;
         let next = next_with_rows(
-            z, c, point, dr, fractal.addend_derivative, rows,
+            n, z, c, point, dr, fractal.addend_derivative, rows,
             scaled_rows(moved, shrink * fractal.addend_derivative), scaled_rows(POINT_ROWS, shrink), unit * slope);
         z = next.z;
         dr = min(next.dr, MAX_DERIVATIVE);

@@ -1,5 +1,5 @@
 // Estimates and gradients of a text that gives no running derivative: one direction is carried along, the
-// ray's own. From `kernel.rs`, besides those of `orbit`:
+// ray's own. From `operations.rs`, besides those of `orbit`:
 //     next_with_tangent, next_with_rows     a step with the state's derivatives in one and in three directions
 //     distance_at, distance_slope           the estimate at an orbit's end, and its derivatives
 
@@ -11,7 +11,7 @@ fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     var tangent = moved;
     for (var n = 0u; n < fractal.iterations && !is_escaped(fractal, z); n++) {
         let next = next_with_tangent(
-            z, c, point, fractal.addend_derivative, tangent, fractal.addend_derivative * moved, direction);
+            n, z, c, point, fractal.addend_derivative, tangent, fractal.addend_derivative * moved, direction);
         z = next.z;
         tangent = clamp(next.tangent, State(-1e18), State(1e18));
     }
@@ -28,7 +28,7 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
     for (var n = 0u; n < fractal.iterations && !is_escaped(fractal, z); n++) {
         let shrink = 1.0 / unit;
         let next = next_with_rows(
-            z, c, point, 1.0, fractal.addend_derivative, rows,
+            n, z, c, point, 1.0, fractal.addend_derivative, rows,
             scaled_rows(moved, shrink * fractal.addend_derivative), scaled_rows(POINT_ROWS, shrink), vec3f(0.0));
         z = next.z;
         let all = max(max(abs(next.rows.x), abs(next.rows.y)), max(abs(next.rows.z), abs(next.rows.w)));

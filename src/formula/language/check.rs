@@ -20,6 +20,7 @@ pub const MAX_PARAM_NUMBERS: usize = 48;
 const MAX_RADIUS: f64 = 256.0;
 /// Most iterations by default.
 const MAX_ITERATIONS: f64 = 100.0;
+
 /// A parameter with checked values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedParam {
@@ -39,6 +40,17 @@ pub struct CheckedParam {
     pub unit: RangeUnit,
     /// Whether the parameter is a switch.
     pub is_switch: bool,
+}
+
+/// How the orbits of points far from the set grow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Growth {
+    /// As a power of their size.
+    Power,
+    /// By a factor.
+    Linear,
+    /// Not at all: the step transforms space.
+    None,
 }
 
 /// A formula whose names and types are right.
@@ -66,6 +78,8 @@ pub struct Checked {
     pub extent: NodeId,
     /// The estimated distance at an orbit's end, not clamped.
     pub distance: NodeId,
+    /// How orbits grow.
+    pub growth: Growth,
     /// What grows with the distance from the set, for normals where the text gives no derivative.
     pub height: NodeId,
     /// Whether the step adds c, so that the formula has a Julia form.
@@ -183,6 +197,11 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         extent,
         distance,
         height,
+        growth: match tree.estimate {
+            None | Some(EstimateDeclaration::Log) => Growth::Power,
+            Some(EstimateDeclaration::Transform) => Growth::None,
+            Some(_) => Growth::Linear,
+        },
         has_addend,
         bound,
         march,
@@ -259,6 +278,23 @@ impl Scope<'_> {
 const ANY: [f64; 2] = [-1e6, 1e6];
 
 impl Checked {
+    /// The same formula for orbits whose state has `size` components: steps keep those that they do not know.
+    #[must_use]
+    pub fn widened(mut self, size: usize) -> Self {
+        for place in self.size..size {
+            self.init.push(self.graph.constant(0.0));
+            self.step.push(self.graph.input(Input::State(place as u8)));
+        }
+        self.size = self.size.max(size);
+        self
+    }
+
+    /// Operations of one step for each point.
+    pub fn operation_count(&self) -> usize {
+        let used: Vec<_> = self.step.iter().copied().chain(self.derivative).collect();
+        operation_count(&self.graph, &used)
+    }
+
     /// Whether a node depends on parameters only, and is worth computing beforehand.
     pub fn is_of_params(&self) -> Vec<bool> {
         let mut all: Vec<bool> = Vec::with_capacity(self.graph.nodes().len());

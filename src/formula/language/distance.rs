@@ -20,7 +20,9 @@ impl Scope<'_> {
         let offset = match declaration {
             Some(EstimateDeclaration::Distance(distance)) => return self.float(distance),
             Some(EstimateDeclaration::Linear(Some(offset))) => Some(self.float(offset)?),
-            Some(EstimateDeclaration::Linear(None)) => Some(self.graph.constant(0.0)),
+            Some(EstimateDeclaration::Linear(None) | EstimateDeclaration::Transform) => {
+                Some(self.graph.constant(0.0))
+            }
             Some(EstimateDeclaration::Log) | None => None,
         };
         let graph = &mut self.graph;

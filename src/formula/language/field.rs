@@ -4,7 +4,7 @@ use std::{collections::HashMap, sync::Arc};
 
 use glam::DVec3;
 
-use super::{evaluate::Program, graph::Input, kernel::Compiled};
+use super::{check::Growth, evaluate::Program, graph::Input, kernel::Compiled, sequence::Sequence};
 use crate::formula::{DistanceField, Estimate};
 
 /// Longest step of a ray, in bounding radii: an orbit that passes the origin may make dr vanish.
@@ -14,7 +14,7 @@ const ANY_DIRECTION: [f64; 3] = [0.48, 0.6, 0.64];
 /// Largest derivative before a step, as in `orbit.wgsl`.
 const MAX_DERIVATIVE: f64 = 1e30;
 
-/// Programs in f64, made once for a formula.
+/// Programs in f64 of one formula, made once.
 #[derive(Clone, Debug)]
 pub struct Programs {
     slots: Program,
@@ -27,7 +27,14 @@ pub struct Programs {
     bound: Option<Program>,
     size: usize,
     gives_derivative: bool,
-    initial_derivative: f64,
+    /// The running derivative at the start.
+    pub initial_derivative: f64,
+    /// Step of a ray over the estimate.
+    pub march: f64,
+    /// Whether the kernels' test of an orbit's size compares with the bailout's square.
+    pub tests_square: bool,
+    /// Whether orbits grow as a power.
+    pub is_power: bool,
 }
 
 impl Programs {
@@ -54,6 +61,9 @@ impl Programs {
             size: checked.size,
             gives_derivative: checked.derivative.is_some(),
             initial_derivative: compiled.initial_derivative(),
+            march: checked.march,
+            tests_square: compiled.tests_square,
+            is_power: checked.growth == Growth::Power,
         }
     }
 
@@ -64,7 +74,7 @@ impl Programs {
     }
 
     /// The text's own bound on the set; none if the text gives none, or no positive number.
-    pub fn bound(&self, params: &[f64]) -> Option<f64> {
+    fn bound(&self, params: &[f64]) -> Option<f64> {
         let mut scratch = Vec::new();
         let found =
             self.bound.as_ref()?.run(|input| param(params, input), &[], &mut scratch).next()?;
@@ -82,16 +92,17 @@ fn param(params: &[f64], input: Input) -> f64 {
     }
 }
 
-/// The field of one formula with certain parameters.
+/// The field of formulas' texts with certain parameters.
 #[derive(Clone, Debug)]
 pub struct TextField {
-    programs: Arc<Programs>,
-    slots: Vec<f64>,
+    formulas: Arc<[Programs]>,
+    sequence: Sequence,
+    /// The slots of each step of the sequence.
+    slots: Vec<Vec<f64>>,
     iterations: u32,
     bailout: f64,
     /// The addend of the Julia form; none for the form that adds the point.
     julia_constant: Option<[f64; 4]>,
-    march: f64,
     bounding_radius: f64,
 }
 
@@ -138,46 +149,64 @@ impl Known {
 }
 
 impl TextField {
-    /// The field for parameters; `bound` replaces the text's own bound, which else is searched for.
+    /// The field of a sequence of steps of `formulas`.
     pub fn new(
-        programs: &Arc<Programs>,
-        params: &[f64],
-        [iterations, march]: [f64; 2],
+        formulas: &Arc<[Programs]>,
+        sequence: Sequence,
+        iterations: u32,
         bailout: f64,
         julia_constant: Option<[f64; 4]>,
     ) -> Self {
+        let slots =
+            sequence.steps.iter().map(|step| formulas[step.formula].slots(&step.params)).collect();
         let mut field = Self {
-            programs: programs.clone(),
-            slots: programs.slots(params),
-            iterations: iterations as u32,
+            formulas: formulas.clone(),
+            sequence,
+            slots,
+            iterations,
             bailout,
             julia_constant,
-            march,
             bounding_radius: 0.0,
         };
-        field.bounding_radius = programs.bound(params).unwrap_or_else(|| field.find_bound());
+        // A formula's own bound says nothing of its steps among others.
+        let alone = match &field.sequence.steps[..] {
+            [step] => formulas[step.formula].bound(&step.params),
+            _ => None,
+        };
+        field.bounding_radius = alone.unwrap_or_else(|| field.find_bound());
         field
     }
 
-    /// The values of the table's slots.
-    pub fn slots(&self) -> &[f64] {
-        &self.slots
+    /// The values of the slots of the step at `place`.
+    pub fn slots(&self, place: usize) -> &[f64] {
+        &self.slots[place]
+    }
+
+    /// The programs and slots of the step at `place`.
+    fn step(&self, place: usize) -> (&Programs, &[f64]) {
+        (&self.formulas[self.sequence.steps[place].formula], &self.slots[place])
+    }
+
+    /// Step of a ray over the estimate: the shortest that a formula asks for.
+    fn march_part(&self) -> f64 {
+        self.formulas.iter().map(|programs| programs.march).fold(1.0, f64::min)
     }
 
     /// The orbit of `point`, with the derivative in `direction` where the text gives none.
     pub fn orbit(&self, point: DVec3, direction: DVec3) -> OrbitEnd {
-        let programs = &*self.programs;
-        let (mut values, size) = (Vec::new(), programs.size);
+        let (first, first_slots) = self.step(0);
+        let (leading, leading_slots) = self.step(self.sequence.leading);
+        let mut values = Vec::new();
         let mut known = Known {
             p: point.to_array(),
             tp: direction.to_array(),
-            dr: programs.initial_derivative,
+            dr: first.initial_derivative,
             ..Known::default()
         };
         let start = known;
-        let init = programs.init.run(|input| start.get(input), &self.slots, &mut values);
+        let init = first.init.run(|input| start.get(input), first_slots, &mut values);
         fill(&mut known.z, init);
-        let moved = programs.init_tangent.run(|input| start.get(input), &self.slots, &mut values);
+        let moved = first.init_tangent.run(|input| start.get(input), first_slots, &mut values);
         fill(&mut known.tz, moved);
         match self.julia_constant {
             Some(constant) => known.c = constant,
@@ -187,16 +216,17 @@ impl TextField {
         loop {
             let at = known;
             let extent =
-                programs.extent.run(|input| at.get(input), &self.slots, &mut values).next();
+                leading.extent.run(|input| at.get(input), leading_slots, &mut values).next();
             let has_escaped = !extent.is_some_and(|extent| extent <= self.bailout);
             if steps >= self.iterations || has_escaped {
-                if !programs.gives_derivative {
+                if !leading.gives_derivative {
                     known.dr = known.tz.iter().map(|x| x * x).sum::<f64>().sqrt();
                 }
                 return OrbitEnd { z: known.z, dr: known.dr, steps, has_escaped };
             }
-            let mut after = programs.step.run(|input| at.get(input), &self.slots, &mut values);
-            fill(&mut known.z, after.by_ref().take(size));
+            let (programs, slots) = self.step(self.sequence.place(steps));
+            let mut after = programs.step.run(|input| at.get(input), slots, &mut values);
+            fill(&mut known.z, after.by_ref().take(programs.size));
             if programs.gives_derivative {
                 known.dr = after.next().unwrap_or_default().min(MAX_DERIVATIVE);
             } else {
@@ -211,8 +241,8 @@ impl TextField {
         let end = self.orbit(point, direction);
         let known = Known { p: point.to_array(), z: end.z, dr: end.dr, ..Known::default() };
         let mut values = Vec::new();
-        let distance =
-            self.programs.distance.run(|input| known.get(input), &self.slots, &mut values).next();
+        let (leading, slots) = self.step(self.sequence.leading);
+        let distance = leading.distance.run(|input| known.get(input), slots, &mut values).next();
         distance.filter(|distance| *distance > 0.0).unwrap_or(0.0)
     }
 
@@ -252,7 +282,7 @@ impl DistanceField for TextField {
 
     fn estimate(&self, point: DVec3) -> Estimate {
         let distance = self.distance(point);
-        let step = (self.march * distance).min(MAX_STEP * self.bounding_radius);
+        let step = (self.march_part() * distance).min(MAX_STEP * self.bounding_radius);
         Estimate { distance, step: step.min(distance) }
     }
 

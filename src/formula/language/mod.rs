@@ -16,7 +16,10 @@
 //! | `distance` | the estimated distance at an orbit's end |
 //! | [`check`] | from syntax tree to checked operations |
 //! | [`wgsl`] | operations as WGSL |
-//! | [`kernel`] | the functions of a formula's kernels |
+//! | [`kernel`] | what a formula's kernels compute |
+//! | [`operations`] | the WGSL functions of one or several formulas |
+//! | [`sequence`] | the order of an orbit's steps |
+//! | [`steps`] | the kernel and programs of formulas whose steps take turns |
 //! | `orbit.wgsl` | follows orbits: colours, and what both kinds of estimates share |
 //! | `by_derivative.wgsl`, `by_tangent.wgsl` | estimates with the text's dr, and without |
 //! | [`uniforms`], `types.wgsl` | the kernels' uniforms |
@@ -31,7 +34,10 @@ pub mod field;
 pub mod functions;
 pub mod graph;
 pub mod kernel;
+pub mod operations;
 mod scope;
+pub mod sequence;
+pub mod steps;
 pub mod syntax;
 pub mod text_formula;
 pub mod tree;

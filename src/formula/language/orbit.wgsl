@@ -1,9 +1,7 @@
-// Orbits of a formula's text. The text's own functions come from `kernel.rs`:
+// Orbits of formulas' texts. The texts' own functions come from `operations.rs`:
 //     State                  vec3f or vec4f
-//     IS_POWER               whether orbits grow as a power, not by a factor
-//     INITIAL_DERIVATIVE     the running derivative at the start
 //     initial, initial_tangent, initial_rows     the state at the start, its derivatives
-//     next_with_derivative   a step, with the running derivative if the text gives it
+//     next_with_derivative   the step with the number n, with the running derivative if the text gives it
 //     extent_test, extent    what is compared with `limit`, and the size itself
 // uses: types/estimate, lib/numeric
 
@@ -91,7 +89,7 @@ fn distance_estimate(fractal: Fractal, point: vec3f) -> f32 {
 fn excess(fractal: Fractal, before: f32, last: f32) -> f32 {
     let grown = natural_log(last);
     let least = natural_log(before);
-    if (IS_POWER) {
+    if (fractal.is_power > 0.0) {
         let ratio = natural_log(max(grown / fractal.log_bailout, 1.0));
         return clamp(ratio / natural_log(max(grown / max(least, 1e-4), 1.0001)), 0.0, 1.0);
     }
@@ -102,12 +100,12 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     let c = addend(fractal, point);
     var z = initial(point);
     var before = z;
-    var dr = INITIAL_DERIVATIVE;
+    var dr = fractal.initial_derivative;
     var traps = vec3f(4.0 / (fractal.trap_scale * fractal.trap_scale));
     var n = 0u;
     for (; n < fractal.iterations && !is_escaped(fractal, z); n++) {
         before = z;
-        let next = next_with_derivative(z, c, point, dr, fractal.addend_derivative);
+        let next = next_with_derivative(n, z, c, point, dr, fractal.addend_derivative);
         z = next.z;
         dr = min(next.dr, MAX_DERIVATIVE);
         traps = min(traps, vec3f(dot(z.xyz, z.xyz), dot(z.xy, z.xy), z.z * z.z));

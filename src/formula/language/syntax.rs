@@ -248,6 +248,7 @@ impl Reader<'_> {
         Ok(match (rule, value) {
             (Rule::linear, offset) => EstimateDeclaration::Linear(offset),
             (Rule::distance, Some(value)) => EstimateDeclaration::Distance(value),
+            (Rule::none, _) => EstimateDeclaration::Transform,
             _ => EstimateDeclaration::Log,
         })
     }

@@ -4,31 +4,19 @@ use std::sync::Arc;
 
 use super::{
     check::{self, Checked, CheckedParam},
-    field::{MAX_STEP, Programs, TextField},
+    field::TextField,
     kernel::Compiled,
+    sequence::Sequence,
+    steps::Steps,
     syntax,
-    tree::{EstimateDeclaration, RangeUnit, Span, TextError},
-    uniforms::{MAX_SLOTS, Uniforms},
+    tree::{RangeUnit, Span, TextError},
+    uniforms::MAX_SLOTS,
 };
-use crate::{
-    formula::{
-        DistanceField, Formula, Fractal, Kernel, KernelFiles, MarchPolicy, Packed, PackedFor,
-        march::PLAIN_FOOTPRINT,
-        param::{Param, Scale, Unit},
-        table::{Choice, Field, Kind, Value},
-    },
-    gpu::{host_shared::HostShared, shader::File},
+use crate::formula::{
+    DistanceField, Formula, Fractal, KernelFiles, MarchPolicy, Packed, PackedFor,
+    param::{Param, Scale, Unit},
+    table::{Choice, Field, Kind, Value},
 };
-
-/// Finest footprint that gets iterations of its own, in scene units: an eye on the surface has none.
-const FINEST_FOOTPRINT: f64 = 0.1 * PLAIN_FOOTPRINT;
-/// Least footprint that needs no more than the scene's own iterations, in scene units.
-const WHOLE_FOOTPRINT: f64 = 1e-3;
-/// Orbit steps per halving of the footprint: enough for formulas that stretch by half or more a step.
-const STEPS_PER_HALVING: f64 = 1.5;
-
-/// Largest orbit trap that a picture stores.
-const LARGEST_TRAP: f64 = 2.0;
 
 /// A formula made from a text.
 #[derive(Debug)]
@@ -40,9 +28,7 @@ pub struct TextFormula {
     about: &'static str,
     fields: &'static [Field],
     checked: Checked,
-    programs: Arc<Programs>,
-    files: KernelFiles,
-    tests_square: bool,
+    steps: Steps,
 }
 
 impl TextFormula {
@@ -56,8 +42,7 @@ impl TextFormula {
     pub fn new(id: &'static str, text: &str) -> Result<Self, TextError> {
         let tree = syntax::parse(text)?;
         let checked = check::check(text, &tree)?;
-        let is_power = matches!(tree.estimate, None | Some(EstimateDeclaration::Log));
-        let compiled = Compiled::new(checked, is_power);
+        let compiled = Compiled::new(checked);
         if compiled.slots.len() > MAX_SLOTS {
             let message = format!(
                 "{} values are computed from the parameters, and {MAX_SLOTS} may be: simplify it",
@@ -71,9 +56,7 @@ impl TextFormula {
             title: kept(compiled.checked.title.clone()),
             about: kept(compiled.checked.about.clone()),
             fields: fields(&compiled.checked).leak(),
-            programs: Arc::new(Programs::new(&compiled)),
-            files: files(id, &compiled),
-            tests_square: compiled.tests_square,
+            steps: Steps::alone(id, &compiled),
             checked: compiled.checked,
         })
     }
@@ -92,20 +75,28 @@ impl TextFormula {
         &self.checked.sources
     }
 
+    /// The checked operations.
+    pub fn checked(&self) -> &Checked {
+        &self.checked
+    }
+
+    /// The parameters, without those of the Julia form.
+    pub fn own_fields(&self) -> &'static [Field] {
+        &self.fields[..self.checked.params.len()]
+    }
+
     /// The field of `fractal`, which is of this formula.
     pub fn field(&self, fractal: &Fractal) -> TextField {
-        TextField::new(
-            &self.programs,
-            &self.param_values(fractal),
-            [f64::from(fractal.iterations), self.checked.march],
-            fractal.bailout,
-            self.julia_constant(fractal),
-        )
+        self.steps.field(self.sequence(fractal), fractal, julia_constant(fractal))
+    }
+
+    fn sequence(&self, fractal: &Fractal) -> Sequence {
+        Sequence::alone(self.param_values(fractal.values()))
     }
 
     /// The numbers of the parameters in order; a switch is 0 or 1.
-    fn param_values(&self, fractal: &Fractal) -> Vec<f64> {
-        let own = fractal.values().iter().take(self.checked.params.len());
+    pub fn param_values(&self, values: &[Value]) -> Vec<f64> {
+        let own = values.iter().take(self.checked.params.len());
         own.flat_map(|value| match value {
             Value::Number(number) => vec![*number],
             Value::Vector(numbers) => numbers.to_vec(),
@@ -114,15 +105,15 @@ impl TextFormula {
         })
         .collect()
     }
+}
 
-    /// The addend of the Julia form, if `fractal` has that form.
-    fn julia_constant(&self, fractal: &Fractal) -> Option<[f64; 4]> {
-        if !fractal.is_on(JULIA) {
-            return None;
-        }
-        let Some(Value::Vector(numbers)) = fractal.get(JULIA_CONSTANT) else { return None };
-        Some(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or_default()))
+/// The addend of the Julia form, if `fractal` has that form.
+pub fn julia_constant(fractal: &Fractal) -> Option<[f64; 4]> {
+    if !fractal.is_on(JULIA) {
+        return None;
     }
+    let Some(Value::Vector(numbers)) = fractal.get(JULIA_CONSTANT) else { return None };
+    Some(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or_default()))
 }
 
 /// The switch of the Julia form in documents.
@@ -131,7 +122,7 @@ const JULIA: &str = "julia";
 const JULIA_CONSTANT: &str = "julia_constant";
 
 /// Text that lives as long as the program.
-fn kept(text: String) -> &'static str {
+pub fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }
 
@@ -198,8 +189,8 @@ fn slider_step(param: &CheckedParam) -> f64 {
     }
 }
 
-/// The Julia form's switch and constant, which all formulas name alike.
-fn julia_fields(size: usize) -> [Field; 2] {
+/// The Julia form's switch and constant of `size` components, which all formulas name alike.
+pub fn julia_fields(size: usize) -> [Field; 2] {
     static CONSTANT: Param = Param {
         path: "fractal.julia_constant[]",
         label: "Julia constant",
@@ -237,22 +228,6 @@ fn julia_fields(size: usize) -> [Field; 2] {
     ]
 }
 
-fn files(id: &'static str, compiled: &Compiled) -> KernelFiles {
-    let by = if compiled.checked.derivative.is_some() {
-        File { path: "language/by_derivative", text: include_str!("by_derivative.wgsl") }
-    } else {
-        File { path: "language/by_tangent", text: include_str!("by_tangent.wgsl") }
-    };
-    KernelFiles {
-        types: File { path: "language/types", text: include_str!("types.wgsl") },
-        files: vec![
-            File { path: "language/orbit", text: include_str!("orbit.wgsl") },
-            File { path: kept(format!("{id}/operations")), text: kept(compiled.functions()) },
-            by,
-        ],
-    }
-}
-
 impl Formula for TextFormula {
     fn id(&self) -> &'static str {
         self.id
@@ -283,15 +258,11 @@ impl Formula for TextFormula {
     }
 
     fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {
-        let usual = MarchPolicy::default();
-        // Shortened steps say that the estimate is no bound: longer ones would pass the surface.
-        let relaxation = if self.checked.march < 1.0 { 1.0 } else { usual.relaxation };
-        MarchPolicy { relaxation, ball_part: self.checked.march as f32, ..usual }
+        self.steps.march_policy()
     }
 
     fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32 {
-        let halvings = (WHOLE_FOOTPRINT / footprint.max(FINEST_FOOTPRINT)).max(1.0).log2();
-        fractal.iterations + (STEPS_PER_HALVING * halvings).ceil() as u32
+        Steps::iterations_for(fractal, footprint)
     }
 
     fn distance_field(&self, fractal: &Fractal) -> Arc<dyn DistanceField> {
@@ -299,29 +270,10 @@ impl Formula for TextFormula {
     }
 
     fn pack(&self, fractal: &Fractal, view: &PackedFor<'_>) -> Packed {
-        let constant = self.julia_constant(fractal);
-        let bailout = fractal.bailout;
-        let uniforms = Uniforms {
-            julia_constant: constant.unwrap_or_default().map(|x| x as f32),
-            iterations: view.iterations,
-            limit: if self.tests_square { bailout * bailout } else { bailout } as f32,
-            log_bailout: bailout.ln() as f32,
-            max_step: (MAX_STEP * view.bounding_radius) as f32,
-            march: self.checked.march as f32,
-            addend_derivative: if constant.is_some() { 0.0 } else { 1.0 },
-            trap_scale: (LARGEST_TRAP / view.bounding_radius).min(1.0) as f32,
-        };
-        let mut slots = self.programs.slots(&self.param_values(fractal));
-        // Whole vectors of four.
-        slots.resize(slots.len().next_multiple_of(4), 0.0);
-        Packed {
-            kernel: Kernel { formula: fractal.formula(), variant: 0 },
-            uniforms: uniforms.to_bytes(),
-            table: slots.iter().flat_map(|slot| (*slot as f32).to_le_bytes()).collect(),
-        }
+        self.steps.pack(&self.sequence(fractal), fractal, julia_constant(fractal), view)
     }
 
     fn files(&self, _variant: u32) -> KernelFiles {
-        self.files.clone()
+        self.steps.files().clone()
     }
 }

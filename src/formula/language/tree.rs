@@ -177,6 +177,8 @@ pub enum EstimateDeclaration {
     Linear(Option<Expression>),
     /// The text's own expression.
     Distance(Expression),
+    /// None: the step only transforms space, for hybrids.
+    Transform,
 }
 
 /// A formula's text as a tree, with each declaration at most once.

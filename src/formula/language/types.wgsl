@@ -14,6 +14,10 @@ struct Fractal {
     addend_derivative: f32,
     // Factor that brings orbit traps into the range of 2 that pictures store.
     trap_scale: f32,
+    // The running derivative at the start.
+    initial_derivative: f32,
+    // 1 if orbits grow as a power, 0 if by a factor.
+    is_power: f32,
 }
 
 // The formula's part of a frame's uniforms.
@@ -21,9 +25,10 @@ struct FormulaUniforms {
     fractal: Fractal,
 }
 
-// Values of the parameters, and what depends on parameters only, four to a vector.
+// Values of the parameters, and what depends on parameters only, four to a vector. Where several formulas take
+// turns, the sequence of steps comes first: see `sequence.rs`. The size comes from `operations.rs`.
 struct FormulaTable {
-    slots: array<vec4f, 256>,
+    slots: array<vec4f, TABLE_VECTORS>,
 }
 
 @group(0) @binding(1) var<uniform> table: FormulaTable;

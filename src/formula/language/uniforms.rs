@@ -23,6 +23,10 @@ host_shared! {
         addend_derivative: f32,
         /// Factor of orbit traps: large sets have larger ones than a picture stores.
         trap_scale: f32,
+        /// The running derivative at the start.
+        initial_derivative: f32,
+        /// 1 if orbits grow as a power, 0 if by a factor.
+        is_power: f32,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Emits a formula's operations as WGSL.
 //!
-//! A function's inputs are named as in `march_by_derivative.wgsl` and its neighbours, which call the functions.
+//! A function's inputs are named as in `by_derivative.wgsl` and its neighbours, which call the functions.
 //! Operations on parameters only are not emitted: the host computes them once, as slots of the formula's table.
 
 use std::{collections::HashMap, fmt::Write};
@@ -36,6 +36,8 @@ pub struct Emitter<'a> {
     pub non_negative: &'a [bool],
     /// The type of derivatives.
     pub lane: Lane,
+    /// What stands before a slot's index: the place where a step's slots begin, with a plus.
+    pub base: &'static str,
 }
 
 impl Emitter<'_> {
@@ -71,7 +73,7 @@ impl Emitter<'_> {
 
     fn node(&self, id: NodeId, values: &HashMap<NodeId, Emitted>) -> Emitted {
         if let Some(slot) = self.slots.get(&id) {
-            let text = format!("table.slots[{}].{}", slot / 4, AXES[slot % 4]);
+            let text = format!("table.slots[{}{}u].{}", self.base, slot / 4, AXES[slot % 4]);
             return Emitted { text, kind: Kind::Number };
         }
         let of = |id: NodeId| &values[&id];

@@ -110,6 +110,12 @@ fn settle(scene: &mut Scene, from: &Scene) {
     }
 }
 
+/// The formulas of a fractal, with those of a hybrid's steps.
+fn formulas(fractal: &Value) -> impl Iterator<Item = Option<&Value>> {
+    let steps = fractal.get("steps").and_then(Value::as_array).into_iter().flatten();
+    [fractal].into_iter().chain(steps).map(|of| of.get("formula"))
+}
+
 /// A walk through four scenes' JSON at once.
 struct Walk<'a> {
     span: &'a Span,
@@ -124,7 +130,7 @@ impl Walk<'_> {
     fn value(&self, path: &mut String, values: Four<&Value>) -> Option<Value> {
         let (from, to) = (values[1]?, values[2]?);
         // Nothing lies between two formulas: the earlier key's stays.
-        if path == "fractal" && from.get("formula") != to.get("formula") {
+        if path == "fractal" && !formulas(from).eq(formulas(to)) {
             return Some(from.clone());
         }
         if from == to && values[0].is_none_or(|v| v == from) && values[3].is_none_or(|v| v == to) {

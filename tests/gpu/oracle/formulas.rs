@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 use mandelight::{
-    formula::{self, Fractal},
+    formula::table::Value,
+    formula::{self, Fractal, HybridStep, HybridSteps, hybrid},
     gpu::device::in_parallel,
     scene::Scene,
 };
-use mandelight_test_support::{oracle::formulas, probe, random::Random, statistics::quantile};
+use mandelight_test_support::{oracle::orbits, probe, random::Random, statistics::quantile};
 
 /// The direction whose derivative the kernels carry where a text gives none and no ray passes.
 const ANY_DIRECTION: DVec3 = DVec3::new(0.48, 0.6, 0.64);
@@ -27,7 +28,61 @@ fn fractals() -> Vec<Fractal> {
         all.extend(julia.set("julia", true).then_some(julia));
         all.push(fractal);
     }
+    all.extend(hybrids());
     all
+}
+
+/// The step called `id` with values.
+fn step<const N: usize>(id: &str, repeats: u32, values: [(&str, Value); N]) -> HybridStep {
+    let formula = hybrid::find_step(id).expect("a step's formula");
+    let mut step = hybrid::step(formula).expect("a step");
+    step.repeats = repeats;
+    for (name, value) in values {
+        assert!(step.set(name, value), "{id} has no {name}");
+    }
+    step
+}
+
+fn hybrid_of(loop_start: usize, steps: Vec<HybridStep>) -> Fractal {
+    hybrid::fractal(HybridSteps { steps, loop_start }).expect("a hybrid")
+}
+
+/// Hybrids of powers, folds and transforms, with given and derived derivatives, repeats and loops.
+fn hybrids() -> Vec<Fractal> {
+    let bulb = |power: f64| step("mandelbulb", 1, [("power", power.into())]);
+    let mut julia = hybrid_of(0, vec![step("mandelbox", 1, []), bulb(3.0)]);
+    assert!(julia.set("julia", true));
+    let mut all = vec![
+        hybrid_of(0, vec![bulb(8.0)]),
+        hybrid_of(0, vec![step("mandelbulb", 1, [("negative_sine", true.into())])]),
+        hybrid_of(0, vec![step("mandelbox", 1, [("scale", (-1.5).into())]), bulb(2.0)]),
+        hybrid_of(1, vec![step("mandelbox", 3, []), step("amazing_surf", 2, [])]),
+        hybrid_of(0, vec![step("menger_sponge", 2, []), step("sierpinski_tetrahedron", 1, [])]),
+        // One of three components among four, one without dr among those with it.
+        hybrid_of(0, vec![step("quaternion_julia", 1, []), step("box_fold", 1, [])]),
+        hybrid_of(0, vec![step("bristorbrot", 1, []), step("mandelbulb", 1, [])]),
+        hybrid_of(0, vec![step("box_fold", 1, []), step("quaternion_mandelbrot", 2, [])]),
+        julia,
+    ];
+    for (id, _) in formula::step_texts().filter(|(id, _)| *id != "mandelbulb") {
+        all.push(hybrid_of(0, vec![step(id, 1, []), bulb(4.0)]));
+        all.push(hybrid_of(1, vec![step(id, 1, []), step("menger_sponge", 1, [])]));
+    }
+    all
+}
+
+/// A scene that shows all of `fractal`: its view needs no iterations besides the fractal's own.
+fn whole(fractal: &Fractal) -> Scene {
+    let radius = fractal.formula().distance_field(fractal).bounding_radius();
+    let scene = Scene::default();
+    Scene { fractal: fractal.clone(), camera: scene.camera.seeing_ball(radius), ..scene }
+}
+
+/// The fractal in an error's words.
+fn name(fractal: &Fractal) -> String {
+    let steps = fractal.hybrid().map_or(&[][..], |hybrid| &hybrid.steps);
+    let steps: Vec<_> = steps.iter().map(|s| format!("{:?}×{}", s.formula(), s.repeats)).collect();
+    format!("{} {:?} {steps:?}", fractal.formula().id(), fractal.values())
 }
 
 fn points(fractal: &Fractal, count: usize) -> Vec<DVec3> {
@@ -41,15 +96,15 @@ fn points(fractal: &Fractal, count: usize) -> Vec<DVec3> {
 fn texts_agree_with_the_oracle_at_random_points() {
     let mut failures = Vec::new();
     for fractal in fractals() {
-        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let scene = whole(&fractal);
         let points = points(&fractal, 3000);
         let answers = probe::ask(&scene, &points, true).expect("answers");
         let field = fractal.formula().distance_field(&fractal);
         let expected = in_parallel(&points, |&point| {
             let moved = point + DVec3::splat(1e-6 * point.length());
             let [here, beside] =
-                [point, moved].map(|point| formulas::distance(&fractal, point, ANY_DIRECTION));
-            (here, (beside - here).abs(), formulas::orbit(&fractal, point, ANY_DIRECTION))
+                [point, moved].map(|point| orbits::distance(&fractal, point, ANY_DIRECTION));
+            (here, (beside - here).abs(), orbits::orbit(&fractal, point, ANY_DIRECTION))
         });
         let (mut off, mut host_off, mut color_off) = (Vec::new(), Vec::new(), Vec::new());
         for ((point, answer), (distance, sensitivity, end)) in
@@ -71,7 +126,7 @@ fn texts_agree_with_the_oracle_at_random_points() {
                 color_off.push((smooth - end.smooth_iterations).abs());
             }
         }
-        let name = format!("{} {:?}", fractal.formula().id(), fractal.values());
+        let name = name(&fractal);
         // Of some Julia forms nothing remains.
         if off.len() < 300 && fractal.is_on("julia") {
             continue;
@@ -95,16 +150,16 @@ fn texts_agree_with_the_oracle_at_random_points() {
 fn gradients_of_texts_agree_with_the_oracle() {
     let mut failures = Vec::new();
     for fractal in fractals() {
-        let scene = Scene { fractal: fractal.clone(), ..Scene::default() };
+        let scene = whole(&fractal);
         let points = points(&fractal, 2000);
         let answers = probe::ask(&scene, &points, true).expect("answers");
-        let derived = formulas::is_derived(&fractal);
+        let derived = orbits::is_derived(&fractal);
         let expected = in_parallel(&points, |&point| gradient(&fractal, point, derived));
         let pairs = answers.iter().zip(expected).filter_map(|(answer, expected)| {
             Some(expected?.angle_between(answer.gradient.as_dvec3()).to_degrees())
         });
         let off: Vec<_> = pairs.collect();
-        let name = format!("{} {:?}", fractal.formula().id(), fractal.values());
+        let name = name(&fractal);
         if off.len() < 200 && fractal.is_on("julia") {
             continue;
         }
@@ -122,16 +177,16 @@ fn gradients_of_texts_agree_with_the_oracle() {
 
 /// The gradient by central differences; none where two spacings disagree, as at an edge.
 fn gradient(fractal: &Fractal, point: DVec3, derived: bool) -> Option<DVec3> {
-    let distance = formulas::distance(fractal, point, ANY_DIRECTION);
+    let distance = orbits::distance(fractal, point, ANY_DIRECTION);
     if distance < 1e-3 {
         return None;
     }
-    let steps = formulas::orbit(fractal, point, ANY_DIRECTION).steps;
+    let steps = orbits::orbit(fractal, point, ANY_DIRECTION).steps;
     let value = |point: DVec3| {
         if derived {
-            formulas::height(fractal, point, steps)
+            orbits::height(fractal, point, steps)
         } else {
-            formulas::distance(fractal, point, ANY_DIRECTION)
+            orbits::distance(fractal, point, ANY_DIRECTION)
         }
     };
     let slope = |spacing: f64| {

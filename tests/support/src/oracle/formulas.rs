@@ -1,6 +1,4 @@
 //! The formulas of `formulas/`, written once more in f64 from their published equations.
-//!
-//! Derivatives that a text leaves to the program are differences of orbits here.
 
 use std::f64::consts::PI;
 
@@ -9,15 +7,15 @@ use mandelight::formula::Fractal;
 
 use super::{
     folds::{
-        box_folded, cube, folded, julia_constant, mirrored, number, sorted, sphere_factor,
-        tetrahedral, triplex, turned, vec3, vector,
+        box_folded, cube, folded, mirrored, number, sorted, sphere_factor, tetrahedral, triplex,
+        turned, vec3, vector,
     },
     quaternion,
 };
 
 /// How an orbit's end gives a distance.
 #[derive(Clone, Copy)]
-enum Distance {
+pub enum Distance {
     /// ½ r ln r / dr.
     Log,
     /// (r − offset) / dr.
@@ -27,125 +25,20 @@ enum Distance {
 }
 
 /// A formula's equations: one step from (z, c, dr, dc) to (z, dr).
-struct Equations {
-    step: fn(&Fractal, DVec4, DVec4, f64, f64) -> (DVec4, f64),
+#[derive(Clone, Copy)]
+pub struct Equations {
+    /// The step.
+    pub step: fn(&Fractal, DVec4, DVec4, f64, f64) -> (DVec4, f64),
     /// Whether `step` gives dr.
-    gives_derivative: bool,
-    size: fn(DVec4) -> f64,
-    start: fn(&Fractal, DVec3) -> DVec4,
-    distance: Distance,
-}
-
-/// The end of an orbit.
-#[derive(Clone, Copy, Debug)]
-pub struct End {
-    /// The state.
-    pub z: DVec4,
-    /// The running derivative.
-    pub dr: f64,
-    /// How far differences of two spacings disagree on dr, as a part of it; 0 where the equations give dr.
-    pub uncertain: f64,
-    /// Steps taken.
-    pub steps: u32,
-    /// Whether the orbit passed the bailout.
-    pub escaped: bool,
-    /// Least distances of the orbit after its start to the origin and to the z axis.
-    pub traps: [f64; 2],
-    /// The thesis's eq. 3.1, with the growth of the last step.
-    pub smooth_iterations: f64,
-}
-
-/// Whether `fractal`'s text leaves the derivative to the program.
-pub fn is_derived(fractal: &Fractal) -> bool {
-    !equations(fractal.formula().id()).gives_derivative
-}
-
-/// The orbit of `point`, with the derivative along `direction` where the text gives none.
-pub fn orbit(fractal: &Fractal, point: DVec3, direction: DVec3) -> End {
-    let equations = equations(fractal.formula().id());
-    let constant = julia_constant(fractal);
-    let start = (equations.start)(fractal, point);
-    let c = constant.unwrap_or(start);
-    let dc = if constant.is_some() { 0.0 } else { 1.0 };
-    let (mut z, mut before, mut dr, mut steps, mut traps) =
-        (start, start, 1.0, 0, [f64::INFINITY; 2]);
-    while steps < fractal.iterations && (equations.size)(z) <= fractal.bailout {
-        before = z;
-        (z, dr) = (equations.step)(fractal, z, c, dr, dc);
-        traps[0] = traps[0].min(z.xyz().length());
-        traps[1] = traps[1].min(z.xy().length());
-        steps += 1;
-    }
-    let size = (equations.size)(z);
-    let escaped = size.is_nan() || size > fractal.bailout;
-    let mut uncertain = 0.0;
-    if !equations.gives_derivative {
-        [dr, uncertain] = difference(fractal, &equations, [point, direction], steps);
-    }
-    let mut smooth_iterations = f64::from(steps);
-    if escaped && steps > 0 {
-        let [old, new] = [before, z].map(|z| (equations.size)(z).ln());
-        let limit = fractal.bailout.ln();
-        let part = match equations.distance {
-            Distance::Log => (new / limit).ln() / (new / old.max(1e-4)).ln(),
-            _ => (new - limit) / (new - old),
-        };
-        smooth_iterations -= part.clamp(0.0, 1.0);
-    }
-    End { z, dr, uncertain, steps, escaped, traps, smooth_iterations }
-}
-
-/// The estimated distance of `point`, with the derivative along `direction` where the text gives none.
-pub fn distance(fractal: &Fractal, point: DVec3, direction: DVec3) -> f64 {
-    let equations = equations(fractal.formula().id());
-    let End { z, dr, .. } = orbit(fractal, point, direction);
-    let r = (equations.size)(z);
-    let found = match equations.distance {
-        Distance::Log => 0.5 * r * r.ln() / (dr * slope(equations.size, z)),
-        Distance::Linear(offset) => (r - offset) / (dr * slope(equations.size, z)),
-        Distance::Own(of) => of(fractal, z, dr, point),
-    };
-    if found > 0.0 { found } else { 0.0 }
-}
-
-/// The height whose gradient is the normal of a formula without dr: what the estimate divides.
-pub fn height(fractal: &Fractal, point: DVec3, steps: u32) -> f64 {
-    let equations = equations(fractal.formula().id());
-    (equations.size)(after(fractal, &equations, point, steps))
-}
-
-/// The state after a number of steps, wherever the orbit goes.
-fn after(fractal: &Fractal, equations: &Equations, point: DVec3, steps: u32) -> DVec4 {
-    let start = (equations.start)(fractal, point);
-    let c = julia_constant(fractal).unwrap_or(start);
-    (0..steps).fold(start, |z, _| (equations.step)(fractal, z, c, 1.0, 1.0).0)
-}
-
-/// The length of the state's derivative after `steps` along a direction, by differences, and how far those
-/// of two spacings disagree, as a part of it.
-fn difference(
-    fractal: &Fractal,
-    equations: &Equations,
-    [point, direction]: [DVec3; 2],
-    steps: u32,
-) -> [f64; 2] {
-    let at = |spacing: f64| {
-        let [ahead, behind] =
-            [1.0, -1.0].map(|s| after(fractal, equations, point + s * spacing * direction, steps));
-        (ahead - behind).length() / (2.0 * spacing)
-    };
-    // Spacings far below the distance to the set.
-    let rough = at(1e-9).max(1e-3);
-    let [fine, coarse] = [1e-6, 4e-6].map(|part| at((part / rough).min(part)));
-    [fine, (coarse / fine - 1.0).abs()]
-}
-
-/// How fast `size` changes with the state.
-fn slope(size: fn(DVec4) -> f64, z: DVec4) -> f64 {
-    let spacing = 1e-6 * z.length().max(1e-3);
-    let along =
-        |axis: DVec4| (size(z + spacing * axis) - size(z - spacing * axis)) / (2.0 * spacing);
-    DVec4::new(along(DVec4::X), along(DVec4::Y), along(DVec4::Z), along(DVec4::W)).length()
+    pub gives_derivative: bool,
+    /// The size that is compared with the bailout.
+    pub size: fn(DVec4) -> f64,
+    /// The state at the start.
+    pub start: fn(&Fractal, DVec3) -> DVec4,
+    /// The estimate.
+    pub distance: Distance,
+    /// Components of the state: 3 or 4.
+    pub components: usize,
 }
 
 /// The Mandelbulb's |z| and derivative for an n-th power.
@@ -153,13 +46,15 @@ fn power_derivative(z: DVec3, n: f64, dr: f64, dc: f64) -> f64 {
     n * z.length().powf(n - 1.0) * dr + dc
 }
 
-fn usual() -> Equations {
+/// Equations without a step.
+pub fn usual() -> Equations {
     Equations {
         step: |_, z, _, dr, _| (z, dr),
         gives_derivative: true,
         size: |z| z.length(),
         start: |_, p| p.extend(0.0),
         distance: Distance::Log,
+        components: 3,
     }
 }
 
@@ -168,9 +63,11 @@ fn in_slice(fractal: &Fractal, p: DVec3) -> DVec4 {
     p.extend(number(fractal, "slice"))
 }
 
-fn equations(id: &str) -> Equations {
-    match id {
+/// The equations of the formula called `id`, if it is of `formulas/` itself.
+pub fn equations(id: &str) -> Option<Equations> {
+    let found = match id {
         "quaternion_julia" => Equations {
+            components: 4,
             start: in_slice,
             step: |f, z, _, dr, _| {
                 let c = DVec4::from_slice(&vector(f, "constant"));
@@ -179,11 +76,13 @@ fn equations(id: &str) -> Equations {
             ..usual()
         },
         "quaternion_mandelbrot" => Equations {
+            components: 4,
             start: in_slice,
             step: |_, z, c, dr, dc| (quaternion::product(z, z) + c, 2.0 * z.length() * dr + dc),
             ..usual()
         },
         "bicomplex_mandelbrot" => Equations {
+            components: 4,
             start: in_slice,
             // (a + j b)² with complex a, b and j² = −1; the derivative's norm is that of the idempotent parts.
             step: |_, z, c, dr, dc| {
@@ -205,6 +104,17 @@ fn equations(id: &str) -> Equations {
                 let direction =
                     DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
                 ((r.powf(n) * direction).extend(0.0) + c, power_derivative(z, n, dr, dc))
+            },
+            ..usual()
+        },
+        "mandelbulb" => Equations {
+            step: |f, z, c, dr, dc| {
+                let n = number(f, "power");
+                let mut next = triplex(z.xyz(), n);
+                if f.is_on("negative_sine") {
+                    next.z = -next.z;
+                }
+                (next.extend(0.0) + c, power_derivative(z.xyz(), n, dr, dc))
             },
             ..usual()
         },
@@ -285,6 +195,7 @@ fn equations(id: &str) -> Equations {
             ..usual()
         },
         "koch_cube" => Equations {
+            components: 4,
             start: |_, p| p.extend(10.0),
             step: |f, z, _, dr, _| {
                 let scale = number(f, "scale");
@@ -419,6 +330,7 @@ fn equations(id: &str) -> Equations {
             ..usual()
         },
         "aexion" => Equations {
+            components: 4,
             gives_derivative: false,
             start: |_, p| {
                 DVec4::new(p.x + p.y + p.z, -p.x - p.y + p.z, -p.x + p.y - p.z, p.x - p.y - p.z)
@@ -468,8 +380,9 @@ fn equations(id: &str) -> Equations {
             },
             ..usual()
         },
-        other => panic!("no oracle of {other}"),
-    }
+        _ => return None,
+    };
+    Some(found)
 }
 
 /// Scaled about the offset.

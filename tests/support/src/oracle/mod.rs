@@ -7,6 +7,8 @@
 //! | `quaternion` | the quaternion Julia set, by Hamilton's product |
 //! | `folds` | folds, turns and powers of several formulas |
 //! | `formulas` | the formulas of `formulas/` |
+//! | `transforms` | the transforms of hybrids |
+//! | `orbits` | orbits of formulas and hybrids |
 //! | `rays` | camera rays, march, six-sample normals, shadow rays |
 //! | `normals` | the estimate's gradient, by differences |
 //! | `light` | Blinn-Phong, the gradient of colours, sRGB |
@@ -20,7 +22,9 @@ pub mod folds;
 pub mod formulas;
 pub mod light;
 pub mod normals;
+pub mod orbits;
 pub mod quaternion;
 pub mod rays;
 pub mod tone;
+pub mod transforms;
 pub mod views;
