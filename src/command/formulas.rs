@@ -3,7 +3,7 @@
 use std::{fs, path::PathBuf};
 
 use clap::{Args, Subcommand};
-use mandelight::formula::{self, FormulaRef, TextError, own};
+use mandelight::formula::{self, FormulaRef, TextError, hybrid, own};
 
 use super::{Failure, print};
 
@@ -27,11 +27,14 @@ enum FormulaCommand {
     },
 }
 
-/// Prints each formula's id, name and description.
+/// Prints the id, name and description of each formula, then of each transform.
 pub fn list(_arguments: FormulasArguments) -> Result<(), Failure> {
-    let width = formula::all().map(|formula| formula.id().len()).max().unwrap_or(0);
-    let lines = formula::all().map(|formula| {
-        format!("{:width$}  {}: {}\n", formula.id(), formula.name(), formula.about())
+    let transforms = hybrid::step_formulas().filter(|&formula| hybrid::is_transform(formula));
+    let all: Vec<_> = formula::all().chain(transforms).collect();
+    let width = all.iter().map(|formula| formula.id().len()).max().unwrap_or(0);
+    let lines = all.iter().map(|&formula| {
+        let step = if hybrid::is_transform(formula) { " (a step of hybrids)" } else { "" };
+        format!("{:width$}  {}: {}{step}\n", formula.id(), formula.name(), formula.about())
     });
     print(&lines.collect::<String>())
 }

@@ -19,7 +19,7 @@ use mandelight::{
 };
 use serde_json::Value;
 
-use super::{Failure, formulas};
+use super::Failure;
 
 /// How much of a source is looked at, in bytes: one more than of a document, so that what is too
 /// large is known as such. A picture's text stands at its start.
@@ -73,15 +73,6 @@ pub fn parse_change(text: &str) -> Result<Change, String> {
         }
         _ => Err("write it as path=value, such as fractal.power=3".to_owned()),
     }
-}
-
-/// `scene` with the formula of the text in `file`, if one is given, and the camera where it sees the whole set.
-pub fn with_formula(scene: Scene, file: Option<&Path>) -> Result<Scene, Failure> {
-    let Some(file) = file else { return Ok(scene) };
-    let formula = formulas::read(file).map_err(Failure::usage)?;
-    let fractal = Fractal::new(formula);
-    let radius = formula.distance_field(&fractal).bounding_radius();
-    Ok(Scene { fractal, camera: scene.camera.seeing_ball(radius), ..scene })
 }
 
 /// `scene` after all of `changes`, checked as a document is.

@@ -8,6 +8,7 @@
 //! | [`render`] | `mandelight render`: a picture of a scene |
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
+//! | [`fractals`] | `--formula` and `--hybrid` |
 //! | [`formulas`] | `mandelight formulas`, `mandelight formula check`: formulas and their texts |
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`info`] | `mandelight info`: the GPU |
@@ -22,6 +23,7 @@ mod adapter;
 mod environment;
 mod folder;
 mod formulas;
+mod fractals;
 mod frames;
 mod info;
 mod input;

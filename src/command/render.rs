@@ -26,6 +26,7 @@ use super::{
     Failure,
     adapter::{AdapterArguments, Health},
     environment::{EnvironmentArguments, warn_of_missing_map},
+    fractals::OtherFractal,
     input::{self, Change},
     message,
     output::Output,
@@ -51,10 +52,8 @@ pub struct RenderArguments {
     /// Samples per pixel, instead of the scene's number
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
-    /// Draw the formula of this text instead of the scene's, seen whole
-    #[arg(long, value_name = "FILE")]
-    formula: Option<PathBuf>,
-
+    #[command(flatten)]
+    other: OtherFractal,
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -76,7 +75,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     if let Some(environment) = &environment {
         environment.surround(&mut scene);
     }
-    let scene = input::with_formula(scene, arguments.formula.as_deref())?;
+    let scene = arguments.other.in_scene(scene)?;
     let mut scene = input::changed(scene, &arguments.set)?;
     arguments.stereo.apply(&mut scene);
     if environment.is_none() && !arguments.quiet {

@@ -1,7 +1,5 @@
 //! `mandelight scene`: prints a scene document.
 
-use std::path::PathBuf;
-
 use mandelight::scene::{
     document,
     presets::{self, Preset},
@@ -9,6 +7,7 @@ use mandelight::scene::{
 
 use super::{
     Failure,
+    fractals::OtherFractal,
     input::{self, Change},
     print,
 };
@@ -22,9 +21,8 @@ pub struct SceneArguments {
     /// List the opening scenes and the dives
     #[arg(long, conflicts_with_all = ["preset", "set"])]
     list_presets: bool,
-    /// Take the formula of this text, and see its whole set
-    #[arg(long, value_name = "FILE", conflicts_with = "list_presets")]
-    formula: Option<PathBuf>,
+    #[command(flatten)]
+    other: OtherFractal,
     /// Change a field, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -48,7 +46,7 @@ pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
             let wanted = wanted.unwrap_or_default();
             Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
         })?;
-    let scene = input::with_formula((preset.scene)(), arguments.formula.as_deref())?;
+    let scene = arguments.other.in_scene((preset.scene)())?;
     let scene = input::changed(scene, &arguments.set)?;
     print(&document::to_json(&scene))
 }

@@ -105,6 +105,25 @@ pub fn step_of(fractal: &Fractal) -> Result<HybridStep, HybridError> {
     Ok(step)
 }
 
+/// The fractal that a step's formula draws alone, with the step's values; none for transforms.
+pub fn alone(step: &HybridStep) -> Option<Fractal> {
+    let id = step.formula().id();
+    let formula = all().find(|one| one.id() == id).or_else(|| {
+        // A typed formula is in no list.
+        text_of(step).filter(|text| text.text().is_some()).map(|_| step.formula())
+    })?;
+    let mut fractal = Fractal::new(formula);
+    for (field, value) in step.fields() {
+        fractal.set(field.name, value.clone());
+    }
+    Some(fractal)
+}
+
+/// Whether a formula only transforms space.
+pub fn is_transform(formula: FormulaRef) -> bool {
+    as_text(formula).is_some_and(|text| text.checked().growth == Growth::None)
+}
+
 /// A hybrid of `steps`, with default values.
 ///
 /// # Errors

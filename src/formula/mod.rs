@@ -38,7 +38,6 @@ pub use contract::{
     Formula, FormulaRef, Fractal, HybridStep, HybridSteps, Kernel, KernelFiles, Packed, PackedFor,
     ReferenceOrbit, ReferenceSteps,
 };
-pub use hybrid::HybridError;
 pub use language::{TextError, TextFormula};
 pub use march::{DistanceField, Estimate, MarchPolicy, Ray};
 pub use recurrence::{OrbitPosition, Recurrence};

@@ -2,7 +2,10 @@
 
 use std::{collections::HashSet, fs};
 
-use mandelight::{formula, scene::document};
+use mandelight::{
+    formula::{self, hybrid},
+    scene::document,
+};
 use mandelight_test_support::{
     picture::Picture,
     program::{code, program, said},
@@ -20,7 +23,9 @@ fn the_list_has_a_line_for_each_formula() {
     let output = program(PROGRAM, ["formulas"]).output().unwrap();
     let list = String::from_utf8(output.stdout).unwrap();
     let ids: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert!(ids.iter().copied().eq(formula::all().map(|formula| formula.id())), "{list}");
+    let transforms = hybrid::step_formulas().filter(|&formula| hybrid::is_transform(formula));
+    let expected = formula::all().chain(transforms).map(|formula| formula.id());
+    assert!(ids.iter().copied().eq(expected), "{list}");
 }
 
 #[test]
@@ -76,4 +81,23 @@ fn a_picture_of_a_text_carries_it() {
     assert!(read.texts.iter().any(|(_, text)| text.contains("box_fold")));
     let pixels: HashSet<[u8; 3]> = read.rgb().into_iter().collect();
     assert!(pixels.len() > 50, "{} colours", pixels.len());
+}
+
+#[test]
+fn a_hybrid_is_made_of_names_and_changed_by_set() {
+    let scene = |arguments: &[&str]| program(PROGRAM, ["scene"]).args(arguments).output().unwrap();
+    let steps = ["--hybrid", "rotate,mandelbox*2,mandelbulb"];
+    let output = scene(&[&steps[..], &["--set", "fractal.steps[1].scale=-1.5"]].concat());
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    let scene_of = document::from_json(&String::from_utf8(output.stdout).unwrap()).unwrap();
+    let hybrid = scene_of.fractal.hybrid().expect("a hybrid");
+    let found: Vec<_> =
+        hybrid.steps.iter().map(|step| (step.formula().id(), step.repeats)).collect();
+    assert_eq!(found, [("rotate", 1), ("mandelbox", 2), ("mandelbulb", 1)]);
+    assert_eq!(hybrid.steps[1].values()[0], (-1.5).into());
+    for wrong in ["mandelbux", "mandelbox*0", "mandelbox*x", ""] {
+        let output = scene(&["--hybrid", wrong]);
+        assert_eq!(code(&output), 2, "{wrong}: {}", said(&output));
+        assert!(said(&output).contains("--hybrid: "), "{}", said(&output));
+    }
 }

@@ -11,6 +11,7 @@ mod fit;
 mod follow;
 mod gestures;
 mod hostile;
+mod hybrids;
 mod navigation;
 mod orbit;
 mod places;

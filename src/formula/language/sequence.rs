@@ -1,6 +1,6 @@
 //! The order in which an orbit's steps are taken, and its place in a formula's table.
 
-use super::{field::Programs, uniforms::MAX_SLOTS};
+use super::uniforms::MAX_SLOTS;
 
 /// Most steps of a hybrid, without their repeats.
 pub const MAX_STEPS: usize = 9;
@@ -11,7 +11,7 @@ pub const LISTED_STEPS: u32 = 256;
 /// The entry behind the listed steps: the step that tells sizes and distances.
 pub const LEADING: u32 = LISTED_STEPS;
 /// Vectors of the table that the entries take.
-const ENTRY_VECTORS: usize = LISTED_STEPS as usize / 4 + 1;
+pub const ENTRY_VECTORS: usize = LISTED_STEPS as usize / 4 + 1;
 /// Vectors of the table of several formulas.
 pub const MAX_VECTORS: usize = ENTRY_VECTORS + MAX_STEPS * MAX_SLOTS / 4;
 
@@ -56,23 +56,6 @@ impl Sequence {
             is_here
         });
         place.unwrap_or(self.loop_start)
-    }
-
-    /// The table of several formulas: entries for the steps, then each step's slots.
-    pub fn table(&self, formulas: &[Programs]) -> Vec<f64> {
-        let mut slots = Vec::new();
-        let mut entries = Vec::new();
-        for step in &self.steps {
-            let base = ENTRY_VECTORS + slots.len() / 4;
-            entries.push(((base << FORMULA_BITS) | step.formula) as f64);
-            slots.extend(formulas[step.formula].slots(&step.params));
-            slots.resize(slots.len().next_multiple_of(4), 0.0);
-        }
-        let listed = (0..LISTED_STEPS).map(|n| entries[self.place(n)]);
-        let mut table: Vec<_> = listed.chain([entries[self.leading]]).collect();
-        table.resize(4 * ENTRY_VECTORS, 0.0);
-        table.extend(slots);
-        table
     }
 }
 

@@ -6,7 +6,7 @@ use super::{
     field::{MAX_STEP, Programs, TextField},
     kernel::Compiled,
     operations,
-    sequence::Sequence,
+    sequence::{ENTRY_VECTORS, FORMULA_BITS, LISTED_STEPS, Sequence},
     uniforms::Uniforms,
 };
 use crate::{
@@ -132,7 +132,7 @@ impl Steps {
         let mut slots = if self.is_alone {
             self.formulas[0].slots(&sequence.steps[0].params)
         } else {
-            sequence.table(&self.formulas)
+            table(sequence, &self.formulas)
         };
         // Whole vectors of four.
         slots.resize(slots.len().next_multiple_of(4), 0.0);
@@ -142,4 +142,21 @@ impl Steps {
             table: slots.iter().flat_map(|slot| (*slot as f32).to_le_bytes()).collect(),
         }
     }
+}
+
+/// The table of several formulas: entries for the steps of a sequence, then each step's slots.
+fn table(sequence: &Sequence, formulas: &[Programs]) -> Vec<f64> {
+    let mut slots = Vec::new();
+    let mut entries = Vec::new();
+    for step in &sequence.steps {
+        let base = ENTRY_VECTORS + slots.len() / 4;
+        entries.push(((base << FORMULA_BITS) | step.formula) as f64);
+        slots.extend(formulas[step.formula].slots(&step.params));
+        slots.resize(slots.len().next_multiple_of(4), 0.0);
+    }
+    let listed = (0..LISTED_STEPS).map(|n| entries[sequence.place(n)]);
+    let mut table: Vec<_> = listed.chain([entries[sequence.leading]]).collect();
+    table.resize(4 * ENTRY_VECTORS, 0.0);
+    table.extend(slots);
+    table
 }

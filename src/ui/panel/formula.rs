@@ -47,7 +47,8 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     if state.is_open {
         ui.add_space(GAP);
-        if let Some(chosen) = list(ui, &mut state.words, current) {
+        let all: Vec<_> = formula::all().collect();
+        if let Some(chosen) = cards(ui, &mut state.words, &all, Some(current)) {
             if chosen != current {
                 change(cx, chosen);
             }
@@ -59,11 +60,16 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.data_mut(|data| data.insert_temp(id, state));
 }
 
-/// The search field and a card for each formula that matches; returns the formula that was clicked.
-fn list(ui: &mut Ui, words: &mut String, current: FormulaRef) -> Option<FormulaRef> {
+/// The search field and a card for each of the formulas that match; returns the formula that was clicked.
+pub(super) fn cards(
+    ui: &mut Ui,
+    words: &mut String,
+    all: &[FormulaRef],
+    current: Option<FormulaRef>,
+) -> Option<FormulaRef> {
     let search = TextEdit::singleline(words).hint_text("Search").desired_width(f32::INFINITY);
     ui.add(search).accessible_name("Search formulas");
-    let found: Vec<_> = formula::all().filter(|&formula| matches(formula, words)).collect();
+    let found: Vec<_> = all.iter().copied().filter(|&formula| matches(formula, words)).collect();
     if found.is_empty() {
         let none = format!("No formula has \"{}\" in its name or description.", words.trim());
         ui.add(Label::new(RichText::new(none).small()).wrap());
@@ -82,7 +88,7 @@ fn list(ui: &mut Ui, words: &mut String, current: FormulaRef) -> Option<FormulaR
             let place = vec2((index % COLUMNS) as f32, (index / COLUMNS) as f32);
             let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
             let picture = preset_of(formula).and_then(thumbnail::image);
-            let card = card(ui, rect, formula.name(), picture, formula == current);
+            let card = card(ui, rect, formula.name(), picture, Some(formula) == current);
             if card.on_hover_text(formula.about()).clicked() {
                 clicked = Some(formula);
             }

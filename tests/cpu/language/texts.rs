@@ -4,7 +4,7 @@ use std::{fmt::Write, sync::Arc};
 
 use mandelight::{
     formula::{
-        self, Fractal, TextFormula,
+        self, Formula, Fractal, TextFormula,
         language::{
             check,
             functions::FUNCTIONS,
@@ -159,12 +159,12 @@ fn function_table() -> String {
     table
 }
 
-/// The sections of the formulas in the docs.
-fn formula_sections() -> String {
+/// The sections of formulas in the docs.
+fn sections(texts: impl Iterator<Item = (&'static str, &'static str)>) -> String {
     let mut text = String::new();
-    for (id, source) in formula::texts() {
+    for (id, source) in texts {
         let made = TextFormula::new(id, source).expect("a formula");
-        let formula = formula::find(id).expect("a formula");
+        let formula: &dyn Formula = &made;
         writeln!(text, "### {}\n\n`{id}`: {}.\n", formula.name(), formula.about()).unwrap();
         for source in made.sources() {
             writeln!(text, "- Source: {source}").unwrap();
@@ -198,7 +198,11 @@ fn formula_sections() -> String {
 fn the_docs_list_functions_and_formulas() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/formulas.md");
     let mut text = std::fs::read_to_string(file).expect("docs/formulas.md");
-    for (mark, expected) in [("functions", function_table()), ("formulas", formula_sections())] {
+    for (mark, expected) in [
+        ("functions", function_table()),
+        ("formulas", sections(formula::texts())),
+        ("steps", sections(formula::step_texts())),
+    ] {
         let begin = format!("<!-- {mark}:");
         let end = format!("<!-- end of {mark} -->");
         let (before, rest) = text.split_once(&begin).expect("the mark before");
