@@ -77,7 +77,8 @@ impl Settings {
         let picture = &inputs.frame;
         let (camera, march) = (&picture.camera, &picture.march);
         let fractal = mandelbulb::uniforms::Fractal::read(&inputs.formula.uniforms);
-        let (surface, background) = (&picture.surface, &picture.background);
+        let (surface, layer) = (&picture.surface, &picture.first_layer);
+        let background = &picture.background;
         Self {
             eye: camera.origin,
             half_height: camera.half_height,
@@ -99,9 +100,10 @@ impl Settings {
             jitter: [0.5; 2],
             end_light: 0,
             light_count: surface.light_count,
-            color_source: surface.color_source,
-            color_repeats: surface.color_repeats,
-            color_offset: surface.color_offset,
+            // The kernel has the traps at the origin, the z axis and z = 0, after the iterations.
+            color_source: layer.source.saturating_sub(4),
+            color_repeats: layer.repeats,
+            color_offset: layer.offset,
             ambient: surface.ambient,
             diffuse: surface.diffuse,
             specular: surface.specular,
@@ -274,7 +276,7 @@ impl<'a> Picture<'a> {
             buffer("literal film", 16 * pixels),
         ];
         literal.gpu.queue.write_buffer(&buffers[1], 0, bytemuck::cast_slice(&lights));
-        literal.gpu.queue.write_buffer(&buffers[2], 0, bytemuck::cast_slice(&inputs.gradient));
+        literal.gpu.queue.write_buffer(&buffers[2], 0, bytemuck::cast_slice(&inputs.gradients[0]));
         let entries: Vec<_> = (0..)
             .zip(&buffers)
             .map(|(binding, buffer)| wgpu::BindGroupEntry {

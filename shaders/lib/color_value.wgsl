@@ -1,16 +1,9 @@
-// The value of a sample's colour data that selects its colour.
-// uses: types/frame_uniforms
+// The value that selects a sample's colour in a colour layer's gradient.
+// uses: lib/octahedral, types/frame_uniforms
 
-const SOURCE_ITERATIONS = 0u;
-const SOURCE_ORIGIN_TRAP = 1u;
-const SOURCE_AXIS_TRAP = 2u;
-
-// The value over its greatest: 0 to 1.
-fn color_value(data: vec2u) -> f32 {
-    let first = unpack2x16unorm(data.x);
-    let second = unpack2x16unorm(data.y);
-    if (frame.surface.color_source == SOURCE_ITERATIONS) { return first.x; }
-    if (frame.surface.color_source == SOURCE_ORIGIN_TRAP) { return first.y; }
-    if (frame.surface.color_source == SOURCE_AXIS_TRAP) { return second.x; }
-    return second.y;
+// The layer's value of a sample with the stored value `stored` and the packed normal `normal`.
+fn color_value(layer: ColorLayer, stored: f32, normal: u32) -> f32 {
+    if (layer.source != COLOR_NORMAL) { return stored; }
+    if (frame.normals == NORMALS_NONE) { return 0.5; }
+    return 0.5 + 0.5 * dot(octahedral_unpack(normal), layer.axis);
 }

@@ -11,35 +11,45 @@ fn has_environment_map() -> bool {
 }
 
 const GRADIENT_ENTRIES = 256u;
-// The surface's colour gradient, linear Rec. 709, periodic.
-@group(0) @binding(4) var<uniform> gradient: array<vec4f, GRADIENT_ENTRIES>;
+// The gradients of the first and the second colour layer, linear Rec. 709, periodic.
+@group(0) @binding(4) var<uniform> gradients: array<vec4f, 2u * GRADIENT_ENTRIES>;
 
-fn gradient_color(u: f32) -> vec3f {
+// The colour at `u` in the gradient whose first entry is `first`.
+fn gradient_color(first: u32, u: f32) -> vec3f {
     let x = fract(u) * f32(GRADIENT_ENTRIES);
     let low = u32(x) % GRADIENT_ENTRIES;
-    return mix(gradient[low].rgb, gradient[(low + 1u) % GRADIENT_ENTRIES].rgb, fract(x));
+    let next = (low + 1u) % GRADIENT_ENTRIES;
+    return mix(gradients[first + low].rgb, gradients[first + next].rgb, fract(x));
 }
 
-// Number of knots of the colour curve.
+// Number of knots of a colour curve.
 const COLOR_KNOTS = 64u;
 
-// The colour curve at a value: linear between knots, constant beyond them.
-fn color_curve(value: f32) -> f32 {
-    let along = (value - frame.surface.color_low) * frame.surface.color_per_value;
+// A layer's colour curve at a value: linear between knots, constant beyond them. `first` is its first knot.
+fn color_curve(layer: ColorLayer, first: u32, value: f32) -> f32 {
+    let along = (value - layer.curve_low) * layer.curve_per_value;
     let place = clamp(along, 0.0, 1.0) * f32(COLOR_KNOTS - 1u);
-    let low = min(u32(place), COLOR_KNOTS - 2u);
+    let before = min(u32(place), COLOR_KNOTS - 2u);
+    let low = first + before;
     // Read from the uniforms themselves: an index into the private copy would keep the copy in memory.
-    let a = frame_uniforms.color_curve[low / 4u][low % 4u];
-    let b = frame_uniforms.color_curve[(low + 1u) / 4u][(low + 1u) % 4u];
-    return mix(a, b, place - f32(low));
+    let a = frame_uniforms.color_curves[low / 4u][low % 4u];
+    let b = frame_uniforms.color_curves[(low + 1u) / 4u][(low + 1u) % 4u];
+    return mix(a, b, place - f32(before));
 }
 
-fn surface_color(data: vec2u) -> vec3f {
-    let is_count = frame.surface.color_source == SOURCE_ITERATIONS;
-    let greatest = select(2.0, f32(frame.march.iterations + 1u), is_count);
-    var value = color_value(data) * greatest;
-    if (frame.surface.color_follows != 0u) { value = color_curve(value); }
-    return gradient_color(value * frame.surface.color_repeats + frame.surface.color_offset);
+// The colour of one layer; `number` is 0 or 1.
+fn layer_color(layer: ColorLayer, number: u32, stored: f32, normal: u32) -> vec3f {
+    var value = color_value(layer, stored, normal);
+    if (layer.follows_view != 0u) { value = color_curve(layer, number * COLOR_KNOTS, value); }
+    return gradient_color(number * GRADIENT_ENTRIES, value * layer.repeats + layer.offset);
+}
+
+// The colour of a sample with the layers' values `stored` and the packed normal `normal`.
+fn surface_color(stored: vec2f, normal: u32) -> vec3f {
+    let color = layer_color(frame.first_layer, 0u, stored.x, normal);
+    if (frame.second_layer.source == COLOR_NONE) { return color; }
+    let second = layer_color(frame.second_layer, 1u, stored.y, normal);
+    return mix(color, second, frame.second_layer.amount);
 }
 
 // Blinn-Phong (Blinn 1977) summed over the lights that reach the point. Without normals (thesis
@@ -88,7 +98,7 @@ fn direct_radiance(site: Site, ray: Ray) -> vec3f {
     if (seen.x == 0u) {
         return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
     }
-    let color = surface_color(color_data[site.index]);
+    let color = surface_color(color_data[site.index], seen.y);
     return reflected(ray.origin, octahedral_unpack(seen.y), -ray.direction, color, visibility[site.index]);
 }
 

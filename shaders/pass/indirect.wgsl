@@ -124,7 +124,7 @@ fn radiance_of(site: Site) -> vec3f {
     } else {
         arriving = horizon_light(site, point, n, reach);
     }
-    return radiance + frame.indirect.strength * surface_color(color_data[site.index]) * arriving;
+    return radiance + frame.indirect.strength * surface_color(color_data[site.index], seen.y) * arriving;
 }
 
 @compute @workgroup_size(64)

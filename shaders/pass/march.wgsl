@@ -104,6 +104,19 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> RayEnd {
     return ray_end(t, colors);
 }
 
+// The value that an orbit, or the hit in render space, gives to a colour layer.
+fn layer_value(layer: ColorLayer, colors: OrbitColors, trap: f32, hit: vec3f) -> f32 {
+    switch layer.source {
+        case COLOR_ITERATIONS: { return colors.smooth_iterations; }
+        case COLOR_CHANNEL: { return colors.channel; }
+        case COLOR_POSITION: {
+            let position = frame.march.anchor + frame.march.scale * hit;
+            return 0.5 + 0.5 * dot(position, layer.axis) / frame.march.bounding_radius;
+        }
+        default: { return trap; }
+    }
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
@@ -119,7 +132,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     rays[site.ray].origin = at_surface.origin;
     rays[site.ray].radius = at_surface.radius;
     let colors = orbit_colors(fractal, ray.origin + end.colors * ray.direction);
-    let iterations = colors.smooth_iterations / f32(frame.march.iterations + 1u);
-    color_data[site.index] = vec2u(
-        pack2x16unorm(vec2f(iterations, colors.traps.x * 0.5)), pack2x16unorm(colors.traps.yz * 0.5));
+    color_data[site.index] = vec2f(
+        layer_value(frame.first_layer, colors, colors.traps.x, at_surface.origin),
+        layer_value(frame.second_layer, colors, colors.traps.y, at_surface.origin));
 }

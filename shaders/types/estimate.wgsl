@@ -12,8 +12,10 @@ struct Estimate {
 struct OrbitColors {
     // Thesis eq. 3.1 for any power and bailout: N - log_n(ln r / ln bailout).
     smooth_iterations: f32,
-    // Orbit traps: least distances of the orbit, after its start, to the origin, the z axis, the plane z = 0.
-    traps: vec3f,
+    // The formula's own channel, folds for instance, on average over the steps; 0 if it has none.
+    channel: f32,
+    // Least distances of the orbit, after its start, from the colour layers' traps; at most `MAX_TRAP`.
+    traps: vec2f,
 }
 
 // Whether the formula's estimate has false minima: 0 no, 1 yes, -1 reads it from the uniforms.

@@ -50,14 +50,42 @@ struct Surface {
     diffuse: f32,
     specular: f32,
     shininess: f32,
-    color_source: u32,
-    color_repeats: f32,
-    color_offset: f32,
     light_count: u32,
+}
+
+// The layer is not drawn.
+const COLOR_NONE = 0u;
+const COLOR_ITERATIONS = 1u;
+const COLOR_CHANNEL = 2u;
+const COLOR_POSITION = 3u;
+const COLOR_NORMAL = 4u;
+const COLOR_POINT_TRAP = 5u;
+const COLOR_AXIS_TRAP = 6u;
+const COLOR_PLANE_TRAP = 7u;
+const COLOR_SPHERE_TRAP = 8u;
+const COLOR_CUBE_TRAP = 9u;
+
+// How one layer of colours selects positions in its gradient.
+struct ColorLayer {
+    // Centre of the orbit trap, in the formula's unit.
+    center: vec3f,
+    // One of the `COLOR_` constants.
+    source: u32,
+    // Direction of the axis, for sources that have one; a unit vector.
+    axis: vec3f,
+    // Size of the orbit trap.
+    size: f32,
+    // The greatest value that is told apart.
+    greatest: f32,
+    // Gradient lengths per unit of the value, and the offset into the gradient.
+    repeats: f32,
+    offset: f32,
     // 1: the colour curve replaces the value; then the value at its first knot, and one over its range.
-    color_follows: u32,
-    color_low: f32,
-    color_per_value: f32,
+    follows_view: u32,
+    curve_low: f32,
+    curve_per_value: f32,
+    // Part of the layer in the colour, for the second one.
+    amount: f32,
 }
 
 struct Background {
@@ -150,6 +178,8 @@ struct FrameUniforms {
     eyes: Eyes,
     march: March,
     surface: Surface,
+    first_layer: ColorLayer,
+    second_layer: ColorLayer,
     indirect: Indirect,
     background: Background,
     tone: Tone,
@@ -161,8 +191,8 @@ struct FrameUniforms {
     size_px: vec2u,
     // One of the `NORMALS_` constants.
     normals: u32,
-    // The colour curve: positions in the gradient at 64 knots.
-    color_curve: array<vec4f, 16>,
+    // The layers' colour curves: positions in the gradient at 64 knots each.
+    color_curves: array<vec4f, 32>,
     // Declared by the formula.
     formula: FormulaUniforms,
 }

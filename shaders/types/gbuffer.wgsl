@@ -5,9 +5,8 @@
 // x: depth along the camera ray in render space, the bits of an f32; 0 on a miss.
 // y: unit normal, octahedral, two 16-bit signed normalised numbers.
 @group(1) @binding(0) var<storage, read_write> surface: array<vec2u>;
-// x: smooth iterations / (iterations + 1) and origin trap / 2; y: axis trap / 2 and plane trap / 2. All are
-// 16-bit unsigned normalised numbers.
-@group(1) @binding(1) var<storage, read_write> color_data: array<vec2u>;
+// The values that select the colours of the two layers.
+@group(1) @binding(1) var<storage, read_write> color_data: array<vec2f>;
 // One bit per light that casts shadows: set if the light reaches the point.
 @group(1) @binding(2) var<storage, read_write> visibility: array<vec2u>;
 // The rays of a batch, in the order of its threads.

@@ -25,6 +25,7 @@ mod folder;
 mod formulas;
 mod fractals;
 mod frames;
+mod gradient;
 mod info;
 mod input;
 mod output;

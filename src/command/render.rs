@@ -27,6 +27,7 @@ use super::{
     adapter::{AdapterArguments, Health},
     environment::{EnvironmentArguments, warn_of_missing_map},
     fractals::OtherFractal,
+    gradient::GradientArguments,
     input::{self, Change},
     message,
     output::Output,
@@ -54,6 +55,8 @@ pub struct RenderArguments {
     samples: Option<u32>,
     #[command(flatten)]
     other: OtherFractal,
+    #[command(flatten)]
+    gradient: GradientArguments,
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -75,7 +78,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     if let Some(environment) = &environment {
         environment.surround(&mut scene);
     }
-    let scene = arguments.other.in_scene(scene)?;
+    let scene = arguments.gradient.in_scene(arguments.other.in_scene(scene)?)?;
     let mut scene = input::changed(scene, &arguments.set)?;
     arguments.stereo.apply(&mut scene);
     if environment.is_none() && !arguments.quiet {

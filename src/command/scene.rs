@@ -8,6 +8,7 @@ use mandelight::scene::{
 use super::{
     Failure,
     fractals::OtherFractal,
+    gradient::GradientArguments,
     input::{self, Change},
     print,
 };
@@ -23,6 +24,8 @@ pub struct SceneArguments {
     list_presets: bool,
     #[command(flatten)]
     other: OtherFractal,
+    #[command(flatten)]
+    gradient: GradientArguments,
     /// Change a field, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -46,7 +49,7 @@ pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
             let wanted = wanted.unwrap_or_default();
             Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
         })?;
-    let scene = arguments.other.in_scene((preset.scene)())?;
+    let scene = arguments.gradient.in_scene(arguments.other.in_scene((preset.scene)())?)?;
     let scene = input::changed(scene, &arguments.set)?;
     print(&document::to_json(&scene))
 }

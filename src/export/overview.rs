@@ -49,7 +49,7 @@ impl Overview {
         let has_indirect = scene.has_indirect();
         // An OpenEXR file stores radiance before exposure and bloom.
         let has_post = format != PictureFormat::Exr && !Need::of_scene(scene).is_none();
-        let has_colors = scene.surface.coloring.follows_view;
+        let has_colors = scene.surface.follows_view();
         if !has_post && !has_indirect && !has_colors {
             return None;
         }
@@ -85,7 +85,7 @@ impl Overview {
             tile.lend_indirect_source(Some(self.view.indirect_source()));
         }
         if self.has_colors {
-            tile.lend_color_curve(self.view.color_curve());
+            tile.lend_color_curves(self.view.color_curves());
         }
     }
 

@@ -10,6 +10,7 @@ use super::{
     param,
     recurrence::Recurrence,
     table::{Field, Value},
+    trap::Trap,
 };
 use crate::{gpu::shader::File, precise::PrecisePoint};
 
@@ -26,6 +27,11 @@ pub trait Formula: Any + Sync {
 
     /// The text that documents carry instead of the id; none for formulas that come with the program.
     fn text(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// The name of the formula's colour channel in panels; none if it has none.
+    fn channel(&self) -> Option<&'static str> {
         None
     }
 
@@ -420,6 +426,8 @@ pub struct PackedFor<'a> {
     pub reference: Option<&'a Arc<dyn ReferenceOrbit>>,
     /// Radius about the scene's origin of a sphere that holds the set, in scene units.
     pub bounding_radius: f64,
+    /// The orbit traps of the colour layers; none for layers with other values.
+    pub traps: [Option<Trap>; 2],
 }
 
 /// The uniforms of one frame, and the kernel that reads them.

@@ -289,6 +289,10 @@ impl Formula for Hybrid {
         self.about
     }
 
+    fn channel(&self) -> Option<&'static str> {
+        self.formulas.iter().find_map(|text| text.channel())
+    }
+
     fn fields(&self) -> &'static [Field] {
         self.fields
     }

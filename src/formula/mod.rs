@@ -13,6 +13,7 @@
 //! | [`own`] | texts that documents and people bring |
 //! | [`table`] | a formula's parameters: kinds, labels, defaults |
 //! | [`param`] | numbers with unit, range and help |
+//! | [`trap`] | orbit traps |
 //! | [`bounds`] | spheres that hold a set |
 //! | [`march`] | distance fields, and rays against them |
 //! | [`recurrence`] | points whose orbits recur |
@@ -33,6 +34,7 @@ pub mod own;
 pub mod param;
 pub mod recurrence;
 pub mod table;
+pub mod trap;
 
 pub use contract::{
     Formula, FormulaRef, Fractal, HybridStep, HybridSteps, Kernel, KernelFiles, Packed, PackedFor,

@@ -9,8 +9,9 @@ use std::{
 };
 
 use super::{
-    FormulaRef,
+    FormulaRef, Fractal,
     language::{TextError, TextFormula, tree::Span},
+    table::{Field, Value},
 };
 
 /// Most texts that one run of the program keeps.
@@ -18,6 +19,34 @@ const MAX_TEXTS: usize = 2000;
 
 /// The formulas by their texts.
 static OWN: LazyLock<Mutex<HashMap<String, FormulaRef>>> = LazyLock::new(Mutex::default);
+
+/// A fractal of `formula` with the values that `old` has changed, where `formula` has such parameters.
+///
+/// Iterations and bailout stay. Parameters at their defaults take the new formula's.
+pub fn with_values_of(formula: FormulaRef, old: &Fractal) -> Fractal {
+    let mut new = Fractal::new(formula);
+    for (field, value) in old.fields().filter(|(field, value)| field.default() != **value) {
+        let target = formula.fields().iter().find(|other| other.name == field.name);
+        let is_in_range =
+            |x: &f64| target.and_then(Field::param).is_none_or(|param| param.accepts(*x));
+        let is_valid = match value {
+            Value::Number(number) => is_in_range(number),
+            Value::Vector(numbers) => numbers.iter().all(is_in_range),
+            Value::Switch(_) | Value::Choice(_) => true,
+        };
+        if is_valid {
+            new.set(field.name, value.clone());
+        }
+    }
+    let usual = Fractal::new(old.formula());
+    if old.iterations != usual.iterations {
+        new.iterations = old.iterations;
+    }
+    if old.bailout != usual.bailout {
+        new.bailout = old.bailout.min(new.max_bailout());
+    }
+    new
+}
 
 /// The formula of `text`.
 ///

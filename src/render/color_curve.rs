@@ -21,6 +21,9 @@ const EQUALIZED: f64 = 0.7;
 /// A nearly constant value would otherwise show its noise in all colours.
 const MIN_WIDTH: f64 = 0.01;
 
+/// The curves of the two colour layers.
+pub type LayerCurves = [ColorCurve; 2];
+
 /// The positions in the gradient of a range of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColorCurve {
@@ -92,9 +95,10 @@ impl ColorCurve {
         [self.low as f32, (1.0 / self.width) as f32]
     }
 
-    /// The knots, four in a vector, as kernels read them.
-    pub fn packed(&self) -> Array<[f32; 4], { COLOR_KNOTS / 4 }> {
-        Array(std::array::from_fn(|i| std::array::from_fn(|k| self.knots[4 * i + k] as f32)))
+    /// The knots of the layers' curves, four in a vector, as kernels read them.
+    pub fn packed(layers: &LayerCurves) -> Array<[f32; 4], { 2 * COLOR_KNOTS / 4 }> {
+        let knots: Vec<_> = layers.iter().flat_map(|curve| curve.knots).collect();
+        Array(std::array::from_fn(|i| std::array::from_fn(|k| knots[4 * i + k] as f32)))
     }
 }
 

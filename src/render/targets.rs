@@ -57,8 +57,8 @@ pub struct Targets {
     pub dispatch_params: wgpu::Buffer,
     /// [`MAX_LIGHTS`] elements of [`Light`].
     pub lights: wgpu::Buffer,
-    /// [`GRADIENT_ENTRIES`] colours.
-    pub gradient: wgpu::Buffer,
+    /// [`GRADIENT_ENTRIES`] colours for each layer.
+    pub gradients: wgpu::Buffer,
     /// The bind group of all five buffers.
     pub frame_group: wgpu::BindGroup,
     /// The rays of one batch.
@@ -111,7 +111,7 @@ impl Targets {
             u64::from(MAX_DISPATCHES * DISPATCH_PARAMS_STRIDE_BYTES),
         );
         let lights = uniform("lights", (Light::SIZE * MAX_LIGHTS) as u64);
-        let gradient = uniform("gradient", size_of::<[[f32; 4]; GRADIENT_ENTRIES]>() as u64);
+        let gradients = uniform("gradients", size_of::<[[[f32; 4]; GRADIENT_ENTRIES]; 2]>() as u64);
         let one_dispatch = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &dispatch_params,
             offset: 0,
@@ -126,7 +126,7 @@ impl Targets {
                 formula_table.as_entire_binding(),
                 one_dispatch,
                 lights.as_entire_binding(),
-                gradient.as_entire_binding(),
+                gradients.as_entire_binding(),
             ],
         );
         let film_rg = storage(device, "film red green", 8 * pixels);
@@ -134,7 +134,7 @@ impl Targets {
         let texture = display_texture(device, region.display_px());
         let direct = storage(device, "direct light", DIRECT_BYTES);
         let film_group = film_group(layouts, [&film_rg, &film_bw, &direct], &texture);
-        let color_bins = storage(device, "colour bins", 4 * COLOR_BINS as u64);
+        let color_bins = storage(device, "colour bins", 2 * 4 * COLOR_BINS as u64);
         let color_bins_group =
             group(device, &layouts.color_bins, "colour bins", [color_bins.as_entire_binding()]);
         Self {
@@ -142,7 +142,7 @@ impl Targets {
             formula_table,
             dispatch_params,
             lights,
-            gradient,
+            gradients,
             frame_group,
             center: GBuffer::new(layouts, pixels, &rays),
             jittered: GBuffer::new(layouts, batch_samples, &rays),
@@ -182,8 +182,13 @@ impl Targets {
     /// The GPU memory of all buffers and textures.
     pub fn memory(&self) -> Memory {
         let [mip_levels, blur] = self.post.bytes();
-        let uniforms =
-            [&self.frame, &self.formula_table, &self.dispatch_params, &self.lights, &self.gradient];
+        let uniforms = [
+            &self.frame,
+            &self.formula_table,
+            &self.dispatch_params,
+            &self.lights,
+            &self.gradients,
+        ];
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
@@ -211,7 +216,7 @@ impl Targets {
         queue.write_buffer(&self.frame, 0, &inputs.frame_bytes());
         queue.write_buffer(&self.formula_table, 0, &inputs.formula.table);
         queue.write_buffer(&self.lights, 0, &bytes_of_all(&inputs.lights));
-        queue.write_buffer(&self.gradient, 0, bytemuck::cast_slice(&inputs.gradient));
+        queue.write_buffer(&self.gradients, 0, bytemuck::cast_slice(&inputs.gradients));
     }
 }
 

@@ -13,16 +13,19 @@ pub use lights::lights;
 pub use shared::*;
 
 use super::{
-    Region, color_curve::ColorCurve, region::Eyes as RegionEyes, schedule::Stale,
+    Region,
+    color_curve::{ColorCurve, LayerCurves},
+    region::Eyes as RegionEyes,
+    schedule::Stale,
     space::RenderSpace,
 };
 use crate::{
-    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES},
+    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
     fractal::pixel_cone,
-    gpu::host_shared::HostShared,
+    gpu::host_shared::{Array, HostShared},
     scene::{
-        self, BloomOrder, ColorSource, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
-        ToneChannels, ToneCurve, ToneMean, color, follow,
+        self, BloomOrder, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals,
+        Scene, SecondLayer, ToneChannels, ToneCurve, ToneMean, color, follow,
     },
 };
 
@@ -31,6 +34,9 @@ pub const FRAME_BYTES: u64 = (FrameUniforms::SIZE + MAX_UNIFORM_BYTES) as u64;
 
 /// Number of entries of the gradient table.
 pub const GRADIENT_ENTRIES: usize = 256;
+
+/// The greatest value of a formula's channel that colours tell apart.
+const MAX_CHANNEL: f64 = 4.0;
 
 /// Most loop turns of an invocation, over all its loops.
 ///
@@ -67,6 +73,8 @@ impl FrameUniforms {
         let camera = &scene.camera;
         let rotation = camera.rotation();
         let aspect = region.aspect();
+        let march = march(scene, region, space);
+        let iterations = march.iterations;
         Self {
             camera: Camera {
                 origin: space.point(&camera.position).as_vec3().to_array(),
@@ -79,8 +87,10 @@ impl FrameUniforms {
                 color_cone: (COLOR_DISTANCE * 2.0 * camera.half_height(aspect)) as f32,
             },
             eyes: eyes(camera, region, space),
-            march: march(scene, region, space),
+            march,
             surface: surface(scene),
+            first_layer: layer(&scene.surface.coloring, iterations),
+            second_layer: second_layer(&scene.surface.second_layer, iterations),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
             tone: tone(&scene.tone),
@@ -96,7 +106,7 @@ impl FrameUniforms {
                 Normals::TwentySix => 4,
                 Normals::Analytic => 5,
             },
-            color_curve: ColorCurve::line(1.0).packed(),
+            color_curves: Array::default(),
         }
     }
 }
@@ -223,18 +233,51 @@ fn surface(scene: &Scene) -> Surface {
         diffuse: surface.diffuse as f32,
         specular: surface.specular as f32,
         shininess: surface.shininess as f32,
-        color_source: match surface.coloring.source {
-            ColorSource::Iterations => 0,
-            ColorSource::OriginTrap => 1,
-            ColorSource::AxisTrap => 2,
-            ColorSource::PlaneTrap => 3,
-        },
-        color_repeats: surface.coloring.repeats as f32,
-        color_offset: surface.coloring.offset as f32,
         light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
-        color_follows: u32::from(surface.coloring.follows_view),
-        color_low: 0.0,
-        color_per_value: 1.0,
+    }
+}
+
+/// One layer of colours; `iterations` are those of the view.
+fn layer(coloring: &Coloring, iterations: u32) -> ColorLayer {
+    let (source, greatest) = match coloring.source {
+        ColorSource::Iterations => (1, f64::from(iterations + 1)),
+        ColorSource::Channel => (2, MAX_CHANNEL),
+        ColorSource::Position => (3, 1.0),
+        ColorSource::Normal => (4, 1.0),
+        ColorSource::PointTrap => (5, MAX_TRAP),
+        ColorSource::AxisTrap => (6, MAX_TRAP),
+        ColorSource::PlaneTrap => (7, MAX_TRAP),
+        ColorSource::SphereTrap => (8, MAX_TRAP),
+        ColorSource::CubeTrap => (9, MAX_TRAP),
+    };
+    ColorLayer {
+        center: coloring.center.map(|x| x as f32),
+        source,
+        axis: coloring.axis.direction().as_vec3().to_array(),
+        size: coloring.size as f32,
+        greatest: greatest as f32,
+        repeats: coloring.repeats as f32,
+        offset: coloring.offset as f32,
+        follows_view: u32::from(coloring.follows_view),
+        curve_low: 0.0,
+        curve_per_value: 1.0,
+        amount: 1.0,
+    }
+}
+
+/// The second layer of colours; its default if it is not visible.
+fn second_layer(second: &SecondLayer, iterations: u32) -> ColorLayer {
+    if !second.is_on() {
+        return ColorLayer { greatest: 1.0, ..ColorLayer::default() };
+    }
+    ColorLayer { amount: second.amount as f32, ..layer(&second.coloring, iterations) }
+}
+
+impl ColorLayer {
+    /// Whether marches store the same values for `other`.
+    fn has_values_of(&self, other: &Self) -> bool {
+        let stored = |layer: &Self| (layer.source, layer.center, layer.axis, layer.size);
+        stored(self) == stored(other)
     }
 }
 
@@ -247,8 +290,8 @@ pub struct Inputs {
     pub formula: Packed,
     /// The lights, in the scene's order.
     pub lights: [Light; MAX_LIGHTS],
-    /// The surface's gradient: linear Rec. 709, periodic.
-    pub gradient: [[f32; 4]; GRADIENT_ENTRIES],
+    /// The gradients of the two colour layers: linear Rec. 709, periodic.
+    pub gradients: [[[f32; 4]; GRADIENT_ENTRIES]; 2],
     /// The [`EnvironmentMap::id`] of the shown environment map; none if none is shown.
     pub environment_map: Option<u64>,
 }
@@ -271,13 +314,15 @@ impl Inputs {
                 hit_cone: frame.camera.hit_cone,
                 reference: space.reference(),
                 bounding_radius: model.bounding_radius(),
+                traps: scene.surface.traps(),
             },
         );
         Self {
             frame,
             formula,
             lights: lights(scene, space),
-            gradient: color::gradient_lut(&scene.surface.gradient),
+            gradients: [&scene.surface.gradient, &scene.surface.second_layer.gradient]
+                .map(|stops| color::gradient_lut(stops)),
             environment_map: None,
         }
     }
@@ -302,23 +347,40 @@ impl Inputs {
         self
     }
 
-    /// The greatest value that can select a colour.
-    pub fn greatest_color_value(&self) -> f64 {
-        match self.frame.surface.color_source {
-            0 => f64::from(self.frame.march.iterations + 1),
-            _ => 2.0,
-        }
+    /// The two layers of colours.
+    pub fn layers(&self) -> [&ColorLayer; 2] {
+        [&self.frame.first_layer, &self.frame.second_layer]
     }
 
-    /// The inputs with a colour curve, if their colours follow one; the straight line if there is none.
-    pub fn with_color_curve(mut self, curve: Option<&ColorCurve>) -> Self {
-        if self.frame.surface.color_follows != 0 {
-            let line = ColorCurve::line(self.greatest_color_value());
-            let curve = curve.unwrap_or(&line);
-            [self.frame.surface.color_low, self.frame.surface.color_per_value] = curve.range();
-            self.frame.color_curve = curve.packed();
+    /// The greatest values that can select a colour in each layer.
+    pub fn greatest_color_values(&self) -> [f64; 2] {
+        self.layers().map(|layer| layer.greatest.into())
+    }
+
+    /// Whether the colours of a layer follow the view.
+    pub fn follows_colors(&self) -> bool {
+        self.layers().iter().any(|layer| layer.follows_view != 0)
+    }
+
+    /// The inputs with colour curves, for layers that follow one; straight lines if there are none.
+    pub fn with_color_curves(mut self, curves: Option<&LayerCurves>) -> Self {
+        if self.follows_colors() {
+            let lines = self.greatest_color_values().map(ColorCurve::line);
+            let curves = curves.unwrap_or(&lines);
+            let frame = &mut self.frame;
+            for (layer, curve) in
+                [&mut frame.first_layer, &mut frame.second_layer].into_iter().zip(curves)
+            {
+                [layer.curve_low, layer.curve_per_value] = curve.range();
+            }
+            frame.color_curves = ColorCurve::packed(curves);
         }
         self
+    }
+
+    /// Whether marches store the colour values of `old`.
+    pub fn has_color_values_of(&self, old: &Self) -> bool {
+        self.layers().into_iter().zip(old.layers()).all(|(new, old)| new.has_values_of(old))
     }
 
     /// The inputs with the visibility bits that `old` gave to the same lights.
@@ -375,16 +437,18 @@ impl Inputs {
             && new_frame.eyes == old_frame.eyes
             && new_frame.march == old_frame.march
             && self.formula == old.formula
+            && self.has_color_values_of(old)
             && new_frame.picture_px == old_frame.picture_px
             && new_frame.origin_px == old_frame.origin_px
             && new_frame.size_px == old_frame.size_px;
         let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.frame.surface };
         let same_light = surface(self) == surface(old)
-            && new_frame.color_curve == old_frame.color_curve
+            && self.layers() == old.layers()
+            && new_frame.color_curves == old_frame.color_curves
             && new_frame.background == old_frame.background
             && self.environment_map == old.environment_map
             && self.is_lit_as(old)
-            && self.gradient == old.gradient
+            && self.gradients == old.gradients
             && self.has_indirect() == old.has_indirect();
         if !same_geometry {
             Some(Stale::Geometry)

@@ -309,7 +309,7 @@ impl View {
             .with_environment_map(scene, self.environment_map.as_deref())
             .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
-            .with_color_curve(self.colors.curve())
+            .with_color_curves(self.colors.curves())
     }
 
     fn upload(&mut self, inputs: Inputs) {

@@ -20,6 +20,7 @@
 //! | [`presets`] | the opening scenes |
 //! | `validate` | the check that every loaded scene has passed |
 //! | [`color`] | sRGB, and the gradient as a table |
+//! | [`gradient`] | gradients with names, and those of files |
 
 mod background;
 mod bloom;
@@ -37,6 +38,7 @@ pub mod color;
 pub mod document;
 pub mod environment_map;
 pub mod follow;
+pub mod gradient;
 pub mod history;
 mod indirect;
 pub mod link;
@@ -61,7 +63,9 @@ pub use rig::{
     EnvironmentMapRig, MAX_RIG_RADIANCE, RIG_DIRECTION_TOLERANCE, Rig, RigKind, RigLight, Sky,
 };
 pub use stereo::{Stereo, StereoLayout};
-pub use surface::{ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface};
+pub use surface::{
+    Axis, ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, SecondLayer, Surface,
+};
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;
 

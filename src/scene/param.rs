@@ -29,9 +29,11 @@ pub fn all() -> impl Iterator<Item = &'static Param> {
 }
 
 /// The parameter that governs the field at `path`, such as `lights.environment[2].intensity`. Where
-/// formulas have a field of the same name, the first formula's.
+/// formulas have a field of the same name, the first formula's. The second layer of colours has the parameters
+/// of the first.
 pub fn find(path: &str) -> Option<&'static Param> {
-    all().find(|param| param.is_at(path))
+    let at = |path: &str| all().find(|param| param.is_at(path));
+    at(path).or_else(|| at(&path.replacen("surface.second_layer.", "surface.", 1)))
 }
 
 params! {
@@ -73,12 +75,18 @@ params! {
         "Brightness of the highlights.";
     SHININESS = "surface.shininess", "Shininess", None, 1.0, 1000.0, default 40.0, Logarithmic by 1.0,
         "Size of the highlights: higher is smaller and sharper (Blinn-Phong exponent).";
+    TRAP_CENTER = "surface.coloring.center[]", "Centre", SceneUnits, -8.0, 8.0, default 0.0, Linear by 0.05,
+        "Centre of the orbit trap. Moving it moves the pattern of colours over the surface.";
+    TRAP_SIZE = "surface.coloring.size", "Size", SceneUnits, 0.01, 8.0, default 1.0, Logarithmic by 0.05,
+        "Radius of the sphere, or half the width of the cube, that orbits are measured against.";
     COLOR_REPEATS = "surface.coloring.repeats", "Repeats", None, 0.01, 50.0, default 1.0, Logarithmic by 0.05,
         "How often the gradient repeats over the surface. More gives narrower bands of colour.";
     COLOR_OFFSET = "surface.coloring.offset", "Offset", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "Shifts the colours along the gradient; 0 and 1 are equal.";
     STOP_POSITION = "surface.gradient[].position", "Position", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "Position of the colour in the gradient.";
+    SECOND_LAYER_AMOUNT = "surface.second_layer.amount", "Amount", None, 0.0, 1.0, default 0.0, Linear by 0.01,
+        "How much the second layer covers the first. 0 is off, 1 shows the second layer alone.";
     EXPOSURE = "tone.exposure", "Exposure", Stops, -10.0, 10.0, default 0.0, Linear by 0.1,
         "Brightens or darkens the picture; +1 doubles the light.";
     KEY = "tone.key", "Key", None, 0.01, 1.0, default 0.18, Logarithmic by 0.01,

@@ -119,7 +119,7 @@ fn coral_reef() -> Scene {
         },
         surface: Surface {
             coloring: Coloring {
-                source: ColorSource::OriginTrap,
+                source: ColorSource::PointTrap,
                 repeats: 1.4,
                 offset: 0.1,
                 ..Default::default()
@@ -184,7 +184,7 @@ fn sea_urchin() -> Scene {
         },
         surface: Surface {
             coloring: Coloring {
-                source: ColorSource::OriginTrap,
+                source: ColorSource::PointTrap,
                 repeats: 1.0,
                 offset: 0.0,
                 ..Default::default()
@@ -253,7 +253,7 @@ fn whorls() -> Scene {
         },
         surface: Surface {
             coloring: Coloring {
-                source: ColorSource::OriginTrap,
+                source: ColorSource::PointTrap,
                 repeats: 1.1,
                 offset: 0.12,
                 ..Default::default()

@@ -1,33 +1,100 @@
 //! Surface material (Blinn-Phong, thesis 3.2) and colouring.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::param;
+use crate::formula::trap::{Trap, TrapShape};
 
 /// Maximum number of stops in a gradient.
-pub const MAX_GRADIENT_STOPS: usize = 16;
+pub const MAX_GRADIENT_STOPS: usize = 64;
 
-/// The orbit value that selects a colour of the gradient.
+/// The value that selects a colour of the gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ColorSource {
     /// The smooth iteration count (thesis eq. 3.1, for any power).
     Iterations,
-    /// Orbit trap: the smallest distance of the orbit from the origin.
+    /// Orbit trap: the smallest distance of the orbit from a point, by default the origin.
     #[default]
-    OriginTrap,
-    /// Orbit trap: the smallest distance of the orbit from the z axis.
+    #[serde(alias = "origin_trap")]
+    PointTrap,
+    /// Orbit trap: the smallest distance of the orbit from a line along an axis.
     AxisTrap,
-    /// Orbit trap: the smallest distance of the orbit from the plane z = 0.
+    /// Orbit trap: the smallest distance of the orbit from a plane across an axis.
     PlaneTrap,
+    /// Orbit trap: the smallest distance of the orbit from a sphere's surface.
+    SphereTrap,
+    /// Orbit trap: the smallest distance of the orbit from a cube's surface.
+    CubeTrap,
+    /// The formula's own channel, such as a count of folds, on average over the steps.
+    Channel,
+    /// The point's position along an axis: 0 at one end of the set, 1 at the other.
+    Position,
+    /// The direction of the surface: 0 against an axis, 1 along it.
+    Normal,
 }
 
-/// The mapping from an orbit value to a position in the gradient.
+impl ColorSource {
+    /// The shape of the orbit trap; none for other values.
+    pub fn trap_shape(self) -> Option<TrapShape> {
+        match self {
+            Self::PointTrap => Some(TrapShape::Point),
+            Self::AxisTrap => Some(TrapShape::Axis),
+            Self::PlaneTrap => Some(TrapShape::Plane),
+            Self::SphereTrap => Some(TrapShape::Sphere),
+            Self::CubeTrap => Some(TrapShape::Cube),
+            Self::Iterations | Self::Channel | Self::Position | Self::Normal => None,
+        }
+    }
+
+    /// Whether the value depends on [`Coloring::axis`].
+    pub fn has_axis(self) -> bool {
+        matches!(self, Self::AxisTrap | Self::PlaneTrap | Self::Position | Self::Normal)
+    }
+
+    /// Whether the value depends on [`Coloring::size`].
+    pub fn has_size(self) -> bool {
+        matches!(self, Self::SphereTrap | Self::CubeTrap)
+    }
+}
+
+/// An axis of the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Axis {
+    /// To the right at the start.
+    X,
+    /// Away from the viewer at the start.
+    Y,
+    /// Up.
+    #[default]
+    Z,
+}
+
+impl Axis {
+    /// The unit vector along the axis.
+    pub fn direction(self) -> DVec3 {
+        match self {
+            Self::X => DVec3::X,
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+        }
+    }
+}
+
+/// The mapping from a value of a point or its orbit to a position in the gradient.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Coloring {
-    /// The orbit value.
+    /// The value.
     pub source: ColorSource,
+    /// The direction of lines, of planes' normals, of positions and of normals.
+    pub axis: Axis,
+    /// Centre of the orbit trap, each coordinate in [`param::TRAP_CENTER`].
+    pub center: [f64; 3],
+    /// Radius of the sphere or half width of the cube of an orbit trap, range [`param::TRAP_SIZE`].
+    pub size: f64,
     /// Whether the gradient spans the values in view, instead of those from 0 to 1.
     pub follows_view: bool,
     /// Repeats of the gradient per unit of the value, or over the values in view, range [`param::COLOR_REPEATS`].
@@ -40,10 +107,22 @@ impl Default for Coloring {
     fn default() -> Self {
         Self {
             source: ColorSource::default(),
+            axis: Axis::default(),
+            center: [param::TRAP_CENTER.default; 3],
+            size: param::TRAP_SIZE.default,
             follows_view: false,
             repeats: param::COLOR_REPEATS.default,
             offset: param::COLOR_OFFSET.default,
         }
+    }
+}
+
+impl Coloring {
+    /// The orbit trap that the colours depend on; none if they depend on another value.
+    pub fn trap(&self) -> Option<Trap> {
+        let shape = self.source.trap_shape()?;
+        let center = DVec3::from_array(self.center);
+        Some(Trap { shape, center, axis: self.axis.direction(), size: self.size })
     }
 }
 
@@ -69,11 +148,61 @@ pub struct Surface {
     pub specular: f64,
     /// Blinn-Phong exponent, range [`param::SHININESS`].
     pub shininess: f64,
-    /// The mapping from an orbit value to the gradient.
+    /// The mapping from a value to the gradient.
     pub coloring: Coloring,
     /// 1 to [`MAX_GRADIENT_STOPS`] stops with non-decreasing positions. The gradient wraps: the
     /// last stop blends to the first.
     pub gradient: Vec<GradientStop>,
+    /// A second layer of colours over the first.
+    pub second_layer: SecondLayer,
+}
+
+/// A layer of colours that is blended over the surface's first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SecondLayer {
+    /// Part of the layer in the colour, range [`param::SECOND_LAYER_AMOUNT`]; 0 is off.
+    pub amount: f64,
+    /// The mapping from a value to the layer's gradient.
+    pub coloring: Coloring,
+    /// The layer's gradient, as [`Surface::gradient`].
+    pub gradient: Vec<GradientStop>,
+}
+
+impl SecondLayer {
+    /// Whether the layer is visible.
+    pub fn is_on(&self) -> bool {
+        self.amount > 0.0
+    }
+}
+
+impl Surface {
+    /// Whether the colours of a visible layer follow the view.
+    pub fn follows_view(&self) -> bool {
+        let second = &self.second_layer;
+        self.coloring.follows_view || (second.is_on() && second.coloring.follows_view)
+    }
+
+    /// The orbit traps of the first and of the second layer; none for layers with other values.
+    pub fn traps(&self) -> [Option<Trap>; 2] {
+        let second = &self.second_layer;
+        [self.coloring.trap(), second.is_on().then(|| second.coloring.trap()).flatten()]
+    }
+}
+
+impl Default for SecondLayer {
+    fn default() -> Self {
+        let stop = |position, color| GradientStop { position, color };
+        Self {
+            amount: param::SECOND_LAYER_AMOUNT.default,
+            coloring: Coloring::default(),
+            gradient: vec![
+                stop(0.0, [0.02, 0.05, 0.12]),
+                stop(0.4, [0.05, 0.28, 0.42]),
+                stop(0.75, [0.75, 0.85, 0.80]),
+            ],
+        }
+    }
 }
 
 impl Default for Surface {
@@ -93,6 +222,7 @@ impl Default for Surface {
                 stop(0.7, [0.92, 0.82, 0.62]),
                 stop(0.85, [0.25, 0.32, 0.42]),
             ],
+            second_layer: SecondLayer::default(),
         }
     }
 }

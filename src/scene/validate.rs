@@ -13,7 +13,7 @@ use super::{
     lighting::{Lights, MAX_LIGHTS},
     param::{self, Param},
     rig::{MAX_RIG_RADIANCE, RIG_DIRECTION_TOLERANCE, Rig, RigLight, Sky},
-    surface::{MAX_GRADIENT_STOPS, Surface},
+    surface::{Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface},
 };
 use crate::formula::{
     Fractal, hybrid,
@@ -225,15 +225,28 @@ fn check_surface(surface: &Surface) -> Result<(), Invalid> {
     check(&param::DIFFUSE, surface.diffuse)?;
     check(&param::SPECULAR, surface.specular)?;
     check(&param::SHININESS, surface.shininess)?;
-    check(&param::COLOR_REPEATS, surface.coloring.repeats)?;
-    check(&param::COLOR_OFFSET, surface.coloring.offset)?;
-    let count = surface.gradient.len();
+    check_layer(&surface.coloring, &surface.gradient)?;
+    let second = &surface.second_layer;
+    check(&param::SECOND_LAYER_AMOUNT, second.amount)?;
+    check_layer(&second.coloring, &second.gradient).map_err(|error| Invalid {
+        path: error.path.replacen("surface.", "surface.second_layer.", 1),
+        ..error
+    })
+}
+
+/// A layer of colours, with the paths of the first one.
+fn check_layer(coloring: &Coloring, gradient: &[GradientStop]) -> Result<(), Invalid> {
+    (0..).zip(coloring.center).try_for_each(|(i, x)| check_at(&param::TRAP_CENTER, i, x))?;
+    check(&param::TRAP_SIZE, coloring.size)?;
+    check(&param::COLOR_REPEATS, coloring.repeats)?;
+    check(&param::COLOR_OFFSET, coloring.offset)?;
+    let count = gradient.len();
     if !(1..=MAX_GRADIENT_STOPS).contains(&count) {
         let message = format!("has {count} stops; a gradient has 1 to {MAX_GRADIENT_STOPS}");
         return Err(Invalid::new("surface.gradient", message));
     }
     let mut before = 0.0;
-    for (i, stop) in surface.gradient.iter().enumerate() {
+    for (i, stop) in gradient.iter().enumerate() {
         check_at(&param::STOP_POSITION, i, stop.position)?;
         if stop.position < before {
             let message = format!(

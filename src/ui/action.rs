@@ -31,6 +31,9 @@ pub enum Action {
     /// Open a file dialog for an environment map, for
     /// [`Interface::use_environment_map`](super::Interface::use_environment_map).
     ChooseEnvironmentMap,
+    /// Open a file dialog for gradients, for
+    /// [`Interface::use_gradients`](super::Interface::use_gradients).
+    ChooseGradient,
     /// Copy a link to this view.
     CopyLink,
     /// Enter or leave fullscreen.

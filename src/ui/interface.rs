@@ -14,6 +14,7 @@ use super::{
     handles,
     home::HomeTarget,
     icon::Icon,
+    loaded::Loaded,
     navigation::CameraStatus,
     notice,
     panel::{self, Context},
@@ -30,7 +31,7 @@ use super::{
 };
 use crate::{
     fractal::SharedModel,
-    scene::{Camera, EnvironmentMap, Project, Scene, presets},
+    scene::{Camera, EnvironmentMap, Project, Scene, gradient::NamedGradient, presets},
 };
 
 /// Pause within a gesture after which the view counts as still and is refined.
@@ -57,8 +58,7 @@ pub struct Interface {
     view_px: [u32; 2],
     moving: bool,
     histogram_shown: bool,
-    /// The loaded environment map, if any.
-    environment_map: Option<Arc<EnvironmentMap>>,
+    loaded: Loaded,
 }
 
 impl Interface {
@@ -79,7 +79,7 @@ impl Interface {
             view_px: [1, 1],
             moving: false,
             histogram_shown: false,
-            environment_map: None,
+            loaded: Loaded::default(),
         }
     }
 
@@ -111,16 +111,18 @@ impl Interface {
     ///
     /// [`Scene::surround_by`] describes the changes of the scene.
     pub fn use_environment_map(&mut self, environment_map: Arc<EnvironmentMap>) {
-        let mut project = self.project().clone();
-        project.scene.surround_by(&environment_map);
-        self.editor.replace(project);
-        self.environment_map = Some(environment_map);
+        self.loaded.use_environment_map(&mut self.editor, environment_map);
+    }
+
+    /// Lists the gradients of a file under Colours, and colours the surface with the first, as one undo step.
+    pub fn use_gradients(&mut self, gradients: Vec<NamedGradient>) {
+        let layer = self.selection.gradient_target;
+        self.loaded.use_gradients(&mut self.editor, layer, gradients);
     }
 
     /// The loaded environment map, if the scene names it.
     pub fn environment_map(&self) -> Option<&Arc<EnvironmentMap>> {
-        let name = &self.scene().lights.rig.environment_map.name;
-        self.environment_map.as_ref().filter(|environment_map| environment_map.name() == name)
+        self.loaded.environment_map(self.scene())
     }
 
     /// Width and height of the view, in pixels.
@@ -225,7 +227,8 @@ impl Interface {
             commands,
             actions,
             inputs,
-            environment_map: self.environment_map.as_deref(),
+            environment_map: self.loaded.any_environment_map(),
+            gradients: &self.loaded.gradients,
             camera_status: self.camera_status,
             view_px: self.view_px,
             flying: self.pilot.is_flying(),
@@ -256,6 +259,7 @@ impl Interface {
             });
             cx.rects.record("timeline", &shown.response);
         }
+        panel::formula_window(ui, &mut cx);
     }
 
     fn status(&mut self, ui: &mut Ui, inputs: &DisplayInputs<'_>) {

@@ -9,7 +9,8 @@
 //! | `interface` | one frame: layout, dispatch, undo |
 //! | `display_inputs`, `action` | the shell's data to display, and requests to the shell |
 //! | `settings`, `export_size` | settings stored between visits, such as the size of saved pictures |
-//! | `selection` | the selected light and gradient stop |
+//! | `selection` | the selected light, colour layer and gradient stops |
+//! | `loaded` | the environment map and gradients that people opened |
 //! | `panel/` | the panels, one per file |
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
@@ -36,6 +37,7 @@ mod handles;
 mod home;
 mod icon;
 mod interface;
+mod loaded;
 mod notice;
 mod panel;
 mod pilot;

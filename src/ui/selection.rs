@@ -1,14 +1,44 @@
-//! The selected light and gradient stop.
+//! The selected light, colour layer and gradient stops.
 
-use crate::scene::Lights;
+use crate::scene::{Coloring, GradientStop, Lights, Surface};
 
-/// The selected light and gradient stop, which are not part of a scene.
+/// The selected light, colour layer and gradient stops, which are not part of a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Selection {
     /// The selected light; none if the scene has no light or none is chosen yet.
     pub light: Option<LightRef>,
-    /// Index of the selected stop of the surface's gradient.
-    pub stop: usize,
+    /// Indices of the selected stops of the two layers' gradients.
+    stops: [usize; 2],
+    /// The layer that gets the gradient of a file.
+    pub gradient_target: LayerRef,
+}
+
+impl Selection {
+    /// Index of the selected stop of a layer's gradient.
+    pub fn stop_mut(&mut self, layer: LayerRef) -> &mut usize {
+        &mut self.stops[layer as usize]
+    }
+}
+
+/// A layer of the surface's colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LayerRef {
+    /// The lower layer.
+    #[default]
+    First,
+    /// The layer over it.
+    Second,
+}
+
+impl LayerRef {
+    /// The layer's value and gradient.
+    pub fn of(self, surface: &mut Surface) -> (&mut Coloring, &mut Vec<GradientStop>) {
+        let second = &mut surface.second_layer;
+        match self {
+            Self::First => (&mut surface.coloring, &mut surface.gradient),
+            Self::Second => (&mut second.coloring, &mut second.gradient),
+        }
+    }
 }
 
 /// A reference to a light of the scene, by its index.

@@ -22,7 +22,12 @@ pub struct Settings {
     pub drawn_to_places: bool,
     /// The size of saved pictures.
     pub export: ExportSize,
+    /// The texts of the formulas that a person keeps, at most [`MAX_KEPT_FORMULAS`].
+    pub formulas: Vec<String>,
 }
+
+/// Maximum number of formulas that a browser keeps.
+pub const MAX_KEPT_FORMULAS: usize = 100;
 
 impl Default for Settings {
     fn default() -> Self {
@@ -33,6 +38,7 @@ impl Default for Settings {
             sections: Sections::default(),
             drawn_to_places: true,
             export: ExportSize::default(),
+            formulas: Vec::new(),
         }
     }
 }

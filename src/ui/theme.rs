@@ -143,6 +143,13 @@ pub fn printable(text: &str) -> String {
     text.replace('ⁿ', "^n").replace('→', "->")
 }
 
+/// Texts in quotes, in the formula editor.
+pub const CODE_TEXT: Color32 = Color32::from_rgb(0xa8, 0xcf, 0x8e);
+/// Numbers, in the formula editor.
+pub const CODE_NUMBER: Color32 = Color32::from_rgb(0xd7, 0x9b, 0xd8);
+/// Functions and built-in names, in the formula editor.
+pub const CODE_FUNCTION: Color32 = Color32::from_rgb(0x7c, 0xbd, 0xf0);
+
 /// The display colour of a linear Rec. 709 colour; channels are clamped to 0 to 1.
 pub fn display_color(linear: [f32; 3]) -> Color32 {
     let [r, g, b] = linear.map(|v| v.clamp(0.0, 1.0));

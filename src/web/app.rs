@@ -102,7 +102,9 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
                 session.show_error(format!("The scene could not be saved: {reason}"));
             }
         }
-        Action::LoadScene | Action::ChooseEnvironmentMap => session.picker.open(),
+        Action::LoadScene | Action::ChooseEnvironmentMap | Action::ChooseGradient => {
+            session.picker.open()
+        }
         Action::CopyLink => session.copy_link(),
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::DismissNotice => session.notice = None,

@@ -139,7 +139,7 @@ fn create_input() -> Result<HtmlInputElement, JsValue> {
     let document = document().ok_or_else(|| JsValue::from_str("the page has no document"))?;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
     input.set_type("file");
-    input.set_accept(".json,.png,.hdr,.pic,.exr,application/json,image/png");
+    input.set_accept(".json,.png,.hdr,.pic,.exr,.ggr,.gpl,.map,.ugr,application/json,image/png");
     input.set_hidden(true);
     // Some browsers open the dialogue only for an element in the document.
     if let Some(body) = document.body() {

@@ -17,7 +17,7 @@ use crate::{
     export,
     gpu::Gpu,
     render::Report,
-    scene::{BackgroundKind, Project, Scene, document, environment_map, link, presets},
+    scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
     ui::{Interface, Notice, Settings, theme},
 };
 
@@ -213,7 +213,7 @@ impl Session {
         }
     }
 
-    /// Opens a scene, a picture that contains one, or an environment map.
+    /// Opens a scene, a picture that contains one, an environment map, or gradients.
     fn open_file(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
         // An OpenEXR picture saved by Mandelight is also a valid environment map: its scene wins.
         if environment_map::is_environment_map(bytes) && exr_scene(bytes).is_none() {
@@ -224,6 +224,18 @@ impl Session {
             self.show_notice(format!(
                 "{name} now lights the scene: {lights} lights in addition to those of the list."
             ));
+            return Ok(());
+        }
+        if let Some((stem, ending)) = name.rsplit_once('.')
+            && gradient::ENDINGS.contains(&ending.to_ascii_lowercase().as_str())
+        {
+            let found = gradient::read(bytes, stem).map_err(|error| error.to_string())?;
+            let count = found.len();
+            self.interface.use_gradients(found);
+            self.show_notice(match count {
+                1 => format!("{name} now colours the surface."),
+                _ => format!("The first of {count} gradients in {name} now colours the surface. Choose another under Colours."),
+            });
             return Ok(());
         }
         self.interface.replace_project(read_project(bytes)?);

@@ -2,6 +2,7 @@
 
 mod formulas;
 mod frames;
+mod gradients;
 mod render;
 mod stereo;
 

@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec3;
 use mandelight::{
     export::{StillJob, StillOptions},
+    formula::mandelbulb::Mandelbulb,
     gpu::device::in_parallel,
     render::{
         Pace, Region, View,
@@ -212,14 +214,16 @@ fn followed_colors_change_little_with_each_step_of_a_zoom() {
 #[test]
 fn followed_colors_agree_with_the_oracle() {
     let size = [96, 64];
-    for source in [ColorSource::OriginTrap, ColorSource::AxisTrap, ColorSource::Iterations] {
+    for source in [ColorSource::PointTrap, ColorSource::AxisTrap, ColorSource::Iterations] {
         let scene = following(colored_by(source, unlit(Scene::default())));
         let view = finished(&scene, size, Pace::Still);
         let depths = view.gbuffer().expect("samples").depth;
         let hits: Vec<_> = (0_u32..).zip(depths).filter(|(_, depth)| *depth > 0.0).collect();
         let values = in_parallel(&hits, |&(i, depth)| {
             let way = rays::direction(&scene.camera, size, [i % size[0], i / size[0]]);
-            light::color_value(&scene, scene.camera.position.to_dvec3() + way * f64::from(depth))
+            let point = scene.camera.position.to_dvec3() + way * f64::from(depth);
+            let fractal = Mandelbulb::of(&scene.fractal);
+            light::color_value(&fractal, &scene.surface.coloring, point, DVec3::Z)
         });
         let display = rgb(&view);
         let expected = light::positions_in_view(&values).into_iter();

@@ -5,7 +5,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
     formula::{self, FormulaRef, Fractal, mandelbulb},
     render::report::Histogram,
-    scene::{Scene, param, presets},
+    scene::{ColorSource, Scene, param, presets},
     ui::{Action, Settings},
 };
 
@@ -88,8 +88,11 @@ fn every_parameter_of_every_formula_has_a_control() {
         let mut fractal = Fractal::new(formula);
         // Some formulas show more fields in another form.
         fractal.set("julia", true);
-        let scene = Scene { fractal, ..Scene::default() };
-        let mut harness = stage(scene, unfolded(), [1280.0, 4000.0]);
+        let mut scene = Scene { fractal, ..Scene::default() };
+        // Controls of layers and traps show where they have an effect.
+        scene.surface.coloring.source = ColorSource::SphereTrap;
+        scene.surface.second_layer.amount = 0.5;
+        let mut harness = stage(scene, unfolded(), [1280.0, 5000.0]);
         harness.get_by_label("Auto exposure").click();
         harness.run();
         press(&mut harness, "Add light");

@@ -151,3 +151,19 @@ fn help_lists_the_shortcuts_and_fits() {
         assert!(harness.query_by_label("Keys and gestures").is_none());
     }
 }
+
+/// A row that is wider than the panel would move all rows below it out of sight.
+#[test]
+fn no_row_is_wider_than_the_panel() {
+    let mut harness = workshop();
+    press(&mut harness, "Form: Julia");
+    press(&mut harness, "Rig: Sky");
+    press(&mut harness, "Add point light");
+    let edges = harness.root().children_recursive().filter_map(|node| {
+        let node = node.accesskit_node();
+        let right = node.bounding_box()?.x1;
+        (node.role() == egui::accesskit::Role::Button).then(|| (right, node.label()))
+    });
+    let widest = edges.max_by(|a, b| a.0.total_cmp(&b.0)).expect("buttons");
+    assert!(widest.0 <= 1273.0, "{widest:?}");
+}

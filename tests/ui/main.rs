@@ -6,6 +6,7 @@ mod controls;
 mod depth;
 mod descent;
 mod dive;
+mod editor;
 mod environment_map;
 mod fit;
 mod follow;

@@ -81,7 +81,7 @@ pub fn stage(
 
 /// A new scene on a wide stage, everything unfolded.
 pub fn workshop() -> Harness<'static, Stage> {
-    stage(Scene::default(), unfolded(), [1280.0, 4000.0])
+    stage(Scene::default(), unfolded(), [1280.0, 5000.0])
 }
 
 pub fn scene<'h>(harness: &'h Harness<'_, Stage>) -> &'h Scene {

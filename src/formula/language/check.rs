@@ -53,6 +53,15 @@ pub enum Growth {
     None,
 }
 
+/// The colour channel of a formula.
+#[derive(Clone, Debug)]
+pub struct Channel {
+    /// What a step adds.
+    pub value: NodeId,
+    /// The channel's name in the panel.
+    pub label: String,
+}
+
 /// A formula whose names and types are right.
 #[derive(Clone, Debug)]
 pub struct Checked {
@@ -74,6 +83,8 @@ pub struct Checked {
     pub step: Vec<NodeId>,
     /// The running derivative after a step; none if the text gives none.
     pub derivative: Option<NodeId>,
+    /// What a step adds to the colour channel; none if the text gives nothing.
+    pub channel: Option<Channel>,
     /// The size that the bailout limits.
     pub extent: NodeId,
     /// The estimated distance at an orbit's end, not clamped.
@@ -147,12 +158,22 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
     scope.names.insert("dc".to_owned(), Value::Number(vec![by_point]));
     let (place, statements) =
         tree.step.as_ref().ok_or_else(|| missing("step: add `step { z = …; }`"))?;
-    let gives_derivative = scope.step(statements)?;
+    let zero = scope.graph.constant(0.0);
+    scope.names.insert("color".to_owned(), Value::Number(vec![zero]));
+    let assigned = scope.step(statements)?;
+    let gives_derivative = assigned.derivative;
     let step = scope.numbers("z");
     let derivative = gives_derivative.then(|| scope.numbers("dr")[0]);
-    let reads_derivative = scope.graph.needed(&step, |_| false).iter().any(|&id| {
-        matches!(scope.graph.node(id), Node::Input(Input::Derivative | Input::AddendDerivative))
-    });
+    let channel = assigned.color.then(|| scope.numbers("color")[0]);
+    let reads = |outputs: &[NodeId]| {
+        scope.graph.needed(outputs, |_| false).iter().any(|&id| {
+            matches!(scope.graph.node(id), Node::Input(Input::Derivative | Input::AddendDerivative))
+        })
+    };
+    if reads(channel.as_slice()) {
+        return Err(TextError::new(text, *place, "`color` must not depend on `dr` or `dc`"));
+    }
+    let reads_derivative = reads(&step);
     if reads_derivative && !gives_derivative {
         return Err(TextError::new(
             text,
@@ -173,7 +194,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         _ => extent,
     };
     let graph = scope.graph;
-    let used: Vec<_> = step.iter().copied().chain(derivative).collect();
+    let used: Vec<_> = step.iter().copied().chain(derivative).chain(channel).collect();
     let operations = operation_count(&graph, &used);
     if operations > MAX_OPERATIONS {
         let message = format!(
@@ -194,6 +215,10 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         init,
         step,
         derivative,
+        channel: channel.map(|value| Channel {
+            value,
+            label: tree.channel.clone().unwrap_or_else(|| "Formula".to_owned()),
+        }),
         extent,
         distance,
         height,
@@ -291,7 +316,9 @@ impl Checked {
 
     /// Operations of one step for each point.
     pub fn operation_count(&self) -> usize {
-        let used: Vec<_> = self.step.iter().copied().chain(self.derivative).collect();
+        let channel = self.channel.iter().map(|channel| channel.value);
+        let used: Vec<_> =
+            self.step.iter().copied().chain(self.derivative).chain(channel).collect();
         operation_count(&self.graph, &used)
     }
 

@@ -145,9 +145,11 @@ functions! {
     quaternion_product(x: Vec4, y: Vec4) "The product of two quaternions, real parts first.", "quaternion_product(vec4(z, 0.0), vec4(c, 0.0))", |g, a| quaternion_product(g, &a[0], &a[1]);
     triplex_power(z: Vec3, n: Float) "The Mandelbulb's power: multiplies longitude and latitude by n, and takes the radius to the power n.", "triplex_power(z, 8)", |g, a| triplex_power(g, &a[0], a[1][0]);
     box_fold(x: Any, limit: Any) "Mirrors components beyond ±limit at the limit.", "box_fold(z, 1.0)", |g, a| each2(g, &a[0], &a[1], box_fold);
+    fold_count(v: Vector, limit: Float) "The number of components beyond ±limit, which a box fold mirrors.", "fold_count(z, 1.0)", |g, a| fold_count(g, &a[0], &a[1]);
     sphere_fold_scale(v: Vector, inner: Float, outer: Float) "The factor of a sphere fold: (outer / inner)² inside of the inner radius, (outer / length)² up to the outer radius, 1 beyond.",
         "z * sphere_fold_scale(z, 0.5, 1.0)", |g, a| vec![sphere_fold_scale(g, &a[0], a[1][0], a[2][0])];
     mirror(v: Vector, normal: Vector) "Mirrors v at the plane through the origin if v is behind it.", "mirror(z, normalize(vec3(1, 1, 0)))", |g, a| mirrored(g, &a[0], &a[1]);
+    mirror_count(v: Vector, normal: Vector) "1 if v is behind the plane through the origin, so that `mirror` mirrors it, else 0.", "mirror_count(z, vec3(1, 1, 0))", |g, a| mirror_count(g, &a[0], &a[1]);
     polar_repeat(v: Vec2, count: Float) "Turns v by a multiple of a full turn over `count`, to the sector about the first axis.", "polar_repeat(z.xy, 6)", |g, a| polar_repeat(g, &a[0], a[1][0]);
 }
 
@@ -367,6 +369,23 @@ fn box_fold(g: &mut Graph, x: NodeId, limit: NodeId) -> NodeId {
     let inside = g.binary(Binary::Min, above, limit);
     let twice = g.times(two, inside);
     g.minus(twice, x)
+}
+
+fn fold_count(g: &mut Graph, x: &[NodeId], limit: &[NodeId]) -> Vec<NodeId> {
+    let (one, zero) = (g.constant(1.0), g.constant(0.0));
+    let folded = each2(g, x, limit, |g, x, limit| {
+        let size = g.unary(Unary::Abs, x);
+        let is_beyond = g.binary(Binary::Less, limit, size);
+        g.select(is_beyond, one, zero)
+    });
+    vec![joined(g, &folded, Binary::Add)]
+}
+
+fn mirror_count(g: &mut Graph, v: &[NodeId], normal: &[NodeId]) -> Vec<NodeId> {
+    let (one, zero) = (g.constant(1.0), g.constant(0.0));
+    let height = g.dot(v, normal);
+    let is_behind = g.binary(Binary::Less, height, zero);
+    vec![g.select(is_behind, one, zero)]
 }
 
 fn sphere_fold_scale(g: &mut Graph, v: &[NodeId], inner: NodeId, outer: NodeId) -> NodeId {

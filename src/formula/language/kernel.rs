@@ -73,10 +73,16 @@ impl Compiled {
             &[self.derivative_tangent, self.distance_tangent, self.extent_test],
             &[self.checked.distance, self.checked.extent],
             self.checked.derivative.as_slice(),
+            self.channel().as_slice(),
         ]
         .concat();
         let found = graph.needed(&roots, is_slot).into_iter().filter(|&id| is_slot(id));
         found.enumerate().map(|(place, id)| (id, place)).collect()
+    }
+
+    /// What a step adds to the colour channel; none if the text gives nothing.
+    pub fn channel(&self) -> Option<NodeId> {
+        self.checked.channel.as_ref().map(|channel| channel.value)
     }
 
     /// The running derivative at the start: 1 if the state starts at the point, else 0.

@@ -40,6 +40,7 @@ pub mod sequence;
 pub mod steps;
 pub mod syntax;
 pub mod text_formula;
+pub mod tokens;
 pub mod tree;
 pub mod uniforms;
 pub mod wgsl;

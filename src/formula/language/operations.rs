@@ -53,6 +53,7 @@ signatures! {
     DISTANCE_SLOPE = "distance_slope"("z: State, p: vec3f, dr: f32, tz: Rows, tp: Rows, tdr: vec3f") -> "vec3f" by Leading;
     NEXT_WITH_TANGENT = "next_with_tangent"("z: State, c: State, p: vec3f, dc: f32, tz: State, tc: State, tp: vec3f") -> "NextTangent" by Nth;
     NEXT_WITH_DERIVATIVE = "next_with_derivative"("z: State, c: State, p: vec3f, dr: f32, dc: f32") -> "NextDerivative" by Nth;
+    NEXT_WITH_CHANNEL = "next_with_channel"("z: State, c: State, p: vec3f, dr: f32, dc: f32") -> "NextChannel" by Nth;
     NEXT_WITH_ROWS = "next_with_rows"("z: State, c: State, p: vec3f, dr: f32, dc: f32, tz: Rows, tc: Rows, tp: Rows, tdr: vec3f") -> "NextRows" by Nth;
 }
 
@@ -115,6 +116,7 @@ fn header(compiled: &Compiled, vectors: usize) -> String {
          const TABLE_VECTORS = {vectors}u;\n\n\
          struct NextTangent {{\n    z: State,\n    tangent: State,\n}}\n\n\
          struct NextDerivative {{\n    z: State,\n    dr: f32,\n}}\n\n\
+         struct NextChannel {{\n    z: State,\n    dr: f32,\n    channel: f32,\n}}\n\n\
          struct NextRows {{\n    z: State,\n    dr: f32,\n    rows: Rows,\n    slope: vec3f,\n}}\n\n\
          fn as_state(v: vec4f) -> State {{\n    return {constant};\n}}\n\n"
     )
@@ -162,6 +164,14 @@ impl Writer<'_> {
         text += &self.function(&NEXT_WITH_DERIVATIVE, one, (outputs.len(), &outputs), &|v| {
             let dr = v.get(size).map_or("dr", String::as_str);
             format!("NextDerivative({}, {dr})", vector(&v[..size]))
+        });
+        let channel = compiled.channel();
+        let outputs = [&checked.step[..], given, channel.as_slice()].concat();
+        text += &self.function(&NEXT_WITH_CHANNEL, one, (outputs.len(), &outputs), &|v| {
+            let (z, mut rest) = (vector(&v[..size]), v[size..].iter());
+            let dr = if given.is_empty() { "dr" } else { rest.next().map_or("dr", String::as_str) };
+            let channel = rest.next().map_or("0.0", String::as_str);
+            format!("NextChannel({z}, {dr}, {channel})")
         });
         let numbers = size + given.len();
         let outputs =

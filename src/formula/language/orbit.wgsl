@@ -2,8 +2,9 @@
 //     State                  vec3f or vec4f
 //     initial, initial_tangent, initial_rows     the state at the start, its derivatives
 //     next_with_derivative   the step with the number n, with the running derivative if the text gives it
+//     next_with_channel      the step with the number n, and what it adds to the colour channel
 //     extent_test, extent    what is compared with `limit`, and the size itself
-// uses: types/estimate, lib/numeric
+// uses: types/estimate, lib/numeric, lib/trap
 
 // Derivatives are clamped to this before each step, which must not overflow.
 const MAX_DERIVATIVE = 1e30;
@@ -101,18 +102,20 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     var z = initial(point);
     var before = z;
     var dr = fractal.initial_derivative;
-    var traps = vec3f(4.0 / (fractal.trap_scale * fractal.trap_scale));
+    var channel = 0.0;
+    var traps = vec2f(MAX_TRAP / fractal.trap_scale);
     var n = 0u;
     for (; n < fractal.iterations && !is_escaped(fractal, z); n++) {
         before = z;
-        let next = next_with_derivative(n, z, c, point, dr, fractal.addend_derivative);
+        let next = next_with_channel(n, z, c, point, dr, fractal.addend_derivative);
         z = next.z;
         dr = min(next.dr, MAX_DERIVATIVE);
-        traps = min(traps, vec3f(dot(z.xyz, z.xyz), dot(z.xy, z.xy), z.z * z.z));
+        channel += next.channel;
+        traps = nearer_traps(traps, z.xyz);
     }
     var smooth_iterations = f32(n);
     if (is_escaped(fractal, z) && n > 0u) {
         smooth_iterations -= excess(fractal, extent(before), extent(z));
     }
-    return OrbitColors(smooth_iterations, fractal.trap_scale * sqrt(traps));
+    return OrbitColors(smooth_iterations, channel / max(f32(n), 1.0), fractal.trap_scale * traps);
 }

@@ -9,8 +9,17 @@ use super::{
 };
 
 /// Names that mean something in a step already.
-const RESERVED: [&str; 10] =
-    ["z", "c", "p", "dr", "dc", "pi", "iterations", "bailout", "julia", "julia_constant"];
+pub(super) const RESERVED: [&str; 11] =
+    ["z", "c", "p", "dr", "dc", "color", "pi", "iterations", "bailout", "julia", "julia_constant"];
+
+/// What a step assigns besides the state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Assigned {
+    /// The running derivative.
+    pub derivative: bool,
+    /// The colour channel.
+    pub color: bool,
+}
 
 /// The value of an expression.
 #[derive(Clone, Debug)]
@@ -96,9 +105,9 @@ impl Scope<'_> {
         Ok(())
     }
 
-    /// Runs the statements; returns whether they give the running derivative.
-    pub(super) fn step(&mut self, statements: &[Statement]) -> Result<bool, TextError> {
-        let mut gives_derivative = false;
+    /// Runs the statements; returns what they assign besides the state.
+    pub(super) fn step(&mut self, statements: &[Statement]) -> Result<Assigned, TextError> {
+        let mut assigned = Assigned::default();
         for statement in statements {
             match statement {
                 Statement::Let(name, value) => {
@@ -106,19 +115,22 @@ impl Scope<'_> {
                     self.define(name, value)?;
                 }
                 Statement::Assign(name, components, value) => {
-                    if !["z", "dr"].contains(&name.text.as_str()) {
-                        let message = format!(
-                            "only `z` and `dr` can be assigned: write `let {} = …;`",
-                            name.text
-                        );
-                        return self.error(name.span, message);
+                    match name.text.as_str() {
+                        "z" => {}
+                        "dr" => assigned.derivative = true,
+                        "color" => assigned.color = true,
+                        other => {
+                            let message = format!(
+                                "only `z`, `dr` and `color` can be assigned: write `let {other} = …;`"
+                            );
+                            return self.error(name.span, message);
+                        }
                     }
-                    gives_derivative |= name.text == "dr";
                     self.assign(name, components.as_ref(), value)?;
                 }
             }
         }
-        Ok(gives_derivative)
+        Ok(assigned)
     }
 
     fn assign(

@@ -12,6 +12,7 @@ use super::{
 use crate::{
     formula::{
         Fractal, Kernel, KernelFiles, MarchPolicy, Packed, PackedFor, march::PLAIN_FOOTPRINT,
+        trap::MAX_TRAP,
     },
     gpu::{host_shared::HostShared, shader::File},
 };
@@ -22,9 +23,6 @@ const FINEST_FOOTPRINT: f64 = 0.1 * PLAIN_FOOTPRINT;
 const WHOLE_FOOTPRINT: f64 = 1e-3;
 /// Orbit steps per halving of the footprint: enough for formulas that stretch by half or more a step.
 const STEPS_PER_HALVING: f64 = 1.5;
-
-/// Largest orbit trap that a picture stores.
-const LARGEST_TRAP: f64 = 2.0;
 
 /// The programs and kernel of one or several formulas.
 #[derive(Clone, Debug)]
@@ -125,7 +123,7 @@ impl Steps {
             max_step: (MAX_STEP * view.bounding_radius) as f32,
             march: self.march() as f32,
             addend_derivative: if julia_constant.is_some() { 0.0 } else { 1.0 },
-            trap_scale: (LARGEST_TRAP / view.bounding_radius).min(1.0) as f32,
+            trap_scale: (MAX_TRAP / view.bounding_radius).min(1.0) as f32,
             initial_derivative: programs(0).initial_derivative as f32,
             is_power: f32::from(u8::from(leading.is_power)),
         };

@@ -116,9 +116,8 @@ fn words_of(rule: &Rule) -> String {
     let rule = format!("{rule:?}");
     let words = match rule.as_str() {
         "file" | "declaration" | "title" | "about" | "source" | "param" | "state" | "init"
-        | "step" | "bailout" | "estimate" | "bound" | "iterations" | "radius" | "march" => {
-            "a declaration"
-        }
+        | "step" | "bailout" | "estimate" | "bound" | "iterations" | "radius" | "march"
+        | "color" => "a declaration",
         "definition" => "`let`",
         "assignment" => "an assignment",
         "switch" | "on" | "off" => "`true` or `false`",
@@ -192,6 +191,7 @@ impl Reader<'_> {
             Rule::bound => self.tree.bound = Some(self.expression(inner.next())?),
             Rule::iterations => self.tree.iterations = Some(self.expression(inner.next())?),
             Rule::radius => self.tree.radius = Some(self.expression(inner.next())?),
+            Rule::color => self.tree.channel = Some(string(inner.next())),
             Rule::march => self.tree.march = Some(self.expression(inner.next())?),
             _ => {}
         }

@@ -26,6 +26,7 @@ pub struct TextFormula {
     text: Option<&'static str>,
     title: &'static str,
     about: &'static str,
+    channel: Option<&'static str>,
     fields: &'static [Field],
     checked: Checked,
     steps: Steps,
@@ -55,6 +56,7 @@ impl TextFormula {
             text: None,
             title: kept(compiled.checked.title.clone()),
             about: kept(compiled.checked.about.clone()),
+            channel: compiled.checked.channel.as_ref().map(|channel| kept(channel.label.clone())),
             fields: fields(&compiled.checked).leak(),
             steps: Steps::alone(id, &compiled),
             checked: compiled.checked,
@@ -243,6 +245,10 @@ impl Formula for TextFormula {
 
     fn text(&self) -> Option<&'static str> {
         self.text
+    }
+
+    fn channel(&self) -> Option<&'static str> {
+        self.channel
     }
 
     fn fields(&self) -> &'static [Field] {

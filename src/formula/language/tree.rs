@@ -212,4 +212,6 @@ pub struct SyntaxTree {
     pub radius: Option<Expression>,
     /// Step of a ray over the estimate.
     pub march: Option<Expression>,
+    /// What the step assigns to `color`, as a label in the panel.
+    pub channel: Option<String>,
 }

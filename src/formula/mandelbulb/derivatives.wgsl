@@ -85,25 +85,25 @@ fn turned(fractal: Fractal, before: Tangent, step: Raised, z: vec3f, q: Squares)
 struct Gathered {
     derivatives: Derivatives,
     tangent: Tangent,
-    // Squared orbit traps: see `squared_traps`.
-    traps: vec3f,
+    // Least distances from the colour layers' traps.
+    traps: vec2f,
 }
 
 fn initial_gathered(fractal: Fractal, orbit: Orbit, along: vec3f) -> Gathered {
-    return Gathered(initial_derivatives(fractal, orbit, along), initial_tangent(orbit), vec3f(4.0));
+    return Gathered(initial_derivatives(fractal, orbit, along), initial_tangent(orbit), vec2f(MAX_TRAP));
 }
 
-// Updates what a walk gathers, after a step from `z` to a point with the squares `next`.
+// Updates what a walk gathers, after a step from `z`, which has the squares `q`, to `next`.
 fn gathered(
     gathers: u32, fractal: Fractal, orbit: Orbit, along: vec3f, before: Gathered, step: Raised,
-    z: vec3f, q: Squares, next: Squares,
+    z: vec3f, q: Squares, next: vec3f,
 ) -> Gathered {
     var after = before;
     if (gathers == GATHER_ESTIMATE) {
         after.derivatives = next_derivatives(fractal, orbit, along, before.derivatives, step, z, q);
     }
     if (gathers == GATHER_GRADIENT) { after.tangent = turned(fractal, before.tangent, step, z, q); }
-    if (gathers == GATHER_COLORS) { after.traps = min(before.traps, squared_traps(next)); }
+    if (gathers == GATHER_COLORS) { after.traps = nearer_traps(before.traps, next); }
     return after;
 }
 

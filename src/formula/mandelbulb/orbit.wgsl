@@ -11,7 +11,7 @@
 //     quick_estimate, careful_estimate, cone_direction
 //     orbit_of               the orbit of a point (for orbits about an anchor in `difference`)
 //     rho_of, FOLLOWS_DIRECTION   for `derivatives`, where a stepper uses that file
-// uses: types/estimate
+// uses: types/estimate, lib/trap
 
 // What a walk computes along the orbit.
 const GATHER_ESTIMATE = 0u;
@@ -82,7 +82,7 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
         let excess = log2(max(0.5 * log2(walk.q.s) / fractal.log2_bailout, 1.0));
         smooth_iterations -= excess / log2(fractal.power);
     }
-    return OrbitColors(smooth_iterations, sqrt(end_traps(walk)));
+    return OrbitColors(smooth_iterations, 0.0, end_traps(walk));
 }
 
 // 0.5 ln(r) r: the distance estimate times dr.
@@ -95,9 +95,4 @@ fn gradient_at(z: vec3f, q: Squares, jacobian: mat3x3f, slope: vec3f) -> vec3f {
     let r = sqrt(q.s);
     let log_r = log(r);
     return (log_r + 1.0) / r * (z * jacobian) - r * log_r * slope;
-}
-
-// Squared orbit traps: squared distances to the origin, the z axis and the plane z = 0.
-fn squared_traps(q: Squares) -> vec3f {
-    return vec3f(q.s, q.a, q.zz);
 }

@@ -47,7 +47,7 @@ fn begin_walk(gathers: u32, fractal: Fractal, orbit: Orbit, point: vec3f, along:
         let series = anchor_orbit.series[which];
         begun.derivatives = series_derivatives(fractal, series, point, along, which);
         begun.tangent = series_tangent(series, orbit, point);
-        begun.traps = series.traps_squared;
+        begun.traps = series.traps;
         break;
     }
     return Walk(state, squares(state.z), begun);
@@ -73,7 +73,7 @@ fn walked(
     gathers: u32, fractal: Fractal, orbit: Orbit, along: vec3f, walk: Walk, step: Raised, state: OrbitState,
 ) -> Walk {
     let q = squares(state.z);
-    let after = gathered(gathers, fractal, orbit, along, walk.gathered, step, walk.state.z, walk.q, q);
+    let after = gathered(gathers, fractal, orbit, along, walk.gathered, step, walk.state.z, walk.q, state.z);
     return Walk(state, q, after);
 }
 
@@ -85,7 +85,7 @@ fn end_gradient(walk: Walk) -> vec3f {
     return gradient_at(walk.state.z, walk.q, walk.gathered.tangent.jacobian, walk.gathered.tangent.slope);
 }
 
-fn end_traps(walk: Walk) -> vec3f {
+fn end_traps(walk: Walk) -> vec2f {
     return walk.gathered.traps;
 }
 

@@ -56,7 +56,7 @@ fn plain_step(gathers: u32, fractal: Fractal, orbit: Orbit, along: vec3f, walk: 
     let step = raised(fractal, before.z, walk.q);
     let z = step.power + orbit.constant;
     let q = squares(z);
-    let after = gathered(gathers, fractal, orbit, along, walk.gathered, step, before.z, walk.q, q);
+    let after = gathered(gathers, fractal, orbit, along, walk.gathered, step, before.z, walk.q, z);
     return Walk(OrbitState(z, before.count + 1u), q, after);
 }
 
@@ -68,7 +68,7 @@ fn end_gradient(walk: Walk) -> vec3f {
     return gradient_at(walk.state.z, walk.q, walk.gathered.tangent.jacobian, walk.gathered.tangent.slope);
 }
 
-fn end_traps(walk: Walk) -> vec3f {
+fn end_traps(walk: Walk) -> vec2f {
     return walk.gathered.traps;
 }
 

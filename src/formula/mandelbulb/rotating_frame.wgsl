@@ -51,8 +51,8 @@ struct Walk {
     motion: Motion,
     // The frame's rotor, minus 1.
     ahead: vec2f,
-    // Squared orbit traps: see `squared_traps`.
-    traps: vec3f,
+    // Least distances from the colour layers' traps, which rotate with the frame.
+    traps: vec2f,
 }
 
 struct OrbitState {
@@ -106,7 +106,7 @@ fn begin_walk(gathers: u32, fractal: Fractal, orbit: Orbit, point: vec3f, along:
     let start = settled(reference, orbit.start_derivative * point);
     let z = reference.z + start.difference;
     let state = OrbitState(z, 0u, start.difference, 0u);
-    return Walk(state, squares(z), first_motion(orbit, start.by), start.by, vec3f(4.0));
+    return Walk(state, squares(z), first_motion(orbit, start.by), start.by, vec2f(MAX_TRAP));
 }
 
 // Perturbed steps include the plain ones: the frame rotates in both.
@@ -150,7 +150,7 @@ fn perturbed_step(gathers: u32, fractal: Fractal, orbit: Orbit, along: vec3f, wa
     let next_z = next_reference.z + next.difference;
     let next_q = squares(next_z);
     let state = OrbitState(next_z, walk.state.count + 1u, next.difference, index);
-    return Walk(state, next_q, motion, ahead, min(walk.traps, squared_traps(next_q)));
+    return Walk(state, next_q, motion, ahead, nearer_traps(walk.traps, next_z));
 }
 
 fn first_motion(orbit: Orbit, ahead: vec2f) -> Motion {
@@ -203,7 +203,7 @@ fn end_gradient(walk: Walk) -> vec3f {
     return gradient_at(walk.state.z, walk.q, walk.motion.jacobian, walk.motion.slope);
 }
 
-fn end_traps(walk: Walk) -> vec3f {
+fn end_traps(walk: Walk) -> vec2f {
     return walk.traps;
 }
 

@@ -49,13 +49,12 @@ struct SeriesApproximation {
     along_yz: vec3f,
     along_zx: vec3f,
     derivative_gradient: vec3f,
-    // Squared orbit traps over the replaced steps, without the first point: least distances to the origin,
-    // the z axis and the plane z = 0.
-    traps_squared: vec3f,
     // The direction that the replaced steps stretch most, a unit vector.
     widest: vec3f,
     // Stretch across `widest`: the root of the mean square.
     rest: f32,
+    // Least distances of the replaced steps, without the first point, from the colour layers' traps.
+    traps: vec2f,
 }
 
 // Number of series approximations. The first holds within `FIRST_RADIUS` scales, each other one within

@@ -15,7 +15,10 @@ use super::{
 };
 use crate::{
     formula::{
-        FormulaRef, Kernel, Packed, PackedFor, contract::COARSEST_FOOTPRINT, recurrence::norm,
+        FormulaRef, Kernel, Packed, PackedFor,
+        contract::COARSEST_FOOTPRINT,
+        recurrence::norm,
+        trap::{MAX_TRAP, Trap},
     },
     gpu::host_shared::{Array, HostShared, bytes_of_all, host_shared},
 };
@@ -91,14 +94,12 @@ host_shared! {
         along_zx: [f32; 3],
         /// First derivatives of dr.
         derivative_gradient: [f32; 3],
-        /// Squared orbit traps over the replaced steps.
-        ///
-        /// Least distances to the origin, the z axis and the plane z = 0.
-        traps_squared: [f32; 3],
         /// The direction that the replaced steps stretch most, a unit vector.
         widest: [f32; 3],
         /// The norm of the Jacobian across `widest`.
         rest: f32,
+        /// Least distances of the replaced steps from the colour layers' orbit traps.
+        traps: [f32; 2],
     }
     /// A point of the reference orbit.
     ReferencePoint {
@@ -170,7 +171,7 @@ pub fn pack(mandelbulb: &Mandelbulb, view: &PackedFor<'_>) -> Packed {
         return packed_with(variant, &uniforms, Arc::new([]));
     };
     let points: Vec<_> = reference.points().iter().map(reference_point).collect();
-    let (series, near) = series(reference, view.scale);
+    let (series, near) = series(reference, view);
     uniforms.series = series[0];
     let steps = if reference.rotates() {
         Steps::RotatingFrame
@@ -222,18 +223,37 @@ fn reference_point(point: &deep::ReferencePoint) -> ReferencePoint {
 }
 
 /// Series approximations for `anchor_orbit`, and one within each of [`near_radii`].
-fn series(reference: &Reference, scale: f64) -> (SeriesList, Vec<deep::SeriesApproximation>) {
+fn series(
+    reference: &Reference,
+    view: &PackedFor<'_>,
+) -> (SeriesList, Vec<deep::SeriesApproximation>) {
     let radii: [f64; SERIES] = std::array::from_fn(|i| FIRST_RADIUS * RADII_RATIO.powi(i as i32));
-    let mut found = reference.series(scale, &[&radii[..], &near_radii()].concat());
+    let mut found = reference.series(view.scale, &[&radii[..], &near_radii()].concat());
     let near = found.split_off(SERIES);
-    (Array(std::array::from_fn(|i| packed(&found[i]))), near)
+    (Array(std::array::from_fn(|i| packed(&found[i], reference, &view.traps))), near)
+}
+
+/// Least distances of the reference orbit's first `steps` points, after its start, from the traps.
+fn nearest(reference: &Reference, steps: u32, traps: &[Option<Trap>; 2]) -> [f32; 2] {
+    let points = reference.points().iter().skip(1).take(steps as usize);
+    let least = points.fold([MAX_TRAP; 2], |least, point| {
+        std::array::from_fn(|i| match &traps[i] {
+            Some(trap) => least[i].min(trap.distance(point.z)),
+            None => least[i],
+        })
+    });
+    least.map(|least| least as f32)
 }
 
 fn near_radii() -> [f64; NEAR_RADII] {
     std::array::from_fn(|i| 1.5 * 4_f64.powi(i as i32))
 }
 
-fn packed(series: &deep::SeriesApproximation) -> SeriesApproximation {
+fn packed(
+    series: &deep::SeriesApproximation,
+    reference: &Reference,
+    traps: &[Option<Trap>; 2],
+) -> SeriesApproximation {
     let [x, y, z] = series.difference;
     let vector = |part: DVec3| part.as_vec3().to_array();
     let of_each =
@@ -258,7 +278,7 @@ fn packed(series: &deep::SeriesApproximation) -> SeriesApproximation {
         along_yz: of_each(|jet| jet.mixed.y),
         along_zx: of_each(|jet| jet.mixed.z),
         derivative_gradient: vector(series.derivative.gradient),
-        traps_squared: vector(series.traps_squared),
+        traps: nearest(reference, series.steps, traps),
     }
 }
 
@@ -298,7 +318,7 @@ fn put_near(
     // The eye is one scale from the anchor.
     let far_radius = 1.0 + COARSEST_FOOTPRINT / (hit_cone * view.scale);
     fractal.far_radius = far_radius.min(1e37) as f32;
-    uniforms.series = packed(&near.series);
+    uniforms.series = packed(&near.series, reference, &view.traps);
     let passed = &points[near.series.steps as usize..][..=near.steps.count as usize];
     uniforms.near[..passed.len()].copy_from_slice(passed);
     near.steps

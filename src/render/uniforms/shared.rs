@@ -95,7 +95,7 @@ host_shared! {
         /// Least step of a shadow ray, in hit distances.
         shadow_min_step: f32,
     }
-    /// Blinn-Phong terms and colouring.
+    /// Blinn-Phong terms.
     Surface {
         /// Part of the colour that is visible without light.
         ambient: f32,
@@ -105,20 +105,33 @@ host_shared! {
         specular: f32,
         /// Blinn-Phong exponent.
         shininess: f32,
-        /// 0 iterations, 1 origin trap, 2 axis trap, 3 plane trap.
-        color_source: u32,
-        /// Gradient lengths per unit of the colour source.
-        color_repeats: f32,
-        /// Offset into the gradient.
-        color_offset: f32,
         /// Number of lights in use.
         light_count: u32,
-        /// 1: the colour curve replaces the colour source.
-        color_follows: u32,
+    }
+    /// How one layer of colours selects positions in its gradient.
+    ColorLayer {
+        /// Centre of the orbit trap, in the formula's unit.
+        center: [f32; 3],
+        /// What the value is; 0 if the layer is not drawn.
+        source: u32,
+        /// Direction of the axis, for sources that have one; a unit vector.
+        axis: [f32; 3],
+        /// Size of the orbit trap.
+        size: f32,
+        /// The greatest value that is told apart.
+        greatest: f32,
+        /// Gradient lengths per unit of the value.
+        repeats: f32,
+        /// Offset into the gradient.
+        offset: f32,
+        /// 1: the colour curve replaces the value.
+        follows_view: u32,
         /// The value at the colour curve's first knot.
-        color_low: f32,
+        curve_low: f32,
         /// One over the range of the colour curve.
-        color_per_value: f32,
+        curve_per_value: f32,
+        /// Part of the layer in the colour, for the second one.
+        amount: f32,
     }
     /// Vertical gradient, linear Rec. 709, and the orientation of the environment map.
     Background {
@@ -175,6 +188,10 @@ host_shared! {
         march: March,
         /// The surface.
         surface: Surface,
+        /// The first layer of colours.
+        first_layer: ColorLayer,
+        /// The second layer of colours.
+        second_layer: ColorLayer,
         /// Indirect light.
         indirect: Indirect,
         /// The background.
@@ -191,8 +208,8 @@ host_shared! {
         size_px: [u32; 2],
         /// Kind of normals: 0 none, 1 three, 2 six, 3 eighteen, 4 twenty-six, 5 analytic.
         normals: u32,
-        /// The knots of the colour curve: see [`ColorCurve`](crate::render::color_curve::ColorCurve).
-        color_curve: Array<[f32; 4], 16>,
+        /// The knots of the layers' colour curves: see [`ColorCurve`](crate::render::color_curve::ColorCurve).
+        color_curves: Array<[f32; 4], 32>,
     }
     /// The parameters of one dispatch.
     DispatchParams {

@@ -6,7 +6,11 @@
 use super::{View, color_following::Reading};
 use crate::{
     gpu::readback::Readback,
-    render::{color_curve::ColorCurve, pass::color_histogram, recorder::Recorder},
+    render::{
+        color_curve::{ColorCurve, LayerCurves},
+        pass::color_histogram,
+        recorder::Recorder,
+    },
 };
 
 /// Part of the way to the newest measurement that a moving picture's curve goes with each.
@@ -16,8 +20,7 @@ impl View {
     /// Whether the picture's colours follow what this view measures.
     fn measures_colors(&self) -> bool {
         let inputs = self.inputs.as_ref();
-        self.colors.lent.is_none()
-            && inputs.is_some_and(|inputs| inputs.frame.surface.color_follows != 0)
+        self.colors.lent.is_none() && inputs.is_some_and(|inputs| inputs.follows_colors())
     }
 
     /// Whether further samples wait until the colours of the complete centre samples are known.
@@ -36,7 +39,7 @@ impl View {
         }
         self.collect_colors();
         let Some(level) = self.schedule.center_level() else { return };
-        let is_wanted = level == 0 || self.moving || self.colors.curve.is_none();
+        let is_wanted = level == 0 || self.moving || self.colors.curves.is_none();
         // A movement that ends at a complete picture has eased toward its count, but not arrived there.
         let is_final = self.colors.is_settled || self.moving || level > 0;
         let is_measured = self.colors.measured == Some(level) && is_final;
@@ -54,7 +57,7 @@ impl View {
         self.colors.measured = Some(level);
         self.colors.reading = Some(Reading {
             readback: Readback::buffer(gpu, &self.targets.color_bins),
-            range: inputs.greatest_color_value(),
+            ranges: inputs.greatest_color_values(),
             is_complete: level == 0,
         });
     }
@@ -69,25 +72,28 @@ impl View {
         };
         let Some(bytes) = arrived else { return };
         let bins: Vec<u32> = bytes.as_chunks().0.iter().map(|&b| u32::from_le_bytes(b)).collect();
-        let (range, is_final) = (reading.range, reading.is_complete && !self.moving);
+        let (ranges, is_final) = (reading.ranges, reading.is_complete && !self.moving);
         self.colors.reading = None;
-        // Without a hit, any curve will do.
-        let goal = ColorCurve::of(&bins, range);
-        let goal = goal.or(self.colors.curve).unwrap_or_else(|| ColorCurve::line(range));
-        let curve = match &self.colors.curve {
-            Some(curve) if !is_final => curve.eased(&goal, EASE),
-            _ => goal,
+        let (first_bins, second_bins) = bins.split_at(bins.len() / 2);
+        let layer = |number: usize, bins: &[u32]| {
+            let range = ranges[number];
+            let before = self.colors.curves.map(|curves| curves[number]);
+            // Without a hit, any curve will do.
+            let goal = ColorCurve::of(bins, range).or(before);
+            let goal = goal.unwrap_or_else(|| ColorCurve::line(range));
+            before.filter(|_| !is_final).map_or(goal, |curve| curve.eased(&goal, EASE))
         };
+        let curves = [layer(0, first_bins), layer(1, second_bins)];
         self.colors.is_settled = is_final;
-        let is_first = self.colors.curve.is_none();
-        self.colors.curve = Some(curve);
+        let is_first = self.colors.curves.is_none();
+        self.colors.curves = Some(curves);
         // A moving picture takes it up with its next frame.
         if is_final || is_first {
             self.take_up_colors();
         }
     }
 
-    /// Shades the picture with the curve.
+    /// Shades the picture with the curves.
     fn take_up_colors(&mut self) {
         let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
         let inputs = self.inputs_about(scene, space);
@@ -98,15 +104,15 @@ impl View {
         }
     }
 
-    /// The curve that the picture's colours follow; none if they follow none.
-    pub fn color_curve(&self) -> Option<ColorCurve> {
-        self.colors.curve().copied()
+    /// The curves that the picture's colours follow; none if they follow none.
+    pub fn color_curves(&self) -> Option<LayerCurves> {
+        self.colors.curves().copied()
     }
 
-    /// Follows the curve of a view of the whole picture instead of an own one; none ends the loan.
+    /// Follows the curves of a view of the whole picture instead of own ones; none ends the loan.
     ///
     /// Call this before the view has a scene.
-    pub fn lend_color_curve(&mut self, curve: Option<ColorCurve>) {
-        self.colors.lent = curve;
+    pub fn lend_color_curves(&mut self, curves: Option<LayerCurves>) {
+        self.colors.lent = curves;
     }
 }

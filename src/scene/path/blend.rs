@@ -92,10 +92,13 @@ fn place(camera: &Camera) -> Place {
 /// Restores the rules that hold between fields.
 fn settle(scene: &mut Scene, from: &Scene) {
     scene.fractal.bailout = scene.fractal.bailout.min(scene.fractal.max_bailout());
-    let mut last = 0.0_f64;
-    for stop in &mut scene.surface.gradient {
-        last = last.max(stop.position);
-        stop.position = last;
+    let surface = &mut scene.surface;
+    for gradient in [&mut surface.gradient, &mut surface.second_layer.gradient] {
+        let mut last = 0.0_f64;
+        for stop in gradient {
+            last = last.max(stop.position);
+            stop.position = last;
+        }
     }
     // Two full scenes may have too many lights between them: what only appears waits.
     let lights = &mut scene.lights;

@@ -246,6 +246,7 @@ fn everything_else() -> (Scene, Scene) {
         ..Scene::default()
     };
     a.surface.gradient = vec![GradientStop { position: 0.2, color: [0.1, 0.2, 0.3] }];
+    a.surface.second_layer.gradient = a.surface.gradient.clone();
     let mut value = serde_json::to_value(&a).unwrap();
     change_numbers(&mut value, &mut String::new());
     let mut b: Scene = serde_json::from_value(value).unwrap();

@@ -36,7 +36,7 @@ const ROW: Row = Row {
     pivot: [0.0; 3],
     fov: 40.0,
     palette: dawn,
-    source: ColorSource::OriginTrap,
+    source: ColorSource::PointTrap,
     repeats: 1.2,
     values: Vec::new,
 };

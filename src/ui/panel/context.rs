@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use crate::{
-    scene::{EnvironmentMap, Scene},
+    scene::{EnvironmentMap, Scene, gradient::NamedGradient},
     ui::{
         action::Action, display_inputs::DisplayInputs, navigation::CameraStatus, rects::Rects,
         selection::Selection, settings::Settings, shortcuts::Command,
@@ -42,6 +42,8 @@ pub struct Context<'a> {
     pub histogram_shown: &'a mut bool,
     /// The loaded environment map, if any.
     pub environment_map: Option<&'a EnvironmentMap>,
+    /// The gradients of the last gradient file.
+    pub gradients: &'a [NamedGradient],
     /// The camera's distance and precision in the last frame.
     pub camera_status: Option<CameraStatus>,
     /// Size of the view in the last frame, in pixels.

@@ -4,7 +4,7 @@ use egui::{Button, Id, Label, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, V
 
 use super::context::Context;
 use crate::{
-    formula::{self, FormulaRef},
+    formula::{self, FormulaRef, own},
     scene::{
         Fractal,
         presets::{self, Preset},
@@ -47,7 +47,8 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     if state.is_open {
         ui.add_space(GAP);
-        let all: Vec<_> = formula::all().collect();
+        let kept = cx.settings.formulas.iter().filter_map(|text| own::of_text(text).ok());
+        let all: Vec<_> = kept.chain(formula::all()).collect();
         if let Some(chosen) = cards(ui, &mut state.words, &all, Some(current)) {
             if chosen != current {
                 change(cx, chosen);
@@ -58,6 +59,7 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     let about = RichText::new(cx.scene.fractal.formula().about()).small().color(theme::TEXT_DIM);
     ui.add(Label::new(about).wrap());
     ui.data_mut(|data| data.insert_temp(id, state));
+    super::formula_text::button(ui, cx);
 }
 
 /// The search field and a card for each of the formulas that match; returns the formula that was clicked.

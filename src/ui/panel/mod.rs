@@ -6,10 +6,12 @@
 
 mod bloom;
 mod camera;
+mod colors;
 mod context;
 mod export;
 mod fields;
 mod formula;
+mod formula_text;
 mod fractal;
 mod help;
 mod hybrid;
@@ -35,6 +37,7 @@ use super::{
 };
 pub(super) use context::Context;
 use context::Section;
+pub(super) use formula_text::formula_window;
 pub(super) use help::help_window;
 pub(super) use timeline::strip;
 
@@ -43,6 +46,7 @@ const SECTIONS: &[Section] = &[
     fractal::SECTION,
     camera::SECTION,
     lights::SECTION,
+    colors::SECTION,
     surface::SECTION,
     indirect::SECTION,
     tone::SECTION,

@@ -1,7 +1,7 @@
 //! The gradient editor: a bar of colours, and a handle for each stop.
 
 use egui::{
-    Color32, Key, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
+    Color32, Key, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetText,
     accesskit::Role, lerp, pos2, vec2,
 };
 
@@ -14,6 +14,8 @@ use crate::{
 const BAR_HEIGHT: f32 = 26.0;
 /// Height of the handles below the bar, in points.
 const HANDLE_HEIGHT: f32 = 18.0;
+/// Height of a gradient in a list, in points.
+const CARD_HEIGHT: f32 = 26.0;
 /// Number of colour samples along the bar.
 const SAMPLES: usize = 96;
 
@@ -48,6 +50,34 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
         "Click to add a stop. Drag the handles below to move stops."
     };
     response.on_hover_text(hover)
+}
+
+/// A button that shows a gradient and its name.
+pub fn gradient_card(ui: &mut Ui, name: &str, stops: &[GradientStop], is_chosen: bool) -> Response {
+    let size = vec2(ui.available_width(), CARD_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), is_chosen, name));
+    if ui.is_rect_visible(rect) {
+        let is_lit = response.hovered() || response.has_focus();
+        let (label, bar) = rect.split_left_right_at_fraction(0.38);
+        let color = if is_chosen {
+            theme::ACCENT
+        } else if is_lit {
+            Color32::WHITE
+        } else {
+            theme::TEXT
+        };
+        let galley = WidgetText::from(theme::printable(name)).into_galley(
+            ui,
+            Some(egui::TextWrapMode::Truncate),
+            label.width() - 8.0,
+            egui::TextStyle::Body,
+        );
+        let at = pos2(label.left() + 2.0, label.center().y - galley.size().y / 2.0);
+        ui.painter().galley_with_override_text_color(at, galley, color);
+        paint_bar(ui, bar.shrink2(vec2(0.0, 2.0)), stops);
+    }
+    response
 }
 
 /// Adds a stop at `position` with the gradient's colour there; none if the gradient is full.

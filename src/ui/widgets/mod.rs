@@ -12,7 +12,7 @@ mod section;
 pub use ball::ball;
 pub use card::card;
 pub use color::color;
-pub use gradient::{gradient, move_stop};
+pub use gradient::{gradient, gradient_card, move_stop};
 pub use histogram::{DisplayRange, histogram};
 pub use param::{number, param_slider, param_slider_count};
 pub use section::{caption, choice, section};

@@ -20,6 +20,8 @@ use crate::{
 
 /// Width of the number field at a row's right end, in points.
 const VALUE_WIDTH: f32 = 64.0;
+/// Space beside a value in its field, in points.
+const VALUE_PADDING: f32 = 2.0;
 /// Radius of a slider's handle, in points.
 const HANDLE_RADIUS: f32 = 7.0;
 /// Step of an arrow key for a logarithmic value, as a fraction of the rail.
@@ -93,6 +95,8 @@ pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
         return response;
     }
     let shown = format!("{}{}", format_value(param, *value), param.unit.suffix());
+    // A wider button would widen the panel.
+    ui.spacing_mut().button_padding.x = VALUE_PADDING;
     // The button must be the next widget, so that the field that replaces it has the same id.
     let text = egui::RichText::new(shown).color(theme::TEXT);
     let button = Button::new("").right_text(text).frame_when_inactive(false);

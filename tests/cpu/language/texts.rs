@@ -68,7 +68,7 @@ fn errors_name_their_place_and_what_to_do() {
         ("name \"A\";\nstep { z = z.xyw; }", 2, 14, "does not name components"),
         ("name \"A\";\nstep { z = cross(z, 1); }", 2, 21, "`cross(x: a vec3, y: a vec3)`"),
         ("name \"A\";\nstep { z = min(z); }", 2, 12, "found 1 arguments"),
-        ("name \"A\";\nstep { c = z; }", 2, 8, "only `z` and `dr` can be assigned"),
+        ("name \"A\";\nstep { c = z; }", 2, 8, "only `z`, `dr` and `color` can be assigned"),
         ("name \"A\";\nstep { z.xx = z.xy; }", 2, 10, "assigned twice"),
         ("name \"A\";\nstep { let z = 1; }", 2, 12, "has a meaning already"),
         ("name \"A\";\nstep { z = select(z.x, z, c); }", 2, 19, "select(condition: a condition"),

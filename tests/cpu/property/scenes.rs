@@ -7,10 +7,10 @@ use mandelight::{
         table::{Kind, Value},
     },
     scene::{
-        Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
+        Axis, Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
         EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind, LightFrame,
         Lights, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene,
-        Sky, Stereo, StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
+        SecondLayer, Sky, Stereo, StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
         param::{self, Param},
     },
 };
@@ -199,36 +199,64 @@ fn lights() -> impl Strategy<Value = Lights> {
     )
 }
 
-fn surface() -> impl Strategy<Value = Surface> {
+fn coloring() -> impl Strategy<Value = Coloring> {
     let source = select(vec![
         ColorSource::Iterations,
-        ColorSource::OriginTrap,
+        ColorSource::PointTrap,
         ColorSource::AxisTrap,
         ColorSource::PlaneTrap,
+        ColorSource::SphereTrap,
+        ColorSource::CubeTrap,
+        ColorSource::Channel,
+        ColorSource::Position,
+        ColorSource::Normal,
     ]);
-    let numbers = (value(&param::COLOR_REPEATS), value(&param::COLOR_OFFSET));
-    let coloring =
-        (source, any::<bool>(), numbers).prop_map(|(source, follows_view, (repeats, offset))| {
-            Coloring { source, follows_view, repeats, offset }
-        });
-    let gradient = vec((value(&param::STOP_POSITION), color()), 1..=16).prop_map(|mut stops| {
+    let axis = select(vec![Axis::X, Axis::Y, Axis::Z]);
+    let center = [(); 3].map(|()| value(&param::TRAP_CENTER));
+    let numbers = (
+        center,
+        value(&param::TRAP_SIZE),
+        value(&param::COLOR_REPEATS),
+        value(&param::COLOR_OFFSET),
+    );
+    (source, axis, any::<bool>(), numbers).prop_map(
+        |(source, axis, follows_view, (center, size, repeats, offset))| Coloring {
+            source,
+            axis,
+            center,
+            size,
+            follows_view,
+            repeats,
+            offset,
+        },
+    )
+}
+
+fn gradient() -> impl Strategy<Value = Vec<GradientStop>> {
+    let stops = vec((value(&param::STOP_POSITION), color()), 1..=64);
+    stops.prop_map(|mut stops| {
         stops.sort_by(|a, b| a.0.total_cmp(&b.0));
         stops.into_iter().map(|(position, color)| GradientStop { position, color }).collect()
-    });
+    })
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    let second_layer = (value(&param::SECOND_LAYER_AMOUNT), coloring(), gradient());
     let light = (
         value(&param::AMBIENT),
         value(&param::DIFFUSE),
         value(&param::SPECULAR),
         value(&param::SHININESS),
     );
-    (light, coloring, gradient).prop_map(
-        |((ambient, diffuse, specular, shininess), coloring, gradient)| Surface {
+    (light, coloring(), gradient(), second_layer).prop_map(
+        |((ambient, diffuse, specular, shininess), coloring, gradient, second)| Surface {
             ambient,
             diffuse,
             specular,
             shininess,
             coloring,
             gradient,
+            second_layer: SecondLayer { amount: second.0, coloring: second.1, gradient: second.2 },
         },
     )
 }

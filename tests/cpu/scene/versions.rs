@@ -78,6 +78,10 @@ fn assert_keeps(written: &Value, read: &Value, path: &str) {
             let [written, read] = [written, read].map(|it| it.as_f64().unwrap_or(f64::NAN) as f32);
             assert_eq!(written, read, "{path}");
         }
+        // The trap at the origin is one at any point now.
+        (Value::String(written), Value::String(read)) if written == "origin_trap" => {
+            assert_eq!(read, "point_trap", "{path}");
+        }
         _ => assert_eq!(written, read, "{path}"),
     }
 }

@@ -59,7 +59,7 @@ fn estimates_agree(power: f64) {
     let (mut told_quickly, mut told) = (0, 0);
     for anchor in ANCHORS.iter().filter(|anchor| anchor.power == power) {
         for scale in anchor.scales() {
-            let (scene, size) = (anchor.scene(scale), views::SMALL);
+            let (scene, size) = (probe::with_traps(anchor.scene(scale)), views::SMALL);
             let looking = SetView::new(&scene, size, views::plenty(&scene));
             let space = RenderSpace::of(&scene, Region::whole(views::size(scale)));
             let asked = asked(&scene, &looking, &space);
@@ -98,7 +98,7 @@ fn estimates_agree(power: f64) {
                 (f64::from(answer.smooth_iterations) - expected.smooth_iterations).abs()
             });
             let of_traps = quantiles(&|answer, expected| {
-                let traps = [answer.origin_trap, answer.axis_trap].map(f64::from);
+                let traps = answer.traps.map(f64::from);
                 let off = [0, 1].map(|i| (traps[i] - expected.traps[i].min(2.0)).abs());
                 f64::max(off[0], off[1])
             });

@@ -153,8 +153,10 @@ fn gradients_of_texts_agree_with_the_oracle() {
         let scene = whole(&fractal);
         let points = points(&fractal, 2000);
         let answers = probe::ask(&scene, &points, true).expect("answers");
-        let derived = orbits::is_derived(&fractal);
-        let expected = in_parallel(&points, |&point| gradient(&fractal, point, derived));
+        let expected = in_parallel(&points, |&point| {
+            let distance = orbits::distance(&fractal, point, ANY_DIRECTION);
+            (distance >= 1e-3).then(|| gradient(&fractal, point, 1e-5 * distance)).flatten()
+        });
         let pairs = answers.iter().zip(expected).filter_map(|(answer, expected)| {
             Some(expected?.angle_between(answer.gradient.as_dvec3()).to_degrees())
         });
@@ -176,11 +178,8 @@ fn gradients_of_texts_agree_with_the_oracle() {
 }
 
 /// The gradient by central differences; none where two spacings disagree, as at an edge.
-fn gradient(fractal: &Fractal, point: DVec3, derived: bool) -> Option<DVec3> {
-    let distance = orbits::distance(fractal, point, ANY_DIRECTION);
-    if distance < 1e-3 {
-        return None;
-    }
+pub fn gradient(fractal: &Fractal, point: DVec3, spacing: f64) -> Option<DVec3> {
+    let derived = orbits::is_derived(fractal);
     let steps = orbits::orbit(fractal, point, ANY_DIRECTION).steps;
     let value = |point: DVec3| {
         if derived {
@@ -193,6 +192,6 @@ fn gradient(fractal: &Fractal, point: DVec3, derived: bool) -> Option<DVec3> {
         let along = |axis: DVec3| value(point + spacing * axis) - value(point - spacing * axis);
         DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)).try_normalize()
     };
-    let (fine, coarse) = (slope(1e-5 * distance)?, slope(1e-4 * distance)?);
+    let (fine, coarse) = (slope(spacing)?, slope(10.0 * spacing)?);
     (fine.angle_between(coarse) < 1e-3).then_some(fine)
 }

@@ -11,8 +11,10 @@
 //! | `film` | no test: films of any colours, given to the kernels |
 
 mod film;
+mod formula_views;
 mod formulas;
 mod indirect;
+mod layers;
 mod normals_table;
 pub mod pictures;
 mod points;

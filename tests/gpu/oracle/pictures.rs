@@ -170,7 +170,8 @@ fn colors_of_fine_pictures_agree_with_the_oracle() {
             let depth = picture.samples.depth[index];
             (depth > 0.0).then(|| {
                 let depth = rays::color_depth(&scene, views::SIZE, pixel, depth.into());
-                let color = light::surface_color(&scene, point_at(&scene, pixel, depth as f32));
+                let color =
+                    light::surface_color(&scene, point_at(&scene, pixel, depth as f32), DVec3::Z);
                 (light::display(&scene, color) - picture.display[index]).abs().max_element()
             })
         });

@@ -31,6 +31,7 @@ fn estimates_at_random_points_agree_with_the_oracle() {
     fractals.extend([2.0, 3.0, 8.0, 16.0, 5.5].map(widest));
     for fractal in fractals {
         let scene = Scene { fractal: fractal.clone().into(), ..Scene::default() };
+        let scene = probe::with_traps(scene);
         let estimator = Estimator::new(&fractal);
         let radius = 1.2 * estimator.bounding_radius();
         let mut random = Random(0x0DDB_1A5E_5BAD_5EED);
@@ -61,8 +62,11 @@ fn estimates_at_random_points_agree_with_the_oracle() {
                 if orbit.r > fractal.bailout {
                     let rounded = f64::from(f32::EPSILON) * estimate::error_growth(&fractal, point);
                     rounding.push(off / rounded);
-                    rounding.push((f64::from(answer.origin_trap) - orbit.traps[0]).abs() / rounded);
-                    rounding.push((f64::from(answer.axis_trap) - orbit.traps[1]).abs() / rounded);
+                    let traps = answer.traps.into_iter().zip(orbit.traps);
+                    rounding
+                        .extend(traps.map(|(found, expected)| {
+                            (f64::from(found) - expected).abs() / rounded
+                        }));
                 }
             }
             assert!(away > 1000, "{away} points away from the surface");

@@ -79,7 +79,8 @@ impl Expressions {
             let function = &FUNCTIONS[self.below(FUNCTIONS.len())];
             // The result's size, or that of the arguments of any size.
             let result = match function.name {
-                "dot" | "length" | "distance" | "largest" | "smallest" | "sphere_fold_scale" => 1,
+                "dot" | "length" | "distance" | "largest" | "smallest" | "sphere_fold_scale"
+                | "fold_count" | "mirror_count" => 1,
                 name if name.starts_with("complex") || name == "polar_repeat" => 2,
                 name if name.starts_with("rotate")
                     || ["cross", "turn", "triplex_power"].contains(&name) =>

@@ -16,7 +16,7 @@ use mandelight::{
         shader::Module,
     },
     render::{Eyes, Region, shaders, space::RenderSpace, uniforms::Inputs},
-    scene::Scene,
+    scene::{ColorSource, Coloring, Scene},
 };
 
 use crate::device::gpu;
@@ -35,10 +35,10 @@ pub struct Answer {
     pub distance: f32,
     /// Smooth iteration count.
     pub smooth_iterations: f32,
-    /// Least distance of the orbit from the origin, after its start; at most 2.
-    pub origin_trap: f32,
-    /// The same from the z axis.
-    pub axis_trap: f32,
+    /// Least distances of the orbit, after its start, from the traps of the scene's layers; at most 2.
+    pub traps: [f32; 2],
+    /// The formula's colour channel.
+    pub channel: f32,
     /// How far a ray may go, in the same.
     pub step: f32,
     /// Distance estimate as rays ask for it first; none where that way cannot tell.
@@ -68,6 +68,15 @@ pub fn ask_about(
 ) -> Result<Vec<Answer>, ReadbackError> {
     let inputs = Inputs::about(scene, REGION, space);
     ask_kernel(&inputs, offsets, inputs.formula.kernel)
+}
+
+/// `scene` with layers of colours by traps at the origin and along the z axis.
+pub fn with_traps(mut scene: Scene) -> Scene {
+    let by = |source| Coloring { source, ..Coloring::default() };
+    scene.surface.coloring = by(ColorSource::PointTrap);
+    scene.surface.second_layer.coloring = by(ColorSource::AxisTrap);
+    scene.surface.second_layer.amount = 1.0;
+    scene
 }
 
 /// Of the kernel's answer to one point.
@@ -109,7 +118,7 @@ fn ask_kernel(
         .iter()
         .map(|chunk| {
             let numbers: [f32; ANSWER_BYTES / 4] = bytemuck::cast(*chunk);
-            let [x, y, z, distance, smooth_iterations, origin_trap, axis_trap, step, quick, ..] =
+            let [x, y, z, distance, smooth_iterations, first, second, step, quick, channel, ..] =
                 numbers;
             let gradient = Vec3::new(x, y, z);
             let quick_distance = (quick >= 0.0).then_some(quick);
@@ -117,8 +126,8 @@ fn ask_kernel(
                 gradient,
                 distance,
                 smooth_iterations,
-                origin_trap,
-                axis_trap,
+                traps: [first, second],
+                channel,
                 step,
                 quick_distance,
             }

@@ -5,11 +5,12 @@ struct Answer {
     // Of any length.
     gradient: vec3f,
     distance: f32,
-    // Smooth iteration count, origin trap, axis trap.
+    // Smooth iteration count, traps of the two layers.
     colors: vec3f,
     step: f32,
     // The distance by `quick_estimate`; negative where that cannot tell.
     quick_distance: f32,
+    channel: f32,
 }
 
 // xyz: the point. w: unused.
@@ -28,8 +29,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     answers[id.x] = Answer(
         distance_gradient(fractal, point),
         ahead.distance,
-        vec3f(colors.smooth_iterations, colors.traps.xy),
+        vec3f(colors.smooth_iterations, colors.traps),
         ahead.step,
         select(quick.distance, -1.0, quick.step < 0.0),
+        colors.channel,
     );
 }

@@ -26,10 +26,6 @@ pub struct SeriesApproximation {
     pub difference: [Jet; 3],
     /// dr, in units of one over the scale.
     pub derivative: Jet,
-    /// Squared orbit traps over the replaced steps, without the first point.
-    ///
-    /// Least distances to the origin, the z axis and the plane z = 0.
-    pub traps_squared: DVec3,
 }
 
 /// A test orbit that takes every step.
@@ -73,10 +69,9 @@ impl SeriesBuilder<'_> {
         };
         let mut rungs: Vec<_> = radii.iter().map(rung).collect();
         // No step leaves the last point.
-        for (reference_point, reached) in
-            self.reference_points.iter().zip(&self.reference_points[1..])
-        {
-            next = self.step(&next, reference_point, reached);
+        let last = self.reference_points.len().saturating_sub(1);
+        for reference_point in &self.reference_points[..last] {
+            next = self.step(&next, reference_point);
             for rung in rungs.iter_mut().filter(|rung| !rung.is_over) {
                 for probe in &mut rung.probes {
                     self.step_probe(probe, reference_point);
@@ -100,7 +95,6 @@ impl SeriesBuilder<'_> {
             steps: 0,
             difference: axes.map(|axis| Jet::linear(0.0, axis * self.scale)),
             derivative: Jet::constant(self.scale),
-            traps_squared: DVec3::splat(4.0),
         }
     }
 
@@ -109,26 +103,18 @@ impl SeriesBuilder<'_> {
         if self.is_mandelbulb { self.scale } else { 0.0 }
     }
 
-    /// The approximation with one more step, from `reference_point` to `reached`.
+    /// The approximation with one more step, which leaves `reference_point`.
     fn step(
         &self,
         series: &SeriesApproximation,
         reference_point: &ReferencePoint,
-        reached: &ReferencePoint,
     ) -> SeriesApproximation {
         let (raised, growth) = self.jets(reference_point, &series.difference);
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let difference = [0, 1, 2]
             .map(|i| Jet { value: 0.0, ..raised[i] } + Jet::linear(0.0, axes[i] * self.added()));
         let derivative = growth * series.derivative + Jet::constant(self.added());
-        let z = reached.z;
-        let seen = DVec3::new(z.length_squared(), reached.rho * reached.rho, z.z * z.z);
-        SeriesApproximation {
-            steps: series.steps + 1,
-            difference,
-            derivative,
-            traps_squared: series.traps_squared.min(seen),
-        }
+        SeriesApproximation { steps: series.steps + 1, difference, derivative }
     }
 
     fn step_probe(&self, probe: &mut Probe, reference_point: &ReferencePoint) {

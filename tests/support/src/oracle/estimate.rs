@@ -18,6 +18,8 @@ pub struct Orbit {
     /// Least distances from the origin, the z axis and the plane z = 0 of all points but the
     /// first; at most 2.
     pub traps: [f64; 3],
+    /// All points but the first.
+    pub points: Vec<DVec3>,
 }
 
 /// Follows the orbit of `point`.
@@ -31,6 +33,7 @@ pub fn orbit(fractal: &Mandelbulb, point: DVec3) -> Orbit {
     let mut dr = 1.0;
     let mut steps = 0;
     let mut traps = [2.0_f64; 3];
+    let mut points = Vec::new();
     while r <= fractal.bailout && steps < fractal.iterations {
         steps += 1;
         let ph = if r > 0.0 { (z.z / r).clamp(-1.0, 1.0).asin() } else { 0.0 };
@@ -47,8 +50,9 @@ pub fn orbit(fractal: &Mandelbulb, point: DVec3) -> Orbit {
             traps[1].min((z.x * z.x + z.y * z.y).sqrt()),
             traps[2].min(z.z.abs()),
         ];
+        points.push(z);
     }
-    Orbit { steps, r, dr, traps }
+    Orbit { steps, r, dr, traps, points }
 }
 
 /// Distance estimate: ½ ln r · r / dr, and 0 where ln r < 0 or r = 0.

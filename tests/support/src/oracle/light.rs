@@ -2,8 +2,10 @@
 
 use glam::DVec3;
 use mandelight::{
-    formula::mandelbulb::Mandelbulb,
-    scene::{ColorSource, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene},
+    formula::mandelbulb::{Mandelbulb, estimator::Estimator},
+    scene::{
+        Axis, ColorSource, Coloring, EnvironmentLight, GradientStop, LightFrame, PointLight, Scene,
+    },
 };
 
 use super::{
@@ -65,7 +67,7 @@ pub fn shade(
     reaches: impl Fn(usize) -> bool,
 ) -> DVec3 {
     let surface = &scene.surface;
-    let color = surface_color(scene, point);
+    let color = surface_color(scene, point, normal);
     let mut sum = color * surface.ambient;
     for (index, light) in incoming(scene, point).iter().enumerate() {
         let cosine = normal.dot(light.ray.toward);
@@ -79,26 +81,74 @@ pub fn shade(
     sum
 }
 
-/// The surface's colour at `point`, for a gradient that does not follow the view.
-pub fn surface_color(scene: &Scene, point: DVec3) -> DVec3 {
-    color_at(scene, color_value(scene, point))
+/// The surface's colour at `point`, for gradients that do not follow the view.
+pub fn surface_color(scene: &Scene, point: DVec3, normal: DVec3) -> DVec3 {
+    let fractal = Mandelbulb::of(&scene.fractal);
+    let surface = &scene.surface;
+    let color = color_at(scene, color_value(&fractal, &surface.coloring, point, normal));
+    let second = &surface.second_layer;
+    if second.amount == 0.0 {
+        return color;
+    }
+    let value = color_value(&fractal, &second.coloring, point, normal);
+    let over = layer_color(&second.coloring, &second.gradient, value);
+    color * (1.0 - second.amount) + over * second.amount
 }
 
 /// The value that selects the colour at `point`.
-pub fn color_value(scene: &Scene, point: DVec3) -> f64 {
-    let traps = orbit(&Mandelbulb::of(&scene.fractal), point).traps;
-    match scene.surface.coloring.source {
-        ColorSource::Iterations => smooth_iterations(&Mandelbulb::of(&scene.fractal), point),
-        ColorSource::OriginTrap => traps[0],
-        ColorSource::AxisTrap => traps[1],
-        ColorSource::PlaneTrap => traps[2],
+pub fn color_value(fractal: &Mandelbulb, coloring: &Coloring, point: DVec3, normal: DVec3) -> f64 {
+    let along = match coloring.axis {
+        Axis::X => 0,
+        Axis::Y => 1,
+        Axis::Z => 2,
+    };
+    match coloring.source {
+        ColorSource::Iterations => smooth_iterations(fractal, point),
+        ColorSource::Position => {
+            0.5 + 0.5 * point[along] / Estimator::new(fractal).bounding_radius()
+        }
+        ColorSource::Normal => 0.5 + 0.5 * normal[along],
+        // The Mandelbulb has no channel.
+        ColorSource::Channel => 0.0,
+        _ => {
+            let points = orbit(fractal, point).points.into_iter();
+            points.map(|z| trap_distance(coloring, z)).fold(2.0, f64::min)
+        }
     }
 }
 
-/// The colour of a value, or of a position on its way through the values in view.
+/// The distance of a point of an orbit from the trap of `coloring`, by plain geometry.
+pub fn trap_distance(coloring: &Coloring, z: DVec3) -> f64 {
+    let [x, y, z] = (z - DVec3::from_array(coloring.center)).to_array();
+    let [along, one, other] = match coloring.axis {
+        Axis::X => [x, y, z],
+        Axis::Y => [y, z, x],
+        Axis::Z => [z, x, y],
+    };
+    let size = coloring.size;
+    match coloring.source {
+        ColorSource::PointTrap => (x * x + y * y + z * z).sqrt(),
+        ColorSource::AxisTrap => one.hypot(other),
+        ColorSource::PlaneTrap => along.abs(),
+        ColorSource::SphereTrap => ((x * x + y * y + z * z).sqrt() - size).abs(),
+        ColorSource::CubeTrap => {
+            // The nearest point of the solid cube, or from within the nearest face.
+            let nearest = [x, y, z].map(|v| v.clamp(-size, size));
+            let outside = DVec3::from_array([x, y, z]).distance(DVec3::from_array(nearest));
+            let faces = [x, y, z].map(|v| size - v.abs());
+            if outside > 0.0 { outside } else { faces.into_iter().fold(f64::INFINITY, f64::min) }
+        }
+        other => panic!("{other:?} is no trap"),
+    }
+}
+
+/// The colour of a value, or of a position on its way through the values in view, in the first layer.
 pub fn color_at(scene: &Scene, value: f64) -> DVec3 {
-    let coloring = &scene.surface.coloring;
-    gradient(&scene.surface.gradient, value * coloring.repeats + coloring.offset)
+    layer_color(&scene.surface.coloring, &scene.surface.gradient, value)
+}
+
+fn layer_color(coloring: &Coloring, stops: &[GradientStop], value: f64) -> DVec3 {
+    gradient(stops, value * coloring.repeats + coloring.offset)
 }
 
 /// Positions of `values` among all of them: half the rank, half the way from the least to the greatest,

@@ -126,7 +126,7 @@ impl Steps {
 }
 
 /// The end of an orbit.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct End {
     /// The state.
     pub z: DVec4,
@@ -138,8 +138,8 @@ pub struct End {
     pub steps: u32,
     /// Whether the orbit passed the bailout.
     pub escaped: bool,
-    /// Least distances of the orbit after its start to the origin and to the z axis.
-    pub traps: [f64; 2],
+    /// The orbit after its start.
+    pub points: Vec<DVec4>,
     /// The thesis's eq. 3.1, with the growth of the last step.
     pub smooth_iterations: f64,
 }
@@ -155,13 +155,12 @@ pub fn orbit(fractal: &Fractal, point: DVec3, direction: DVec3) -> End {
     let start = all.start(point);
     let c = all.julia_constant.unwrap_or(start);
     let dc = if all.julia_constant.is_some() { 0.0 } else { 1.0 };
-    let (mut z, mut before, mut dr, mut steps, mut traps) =
-        (start, start, 1.0, 0, [f64::INFINITY; 2]);
+    let (mut z, mut before, mut dr, mut steps) = (start, start, 1.0, 0);
+    let mut points = Vec::new();
     while steps < fractal.iterations && all.size(z) <= all.bailout {
         before = z;
         (z, dr) = all.step(steps as usize, z, c, dr, dc);
-        traps[0] = traps[0].min(z.xyz().length());
-        traps[1] = traps[1].min(z.xy().length());
+        points.push(z);
         steps += 1;
     }
     let size = all.size(z);
@@ -180,7 +179,7 @@ pub fn orbit(fractal: &Fractal, point: DVec3, direction: DVec3) -> End {
         };
         smooth_iterations -= part.clamp(0.0, 1.0);
     }
-    End { z, dr, uncertain, steps, escaped, traps, smooth_iterations }
+    End { z, dr, uncertain, steps, escaped, points, smooth_iterations }
 }
 
 /// The estimated distance of `point`, with the derivative along `direction` where the text gives none.

@@ -4,8 +4,8 @@ use glam::DVec3;
 use mandelight::{
     formula::mandelbulb::{Mandelbulb, Sine},
     scene::{
-        Camera, ColorSource, EnvironmentLight, LightFrame, PointLight, PrecisePoint, Scene,
-        ToneCurve,
+        Axis, Camera, ColorSource, Coloring, EnvironmentLight, LightFrame, PointLight,
+        PrecisePoint, Scene, ToneCurve,
     },
 };
 
@@ -114,15 +114,30 @@ pub fn seam() -> View {
 pub fn lit() -> Vec<View> {
     let sources = [
         ColorSource::Iterations,
-        ColorSource::OriginTrap,
+        ColorSource::PointTrap,
         ColorSource::AxisTrap,
         ColorSource::PlaneTrap,
     ];
+    let second_sources = [
+        ColorSource::SphereTrap,
+        ColorSource::Position,
+        ColorSource::CubeTrap,
+        ColorSource::Normal,
+    ];
     let pick = ["power 8", "power 5.5", "power 3", "Julia 8 at 0.01"];
     let mut views: Vec<_> = all().into_iter().filter(|view| pick.contains(&view.name)).collect();
-    for (view, source) in views.iter_mut().zip(sources) {
+    for (view, (source, second)) in views.iter_mut().zip(sources.into_iter().zip(second_sources)) {
         view.scene.surface.coloring.source = source;
         view.scene.surface.coloring.offset = 0.3;
+        let layer = &mut view.scene.surface.second_layer;
+        layer.amount = 0.4;
+        layer.coloring = Coloring {
+            source: second,
+            axis: Axis::X,
+            center: [0.3, -0.2, 0.1],
+            size: 0.7,
+            ..Coloring::default()
+        };
         let unit = view.scene.camera.view_unit();
         let eye = view.scene.camera.position.to_dvec3();
         let beside = view.scene.camera.rotation() * DVec3::new(0.4, 0.3, 0.1) * unit;

@@ -1,0 +1,107 @@
+//! The formula editor: what is typed is drawn, what is wrong is told, what is kept stays.
+
+use egui::{Key, Modifiers, accesskit::Role};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use mandelight::{
+    formula::{self, Fractal},
+    scene::Scene,
+};
+
+use crate::stage::*;
+
+/// A page with the editor open on a formula.
+fn editing(id: &str) -> Harness<'static, Stage> {
+    let fractal = Fractal::new(formula::find(id).expect("a formula"));
+    let scene = Scene { fractal, ..Scene::default() };
+    let mut harness = stage(scene, unfolded(), [1280.0, 3000.0]);
+    press(&mut harness, "Edit the formula…");
+    harness
+}
+
+/// Replaces the editor's text by `text`, and waits until it is read.
+fn type_whole(harness: &mut Harness<'_, Stage>, text: &str) {
+    let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Formula text");
+    field.focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run();
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(40);
+}
+
+fn text_of(harness: &Harness<'_, Stage>) -> String {
+    let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Formula text");
+    field.value().unwrap_or_default()
+}
+
+const TEXT: &str = "name \"Typed\";\nparam scale = 2 from -3 to 3 label \"Scale\";\n\
+                    step { z = scale * box_fold(z, 1) * sphere_fold_scale(z, 0.5, 1) + c; }\n\
+                    radius 100;\nestimate linear;\nbound 12;\n";
+
+#[test]
+fn a_typed_formula_is_drawn_with_the_values_that_stay() {
+    let mut harness = editing("mandelbox");
+    assert!(text_of(&harness).contains("name \"Mandelbox\""));
+    slider(&harness, "Scale").set_value_accesskit(-1.5);
+    harness.run();
+    type_whole(&mut harness, TEXT);
+    let drawn = &scene(&harness).fractal;
+    assert_eq!(drawn.formula().text(), Some(TEXT));
+    assert_eq!(drawn.number("scale"), Some(-1.5));
+    // One more parameter, and one more slider.
+    let more =
+        TEXT.replace("step {", "param twist = 10 from 0 to 90 degrees label \"Twist\";\nstep {");
+    type_whole(&mut harness, &more);
+    assert!(harness.query_by_role_and_label(Role::Slider, "Twist").is_some());
+    assert_eq!(scene(&harness).fractal.number("scale"), Some(-1.5));
+    // The text of what an undo brings back. The text field has its own undo while it has the focus.
+    harness.key_press(Key::Escape);
+    harness.run();
+    undo_all(&mut harness);
+    harness.run();
+    assert!(text_of(&harness).contains("name \"Mandelbox\""));
+}
+
+#[test]
+fn a_wrong_text_keeps_the_picture_and_says_where_it_is_wrong() {
+    let mut harness = editing("mandelbox");
+    type_whole(&mut harness, TEXT);
+    let before = scene(&harness).clone();
+    type_whole(&mut harness, &TEXT.replace("+ c;", "+ ccc;"));
+    assert_eq!(*scene(&harness), before);
+    assert!(harness.query_by_label_contains("line 3, column").is_some());
+    assert!(text_of(&harness).contains("ccc"), "the wrong text stays");
+    type_whole(&mut harness, TEXT);
+    assert!(harness.query_by_label_contains("line 3, column").is_none());
+}
+
+#[test]
+fn tab_completes_the_word_at_the_cursor() {
+    let mut harness = editing("mandelbox");
+    type_whole(&mut harness, "name \"A\"; step { z = quaternion_p");
+    harness.key_press(Key::Tab);
+    harness.run_steps(3);
+    assert!(text_of(&harness).ends_with("z = quaternion_product"), "{}", text_of(&harness));
+}
+
+#[test]
+fn kept_formulas_are_listed_and_can_be_removed() {
+    let mut harness = editing("mandelbox");
+    type_whole(&mut harness, TEXT);
+    press(&mut harness, "Keep in my formulas");
+    assert_eq!(harness.state().interface.settings().formulas, [TEXT]);
+    press(&mut harness, "Formula: Typed");
+    assert!(harness.query_by_role_and_label(Role::Button, "Typed").is_some());
+    press(&mut harness, "Remove from my formulas");
+    assert!(harness.state().interface.settings().formulas.is_empty());
+}
+
+/// A link brings its formula as a text to read.
+#[test]
+fn the_text_of_a_linked_formula_can_be_read() {
+    let formula = formula::own::of_text(TEXT).expect("a formula");
+    let scene = Scene { fractal: Fractal::new(formula), ..Scene::default() };
+    let mut harness = stage(scene, unfolded(), [1280.0, 3000.0]);
+    press(&mut harness, "Edit the formula…");
+    assert_eq!(text_of(&harness), TEXT);
+}
