@@ -3,6 +3,8 @@
 //! | file | what it tests |
 //! |---|---|
 //! | `formulas` | estimates, gradients and colours of the formulas of `formulas/` |
+//! | `formula_views` | hits, depths and normals of two views of each of these formulas |
+//! | `layers` | colour channels and orbit traps |
 //! | `points` | estimates and gradients at random points, on the axis and inside |
 //! | `pictures` | hits, normals, shadows and shading of whole views |
 //! | `normals_table` | every way to find normals, and the table of `docs/normals.md` |

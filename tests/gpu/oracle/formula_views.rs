@@ -1,0 +1,142 @@
+//! Whole views of every formula of a text: hits, depths and normals against the equations in f64.
+
+use super::formulas::gradient;
+use glam::{DMat3, DVec3};
+use mandelight::{
+    fractal::FractalModel,
+    gpu::device::in_parallel,
+    render::{Pace, Region, uniforms::Inputs},
+    scene::{Camera, Normals, Scene, presets},
+};
+use mandelight_test_support::{
+    oracle::{orbits, rays},
+    statistics::quantile,
+    view::{finished, sampled},
+};
+
+/// Parts of the hit distance between which a ray may end.
+///
+/// A step from outside the hit distance may end beyond a corner that the ray passes within it; nothing that the
+/// ray passes within half of it may be missed. Along an edge, estimates that differ by a thousandth end far apart.
+const SHARES: [f64; 2] = [1.05, 0.5];
+/// Width and height of every picture.
+const SIZE: [u32; 2] = [48, 32];
+/// Most steps of an oracle's ray.
+const STEPS: u32 = 6000;
+/// Step of an oracle's ray, over the estimate that the formula's own rays take.
+const CAUTION: f64 = 0.4;
+
+/// The formula's scene, and a view from the other side and closer.
+fn views(scene: &Scene) -> [Scene; 2] {
+    let mut scene = sampled(scene.clone(), 1);
+    scene.quality.normals = Normals::Analytic;
+    scene.lights.environment.clear();
+    let mut other = scene.clone();
+    let pivot = scene.camera.pivot.to_dvec3();
+    let away = scene.camera.position.to_dvec3() - pivot;
+    let turned = DMat3::from_rotation_z(2.2) * away * 0.8;
+    let eye = pivot + turned + DVec3::new(0.0, 0.0, -0.1);
+    let vertical_fov_deg = scene.camera.vertical_fov_deg;
+    other.camera = Camera { vertical_fov_deg, ..Camera::looking_at(eye, pivot, DVec3::Z) };
+    [scene, other]
+}
+
+/// Depth at which the ray comes within `share` of the hit distance; none if it passes the set.
+fn march(scene: &Scene, origin: DVec3, way: DVec3, part: f64, share: f64) -> Option<f64> {
+    let radius = FractalModel::new(&scene.fractal).bounding_radius();
+    let (half, distance) = (-origin.dot(way), origin.length_squared() - radius * radius);
+    let root = half * half - distance;
+    if root < 0.0 {
+        return None;
+    }
+    let (mut t, end) = ((half - root.sqrt()).max(0.0), half + root.sqrt());
+    for _ in 0..STEPS {
+        if t > end {
+            return None;
+        }
+        let distance = orbits::distance(&scene.fractal, origin + t * way, way);
+        let hit = share * rays::hit_distance(scene, SIZE, t);
+        if distance < hit {
+            return Some(t);
+        }
+        t += (part * distance).max(0.05 * hit);
+    }
+    Some(t)
+}
+
+/// What differs between a view and the oracle.
+struct Differences {
+    hit: f64,
+    differ: f64,
+    depth: f64,
+    normal: f64,
+}
+
+fn differences(scene: &Scene) -> Differences {
+    let view = finished(scene, SIZE, Pace::Still);
+    let samples = view.gbuffer().expect("samples");
+    let mut deeper = scene.clone();
+    deeper.fractal.iterations = Inputs::new(scene, Region::whole(SIZE)).frame.march.iterations;
+    let part = CAUTION * f64::from(scene.fractal.formula().march_policy(&scene.fractal).ball_part);
+    let origin = scene.camera.position.to_dvec3();
+    let indexed: Vec<u32> = (0..SIZE[0] * SIZE[1]).collect();
+    let expected = in_parallel(&indexed, |&i| {
+        let way = rays::direction(&scene.camera, SIZE, [i % SIZE[0], i / SIZE[0]]);
+        let depth = f64::from(samples.depth[i as usize]);
+        let normal = (depth > 0.0)
+            .then(|| gradient(&deeper.fractal, origin + depth * way, 1e-8 * depth))
+            .flatten();
+        (SHARES.map(|share| march(&deeper, origin, way, part, share)), normal)
+    });
+    let count = expected.len() as f64;
+    let (mut depths, mut normals, mut hits, mut differ) = (vec![], vec![], 0, 0);
+    for (i, ([first, last], normal)) in expected.into_iter().enumerate() {
+        let depth = f64::from(samples.depth[i]);
+        hits += u32::from(depth > 0.0);
+        if depth == 0.0 {
+            differ += u32::from(last.is_some());
+            continue;
+        }
+        let Some(first) = first else {
+            differ += 1;
+            continue;
+        };
+        let (early, late) = (first - depth, depth - last.unwrap_or(f64::INFINITY));
+        let off = early.max(late).max(0.0);
+        depths.push(off / (rays::cone(&scene.camera, SIZE) * first));
+        let found = samples.normal[i].as_dvec3();
+        normals.extend(normal.map(|normal| found.angle_between(normal).to_degrees()));
+    }
+    Differences {
+        hit: f64::from(hits) / count,
+        differ: f64::from(differ) / count,
+        depth: quantile(depths, 0.99),
+        normal: quantile(normals, 0.5),
+    }
+}
+
+#[test]
+fn views_of_every_formula_agree_with_the_oracle() {
+    let mut failures = Vec::new();
+    for preset in presets::formulas() {
+        let scene = (preset.scene)();
+        if scene.fractal.formula().id() == "mandelbulb" {
+            continue;
+        }
+        for (number, view) in views(&scene).iter().enumerate() {
+            let Differences { hit, differ, depth, normal } = differences(view);
+            let line = format!(
+                "{} {number}: {hit:.2} hit, {differ:.4} by one alone, \
+                 depth p99 {depth:.2} footprints, normals {normal:.3}°",
+                preset.name
+            );
+            println!("{line}");
+            // Its estimate jumps at each fold, so that most rays pass thin spikes.
+            let deepest = if preset.name == "Box-fold bulb" { 100.0 } else { 2.0 };
+            if hit < 0.05 || differ > 0.005 || depth > deepest || normal > 1.0 {
+                failures.push(line);
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
