@@ -44,8 +44,15 @@ fn layer_color(layer: ColorLayer, number: u32, stored: f32, normal: u32) -> vec3
     return gradient_color(number * GRADIENT_ENTRIES, value * layer.repeats + layer.offset);
 }
 
+// The colour of a section plane where orbits take so many smooth iterations (thesis eq. 3.1); -1: inside the set.
+fn section_color(iterations: f32) -> vec3f {
+    if (iterations < 0.0) { return frame.sections.inside; }
+    return gradient_color(0u, iterations * frame.sections.repeats + frame.first_layer.offset);
+}
+
 // The colour of a sample with the layers' values `stored` and the packed normal `normal`.
 fn surface_color(stored: vec2f, normal: u32) -> vec3f {
+    if (stored.y == ON_SECTION) { return section_color(stored.x); }
     let color = layer_color(frame.first_layer, 0u, stored.x, normal);
     if (frame.second_layer.source == COLOR_NONE) { return color; }
     let second = layer_color(frame.second_layer, 1u, stored.y, normal);

@@ -1,5 +1,5 @@
-// The interval of a ray inside the set's bounding sphere.
-// uses: types/frame_uniforms
+// The interval of a ray inside the set's bounding sphere, between the section planes.
+// uses: lib/section, types/frame_uniforms
 
 // A render-space point as scene units from the set's centre. Squares of lengths in a deep view's
 // small unit may overflow an f32.
@@ -13,7 +13,7 @@ fn in_view(length: f32) -> f32 {
 }
 
 // Distances of entry and exit along a unit direction; exit < entry if the ray misses the sphere.
-fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
+fn sphere_interval(origin: vec3f, direction: vec3f) -> vec2f {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
     // The closest approach itself instead of |origin|² - b²: no cancellation for a far origin.
@@ -25,17 +25,23 @@ fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
     return vec2f(in_view(max(-b - half_chord, 0.0)), in_view(half_chord - b));
 }
 
-// The distance along a unit direction at which the last ray of a cone leaves the sphere. The rays'
-// origins are at most `width` from the axis through `origin`.
+// The same for what the section planes leave of the sphere.
+fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
+    return left_by_sections(sphere_interval(origin, direction), origin, direction);
+}
+
+// The distance along a unit direction at which the last ray of a cone has left the sphere, or what the section planes
+// leave of it. The rays' origins are at most `width` from the axis through `origin`.
 fn bounding_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
     let aside = max(length(from_center - b * direction) - frame.march.scale * width, 0.0);
     let radius = frame.march.bounding_radius;
-    return in_view(sqrt(max(radius * radius - aside * aside, 0.0)) - b);
+    let exit = in_view(sqrt(max(radius * radius - aside * aside, 0.0)) - b);
+    return min(exit, sections_exit(origin, direction, width));
 }
 
-// The least distance at which a ray from `origin` enters the sphere, among rays whose unit directions
+// The least distance at which a ray from `origin` enters what the section planes leave of the sphere, among rays whose unit directions
 // differ from `axis` by at most `spread`; negative if all rays miss.
 fn bounding_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     // The direction among them that passes nearest to the centre.
@@ -45,6 +51,7 @@ fn bounding_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     // Slightly more than `spread`, since the arc is longer than its tangent.
     let edge = normalize(axis + 1.01 * spread / max(length(aside), 1e-30) * aside);
     let nearest = select(edge, toward, distance(toward, axis) <= spread);
-    let interval = bounding_interval(origin, nearest);
-    return select(interval.x, -1.0, interval.y < interval.x);
+    let interval = sphere_interval(origin, nearest);
+    let entry = sections_entry(origin, axis, spread);
+    return select(max(interval.x, entry), -1.0, interval.y < interval.x || entry < 0.0);
 }

@@ -20,6 +20,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let hit = surface[index];
     if (hit.x == 0u) { return; }
     let stored = color_data[index];
+    if (stored.y == ON_SECTION) { return; }
     count_value(frame.first_layer, 0u, stored.x, hit.y);
     count_value(frame.second_layer, COLOR_BINS, stored.y, hit.y);
 }

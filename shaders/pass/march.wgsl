@@ -1,5 +1,5 @@
 // Marches rays to surface points: writes depth and colour data of each sample, and moves the ray there.
-// uses: formula, lib/estimate_next, lib/over_relaxation, lib/sphere
+// uses: formula, lib/estimate_next, lib/over_relaxation, lib/section, lib/sphere
 // uses: types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // Least step, in hit distances; rays may pass thinner parts of the surface.
@@ -36,11 +36,13 @@ struct RayEnd {
     surface: f32,
     // Depth of the point whose orbit gives the colours.
     colors: f32,
+    // Whether the ray ends on a section plane.
+    is_on_section: bool,
 }
 
 // Colours are taken at the surface if the hit distance is greater than the colour distance.
 fn ray_end(surface: f32, colors: ColorPoint) -> RayEnd {
-    return RayEnd(surface, select(surface, colors.depth, colors.depth > 0.0));
+    return RayEnd(surface, select(surface, colors.depth, colors.depth > 0.0), false);
 }
 
 // Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, from the depth `clear`
@@ -48,6 +50,8 @@ fn ray_end(surface: f32, colors: ColorPoint) -> RayEnd {
 fn march(fractal: Fractal, ray: Ray, clear: f32) -> RayEnd {
     let interval = bounding_interval(ray.origin, ray.direction);
     var t = max(interval.x, clear);
+    let cut = section_entry(ray.origin, ray.direction);
+    var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
     // Depth of the last point, and the distance that was missing to a hit there.
     var before = t;
@@ -76,9 +80,13 @@ fn march(fractal: Fractal, ray: Ray, clear: f32) -> RayEnd {
                     t -= back;
                     continue;
                 }
-                if (!is_inside) { return RayEnd(0.0, 0.0); }
+                if (!is_inside) { return RayEnd(0.0, 0.0, false); }
             }
             let hit = hit_distance(ray, t);
+            if (is_on_section && ahead.distance < max(hit, cut.bands)) {
+                return RayEnd(t, t, true);
+            }
+            is_on_section = false;
             let within = color_spread * t;
             if (!is_looking && within > hit) {
                 colors = next_color_point(colors, before, t, ahead.distance, within);
@@ -125,13 +133,28 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!site.is_there) { return; }
     let fractal = frame.formula.fractal;
     let ray = rays[site.ray];
-    let end = march(fractal, ray, queued.clear);
-    surface[site.index].x = bitcast<u32>(end.surface);
-    if (end.surface == 0.0) { return; }
+    // A ray that enters the set through a section plane ends there. Estimates are no test for that: some are positive
+    // inside. The loop has one turn without section planes, and one copy of the orbit's code.
+    let cut = section_entry(ray.origin, ray.direction);
+    let interval = bounding_interval(ray.origin, ray.direction);
+    var is_cut = cut.depth > 0.0 && interval.x <= 1.000001 * cut.depth && interval.x <= interval.y;
+    var end = RayEnd(cut.depth, cut.depth, true);
+    var colors: OrbitColors;
+    for (; ; ) {
+        if (!is_cut) { end = march(fractal, ray, queued.clear); }
+        surface[site.index].x = bitcast<u32>(end.surface);
+        if (end.surface == 0.0) { return; }
+        colors = orbit_colors(fractal, ray.origin + end.colors * ray.direction);
+        if (!is_cut || colors.is_inside) { break; }
+        is_cut = false;
+    }
     let at_surface = advanced(ray, end.surface);
     rays[site.ray].origin = at_surface.origin;
     rays[site.ray].radius = at_surface.radius;
-    let colors = orbit_colors(fractal, ray.origin + end.colors * ray.direction);
+    if (end.is_on_section) {
+        color_data[site.index] = vec2f(select(colors.smooth_iterations, -1.0, colors.is_inside), ON_SECTION);
+        return;
+    }
     color_data[site.index] = vec2f(
         layer_value(frame.first_layer, colors, colors.traps.x, at_surface.origin),
         layer_value(frame.second_layer, colors, colors.traps.y, at_surface.origin));

@@ -1,5 +1,5 @@
 // Normals of the surface points: analytic, or one of the sampled kinds of thesis 3.2, fig. 3.3.
-// uses: formula, lib/octahedral, types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
+// uses: formula, lib/octahedral, lib/section, types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // The kind that this pipeline is specialised for; -1 reads the kind from the uniforms.
 override NORMALS: i32 = -1;
@@ -55,6 +55,11 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!site.is_there) { return; }
     if (surface[site.index].x == 0u) { return; }
     let ray = rays[site.ray];
-    let n = surface_normal(frame.formula.fractal, ray.origin, ray.radius, -ray.direction);
+    var n = vec3f(0.0);
+    if (color_data[site.index].y == ON_SECTION) {
+        n = section_normal(ray.origin);
+    } else {
+        n = surface_normal(frame.formula.fractal, ray.origin, ray.radius, -ray.direction);
+    }
     surface[site.index].y = octahedral_pack(n);
 }

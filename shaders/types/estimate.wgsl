@@ -12,6 +12,8 @@ struct Estimate {
 struct OrbitColors {
     // Thesis eq. 3.1 for any power and bailout: N - log_n(ln r / ln bailout).
     smooth_iterations: f32,
+    // Whether the set holds the point.
+    is_inside: bool,
     // The formula's own channel, folds for instance, on average over the steps; 0 if it has none.
     channel: f32,
     // Least distances of the orbit, after its start, from the colour layers' traps; at most `MAX_TRAP`.

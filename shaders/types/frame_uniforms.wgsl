@@ -88,6 +88,23 @@ struct ColorLayer {
     amount: f32,
 }
 
+// The colour value of samples on section planes, in place of the second layer's.
+const ON_SECTION = -1e30;
+
+// Planes that cut the set open, and the colours of the cuts.
+struct Sections {
+    // The plane's normal, toward the side that is cut away, and its distance from the origin along the normal,
+    // in render space.
+    planes: array<vec4f, 3>,
+    // Distance from the set within which each plane is drawn, in render space.
+    bands: vec4f,
+    // Colour of the set's inside, linear Rec. 709.
+    inside: vec3f,
+    count: u32,
+    // Lengths of the first layer's gradient per iteration.
+    repeats: f32,
+}
+
 struct Background {
     // Linear Rec. 709; w unused.
     top: vec4f,
@@ -180,6 +197,7 @@ struct FrameUniforms {
     surface: Surface,
     first_layer: ColorLayer,
     second_layer: ColorLayer,
+    sections: Sections,
     indirect: Indirect,
     background: Background,
     tone: Tone,

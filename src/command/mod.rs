@@ -8,7 +8,7 @@
 //! | [`render`] | `mandelight render`: a picture of a scene |
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
-//! | [`fractals`] | `--formula` and `--hybrid` |
+//! | [`fractals`] | `--formula`, `--hybrid` and `--cut` |
 //! | [`formulas`] | `mandelight formulas`, `mandelight formula check`: formulas and their texts |
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`info`] | `mandelight info`: the GPU |

@@ -9,6 +9,7 @@ use super::{
     march::{DistanceField, MarchPolicy},
     param,
     recurrence::Recurrence,
+    section::{self, SectionPlane},
     table::{Field, Value},
     trap::Trap,
 };
@@ -180,6 +181,8 @@ pub struct Fractal {
     values: Vec<Value>,
     /// The steps of a hybrid; none for formulas that draw alone.
     hybrid: Option<Box<HybridSteps>>,
+    /// Planes that cut the set open, at most [`MAX_SECTION_PLANES`](super::section::MAX_SECTION_PLANES).
+    pub section_planes: Vec<SectionPlane>,
 }
 
 /// The steps of a hybrid. [`super::hybrid`] makes fractals of them.
@@ -261,6 +264,7 @@ impl Fractal {
             bailout: formula.default_bailout().unwrap_or(param::BAILOUT.default),
             values: formula.fields().iter().map(Field::default).collect(),
             hybrid: None,
+            section_planes: Vec::new(),
         }
     }
 
@@ -287,6 +291,23 @@ impl Fractal {
     /// The formula.
     pub fn formula(&self) -> FormulaRef {
         self.formula
+    }
+
+    /// The distance field about the scene's origin of what the section planes leave.
+    pub fn distance_field(&self) -> Arc<dyn DistanceField> {
+        section::cut(self.formula.distance_field(self), &self.section_planes)
+    }
+
+    /// The distance field about the anchor of `reference` of what the section planes leave.
+    ///
+    /// `footprint` and `grain` as in [`ReferenceOrbit::distance_field`].
+    pub fn field_about(
+        &self,
+        reference: Arc<dyn ReferenceOrbit>,
+        footprint: f64,
+        grain: f64,
+    ) -> Arc<dyn DistanceField> {
+        section::cut(reference.distance_field(self, footprint, grain), &self.section_planes)
     }
 
     /// The formula's fields with their values, in the table's order.
@@ -476,9 +497,3 @@ pub trait ReferenceSteps: Send + Sync {
     /// Computes the remaining points and returns the reference orbit.
     fn finish(self: Box<Self>) -> Arc<dyn ReferenceOrbit>;
 }
-
-/// Footprint below which views are drawn about an anchor, in scene units.
-///
-/// The footprint is a pixel's radius at the nearest surface. Coarser views are drawn in plain f32: the limit
-/// is twice [`PLAIN_FOOTPRINT`](super::march::PLAIN_FOOTPRINT). Fractals without depth have no anchor.
-pub const COARSEST_FOOTPRINT: f64 = 4e-7;

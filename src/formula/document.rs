@@ -19,7 +19,7 @@ use super::{
 };
 
 /// Fields of every formula.
-const SHARED: [&str; 3] = ["formula", "iterations", "bailout"];
+const SHARED: [&str; 4] = ["formula", "iterations", "bailout", "section_planes"];
 /// What a document calls the formula of a hybrid.
 const HYBRID: &str = "hybrid";
 
@@ -32,6 +32,7 @@ impl Serialize for Fractal {
         }
         map.serialize_entry("iterations", &self.iterations)?;
         map.serialize_entry("bailout", &self.bailout)?;
+        map.serialize_entry("section_planes", &self.section_planes)?;
         write_values(&mut map, self.fields())?;
         if let Some(hybrid) = self.hybrid() {
             map.serialize_entry("loop_start", &hybrid.loop_start)?;
@@ -83,7 +84,7 @@ impl<'de> Visitor<'de> for FractalVisitor {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Fractal, A::Error> {
         let (mut named, mut iterations, mut bailout) = (None, None, None);
-        let (mut loop_start, mut steps) = (None, None);
+        let (mut loop_start, mut steps, mut section_planes) = (None, None, None);
         let mut values: Vec<(&'static Field, Value)> = Vec::new();
         loop {
             let formula = match named {
@@ -95,6 +96,9 @@ impl<'de> Visitor<'de> for FractalVisitor {
                 Name::Formula => once("formula", &mut named, map.next_value::<Named>()?)?,
                 Name::Iterations => once("iterations", &mut iterations, map.next_value()?)?,
                 Name::Bailout => once("bailout", &mut bailout, map.next_value()?)?,
+                Name::SectionPlanes => {
+                    once("section_planes", &mut section_planes, map.next_value()?)?;
+                }
                 Name::LoopStart => once("loop_start", &mut loop_start, map.next_value()?)?,
                 Name::Steps => once("steps", &mut steps, map.next_value::<Vec<HybridStep>>()?)?,
                 Name::Own(field) => {
@@ -121,6 +125,7 @@ impl<'de> Visitor<'de> for FractalVisitor {
         };
         fractal.iterations = iterations.unwrap_or(fractal.iterations);
         fractal.bailout = bailout.unwrap_or(fractal.bailout);
+        fractal.section_planes = section_planes.unwrap_or_default();
         for (field, value) in values {
             let length = match &value {
                 Value::Vector(numbers) => numbers.len(),
@@ -274,6 +279,7 @@ enum Name {
     Formula,
     Iterations,
     Bailout,
+    SectionPlanes,
     LoopStart,
     Steps,
     Own(&'static Field),
@@ -293,6 +299,7 @@ impl<'de> DeserializeSeed<'de> for NameSeed {
             "formula" => Name::Formula,
             "iterations" => Name::Iterations,
             "bailout" => Name::Bailout,
+            "section_planes" => Name::SectionPlanes,
             "loop_start" => Name::LoopStart,
             "steps" => Name::Steps,
             name => Name::Own(field_called(name, self.formula)?),

@@ -143,6 +143,7 @@ pub fn with_steps(before: &Fractal, steps: HybridSteps) -> Result<Fractal, Hybri
     if before.hybrid().is_some() {
         (new.iterations, new.bailout) = (before.iterations, before.bailout);
     }
+    new.section_planes.clone_from(&before.section_planes);
     for (field, value) in new.fields_mut() {
         if let Some(known) = before.get(field.name).filter(|known| known.fits(field)) {
             *value = known.clone();

@@ -15,6 +15,12 @@ use crate::precise::PrecisePoint;
 /// Least radius of a pixel's cone that plain f32 can draw, in scene units.
 pub const PLAIN_FOOTPRINT: f64 = 2e-7;
 
+/// Footprint below which views are drawn about an anchor, in scene units.
+///
+/// The footprint is a pixel's radius at the nearest surface. Coarser views are drawn in plain f32: the limit
+/// is twice [`PLAIN_FOOTPRINT`]. Fractals without depth have no anchor.
+pub const COARSEST_FOOTPRINT: f64 = 4e-7;
+
 /// Least radius of a pixel's cone in the deepest dive, in scene units.
 ///
 /// With it, the eye of a picture 1000 pixels high at the usual field of view is 1e-27 scene units from
@@ -105,6 +111,11 @@ pub trait DistanceField: Send + Sync {
     /// Estimated distance from `point` to the surface, in scene units; 0 inside.
     fn distance(&self, point: DVec3) -> f64;
 
+    /// Whether the set holds `point`; by default where the distance is 0.
+    fn is_inside(&self, point: DVec3) -> bool {
+        self.distance(point) <= 0.0
+    }
+
     /// [`Self::distance`] and the safe step, by default the whole distance.
     fn estimate(&self, point: DVec3) -> Estimate {
         let distance = self.distance(point);
@@ -173,31 +184,7 @@ pub trait DistanceField: Send + Sync {
         max_depth: f64,
         max_steps: u32,
     ) -> Result<Option<f64>, f64> {
-        let Some((near, far)) = ray.sphere_span(self.center(), self.bounding_radius()) else {
-            return Ok(None);
-        };
-        let far = far.min(max_depth);
-        let min_step = if self.needs_hit_check() { MIN_STEP_WITH_HIT_CHECK } else { MIN_STEP };
-        let (mut before, mut depth) = (near, near);
-        for i in 0..max_steps {
-            if depth > far {
-                return Ok(None);
-            }
-            let (estimate, hit) = (self.estimate(ray.at(depth)), cone * depth);
-            let escalated_step =
-                step_escalation(f64::from(i) / f64::from(max_steps)) * estimate.distance;
-            if estimate.distance <= hit {
-                if !self.needs_hit_check() {
-                    return Ok(Some(depth));
-                }
-                if let Some(depth) = self.lasting_hit(ray, cone, [before, depth]) {
-                    return Ok(Some(depth));
-                }
-            }
-            before = depth;
-            depth += estimate.step.max(escalated_step).max(min_step * hit);
-        }
-        Err(depth)
+        trace(self, ray, cone, max_depth, max_steps)
     }
 
     /// The depth between `before` and `hit` at which the ray crosses the hit distance.
@@ -255,6 +242,44 @@ pub trait DistanceField: Send + Sync {
             .try_normalize()
             .unwrap_or_else(|| (point - self.center()).normalize_or(DVec3::Z))
     }
+}
+
+/// [`DistanceField::trace`] by the field's estimates alone.
+///
+/// # Errors
+/// The ray's depth after `max_steps`, as there.
+pub fn trace<F: DistanceField + ?Sized>(
+    field: &F,
+    ray: Ray,
+    cone: f64,
+    max_depth: f64,
+    max_steps: u32,
+) -> Result<Option<f64>, f64> {
+    let Some((near, far)) = ray.sphere_span(field.center(), field.bounding_radius()) else {
+        return Ok(None);
+    };
+    let far = far.min(max_depth);
+    let min_step = if field.needs_hit_check() { MIN_STEP_WITH_HIT_CHECK } else { MIN_STEP };
+    let (mut before, mut depth) = (near, near);
+    for i in 0..max_steps {
+        if depth > far {
+            return Ok(None);
+        }
+        let (estimate, hit) = (field.estimate(ray.at(depth)), cone * depth);
+        let escalated_step =
+            step_escalation(f64::from(i) / f64::from(max_steps)) * estimate.distance;
+        if estimate.distance <= hit {
+            if !field.needs_hit_check() {
+                return Ok(Some(depth));
+            }
+            if let Some(depth) = field.lasting_hit(ray, cone, [before, depth]) {
+                return Ok(Some(depth));
+            }
+        }
+        before = depth;
+        depth += estimate.step.max(escalated_step).max(min_step * hit);
+    }
+    Err(depth)
 }
 
 /// Least step over the estimate, after the part `spent` of a ray's steps.

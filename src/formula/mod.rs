@@ -14,6 +14,7 @@
 //! | [`table`] | a formula's parameters: kinds, labels, defaults |
 //! | [`param`] | numbers with unit, range and help |
 //! | [`trap`] | orbit traps |
+//! | [`section`] | planes that cut the set open |
 //! | [`bounds`] | spheres that hold a set |
 //! | [`march`] | distance fields, and rays against them |
 //! | [`recurrence`] | points whose orbits recur |
@@ -33,6 +34,7 @@ pub mod march;
 pub mod own;
 pub mod param;
 pub mod recurrence;
+pub mod section;
 pub mod table;
 pub mod trap;
 

@@ -38,6 +38,7 @@ pub fn with_values_of(formula: FormulaRef, old: &Fractal) -> Fractal {
             new.set(field.name, value.clone());
         }
     }
+    new.section_planes.clone_from(&old.section_planes);
     let usual = Fractal::new(old.formula());
     if old.iterations != usual.iterations {
         new.iterations = old.iterations;

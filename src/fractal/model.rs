@@ -45,7 +45,7 @@ impl fmt::Debug for FractalModel {
 impl FractalModel {
     /// Prepares `fractal`, which must be within its ranges. Takes up to a millisecond.
     pub fn new(fractal: &Fractal) -> Self {
-        let whole = fractal.formula().distance_field(fractal);
+        let whole = fractal.distance_field();
         let fields = Mutex::default();
         Self(Arc::new(Prepared { fractal: fractal.clone(), whole, fields }))
     }
@@ -90,7 +90,7 @@ impl FractalModel {
             return field.clone();
         }
         let finer = self.0.fractal.with_iterations(iterations);
-        let field = finer.formula().distance_field(&finer);
+        let field = finer.distance_field();
         fields.finer = Some((iterations, field.clone()));
         field
     }
@@ -107,8 +107,8 @@ impl FractalModel {
         if !is_known {
             fields.deep = reference.map(|reference| Deep {
                 reference: reference.clone(),
-                field: reference.clone().distance_field(
-                    &self.0.fractal,
+                field: self.0.fractal.field_about(
+                    reference.clone(),
                     DEEP_FOOTPRINT,
                     DEEP_FOOTPRINT,
                 ),
@@ -125,7 +125,7 @@ impl FractalModel {
     pub fn about(&self, reference: &Arc<dyn ReferenceOrbit>) -> Arc<dyn DistanceField> {
         match &self.fields().deep {
             Some(deep) if Arc::ptr_eq(&deep.reference, reference) => deep.field.clone(),
-            _ => reference.clone().distance_field(&self.0.fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT),
+            _ => self.0.fractal.field_about(reference.clone(), DEEP_FOOTPRINT, DEEP_FOOTPRINT),
         }
     }
 

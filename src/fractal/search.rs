@@ -75,8 +75,8 @@ impl Search {
         aspect: f64,
         older: Option<&Arc<dyn ReferenceOrbit>>,
     ) -> Option<Self> {
-        let helpful = older.filter(|older| older.is_of(fractal)).filter(|older| {
-            let field = Arc::clone(older).distance_field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+        let helpful = older.filter(|older| older.is_of(fractal)).filter(|&older| {
+            let field = fractal.field_about(older.clone(), DEEP_FOOTPRINT, DEEP_FOOTPRINT);
             let eye = &camera.position - older.anchor();
             eye.length() < NEAR_ENOUGH * field.distance(eye)
         });
@@ -135,9 +135,9 @@ fn finished(steps: &mut Option<Box<dyn ReferenceSteps>>) -> Option<Arc<dyn Refer
 
 impl RayMarch {
     fn new(reference: Arc<dyn ReferenceOrbit>, fractal: &Fractal, camera: &Camera) -> Self {
-        let field = reference.clone().distance_field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+        let field = fractal.field_about(reference.clone(), DEEP_FOOTPRINT, DEEP_FOOTPRINT);
         let away = field.distance(&camera.position - &field.origin());
-        let field = reference.clone().distance_field(fractal, DEEP_FOOTPRINT, GRAIN_SEEN * away);
+        let field = fractal.field_about(reference.clone(), DEEP_FOOTPRINT, GRAIN_SEEN * away);
         Self { reference, field, ray: 0, steps: 0, depth: 0.0, nearest: None }
     }
 

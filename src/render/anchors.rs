@@ -14,7 +14,7 @@ use super::{
     space::{RenderSpace, plain_footprint, wants_anchor},
 };
 use crate::{
-    formula::{ReferenceOrbit, contract::COARSEST_FOOTPRINT},
+    formula::{ReferenceOrbit, march::COARSEST_FOOTPRINT},
     fractal::{FractalModel, Search},
     scene::{PrecisePoint, Scene},
 };

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::Region;
 use crate::{
-    formula::{ReferenceOrbit, contract::COARSEST_FOOTPRINT},
+    formula::{ReferenceOrbit, march::COARSEST_FOOTPRINT},
     fractal::{FractalModel, Search, pixel_cone},
     scene::{PrecisePoint, Scene},
 };

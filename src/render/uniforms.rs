@@ -20,7 +20,9 @@ use super::{
     space::RenderSpace,
 };
 use crate::{
-    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
+    formula::{
+        Packed, PackedFor, contract::MAX_UNIFORM_BYTES, section::MAX_SECTION_PLANES, trap::MAX_TRAP,
+    },
     fractal::pixel_cone,
     gpu::host_shared::{Array, HostShared},
     scene::{
@@ -91,6 +93,7 @@ impl FrameUniforms {
             surface: surface(scene),
             first_layer: layer(&scene.surface.coloring, iterations),
             second_layer: second_layer(&scene.surface.second_layer, iterations),
+            sections: sections(scene, space),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
             tone: tone(&scene.tone),
@@ -235,6 +238,27 @@ fn surface(scene: &Scene) -> Surface {
         shininess: surface.shininess as f32,
         light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
     }
+}
+
+/// Greatest distance of a plane from the origin, in render space, so that sums keep within f32.
+const FARTHEST_PLANE: f64 = 1e30;
+
+fn sections(scene: &Scene, space: &RenderSpace) -> Sections {
+    let planes = &scene.fractal.section_planes;
+    let mut sections = Sections {
+        inside: scene.surface.sections.inside,
+        count: planes.len() as u32,
+        repeats: scene.surface.sections.repeats as f32,
+        ..Sections::default()
+    };
+    for (k, plane) in planes.iter().take(MAX_SECTION_PLANES).enumerate() {
+        let normal = plane.normal();
+        let offset = normal.dot(space.point(&plane.point));
+        let offset = offset.clamp(-FARTHEST_PLANE, FARTHEST_PLANE);
+        sections.planes[k] = normal.extend(offset).as_vec4().to_array();
+        sections.bands[k] = (plane.bands / space.scale()).min(FARTHEST_PLANE) as f32;
+    }
+    sections
 }
 
 /// One layer of colours; `iterations` are those of the view.
@@ -432,18 +456,24 @@ impl Inputs {
     ///
     /// `self` must have the [visibility bits](Self::with_bits_of) of `old`.
     pub fn stale_since(&self, old: &Self) -> Option<Stale> {
+        let cuts = |frame: &FrameUniforms| {
+            let Sections { planes, bands, count, .. } = frame.sections;
+            (planes, bands, count)
+        };
         let (new_frame, old_frame) = (&self.frame, &old.frame);
         let same_geometry = new_frame.camera == old_frame.camera
             && new_frame.eyes == old_frame.eyes
             && new_frame.march == old_frame.march
             && self.formula == old.formula
             && self.has_color_values_of(old)
+            && cuts(new_frame) == cuts(old_frame)
             && new_frame.picture_px == old_frame.picture_px
             && new_frame.origin_px == old_frame.origin_px
             && new_frame.size_px == old_frame.size_px;
         let surface = |inputs: &Self| Surface { light_count: 0, ..inputs.frame.surface };
         let same_light = surface(self) == surface(old)
             && self.layers() == old.layers()
+            && new_frame.sections == old_frame.sections
             && new_frame.color_curves == old_frame.color_curves
             && new_frame.background == old_frame.background
             && self.environment_map == old.environment_map

@@ -64,7 +64,8 @@ pub use rig::{
 };
 pub use stereo::{Stereo, StereoLayout};
 pub use surface::{
-    Axis, ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, SecondLayer, Surface,
+    Axis, ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, SecondLayer, SectionColors,
+    Surface,
 };
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;

@@ -4,7 +4,7 @@
 //! checks, the panels' sliders, the command line and `docs/scene.md` all read both (a test holds the
 //! docs to them).
 
-pub use crate::formula::param::{BAILOUT, ITERATIONS, Param, Scale, Unit};
+pub use crate::formula::param::{BAILOUT, ITERATIONS, Param, SECTION_BANDS, Scale, Unit};
 use crate::formula::{
     self, FormulaRef,
     param::{SHARED, params},
@@ -87,6 +87,8 @@ params! {
         "Position of the colour in the gradient.";
     SECOND_LAYER_AMOUNT = "surface.second_layer.amount", "Amount", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "How much the second layer covers the first. 0 is off, 1 shows the second layer alone.";
+    SECTION_REPEATS = "surface.sections.repeats", "Repeats", None, 0.01, 4.0, default 0.25, Logarithmic by 0.01,
+        "How often the gradient repeats per iteration on section planes. More gives narrower bands.";
     EXPOSURE = "tone.exposure", "Exposure", Stops, -10.0, 10.0, default 0.0, Linear by 0.1,
         "Brightens or darkens the picture; +1 doubles the light.";
     KEY = "tone.key", "Key", None, 0.01, 1.0, default 0.18, Logarithmic by 0.01,

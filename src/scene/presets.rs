@@ -1,10 +1,12 @@
-//! The opening scenes, the dives, and a scene for each formula.
+//! The opening scenes, the dives, a scene for each formula, and mixes of formulas.
 //!
 //! In: nothing. Out: scenes to start from, each valid, the eye outside of the set and
 //! the pivot on or near what it shows; and places at depth.
 
 mod dives;
 mod formulas;
+mod mixes;
+mod palettes;
 mod parts;
 mod preset;
 
@@ -22,6 +24,7 @@ use crate::formula::mandelbulb::Mandelbulb;
 
 pub use dives::dives;
 pub use formulas::formulas;
+pub use mixes::mixes;
 use parts::{camera, headlight, key_and_rim, light, new_scene, of_formula, stops};
 pub use preset::Preset;
 
@@ -76,13 +79,31 @@ pub fn all() -> &'static [Preset] {
     ]
 }
 
-/// The opening scenes, behind them the dives, behind those the formulas' scenes.
-pub fn every() -> impl ExactSizeIterator<Item = &'static Preset> + Clone {
-    let (opening, dives, formulas) = (all(), dives(), formulas());
-    (0..opening.len() + dives.len() + formulas.len()).map(move |i| {
-        let lists = opening.get(i).or_else(|| dives.get(i - opening.len()));
-        lists.unwrap_or_else(|| &formulas[i - opening.len() - dives.len()])
-    })
+/// A list of scenes.
+#[derive(Clone, Copy)]
+pub struct PresetList {
+    /// The heading of the list in the panel.
+    pub name: &'static str,
+    /// What the list holds.
+    pub about: &'static str,
+    /// The scenes.
+    pub presets: &'static [Preset],
+}
+
+/// All lists, in order.
+pub fn lists() -> [PresetList; 4] {
+    let list = |name, about, presets| PresetList { name, about, presets };
+    [
+        list("Scenes", "Whole fractals and near views", all()),
+        list("Dives", "Views at very deep zooms", dives()),
+        list("Formulas", "One view of each formula", formulas()),
+        list("Mixes", "Hybrids of formulas, cuts, two layers of colours", mixes()),
+    ]
+}
+
+/// The scenes of all [`lists`], in order.
+pub fn every() -> impl Iterator<Item = &'static Preset> + Clone {
+    lists().into_iter().flat_map(|list| list.presets)
 }
 
 /// The opening picture: a warm key from the left, a cool rim behind, dark ground.

@@ -155,6 +155,25 @@ pub struct Surface {
     pub gradient: Vec<GradientStop>,
     /// A second layer of colours over the first.
     pub second_layer: SecondLayer,
+    /// The colours of section planes.
+    pub sections: SectionColors,
+}
+
+/// The colours that section planes show: the first layer's gradient by smooth iterations (thesis eq. 3.1) outside
+/// of the set, and one colour inside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SectionColors {
+    /// Repeats of the gradient per iteration, range [`param::SECTION_REPEATS`].
+    pub repeats: f64,
+    /// Colour of the inside, linear Rec. 709, each channel 0 to 1.
+    pub inside: [f32; 3],
+}
+
+impl Default for SectionColors {
+    fn default() -> Self {
+        Self { repeats: param::SECTION_REPEATS.default, inside: [0.06, 0.055, 0.055] }
+    }
 }
 
 /// A layer of colours that is blended over the surface's first.
@@ -223,6 +242,7 @@ impl Default for Surface {
                 stop(0.85, [0.25, 0.32, 0.42]),
             ],
             second_layer: SecondLayer::default(),
+            sections: SectionColors::default(),
         }
     }
 }

@@ -17,6 +17,8 @@ use super::{
 };
 use crate::formula::{
     Fractal, hybrid,
+    param::SECTION_BANDS,
+    section::{MAX_SECTION_PLANES, SectionPlane},
     table::{Field, Kind, Value},
 };
 
@@ -94,6 +96,7 @@ fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
     check(&param::ITERATIONS, fractal.iterations.into())?;
     check(&param::BAILOUT, fractal.bailout)?;
     check_values(fractal.fields())?;
+    check_section_planes(&fractal.section_planes)?;
     let steps = fractal.hybrid().map_or(&[][..], |hybrid| &hybrid.steps);
     for (i, step) in steps.iter().enumerate() {
         check_at(&hybrid::REPEATS, i, step.repeats.into())?;
@@ -108,6 +111,20 @@ fn check_fractal(fractal: &Fractal) -> Result<(), Invalid> {
         let message =
             format!("{value} is above {most:.2}, the most that {} allows", named(fractal));
         return Err(Invalid::new(param::BAILOUT.path, message));
+    }
+    Ok(())
+}
+
+fn check_section_planes(planes: &[SectionPlane]) -> Result<(), Invalid> {
+    if planes.len() > MAX_SECTION_PLANES {
+        let message =
+            format!("{} are too many; a scene has at most {MAX_SECTION_PLANES}", planes.len());
+        return Err(Invalid::new("fractal.section_planes", message));
+    }
+    for (i, plane) in planes.iter().enumerate() {
+        let length = plane.normal().length();
+        check_unit_length(|| format!("fractal.section_planes[{i}].direction"), length)?;
+        check_at(&SECTION_BANDS, i, plane.bands)?;
     }
     Ok(())
 }
@@ -228,6 +245,8 @@ fn check_surface(surface: &Surface) -> Result<(), Invalid> {
     check_layer(&surface.coloring, &surface.gradient)?;
     let second = &surface.second_layer;
     check(&param::SECOND_LAYER_AMOUNT, second.amount)?;
+    check(&param::SECTION_REPEATS, surface.sections.repeats)?;
+    check_color(|| "surface.sections.inside".into(), surface.sections.inside)?;
     check_layer(&second.coloring, &second.gradient).map_err(|error| Invalid {
         path: error.path.replacen("surface.", "surface.second_layer.", 1),
         ..error

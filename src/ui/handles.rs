@@ -1,7 +1,7 @@
-//! Handles of point lights in the view.
+//! Handles of point lights and section planes in the view.
 //!
-//! A drag moves the light parallel to the screen. A drag with Shift moves the light along its ray;
-//! upward is away from the eye. Lights behind the eye have no handle.
+//! A drag moves a light parallel to the screen. A drag with Shift moves the light along its ray;
+//! upward is away from the eye. A section plane moves along its normal. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
@@ -66,6 +66,60 @@ pub fn point_lights(
     touched
 }
 
+/// Length of the arrow that shows a section plane's normal, in points, where it is across the line of sight.
+const ARROW: f64 = 44.0;
+
+/// Draws the handles of all section planes and moves a dragged plane along its normal.
+pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
+    let camera = &scene.camera;
+    for (index, plane) in scene.fractal.section_planes.iter_mut().enumerate() {
+        let offset = &plane.point - &camera.position;
+        let Some(at) = project(camera, frame, offset) else {
+            continue;
+        };
+        let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+        let id = ui.scope_id().with(("section plane", index));
+        let response = ui.interact(area, id, Sense::drag());
+        let name = format!("Section plane {} in the view", index + 1);
+        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, name.clone()));
+        let per_point = scene_per_point(camera, frame, offset);
+        let normal = plane.normal();
+        let on_screen = camera.rotation().inverse() * normal;
+        let arrow = Vec2::new(on_screen.x as f32, -on_screen.y as f32);
+        if response.dragged() {
+            let moved = along(arrow, response.drag_delta()) * per_point;
+            plane.point = plane.point.moved_by(normal * moved, per_point * GRAIN_PX);
+        }
+        let is_lit = response.hovered() || response.dragged();
+        paint_plane(ui, at, arrow * ARROW as f32, is_lit);
+        response.on_hover_text("Drag to move this section plane along its arrow");
+    }
+}
+
+/// How far a drag by `delta` moves along a unit vector that looks like `arrow` on the screen.
+///
+/// A vector along the line of sight moves with upward drags.
+fn along(arrow: Vec2, delta: Vec2) -> f64 {
+    let shown = f64::from(arrow.length());
+    if shown < LEAST_ARROW {
+        return -f64::from(delta.y);
+    }
+    f64::from(arrow.dot(delta)) / (shown * shown)
+}
+
+/// Below this part of its length an arrow lies along the line of sight.
+const LEAST_ARROW: f64 = 0.2;
+
+fn paint_plane(ui: &Ui, at: Pos2, arrow: Vec2, is_lit: bool) {
+    let painter = ui.painter();
+    let color = if is_lit { theme::ACCENT } else { Color32::from_white_alpha(200) };
+    for (width, color) in [(5.0, Color32::from_black_alpha(110)), (2.0, color)] {
+        painter.arrow(at, arrow, Stroke::new(width, color));
+    }
+    painter.circle_filled(at, 8.0, Color32::from_black_alpha(110));
+    painter.rect_filled(Rect::from_center_size(at, Vec2::splat(9.0)), 2.0, color);
+}
+
 /// The window position of the point at `offset` from the eye; none outside the picture.
 pub fn project(camera: &Camera, frame: Frame, offset: DVec3) -> Option<Pos2> {
     let seen = camera.rotation().inverse() * offset;
@@ -95,11 +149,15 @@ fn displacement(
         return offset * (wanted.clamp(*DEPTHS.start(), *DEPTHS.end()) / distance - 1.0);
     }
     let rotation = camera.rotation();
-    let depth = offset.dot(camera.forward()).max(0.0);
-    let per_point =
-        2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0));
+    let per_point = scene_per_point(camera, frame, offset);
     (rotation * DVec3::X * f64::from(delta.x) - rotation * DVec3::Y * f64::from(delta.y))
         * per_point
+}
+
+/// The length that a point of the window spans at the depth of `offset`, in scene units.
+fn scene_per_point(camera: &Camera, frame: Frame, offset: DVec3) -> f64 {
+    let depth = offset.dot(camera.forward()).max(0.0);
+    2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0))
 }
 
 fn paint(ui: &Ui, at: Pos2, color: Color32, shines: bool, lit: bool) {
@@ -162,6 +220,15 @@ mod tests {
             let (a, b) = (project(&camera, frame, offset), project(&camera, frame, moved));
             assert!((a.expect("seen") - b.expect("seen")).length() < 1e-3, "{unit:e}");
         }
+    }
+
+    #[test]
+    fn a_dragged_section_plane_stays_under_the_pointer() {
+        let across = Vec2::new(0.6, -0.8);
+        assert!((along(across, across * 50.0) - 50.0).abs() < 1e-4);
+        // A normal that is half turned away is shown half as long: the plane moves twice as far.
+        assert!((along(across * 0.5, across * 50.0) - 100.0).abs() < 1e-4);
+        assert_eq!(along(Vec2::ZERO, Vec2::new(3.0, -20.0)), 20.0);
     }
 
     #[test]

@@ -335,10 +335,12 @@ impl Interface {
         self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
         let has_record = self.pilot.dive_record().len() > 1;
         dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
-        if !self.pilot.is_flying()
-            && let Some(light) = handles::point_lights(ui, frame, scene, self.selection.light)
-        {
-            self.selection.light = Some(light);
+        if !self.pilot.is_flying() {
+            let light = handles::point_lights(ui, frame, scene, self.selection.light);
+            self.selection.light = light.or(self.selection.light);
+            if panel::shows_section_planes(&self.settings) {
+                handles::section_planes(ui, frame, scene);
+            }
         }
         self.camera_status = Some(self.pilot.camera_status(scene, frame));
         let is_moving = self.timeline.is_playing()

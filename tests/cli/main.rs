@@ -1,5 +1,6 @@
 //! The command line as a script sees it: exit codes, messages, files.
 
+mod cuts;
 mod formulas;
 mod frames;
 mod gradients;

@@ -202,19 +202,16 @@ fn presets_open_and_keep_the_quality_that_was_chosen() {
     let mut harness = workshop();
     slider(&harness, "Samples").set_value_accesskit(3.0);
     harness.run();
-    for (index, preset) in presets::every().enumerate() {
-        if index == presets::all().len() {
-            press(&mut harness, "Dives");
+    for list in presets::lists() {
+        press(&mut harness, list.name);
+        for preset in list.presets {
+            press(&mut harness, preset.name);
+            let expected = (preset.scene)();
+            assert_eq!(scene(&harness).fractal, expected.fractal, "{}", preset.name);
+            assert_eq!(scene(&harness).lights, expected.lights, "{}", preset.name);
+            assert_eq!(scene(&harness).quality.samples, 3);
+            assert_eq!(scene(&harness).validate(), Ok(()), "{}", preset.name);
         }
-        if index == presets::all().len() + presets::dives().len() {
-            press(&mut harness, "Formulas");
-        }
-        press(&mut harness, preset.name);
-        let expected = (preset.scene)();
-        assert_eq!(scene(&harness).fractal, expected.fractal, "{}", preset.name);
-        assert_eq!(scene(&harness).lights, expected.lights, "{}", preset.name);
-        assert_eq!(scene(&harness).quality.samples, 3);
-        assert_eq!(scene(&harness).validate(), Ok(()), "preset {index}");
     }
 }
 

@@ -91,6 +91,8 @@ pub struct Checked {
     pub distance: NodeId,
     /// How orbits grow.
     pub growth: Growth,
+    /// Whether the text gives the distance itself.
+    pub has_own_distance: bool,
     /// What grows with the distance from the set, for normals where the text gives no derivative.
     pub height: NodeId,
     /// Whether the step adds c, so that the formula has a Julia form.
@@ -227,6 +229,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
             Some(EstimateDeclaration::Transform) => Growth::None,
             Some(_) => Growth::Linear,
         },
+        has_own_distance: matches!(tree.estimate, Some(EstimateDeclaration::Distance(_))),
         has_addend,
         bound,
         march,

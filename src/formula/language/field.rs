@@ -35,6 +35,8 @@ pub struct Programs {
     pub tests_square: bool,
     /// Whether orbits grow as a power.
     pub is_power: bool,
+    /// Whether the text gives the distance itself: it then tells what is inside.
+    pub has_own_distance: bool,
 }
 
 impl Programs {
@@ -64,6 +66,7 @@ impl Programs {
             march: checked.march,
             tests_square: compiled.tests_square,
             is_power: checked.growth == Growth::Power,
+            has_own_distance: checked.has_own_distance,
         }
     }
 
@@ -284,6 +287,14 @@ impl DistanceField for TextField {
         let distance = self.distance(point);
         let step = (self.march_part() * distance).min(MAX_STEP * self.bounding_radius);
         Estimate { distance, step: step.min(distance) }
+    }
+
+    fn is_inside(&self, point: DVec3) -> bool {
+        if self.step(self.sequence.leading).0.has_own_distance {
+            return self.distance(point) <= 0.0;
+        }
+        // Estimates may be positive where orbits stay within the bailout.
+        !self.orbit(point, DVec3::from_array(ANY_DIRECTION)).has_escaped
     }
 
     fn bounding_radius(&self) -> f64 {

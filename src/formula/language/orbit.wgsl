@@ -117,5 +117,7 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     if (is_escaped(fractal, z) && n > 0u) {
         smooth_iterations -= excess(fractal, extent(before), extent(z));
     }
-    return OrbitColors(smooth_iterations, channel / max(f32(n), 1.0), fractal.trap_scale * traps);
+    let is_inside =
+        !is_escaped(fractal, z) && (fractal.has_own_distance == 0u || !(distance_at(z, point, 1.0) > 0.0));
+    return OrbitColors(smooth_iterations, is_inside, channel / max(f32(n), 1.0), fractal.trap_scale * traps);
 }

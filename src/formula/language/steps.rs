@@ -126,6 +126,7 @@ impl Steps {
             trap_scale: (MAX_TRAP / view.bounding_radius).min(1.0) as f32,
             initial_derivative: programs(0).initial_derivative as f32,
             is_power: f32::from(u8::from(leading.is_power)),
+            has_own_distance: leading.has_own_distance.into(),
         };
         let mut slots = if self.is_alone {
             self.formulas[0].slots(&sequence.steps[0].params)

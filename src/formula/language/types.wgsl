@@ -18,6 +18,8 @@ struct Fractal {
     initial_derivative: f32,
     // 1 if orbits grow as a power, 0 if by a factor.
     is_power: f32,
+    // 1 if the text gives the distance itself, which then tells what is inside.
+    has_own_distance: u32,
 }
 
 // The formula's part of a frame's uniforms.

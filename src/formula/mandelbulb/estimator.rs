@@ -186,6 +186,18 @@ impl DistanceField for Estimator {
         Estimator::estimate(self, point)
     }
 
+    /// Whether the orbit stays within the bailout: estimates may be positive there.
+    fn is_inside(&self, point: DVec3) -> bool {
+        let (mut z, constant) = (point, self.julia_constant.unwrap_or(point));
+        for _ in 0..self.iterations {
+            if z.length() > self.bailout {
+                return false;
+            }
+            z = self.power.apply(z) + constant;
+        }
+        z.length() <= self.bailout
+    }
+
     fn needs_hit_check(&self) -> bool {
         self.needs_hit_check
     }

@@ -78,11 +78,12 @@ fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     let walk = walk_orbit(GATHER_COLORS, fractal, point, vec3f(0.0));
     var smooth_iterations = f32(walk.state.count);
-    if (walk.q.s > fractal.bailout * fractal.bailout) {
+    let is_inside = walk.q.s <= fractal.bailout * fractal.bailout;
+    if (!is_inside) {
         let excess = log2(max(0.5 * log2(walk.q.s) / fractal.log2_bailout, 1.0));
         smooth_iterations -= excess / log2(fractal.power);
     }
-    return OrbitColors(smooth_iterations, 0.0, end_traps(walk));
+    return OrbitColors(smooth_iterations, is_inside, 0.0, end_traps(walk));
 }
 
 // 0.5 ln(r) r: the distance estimate times dr.

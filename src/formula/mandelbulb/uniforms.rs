@@ -16,7 +16,7 @@ use super::{
 use crate::{
     formula::{
         FormulaRef, Kernel, Packed, PackedFor,
-        contract::COARSEST_FOOTPRINT,
+        march::COARSEST_FOOTPRINT,
         recurrence::norm,
         trap::{MAX_TRAP, Trap},
     },

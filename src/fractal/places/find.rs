@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     formula::{
-        DistanceField, Recurrence, ReferenceSteps, contract::COARSEST_FOOTPRINT,
+        DistanceField, Recurrence, ReferenceSteps, march::COARSEST_FOOTPRINT,
         march::DEEP_FOOTPRINT, recurrence::norm,
     },
     fractal::{FractalModel, Search, camera_ray, ndc_of, pixel_cone, spiral::in_disc},
@@ -212,7 +212,7 @@ impl PlaceSearch {
                     let fractal = self.model.fractal();
                     let away = &self.camera.position - reference.anchor();
                     let grain = (GRAIN * away.length()).max(DEEP_FOOTPRINT);
-                    let field = reference.distance_field(fractal, DEEP_FOOTPRINT, grain);
+                    let field = fractal.field_about(reference, DEEP_FOOTPRINT, grain);
                     Stage::of_rays(field)
                 }
                 None => Stage::Anchor(search),
@@ -346,7 +346,7 @@ impl PlaceSearch {
                 } else {
                     let fractal = self.model.fractal();
                     let reference = steps.finish();
-                    let about = reference.distance_field(fractal, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
+                    let about = fractal.field_about(reference, DEEP_FOOTPRINT, DEEP_FOOTPRINT);
                     self.probe(index, position, about)
                 };
                 (index, Some(pending))

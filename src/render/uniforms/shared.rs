@@ -133,6 +133,19 @@ host_shared! {
         /// Part of the layer in the colour, for the second one.
         amount: f32,
     }
+    /// Planes that cut the set open, and the colours of the cuts.
+    Sections {
+        /// The plane's normal, toward the side that is cut away, and its distance from the origin.
+        planes: Array<[f32; 4], 3>,
+        /// Distance from the set within which each plane is drawn, in render space.
+        bands: [f32; 4],
+        /// Colour of the set's inside, linear Rec. 709.
+        inside: [f32; 3],
+        /// Number of planes.
+        count: u32,
+        /// Lengths of the first layer's gradient per iteration.
+        repeats: f32,
+    }
     /// Vertical gradient, linear Rec. 709, and the orientation of the environment map.
     Background {
         /// Colour at the upper edge.
@@ -192,6 +205,8 @@ host_shared! {
         first_layer: ColorLayer,
         /// The second layer of colours.
         second_layer: ColorLayer,
+        /// The section planes.
+        sections: Sections,
         /// Indirect light.
         indirect: Indirect,
         /// The background.

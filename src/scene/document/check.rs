@@ -12,7 +12,8 @@ const UNIT_TOLERANCE_READ: f64 = 1e-3;
 /// The scene, valid, its directions of length 1.
 pub fn checked(mut scene: Scene) -> Result<Scene, DocumentError> {
     let directions = scene.lights.environment.iter_mut().map(|light| &mut light.direction);
-    for direction in directions.chain([&mut scene.lights.rig.sky.sun_direction]) {
+    let planes = scene.fractal.section_planes.iter_mut().map(|plane| &mut plane.direction);
+    for direction in directions.chain([&mut scene.lights.rig.sky.sun_direction]).chain(planes) {
         let vector = DVec3::from_array(*direction);
         if is_nearly_unit(vector.length()) {
             *direction = vector.normalize().to_array();

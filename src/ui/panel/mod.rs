@@ -21,6 +21,7 @@ mod lights;
 mod quality;
 mod rig;
 mod scenes;
+mod section_planes;
 mod stereo;
 mod surface;
 mod timeline;
@@ -30,7 +31,7 @@ use egui::{Frame, Margin, RichText, ScrollArea, Ui};
 
 use super::{
     icon::{Icon, icon_button},
-    settings::Sections,
+    settings::{Sections, Settings},
     shortcuts::Command,
     theme,
     widgets::section,
@@ -44,6 +45,7 @@ pub(super) use timeline::strip;
 /// The sections of "More", from top to bottom. A new panel adds its module above and its line here.
 const SECTIONS: &[Section] = &[
     fractal::SECTION,
+    section_planes::SECTION,
     camera::SECTION,
     lights::SECTION,
     colors::SECTION,
@@ -180,6 +182,13 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     });
     cx.rects.record("more", &response);
     cx.settings.more_open = more_open;
+}
+
+/// Whether the section planes' section is open, so that their handles show in the view.
+pub(super) fn shows_section_planes(settings: &Settings) -> bool {
+    settings.panel_open
+        && settings.more_open
+        && settings.sections.is_open(section_planes::SECTION.name)
 }
 
 /// Every section open.

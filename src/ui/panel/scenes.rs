@@ -1,4 +1,4 @@
-//! The scenes panel: opening scenes, dives, and a scene for each formula.
+//! The scenes panel: opening scenes, dives, a scene for each formula, mixes.
 
 use std::sync::LazyLock;
 
@@ -8,7 +8,7 @@ use super::context::Context;
 use crate::{
     scene::{
         Scene,
-        presets::{self, Preset},
+        presets::{self, PresetList},
     },
     ui::{shortcuts::Command, status::zoom, thumbnail, widgets::card},
 };
@@ -21,37 +21,28 @@ const GAP: f32 = 6.0;
 /// Smallest width of a card in a row of more than two, in points.
 const MIN_CARD_WIDTH: f32 = 100.0;
 
-/// The headings of both lists, and a card for each scene of the chosen list.
+/// The headings of all lists, and a card for each scene of the chosen list.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    let lists = [
-        ("Scenes", "Whole fractals and near views", presets::all(), 0),
-        ("Dives", "Views at very deep zooms", presets::dives(), presets::all().len()),
-        (
-            "Formulas",
-            "One view of each formula",
-            presets::formulas(),
-            presets::all().len() + presets::dives().len(),
-        ),
-    ];
+    let lists = presets::lists();
     let id = Id::unique("list of scenes");
     // A user who opens a link to a dive sees the list of dives.
     let opening = usize::from(zoom(&cx.scene.camera) >= DIVE_ZOOM);
     let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
     ui.horizontal(|ui| {
-        for (index, (heading, help, ..)) in lists.iter().enumerate() {
-            let text = RichText::new(*heading).small();
-            let response = ui.add(Button::selectable(index == chosen, text)).on_hover_text(*help);
-            if index == 1 {
-                cx.rects.record("dives", &response);
-            }
+        for (index, list) in lists.iter().enumerate() {
+            let text = RichText::new(list.name).small();
+            let button = ui.add(Button::selectable(index == chosen, text));
+            let response = button.on_hover_text(list.about);
+            cx.rects.record(list.name, &response);
             if response.clicked() {
                 chosen = index;
                 ui.data_mut(|data| data.insert_temp(id, chosen));
             }
         }
     });
-    if let Some(&(.., presets, first)) = lists.get(chosen) {
-        cards(ui, cx, presets, first);
+    if let Some(list) = lists.get(chosen) {
+        let first = lists.iter().take(chosen).map(|list| list.presets.len()).sum();
+        cards(ui, cx, list, first);
     }
     if chosen == 1 {
         let drawn = ui
@@ -64,7 +55,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
 /// A card for each preset of a list, as many per row as fit.
 ///
 /// `first` is the index of the list's first preset among all presets.
-fn cards(ui: &mut Ui, cx: &mut Context<'_>, presets: &'static [Preset], first: usize) {
+fn cards(ui: &mut Ui, cx: &mut Context<'_>, list: &PresetList, first: usize) {
+    let presets = list.presets;
     let width = ui.available_width();
     let fitting = ((width + GAP) / (MIN_CARD_WIDTH + GAP)).floor() as usize;
     let columns = fitting.clamp(2, 4);
@@ -86,14 +78,8 @@ fn cards(ui: &mut Ui, cx: &mut Context<'_>, presets: &'static [Preset], first: u
             _ => preset.blurb.to_owned(),
         };
         let response = card.on_hover_text(hover);
-        if index == 0 {
-            let dives = presets::all().len();
-            let name = match first {
-                0 => "first scene",
-                first if first == dives => "first dive",
-                _ => "first formula",
-            };
-            cx.rects.record(name, &response);
+        if first + index == 0 {
+            cx.rects.record("first scene", &response);
         }
         if response.clicked() {
             cx.commands.push(Command::Preset(first + index));

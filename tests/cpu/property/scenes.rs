@@ -4,13 +4,15 @@ use glam::{DQuat, DVec3};
 use mandelight::{
     formula::{
         self, Fractal,
+        section::SectionPlane,
         table::{Kind, Value},
     },
     scene::{
         Axis, Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
         EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind, LightFrame,
         Lights, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene,
-        SecondLayer, Sky, Stereo, StereoLayout, Surface, Tone, ToneChannels, ToneCurve, ToneMean,
+        SecondLayer, SectionColors, Sky, Stereo, StereoLayout, Surface, Tone, ToneChannels,
+        ToneCurve, ToneMean,
         param::{self, Param},
     },
 };
@@ -50,8 +52,8 @@ fn fractal() -> impl Strategy<Value = Fractal> {
     let formulas: Vec<_> = formula::all().collect();
     let fraction = || 0.0..=1.0_f64;
     let shared = (count(&param::ITERATIONS), fraction());
-    (select(formulas), shared, vec(fraction(), 16)).prop_map(
-        |(formula, (iterations, t), fractions)| {
+    (select(formulas), shared, vec(fraction(), 16), vec(section_plane(), 0..=3)).prop_map(
+        |(formula, (iterations, t), fractions, section_planes)| {
             let mut fractal = Fractal::new(formula);
             let mut fractions = fractions.into_iter().cycle();
             let mut next = || fractions.next().unwrap_or_default();
@@ -73,9 +75,15 @@ fn fractal() -> impl Strategy<Value = Fractal> {
             fractal.iterations = iterations;
             let span = fractal.max_bailout() - param::BAILOUT.min;
             fractal.bailout = (param::BAILOUT.min + t * span).min(fractal.max_bailout());
+            fractal.section_planes = section_planes;
             fractal
         },
     )
+}
+
+fn section_plane() -> impl Strategy<Value = SectionPlane> {
+    (point(), direction(), value(&param::SECTION_BANDS))
+        .prop_map(|(point, direction, bands)| SectionPlane { point, direction, bands })
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
@@ -233,7 +241,7 @@ fn coloring() -> impl Strategy<Value = Coloring> {
 }
 
 fn gradient() -> impl Strategy<Value = Vec<GradientStop>> {
-    let stops = vec((value(&param::STOP_POSITION), color()), 1..=64);
+    let stops = vec((value(&param::STOP_POSITION), color()), 1..=48);
     stops.prop_map(|mut stops| {
         stops.sort_by(|a, b| a.0.total_cmp(&b.0));
         stops.into_iter().map(|(position, color)| GradientStop { position, color }).collect()
@@ -248,8 +256,9 @@ fn surface() -> impl Strategy<Value = Surface> {
         value(&param::SPECULAR),
         value(&param::SHININESS),
     );
-    (light, coloring(), gradient(), second_layer).prop_map(
-        |((ambient, diffuse, specular, shininess), coloring, gradient, second)| Surface {
+    let sections = (value(&param::SECTION_REPEATS), color());
+    (light, coloring(), gradient(), second_layer, sections).prop_map(
+        |((ambient, diffuse, specular, shininess), coloring, gradient, second, sections)| Surface {
             ambient,
             diffuse,
             specular,
@@ -257,6 +266,7 @@ fn surface() -> impl Strategy<Value = Surface> {
             coloring,
             gradient,
             second_layer: SecondLayer { amount: second.0, coloring: second.1, gradient: second.2 },
+            sections: SectionColors { repeats: sections.0, inside: sections.1 },
         },
     )
 }

@@ -9,7 +9,7 @@ fn there_are_sixteen_half_of_them_off_the_equator_and_every_name_is_its_own() {
     let height = |dive: &presets::Preset| (dive.scene)().camera.pivot.to_dvec3().z.abs();
     assert!(presets::dives().iter().filter(|dive| height(dive) > 0.1).count() >= 8);
     let names: std::collections::HashSet<&str> = presets::every().map(|p| p.name).collect();
-    assert_eq!(names.len(), presets::every().len());
+    assert_eq!(names.len(), presets::every().count());
     let power = |dive: &presets::Preset| (dive.scene)().fractal.number("power");
     let powers: Vec<f64> = presets::dives().iter().filter_map(power).collect();
     for power in [3.0, 4.0, 6.0, 8.0, 12.0, 16.0] {

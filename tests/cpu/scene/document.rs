@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use mandelight::{
-    formula::{self, FormulaRef, Fractal, mandelbulb::Mandelbulb},
+    formula::{self, FormulaRef, Fractal, mandelbulb::Mandelbulb, section::SectionPlane},
     scene::{
         EnvironmentLight, EnvironmentMapRig, GradientStop, Lights, PointLight, Rig, RigLight,
         Scene,
@@ -23,6 +23,7 @@ fn full_document(formula: FormulaRef) -> Value {
     let mut scene = Scene { fractal: Fractal::new(formula), ..Default::default() };
     // The power that allows every bailout of the table; other formulas have no such field.
     scene.fractal.set("power", 2.0);
+    scene.fractal.section_planes = vec![SectionPlane::default()];
     let light = RigLight { direction: [0.0, 0.0, 1.0], strength: [1.0; 3] };
     let environment_map = EnvironmentMapRig { lights: vec![light], ..Default::default() };
     scene.lights = Lights {

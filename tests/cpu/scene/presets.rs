@@ -158,3 +158,21 @@ fn each_formula_has_a_scene_that_shows_it() {
         assert!(hits >= 8, "{id}: {hits} of 25 rays hit");
     }
 }
+
+#[test]
+fn mixes_are_what_their_names_say() {
+    let mixes: Vec<_> = presets::mixes().iter().map(|preset| (preset.scene)()).collect();
+    let counts = [
+        mixes.iter().filter(|scene| !scene.fractal.section_planes.is_empty()).count(),
+        mixes.iter().filter(|scene| scene.fractal.hybrid().is_some()).count(),
+        mixes.iter().filter(|scene| scene.surface.second_layer.is_on()).count(),
+    ];
+    assert_eq!(counts, [3, 5, 1]);
+    for scene in mixes {
+        scene.validate().unwrap_or_else(|error| panic!("{error}"));
+        let steps = scene.fractal.hybrid().map_or(2, |hybrid| hybrid.steps.len());
+        assert_eq!(steps, 2);
+        let fragment = link::to_fragment(&scene).unwrap();
+        assert_eq!(link::from_fragment(&fragment), Ok(scene));
+    }
+}

@@ -6,7 +6,7 @@ use glam::DVec2;
 use mandelight::{
     formula::{
         DistanceField,
-        contract::COARSEST_FOOTPRINT,
+        march::COARSEST_FOOTPRINT,
         march::{DEEP_FOOTPRINT, PLAIN_FOOTPRINT},
     },
     fractal::{FractalModel, Search, pixel_cone},

@@ -1,0 +1,207 @@
+//! Section planes: each cuts away the half of space that its direction points to.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    march::{DistanceField, Estimate, Ray},
+    param,
+    recurrence::OrbitPosition,
+};
+use crate::precise::PrecisePoint;
+
+/// Most section planes of a fractal.
+pub const MAX_SECTION_PLANES: usize = 3;
+
+/// A plane that cuts the set open. What several planes leave is what each of them leaves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SectionPlane {
+    /// A point of the plane.
+    pub point: PrecisePoint,
+    /// The plane's normal, a unit vector, toward the side that is cut away.
+    pub direction: [f64; 3],
+    /// Distance from the set within which the plane is drawn, in [`param::SECTION_BANDS`].
+    ///
+    /// There it shows the bands of equal iterations around the slice. At 0 only the slice is drawn.
+    pub bands: f64,
+}
+
+impl Default for SectionPlane {
+    fn default() -> Self {
+        Self {
+            point: PrecisePoint::ORIGIN,
+            direction: [0.0, 0.0, 1.0],
+            bands: param::SECTION_BANDS.default,
+        }
+    }
+}
+
+impl SectionPlane {
+    /// The unit normal, toward the side that is cut away.
+    pub fn normal(&self) -> DVec3 {
+        DVec3::from_array(self.direction)
+    }
+}
+
+/// The field of what section planes leave of the set of `field`.
+pub fn cut(field: Arc<dyn DistanceField>, planes: &[SectionPlane]) -> Arc<dyn DistanceField> {
+    if planes.is_empty() {
+        return field;
+    }
+    let planes = planes.iter().map(|plane| Plane {
+        normal: plane.normal(),
+        offset: field.local(&plane.point).dot(plane.normal()),
+        bands: plane.bands,
+    });
+    Arc::new(CutField { planes: planes.collect(), field })
+}
+
+/// A section plane in a field's coordinates.
+struct Plane {
+    normal: DVec3,
+    /// Of the plane's points, along the normal.
+    offset: f64,
+    bands: f64,
+}
+
+impl Plane {
+    /// Height of `point` over the plane; what is above is cut away.
+    fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.offset
+    }
+}
+
+/// A field that section planes cut.
+struct CutField {
+    field: Arc<dyn DistanceField>,
+    planes: Vec<Plane>,
+}
+
+impl CutField {
+    /// The height of `point` over the highest plane.
+    fn height(&self, point: DVec3) -> f64 {
+        self.planes.iter().map(|plane| plane.height(point)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The depth at which `ray` has entered what all planes leave, through the plane with these bands.
+    ///
+    /// None if it starts there, and if it never enters.
+    fn entry(&self, ray: Ray) -> Option<(f64, f64)> {
+        let (mut entry, mut bands) = (0.0, 0.0);
+        for plane in self.planes.iter().filter(|plane| plane.height(ray.origin) > 0.0) {
+            let depth = plane.height(ray.origin) / -plane.normal.dot(ray.direction);
+            // A ray along the plane or away from it.
+            if !(0.0..f64::INFINITY).contains(&depth) {
+                return None;
+            }
+            if depth > entry {
+                (entry, bands) = (depth, plane.bands);
+            }
+        }
+        // Up to rounding: the point lies on a plane.
+        let is_left = self.height(ray.at(entry)) <= 1e-9 * entry;
+        (entry > 0.0 && is_left).then_some((entry, bands))
+    }
+}
+
+impl DistanceField for CutField {
+    fn origin(&self) -> PrecisePoint {
+        self.field.origin()
+    }
+
+    fn finest_footprint(&self) -> f64 {
+        self.field.finest_footprint()
+    }
+
+    fn distance(&self, point: DVec3) -> f64 {
+        self.field.distance(point).max(self.height(point))
+    }
+
+    fn is_inside(&self, point: DVec3) -> bool {
+        self.height(point) <= 0.0 && self.field.is_inside(point)
+    }
+
+    fn estimate(&self, point: DVec3) -> Estimate {
+        let (Estimate { distance, step }, height) =
+            (self.field.estimate(point), self.height(point));
+        Estimate { distance: distance.max(height), step: step.max(height) }
+    }
+
+    fn orbit(&self, point: DVec3, length: usize) -> Vec<OrbitPosition> {
+        self.field.orbit(point, length)
+    }
+
+    fn center(&self) -> DVec3 {
+        self.field.center()
+    }
+
+    fn bounding_radius(&self) -> f64 {
+        self.field.bounding_radius()
+    }
+
+    fn needs_hit_check(&self) -> bool {
+        self.field.needs_hit_check()
+    }
+
+    fn trace(
+        &self,
+        ray: Ray,
+        cone: f64,
+        max_depth: f64,
+        max_steps: u32,
+    ) -> Result<Option<f64>, f64> {
+        if let Some((depth, bands)) = self.entry(ray)
+            && depth <= max_depth
+            && ray.at(depth).distance(self.center()) <= self.bounding_radius()
+            && (self.field.is_inside(ray.at(depth))
+                || self.field.distance(ray.at(depth)) <= bands.max(cone * depth))
+        {
+            return Ok(Some(depth));
+        }
+        super::march::trace(self, ray, cone, max_depth, max_steps)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::Fractal;
+
+    fn down(x: f64, y: f64) -> Ray {
+        Ray { origin: DVec3::new(x, y, 3.0), direction: DVec3::NEG_Z }
+    }
+
+    fn bulb(planes: &[SectionPlane]) -> Arc<dyn DistanceField> {
+        let fractal = Fractal::default();
+        cut(fractal.formula().distance_field(&fractal), planes)
+    }
+
+    #[test]
+    fn rays_end_on_the_plane() {
+        let field = bulb(&[SectionPlane { bands: 0.0, ..SectionPlane::default() }]);
+        let depth = field.march(down(0.3, 0.2), 1e-3, 9.0).expect("a hit");
+        assert!((depth - 3.0).abs() < 1e-9, "{depth}");
+        assert!(field.normal(DVec3::new(0.3, 0.2, 0.0), 1e-4).angle_between(DVec3::Z) < 1e-6);
+        // Outside of the slice, rays pass the plane.
+        assert_eq!(field.march(down(1.0, 0.2), 1e-3, 9.0), None);
+    }
+
+    #[test]
+    fn bands_widen_the_slice() {
+        let field = bulb(&[SectionPlane { bands: 2.0, ..SectionPlane::default() }]);
+        let depth = field.march(down(1.0, 0.2), 1e-3, 9.0).expect("a hit");
+        assert!((depth - 3.0).abs() < 1e-9, "{depth}");
+    }
+
+    #[test]
+    fn what_one_plane_leaves_another_cuts() {
+        let toward_x = SectionPlane { direction: [1.0, 0.0, 0.0], ..SectionPlane::default() };
+        let field = bulb(&[SectionPlane::default(), toward_x]);
+        assert_eq!(field.march(down(0.3, 0.2), 1e-3, 9.0), None);
+        let hit = field.march(down(-0.3, 0.2), 1e-3, 9.0);
+        assert!(hit.is_some_and(|depth| (depth - 3.0).abs() < 1e-9));
+    }
+}

@@ -1,0 +1,158 @@
+//! The planes that cut the set open: direction, position, and the colours of the cuts.
+
+use egui::{Button, Ui};
+use glam::DVec3;
+
+use super::context::{Context, Section};
+use crate::{
+    formula::{
+        param::{Scale, Unit},
+        section::{MAX_SECTION_PLANES, SectionPlane},
+    },
+    scene::{
+        Axis, Camera, PrecisePoint, SectionColors,
+        param::{self, Param},
+    },
+    ui::{
+        icon::{Icon, icon_button},
+        widgets::{caption, color, param_slider},
+    },
+};
+
+/// The section of the panel.
+pub(in crate::ui) const SECTION: Section = Section {
+    name: "section_planes",
+    title: "Section planes",
+    hover: "Cuts the fractal open and shows the slice",
+    show,
+};
+
+/// View unit, in scene units, below which positions are shown in view units.
+const SMALL_VIEW_UNIT: f64 = 1e-3;
+/// Rounding of positions, over the unit in which they are shown.
+const GRAIN: f64 = 1e-6;
+
+/// The position of a plane in whole views: its distance from the centre.
+const POSITION: Param = Param {
+    path: "position",
+    label: "Position",
+    unit: Unit::SceneUnits,
+    min: -1.0,
+    max: 1.0,
+    default: 0.0,
+    scale: Scale::Linear,
+    step: 0.01,
+    help: "Distance of the plane from the centre. Or drag the plane's handle in the view.",
+};
+/// The position of a plane in close views: its distance from the pivot.
+const NEAR_POSITION: Param = Param {
+    unit: Unit::ViewUnits,
+    help: "Distance of the plane from the point that the view turns about. Or drag the plane's handle in the view.",
+    ..POSITION
+};
+
+/// The planes, a button for another one, and the colours.
+fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    let radius = cx.scene.fractal.distance_field().bounding_radius();
+    let camera = &cx.scene.camera;
+    let planes = &mut cx.scene.fractal.section_planes;
+    let mut removed = None;
+    for (index, plane) in planes.iter_mut().enumerate() {
+        ui.push_id(index, |ui| {
+            ui.horizontal(|ui| {
+                caption(ui, &format!("Plane {}", index + 1));
+                let name = format!("Remove plane {}", index + 1);
+                if icon_button(ui, Icon::Cross, &name, "Remove this plane").clicked() {
+                    removed = Some(index);
+                }
+            });
+            directions(ui, plane, camera);
+            position(ui, plane, camera, radius);
+            param_slider(ui, &param::SECTION_BANDS, &mut plane.bands);
+        });
+        ui.add_space(6.0);
+    }
+    if let Some(index) = removed {
+        planes.remove(index);
+    }
+    let text = if planes.is_empty() { "Cut open" } else { "Another plane" };
+    let hover = "Cuts away the half that faces you. Up to three planes cut together.";
+    let add = ui.add_enabled(planes.len() < MAX_SECTION_PLANES, Button::new(text));
+    cx.rects.record("add section plane", &add);
+    if add.on_hover_text(hover).clicked() {
+        let new = new_plane(planes, camera);
+        planes.push(new);
+    }
+    if !planes.is_empty() {
+        colors(ui, &mut cx.scene.surface.sections);
+    }
+}
+
+/// Buttons that turn the plane.
+fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
+    ui.horizontal_wrapped(|ui| {
+        let normal = plane.normal();
+        for (axis, text, hover) in [
+            (Axis::X, "X", "Across the x axis: cuts away what is on the right at the start"),
+            (Axis::Y, "Y", "Across the y axis: cuts away what is behind at the start"),
+            (Axis::Z, "Z", "Across the z axis: cuts away what is above"),
+        ] {
+            let is_chosen = normal.dot(axis.direction()).abs() > 1.0 - 1e-9;
+            if ui.selectable_label(is_chosen, text).on_hover_text(hover).clicked() {
+                plane.direction = axis.direction().to_array();
+            }
+        }
+        let hover = "Turns the plane toward you: cuts away what is before it as you look now";
+        if ui.button("Facing you").on_hover_text(hover).clicked() {
+            plane.direction = (-camera.forward()).normalize().to_array();
+        }
+        if ui.button("Other half").on_hover_text("Cuts away the other half instead").clicked() {
+            plane.direction = (-normal).to_array();
+        }
+    });
+}
+
+/// Moves the plane along its normal.
+fn position(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera, radius: f64) {
+    let unit = camera.view_unit();
+    let is_close = unit < SMALL_VIEW_UNIT;
+    let (param, length, center) = if is_close {
+        (NEAR_POSITION, unit, camera.pivot.clone())
+    } else {
+        (Param { min: -radius, max: radius, ..POSITION }, 1.0, PrecisePoint::ORIGIN)
+    };
+    let normal = plane.normal();
+    let before = (&plane.point - &center).dot(normal) / length;
+    let mut now = before;
+    if param_slider(ui, &param, &mut now).changed() {
+        plane.point = plane.point.moved_by(normal * (now - before) * length, GRAIN * length);
+    }
+}
+
+/// Bands and inside.
+fn colors(ui: &mut Ui, colors: &mut SectionColors) {
+    ui.add_space(6.0);
+    caption(ui, "Colours of the cut");
+    param_slider(ui, &param::SECTION_REPEATS, &mut colors.repeats);
+    ui.horizontal(|ui| {
+        color(ui, "Inside", "Colour of the inside of the set", &mut colors.inside);
+        ui.label("Inside");
+    });
+}
+
+/// A plane across the axis that points toward the eye the most and has none yet.
+fn new_plane(planes: &[SectionPlane], camera: &Camera) -> SectionPlane {
+    let toward_eye = -camera.forward();
+    let used = |axis: DVec3| planes.iter().any(|plane| plane.normal().dot(axis).abs() > 1.0 - 1e-9);
+    let axis = [Axis::X, Axis::Y, Axis::Z]
+        .map(Axis::direction)
+        .into_iter()
+        .filter(|axis| !used(*axis))
+        .max_by(|a, b| toward_eye.dot(*a).abs().total_cmp(&toward_eye.dot(*b).abs()))
+        .unwrap_or(DVec3::Z);
+    let direction = axis * if toward_eye.dot(axis) < 0.0 { -1.0 } else { 1.0 };
+    let is_close = camera.view_unit() < SMALL_VIEW_UNIT;
+    let point = if is_close { camera.pivot.clone() } else { PrecisePoint::ORIGIN };
+    let bands = param::SECTION_BANDS.default.min(camera.view_unit());
+    SectionPlane { point, direction: direction.to_array(), bands }
+}
