@@ -51,6 +51,9 @@ pub struct Arguments {
     /// Start once and print the times
     #[arg(long, hide = true)]
     pub start_once: bool,
+    /// Compile each formula's passes once and print the times
+    #[arg(long, hide = true)]
+    pub compile_once: bool,
     /// Cargo passes this flag to every benchmark
     #[arg(long, hide = true)]
     pub bench: bool,

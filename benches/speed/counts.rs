@@ -49,10 +49,10 @@ impl Counts {
     }
 }
 
-/// How to count in the program's modules, whose orbits are in `formula/`.
-pub fn marks<'a>(estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
+/// How to count in the program's modules, whose orbits are in files that begin with `orbits_in`.
+pub fn marks<'a>(orbits_in: &'a str, estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
     Marks {
-        orbits_in: "mandelbulb/",
+        orbits_in,
         other_loops: &[],
         steps: &["near_step"],
         estimates,

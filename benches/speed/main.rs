@@ -27,6 +27,8 @@
 //! | `descent` | the cost of depth in half decades |
 //! | `deep` | the cost of depth at one place |
 //! | `scaling` | growth of time with a picture's settings |
+//! | `step_costs` | the cost of an orbit step of formulas' texts |
+//! | `formulas` | pictures of all formulas: counts, times, errors, compilation |
 //! | `start` | time to the first picture |
 //! | `feel` | interactive response in a recorded session |
 //! | `report` | the results of a whole run |
@@ -40,6 +42,7 @@ pub mod descent;
 pub mod errors;
 pub mod failure;
 pub mod feel;
+pub mod formulas;
 pub mod image_file;
 pub mod instrument;
 pub mod limits;
@@ -54,6 +57,7 @@ pub mod report;
 pub mod scaling;
 pub mod start;
 pub mod statistics;
+pub mod step_costs;
 pub mod tables;
 pub mod tuning;
 pub mod views;
@@ -95,6 +99,9 @@ fn main() -> ExitCode {
 /// If a view or an adapter of that name doesn't exist, the device is lost or reports errors, or a
 /// file can't be written.
 pub fn run(arguments: &Arguments) -> Result<bool, Failure> {
+    if arguments.compile_once {
+        return formulas::compile_once(arguments).map(|()| true);
+    }
     if arguments.start_once {
         return start::once(arguments).map(|()| true);
     }
@@ -165,6 +172,12 @@ fn measure_tables(
         starts.print();
         report.start = Some(starts);
     }
+    if arguments.wants(formulas::NAME) {
+        report.step_costs = step_costs::measure(&pipelines.gpu, 3 * rounds)?;
+        step_costs::print(&report.step_costs);
+        report.formulas = formulas::measure(arguments, pipelines)?;
+        formulas::print(&report.formulas);
+    }
     if arguments.wants(feel::NAME) {
         let feel = feel::run(pipelines, arguments.pictures.as_deref())?;
         feel.print();
@@ -216,7 +229,15 @@ fn check_limits(arguments: &Arguments, report: &Report) -> Result<bool, Failure>
 /// The selected views at the selected size.
 fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let mut views = views::all();
-    let tables = [deep::NAME, descent::NAME, powers::NAME, scaling::NAME, start::NAME, feel::NAME];
+    let tables = [
+        deep::NAME,
+        descent::NAME,
+        powers::NAME,
+        scaling::NAME,
+        start::NAME,
+        formulas::NAME,
+        feel::NAME,
+    ];
     let names: Vec<_> = views.iter().map(|view| view.name).chain(tables).collect();
     if let Some(name) = arguments.views.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(format!("there is no view {name:?}; there are {}", names.join(", ")).into());

@@ -303,6 +303,12 @@ pub fn counting_passes<'a>(
 ) -> Result<FramePipelines<'a>, Failure> {
     let kernel = runner.kernel();
     let constants = kernel.overrides();
+    // Formulas of texts share their orbits.
+    let (orbits_in, estimate) = if kernel.files().types.path.starts_with("language/") {
+        ("language/", "estimate")
+    } else {
+        ("mandelbulb/", "estimate_at")
+    };
     let gpu = &pipelines.gpu;
     let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
         .map(|layout| runner.counting_layout(layout));
@@ -311,7 +317,7 @@ pub fn counting_passes<'a>(
             let shader = counts::counting(
                 gpu,
                 &shaders::module(pass.name, Some(kernel)),
-                &counts::marks(&[estimate], PassRunner::COUNTS),
+                &counts::marks(orbits_in, &[estimate], PassRunner::COUNTS),
             )?;
             Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(pass.name),
@@ -327,11 +333,11 @@ pub fn counting_passes<'a>(
         };
     let mut passes = pipelines.of_frame(&runner.inputs);
     for (pass, layout, estimate) in [
-        (&pass::camera_cone::PASS, &enqueue, "estimate_at"),
-        (&pass::march::PASS, &queued, "estimate_at"),
+        (&pass::camera_cone::PASS, &enqueue, estimate),
+        (&pass::march::PASS, &queued, estimate),
         (&pass::normal::PASS, &queued, "distance_gradient"),
-        (&pass::shadow_cone::PASS, &enqueue, "estimate_at"),
-        (&pass::shadow::PASS, &queued, "estimate_at"),
+        (&pass::shadow_cone::PASS, &enqueue, estimate),
+        (&pass::shadow::PASS, &queued, estimate),
     ] {
         passes.replace(pass, create(layout, pass, estimate)?);
     }

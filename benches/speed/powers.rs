@@ -95,7 +95,8 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
         .flat_map(|power| [(power, pipeline(gpu, &shader, power)), (power, general.clone())])
         .map(|(power, pipeline)| Kernel::new(gpu, pipeline, power))
         .collect();
-    let counting = counts::counting(gpu, &module, &counts::marks(&["estimate"], [2, 0]))?;
+    let counting =
+        counts::counting(gpu, &module, &counts::marks("mandelbulb/", &["estimate"], [2, 0]))?;
     let mut steps = Vec::new();
     for power in POWERS {
         let found = Kernel::new(gpu, pipeline(gpu, &counting, power), power).count()?.steps;

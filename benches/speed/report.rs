@@ -7,9 +7,9 @@ use serde::Serialize;
 use super::{
     compare::Comparison,
     counts::Counts,
-    deep, descent, feel,
+    deep, descent, feel, formulas,
     limits::{Measure, Measured},
-    powers, scaling, start,
+    powers, scaling, start, step_costs,
 };
 
 /// All results of one run.
@@ -29,6 +29,10 @@ pub struct Report {
     pub scaling: Vec<scaling::Row>,
     /// Start-up times.
     pub start: Option<start::Starts>,
+    /// The cost of orbit steps of formulas' texts.
+    pub step_costs: Vec<step_costs::Row>,
+    /// Pictures of all formulas.
+    pub formulas: Vec<formulas::Row>,
     /// The replayed session.
     pub feel: Option<feel::Results>,
 }

@@ -259,7 +259,7 @@ fn what_cannot_be_counted_is_said() {
 /// Counts the program's probe at `points`.
 fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::Counts {
     let device = &gpu.device;
-    let marks = counts::marks(&["estimate"], [2, 0]);
+    let marks = counts::marks("mandelbulb/", &["estimate"], [2, 0]);
     let variant = Variant { power, steps: Steps::Plain }.number();
     let kernel = Kernel { variant, ..inputs.formula.kernel };
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

@@ -96,6 +96,7 @@ fn every_parameter_of_every_formula_has_a_control() {
         harness.get_by_label("Auto exposure").click();
         harness.run();
         press(&mut harness, "Add light");
+        press(&mut harness, "Cut open");
         let mut missing: Vec<_> =
             param::of(formula).filter(|param| rails_of(&harness, param.path).is_empty()).collect();
         press(&mut harness, "Add point light");

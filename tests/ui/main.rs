@@ -16,6 +16,7 @@ mod hybrids;
 mod navigation;
 mod orbit;
 mod places;
+mod sections;
 mod stage;
 mod timeline;
 mod zoom;

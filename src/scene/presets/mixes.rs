@@ -106,11 +106,11 @@ fn cut(mut fractal: Fractal, direction: [f64; 3], bands: f64) -> Fractal {
 }
 
 fn slice() -> Scene {
-    let mut fractal = cut(of_formula("mandelbulb"), [0.0, 0.0, 1.0], 0.22);
+    let mut fractal = cut(of_formula("mandelbulb"), [0.0, 0.0, 1.0], 0.07);
     fractal.set("power", 2.0);
     fractal.iterations = 40;
     let mut scene = basis(fractal, [-0.5, -1.75, 2.4], ice(), 1.2);
-    scene.camera = camera([-0.5, -1.6, 2.3], [-0.47, -0.06, -0.1], 44.0);
+    scene.camera = camera([-0.6, -2.35, 1.55], [-0.47, -0.05, -0.12], 42.0);
     scene.surface.sections = SectionColors { repeats: 0.22, inside: [0.02, 0.02, 0.03] };
     scene
 }

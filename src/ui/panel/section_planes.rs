@@ -1,6 +1,6 @@
 //! The planes that cut the set open: direction, position, and the colours of the cuts.
 
-use egui::{Button, Ui};
+use egui::{Align, Button, Layout, Ui};
 use glam::DVec3;
 
 use super::context::{Context, Section};
@@ -61,10 +61,12 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ui.push_id(index, |ui| {
             ui.horizontal(|ui| {
                 caption(ui, &format!("Plane {}", index + 1));
-                let name = format!("Remove plane {}", index + 1);
-                if icon_button(ui, Icon::Cross, &name, "Remove this plane").clicked() {
-                    removed = Some(index);
-                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let name = format!("Remove plane {}", index + 1);
+                    if icon_button(ui, Icon::Cross, &name, "Remove this plane").clicked() {
+                        removed = Some(index);
+                    }
+                });
             });
             directions(ui, plane, camera);
             position(ui, plane, camera, radius);
@@ -122,7 +124,8 @@ fn position(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera, radius: f64)
         (Param { min: -radius, max: radius, ..POSITION }, 1.0, PrecisePoint::ORIGIN)
     };
     let normal = plane.normal();
-    let before = (&plane.point - &center).dot(normal) / length;
+    // Plus zero: a plane through the centre is not at -0.
+    let before = (&plane.point - &center).dot(normal) / length + 0.0;
     let mut now = before;
     if param_slider(ui, &param, &mut now).changed() {
         plane.point = plane.point.moved_by(normal * (now - before) * length, GRAIN * length);

@@ -114,7 +114,7 @@ fn scalar_defaults_are_those_of_the_parameter_table() {
     let stop = json!({ "position": 0.0, "color": [1, 1, 1] });
     for (formula, param) in every_param() {
         let mut document = json!({ "mandelight": "scene", "version": 2, "scene": {
-            "fractal": { "formula": formula.id() },
+            "fractal": { "formula": formula.id(), "section_planes": [{}] },
             "lights": { "environment": [{}], "point": [{}] }, "surface": { "gradient": [stop] } } });
         let scene = from_json(&document.to_string()).unwrap();
         document = serde_json::from_str(&to_json(&scene)).unwrap();

@@ -109,6 +109,12 @@ pub fn pictures() -> Vec<Picture> {
             of("Whorls"),
         )
         .sized([1280, 800]),
+        single(
+            "section",
+            "A bulb of power 2 cut at z = 0: the Mandelbrot set with its bands of equal iterations",
+            of("Mandelbrot slice"),
+        )
+        .sized(README_PX),
         single("lantern", "Two point lights in a crevice", of("Lantern")).sized(README_PX),
         single(
             "surroundings",
