@@ -79,6 +79,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {{
 /// The orbit alone, without derivatives.
 const VALUES: &str = "
 fn value_only(fractal: Fractal, point: vec3f) -> f32 {
+    load_slots();
     let c = addend(fractal, point);
     var z = initial(point);
     for (var n = 0u; n < fractal.iterations && !is_escaped(fractal, z); n++) {

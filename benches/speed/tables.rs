@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use super::{compare::Comparison, counts::Counts, descent::Row, report::Report};
+use super::{compare::Comparison, counts::Counts, descent::Row, formulas, report::Report};
 
 /// `text` with the tables of `report`.
 ///
@@ -55,6 +55,19 @@ pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
             line(&mut table, [(*name).to_owned()].into_iter().chain(ms));
         }
         tables.push(("start", table));
+    }
+    if !report.step_costs.is_empty() {
+        let mut table = head(&["formula", "beside", "estimate", "gradient"]);
+        for row in &report.step_costs {
+            let gradient =
+                row.gradient.map_or("–".to_owned(), |gradient| format!("{gradient:.2}"));
+            let cells = [row.formula.into(), row.beside.into(), format!("{:.2}", row.estimate)];
+            line(&mut table, cells.into_iter().chain([gradient]));
+        }
+        tables.push(("steps", table));
+    }
+    if !report.formulas.is_empty() {
+        tables.push(("formulas", formulas(&report.formulas)));
     }
     for (name, table) in tables {
         let (begin, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
@@ -110,6 +123,34 @@ fn deep(report: &Report) -> String {
             format!("{:.1}", row.cost),
         ];
         line(&mut table, [format!("`{}`", row.name), drawn.to_owned()].into_iter().chain(numbers));
+    }
+    table
+}
+
+fn formulas(rows: &[formulas::Row]) -> String {
+    let columns = [
+        "formula",
+        "step",
+        "relaxation",
+        "estimates a pixel",
+        "orbit steps a pixel",
+        "ms",
+        "overstepped",
+        "compilation, ms",
+    ];
+    let mut table = head(&columns);
+    for row in rows {
+        let cells = [
+            row.formula.to_owned(),
+            format!("{:.2}", row.step),
+            format!("{:.1}", row.relaxation),
+            format!("{:.1}", row.counts.estimates),
+            format!("{:.0}", row.counts.steps),
+            format!("{:.0}", row.ms),
+            row.overstepped.map_or("–".to_owned(), |part| format!("{:.2} %", 100.0 * part)),
+            format!("{:.0}", row.compilation_ms),
+        ];
+        line(&mut table, cells.into_iter());
     }
     table
 }

@@ -3,6 +3,7 @@
 //     distance_at, distance_slope              the estimate at an orbit's end, and its derivatives
 
 fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+    load_slots();
     let c = addend(fractal, point);
     var z = initial(point);
     var dr = fractal.initial_derivative;
@@ -17,6 +18,7 @@ fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
 // The direction in which `distance_estimate` grows fastest, not normalised; 0 inside.
 // The state's derivatives grow as dr, and those of dr as its square: both are kept over dr.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
+    load_slots();
     let c = addend(fractal, point);
     let moved = initial_rows(point, POINT_ROWS);
     var z = initial(point);

@@ -4,6 +4,7 @@
 //     distance_at, distance_slope           the estimate at an orbit's end, and its derivatives
 
 fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
+    load_slots();
     let direction = select(ANY_DIRECTION, along, dot(along, along) > 0.0);
     let c = addend(fractal, point);
     let moved = initial_tangent(point, direction);
@@ -20,6 +21,7 @@ fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
 
 // The direction in which the height over the set grows fastest, not normalised; 0 inside.
 fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f {
+    load_slots();
     let c = addend(fractal, point);
     let moved = initial_rows(point, POINT_ROWS);
     var z = initial(point);

@@ -59,12 +59,14 @@ signatures! {
 
 /// The functions of a formula that draws alone.
 pub fn of_one(compiled: &Compiled) -> String {
-    header(compiled, 0) + &Writer { compiled, number: None }.all()
+    header(compiled, 0) + &copied_slots(compiled) + &Writer { compiled, number: None }.all()
 }
 
 /// The functions of formulas that take turns; all have states of one size, and all or none a given derivative.
 pub fn of_several(formulas: &[Compiled]) -> String {
     let mut text = header(&formulas[0], MAX_VECTORS);
+    // Which slots a step reads is known only when it is taken.
+    text += "fn load_slots() {}\n\n";
     text += &format!(
         "struct StepPlace {{\n    which: u32,\n    base: u32,\n}}\n\n\
          fn step_place(n: u32) -> StepPlace {{\n    \
@@ -120,6 +122,19 @@ fn header(compiled: &Compiled, vectors: usize) -> String {
          struct NextRows {{\n    z: State,\n    dr: f32,\n    rows: Rows,\n    slope: vec3f,\n}}\n\n\
          fn as_state(v: vec4f) -> State {{\n    return {constant};\n}}\n\n"
     )
+}
+
+/// A copy of the slots of a formula that draws alone, and the function that makes it.
+///
+/// lavapipe reads a uniform in a loop again at each turn and for each thread.
+fn copied_slots(compiled: &Compiled) -> String {
+    let count = compiled.slots.values().max().map_or(0, |last| last / 4 + 1);
+    if count == 0 {
+        return "fn load_slots() {}\n\n".to_owned();
+    }
+    let copies: String =
+        (0..count).map(|i| format!("    slots[{i}] = table.slots[{i}];\n")).collect();
+    format!("var<private> slots: array<vec4f, {count}>;\n\nfn load_slots() {{\n{copies}}}\n\n")
 }
 
 /// Writes the functions of one formula.

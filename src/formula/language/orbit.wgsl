@@ -1,5 +1,6 @@
 // Orbits of formulas' texts. The texts' own functions come from `operations.rs`:
 //     State                  vec3f or vec4f
+//     load_slots             copies what depends on parameters only, before an orbit
 //     initial, initial_tangent, initial_rows     the state at the start, its derivatives
 //     next_with_derivative   the step with the number n, with the running derivative if the text gives it
 //     next_with_channel      the step with the number n, and what it adds to the colour channel
@@ -98,6 +99,7 @@ fn excess(fractal: Fractal, before: f32, last: f32) -> f32 {
 }
 
 fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
+    load_slots();
     let c = addend(fractal, point);
     var z = initial(point);
     var before = z;

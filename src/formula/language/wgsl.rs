@@ -36,7 +36,9 @@ pub struct Emitter<'a> {
     pub non_negative: &'a [bool],
     /// The type of derivatives.
     pub lane: Lane,
-    /// What stands before a slot's index: the place where a step's slots begin, with a plus.
+    /// What stands before a slot's index in the table: the place where a step's slots begin, with a plus.
+    ///
+    /// Empty for a formula that draws alone, whose kernels have a copy of its slots.
     pub base: &'static str,
 }
 
@@ -73,7 +75,11 @@ impl Emitter<'_> {
 
     fn node(&self, id: NodeId, values: &HashMap<NodeId, Emitted>) -> Emitted {
         if let Some(slot) = self.slots.get(&id) {
-            let text = format!("table.slots[{}{}u].{}", self.base, slot / 4, AXES[slot % 4]);
+            let (place, axis) = (slot / 4, AXES[slot % 4]);
+            let text = match self.base {
+                "" => format!("slots[{place}].{axis}"),
+                base => format!("table.slots[{base}{place}u].{axis}"),
+            };
             return Emitted { text, kind: Kind::Number };
         }
         let of = |id: NodeId| &values[&id];
