@@ -255,14 +255,22 @@ impl TextField {
         const LARGEST: f64 = 24.0;
         const SHRINK: f64 = 0.95;
         let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let spread = (0..DIRECTIONS).map(|i| {
+            let height = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(DIRECTIONS);
+            let (sine, cosine) = (golden * f64::from(i)).sin_cos();
+            let flat = (1.0 - height * height).sqrt();
+            DVec3::new(flat * cosine, flat * sine, height)
+        });
+        // Thin limbs grow along axes and diagonals.
+        let grid = (0..27).filter(|i| *i != 13).map(|i| {
+            let at = |place: i32| f64::from(i / place % 3 - 1);
+            DVec3::new(at(1), at(3), at(9)).normalize()
+        });
+        let directions: Vec<_> = grid.chain(spread).collect();
         let stays = |radius: f64| {
-            (0..DIRECTIONS).any(|i| {
-                let height = 1.0 - 2.0 * (f64::from(i) + 0.5) / f64::from(DIRECTIONS);
-                let (sine, cosine) = (golden * f64::from(i)).sin_cos();
-                let flat = (1.0 - height * height).sqrt();
-                let direction = DVec3::new(flat * cosine, flat * sine, height);
-                !self.orbit(radius * direction, direction).has_escaped
-            })
+            directions
+                .iter()
+                .any(|direction| !self.orbit(radius * direction, *direction).has_escaped)
         };
         let mut radius = LARGEST;
         while radius > 0.1 && !stays(radius) {

@@ -157,7 +157,7 @@ fn rotunda() -> Scene {
 }
 
 fn snow_line() -> Scene {
-    let mut scene = basis(of_formula("benesi_pine_tree"), [1.3, -2.9, 1.2], brass(), 1.3);
+    let mut scene = basis(of_formula("benesi_pine_tree"), [1.45, -3.2, 1.4], brass(), 1.3);
     scene.surface.second_layer = SecondLayer {
         amount: 0.75,
         coloring: Coloring { source: ColorSource::Normal, axis: Axis::Z, ..Coloring::default() },

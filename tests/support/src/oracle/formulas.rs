@@ -319,13 +319,14 @@ pub fn equations(id: &str) -> Option<Equations> {
         "benesi_pine_tree" => Equations {
             gives_derivative: false,
             step: |f, z, c, dr, _| {
-                // A complex square of x and the distance from the x axis, at twice the angle about it.
+                // A complex square of x and the distance from the x axis, at twice the angle about it; then y and z
+                // change places.
                 let (x, rho) = (z.x, z.y.hypot(z.z));
                 let angle = 2.0 * z.z.atan2(z.y);
                 let across = number(f, "lift") * 2.0 * x * rho;
                 let next =
-                    DVec3::new(x * x - rho * rho, across * angle.cos(), across * angle.sin());
-                (next.extend(0.0) + c, dr)
+                    DVec3::new(x * x - rho * rho, across * angle.sin(), across * angle.cos());
+                (next.extend(0.0) + DVec4::new(c.x, c.z, c.y, c.w), dr)
             },
             ..usual()
         },
