@@ -22,7 +22,7 @@ pub struct Settings {
     pub drawn_to_places: bool,
     /// The size of saved pictures.
     pub export: ExportSize,
-    /// The texts of the formulas that a person keeps, at most [`MAX_KEPT_FORMULAS`].
+    /// The texts of the formulas that a person keeps, at most `MAX_KEPT_FORMULAS`.
     pub formulas: Vec<String>,
 }
 
