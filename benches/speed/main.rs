@@ -23,6 +23,7 @@
 //! | `ours` | the program's stills and single passes |
 //! | `image_file` | PNG files of what both sides draw |
 //! | `compare` | one view drawn by both sides |
+//! | `timed_kernel` | a compute kernel that is run and timed |
 //! | `powers` | the cost of an orbit step for each power |
 //! | `descent` | the cost of depth in half decades |
 //! | `deep` | the cost of depth at one place |
@@ -59,6 +60,7 @@ pub mod start;
 pub mod statistics;
 pub mod step_costs;
 pub mod tables;
+pub mod timed_kernel;
 pub mod tuning;
 pub mod views;
 

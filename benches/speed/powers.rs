@@ -3,8 +3,6 @@
 //! Every thread of a kernel made of the program's own formula follows orbits that never escape, so
 //! that none waits for another. A counting copy says how many steps those are.
 
-use std::time::Instant;
-
 use mandelight::{
     formula::{
         self, FormulaRef,
@@ -13,7 +11,7 @@ use mandelight::{
             variant::{Steps, Variant},
         },
     },
-    gpu::{Gpu, readback::ReadbackError},
+    gpu::Gpu,
     render::{Region, shaders, uniforms::Inputs},
     scene::Scene,
 };
@@ -23,7 +21,7 @@ use serde::Serialize;
 use super::{
     counts::{self, Counts},
     failure::Failure,
-    statistics::median,
+    timed_kernel::{TimedKernel, median_secs, pipeline},
 };
 
 /// What `--views` calls the table.
@@ -90,29 +88,26 @@ pub struct Table {
 pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
     let module = shaders::joined("orbits", Some(kernel(0)), TEXT);
     let shader = module.create(&gpu.device);
-    let general = pipeline(gpu, &shader, 0);
-    let pipelines: Vec<_> = POWERS
-        .flat_map(|power| [(power, pipeline(gpu, &shader, power)), (power, general.clone())])
-        .map(|(power, pipeline)| Kernel::new(gpu, pipeline, power))
-        .collect();
+    let timed = |shader: &wgpu::ShaderModule, power, kernel_of| {
+        let pipeline = pipeline(gpu, shader, &kernel(kernel_of));
+        TimedKernel::new(gpu, pipeline, WORKGROUPS, [&frame_buffers(gpu, power), &[]])
+    };
+    let kernels: Vec<_> =
+        POWERS.flat_map(|power| [timed(&shader, power, power), timed(&shader, power, 0)]).collect();
     let counting =
         counts::counting(gpu, &module, &counts::marks("mandelbulb/", &["estimate"], [2, 0]))?;
     let mut steps = Vec::new();
     for power in POWERS {
-        let found = Kernel::new(gpu, pipeline(gpu, &counting, power), power).count()?.steps;
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let counts = probe::filled(gpu, usage, &[0; 8]);
+        let mut kernel = timed(&counting, power, power);
+        kernel.push_group(&counts);
+        kernel.run_secs();
+        let found = Counts::read(gpu, &counts)?.steps;
         steps.extend([found, found]);
     }
-    let mut times = vec![Vec::new(); pipelines.len()];
-    for round in 0..=rounds {
-        for (kernel, times) in pipelines.iter().zip(&mut times) {
-            let secs = kernel.run_secs();
-            // The first round warms up.
-            if round > 0 {
-                times.push(secs);
-            }
-        }
-    }
-    let ns: Vec<_> = times.iter().zip(steps).map(|(t, steps)| median(t) * 1e9 / steps).collect();
+    let secs = median_secs(&kernels, rounds);
+    let ns: Vec<_> = secs.iter().zip(steps).map(|(secs, steps)| secs * 1e9 / steps).collect();
     Ok(table(POWERS.zip(ns.as_chunks::<2>().0.iter().copied())))
 }
 
@@ -146,80 +141,18 @@ pub fn table(costs: impl Iterator<Item = (u32, [f64; 2])>) -> Table {
     Table { rows, fixed_ns, product_ns, worst }
 }
 
-/// The pipeline of a whole power, or the general one for 0.
-fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, power: u32) -> wgpu::ComputePipeline {
-    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("orbits"),
-        layout: None,
-        module,
-        entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions {
-            constants: &kernel(power).overrides(),
-            ..Default::default()
-        },
-        cache: None,
-    })
-}
-
 /// The formula's plain kernel of a whole power, or the general one for 0.
 fn kernel(power: u32) -> formula::Kernel {
     let variant = Variant { power, steps: Steps::Plain }.number();
     formula::Kernel { formula: FormulaRef(&MANDELBULB), variant }
 }
 
-struct Kernel {
-    gpu: Gpu,
-    pipeline: wgpu::ComputePipeline,
-    groups: Vec<wgpu::BindGroup>,
-    counts: wgpu::Buffer,
-}
-
-impl Kernel {
-    /// The kernel that follows orbits of `power`.
-    fn new(gpu: &Gpu, pipeline: wgpu::ComputePipeline, power: u32) -> Self {
-        let fractal =
-            Mandelbulb { power: power.into(), iterations: ITERATIONS, ..Default::default() }.into();
-        let scene = Scene { fractal, ..Scene::default() };
-        let inputs = Inputs::new(&scene, Region::whole([64, 64]));
-        let buffer = |size: usize| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("orbits"),
-                size: size as u64,
-                usage: wgpu::BufferUsages::STORAGE
-                    | wgpu::BufferUsages::COPY_DST
-                    | wgpu::BufferUsages::COPY_SRC,
-                mapped_at_creation: false,
-            })
-        };
-        let [sums, counts] = [4 * 64 * WORKGROUPS as usize, 8].map(buffer);
-        let bindings = probe::bindings(gpu, &inputs);
-        let group =
-            |index, buffers: &[&wgpu::Buffer]| probe::bind_group(gpu, &pipeline, index, buffers);
-        let groups = vec![group(0, &bindings.iter().collect::<Vec<_>>()), group(1, &[&sums])];
-        Self { gpu: gpu.clone(), pipeline, groups, counts }
-    }
-
-    fn run_secs(&self) -> f64 {
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&self.pipeline);
-        for (index, group) in (0..).zip(&self.groups) {
-            pass.set_bind_group(index, group, &[]);
-        }
-        pass.dispatch_workgroups(WORKGROUPS, 1, 1);
-        drop(pass);
-        let start = Instant::now();
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.wait();
-        start.elapsed().as_secs_f64()
-    }
-
-    /// What a counting kernel counts.
-    fn count(mut self) -> Result<Counts, ReadbackError> {
-        self.groups.push(probe::bind_group(&self.gpu, &self.pipeline, 2, &[&self.counts]));
-        self.run_secs();
-        Counts::read(&self.gpu, &self.counts)
-    }
+/// The frame of orbits of `power`.
+fn frame_buffers(gpu: &Gpu, power: u32) -> Vec<wgpu::Buffer> {
+    let fractal =
+        Mandelbulb { power: power.into(), iterations: ITERATIONS, ..Default::default() }.into();
+    let scene = Scene { fractal, ..Scene::default() };
+    probe::bindings(gpu, &Inputs::new(&scene, Region::whole([64, 64])))
 }
 
 impl Table {

@@ -2,8 +2,6 @@
 //!
 //! All kernels of a row follow the same orbits in turn, so that their times compare.
 
-use std::time::Instant;
-
 use mandelight::{
     formula::{self, Fractal},
     gpu::Gpu,
@@ -13,7 +11,10 @@ use mandelight::{
 use mandelight_test_support::probe;
 use serde::Serialize;
 
-use super::{failure::Failure, statistics::median};
+use super::{
+    failure::Failure,
+    timed_kernel::{TimedKernel, median_secs, pipeline},
+};
 
 /// Threads: each follows 16 orbits.
 const WORKGROUPS: u32 = 96;
@@ -89,82 +90,27 @@ fn value_only(fractal: Fractal, point: vec3f) -> f32 {
 }
 ";
 
-struct Run {
-    gpu: Gpu,
-    pipeline: wgpu::ComputePipeline,
-    groups: Vec<wgpu::BindGroup>,
-}
-
-impl Run {
-    fn new(gpu: &Gpu, fractal: &Fractal, text: &str, given: Option<&[[f32; 4]; 5]>) -> Self {
-        let scene = Scene { fractal: fractal.with_iterations(ITERATIONS), ..Scene::default() };
-        let inputs = Inputs::new(&scene, Region::whole([64, 64]));
-        // The texts of benchmarks last as long as the program.
-        let text = Box::leak(text.to_owned().into_boxed_str());
-        let module = shaders::joined("steps", Some(inputs.formula.kernel), text);
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("steps"),
-            layout: None,
-            module: &module.create(&gpu.device),
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &inputs.formula.kernel.overrides(),
-                ..Default::default()
-            },
-            cache: None,
-        });
-        let sums = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("sums"),
-            size: u64::from(4 * 64 * WORKGROUPS),
-            usage: wgpu::BufferUsages::STORAGE,
-            mapped_at_creation: false,
-        });
-        let frame = probe::bindings(gpu, &inputs);
-        let given = given.map(|given| {
+/// The kernel of a text in the frame of `fractal`; `given`: the parameters of a hand-written one.
+fn timed(gpu: &Gpu, fractal: &Fractal, text: &str, given: Option<&[[f32; 4]; 5]>) -> TimedKernel {
+    let scene = Scene { fractal: fractal.with_iterations(ITERATIONS), ..Scene::default() };
+    let inputs = Inputs::new(&scene, Region::whole([64, 64]));
+    // The texts of benchmarks last as long as the program.
+    let text = Box::leak(text.to_owned().into_boxed_str());
+    let kernel = inputs.formula.kernel;
+    let module = shaders::joined("steps", Some(kernel), text).create(&gpu.device);
+    let given: Vec<_> = given
+        .map(|given| {
             let bytes: Vec<u8> = given.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
             probe::filled(gpu, wgpu::BufferUsages::STORAGE, &bytes)
-        });
-        // A binding that a kernel does not read is in no layout: hand-written ones read no table.
-        let files = inputs.formula.kernel.files().files;
-        let reads_table = given.is_none() && files.iter().any(|f| f.text.contains("table.slots"));
-        let frame: Vec<_> = frame.iter().take(if reads_table { 2 } else { 1 }).collect();
-        let sums: Vec<_> = [&sums].into_iter().chain(&given).collect();
-        let groups = vec![
-            probe::bind_group(gpu, &pipeline, 0, &frame),
-            probe::bind_group(gpu, &pipeline, 1, &sums),
-        ];
-        Self { gpu: gpu.clone(), pipeline, groups }
-    }
-
-    fn secs(&self) -> f64 {
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&self.pipeline);
-        for (index, group) in (0..).zip(&self.groups) {
-            pass.set_bind_group(index, group, &[]);
-        }
-        pass.dispatch_workgroups(WORKGROUPS, 1, 1);
-        drop(pass);
-        let start = Instant::now();
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.wait();
-        start.elapsed().as_secs_f64()
-    }
-}
-
-/// Median times of kernels that run in turn.
-fn times(runs: &[Run], rounds: u32) -> Vec<f64> {
-    let mut all = vec![Vec::new(); runs.len()];
-    for round in 0..=rounds {
-        for (run, times) in runs.iter().zip(&mut all) {
-            let secs = run.secs();
-            // The first round warms up.
-            if round > 0 {
-                times.push(secs);
-            }
-        }
-    }
-    all.iter().map(|times| median(times)).collect()
+        })
+        .into_iter()
+        .collect();
+    // A binding that a kernel does not read is in no layout: hand-written ones read no table.
+    let files = kernel.files().files;
+    let reads_table =
+        given.is_empty() && files.iter().any(|file| file.text.contains("table.slots"));
+    let frame = &probe::bindings(gpu, &inputs)[..if reads_table { 2 } else { 1 }];
+    TimedKernel::new(gpu, pipeline(gpu, &module, &kernel), WORKGROUPS, [frame, &given])
 }
 
 /// Measures the hand-written formulas, then all whose derivatives are derived.
@@ -177,9 +123,11 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Row>, Failure> {
         let fractal = Fractal::new(formula::find(id).ok_or("a formula is missing")?);
         let own = text("distance_estimate(fractal, point)", spread);
         let written = text(&format!("{function}(point)"), spread) + WRITTEN;
-        let runs =
-            [Run::new(gpu, &fractal, &own, None), Run::new(gpu, &fractal, &written, Some(&given))];
-        let [own, other] = times(&runs, rounds)[..] else { return Err("two kernels".into()) };
+        let kernels =
+            [timed(gpu, &fractal, &own, None), timed(gpu, &fractal, &written, Some(&given))];
+        let [own, other] = median_secs(&kernels, rounds)[..] else {
+            return Err("two kernels".into());
+        };
         rows.push(Row {
             formula: id,
             beside: "hand-written WGSL",
@@ -200,8 +148,8 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Row>, Failure> {
             "distance_estimate(fractal, point)",
             "dot(distance_gradient(fractal, point), vec3f(1.0))",
         ];
-        let runs = calls.map(|call| Run::new(gpu, &fractal, &(text(call, spread) + VALUES), None));
-        let [value, estimate, gradient] = times(&runs, rounds)[..] else {
+        let kernels = calls.map(|call| timed(gpu, &fractal, &(text(call, spread) + VALUES), None));
+        let [value, estimate, gradient] = median_secs(&kernels, rounds)[..] else {
             return Err("three kernels".into());
         };
         rows.push(Row {

@@ -6,8 +6,8 @@ fn height_over(plane: vec4f, point: vec3f) -> f32 {
     return dot(plane.xyz, point) - plane.w;
 }
 
-// The part of a ray's interval that the planes leave; exit < entry if they leave nothing.
-fn left_by_sections(interval: vec2f, origin: vec3f, direction: vec3f) -> vec2f {
+// The part of a ray's interval under all planes; exit < entry if there is none.
+fn clip_interval(interval: vec2f, origin: vec3f, direction: vec3f) -> vec2f {
     var left = interval;
     for (var k = 0u; k < frame.sections.count; k++) {
         let plane = frame.sections.planes[k];
@@ -18,14 +18,15 @@ fn left_by_sections(interval: vec2f, origin: vec3f, direction: vec3f) -> vec2f {
     return left;
 }
 
-// Where rays enter what the planes leave.
+// Where a ray comes under all planes.
 struct SectionEntry {
-    // The depth; 0 if the ray starts there or never enters.
+    // The depth; 0 if the ray starts there or never gets there.
     depth: f32,
-    // Distance from the set within which the plane is drawn.
+    // Distance from the set within which that plane is drawn.
     bands: f32,
 }
 
+// Through which plane a ray comes under all, if it does: the farthest that it falls through.
 fn section_entry(origin: vec3f, direction: vec3f) -> SectionEntry {
     var entry = SectionEntry(0.0, 0.0);
     for (var k = 0u; k < frame.sections.count; k++) {
@@ -51,9 +52,9 @@ fn section_normal(point: vec3f) -> vec3f {
     return normal;
 }
 
-// The least depth at which a ray from `origin` enters what the planes leave, among rays whose unit directions differ
-// from `axis` by at most `spread`; negative if none enters.
-fn sections_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
+// The least depth at which a ray of a cone is under all planes. The rays start at `origin`, and their unit directions
+// differ from `axis` by at most `spread`. Negative if none gets there.
+fn cone_section_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     var entry = 0.0;
     for (var k = 0u; k < frame.sections.count; k++) {
         let plane = frame.sections.planes[k];
@@ -66,9 +67,9 @@ fn sections_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     return entry;
 }
 
-// The greatest distance along a unit direction at which a ray of a cone leaves what the planes leave. The rays' origins
-// are at most `width` from the axis through `origin`.
-fn sections_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
+// The greatest distance along a unit direction at which a ray of a cone rises over a plane. The rays' origins are at
+// most `width` from the axis through `origin`.
+fn cone_section_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
     var exit = 1e30;
     for (var k = 0u; k < frame.sections.count; k++) {
         let plane = frame.sections.planes[k];

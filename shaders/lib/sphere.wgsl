@@ -25,24 +25,24 @@ fn sphere_interval(origin: vec3f, direction: vec3f) -> vec2f {
     return vec2f(in_view(max(-b - half_chord, 0.0)), in_view(half_chord - b));
 }
 
-// The same for what the section planes leave of the sphere.
+// The same for the part of the sphere under all section planes.
 fn bounding_interval(origin: vec3f, direction: vec3f) -> vec2f {
-    return left_by_sections(sphere_interval(origin, direction), origin, direction);
+    return clip_interval(sphere_interval(origin, direction), origin, direction);
 }
 
-// The distance along a unit direction at which the last ray of a cone has left the sphere, or what the section planes
-// leave of it. The rays' origins are at most `width` from the axis through `origin`.
+// The distance along a unit direction at which the last ray of a cone has left the sphere, or is over a section plane.
+// The rays' origins are at most `width` from the axis through `origin`.
 fn bounding_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
     let from_center = in_scene(origin);
     let b = dot(from_center, direction);
     let aside = max(length(from_center - b * direction) - frame.march.scale * width, 0.0);
     let radius = frame.march.bounding_radius;
     let exit = in_view(sqrt(max(radius * radius - aside * aside, 0.0)) - b);
-    return min(exit, sections_exit(origin, direction, width));
+    return min(exit, cone_section_exit(origin, direction, width));
 }
 
-// The least distance at which a ray from `origin` enters what the section planes leave of the sphere, among rays whose unit directions
-// differ from `axis` by at most `spread`; negative if all rays miss.
+// The least distance at which a ray from `origin` is in the sphere and under all section planes, among rays whose unit
+// directions differ from `axis` by at most `spread`; negative if all rays miss.
 fn bounding_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     // The direction among them that passes nearest to the centre.
     let from_center = in_scene(origin);
@@ -52,6 +52,6 @@ fn bounding_entry(origin: vec3f, axis: vec3f, spread: f32) -> f32 {
     let edge = normalize(axis + 1.01 * spread / max(length(aside), 1e-30) * aside);
     let nearest = select(edge, toward, distance(toward, axis) <= spread);
     let interval = sphere_interval(origin, nearest);
-    let entry = sections_entry(origin, axis, spread);
+    let entry = cone_section_entry(origin, axis, spread);
     return select(max(interval.x, entry), -1.0, interval.y < interval.x || entry < 0.0);
 }

@@ -45,12 +45,10 @@ fn ray_end(surface: f32, colors: ColorPoint) -> RayEnd {
     return RayEnd(surface, select(surface, colors.depth, colors.depth > 0.0), false);
 }
 
-// Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, from the depth `clear`
-// up to which the ray is known to be clear.
-fn march(fractal: Fractal, ray: Ray, clear: f32) -> RayEnd {
-    let interval = bounding_interval(ray.origin, ray.direction);
+// Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, inside the ray's interval, from the
+// depth `clear` up to which the ray is known to be clear.
+fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: f32) -> RayEnd {
     var t = max(interval.x, clear);
-    let cut = section_entry(ray.origin, ray.direction);
     var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
     // Depth of the last point, and the distance that was missing to a hit there.
@@ -133,15 +131,15 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!site.is_there) { return; }
     let fractal = frame.formula.fractal;
     let ray = rays[site.ray];
+    let interval = bounding_interval(ray.origin, ray.direction);
+    let cut = section_entry(ray.origin, ray.direction);
     // A ray that enters the set through a section plane ends there. Estimates are no test for that: some are positive
     // inside. The loop has one turn without section planes, and one copy of the orbit's code.
-    let cut = section_entry(ray.origin, ray.direction);
-    let interval = bounding_interval(ray.origin, ray.direction);
     var is_cut = cut.depth > 0.0 && interval.x <= 1.000001 * cut.depth && interval.x <= interval.y;
     var end = RayEnd(cut.depth, cut.depth, true);
     var colors: OrbitColors;
     for (; ; ) {
-        if (!is_cut) { end = march(fractal, ray, queued.clear); }
+        if (!is_cut) { end = march(fractal, ray, interval, cut, queued.clear); }
         surface[site.index].x = bitcast<u32>(end.surface);
         if (end.surface == 0.0) { return; }
         colors = orbit_colors(fractal, ray.origin + end.colors * ray.direction);

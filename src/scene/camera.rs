@@ -8,6 +8,8 @@ use crate::precise::PrecisePoint;
 
 /// Smallest distance from eye to pivot, in scene units: below the deepest zoom that renders.
 pub const MIN_VIEW_UNIT: f64 = 1e-30;
+/// View unit, in scene units, below which near lengths are measured in view units.
+pub const CLOSE_VIEW_UNIT: f64 = 1e-3;
 
 /// A rotation as the document stores it: `[x, y, z, w]`, length 1 within 1e-6.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,6 +87,11 @@ impl Camera {
     /// Distance from eye to pivot, in scene units; never zero.
     pub fn view_unit(&self) -> f64 {
         (&self.pivot - &self.position).length().max(f64::MIN_POSITIVE)
+    }
+
+    /// True if near lengths are measured in view units, not in scene units.
+    pub fn is_close(&self) -> bool {
+        self.view_unit() < CLOSE_VIEW_UNIT
     }
 
     /// Half the picture's height at distance 1, for a width over height of `aspect`.

@@ -19,7 +19,7 @@ use crate::{
     formula::Fractal,
     precise::PrecisePoint,
     scene::{
-        camera::Camera,
+        camera::{CLOSE_VIEW_UNIT, Camera},
         description::Scene,
         lighting::MAX_LIGHTS,
         param::{self, Param, Scale},
@@ -30,9 +30,7 @@ use crate::{
 /// largest pictures.
 const EYE_GRAIN: f64 = 1e-8;
 
-/// View units below this are small, in scene units,
-const SMALL_UNIT: f64 = 1e-3;
-/// and within so many of them of the pivot is near by.
+/// In close views, points within so many view units of the pivot are near by.
 const NEAR_BY: f64 = 1e3;
 /// Numbers below this part of their parameter's step lie far below it.
 const FAR_BELOW: f64 = 1e-3;
@@ -239,7 +237,7 @@ impl Walk<'_> {
     ///
     /// The place as seen from the pivot, in view units, is blended by differences.
     fn near_by(&self, points: &Four<Place>) -> Option<PrecisePoint> {
-        let mut is_small = false;
+        let mut is_close = false;
         let mut offsets = [None; 4];
         for (offset, (point, seen)) in offsets.iter_mut().zip(points.iter().zip(&self.places)) {
             let (Some(point), Some(seen)) = (point, seen) else { continue };
@@ -247,10 +245,10 @@ impl Walk<'_> {
             if in_view.length() > NEAR_BY {
                 return None;
             }
-            is_small |= seen.unit < SMALL_UNIT;
+            is_close |= seen.unit < CLOSE_VIEW_UNIT;
             *offset = Some(in_view);
         }
-        if !is_small {
+        if !is_close {
             return None;
         }
         let along = |axis: usize| {

@@ -4,15 +4,13 @@
 
 use super::{
     palettes::{brass, dawn, ember, ice, moss, orchid, stone},
-    parts::{camera, key_and_rim, new_scene, of_formula},
+    parts::{camera, lit, new_scene, of_formula},
     preset::Preset,
 };
 use crate::{
     formula::table::Value,
     scene::{
-        background::Background,
         description::Scene,
-        lighting::Lights,
         surface::{ColorSource, Coloring, GradientStop, Surface},
     },
 };
@@ -47,18 +45,12 @@ fn scene(row: &Row) -> Scene {
     for (name, value) in (row.values)() {
         fractal.set(name, value);
     }
-    new_scene(Scene {
-        fractal,
-        camera: camera(row.eye, row.pivot, row.fov),
-        lights: Lights { environment: key_and_rim(), ..Lights::default() },
-        surface: Surface {
-            coloring: Coloring { source: row.source, repeats: row.repeats, ..Default::default() },
-            gradient: (row.palette)(),
-            ..Default::default()
-        },
-        background: Background::gradient([0.004, 0.006, 0.012], [0.02, 0.028, 0.045]),
-        ..Default::default()
-    })
+    let surface = Surface {
+        coloring: Coloring { source: row.source, repeats: row.repeats, ..Coloring::default() },
+        gradient: (row.palette)(),
+        ..Surface::default()
+    };
+    new_scene(lit(fractal, camera(row.eye, row.pivot, row.fov), surface))
 }
 
 /// A preset of a row, whose missing fields are the usual ones.

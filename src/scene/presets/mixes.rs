@@ -2,7 +2,7 @@
 
 use super::{
     palettes::{brass, dawn, ember, ice, moss, orchid},
-    parts::{camera, key_and_rim, new_scene, of_formula},
+    parts::{camera, lit, new_scene, of_formula, stops},
     preset::Preset,
 };
 use crate::{
@@ -13,9 +13,7 @@ use crate::{
     },
     precise::PrecisePoint,
     scene::{
-        background::Background,
         description::Scene,
-        lighting::Lights,
         surface::{Axis, ColorSource, Coloring, GradientStop, SecondLayer, SectionColors, Surface},
     },
 };
@@ -71,20 +69,11 @@ pub fn mixes() -> &'static [Preset] {
     ]
 }
 
-/// What all of them have.
-fn basis(fractal: Fractal, eye: [f64; 3], gradient: Vec<GradientStop>, repeats: f64) -> Scene {
-    Scene {
-        fractal,
-        camera: camera(eye, [0.0; 3], 40.0),
-        lights: Lights { environment: key_and_rim(), ..Lights::default() },
-        surface: Surface {
-            coloring: Coloring { repeats, ..Coloring::default() },
-            gradient,
-            ..Surface::default()
-        },
-        background: Background::gradient([0.004, 0.006, 0.012], [0.02, 0.028, 0.045]),
-        ..Scene::default()
-    }
+/// A scene seen from `eye`, its surface coloured by the orbits' distance to the origin.
+fn seen_from(eye: [f64; 3], fractal: Fractal, gradient: Vec<GradientStop>, repeats: f64) -> Scene {
+    let coloring = Coloring { repeats, ..Coloring::default() };
+    let surface = Surface { coloring, gradient, ..Surface::default() };
+    lit(fractal, camera(eye, [0.0; 3], 40.0), surface)
 }
 
 /// A hybrid of steps with their repeats; a test checks the ids.
@@ -109,8 +98,9 @@ fn slice() -> Scene {
     let mut fractal = cut(of_formula("mandelbulb"), [0.0, 0.0, 1.0], 0.07);
     fractal.set("power", 2.0);
     fractal.iterations = 40;
-    let mut scene = basis(fractal, [-0.5, -1.75, 2.4], ice(), 1.2);
-    scene.camera = camera([-0.6, -2.35, 1.55], [-0.47, -0.05, -0.12], 42.0);
+    let eye = [-0.6, -2.35, 1.55];
+    let mut scene = seen_from(eye, fractal, ice(), 1.2);
+    scene.camera = camera(eye, [-0.47, -0.05, -0.12], 42.0);
     scene.surface.sections = SectionColors { repeats: 0.22, inside: [0.02, 0.02, 0.03] };
     scene
 }
@@ -118,7 +108,7 @@ fn slice() -> Scene {
 fn star_chamber() -> Scene {
     let third = 1.0 / 3.0_f64.sqrt();
     let fractal = cut(of_formula("menger_sponge"), [third, -third, third], 0.0);
-    let mut scene = basis(fractal, [2.25, -2.9, 2.5], brass(), 1.4);
+    let mut scene = seen_from([2.25, -2.9, 2.5], fractal, brass(), 1.4);
     scene.surface.sections.inside = [0.55, 0.48, 0.36];
     scene
 }
@@ -126,42 +116,42 @@ fn star_chamber() -> Scene {
 fn agate() -> Scene {
     let mut fractal = cut(of_formula("quaternion_julia"), [0.0, -1.0, 0.0], 0.12);
     fractal.set("constant", [-0.2, 0.8, 0.0, 0.0]);
-    let mut scene = basis(fractal, [1.7, -3.3, 1.3], orchid(), 1.0);
+    let mut scene = seen_from([1.7, -3.3, 1.3], fractal, orchid(), 1.0);
     scene.surface.sections = SectionColors { repeats: 0.35, inside: [0.10, 0.03, 0.12] };
     scene
 }
 
 fn woven() -> Scene {
     let fractal = hybrid_of(&[("amazing_surf", 1), ("mandelbulb", 1)]);
-    basis(fractal, [0.18, -0.42, 0.18], dawn(), 1.4)
+    seen_from([0.18, -0.42, 0.18], fractal, dawn(), 1.4)
 }
 
 fn football() -> Scene {
     let fractal = hybrid_of(&[("kaleidoscopic_icosahedron", 3), ("mandelbulb", 1)]);
-    basis(fractal, [1.15, -2.55, 1.15], moss(), 1.4)
+    seen_from([1.15, -2.55, 1.15], fractal, moss(), 1.4)
 }
 
 fn scaffold() -> Scene {
     let fractal = hybrid_of(&[("menger_sponge", 2), ("mandelbulb", 1)]);
-    basis(fractal, [2.1, -3.5, 1.9], dawn(), 1.4)
+    seen_from([2.1, -3.5, 1.9], fractal, dawn(), 1.4)
 }
 
 fn snails() -> Scene {
     let fractal = hybrid_of(&[("mandelbulb", 1), ("quaternion_mandelbrot", 1)]);
-    basis(fractal, [1.2, -3.0, 1.0], ember(), 1.2)
+    seen_from([1.2, -3.0, 1.0], fractal, ember(), 1.2)
 }
 
 fn rotunda() -> Scene {
     let fractal = hybrid_of(&[("polar_repeat", 1), ("menger_sponge", 1)]);
-    basis(fractal, [2.0, -3.9, 2.4], brass(), 1.4)
+    seen_from([2.0, -3.9, 2.4], fractal, brass(), 1.4)
 }
 
 fn snow_line() -> Scene {
-    let mut scene = basis(of_formula("benesi_pine_tree"), [1.45, -3.2, 1.4], brass(), 1.3);
+    let mut scene = seen_from([1.45, -3.2, 1.4], of_formula("benesi_pine_tree"), brass(), 1.3);
     scene.surface.second_layer = SecondLayer {
         amount: 0.75,
         coloring: Coloring { source: ColorSource::Normal, axis: Axis::Z, ..Coloring::default() },
-        gradient: super::parts::stops(&[
+        gradient: stops(&[
             (0.0, [0.05, 0.03, 0.03]),
             (0.66, [0.14, 0.09, 0.07]),
             (0.74, [0.86, 0.92, 0.98]),

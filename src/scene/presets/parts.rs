@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::{
     formula::{self, Fractal},
     scene::{
+        background::Background,
         camera::Camera,
         description::Scene,
         indirect::{Indirect, IndirectKind},
@@ -36,6 +37,18 @@ pub(super) fn new_scene(scene: Scene) -> Scene {
             ..scene.indirect
         },
         ..scene
+    }
+}
+
+/// `fractal` in the light of [`key_and_rim`], on a dark background.
+pub(super) fn lit(fractal: Fractal, camera: Camera, surface: Surface) -> Scene {
+    Scene {
+        fractal,
+        camera,
+        lights: Lights { environment: key_and_rim(), ..Lights::default() },
+        surface,
+        background: Background::gradient([0.004, 0.006, 0.012], [0.02, 0.028, 0.045]),
+        ..Scene::default()
     }
 }
 

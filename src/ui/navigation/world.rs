@@ -63,6 +63,8 @@ pub struct CameraStatus {
     pub footprint: f64,
     /// True if a nearer eye would show rounding errors instead of detail.
     pub at_precision_limit: bool,
+    /// Radius of the fractal's bounding sphere, in scene units.
+    pub bounding_radius: f64,
     /// True if the last zoom found no surface in the picture to come nearer to.
     pub nothing_ahead: bool,
 }
@@ -104,6 +106,7 @@ impl World<'_> {
             distance,
             footprint: distance * self.cone(camera),
             at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,
+            bounding_radius: self.field.bounding_radius(),
             nothing_ahead: false,
         }
     }

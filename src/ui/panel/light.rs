@@ -33,7 +33,7 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
                 if reach.on_hover_text("Only near surfaces cast shadows, up to the shadow reach below. Brightens the picture.").changed() {
                     light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
                 }
-                if light.casts_shadows && light.shadow_reach.is_none() && camera.view_unit() < SMALL_VIEW_UNIT {
+                if light.casts_shadows && light.shadow_reach.is_none() && camera.is_close() {
                     ui.label(RichText::new("At deep zooms, most of the view is in shadow.").small().color(theme::TEXT_DIM));
                 }
             });
@@ -63,8 +63,6 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
     ball
 }
 
-/// View unit, in scene units, below which near lights are shown in view units.
-const SMALL_VIEW_UNIT: f64 = 1e-3;
 /// Maximum distance of a light that is shown in view units.
 const NEAR: f64 = 1e3;
 /// Intensity of a near point light in view units; in scene units it could be as small as 1e-40.
@@ -75,11 +73,11 @@ const NEAR_POINT_INTENSITY: Param = Param {
 
 /// The distance, in scene units, for which the panel shows a point light's strength.
 ///
-/// One view unit if the view unit is small and the light is near, otherwise one scene unit.
+/// One view unit if the view is close and the light is near, otherwise one scene unit.
 fn reference_distance(light: &PointLight, camera: &Camera) -> f64 {
     let unit = camera.view_unit();
     let distance = (&light.position - &camera.position).length();
-    if unit < SMALL_VIEW_UNIT && distance < NEAR * unit { unit } else { 1.0 }
+    if camera.is_close() && distance < NEAR * unit { unit } else { 1.0 }
 }
 
 /// Strength, shadows and position of a point light.

@@ -27,8 +27,6 @@ pub(in crate::ui) const SECTION: Section = Section {
     show,
 };
 
-/// View unit, in scene units, below which positions are shown in view units.
-const SMALL_VIEW_UNIT: f64 = 1e-3;
 /// Rounding of positions, over the unit in which they are shown.
 const GRAIN: f64 = 1e-6;
 
@@ -53,7 +51,7 @@ const NEAR_POSITION: Param = Param {
 
 /// The planes, a button for another one, and the colours.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    let radius = cx.scene.fractal.distance_field().bounding_radius();
+    let radius = cx.camera_status.map_or(1.0, |status| status.bounding_radius);
     let camera = &cx.scene.camera;
     let planes = &mut cx.scene.fractal.section_planes;
     let mut removed = None;
@@ -116,10 +114,8 @@ fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
 
 /// Moves the plane along its normal.
 fn position(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera, radius: f64) {
-    let unit = camera.view_unit();
-    let is_close = unit < SMALL_VIEW_UNIT;
-    let (param, length, center) = if is_close {
-        (NEAR_POSITION, unit, camera.pivot.clone())
+    let (param, length, center) = if camera.is_close() {
+        (NEAR_POSITION, camera.view_unit(), camera.pivot.clone())
     } else {
         (Param { min: -radius, max: radius, ..POSITION }, 1.0, PrecisePoint::ORIGIN)
     };
@@ -154,8 +150,7 @@ fn new_plane(planes: &[SectionPlane], camera: &Camera) -> SectionPlane {
         .max_by(|a, b| toward_eye.dot(*a).abs().total_cmp(&toward_eye.dot(*b).abs()))
         .unwrap_or(DVec3::Z);
     let direction = axis * if toward_eye.dot(axis) < 0.0 { -1.0 } else { 1.0 };
-    let is_close = camera.view_unit() < SMALL_VIEW_UNIT;
-    let point = if is_close { camera.pivot.clone() } else { PrecisePoint::ORIGIN };
+    let point = if camera.is_close() { camera.pivot.clone() } else { PrecisePoint::ORIGIN };
     let bands = param::SECTION_BANDS.default.min(camera.view_unit());
     SectionPlane { point, direction: direction.to_array(), bands }
 }
