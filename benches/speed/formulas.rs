@@ -165,11 +165,17 @@ fn compilation_times(arguments: &Arguments) -> Result<Vec<f64>, Failure> {
     let mut runs: Vec<Vec<f64>> = Vec::new();
     for _ in 0..arguments.rounds.clamp(1, 3) {
         let mut process = Command::new(std::env::current_exe()?);
-        process.arg("--compile-once").env("MESA_SHADER_CACHE_DISABLE", "true");
+        process
+            .arg("--compile-once")
+            .env("MESA_SHADER_CACHE_DISABLE", "true")
+            .env("__GL_SHADER_DISK_CACHE", "0");
         if let Some(name) = arguments.adapter_name() {
             process.args(["--adapter", &name]);
         }
         let output = process.output()?;
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+        }
         let text = String::from_utf8_lossy(&output.stdout);
         let line = text.lines().last().ok_or("the compilation printed nothing")?;
         runs.push(serde_json::from_str(line)?);

@@ -1,4 +1,4 @@
-//! What an orbit step of a formula's text costs, beside hand-written WGSL and beside the step without its derivative.
+//! What an orbit step of a formula's text costs, against hand-written WGSL and against its orbit without a derivative.
 //!
 //! All kernels of a row follow the same orbits in turn, so that their times compare.
 
@@ -16,28 +16,49 @@ use super::{
     timed_kernel::{TimedKernel, median_secs, pipeline},
 };
 
-/// Threads: each follows 16 orbits.
+/// Workgroups of 64 threads; each thread follows 16 orbits.
 const WORKGROUPS: u32 = 96;
-/// Steps of the longest orbits.
+/// Iterations of the scenes.
 const ITERATIONS: u32 = 100;
 /// The hand-written formulas.
 const WRITTEN: &str = include_str!("written.wgsl");
-/// Those formulas, each with the parameters that `written.wgsl` reads, and the part of a unit that its points
-/// are spread over.
-const BESIDE: [(&str, &str, [[f32; 4]; 5], f32); 3] = [
-    ("mandelbox", "mandelbox", [[2.0, 1.0, 0.5, 1.0], [1e4; 4], [0.0; 4], [0.0; 4], [0.0; 4]], 2.0),
-    (
-        "menger_sponge",
-        "menger",
-        [[3.0; 4], [1e4; 4], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
-        0.9,
-    ),
-    (
-        "quaternion_julia",
-        "quaternion_julia",
-        [[0.0; 4], [16.0; 4], [-0.125, -0.256, 0.847, 0.0895], [0.0; 4], [0.0; 4]],
-        0.5,
-    ),
+
+/// A formula that `written.wgsl` has too.
+struct Written {
+    formula: &'static str,
+    /// Its function there.
+    function: &'static str,
+    /// What that function reads: the formula's default values, and the square of its bailout.
+    params: [[f32; 4]; 5],
+    /// Half the side of the cube that the orbits start in.
+    half_side: f32,
+}
+
+const HAND_WRITTEN: [Written; 3] = [
+    Written {
+        formula: "mandelbox",
+        function: "mandelbox",
+        params: [[2.0, 1.0, 0.5, 1.0], [1e4; 4], [0.0; 4], [0.0; 4], [0.0; 4]],
+        half_side: 2.0,
+    },
+    Written {
+        formula: "menger_sponge",
+        function: "menger",
+        params: [
+            [3.0; 4],
+            [1e4; 4],
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+        ],
+        half_side: 0.9,
+    },
+    Written {
+        formula: "quaternion_julia",
+        function: "quaternion_julia",
+        params: [[0.0; 4], [16.0; 4], [-0.125, -0.256, 0.847, 0.0895], [0.0; 4], [0.0; 4]],
+        half_side: 0.5,
+    },
 ];
 
 /// One formula.
@@ -45,16 +66,16 @@ const BESIDE: [(&str, &str, [[f32; 4]; 5], f32); 3] = [
 pub struct Row {
     /// The formula's id.
     pub formula: &'static str,
-    /// What the first time is compared with.
-    pub beside: &'static str,
-    /// Time of the estimate over that of the other kernel.
+    /// What its times are compared with.
+    pub baseline: &'static str,
+    /// Time of the estimate over the baseline's.
     pub estimate: f64,
-    /// Time of the gradient over it; none beside hand-written kernels, which have none.
+    /// Time of the gradient over the baseline's; none for hand-written baselines, which have none.
     pub gradient: Option<f64>,
 }
 
-/// A compute shader that adds up `call` at points of a small region.
-fn text(call: &str, spread: f32) -> String {
+/// A compute shader that adds up `call` at points of a cube about the origin.
+fn shader_text(call: &str, half_side: f32) -> String {
     format!(
         "// uses: formula, types/frame_uniforms
 
@@ -68,7 +89,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {{
     var sum = 0.0;
     for (var k = 0u; k < 16u; k++) {{
         let place = vec3f(vec3u(id.x * 16u + k) * vec3u(7919u, 104729u, 1299709u) % 65536u) / 65536.0;
-        let point = {spread:?} * (2.0 * place - 1.0);
+        let point = {half_side:?} * (2.0 * place - 1.0);
         sum += {call};
     }}
     sums[id.x] = sum;
@@ -77,9 +98,9 @@ fn main(@builtin(global_invocation_id) id: vec3u) {{
     )
 }
 
-/// The orbit alone, without derivatives.
-const VALUES: &str = "
-fn value_only(fractal: Fractal, point: vec3f) -> f32 {
+/// Follows an orbit without derivatives.
+const ORBIT_ALONE: &str = "
+fn orbit_alone(fractal: Fractal, point: vec3f) -> f32 {
     load_slots();
     let c = addend(fractal, point);
     var z = initial(point);
@@ -90,17 +111,17 @@ fn value_only(fractal: Fractal, point: vec3f) -> f32 {
 }
 ";
 
-/// The kernel of a text in the frame of `fractal`; `given`: the parameters of a hand-written one.
-fn timed(gpu: &Gpu, fractal: &Fractal, text: &str, given: Option<&[[f32; 4]; 5]>) -> TimedKernel {
+/// The kernel of a shader text in the frame of `fractal`; `params`: what a hand-written one reads.
+fn timed(gpu: &Gpu, fractal: &Fractal, text: &str, params: Option<&[[f32; 4]; 5]>) -> TimedKernel {
     let scene = Scene { fractal: fractal.with_iterations(ITERATIONS), ..Scene::default() };
     let inputs = Inputs::new(&scene, Region::whole([64, 64]));
     // The texts of benchmarks last as long as the program.
     let text = Box::leak(text.to_owned().into_boxed_str());
     let kernel = inputs.formula.kernel;
     let module = shaders::joined("steps", Some(kernel), text).create(&gpu.device);
-    let given: Vec<_> = given
-        .map(|given| {
-            let bytes: Vec<u8> = given.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    let params: Vec<_> = params
+        .map(|params| {
+            let bytes: Vec<u8> = params.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
             probe::filled(gpu, wgpu::BufferUsages::STORAGE, &bytes)
         })
         .into_iter()
@@ -108,29 +129,29 @@ fn timed(gpu: &Gpu, fractal: &Fractal, text: &str, given: Option<&[[f32; 4]; 5]>
     // A binding that a kernel does not read is in no layout: hand-written ones read no table.
     let files = kernel.files().files;
     let reads_table =
-        given.is_empty() && files.iter().any(|file| file.text.contains("table.slots"));
+        params.is_empty() && files.iter().any(|file| file.text.contains("table.slots"));
     let frame = &probe::bindings(gpu, &inputs)[..if reads_table { 2 } else { 1 }];
-    TimedKernel::new(gpu, pipeline(gpu, &module, &kernel), WORKGROUPS, [frame, &given])
+    TimedKernel::new(gpu, pipeline(gpu, &module, &kernel), WORKGROUPS, [frame, &params])
 }
 
-/// Measures the hand-written formulas, then all whose derivatives are derived.
+/// Measures the hand-written formulas, then all whose derivative the program derives.
 ///
 /// # Errors
 /// If a formula is missing.
 pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Row>, Failure> {
     let mut rows = Vec::new();
-    for (id, function, given, spread) in BESIDE {
-        let fractal = Fractal::new(formula::find(id).ok_or("a formula is missing")?);
-        let own = text("distance_estimate(fractal, point)", spread);
-        let written = text(&format!("{function}(point)"), spread) + WRITTEN;
+    for Written { formula, function, params, half_side } in HAND_WRITTEN {
+        let fractal = Fractal::new(formula::find(formula).ok_or("a formula is missing")?);
+        let own = shader_text("distance_estimate(fractal, point)", half_side);
+        let written = shader_text(&format!("{function}(point)"), half_side) + WRITTEN;
         let kernels =
-            [timed(gpu, &fractal, &own, None), timed(gpu, &fractal, &written, Some(&given))];
+            [timed(gpu, &fractal, &own, None), timed(gpu, &fractal, &written, Some(&params))];
         let [own, other] = median_secs(&kernels, rounds)[..] else {
             return Err("two kernels".into());
         };
         rows.push(Row {
-            formula: id,
-            beside: "hand-written WGSL",
+            formula,
+            baseline: "hand-written WGSL",
             estimate: own / other,
             gradient: None,
         });
@@ -142,19 +163,20 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Row>, Failure> {
         if !derived {
             continue;
         }
-        let spread = 0.4 * fractal.distance_field().bounding_radius() as f32;
+        let half_side = 0.4 * fractal.distance_field().bounding_radius() as f32;
         let calls = [
-            "value_only(fractal, point)",
+            "orbit_alone(fractal, point)",
             "distance_estimate(fractal, point)",
             "dot(distance_gradient(fractal, point), vec3f(1.0))",
         ];
-        let kernels = calls.map(|call| timed(gpu, &fractal, &(text(call, spread) + VALUES), None));
+        let kernels = calls
+            .map(|call| timed(gpu, &fractal, &(shader_text(call, half_side) + ORBIT_ALONE), None));
         let [value, estimate, gradient] = median_secs(&kernels, rounds)[..] else {
             return Err("three kernels".into());
         };
         rows.push(Row {
             formula: id,
-            beside: "its value alone",
+            baseline: "its orbit alone",
             estimate: estimate / value,
             gradient: Some(gradient / value),
         });
@@ -165,8 +187,8 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Row>, Failure> {
 /// Prints the rows.
 pub fn print(rows: &[Row]) {
     println!("\nsteps: what an estimate and a gradient cost, over another kernel");
-    for Row { formula, beside, estimate, gradient } in rows {
+    for Row { formula, baseline, estimate, gradient } in rows {
         let gradient = gradient.map_or("–".to_owned(), |gradient| format!("{gradient:.2}"));
-        println!("  {formula:<26}{beside:<20}{estimate:>8.2}{gradient:>8}");
+        println!("  {formula:<26}{baseline:<20}{estimate:>8.2}{gradient:>8}");
     }
 }

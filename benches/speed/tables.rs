@@ -57,11 +57,11 @@ pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
         tables.push(("start", table));
     }
     if !report.step_costs.is_empty() {
-        let mut table = head(&["formula", "beside", "estimate", "gradient"]);
+        let mut table = head(&["formula", "baseline", "estimate", "gradient"]);
         for row in &report.step_costs {
             let gradient =
                 row.gradient.map_or("–".to_owned(), |gradient| format!("{gradient:.2}"));
-            let cells = [row.formula.into(), row.beside.into(), format!("{:.2}", row.estimate)];
+            let cells = [row.formula.into(), row.baseline.into(), format!("{:.2}", row.estimate)];
             line(&mut table, cells.into_iter().chain([gradient]));
         }
         tables.push(("steps", table));
