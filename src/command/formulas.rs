@@ -42,13 +42,16 @@ pub fn list(_arguments: FormulasArguments) -> Result<(), Failure> {
 /// Runs `mandelight formula …`.
 pub fn run(arguments: FormulaArguments) -> Result<(), Failure> {
     let FormulaCommand::Check { file } = arguments.command;
-    let formula = read(&file).map_err(Failure::usage)?;
+    let formula = read(&file, own::of_text).map_err(Failure::usage)?;
     let fields = formula.fields().iter().map(|field| format!(" {}", field.name));
-    print(&format!("{}: right; its fields:{}\n", formula.name(), fields.collect::<String>()))
+    print(&format!("{}: valid; fields:{}\n", formula.name(), fields.collect::<String>()))
 }
 
-/// Reads the formula of a text in a file.
-pub fn read(file: &std::path::Path) -> Result<FormulaRef, String> {
+/// Reads the formula of a text in a file by `parse`: [`own::of_text`], or [`own::alone`] if it is to draw alone.
+pub fn read(
+    file: &std::path::Path,
+    parse: fn(&str) -> Result<FormulaRef, TextError>,
+) -> Result<FormulaRef, String> {
     let name = file.display();
     let length = fs::metadata(file).map_err(|error| format!("{name}: {error}"))?.len();
     let most = formula::language::syntax::MAX_TEXT_BYTES as u64;
@@ -56,7 +59,7 @@ pub fn read(file: &std::path::Path) -> Result<FormulaRef, String> {
         return Err(format!("{name}: the text has {length} bytes, and a formula may have {most}"));
     }
     let text = fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
-    own::of_text(&text).map_err(|error| located(&name.to_string(), &text, &error))
+    parse(&text).map_err(|error| located(&name.to_string(), &text, &error))
 }
 
 /// The error as compilers show one: the place, the message, the line and a mark below it.

@@ -7,6 +7,7 @@ use mandelight::{
     formula::{
         HybridStep, HybridSteps,
         hybrid::{self, REPEATS},
+        own,
         section::{MAX_SECTION_PLANES, SectionPlane},
     },
     scene::{Axis, Fractal, PrecisePoint, Scene},
@@ -23,8 +24,8 @@ pub struct OtherFractal {
     /// Draw a hybrid of these steps, seen whole: formulas in turn, with repeats, such as rotate,mandelbox*2,mandelbulb
     #[arg(long, value_name = "STEPS", value_delimiter = ',', conflicts_with = "formula")]
     hybrid: Vec<String>,
-    /// Cut the set open by planes instead of the scene's own: z=0 cuts away what is above, -z=0 what is below; up to
-    /// three, such as z=0.2,-y=0
+    /// Cut the set open by planes instead of the scene's own: z=0.2 cuts away what is above z = 0.2, -z=0.2 what is
+    /// below; up to three, such as z=0.2,-y=0
     #[arg(long, value_name = "PLANES", value_delimiter = ',', allow_hyphen_values = true)]
     cut: Vec<String>,
 }
@@ -50,7 +51,7 @@ impl OtherFractal {
 
     fn with_fractal(&self, scene: Scene) -> Result<Scene, Failure> {
         let fractal = match &self.formula {
-            Some(file) => Fractal::new(formulas::read(file).map_err(Failure::usage)?),
+            Some(file) => Fractal::new(formulas::read(file, own::alone).map_err(Failure::usage)?),
             None if self.hybrid.is_empty() => return Ok(scene),
             None => {
                 let steps = self.hybrid.iter().map(|text| step(text)).collect::<Result<_, _>>()?;

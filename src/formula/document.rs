@@ -14,12 +14,18 @@ use serde::{
 };
 
 use super::{
-    FormulaRef, Fractal, HybridStep, HybridSteps, all, hybrid, own,
+    FormulaRef, Fractal, HybridStep, HybridSteps, all, hybrid,
+    language::TextError,
+    own,
     table::{Choice, Field, Kind, Value},
 };
 
 /// Fields of every formula.
 const SHARED: [&str; 4] = ["formula", "iterations", "bailout", "section_planes"];
+/// The names of what only hybrids have.
+const HYBRID_ONLY: [&str; 2] = ["loop_start", "steps"];
+/// The names of what the Julia form has; those hybrids have it that add a constant.
+const JULIA: [&str; 2] = ["julia", "julia_constant"];
 /// What a document calls the formula of a hybrid.
 const HYBRID: &str = "hybrid";
 
@@ -87,11 +93,7 @@ impl<'de> Visitor<'de> for FractalVisitor {
         let (mut loop_start, mut steps, mut section_planes) = (None, None, None);
         let mut values: Vec<(&'static Field, Value)> = Vec::new();
         loop {
-            let formula = match named {
-                Some(Named::Formula(formula)) => Some(formula),
-                _ => None,
-            };
-            let Some(name) = map.next_key_seed(NameSeed { formula })? else { break };
+            let Some(name) = map.next_key_seed(NameSeed { named })? else { break };
             match name {
                 Name::Formula => once("formula", &mut named, map.next_value::<Named>()?)?,
                 Name::Iterations => once("iterations", &mut iterations, map.next_value()?)?,
@@ -105,7 +107,7 @@ impl<'de> Visitor<'de> for FractalVisitor {
                     if values.iter().any(|(known, _)| known.name == field.name) {
                         return Err(A::Error::duplicate_field(field.name));
                     }
-                    let is_certain = formula.is_some();
+                    let is_certain = matches!(named, Some(Named::Formula(_)));
                     values.push((field, map.next_value_seed(ValueSeed { field, is_certain })?));
                 }
             }
@@ -139,7 +141,7 @@ impl<'de> Visitor<'de> for FractalVisitor {
                         field.name,
                         own.len()
                     )),
-                    _ => unknown(field.name, fractal.formula()),
+                    _ => unknown(field.name, names(fractal.formula()), fractal.hybrid().is_some()),
                 });
             }
         }
@@ -237,8 +239,11 @@ impl<'de> DeserializeSeed<'de> for StepSeed {
     type Value = HybridStep;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<HybridStep, D::Error> {
-        let formula = deserializer
-            .deserialize_any(FormulaVisitor { all: || hybrid::step_formulas().collect() })?;
+        let formula = deserializer.deserialize_any(FormulaVisitor {
+            all: || hybrid::step_formulas().collect(),
+            other: None,
+            read: own::of_text,
+        })?;
         hybrid::step(formula).map_err(D::Error::custom)
     }
 }
@@ -288,7 +293,7 @@ enum Name {
 /// Reads a name, so that an unknown one is an error at its own path.
 struct NameSeed {
     /// None before the document named the formula.
-    formula: Option<FormulaRef>,
+    named: Option<Named>,
 }
 
 impl<'de> DeserializeSeed<'de> for NameSeed {
@@ -302,27 +307,35 @@ impl<'de> DeserializeSeed<'de> for NameSeed {
             "section_planes" => Name::SectionPlanes,
             "loop_start" => Name::LoopStart,
             "steps" => Name::Steps,
-            name => Name::Own(field_called(name, self.formula)?),
+            name => Name::Own(field_called(name, self.named)?),
         })
     }
 }
 
-/// The field called `name` of `formula`, or of the first formula with such a field.
+/// The field called `name` of the formula, or of the first formula with such a field.
 ///
 /// A document may name a field before its formula. Formulas that share a field name also share the kind of
 /// its values, but for the length of a vector; a test checks that.
-fn field_called<E: Error>(name: &str, formula: Option<FormulaRef>) -> Result<&'static Field, E> {
+fn field_called<E: Error>(name: &str, named: Option<Named>) -> Result<&'static Field, E> {
     let fields = |formula: FormulaRef| formula.fields().iter().find(|field| field.name == name);
-    let found = match formula {
-        Some(formula) => fields(formula),
-        None => all().find_map(fields),
+    let found = match named {
+        Some(Named::Formula(formula)) => fields(formula),
+        _ => all().find_map(fields),
     };
-    found.ok_or_else(|| unknown(name, formula.unwrap_or_default()))
+    found.ok_or_else(|| match named {
+        Some(Named::Hybrid) => unknown(name, JULIA.into_iter(), true),
+        Some(Named::Formula(formula)) => unknown(name, names(formula), false),
+        None => unknown(name, names(FormulaRef::default()), false),
+    })
 }
 
-fn unknown<E: Error>(name: &str, formula: FormulaRef) -> E {
-    let own = formula.fields().iter().map(|field| field.name);
-    unknown_of(name, SHARED.into_iter().chain(own))
+fn names(formula: FormulaRef) -> impl Iterator<Item = &'static str> {
+    formula.fields().iter().map(|field| field.name)
+}
+
+fn unknown<E: Error>(name: &str, own: impl Iterator<Item = &'static str>, is_hybrid: bool) -> E {
+    let of_hybrid = HYBRID_ONLY.into_iter().filter(|_| is_hybrid);
+    unknown_of(name, SHARED.into_iter().chain(of_hybrid).chain(own))
 }
 
 fn unknown_of<E: Error>(name: &str, known: impl Iterator<Item = &'static str>) -> E {
@@ -396,10 +409,15 @@ impl<'de> Deserialize<'de> for FormulaRef {
 struct FormulaVisitor {
     /// The formulas that an id may name.
     all: fn() -> Vec<FormulaRef>,
+    /// A name that is allowed besides.
+    other: Option<&'static str>,
+    /// Reads a text.
+    read: fn(&str) -> Result<FormulaRef, TextError>,
 }
 
 /// Reads a formula that draws alone.
-const FORMULA: FormulaVisitor = FormulaVisitor { all: || all().collect() };
+const FORMULA: FormulaVisitor =
+    FormulaVisitor { all: || all().collect(), other: Some(HYBRID), read: own::alone };
 
 impl<'de> Visitor<'de> for FormulaVisitor {
     type Value = FormulaRef;
@@ -411,7 +429,8 @@ impl<'de> Visitor<'de> for FormulaVisitor {
     fn visit_str<E: Error>(self, id: &str) -> Result<FormulaRef, E> {
         let all = (self.all)();
         all.iter().copied().find(|formula| formula.id() == id).ok_or_else(|| {
-            let ids: Vec<_> = all.iter().map(|formula| formula.id()).collect();
+            let ids: Vec<_> =
+                self.other.into_iter().chain(all.iter().map(|formula| formula.id())).collect();
             E::invalid_value(Unexpected::Str(id), &ids.join(" or ").as_str())
         })
     }
@@ -425,6 +444,24 @@ impl<'de> Visitor<'de> for FormulaVisitor {
             once("text", &mut found, map.next_value::<String>()?)?;
         }
         let text = found.ok_or_else(|| A::Error::missing_field("text"))?;
-        own::of_text(&text).map_err(A::Error::custom)
+        (self.read)(&text).map_err(A::Error::custom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::language::TextFormula;
+
+    #[test]
+    fn no_parameter_takes_the_name_of_another_field() {
+        for name in ["formula", "repeats"].into_iter().chain(SHARED).chain(HYBRID_ONLY).chain(JULIA)
+        {
+            let text = format!(
+                "name \"x\"; about \"x\"; param {name} = 1 from 0 to 2 label \"X\"; step {{ z = z; }}"
+            );
+            let error = TextFormula::new("x", &text).expect_err(name);
+            assert!(error.message.contains(name), "{error}");
+        }
     }
 }

@@ -5,7 +5,6 @@
 //! and estimate distances as the leading step's formula says.
 
 use std::{
-    any::Any,
     collections::HashMap,
     sync::{Arc, LazyLock, Mutex, PoisonError},
 };
@@ -19,12 +18,15 @@ use super::{
         kernel::Compiled,
         sequence::{MAX_STEPS, Sequence, SequenceStep},
         steps::Steps,
-        text_formula::{julia_constant, julia_fields, kept},
+        text_formula::{as_text, julia_constant, julia_fields, kept},
         uniforms::MAX_SLOTS,
     },
+    own,
     param::{ITERATIONS, params},
     table::Field,
 };
+
+pub use super::language::text_formula::is_transform;
 
 params! {
     /// The numbers of a hybrid and of its steps.
@@ -46,7 +48,7 @@ const MAX_SETS: usize = 1000;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HybridError {
     /// The number of steps.
-    #[error("has {0} steps; a hybrid has 1 to {MAX_STEPS}")]
+    #[error("a hybrid has 1 to {MAX_STEPS} steps, and this one has {0}")]
     Count(usize),
     /// Nothing is left for the loop.
     #[error("loop_start is {start}, but there are {steps} steps: the loop would be empty")]
@@ -65,7 +67,7 @@ pub enum HybridError {
     #[error("`{0}` cannot be a step of a hybrid")]
     NoText(&'static str),
     /// A formula whose state needs dr, among formulas without it.
-    #[error("the state of `{0}` depends on dr, which another step does not give: give it there")]
+    #[error("`{0}` reads dr, which another step does not assign: assign dr in every step")]
     NeedsDerivative(&'static str),
     /// Values that the host computes.
     #[error("`{0}` computes too many values from its parameters")]
@@ -105,23 +107,21 @@ pub fn step_of(fractal: &Fractal) -> Result<HybridStep, HybridError> {
     Ok(step)
 }
 
-/// The fractal that a step's formula draws alone, with the step's values; none for transforms.
-pub fn alone(step: &HybridStep) -> Option<Fractal> {
+/// The fractal that a step's formula draws alone, with the step's values and those of `before` that fit.
+///
+/// None for transforms.
+pub fn alone(before: &Fractal, step: &HybridStep) -> Option<Fractal> {
+    if is_transform(step.formula()) {
+        return None;
+    }
+    // A step may stand for a formula with kernels of its own.
     let id = step.formula().id();
-    let formula = all().find(|one| one.id() == id).or_else(|| {
-        // A typed formula is in no list.
-        text_of(step).filter(|text| text.text().is_some()).map(|_| step.formula())
-    })?;
-    let mut fractal = Fractal::new(formula);
+    let formula = all().find(|one| one.id() == id).unwrap_or(step.formula());
+    let mut fractal = own::with_values_of(formula, before);
     for (field, value) in step.fields() {
         fractal.set(field.name, value.clone());
     }
     Some(fractal)
-}
-
-/// Whether a formula only transforms space.
-pub fn is_transform(formula: FormulaRef) -> bool {
-    as_text(formula).is_some_and(|text| text.checked().growth == Growth::None)
 }
 
 /// A hybrid of `steps`, with default values.
@@ -150,10 +150,6 @@ pub fn with_steps(before: &Fractal, steps: HybridSteps) -> Result<Fractal, Hybri
         }
     }
     Ok(new)
-}
-
-fn as_text(formula: FormulaRef) -> Option<&'static TextFormula> {
-    (formula.0 as &dyn Any).downcast_ref()
 }
 
 fn text_of(step: &HybridStep) -> Option<&'static TextFormula> {

@@ -10,7 +10,7 @@ use std::{
 
 use super::{
     FormulaRef, Fractal,
-    language::{TextError, TextFormula, tree::Span},
+    language::{TextError, TextFormula, text_formula::is_transform, tree::Span},
     table::{Field, Value},
 };
 
@@ -22,7 +22,7 @@ static OWN: LazyLock<Mutex<HashMap<String, FormulaRef>>> = LazyLock::new(Mutex::
 
 /// A fractal of `formula` with the values that `old` has changed, where `formula` has such parameters.
 ///
-/// Iterations and bailout stay. Parameters at their defaults take the new formula's.
+/// The same holds for iterations and bailout. Section planes stay.
 pub fn with_values_of(formula: FormulaRef, old: &Fractal) -> Fractal {
     let mut new = Fractal::new(formula);
     for (field, value) in old.fields().filter(|(field, value)| field.default() != **value) {
@@ -49,12 +49,35 @@ pub fn with_values_of(formula: FormulaRef, old: &Fractal) -> Fractal {
     new
 }
 
-/// The formula of `text`.
+/// The formula of `text`, which draws alone.
+///
+/// # Errors
+///
+/// As [`of_text`]; and that the text has no distance estimate.
+pub fn alone(text: &str) -> Result<FormulaRef, TextError> {
+    let formula = of_text(text)?;
+    if is_transform(formula) {
+        let message =
+            "`estimate none` is for steps of hybrids: a formula that draws alone needs an estimate";
+        let start = text.rfind("estimate").unwrap_or_default();
+        let end = (start + "estimate".len()).min(text.len());
+        return Err(TextError::new(text, Span { start, end }, message));
+    }
+    Ok(formula)
+}
+
+/// The formula of `text`: the program's own one that draws alone, if it has that text.
 ///
 /// # Errors
 ///
 /// The text's first error, with its place; or that this run has read too many texts.
 pub fn of_text(text: &str) -> Result<FormulaRef, TextError> {
+    let mut of_program = super::texts().chain(super::step_texts());
+    if let Some((id, _)) = of_program.find(|(_, known)| *known == text)
+        && let Some(formula) = super::find(id)
+    {
+        return Ok(formula);
+    }
     // Each insertion is complete, so the map is valid even if a thread panicked with the lock.
     let mut own = OWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(&formula) = own.get(text) {

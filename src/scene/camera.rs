@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{param, stereo::Stereo};
-use crate::precise::PrecisePoint;
+use crate::precise::{MAX_COORDINATE, PrecisePoint};
 
 /// Smallest distance from eye to pivot, in scene units: below the deepest zoom that renders.
 pub const MIN_VIEW_UNIT: f64 = 1e-30;
@@ -62,11 +62,13 @@ impl Camera {
     }
 
     /// The camera with this orientation that sees a whole ball of `radius` about the origin.
+    ///
+    /// A ball so large that the eye would be out of range is seen from as far as the eye may be.
     pub fn seeing_ball(&self, radius: f64) -> Self {
         /// Room about the ball; a wide field of view needs no less distance than 60 degrees.
         const ROOM: f64 = 1.05;
         let half = 0.5 * self.vertical_fov_deg.to_radians();
-        let distance = ROOM * radius / half.sin().min(0.5);
+        let distance = (ROOM * radius / half.sin().min(0.5)).min(MAX_COORDINATE);
         Self {
             position: PrecisePoint::from(-distance * self.forward()),
             pivot: PrecisePoint::from(DVec3::ZERO),

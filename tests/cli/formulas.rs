@@ -36,9 +36,7 @@ fn a_text_is_checked_and_its_first_error_is_shown_with_its_line() {
     let check = || program(PROGRAM, ["formula".as_ref(), "check".as_ref(), file.as_os_str()]);
     let output = check().output().unwrap();
     assert_eq!(code(&output), 0, "{}", said(&output));
-    assert!(
-        String::from_utf8_lossy(&output.stdout).contains("Own: right; its fields: scale julia")
-    );
+    assert!(String::from_utf8_lossy(&output.stdout).contains("Own: valid; fields: scale julia"));
     fs::write(&file, TEXT.replace("box_fold", "box_flod")).unwrap();
     let output = check().output().unwrap();
     let said = said(&output);

@@ -105,3 +105,21 @@ fn the_text_of_a_linked_formula_can_be_read() {
     press(&mut harness, "Edit the formula…");
     assert_eq!(text_of(&harness), TEXT);
 }
+
+#[test]
+fn a_closed_editor_has_drawn_its_text() {
+    let mut harness = editing("mandelbox");
+    let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Formula text");
+    field.focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run();
+    harness.event(egui::Event::Text(TEXT.to_owned()));
+    harness.step();
+    assert_eq!(text_of(&harness), TEXT);
+    // The window takes its new size.
+    harness.run_steps(4);
+    press(&mut harness, "Close window");
+    assert!(harness.query_by_label("Close window").is_none());
+    assert_eq!(scene(&harness).fractal.formula().text(), Some(TEXT));
+}

@@ -1,9 +1,9 @@
 //! The steps of a hybrid, made and changed in the panel.
 
-use egui::Key;
+use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
-    formula::{self, Fractal, HybridSteps, hybrid},
+    formula::{self, Fractal, HybridSteps, hybrid, section::SectionPlane},
     scene::Scene,
 };
 
@@ -27,6 +27,8 @@ fn a_formula_is_mixed_with_others_and_comes_back_with_its_values() {
     let fractal = Fractal::new(formula::find("mandelbox").expect("a formula"));
     let mut before = Scene { fractal, ..Scene::default() };
     assert!(before.fractal.set("scale", -1.5));
+    before.fractal.section_planes = vec![SectionPlane::default()];
+    before.fractal.iterations = 17;
     let mut harness = stage(before.clone(), unfolded(), [1280.0, 3000.0]);
     press(&mut harness, "Mix with another formula");
     press(&mut harness, "Twist");
@@ -39,6 +41,40 @@ fn a_formula_is_mixed_with_others_and_comes_back_with_its_values() {
     press(&mut harness, "Remove step 2");
     assert_eq!(scene(&harness).fractal.formula(), before.fractal.formula());
     assert_eq!(scene(&harness).fractal.values(), before.fractal.values());
+    assert_eq!(scene(&harness).fractal.section_planes, before.fractal.section_planes);
+}
+
+#[test]
+fn the_loop_still_begins_with_the_same_step_after_a_removal() {
+    let mut harness = with_steps(&["rotate", "mandelbox", "mandelbulb"]);
+    slider(&harness, "Loop start").set_value_accesskit(1.0);
+    harness.run();
+    press(&mut harness, "Remove step 1");
+    assert_eq!(ids(&harness), ["mandelbox", "mandelbulb"]);
+    assert_eq!(scene(&harness).fractal.hybrid().expect("a hybrid").loop_start, 0);
+}
+
+#[test]
+fn a_drag_ends_when_its_row_is_undone() {
+    let mut harness = with_steps(&["rotate", "mandelbox"]);
+    press(&mut harness, "Add a step");
+    press(&mut harness, "Twist");
+    let from = harness.get_by_label("Move step 3").rect().center();
+    let to = harness.get_by_label("Move step 1").rect().center();
+    harness.event(egui::Event::PointerMoved(from));
+    harness.step();
+    pointer(&harness, from, PointerButton::Primary, true, Modifiers::NONE);
+    harness.step();
+    harness.event(egui::Event::PointerMoved(to));
+    harness.step();
+    undo_all(&mut harness);
+    assert_eq!(ids(&harness), ["rotate", "mandelbox"]);
+    pointer(&harness, to, PointerButton::Primary, false, Modifiers::NONE);
+    harness.run();
+    assert_eq!(ids(&harness), ["rotate", "mandelbox"]);
+    let (from, to) = (harness.get_by_label("Move step 2").rect().center(), to);
+    drag(&mut harness, from, to, 6);
+    assert_eq!(ids(&harness), ["mandelbox", "rotate"]);
 }
 
 #[test]

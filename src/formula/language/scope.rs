@@ -8,9 +8,25 @@ use super::{
     tree::{Expression, ExpressionKind, Name, Operator, Span, Statement, TextError},
 };
 
-/// Names that mean something in a step already.
-pub(super) const RESERVED: [&str; 11] =
-    ["z", "c", "p", "dr", "dc", "color", "pi", "iterations", "bailout", "julia", "julia_constant"];
+/// Names that mean something in a step, or that documents give to other fields of a fractal or of a hybrid's step.
+pub(super) const RESERVED: [&str; 16] = [
+    "z",
+    "c",
+    "p",
+    "dr",
+    "dc",
+    "color",
+    "pi",
+    "formula",
+    "iterations",
+    "bailout",
+    "section_planes",
+    "julia",
+    "julia_constant",
+    "steps",
+    "loop_start",
+    "repeats",
+];
 
 /// What a step assigns besides the state.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,9 +1,9 @@
 //! A formula made from a text: its parameters, field and kernels.
 
-use std::sync::Arc;
+use std::{any::Any, sync::Arc};
 
 use super::{
-    check::{self, Checked, CheckedParam},
+    check::{self, Checked, CheckedParam, Growth},
     field::TextField,
     kernel::Compiled,
     sequence::Sequence,
@@ -13,7 +13,7 @@ use super::{
     uniforms::MAX_SLOTS,
 };
 use crate::formula::{
-    DistanceField, Formula, Fractal, KernelFiles, MarchPolicy, Packed, PackedFor,
+    DistanceField, Formula, FormulaRef, Fractal, KernelFiles, MarchPolicy, Packed, PackedFor,
     param::{Param, Scale, Unit},
     table::{Choice, Field, Kind, Value},
 };
@@ -30,6 +30,16 @@ pub struct TextFormula {
     fields: &'static [Field],
     checked: Checked,
     steps: Steps,
+}
+
+/// The formula as one made from a text; none for those with kernels of their own.
+pub fn as_text(formula: FormulaRef) -> Option<&'static TextFormula> {
+    (formula.0 as &dyn Any).downcast_ref()
+}
+
+/// Whether a formula only transforms space, so that it draws nothing alone.
+pub fn is_transform(formula: FormulaRef) -> bool {
+    as_text(formula).is_some_and(|text| text.checked.growth == Growth::None)
 }
 
 impl TextFormula {

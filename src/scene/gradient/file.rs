@@ -18,6 +18,10 @@ pub const ENDINGS: [&str; 4] = ["ggr", "gpl", "map", "ugr"];
 pub const MAX_FILE_BYTES: usize = 4 << 20;
 /// Most gradients that are read of one file.
 const MAX_GRADIENTS: usize = 1000;
+/// Most segments of a GIMP gradient.
+const MAX_SEGMENTS: usize = 1000;
+/// Most colours of a GIMP palette.
+const MAX_COLORS: usize = 4096;
 /// Number of samples of a segment of a GIMP gradient.
 const SEGMENT_SAMPLES: u32 = 32;
 /// Number of places in an Ultra Fractal gradient.
@@ -119,6 +123,9 @@ fn palette(text: &str, name: &str) -> Result<NamedGradient, GradientFileError> {
         } else if !(line.is_empty() || line.starts_with('#') || line.starts_with("Columns:")) {
             let rgb = color(&leading_numbers(line), 255.0);
             colors.push(rgb.ok_or_else(|| at_line(index, "expected three numbers from 0 to 255"))?);
+            if colors.len() > MAX_COLORS {
+                return Err(at_line(index, format!("a palette has at most {MAX_COLORS} colours")));
+            }
         }
     }
     evenly(&name, &colors)
@@ -142,6 +149,10 @@ fn segments(text: &str, name: &str) -> Result<NamedGradient, GradientFileError> 
             })?;
             if samples.last().is_some_and(|&(before, _)| segment.left < before) {
                 return Err(at_line(index, "the segment begins before the one above ends"));
+            }
+            if samples.len() >= MAX_SEGMENTS * (SEGMENT_SAMPLES as usize + 1) {
+                let message = format!("a gradient has at most {MAX_SEGMENTS} segments");
+                return Err(at_line(index, message));
             }
             samples.extend((0..=SEGMENT_SAMPLES).map(|i| segment.sample(i)));
         }
@@ -192,7 +203,8 @@ impl Segment {
             0 => std::array::from_fn(|k| self.from[k] + part * (self.to[k] - self.from[k])),
             around => around_hues(self.from, self.to, part, around == 1),
         };
-        (self.left + place * width, color)
+        // Up to rounding, the last sample would lie beyond the end, where the next segment begins.
+        ((self.left + place * width).min(self.right), color)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The colours panel: two layers, each with a value and the gradient that it selects from.
 
-use egui::{Button, Popup, PopupCloseBehavior, ScrollArea, Ui};
+use egui::{Button, Id, Popup, PopupCloseBehavior, ScrollArea, Ui};
 
 use super::context::{Context, Section};
 use crate::{
@@ -37,22 +37,31 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let mut is_on = second.is_on();
     let hover = "Blends a second gradient over the first, by another value";
     if ui.checkbox(&mut is_on, "Second layer").on_hover_text(hover).changed() {
-        turn(second, is_on);
+        switch(ui, second, is_on);
     }
     if is_on {
-        param_slider(ui, &param::SECOND_LAYER_AMOUNT, &mut second.amount);
-        // Switched off by the checkbox only: the controls stay under the pointer.
-        second.amount = second.amount.max(param::SECOND_LAYER_AMOUNT.step);
+        if param_slider(ui, &param::SECOND_LAYER_AMOUNT, &mut second.amount).changed() {
+            // Switched off by the checkbox only: the controls stay under the pointer.
+            second.amount = second.amount.max(param::SECOND_LAYER_AMOUNT.step);
+        }
         ui.push_id("second layer", |ui| layer(ui, cx, LayerRef::Second));
     }
 }
 
-/// Switches the layer on or off. A layer that was never used gets a value that differs from the first's default.
-fn turn(second: &mut SecondLayer, is_on: bool) {
-    if is_on && second.coloring == Coloring::default() {
-        second.coloring.source = ColorSource::Normal;
+/// Switches the layer on, with the amount that it had before, or off.
+///
+/// A layer that was never used gets a value that differs from the first's default.
+fn switch(ui: &Ui, second: &mut SecondLayer, is_on: bool) {
+    let id = Id::unique("amount of the second layer");
+    if is_on {
+        if second.coloring == Coloring::default() {
+            second.coloring.source = ColorSource::Normal;
+        }
+        second.amount = ui.data(|data| data.get_temp(id)).unwrap_or(0.5);
+    } else {
+        ui.data_mut(|data| data.insert_temp(id, second.amount));
+        second.amount = 0.0;
     }
-    second.amount = if is_on { 0.5 } else { 0.0 };
 }
 
 /// The controls of one layer.

@@ -47,7 +47,7 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     if state.is_open {
         ui.add_space(GAP);
-        let kept = cx.settings.formulas.iter().filter_map(|text| own::of_text(text).ok());
+        let kept = cx.settings.formulas.iter().filter_map(|text| own::alone(text).ok());
         let all: Vec<_> = kept.chain(formula::all()).collect();
         if let Some(chosen) = cards(ui, &mut state.words, &all, Some(current)) {
             if chosen != current {
@@ -107,10 +107,15 @@ fn matches(formula: FormulaRef, words: &str) -> bool {
 
 /// The scene that shows a formula: it has the formula's name.
 fn preset_of(formula: FormulaRef) -> Option<&'static Preset> {
+    // A typed formula may have any name.
+    if formula.text().is_some() {
+        return None;
+    }
     presets::every().find(|preset| preset.name == formula.name())
 }
 
-/// Takes the formula with its default values, and the camera to where it sees the whole set.
+/// Takes the formula with its default values and without section planes, and the camera to where it sees the whole
+/// set.
 fn change(cx: &mut Context<'_>, formula: FormulaRef) {
     let fractal = Fractal::new(formula);
     let radius = formula.distance_field(&fractal).bounding_radius();

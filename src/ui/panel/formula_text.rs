@@ -88,6 +88,11 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
     let ctx = ui.ctx();
     let Some(mut draft) = ctx.data_mut(|data| data.get_temp::<Draft>(draft_id())) else { return };
     if !draft.is_open {
+        if draft.changed_at.is_some() {
+            // Closed before the pause after the last key was over.
+            draw(cx, &mut draft);
+            ctx.data_mut(|data| data.insert_temp(draft_id(), draft));
+        }
         return;
     }
     let current = cx.scene.fractal.formula();
@@ -216,12 +221,15 @@ fn keep_row(ui: &mut Ui, cx: &mut Context<'_>, draft: &Draft) {
         Some(_) => ("Remove from my formulas", "The scene keeps the formula"),
     };
     let has_room = place.is_some() || kept.len() < MAX_KEPT_FORMULAS;
+    let disabled = if has_room {
+        "Correct the text first.".to_owned()
+    } else {
+        format!("A browser keeps {MAX_KEPT_FORMULAS} formulas. Remove one first.")
+    };
     let button = ui
         .add_enabled(has_room && draft.error.is_none(), Button::new(label))
         .on_hover_text(hover)
-        .on_disabled_hover_text(
-            "Mend the text first, or remove another formula: a browser keeps 100.",
-        );
+        .on_disabled_hover_text(disabled);
     if button.clicked() {
         match place {
             Some(place) => drop(kept.remove(place)),
@@ -252,8 +260,13 @@ fn draw_when_typed(ui: &Ui, cx: &mut Context<'_>, draft: &mut Draft) {
         ui.ctx().request_repaint_after_secs(left as f32);
         return;
     }
+    draw(cx, draft);
+}
+
+/// Draws the text, if it is right.
+fn draw(cx: &mut Context<'_>, draft: &mut Draft) {
     draft.changed_at = None;
-    match own::of_text(&draft.text) {
+    match own::alone(&draft.text) {
         Ok(formula) => {
             draft.error = None;
             draft.formula = Some(formula);
@@ -280,13 +293,13 @@ fn highlighted(text: &str, error: Option<Span>, width: f32) -> LayoutJob {
         };
         let plain = TextFormat::simple(FontId::monospace(12.0), color);
         let wrong = TextFormat { underline: Stroke::new(2.0, theme::ERROR), ..plain.clone() };
+        // Places are of the text that was checked, which may be an older one: they may fall inside a letter.
         let error = error.unwrap_or_default();
-        let from = error.start.clamp(span.start, span.end);
-        let to = error.end.clamp(from, span.end);
+        let from = text.floor_char_boundary(error.start.clamp(span.start, span.end));
+        let to = text.floor_char_boundary(error.end.clamp(from, span.end));
         for (part, format) in
             [(span.start..from, &plain), (from..to, &wrong), (to..span.end, &plain)]
         {
-            // Places are of the text that was checked, which may be an older one.
             if let Some(part) = text.get(part).filter(|part| !part.is_empty()) {
                 job.append(part, 0.0, format.clone());
             }

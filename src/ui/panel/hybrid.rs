@@ -64,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         state.error = apply(cx, change, &mut state).err().map(|error| error.to_string());
     }
     if let Some(error) = &state.error {
-        ui.add(Label::new(RichText::new(error).small().color(theme::ACCENT)).wrap());
+        ui.add(Label::new(RichText::new(error).small().color(theme::ERROR)).wrap());
     }
     ui.data_mut(|data| data.insert_temp(id, state));
 }
@@ -128,11 +128,12 @@ fn list(ui: &mut Ui, cx: &mut Context<'_>, state: &mut State) -> Option<Change> 
             let ends = [pos2(row.left(), y), pos2(row.right(), y)];
             ui.painter().line_segment(ends, (2.0, theme::ACCENT));
         }
-        if released {
+        // An undo may take away the row that is dragged, and with it the handle.
+        if released || from >= count || !ui.input(|input| input.pointer.any_down()) {
             state.dragged = None;
-            if to != from {
-                change = Some(Change::Move { from, to });
-            }
+        }
+        if released && from < count && to != from {
+            change = Some(Change::Move { from, to });
         }
     }
     change
@@ -224,12 +225,16 @@ fn apply(cx: &mut Context<'_>, change: Change, state: &mut State) -> Result<(), 
         }
         Change::Remove(place) => {
             new.steps.remove(place);
+            // The loop still begins with the same step.
+            if place < new.loop_start {
+                new.loop_start -= 1;
+            }
             new.loop_start = new.loop_start.min(new.steps.len().saturating_sub(1));
             state.open = None;
             // One step that can draw alone is no hybrid any more.
             let alone = match &new.steps[..] {
                 [] => Some(Fractal::default()),
-                [step] => hybrid::alone(step),
+                [step] => hybrid::alone(fractal, step),
                 _ => None,
             };
             if let Some(alone) = alone {

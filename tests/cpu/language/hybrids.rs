@@ -76,10 +76,12 @@ fn what_is_no_hybrid_is_refused_by_name() {
     };
     let steps = |steps: Value| read(json!({ "formula": "hybrid", "steps": steps }));
     for (found, expected) in [
+        (read(json!({ "formula": "hybrid", "step": [] })), "`loop_start`, `steps`, `julia`"),
+        (read(json!({ "formula": "hybird" })), "expected hybrid or mandelbulb"),
         (read(json!({ "formula": "hybrid" })), "missing field `steps`"),
         (read(json!({ "formula": "mandelbox", "steps": [] })), "need the formula `hybrid`"),
-        (steps(json!([])), "has 0 steps; a hybrid has 1 to 9"),
-        (steps(json!(vec![json!({ "formula": "rotate" }); 10])), "has 10 steps"),
+        (steps(json!([])), "a hybrid has 1 to 9 steps, and this one has 0"),
+        (steps(json!(vec![json!({ "formula": "rotate" }); 10])), "this one has 10"),
         (steps(json!([{ "formula": "hybrid" }])), "fractal.steps[0].formula: invalid value"),
         (steps(json!([{ "scale": 2, "formula": "mandelbox" }])), "put that first"),
         (steps(json!([{ "formula": "mandelbox", "scael": 2 }])), "unknown field `scael`"),

@@ -262,6 +262,33 @@ fn texts_travel_in_documents_and_links() {
 }
 
 #[test]
+fn the_text_of_a_formula_of_the_program_is_that_formula() {
+    for (id, text) in formula::texts() {
+        assert_eq!(formula::own::of_text(text), Ok(formula::find(id).expect("a formula")));
+    }
+    // The bulb has kernels of its own, and a text for hybrids.
+    let (_, bulb) = formula::step_texts().find(|(id, _)| *id == "mandelbulb").expect("a text");
+    assert_eq!(formula::own::of_text(bulb).map(|formula| formula.text()), Ok(None));
+}
+
+#[test]
+fn a_transform_draws_nothing_alone() {
+    let text = "name \"Turn\";\nstep { z = vec3(z.y, -z.x, z.z); }\nestimate none;\n";
+    let error = formula::own::alone(text).expect_err("refused");
+    assert_eq!((error.line, error.column), (3, 1), "{error}");
+    assert!(formula::own::of_text(text).is_ok());
+    let read = |fractal: serde_json::Value| {
+        let document = serde_json::json!({ "mandelight": "scene", "version": 2, "scene": { "fractal": fractal } });
+        document::from_json(&document.to_string())
+    };
+    let turn = serde_json::json!({ "text": text });
+    let alone = read(serde_json::json!({ "formula": turn })).expect_err("refused").to_string();
+    assert!(alone.starts_with("fractal.formula: line 3, column 1: `estimate none`"), "{alone}");
+    let steps = serde_json::json!([{ "formula": turn }, { "formula": "mandelbox" }]);
+    read(serde_json::json!({ "formula": "hybrid", "steps": steps })).expect("a hybrid");
+}
+
+#[test]
 fn a_wrong_text_in_a_document_is_named_by_line_and_column() {
     let read = |formula: serde_json::Value| {
         let document = serde_json::json!({ "mandelight": "scene", "version": 2,

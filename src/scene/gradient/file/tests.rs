@@ -97,3 +97,28 @@ fn colours_beyond_the_stops_still_fit_roughly() {
     let found = read(noise.as_bytes(), "noise").unwrap();
     assert_eq!(found[0].stops.len(), MAX_GRADIENT_STOPS);
 }
+
+#[test]
+fn neighbouring_segments_share_their_ends() {
+    // Of these decimals, left + (right - left) is greater than right.
+    let text = "GIMP Gradient\nName: Narrow\n3\n\
+        0.0 0.0005 0.001 0 0 0 1 0 0 0 1 0 0\n\
+        0.001 0.005 0.009 0 0 0 1 1 1 1 1 0 0\n\
+        0.009 0.5 1.0 1 1 1 1 0 0 0 1 0 0\n";
+    let found = read(text.as_bytes(), "file");
+    assert!(found.is_ok(), "{found:?}");
+}
+
+#[test]
+fn long_files_are_refused_by_their_line() {
+    let palette = "GIMP Palette\n".to_owned() + &"1 2 3\n".repeat(MAX_COLORS + 1);
+    let segments = "GIMP Gradient\n1\n".to_owned()
+        + &"0.5 0.5 0.5 0 0 0 1 1 1 1 1 0 0\n".repeat(MAX_SEGMENTS + 1);
+    for (text, line, most) in
+        [(palette, MAX_COLORS + 2, MAX_COLORS), (segments, MAX_SEGMENTS + 3, MAX_SEGMENTS)]
+    {
+        let error = read(text.as_bytes(), "file").expect_err("too long");
+        assert!(error.to_string().starts_with(&format!("line {line}:")), "{error}");
+        assert!(error.to_string().contains(&format!("at most {most} ")), "{error}");
+    }
+}
