@@ -1,20 +1,19 @@
 //! Pictures of all formulas: step policy, counts, times, overstepped pixels, compilation.
 //!
-//! In: the formulas' scenes. Out: a row each. Overstepped pixels are those whose rays pass what a slow march in f64
-//! comes within half of the hit distance of, by more than two footprints.
+//! In: the formulas' scenes. Out: a row each. A pixel is overstepped if its ray ends more than two footprints behind
+//! the depth at which a slow march in f64 comes within half the hit distance.
 
 use std::{process::Command, sync::Arc, time::Instant};
 
-use glam::DVec3;
 use mandelight::{
     gpu::{Gpu, device::in_parallel},
-    render::{Pipelines, Region, uniforms::Inputs},
+    render::Pipelines,
     scene::{
         Scene,
         presets::{self, Preset},
     },
 };
-use mandelight_test_support::oracle::{orbits, rays};
+use mandelight_test_support::oracle::{formula_rays::FormulaRays, rays::cone};
 use serde::Serialize;
 
 use super::{arguments::Arguments, counts::Counts, failure::Failure, ours, statistics::median};
@@ -24,9 +23,6 @@ pub const NAME: &str = "formulas";
 const SIZE_PX: [u32; 2] = [320, 200];
 /// The picture whose rays are compared.
 const COMPARED_PX: [u32; 2] = [60, 40];
-/// Step of the slow march, over the estimate that the formula's own rays take.
-const CAUTION: f64 = 0.4;
-
 /// One formula.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
@@ -48,7 +44,7 @@ pub struct Row {
 
 /// The bulb's scene, then those of the texts, with one sample a pixel.
 fn scenes() -> impl Iterator<Item = (&'static str, Scene)> {
-    let all = presets::all().first().into_iter().chain(presets::formulas());
+    let all = presets::opening_scenes().first().into_iter().chain(presets::formulas());
     all.map(|preset: &Preset| {
         let mut scene = (preset.scene)();
         scene.quality.samples = 1;
@@ -98,41 +94,17 @@ pub fn measure(arguments: &Arguments, pipelines: &Arc<Pipelines>) -> Result<Vec<
 fn overstepped(pipelines: &Arc<Pipelines>, scene: &Scene) -> Result<f64, Failure> {
     let (_, view) = ours::draw_ms(pipelines, scene, COMPARED_PX);
     let samples = view.gbuffer()?;
-    let mut finer = scene.clone();
-    finer.fractal.iterations =
-        Inputs::new(scene, Region::whole(COMPARED_PX)).frame.march.iterations;
+    let rays = FormulaRays::new(scene, COMPARED_PX);
     let [width, height] = COMPARED_PX;
     let indices: Vec<u32> = (0..width * height).collect();
     let passed = in_parallel(&indices, |&i| {
-        let way = rays::direction(&scene.camera, COMPARED_PX, [i % width, i / width]);
         let depth = f64::from(samples.depth[i as usize]);
-        slow_hit(&finer, way).is_some_and(|hit| {
-            let footprint = rays::cone(&scene.camera, COMPARED_PX) * hit;
+        rays.march([i % width, i / width], 0.5).is_some_and(|hit| {
+            let footprint = cone(&scene.camera, COMPARED_PX) * hit;
             depth == 0.0 || depth > hit + 2.0 * footprint
         })
     });
     Ok(passed.iter().filter(|passed| **passed).count() as f64 / f64::from(width * height))
-}
-
-/// Depth at which a ray comes within half of the hit distance.
-fn slow_hit(scene: &Scene, way: DVec3) -> Option<f64> {
-    let fractal = &scene.fractal;
-    let policy = fractal.formula().march_policy(fractal);
-    let part = CAUTION * f64::from(policy.ball_part);
-    let radius = fractal.distance_field().bounding_radius();
-    let origin = scene.camera.position.to_dvec3();
-    let half = -origin.dot(way);
-    let half_chord = (half * half - origin.length_squared() + radius * radius).max(0.0).sqrt();
-    let (mut depth, end) = ((half - half_chord).max(0.0), half + half_chord);
-    while half_chord > 0.0 && depth < end {
-        let hit = 0.5 * rays::hit_distance(scene, COMPARED_PX, depth);
-        let distance = orbits::distance(fractal, origin + depth * way, way);
-        if distance < hit {
-            return Some(depth);
-        }
-        depth += (part * distance).max(0.1 * hit);
-    }
-    None
 }
 
 /// Compiles each formula's passes in this process and prints the times as a line of JSON.

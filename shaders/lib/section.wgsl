@@ -20,19 +20,19 @@ fn clip_interval(interval: vec2f, origin: vec3f, direction: vec3f) -> vec2f {
 
 // Where a ray comes under all planes.
 struct SectionEntry {
-    // The depth; 0 if the ray starts there or never gets there.
+    // The depth; 0 if the ray starts there. Of no meaning if the clipped interval is empty.
     depth: f32,
     // Distance from the set within which that plane is drawn.
-    bands: f32,
+    band_reach: f32,
 }
 
-// Through which plane a ray comes under all, if it does: the farthest that it falls through.
+// The farthest plane that a ray crosses downward.
 fn section_entry(origin: vec3f, direction: vec3f) -> SectionEntry {
     var entry = SectionEntry(0.0, 0.0);
     for (var k = 0u; k < frame.sections.count; k++) {
         let plane = frame.sections.planes[k];
         let depth = height_over(plane, origin) / max(-dot(plane.xyz, direction), 1e-20);
-        if (depth > entry.depth) { entry = SectionEntry(depth, frame.sections.bands[k]); }
+        if (depth > entry.depth) { entry = SectionEntry(depth, frame.sections.band_reach[k]); }
     }
     return entry;
 }
@@ -81,5 +81,5 @@ fn cone_section_exit(origin: vec3f, direction: vec3f, width: f32) -> f32 {
 
 // Whether a plane is drawn around the set, so that cones may not pass it.
 fn has_section_bands() -> bool {
-    return any(frame.sections.bands > vec4f(0.0));
+    return any(frame.sections.band_reach > vec4f(0.0));
 }

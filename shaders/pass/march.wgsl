@@ -81,7 +81,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
                 if (!is_inside) { return RayEnd(0.0, 0.0, false); }
             }
             let hit = hit_distance(ray, t);
-            if (is_on_section && ahead.distance < max(hit, cut.bands)) {
+            if (is_on_section && ahead.distance < max(hit, cut.band_reach)) {
                 return RayEnd(t, t, true);
             }
             is_on_section = false;

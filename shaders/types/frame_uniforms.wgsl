@@ -97,7 +97,7 @@ struct Sections {
     // in render space.
     planes: array<vec4f, 3>,
     // Distance from the set within which each plane is drawn, in render space.
-    bands: vec4f,
+    band_reach: vec4f,
     // Colour of the set's inside, linear Rec. 709.
     inside: vec3f,
     count: u32,

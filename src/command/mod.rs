@@ -9,6 +9,7 @@
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
 //! | [`fractals`] | `--formula`, `--hybrid` and `--cut` |
+//! | [`gradient`] | `--gradient`, `--second-gradient` |
 //! | [`formulas`] | `mandelight formulas`, `mandelight formula check`: formulas and their texts |
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`info`] | `mandelight info`: the GPU |

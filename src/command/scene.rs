@@ -16,10 +16,10 @@ use super::{
 /// The arguments of `mandelight scene`.
 #[derive(clap::Args)]
 pub struct SceneArguments {
-    /// Print this opening scene or dive instead of the first scene
+    /// Print this preset instead of the first opening scene
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// List the opening scenes and the dives
+    /// List all presets: opening scenes, dives, the formulas' scenes, mixes
     #[arg(long, conflicts_with_all = ["preset", "set"])]
     list_presets: bool,
     #[command(flatten)]
@@ -34,18 +34,18 @@ pub struct SceneArguments {
 /// Prints the scene document, or the list of presets.
 pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
     if arguments.list_presets {
-        let names: Vec<String> = presets::every().map(Preset::id).collect();
+        let names: Vec<String> = presets::all().map(Preset::id).collect();
         let width = names.iter().map(String::len).max().unwrap_or(0);
-        let lines = names.iter().zip(presets::every());
+        let lines = names.iter().zip(presets::all());
         let list: String =
             lines.map(|(name, preset)| format!("{name:width$}  {}\n", preset.blurb)).collect();
         return print(&list);
     }
     let wanted = arguments.preset.as_deref().map(Preset::id_of);
-    let preset = presets::every()
+    let preset = presets::all()
         .find(|preset| wanted.as_ref().is_none_or(|wanted| preset.id() == *wanted))
         .ok_or_else(|| {
-            let names: Vec<String> = presets::every().map(Preset::id).collect();
+            let names: Vec<String> = presets::all().map(Preset::id).collect();
             let wanted = wanted.unwrap_or_default();
             Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
         })?;

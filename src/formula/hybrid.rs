@@ -32,7 +32,7 @@ params! {
     /// The numbers of a hybrid and of its steps.
     PARAMS;
     LOOP_START = "fractal.loop_start", "Loop start", Count, 0.0, 8.0, default 0.0, Integer by 1.0,
-        "Number of steps before the loop. They are taken once; after the last step orbits go on behind them.";
+        "Number of first steps that are taken only once. The loop repeats the steps after them.";
     REPEATS = "fractal.steps[].repeats", "Repeats", Count, 1.0, 50.0, default 1.0, Integer by 1.0,
         "How often the step is taken before the next one.";
 }
@@ -171,7 +171,7 @@ fn formula_of(hybrid: &HybridSteps) -> Result<FormulaRef, HybridError> {
     of_formulas(&formulas)
 }
 
-/// The place of the step whose formula tells an orbit's size and distance.
+/// The place of the step whose formula computes an orbit's size and distance.
 ///
 /// The loop's first step that grows as a power, else the first that grows, else the first.
 fn leading(hybrid: &HybridSteps) -> usize {

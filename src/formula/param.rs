@@ -155,6 +155,6 @@ params! {
         "Maximum steps of the formula per point. More shows finer detail and is slower. Deep views add steps automatically.";
     BAILOUT = "fractal.bailout", "Bailout", SceneUnits, 2.0, 256.0, default 4.0, Logarithmic by 0.1,
         "The radius beyond which a point counts as escaped. Larger gives smoother distances and colours. Some formulas limit it further.";
-    SECTION_BANDS = "fractal.section_planes[].bands", "Bands", SceneUnits, 0.0, 4.0, default 0.1, Linear by 0.01,
-        "How far around the slice the cut shows bands of equal iterations. At 0 the cut shows the slice alone.";
+    SECTION_BAND_REACH = "fractal.section_planes[].band_reach", "Band reach", SceneUnits, 0.0, 4.0, default 0.1, Linear by 0.01,
+        "Width of the margin around the slice that shows bands of equal iterations. At 0 the cut shows the slice alone.";
 }

@@ -15,7 +15,7 @@ use crate::precise::PrecisePoint;
 /// Most section planes of a fractal.
 pub const MAX_SECTION_PLANES: usize = 3;
 
-/// A plane that cuts the set open. What several planes leave is what each of them leaves.
+/// A plane that cuts the set open. Several planes leave the intersection of what each of them leaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SectionPlane {
@@ -23,10 +23,10 @@ pub struct SectionPlane {
     pub point: PrecisePoint,
     /// The plane's normal, a unit vector, toward the side that is cut away.
     pub direction: [f64; 3],
-    /// Distance from the set within which the plane is drawn, in [`param::SECTION_BANDS`].
+    /// Distance from the set within which the plane is drawn, range [`param::SECTION_BAND_REACH`].
     ///
     /// There it shows the bands of equal iterations around the slice. At 0 only the slice is drawn.
-    pub bands: f64,
+    pub band_reach: f64,
 }
 
 impl Default for SectionPlane {
@@ -34,7 +34,7 @@ impl Default for SectionPlane {
         Self {
             point: PrecisePoint::ORIGIN,
             direction: [0.0, 0.0, 1.0],
-            bands: param::SECTION_BANDS.default,
+            band_reach: param::SECTION_BAND_REACH.default,
         }
     }
 }
@@ -54,7 +54,7 @@ pub fn cut(field: Arc<dyn DistanceField>, planes: &[SectionPlane]) -> Arc<dyn Di
     let planes = planes.iter().map(|plane| Plane {
         normal: plane.normal(),
         offset: field.local(&plane.point).dot(plane.normal()),
-        bands: plane.bands,
+        band_reach: plane.band_reach,
     });
     Arc::new(CutField { planes: planes.collect(), field })
 }
@@ -62,9 +62,9 @@ pub fn cut(field: Arc<dyn DistanceField>, planes: &[SectionPlane]) -> Arc<dyn Di
 /// A section plane in a field's coordinates.
 struct Plane {
     normal: DVec3,
-    /// Of the plane's points, along the normal.
+    /// Coordinate of the plane along its normal.
     offset: f64,
-    bands: f64,
+    band_reach: f64,
 }
 
 impl Plane {
@@ -81,16 +81,16 @@ struct CutField {
 }
 
 impl CutField {
-    /// The height of `point` over the highest plane.
+    /// The greatest height of `point` over a plane.
     fn height(&self, point: DVec3) -> f64 {
         self.planes.iter().map(|plane| plane.height(point)).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The depth at which `ray` has entered what all planes leave, through the plane with these bands.
+    /// The depth at which `ray` comes below all planes, and the band reach of the plane that it crosses there.
     ///
-    /// None if it starts there, and if it never enters.
+    /// None if it starts below all planes or never gets there.
     fn entry(&self, ray: Ray) -> Option<(f64, f64)> {
-        let (mut entry, mut bands) = (0.0, 0.0);
+        let (mut entry, mut band_reach) = (0.0, 0.0);
         for plane in self.planes.iter().filter(|plane| plane.height(ray.origin) > 0.0) {
             let depth = plane.height(ray.origin) / -plane.normal.dot(ray.direction);
             // A ray along the plane or away from it.
@@ -98,12 +98,12 @@ impl CutField {
                 return None;
             }
             if depth > entry {
-                (entry, bands) = (depth, plane.bands);
+                (entry, band_reach) = (depth, plane.band_reach);
             }
         }
         // Up to rounding: the point lies on a plane.
         let is_left = self.height(ray.at(entry)) <= 1e-9 * entry;
-        (entry > 0.0 && is_left).then_some((entry, bands))
+        (entry > 0.0 && is_left).then_some((entry, band_reach))
     }
 }
 
@@ -153,11 +153,11 @@ impl DistanceField for CutField {
         max_depth: f64,
         max_steps: u32,
     ) -> Result<Option<f64>, f64> {
-        if let Some((depth, bands)) = self.entry(ray)
+        if let Some((depth, band_reach)) = self.entry(ray)
             && depth <= max_depth
             && ray.at(depth).distance(self.center()) <= self.bounding_radius()
             && (self.field.is_inside(ray.at(depth))
-                || self.field.distance(ray.at(depth)) <= bands.max(cone * depth))
+                || self.field.distance(ray.at(depth)) <= band_reach.max(cone * depth))
         {
             return Ok(Some(depth));
         }
@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn rays_end_on_the_plane() {
-        let field = bulb(&[SectionPlane { bands: 0.0, ..SectionPlane::default() }]);
+        let field = bulb(&[SectionPlane { band_reach: 0.0, ..SectionPlane::default() }]);
         let depth = field.march(down(0.3, 0.2), 1e-3, 9.0).expect("a hit");
         assert!((depth - 3.0).abs() < 1e-9, "{depth}");
         assert!(field.normal(DVec3::new(0.3, 0.2, 0.0), 1e-4).angle_between(DVec3::Z) < 1e-6);
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn bands_widen_the_slice() {
-        let field = bulb(&[SectionPlane { bands: 2.0, ..SectionPlane::default() }]);
+        let field = bulb(&[SectionPlane { band_reach: 2.0, ..SectionPlane::default() }]);
         let depth = field.march(down(1.0, 0.2), 1e-3, 9.0).expect("a hit");
         assert!((depth - 3.0).abs() < 1e-9, "{depth}");
     }

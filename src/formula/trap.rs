@@ -20,7 +20,7 @@ pub enum TrapShape {
     Cube,
 }
 
-/// An orbit trap, in the unit of the formula.
+/// An orbit trap, in scene units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trap {
     /// The shape.

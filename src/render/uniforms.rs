@@ -256,7 +256,7 @@ fn sections(scene: &Scene, space: &RenderSpace) -> Sections {
         let offset = normal.dot(space.point(&plane.point));
         let offset = offset.clamp(-FARTHEST_PLANE, FARTHEST_PLANE);
         sections.planes[k] = normal.extend(offset).as_vec4().to_array();
-        sections.bands[k] = (plane.bands / space.scale()).min(FARTHEST_PLANE) as f32;
+        sections.band_reach[k] = (plane.band_reach / space.scale()).min(FARTHEST_PLANE) as f32;
     }
     sections
 }
@@ -457,8 +457,8 @@ impl Inputs {
     /// `self` must have the [visibility bits](Self::with_bits_of) of `old`.
     pub fn stale_since(&self, old: &Self) -> Option<Stale> {
         let cuts = |frame: &FrameUniforms| {
-            let Sections { planes, bands, count, .. } = frame.sections;
-            (planes, bands, count)
+            let Sections { planes, band_reach, count, .. } = frame.sections;
+            (planes, band_reach, count)
         };
         let (new_frame, old_frame) = (&self.frame, &old.frame);
         let same_geometry = new_frame.camera == old_frame.camera

@@ -21,6 +21,42 @@ pub fn srgb_from_linear(linear: f32) -> f32 {
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
+/// A colour by hue, saturation and value, each 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hsv {
+    /// 0 red, 1/3 green, 2/3 blue.
+    pub h: f32,
+    /// Saturation.
+    pub s: f32,
+    /// Value: the largest sRGB channel.
+    pub v: f32,
+}
+
+/// The sRGB channels of an HSV colour.
+pub fn srgb_from_hsv(Hsv { h, s, v }: Hsv) -> [f32; 3] {
+    let channel = |offset: f32| {
+        let k = (offset + h * 6.0).rem_euclid(6.0);
+        v - v * s * k.min(4.0 - k).clamp(0.0, 1.0)
+    };
+    [channel(5.0), channel(3.0), channel(1.0)]
+}
+
+/// The HSV colour of sRGB channels; greys have hue 0.
+pub fn hsv_from_srgb([r, g, b]: [f32; 3]) -> Hsv {
+    let v = r.max(g).max(b);
+    let span = v - r.min(g).min(b);
+    let sector = if span <= 0.0 {
+        0.0
+    } else if v == r {
+        (g - b) / span
+    } else if v == g {
+        2.0 + (b - r) / span
+    } else {
+        4.0 + (r - g) / span
+    };
+    Hsv { h: (sector / 6.0).rem_euclid(1.0), s: if v > 0.0 { span / v } else { 0.0 }, v }
+}
+
 /// The luminance of a linear colour (Rec. 709).
 pub fn luminance(color: DVec3) -> f64 {
     color.dot(DVec3::new(0.2126, 0.7152, 0.0722))

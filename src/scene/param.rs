@@ -4,7 +4,7 @@
 //! checks, the panels' sliders, the command line and `docs/scene.md` all read both (a test holds the
 //! docs to them).
 
-pub use crate::formula::param::{BAILOUT, ITERATIONS, Param, SECTION_BANDS, Scale, Unit};
+pub use crate::formula::param::{BAILOUT, ITERATIONS, Param, SECTION_BAND_REACH, Scale, Unit};
 use crate::formula::{
     self, FormulaRef,
     param::{SHARED, params},

@@ -6,7 +6,6 @@
 mod dives;
 mod formulas;
 mod mixes;
-mod palettes;
 mod parts;
 mod preset;
 
@@ -28,13 +27,13 @@ pub use mixes::mixes;
 use parts::{camera, headlight, key_and_rim, light, new_scene, of_formula, stops};
 pub use preset::Preset;
 
-/// The scene that the program opens on: the first of [`all`].
+/// The scene that the program opens on: the first of [`opening_scenes`].
 pub fn opening() -> Scene {
     new_scene(mandelbulb())
 }
 
 /// The opening scenes.
-pub fn all() -> &'static [Preset] {
+pub fn opening_scenes() -> &'static [Preset] {
     &[
         Preset {
             name: "Mandelbulb",
@@ -94,7 +93,7 @@ pub struct PresetList {
 pub fn lists() -> [PresetList; 4] {
     let list = |name, about, presets| PresetList { name, about, presets };
     [
-        list("Scenes", "Whole fractals and near views", all()),
+        list("Scenes", "Whole fractals and near views", opening_scenes()),
         list("Dives", "Views at very deep zooms", dives()),
         list("Formulas", "One view of each formula", formulas()),
         list("Mixes", "Hybrids of formulas, cuts, two layers of colours", mixes()),
@@ -102,7 +101,7 @@ pub fn lists() -> [PresetList; 4] {
 }
 
 /// The scenes of all [`lists`], in order.
-pub fn every() -> impl Iterator<Item = &'static Preset> + Clone {
+pub fn all() -> impl Iterator<Item = &'static Preset> + Clone {
     lists().into_iter().flat_map(|list| list.presets)
 }
 

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::formula::{
     Fractal, hybrid,
-    param::SECTION_BANDS,
+    param::SECTION_BAND_REACH,
     section::{MAX_SECTION_PLANES, SectionPlane},
     table::{Field, Kind, Value},
 };
@@ -124,7 +124,7 @@ fn check_section_planes(planes: &[SectionPlane]) -> Result<(), Invalid> {
     for (i, plane) in planes.iter().enumerate() {
         let length = plane.normal().length();
         check_unit_length(|| format!("fractal.section_planes[{i}].direction"), length)?;
-        check_at(&SECTION_BANDS, i, plane.bands)?;
+        check_at(&SECTION_BAND_REACH, i, plane.band_reach)?;
     }
     Ok(())
 }

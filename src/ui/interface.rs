@@ -481,7 +481,7 @@ impl Interface {
     ///
     /// Quality depends on the user's machine, and a preset may become a key of the path.
     fn choose_preset(&mut self, index: usize) {
-        if let Some(preset) = presets::every().nth(index) {
+        if let Some(preset) = presets::all().nth(index) {
             let mut scene = (preset.scene)();
             scene.quality = self.scene().quality.clone();
             let path = self.project().path.clone();

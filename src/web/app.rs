@@ -123,7 +123,7 @@ fn show_drop_hint(ui: &egui::Ui) {
     painter.text(
         area.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop a scene, a picture saved by Mandelight, or an environment map that lights the scene (.hdr, .exr)",
+        "Drop a scene, a picture saved by Mandelight, an environment map (.hdr, .exr), or gradients (.ggr, .gpl, .map, .ugr)",
         egui::FontId::proportional(18.0),
         egui::Color32::WHITE,
     );

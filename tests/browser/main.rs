@@ -41,7 +41,7 @@ fn a_page_that_cannot_draw_says_what_would_help() {
 
 #[test]
 fn a_visitor_turns_changes_lights_saves_and_comes_back() {
-    let linked = presets::all()[3].scene;
+    let linked = presets::opening_scenes()[3].scene;
     let fragment = link::to_fragment(&linked()).unwrap();
     let visit = Visit::run_with("explore", [("MANDELIGHT_LINK", fragment)]);
 
@@ -98,7 +98,7 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
 
 /// A path of two keys and three frames.
 fn short_path() -> Project {
-    let scene = presets::all()[0].scene;
+    let scene = presets::opening_scenes()[0].scene;
     let key = |time_secs, power| {
         let mut scene = scene();
         scene.fractal.set("power", power);
@@ -167,7 +167,7 @@ const MAX_NOTABLE: f64 = 0.02;
 fn the_page_and_the_native_program_draw_the_same_pictures() {
     let scenes = folder_of("pixels-scenes");
     fs::create_dir_all(&scenes).unwrap();
-    let files: Vec<PathBuf> = presets::all()
+    let files: Vec<PathBuf> = presets::opening_scenes()
         .iter()
         .map(|preset| {
             let mut scene = (preset.scene)();

@@ -16,7 +16,7 @@ use super::PROGRAM;
 /// A text with a parameter.
 const TEXT: &str = "name \"Own\";\nparam scale = 2 from -3 to 3 label \"Scale\";\n\
                     step { z = scale * box_fold(z, 1) * sphere_fold_scale(z, 0.5, 1) + c; }\n\
-                    radius 100;\nestimate linear;\nbound 12;\n";
+                    bailout 100;\nestimate linear;\nbound 12;\n";
 
 #[test]
 fn the_list_has_a_line_for_each_formula() {

@@ -187,7 +187,7 @@ fn the_scene_command_prints_documents() {
     let list = String::from_utf8(run(&["scene", "--list-presets"]).stdout).unwrap();
     let names: Vec<&str> =
         list.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
-    assert_eq!(names.len(), presets::every().count(), "{list}");
+    assert_eq!(names.len(), presets::all().count(), "{list}");
     let documents: Vec<Vec<u8>> = names
         .iter()
         .map(|name| {

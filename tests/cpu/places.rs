@@ -202,7 +202,7 @@ fn places_can_be_looked_at_from_every_depth() {
 
 #[test]
 fn fractals_without_recurring_orbits_have_no_places() {
-    for preset in mandelight::scene::presets::all() {
+    for preset in mandelight::scene::presets::opening_scenes() {
         let scene = (preset.scene)();
         if scene.fractal.formula().id() != "mandelbulb" {
             assert!(places_of(&scene).is_empty(), "{}", preset.name);

@@ -76,7 +76,7 @@ fn fault(scene: Scene, file: Option<&[u8]>) -> Option<String> {
 
 #[test]
 fn every_preset_has_a_thumbnail_of_itself() {
-    let faults: Vec<String> = presets::every()
+    let faults: Vec<String> = presets::all()
         .filter_map(|preset| {
             let fault = fault((preset.scene)(), jpeg(preset))?;
             Some(format!("the thumbnail of {}: {fault}", preset.name))
@@ -91,7 +91,7 @@ fn every_preset_has_a_thumbnail_of_itself() {
 
 #[test]
 fn a_missing_damaged_or_other_thumbnail_is_a_fault() {
-    let [first, other] = [0, 1].map(|i| presets::every().nth(i).expect("two presets"));
+    let [first, other] = [0, 1].map(|i| presets::all().nth(i).expect("two presets"));
     let scene = || (first.scene)();
     assert!(fault(scene(), None).is_some_and(|fault| fault.contains("none")));
     let file = jpeg(first).expect("a thumbnail");
@@ -103,7 +103,7 @@ fn a_missing_damaged_or_other_thumbnail_is_a_fault() {
 fn small_changes_of_a_scene_are_faults() {
     let changes: [fn(&mut Scene); 2] =
         [|scene| scene.tone.exposure += 0.3, |scene| scene.camera.vertical_fov_deg *= 1.08];
-    for preset in [presets::every().next(), presets::every().last()].into_iter().flatten() {
+    for preset in [presets::all().next(), presets::all().last()].into_iter().flatten() {
         for (i, change) in changes.into_iter().enumerate() {
             let mut scene = (preset.scene)();
             change(&mut scene);
@@ -115,6 +115,6 @@ fn small_changes_of_a_scene_are_faults() {
 
 #[test]
 fn all_thumbnails_together_are_small() {
-    let bytes: usize = presets::every().filter_map(jpeg).map(<[u8]>::len).sum();
+    let bytes: usize = presets::all().filter_map(jpeg).map(<[u8]>::len).sum();
     assert!(bytes < 280_000, "{bytes} bytes: lower the JPEG quality");
 }

@@ -49,7 +49,7 @@ fn chosen(harness: &Harness<'_, Stage>) -> Vec<&'static str> {
         let cards = harness.query_all_by_role_and_label(Role::Button, name);
         cards.into_iter().any(|card| card.accesskit_node().toggled() == Some(Toggled::True))
     };
-    presets::every().map(|preset| preset.name).filter(|name| is_chosen(name)).collect()
+    presets::all().map(|preset| preset.name).filter(|name| is_chosen(name)).collect()
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn cards_fit_and_do_not_overlap() {
 #[test]
 fn the_card_of_the_scene_in_view_is_marked() {
     let mut harness = opened([1280.0, 4000.0]);
-    assert_eq!(chosen(&harness), [presets::all()[0].name]);
+    assert_eq!(chosen(&harness), [presets::opening_scenes()[0].name]);
     for (heading, presets) in lists() {
         press(&mut harness, heading);
         for preset in presets {
@@ -109,18 +109,18 @@ fn the_card_of_the_scene_in_view_is_marked() {
         }
     }
     press(&mut harness, "Scenes");
-    press(&mut harness, presets::all()[0].name);
+    press(&mut harness, presets::opening_scenes()[0].name);
     // Another power is another scene, until it is undone.
     slider(&harness, "Power").set_value_accesskit(5.0);
     harness.run();
     assert!(chosen(&harness).is_empty());
     undo_all(&mut harness);
-    assert_eq!(chosen(&harness), [presets::all()[0].name]);
+    assert_eq!(chosen(&harness), [presets::opening_scenes()[0].name]);
     let mut other = scene(&harness).clone();
     other.quality.samples += 1;
     harness.state_mut().interface.replace_project(other);
     harness.run();
-    assert_eq!(chosen(&harness), [presets::all()[0].name], "quality is the user's");
+    assert_eq!(chosen(&harness), [presets::opening_scenes()[0].name], "quality is the user's");
     harness.state_mut().interface.replace_project(Scene::default());
     harness.run();
     assert!(chosen(&harness).is_empty());
@@ -129,7 +129,7 @@ fn the_card_of_the_scene_in_view_is_marked() {
 #[test]
 fn a_card_opens_by_keyboard_and_shows_that_it_has_the_focus() {
     let mut harness = opened([1280.0, 720.0]);
-    let preset = presets::all()[2];
+    let preset = presets::opening_scenes()[2];
     let outlines = |harness: &Harness<'_, Stage>| {
         let card = button(harness, preset.name).rect();
         let shapes = harness.output().shapes.iter();
@@ -152,7 +152,7 @@ fn a_card_opens_by_keyboard_and_shows_that_it_has_the_focus() {
 #[test]
 fn a_focused_card_scrolls_into_the_window() {
     let mut harness = opened([1280.0, 400.0]);
-    let last = presets::all().last().expect("a scene").name;
+    let last = presets::opening_scenes().last().expect("a scene").name;
     let panel = harness.state().interface.rects().get("panel").expect("the panel");
     assert!(!panel.expand2(vec2(2.0, 0.0)).contains_rect(button(&harness, last).rect()));
     button(&harness, last).focus();

@@ -36,7 +36,7 @@ fn text_of(harness: &Harness<'_, Stage>) -> String {
 
 const TEXT: &str = "name \"Typed\";\nparam scale = 2 from -3 to 3 label \"Scale\";\n\
                     step { z = scale * box_fold(z, 1) * sphere_fold_scale(z, 0.5, 1) + c; }\n\
-                    radius 100;\nestimate linear;\nbound 12;\n";
+                    bailout 100;\nestimate linear;\nbound 12;\n";
 
 #[test]
 fn a_typed_formula_is_drawn_with_the_values_that_stay() {

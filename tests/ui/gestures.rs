@@ -216,7 +216,7 @@ fn keys_do_what_the_table_says() {
     assert!(harness.state().interface.settings().panel_open);
     harness.key_press(Key::Num4);
     harness.run();
-    let expected = (mandelight::scene::presets::all()[3].scene)();
+    let expected = (mandelight::scene::presets::opening_scenes()[3].scene)();
     assert_eq!(scene(&harness).fractal, expected.fractal);
 }
 

@@ -46,7 +46,7 @@ fn a_crowded_scene_is_shown_and_takes_no_more_lights() {
 
 #[test]
 fn looking_at_every_preset_changes_nothing() {
-    for preset in mandelight::scene::presets::every() {
+    for preset in mandelight::scene::presets::all() {
         let mut harness = stage((preset.scene)(), unfolded(), [1280.0, 4000.0]);
         harness.run_steps(5);
         assert_eq!(*scene(&harness), (preset.scene)(), "{}", preset.name);

@@ -94,7 +94,7 @@ fn silhouette(camera: &Camera, center: DVec3, radius: f64) -> [f64; 4] {
 #[test]
 fn turning_the_whole_keeps_it_in_the_picture_at_its_size() {
     let mut random = random();
-    for preset in presets::all() {
+    for preset in presets::opening_scenes() {
         let scene = (preset.scene)();
         let model = FractalModel::new(&scene.fractal);
         let field = &**model.whole();

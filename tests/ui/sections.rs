@@ -79,6 +79,6 @@ fn dives_are_cut_at_what_they_show() {
     let camera = &scene(&harness).camera;
     let plane = &planes(&harness)[0];
     assert_eq!(plane.point, camera.pivot);
-    assert!(plane.bands <= camera.view_unit());
+    assert!(plane.band_reach <= camera.view_unit());
     assert_eq!(scene(&harness).validate(), Ok(()));
 }

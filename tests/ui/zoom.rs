@@ -81,7 +81,7 @@ fn nearest_hit(world: World<'_>, camera: &Camera, ndc: DVec2, reach: f64) -> Opt
 #[test]
 fn a_zoom_anywhere_holds_on_to_the_surface_down_to_a_millionth() {
     // The sheets of quaternion Julia sets are too thin for every step.
-    let bulbs = presets::all().iter().filter(|preset| {
+    let bulbs = presets::opening_scenes().iter().filter(|preset| {
         (preset.scene)().fractal.formula() == mandelight::formula::FormulaRef::default()
     });
     for preset in bulbs.step_by(2) {
@@ -161,7 +161,7 @@ fn a_run_of_zooms_keeps_its_target_while_the_pointer_rests() {
 
 #[test]
 fn looking_away_stops_the_zoom_and_zooming_out_leads_back() {
-    for preset in presets::all() {
+    for preset in presets::opening_scenes() {
         let scene = (preset.scene)();
         let model = FractalModel::new(&scene.fractal);
         let field = &**model.whole();

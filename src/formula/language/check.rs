@@ -17,7 +17,7 @@ pub const MAX_OPERATIONS: usize = 512;
 /// Most numbers that a formula's parameters have in all.
 pub const MAX_PARAM_NUMBERS: usize = 48;
 /// Largest bailout by default.
-const MAX_RADIUS: f64 = 256.0;
+const MAX_BAILOUT: f64 = 256.0;
 /// Most iterations by default.
 const MAX_ITERATIONS: f64 = 100.0;
 
@@ -104,7 +104,7 @@ pub struct Checked {
     /// The scene's iterations by default; none for the usual number.
     pub iterations: Option<u32>,
     /// The scene's bailout by default; none for the usual one.
-    pub radius: Option<f64>,
+    pub bailout: Option<f64>,
 }
 
 /// Checks a tree, which is that of `text`.
@@ -138,7 +138,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
     };
     let march = constant(&mut scope, &tree.march, [0.05, 1.0])?.unwrap_or(1.0);
     let iterations = constant(&mut scope, &tree.iterations, [2.0, MAX_ITERATIONS])?;
-    let radius = constant(&mut scope, &tree.radius, [2.0, MAX_RADIUS])?;
+    let bailout = constant(&mut scope, &tree.bailout, [2.0, MAX_BAILOUT])?;
     let bound = match &tree.bound {
         Some(bound) => Some(scope.float(bound)?),
         None => None,
@@ -186,8 +186,8 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
     scope.names = outer;
     scope.names.insert("z".to_owned(), Value::Number(state.clone()));
     scope.names.insert("dr".to_owned(), Value::Number(vec![scope.graph.input(Input::Derivative)]));
-    let extent = match &tree.bailout {
-        Some(bailout) => scope.float(bailout)?,
+    let extent = match &tree.extent {
+        Some(extent) => scope.float(extent)?,
         None => scope.graph.length(&state),
     };
     let distance = scope.distance(tree.estimate.as_ref(), extent, &state)?;
@@ -234,7 +234,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         bound,
         march,
         iterations: iterations.map(|iterations| iterations as u32),
-        radius,
+        bailout,
         graph,
     })
 }

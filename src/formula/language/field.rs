@@ -35,7 +35,7 @@ pub struct Programs {
     pub tests_square: bool,
     /// Whether orbits grow as a power.
     pub is_power: bool,
-    /// Whether the text gives the distance itself: it then tells what is inside.
+    /// Whether the text gives the distance itself, whose sign then says what is inside.
     pub has_own_distance: bool,
 }
 

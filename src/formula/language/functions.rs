@@ -102,10 +102,10 @@ functions! {
         |g, a| each2(g, &a[1], &a[2], |g, yes, no| g.select(a[0][0], yes, no));
     abs(x: Any) "The magnitude of each component.", "abs(z)", |g, a| each(g, a, |g, x| g.unary(Unary::Abs, x));
     sign(x: Any) "−1, 0 or 1 as each component is negative, zero or positive.", "sign(z)", |g, a| each(g, a, |g, x| g.unary(Unary::Sign, x));
-    floor(x: Any) "The next whole number below.", "floor(z.x)", |g, a| each(g, a, |g, x| g.unary(Unary::Floor, x));
+    floor(x: Any) "The largest whole number not above x.", "floor(z.x)", |g, a| each(g, a, |g, x| g.unary(Unary::Floor, x));
     round(x: Any) "The nearest whole number.", "round(z.x)", |g, a| each(g, a, rounded);
-    fract(x: Any) "The part after the next whole number below.", "fract(z)", |g, a| each(g, a, |g, x| { let below = g.unary(Unary::Floor, x); g.minus(x, below) });
-    modulo(x: Any, y: Any) "x minus the multiple of y below x.", "modulo(z, 2.0)", |g, a| each2(g, &a[0], &a[1], modulo);
+    fract(x: Any) "x − floor(x).", "fract(z)", |g, a| each(g, a, |g, x| { let below = g.unary(Unary::Floor, x); g.minus(x, below) });
+    modulo(x: Any, y: Any) "x − y · floor(x / y).", "modulo(z, 2.0)", |g, a| each2(g, &a[0], &a[1], modulo);
     min(x: Any, y: Any) "The smaller of two.", "min(z, 1.0)", |g, a| each2(g, &a[0], &a[1], |g, x, y| g.binary(Binary::Min, x, y));
     max(x: Any, y: Any) "The larger of two.", "max(z.x, z.y)", |g, a| each2(g, &a[0], &a[1], |g, x, y| g.binary(Binary::Max, x, y));
     clamp(x: Any, low: Any, high: Any) "x, but at least `low` and at most `high`.", "clamp(z, -1.0, 1.0)",

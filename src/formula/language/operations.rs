@@ -19,7 +19,7 @@ enum Selected {
     Nth,
     /// The first step.
     First,
-    /// The step whose formula tells sizes and distances.
+    /// The step whose formula computes sizes and distances.
     Leading,
 }
 

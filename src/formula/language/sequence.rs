@@ -8,7 +8,7 @@ pub const MAX_STEPS: usize = 9;
 pub const FORMULA_BITS: u32 = 4;
 /// Number of an orbit's steps that the table lists; no orbit is longer.
 pub const LISTED_STEPS: u32 = 256;
-/// The entry behind the listed steps: the step that tells sizes and distances.
+/// The entry behind the listed steps: the step that computes sizes and distances.
 pub const LEADING: u32 = LISTED_STEPS;
 /// Vectors of the table that the entries take.
 pub const ENTRY_VECTORS: usize = LISTED_STEPS as usize / 4 + 1;
@@ -33,7 +33,7 @@ pub struct Sequence {
     pub steps: Vec<SequenceStep>,
     /// The step that follows the last one.
     pub loop_start: usize,
-    /// The step whose formula tells an orbit's size and distance.
+    /// The step whose formula computes an orbit's size and distance.
     pub leading: usize,
 }
 

@@ -116,8 +116,9 @@ fn words_of(rule: &Rule) -> String {
     let rule = format!("{rule:?}");
     let words = match rule.as_str() {
         "file" | "declaration" | "title" | "about" | "source" | "param" | "state" | "init"
-        | "step" | "bailout" | "estimate" | "bound" | "iterations" | "radius" | "march"
-        | "color" => "a declaration",
+        | "step" | "size" | "estimate" | "bound" | "iterations" | "bailout" | "march" | "color" => {
+            "a declaration"
+        }
         "definition" => "`let`",
         "assignment" => "an assignment",
         "switch" | "on" | "off" => "`true` or `false`",
@@ -186,11 +187,11 @@ impl Reader<'_> {
                 let statements = inner.0.filter(has_value).map(|pair| self.statement(pair));
                 self.tree.step = Some((span, statements.collect::<Result<_, _>>()?));
             }
-            Rule::bailout => self.tree.bailout = Some(self.expression(inner.next())?),
+            Rule::size => self.tree.extent = Some(self.expression(inner.next())?),
             Rule::estimate => self.tree.estimate = Some(self.estimate(inner.next())?),
             Rule::bound => self.tree.bound = Some(self.expression(inner.next())?),
             Rule::iterations => self.tree.iterations = Some(self.expression(inner.next())?),
-            Rule::radius => self.tree.radius = Some(self.expression(inner.next())?),
+            Rule::bailout => self.tree.bailout = Some(self.expression(inner.next())?),
             Rule::color => self.tree.channel = Some(string(inner.next())),
             Rule::march => self.tree.march = Some(self.expression(inner.next())?),
             _ => {}

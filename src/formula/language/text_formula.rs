@@ -270,7 +270,7 @@ impl Formula for TextFormula {
     }
 
     fn default_bailout(&self) -> Option<f64> {
-        self.checked.radius
+        self.checked.bailout
     }
 
     fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {

@@ -31,7 +31,7 @@ pub const KEYWORDS: &[&str] = &[
     "name",
     "none",
     "param",
-    "radius",
+    "size",
     "source",
     "state",
     "step",

@@ -201,7 +201,7 @@ pub struct SyntaxTree {
     /// The statements of one step.
     pub step: Option<(Span, Vec<Statement>)>,
     /// The size that is compared with the bailout.
-    pub bailout: Option<Expression>,
+    pub extent: Option<Expression>,
     /// How distances are estimated.
     pub estimate: Option<EstimateDeclaration>,
     /// Radius of a sphere that holds the set.
@@ -209,7 +209,7 @@ pub struct SyntaxTree {
     /// The scene's iterations by default.
     pub iterations: Option<Expression>,
     /// The scene's bailout by default.
-    pub radius: Option<Expression>,
+    pub bailout: Option<Expression>,
     /// Step of a ray over the estimate.
     pub march: Option<Expression>,
     /// What the step assigns to `color`, as a label in the panel.

@@ -18,7 +18,7 @@ struct Fractal {
     initial_derivative: f32,
     // 1 if orbits grow as a power, 0 if by a factor.
     is_power: f32,
-    // 1 if the text gives the distance itself, which then tells what is inside.
+    // 1 if the text gives the distance itself, whose sign then says what is inside.
     has_own_distance: u32,
 }
 

@@ -138,7 +138,7 @@ host_shared! {
         /// The plane's normal, toward the side that is cut away, and its distance from the origin.
         planes: Array<[f32; 4], 3>,
         /// Distance from the set within which each plane is drawn, in render space.
-        bands: [f32; 4],
+        band_reach: [f32; 4],
         /// Colour of the set's inside, linear Rec. 709.
         inside: [f32; 3],
         /// Number of planes.

@@ -10,6 +10,7 @@
 //! The contents decide, not the file's name. Colours are sRGB.
 
 use super::{fit::fit, named::NamedGradient};
+use crate::scene::color::{Hsv, hsv_from_srgb, srgb_from_hsv};
 
 /// The endings of files that may have gradients.
 pub const ENDINGS: [&str; 4] = ["ggr", "gpl", "map", "ugr"];
@@ -228,37 +229,14 @@ fn blended(kind: u32, place: f64, middle: f64) -> f64 {
 
 /// Between two colours by hue, saturation and value; `ccw` is toward greater hues.
 fn around_hues(from: [f32; 3], to: [f32; 3], part: f32, ccw: bool) -> [f32; 3] {
-    let ([h, s, v], [mut h1, s1, v1]) = (hsv(from), hsv(to));
-    if ccw && h1 < h {
-        h1 += 1.0;
-    } else if !ccw && h1 > h {
-        h1 -= 1.0;
+    let (from, mut to) = (hsv_from_srgb(from), hsv_from_srgb(to));
+    if ccw && to.h < from.h {
+        to.h += 1.0;
+    } else if !ccw && to.h > from.h {
+        to.h -= 1.0;
     }
     let mix = |a: f32, b: f32| a + part * (b - a);
-    let (h, s, v) = (mix(h, h1).rem_euclid(1.0), mix(s, s1), mix(v, v1));
-    let channel = |offset: f32| {
-        let k = (offset + 6.0 * h) % 6.0;
-        v - v * s * k.min(4.0 - k).clamp(0.0, 1.0)
-    };
-    [channel(5.0), channel(3.0), channel(1.0)]
-}
-
-/// Hue, saturation and value, each 0 to 1.
-fn hsv(rgb: [f32; 3]) -> [f32; 3] {
-    let [r, g, b] = rgb;
-    let value = r.max(g).max(b);
-    let chroma = value - r.min(g).min(b);
-    if chroma <= 0.0 {
-        return [0.0, 0.0, value];
-    }
-    let sixth = if value == r {
-        ((g - b) / chroma).rem_euclid(6.0)
-    } else if value == g {
-        (b - r) / chroma + 2.0
-    } else {
-        (r - g) / chroma + 4.0
-    };
-    [sixth / 6.0, chroma / value, value]
+    srgb_from_hsv(Hsv { h: mix(from.h, to.h), s: mix(from.s, to.s), v: mix(from.v, to.v) })
 }
 
 /// Ultra Fractal's gradients: `name { gradient: … index=0 color=255 … }`.

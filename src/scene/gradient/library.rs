@@ -2,15 +2,18 @@
 
 use super::named::{NamedGradient, srgb_stop};
 
-/// The names and colours, sRGB; the colours are evenly spaced and blend from the last to the first.
-const GRADIENTS: &[(&str, &[u32])] = &[
-    ("Dawn", &[0x26394F, 0x5A90AB, 0xF7E7CE, 0xEEAD75, 0x955A5A]),
-    ("Moss", &[0x2F463A, 0x7D9B60, 0xE7E1AE, 0xF7F3E4, 0x957F69]),
-    ("Ice", &[0x1A3A55, 0x3F94B3, 0xB5E0E8, 0xFBFCFB, 0x7C81AE]),
-    ("Ember", &[0x451A26, 0xB84540, 0xF7AD59, 0xFEEFC4, 0x7C506F]),
-    ("Stone", &[0x5A5655, 0xAEA399, 0xE7DFD1, 0xF9F7F1, 0x959AA6]),
-    ("Orchid", &[0x3F2655, 0x9B59A6, 0xEEB5C8, 0xFDF1E7, 0x6F8CAA]),
-    ("Brass", &[0x463A26, 0xAE8C50, 0xF1D795, 0xFEF9E4, 0x6F9090]),
+/// Names, positions and sRGB colours. A short dark end sets one repeat apart from the next.
+const SPACED: &[(&str, [f64; 5], [u32; 5])] = &[
+    ("Dawn", [0.0, 0.25, 0.5, 0.75, 0.9], [0x26394F, 0x5A90AB, 0xF7E7CE, 0xEEAD75, 0x955A5A]),
+    ("Moss", [0.0, 0.3, 0.55, 0.78, 0.9], [0x2F463A, 0x7D9B60, 0xE7E1AE, 0xF7F3E4, 0x957F69]),
+    ("Ice", [0.0, 0.3, 0.55, 0.78, 0.9], [0x1A3A55, 0x3F94B3, 0xB5E0E8, 0xFBFCFB, 0x7C81AE]),
+    ("Ember", [0.0, 0.28, 0.52, 0.75, 0.9], [0x451A26, 0xB84540, 0xF7AD59, 0xFEEFC4, 0x7C506F]),
+    ("Stone", [0.0, 0.3, 0.55, 0.78, 0.9], [0x5A5655, 0xAEA399, 0xE7DFD1, 0xF9F7F1, 0x959AA6]),
+    ("Orchid", [0.0, 0.28, 0.52, 0.76, 0.9], [0x3F2655, 0x9B59A6, 0xEEB5C8, 0xFDF1E7, 0x6F8CAA]),
+    ("Brass", [0.0, 0.3, 0.55, 0.78, 0.9], [0x463A26, 0xAE8C50, 0xF1D795, 0xFEF9E4, 0x6F9090]),
+];
+/// Names and sRGB colours, evenly spaced.
+const EVEN: &[(&str, &[u32])] = &[
     ("Thesis", &[0x590F2A, 0xCE7046, 0xF3C37C, 0xF6E9CF, 0x8998AE]),
     ("Glacier", &[0x0B1F33, 0x14507A, 0x4FA3C7, 0xC9E8F2, 0xFFFFFF, 0x7FB2C9]),
     ("Lagoon", &[0x05303A, 0x0B7A75, 0x7BD3B0, 0xF4F1DE, 0x1B6F8A]),
@@ -44,19 +47,21 @@ const GRADIENTS: &[(&str, &[u32])] = &[
     ("Graphite", &[0x101112, 0x3A3D40, 0x7C8084, 0xC9CCCF, 0x55595D]),
 ];
 
-/// The gradients that come with the program, in the menu's order.
+/// The gradients that come with the program, in the menu's order. They blend from the last colour to the first.
 pub fn library() -> impl Iterator<Item = NamedGradient> {
-    GRADIENTS.iter().map(|(name, colors)| NamedGradient {
+    let stop = |(position, &color): (f64, &u32)| {
+        let [_, rgb @ ..] = color.to_be_bytes();
+        srgb_stop(position, rgb.map(|channel| f32::from(channel) / 255.0))
+    };
+    let spaced = SPACED.iter().map(move |(name, positions, colors)| NamedGradient {
         name: (*name).to_owned(),
-        stops: (0..)
-            .zip(*colors)
-            .map(|(i, &color)| {
-                let [_, rgb @ ..] = color.to_be_bytes();
-                let encoded = rgb.map(|channel| f32::from(channel) / 255.0);
-                srgb_stop(f64::from(i) / colors.len() as f64, encoded)
-            })
-            .collect(),
-    })
+        stops: positions.iter().copied().zip(colors).map(stop).collect(),
+    });
+    let even = EVEN.iter().map(move |(name, colors)| NamedGradient {
+        name: (*name).to_owned(),
+        stops: (0..).map(|i| f64::from(i) / colors.len() as f64).zip(*colors).map(stop).collect(),
+    });
+    spaced.chain(even)
 }
 
 #[cfg(test)]

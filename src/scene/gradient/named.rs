@@ -11,7 +11,11 @@ pub struct NamedGradient {
     pub stops: Vec<GradientStop>,
 }
 
-/// A stop with an sRGB colour.
+/// Decimals of a channel: a fifth of the darkest sRGB level of 255.
+const DECIMALS: f32 = 1e4;
+
+/// A stop with an sRGB colour, rounded so that documents and links stay short.
 pub fn srgb_stop(position: f64, encoded: [f32; 3]) -> GradientStop {
-    GradientStop { position, color: encoded.map(linear_from_srgb) }
+    let rounded = |channel: f32| (linear_from_srgb(channel) * DECIMALS).round() / DECIMALS;
+    GradientStop { position, color: encoded.map(rounded) }
 }

@@ -8,6 +8,7 @@ use crate::{
         background::Background,
         camera::Camera,
         description::Scene,
+        gradient::library,
         indirect::{Indirect, IndirectKind},
         light::{EnvironmentLight, LightFrame},
         lighting::Lights,
@@ -69,7 +70,15 @@ pub(super) fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) ->
     EnvironmentLight { frame: LightFrame::View, ..light(direction, color, intensity) }
 }
 
-/// A gradient of positions and colours.
+/// The stops of the program's gradient called `name`; a test checks the names.
+pub(super) fn gradient(name: &str) -> Vec<GradientStop> {
+    library()
+        .find(|gradient| gradient.name == name)
+        .map(|gradient| gradient.stops)
+        .unwrap_or_default()
+}
+
+/// A gradient of positions and linear colours.
 pub(super) fn stops(list: &[(f64, [f32; 3])]) -> Vec<GradientStop> {
     list.iter().map(|&(position, color)| GradientStop { position, color }).collect()
 }

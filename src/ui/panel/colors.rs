@@ -35,7 +35,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_space(6.0);
     let second = &mut cx.scene.surface.second_layer;
     let mut is_on = second.is_on();
-    let hover = "Blends a second gradient over the first, by another value";
+    let hover = "Blends a second gradient, selected by another value, over the first";
     if ui.checkbox(&mut is_on, "Second layer").on_hover_text(hover).changed() {
         switch(ui, second, is_on);
     }
@@ -91,8 +91,8 @@ fn sources(channel: Option<&'static str>) -> Vec<(ColorSource, &'static str, &'s
     let mut all = vec![
         (
             ColorSource::Iterations,
-            "Steps",
-            "Colours by the number of formula steps until a point escapes",
+            "Iterations",
+            "Colours by the number of iterations until a point escapes",
         ),
         (
             ColorSource::PointTrap,

@@ -111,7 +111,7 @@ fn preset_of(formula: FormulaRef) -> Option<&'static Preset> {
     if formula.text().is_some() {
         return None;
     }
-    presets::every().find(|preset| preset.name == formula.name())
+    presets::all().find(|preset| preset.name == formula.name())
 }
 
 /// Takes the formula with its default values and without section planes, and the camera to where it sees the whole

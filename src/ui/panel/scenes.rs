@@ -93,7 +93,7 @@ fn cards(ui: &mut Ui, cx: &mut Context<'_>, list: &PresetList, first: usize) {
 fn chosen(scene: &Scene) -> Option<usize> {
     /// The scenes of all presets: dives take a while to read.
     static SCENES: LazyLock<Vec<Scene>> =
-        LazyLock::new(|| presets::every().map(|preset| (preset.scene)()).collect());
+        LazyLock::new(|| presets::all().map(|preset| (preset.scene)()).collect());
     let alike = |preset: &Scene| {
         let Scene { quality, camera, .. } = scene;
         preset.fractal == scene.fractal

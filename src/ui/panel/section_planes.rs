@@ -68,7 +68,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             });
             directions(ui, plane, camera);
             position(ui, plane, camera, radius);
-            param_slider(ui, &param::SECTION_BANDS, &mut plane.bands);
+            param_slider(ui, &param::SECTION_BAND_REACH, &mut plane.band_reach);
         });
         ui.add_space(6.0);
     }
@@ -79,7 +79,8 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let hover = "Cuts away the half that faces you. Up to three planes cut together.";
     let add = ui.add_enabled(planes.len() < MAX_SECTION_PLANES, Button::new(text));
     cx.rects.record("add section plane", &add);
-    if add.on_hover_text(hover).clicked() {
+    let full = format!("A fractal has at most {MAX_SECTION_PLANES} section planes.");
+    if add.on_hover_text(hover).on_disabled_hover_text(full).clicked() {
         let new = new_plane(planes, camera);
         planes.push(new);
     }
@@ -102,7 +103,7 @@ fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
                 plane.direction = axis.direction().to_array();
             }
         }
-        let hover = "Turns the plane toward you: cuts away what is before it as you look now";
+        let hover = "Turns the plane toward you: cuts away what is between you and the plane";
         if ui.button("Facing you").on_hover_text(hover).clicked() {
             plane.direction = (-camera.forward()).normalize().to_array();
         }
@@ -128,7 +129,7 @@ fn position(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera, radius: f64)
     }
 }
 
-/// Bands and inside.
+/// Repeats of the gradient, and the colour of the inside.
 fn colors(ui: &mut Ui, colors: &mut SectionColors) {
     ui.add_space(6.0);
     caption(ui, "Colours of the cut");
@@ -151,6 +152,6 @@ fn new_plane(planes: &[SectionPlane], camera: &Camera) -> SectionPlane {
         .unwrap_or(DVec3::Z);
     let direction = axis * if toward_eye.dot(axis) < 0.0 { -1.0 } else { 1.0 };
     let point = if camera.is_close() { camera.pivot.clone() } else { PrecisePoint::ORIGIN };
-    let bands = param::SECTION_BANDS.default.min(camera.view_unit());
-    SectionPlane { point, direction: direction.to_array(), bands }
+    let band_reach = param::SECTION_BAND_REACH.default.min(camera.view_unit());
+    SectionPlane { point, direction: direction.to_array(), band_reach }
 }

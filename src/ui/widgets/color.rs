@@ -10,7 +10,7 @@ use egui::{
 };
 
 use crate::{
-    scene::color::{linear_from_srgb, srgb_from_linear},
+    scene::color::{Hsv, hsv_from_srgb, linear_from_srgb, srgb_from_hsv, srgb_from_linear},
     ui::theme,
 };
 
@@ -20,14 +20,6 @@ const WIDTH: f32 = 232.0;
 const CELLS: usize = 24;
 /// Change of a value per arrow key press, as a fraction of its range.
 const KEY_STEP: f32 = 0.02;
-
-/// Hue, saturation and value of an sRGB-encoded colour, each 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Hsv {
-    h: f32,
-    s: f32,
-    v: f32,
-}
 
 /// A button in the colour `linear` (Rec. 709) that opens a picker.
 ///
@@ -192,37 +184,16 @@ fn grid(rect: Rect, cells: usize, color: impl Fn(f32, f32) -> Color32) -> Shape 
 }
 
 fn encoded_color(hsv: Hsv) -> Color32 {
-    let [r, g, b] = encoded_from_hsv(hsv).map(|v| (v * 255.0).round() as u8);
+    let [r, g, b] = srgb_from_hsv(hsv).map(|v| (v * 255.0).round() as u8);
     Color32::from_rgb(r, g, b)
 }
 
-/// The sRGB-encoded channels of an HSV colour.
-fn encoded_from_hsv(Hsv { h, s, v }: Hsv) -> [f32; 3] {
-    let channel = |offset: f32| {
-        let k = (offset + h * 6.0).rem_euclid(6.0);
-        v - v * s * k.min(4.0 - k).clamp(0.0, 1.0)
-    };
-    [channel(5.0), channel(3.0), channel(1.0)]
-}
-
 fn linear_from_hsv(hsv: Hsv) -> [f32; 3] {
-    encoded_from_hsv(hsv).map(linear_from_srgb)
+    srgb_from_hsv(hsv).map(linear_from_srgb)
 }
 
 fn hsv_from_linear(linear: [f32; 3]) -> Hsv {
-    let [r, g, b] = linear.map(srgb_from_linear);
-    let v = r.max(g).max(b);
-    let span = v - r.min(g).min(b);
-    let sector = if span <= 0.0 {
-        0.0
-    } else if v == r {
-        (g - b) / span
-    } else if v == g {
-        2.0 + (b - r) / span
-    } else {
-        4.0 + (r - g) / span
-    };
-    Hsv { h: (sector / 6.0).rem_euclid(1.0), s: if v > 0.0 { span / v } else { 0.0 }, v }
+    hsv_from_srgb(linear.map(srgb_from_linear))
 }
 
 fn hex_text(linear: [f32; 3]) -> String {
@@ -244,7 +215,7 @@ mod tests {
 
     #[test]
     fn hues_give_the_primary_colours() {
-        let hue = |h| encoded_from_hsv(Hsv { h, s: 1.0, v: 1.0 }).map(|v| (v * 255.0).round());
+        let hue = |h| srgb_from_hsv(Hsv { h, s: 1.0, v: 1.0 }).map(|v| (v * 255.0).round());
         assert_eq!(hue(0.0), [255.0, 0.0, 0.0]);
         assert_eq!(hue(1.0 / 3.0), [0.0, 255.0, 0.0]);
         assert_eq!(hue(2.0 / 3.0), [0.0, 0.0, 255.0]);

@@ -82,8 +82,8 @@ fn fractal() -> impl Strategy<Value = Fractal> {
 }
 
 fn section_plane() -> impl Strategy<Value = SectionPlane> {
-    (point(), direction(), value(&param::SECTION_BANDS))
-        .prop_map(|(point, direction, bands)| SectionPlane { point, direction, bands })
+    (point(), direction(), value(&param::SECTION_BAND_REACH))
+        .prop_map(|(point, direction, band_reach)| SectionPlane { point, direction, band_reach })
 }
 
 fn camera() -> impl Strategy<Value = Camera> {

@@ -5,11 +5,11 @@ use mandelight_test_support::dives::{fall, row_of};
 
 #[test]
 fn there_are_sixteen_half_of_them_off_the_equator_and_every_name_is_its_own() {
-    assert_eq!((presets::all().len(), presets::dives().len()), (8, 16));
+    assert_eq!((presets::opening_scenes().len(), presets::dives().len()), (8, 16));
     let height = |dive: &presets::Preset| (dive.scene)().camera.pivot.to_dvec3().z.abs();
     assert!(presets::dives().iter().filter(|dive| height(dive) > 0.1).count() >= 8);
-    let names: std::collections::HashSet<&str> = presets::every().map(|p| p.name).collect();
-    assert_eq!(names.len(), presets::every().count());
+    let names: std::collections::HashSet<&str> = presets::all().map(|p| p.name).collect();
+    assert_eq!(names.len(), presets::all().count());
     let power = |dive: &presets::Preset| (dive.scene)().fractal.number("power");
     let powers: Vec<f64> = presets::dives().iter().filter_map(power).collect();
     for power in [3.0, 4.0, 6.0, 8.0, 12.0, 16.0] {

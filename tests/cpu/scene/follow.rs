@@ -33,7 +33,7 @@ fn turned(camera: &Camera, turn: DQuat) -> Camera {
 /// The opening scenes' lights, and a set with every kind of reach.
 fn sets() -> Vec<Lights> {
     let mut sets: Vec<Lights> =
-        presets::all().iter().map(|preset| (preset.scene)().lights).collect();
+        presets::opening_scenes().iter().map(|preset| (preset.scene)().lights).collect();
     let mut unlimited = sets[0].clone();
     unlimited.environment.iter_mut().for_each(|light| light.shadow_reach = None);
     sets.push(unlimited);

@@ -44,7 +44,7 @@ fn mandelbulb_distance(fractal: &Mandelbulb, point: DVec3) -> f64 {
 
 #[test]
 fn the_program_opens_on_the_first_and_names_differ() {
-    let presets = presets::all();
+    let presets = presets::opening_scenes();
     assert_eq!((presets[0].scene)(), presets::opening());
     for (i, preset) in presets.iter().enumerate() {
         assert!(!preset.name.is_empty() && preset.blurb.ends_with('.'));
@@ -61,7 +61,7 @@ fn each_switches_on_what_documents_leave_off() {
     let default = Scene::default();
     assert!(!default.lights.follow_view && !default.has_indirect());
     assert!(!default.surface.coloring.follows_view);
-    for preset in presets::all() {
+    for preset in presets::opening_scenes() {
         let scene = (preset.scene)();
         assert!(scene.lights.follow_view && scene.has_indirect(), "{}", preset.name);
         assert!(scene.surface.coloring.follows_view, "{}", preset.name);
@@ -70,7 +70,7 @@ fn each_switches_on_what_documents_leave_off() {
 
 #[test]
 fn each_is_valid_and_fits_a_link() {
-    for preset in presets::all() {
+    for preset in presets::opening_scenes() {
         let scene = (preset.scene)();
         scene.validate().unwrap_or_else(|error| panic!("{}: {error}", preset.name));
         assert_eq!(document::from_json(&document::to_json(&scene)), Ok(scene.clone()));
@@ -88,7 +88,7 @@ fn each_is_valid_and_fits_a_link() {
 
 #[test]
 fn each_eye_and_lamp_is_outside_of_the_set() {
-    for preset in presets::all() {
+    for preset in presets::opening_scenes() {
         let scene = (preset.scene)();
         let eye = scene.camera.position.to_dvec3();
         let distance = distance_estimate(&scene.fractal, eye);
@@ -103,7 +103,7 @@ fn each_eye_and_lamp_is_outside_of_the_set() {
 
 #[test]
 fn each_shows_a_surface_in_the_middle() {
-    for preset in presets::all() {
+    for preset in presets::opening_scenes() {
         let scene = (preset.scene)();
         let (camera, fractal) = (&scene.camera, &scene.fractal);
         let pivot = camera.pivot.to_dvec3();

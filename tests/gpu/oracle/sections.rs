@@ -19,19 +19,20 @@ fn slice() -> Scene {
     let mut scene = sampled(Scene::default(), 1);
     assert!(scene.fractal.set("power", 2.0));
     scene.fractal.iterations = 60;
-    scene.fractal.section_planes = vec![SectionPlane { bands: 4.0, ..SectionPlane::default() }];
+    scene.fractal.section_planes =
+        vec![SectionPlane { band_reach: 4.0, ..SectionPlane::default() }];
     let eye = DVec3::new(-0.6, 0.0, 3.4);
     scene.camera = Camera::looking_at(eye, DVec3::new(-0.6, 0.0, 0.0), DVec3::Y);
     scene.quality.normals = Normals::Analytic;
     scene
 }
 
-/// The point of the plane z = 0 that a pixel sees.
+/// Depth and point of the plane z = 0 that a pixel sees.
 fn seen(scene: &Scene, pixel: [u32; 2]) -> (f64, DVec3) {
     let eye = scene.camera.position.to_dvec3();
-    let way = rays::direction(&scene.camera, SIZE, pixel);
-    let depth = eye.z / -way.z;
-    (depth, eye + depth * way)
+    let direction = rays::direction(&scene.camera, SIZE, pixel);
+    let depth = eye.z / -direction.z;
+    (depth, eye + depth * direction)
 }
 
 fn all() -> impl Iterator<Item = (usize, [u32; 2])> {
@@ -39,7 +40,7 @@ fn all() -> impl Iterator<Item = (usize, [u32; 2])> {
 }
 
 /// Steps of z² + c until it escapes, made smooth; none if it stays.
-fn escape(c: DVec2, bailout: f64, most: u32) -> Option<f64> {
+fn smooth_iterations(c: DVec2, bailout: f64, most: u32) -> Option<f64> {
     let mut z = c;
     for n in 0..most {
         if z.length() > bailout {
@@ -70,7 +71,7 @@ fn the_slice_of_the_square_bulb_is_the_mandelbrot_set() {
         assert!((f64::from(samples.depth[i]) - depth).abs() < 1e-5 * depth, "{pixel:?}");
         let normal = samples.normal[i].as_dvec3();
         assert!(normal.angle_between(DVec3::Z).to_degrees() < 0.01, "{pixel:?}: {normal}");
-        let expected = match escape(point.truncate(), scene.fractal.bailout, 60) {
+        let expected = match smooth_iterations(point.truncate(), scene.fractal.bailout, 60) {
             Some(smooth) => light::color_at(&as_iterations, smooth),
             None => {
                 inside += 1;
@@ -118,7 +119,7 @@ fn the_uncut_half_looks_as_before() {
     // Behind everything: nothing is cut, but rays are clipped at the plane.
     let behind = SectionPlane {
         point: DVec3::new(0.0, 0.0, 1.4).into(),
-        bands: 0.0,
+        band_reach: 0.0,
         ..SectionPlane::default()
     };
     let plain = finished(&scene, SIZE, Pace::Still).gbuffer().expect("samples");

@@ -9,6 +9,7 @@
 //! | `formulas` | the formulas of `formulas/` |
 //! | `transforms` | the transforms of hybrids |
 //! | `orbits` | orbits of formulas and hybrids |
+//! | `formula_rays` | rays toward the set of any formula, cut by section planes |
 //! | `rays` | camera rays, march, six-sample normals, shadow rays |
 //! | `normals` | the estimate's gradient, by differences |
 //! | `light` | Blinn-Phong, the gradient of colours, sRGB |
@@ -19,6 +20,7 @@
 pub mod bloom;
 pub mod estimate;
 pub mod folds;
+pub mod formula_rays;
 pub mod formulas;
 pub mod light;
 pub mod normals;

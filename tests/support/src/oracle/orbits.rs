@@ -17,7 +17,7 @@ struct Steps {
     of: Vec<(Equations, Fractal)>,
     /// The place in `of` of each of an orbit's steps.
     order: Vec<usize>,
-    /// The place of the step that tells sizes and distances.
+    /// The place of the step that computes sizes and distances.
     leading: usize,
     julia_constant: Option<DVec4>,
     bailout: f64,
