@@ -6,6 +6,7 @@
 use std::{process::Command, sync::Arc, time::Instant};
 
 use mandelight::{
+    formula,
     gpu::{Gpu, device::in_parallel},
     render::Pipelines,
     scene::{
@@ -26,7 +27,7 @@ const COMPARED_PX: [u32; 2] = [60, 40];
 /// One formula.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// The formula's name.
+    /// The formula's id.
     pub formula: &'static str,
     /// Step of a ray over the estimate.
     pub step: f64,
@@ -48,7 +49,7 @@ fn scenes() -> impl Iterator<Item = (&'static str, Scene)> {
     all.map(|preset: &Preset| {
         let mut scene = (preset.scene)();
         scene.quality.samples = 1;
-        (preset.name, scene)
+        (scene.fractal.formula().id(), scene)
     })
 }
 
@@ -61,7 +62,7 @@ pub fn measure(arguments: &Arguments, pipelines: &Arc<Pipelines>) -> Result<Vec<
     let pixels: f64 = size_px.into_iter().map(f64::from).product();
     let compilation = compilation_times(arguments)?;
     let mut rows = Vec::new();
-    for ((name, scene), compilation_ms) in scenes().zip(compilation) {
+    for ((id, scene), compilation_ms) in scenes().zip(compilation) {
         pipelines.specialize(&scene);
         let mut times = Vec::new();
         for round in 0..=arguments.rounds {
@@ -76,9 +77,9 @@ pub fn measure(arguments: &Arguments, pipelines: &Arc<Pipelines>) -> Result<Vec<
             counts += counted.per(pixels);
         }
         let policy = scene.fractal.formula().march_policy(&scene.fractal);
-        let is_text = presets::formulas().iter().any(|preset| preset.name == name);
+        let is_text = formula::texts().any(|(text, _)| text == id);
         rows.push(Row {
-            formula: name,
+            formula: id,
             step: policy.ball_part.into(),
             relaxation: policy.relaxation.into(),
             counts,

@@ -17,10 +17,27 @@ pub enum Measure {
     Estimates,
     /// Orbit steps per pixel.
     Steps,
+    /// The time of a text's estimate divided by its baseline's.
+    TextEstimate,
+    /// The time of a text's gradient divided by its baseline's.
+    TextGradient,
+    /// The compilation of a formula's passes divided by that of the Mandelbulb's.
+    Compilation,
+    /// Percentage of pixels whose rays pass the surface.
+    Overstepped,
 }
 
 impl Measure {
-    const ALL: [Self; 4] = [Self::Ratio, Self::Cost, Self::Estimates, Self::Steps];
+    const ALL: [Self; 8] = [
+        Self::Ratio,
+        Self::Cost,
+        Self::Estimates,
+        Self::Steps,
+        Self::TextEstimate,
+        Self::TextGradient,
+        Self::Compilation,
+        Self::Overstepped,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -28,6 +45,10 @@ impl Measure {
             Self::Cost => "cost",
             Self::Estimates => "estimates",
             Self::Steps => "steps",
+            Self::TextEstimate => "text-estimate",
+            Self::TextGradient => "text-gradient",
+            Self::Compilation => "compilation",
+            Self::Overstepped => "overstepped",
         }
     }
 
@@ -40,6 +61,9 @@ impl Measure {
         match self {
             Self::Ratio => value / 2.0,
             Self::Cost => value * 1.5,
+            // Both sides run on one machine in turn.
+            Self::TextEstimate | Self::TextGradient | Self::Compilation => value * 1.3,
+            Self::Overstepped => value + 0.1,
             Self::Estimates | Self::Steps => value * 1.01,
         }
     }

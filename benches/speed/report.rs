@@ -63,6 +63,19 @@ impl Report {
         if let Some(worst) = descent::worst(&self.descent) {
             add(Measure::Cost, &format!("{}-worst", descent::NAME), worst);
         }
+        for row in &self.step_costs {
+            add(Measure::TextEstimate, row.formula, row.estimate);
+            if let Some(gradient) = row.gradient {
+                add(Measure::TextGradient, row.formula, gradient);
+            }
+        }
+        for row in &self.formulas {
+            let bulb_ms = self.formulas.first().map_or(f64::NAN, |bulb| bulb.compilation_ms);
+            add(Measure::Compilation, row.formula, row.compilation_ms / bulb_ms);
+            if let Some(part) = row.overstepped {
+                add(Measure::Overstepped, row.formula, 100.0 * part);
+            }
+        }
         all
     }
 

@@ -15,12 +15,15 @@ use std::{
 
 use mandelight::{
     export,
+    formula::{self, Fractal},
+    render::{Region, shaders, uniforms::Inputs},
     scene::{
         Path, Project, Scene, document, link,
         path::{Easing, Key},
         presets,
     },
 };
+use mandelight_test_support::expressions::Expressions;
 use picture::Picture;
 use serde_json::Value;
 use visit::{Visit, folder_of};
@@ -190,6 +193,64 @@ fn the_page_and_the_native_program_draw_the_same_pictures() {
         println!("{name}: {difference:?}");
         assert!(difference.mean < MAX_MEAN_STEPS, "{name}: {difference:?}");
         assert!(difference.notable < MAX_NOTABLE, "{name}: {difference:?}");
+    }
+}
+
+/// Number of generated formulas that the browser compiles.
+const GENERATED: u64 = 60;
+
+/// A pass that calls all that a formula's kernel has.
+const CALLS_ALL: &str = "// uses: formula, types/frame_uniforms
+
+@group(1) @binding(0) var<storage, read_write> results: array<vec4f>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) thread: vec3u) {
+    frame = frame_uniforms;
+    let fractal = frame.formula.fractal;
+    let point = vec3f(thread) * 0.01;
+    let colors = orbit_colors(fractal, point);
+    let seen = quick_estimate(fractal, point, vec3f(0.0, 0.0, 1.0));
+    let careful = careful_estimate(fractal, point, vec3f(0.0, 0.0, 1.0));
+    results[thread.x] = vec4f(distance_gradient(fractal, point), distance_estimate(fractal, point))
+        + vec4f(colors.traps, colors.smooth_iterations, colors.channel)
+        + vec4f(seen.step, seen.distance, careful.step, careful.distance);
+}
+";
+
+#[test]
+fn the_browser_compiles_what_the_checker_accepts() {
+    let folder = folder_of("formulas-shaders");
+    fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, fractal: Fractal| {
+        let kernel = Inputs::new(&Scene { fractal, ..Scene::default() }, Region::whole([64, 64]))
+            .formula
+            .kernel;
+        let module = shaders::joined("formula", Some(kernel), CALLS_ALL);
+        let text: Vec<_> = module.files.iter().map(|file| file.text).collect();
+        fs::write(folder.join(format!("{name}.wgsl")), text.join("\n")).unwrap();
+    };
+    for formula in formula::all() {
+        write(formula.id(), Fractal::new(formula));
+    }
+    for preset in presets::mixes() {
+        write(&preset.id(), (preset.scene)().fractal);
+    }
+    for seed in 0..GENERATED {
+        let text = Expressions::new(seed).formula();
+        let formula =
+            formula::own::of_text(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        write(&format!("generated-{seed}"), Fractal::new(formula));
+    }
+    // One that no compiler accepts, so that the test can fail.
+    fs::write(folder.join("wrong.wgsl"), "fn f() -> u32 { return 1.5; }").unwrap();
+
+    let visit = Visit::run_with("formulas", [("MANDELIGHT_SHADERS", folder.as_os_str())]);
+    let compiled = visit.seen["compiled"].as_object().unwrap();
+    assert_eq!(compiled.len(), fs::read_dir(&folder).unwrap().count());
+    for (file, complaint) in compiled {
+        let complaint = complaint.as_str().unwrap();
+        assert_eq!(complaint.is_empty(), file != "wrong.wgsl", "{file}: {complaint}");
     }
 }
 

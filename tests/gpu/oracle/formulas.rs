@@ -146,6 +146,33 @@ fn texts_agree_with_the_oracle_at_random_points() {
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }
 
+/// Hybrids take the bulb's steps from a text: it gives the colours that the bulb's own kernels give.
+#[test]
+fn the_text_of_the_bulb_and_its_own_kernels_agree() {
+    for power in [2.0, 3.0, 5.5, 8.0, 16.0] {
+        for (variant, is_negative) in [("positive_sine", false), ("negative_sine", true)] {
+            let mut own = Fractal::default();
+            assert!(own.set("power", power) && own.set("variant", Value::Choice(variant)));
+            let values = [("power", power.into()), ("negative_sine", is_negative.into())];
+            let mut text = hybrid_of(0, vec![step("mandelbulb", 1, values)]);
+            (text.iterations, text.bailout) = (own.iterations, own.bailout);
+            let points = points(&own, 2000);
+            let [own, text] = [&own, &text]
+                .map(|fractal| probe::ask(&whole(fractal), &points, true).expect("answers"));
+            let off: Vec<_> = own
+                .iter()
+                .zip(&text)
+                .map(|(a, b)| f64::from((a.smooth_iterations - b.smooth_iterations).abs()))
+                .collect();
+            let longest = own.iter().map(|answer| answer.smooth_iterations).fold(0.0, f32::max);
+            assert!(longest > 4.0, "power {power}, {variant}: all orbits are short");
+            // Long orbits amplify rounding.
+            let typical = quantile(off, 0.95);
+            assert!(typical < 1e-3, "power {power}, {variant}: {typical:.1e} iterations");
+        }
+    }
+}
+
 #[test]
 fn gradients_of_texts_agree_with_the_oracle() {
     let mut failures = Vec::new();
