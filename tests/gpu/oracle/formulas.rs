@@ -157,18 +157,23 @@ fn the_text_of_the_bulb_and_its_own_kernels_agree() {
             let mut text = hybrid_of(0, vec![step("mandelbulb", 1, values)]);
             (text.iterations, text.bailout) = (own.iterations, own.bailout);
             let points = points(&own, 2000);
-            let [own, text] = [&own, &text]
-                .map(|fractal| probe::ask(&whole(fractal), &points, true).expect("answers"));
-            let off: Vec<_> = own
-                .iter()
-                .zip(&text)
+            let [own, text] = [&own, &text].map(|fractal| {
+                let scene = probe::with_traps(whole(fractal));
+                probe::ask(&scene, &points, true).expect("answers")
+            });
+            let pairs = || own.iter().zip(&text);
+            let traps = pairs().map(|(a, b)| f64::from((a.traps[0] - b.traps[0]).abs())).collect();
+            let counts = pairs()
                 .map(|(a, b)| f64::from((a.smooth_iterations - b.smooth_iterations).abs()))
                 .collect();
             let longest = own.iter().map(|answer| answer.smooth_iterations).fold(0.0, f32::max);
             assert!(longest > 4.0, "power {power}, {variant}: all orbits are short");
-            // Long orbits amplify rounding.
-            let typical = quantile(off, 0.95);
-            assert!(typical < 1e-3, "power {power}, {variant}: {typical:.1e} iterations");
+            // Long orbits amplify rounding. A text's counts are smoothed by the growth of the last step, the bulb's
+            // by its power: they differ by a part of a step.
+            let (trap, count) = (quantile(traps, 0.95), quantile(counts, 0.95));
+            let found = format!("power {power}, {variant}: traps {trap:.1e}, counts {count:.1e}");
+            println!("{found}");
+            assert!(trap < 1e-4 && count < 0.2, "{found}");
         }
     }
 }
