@@ -159,7 +159,7 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Vec<Row>, Failure> {
     for (id, _) in formula::texts() {
         let formula = formula::find(id).ok_or("a formula is missing")?;
         let fractal = Fractal::new(formula);
-        let derived = formula.files(0).files.iter().any(|file| file.path.ends_with("by_tangent"));
+        let derived = formula.files(0).files.iter().any(|file| file.path.ends_with("by_jacobian"));
         if !derived {
             continue;
         }

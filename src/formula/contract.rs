@@ -258,19 +258,25 @@ fn set<'a>(
 impl Fractal {
     /// A fractal of `formula` with the default values.
     pub fn new(formula: FormulaRef) -> Self {
-        Self {
-            formula,
-            iterations: formula.default_iterations().unwrap_or(param::ITERATIONS.default as u32),
-            bailout: formula.default_bailout().unwrap_or(param::BAILOUT.default),
-            values: formula.fields().iter().map(Field::default).collect(),
-            hybrid: None,
-            section_planes: Vec::new(),
-        }
+        Self::with_defaults(formula, None)
     }
 
     /// A fractal of `formula`, which is that of `steps`, with default values.
     pub(super) fn of_steps(formula: FormulaRef, steps: HybridSteps) -> Self {
-        Self { hybrid: Some(Box::new(steps)), ..Self::new(formula) }
+        Self::with_defaults(formula, Some(Box::new(steps)))
+    }
+
+    fn with_defaults(formula: FormulaRef, hybrid: Option<Box<HybridSteps>>) -> Self {
+        let mut fractal = Self {
+            formula,
+            iterations: formula.default_iterations().unwrap_or(param::ITERATIONS.default as u32),
+            bailout: formula.default_bailout().unwrap_or(param::BAILOUT.default),
+            values: formula.fields().iter().map(Field::default).collect(),
+            hybrid,
+            section_planes: Vec::new(),
+        };
+        fractal.bailout = fractal.bailout.min(fractal.max_bailout());
+        fractal
     }
 
     /// The steps of a hybrid; none for formulas that draw alone.

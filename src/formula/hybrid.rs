@@ -67,13 +67,17 @@ pub enum HybridError {
     #[error("`{0}` cannot be a step of a hybrid")]
     NoText(&'static str),
     /// A formula whose state needs dr, among formulas without it.
-    #[error("`{0}` reads dr, which another step does not assign: assign dr in every step")]
+    #[error(
+        "{0} does not mix with these formulas: its step reads `dr`, which another step does not assign"
+    )]
     NeedsDerivative(&'static str),
     /// Values that the host computes.
     #[error("`{0}` computes too many values from its parameters")]
     Slots(&'static str),
     /// Too many sets of formulas.
-    #[error("too many hybrids were tried since the program started: start it again")]
+    #[error(
+        "too many hybrids were tried since the program started: restart it, or reload the page"
+    )]
     Sets,
 }
 
@@ -216,10 +220,13 @@ impl Hybrid {
     fn new(id: &'static str, texts: &[&'static TextFormula]) -> Result<Self, HybridError> {
         let size = texts.iter().map(|text| text.checked().size).max().unwrap_or(3);
         let has_derivatives = texts.iter().all(|text| text.checked().derivative.is_some());
-        let (mut compiled, mut operations) = (Vec::new(), 0);
+        let operations = texts.iter().map(|text| text.checked().operation_count()).sum();
+        if operations > MAX_OPERATIONS {
+            return Err(HybridError::Operations(operations));
+        }
+        let mut compiled = Vec::new();
         for text in texts {
             let mut checked = text.checked().clone().widened(size);
-            operations += checked.operation_count();
             if !has_derivatives {
                 checked.derivative = None;
                 let needed = checked.graph.needed(&checked.step, |_| false);
@@ -234,9 +241,6 @@ impl Hybrid {
                 return Err(HybridError::Slots(text.name()));
             }
             compiled.push(made);
-        }
-        if operations > MAX_OPERATIONS {
-            return Err(HybridError::Operations(operations));
         }
         let has_addend = texts.iter().any(|text| text.checked().has_addend);
         let fields = if has_addend { julia_fields(size).to_vec() } else { Vec::new() };
@@ -306,6 +310,10 @@ impl Formula for Hybrid {
         Some(if has_power { largest.min(LARGEST_POWER_BAILOUT) } else { largest })
     }
 
+    fn max_bailout(&self, fractal: &Fractal) -> f64 {
+        self.steps.max_bailout(&self.sequence(fractal))
+    }
+
     fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {
         self.steps.march_policy()
     }
@@ -324,6 +332,10 @@ impl Formula for Hybrid {
 
     fn files(&self, _variant: u32) -> KernelFiles {
         self.steps.files().clone()
+    }
+
+    fn overrides(&self, _variant: u32) -> Vec<(&'static str, f64)> {
+        self.steps.overrides()
     }
 
     fn describe(&self, _variant: u32) -> String {

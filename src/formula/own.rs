@@ -4,6 +4,7 @@
 //! Formulas stay in memory as long as the program, as their pipelines do.
 
 use std::{
+    cell::Cell,
     collections::HashMap,
     sync::{LazyLock, Mutex, PoisonError},
 };
@@ -14,11 +15,33 @@ use super::{
     table::{Field, Value},
 };
 
-/// Most texts that one run of the program keeps.
-const MAX_TEXTS: usize = 2000;
+/// Most nodes of formulas that one run of the program keeps: some hundred megabytes.
+const MAX_NODES: usize = 1_000_000;
+/// Most new texts that one document may bring.
+const MAX_IN_DOCUMENT: usize = 64;
 
-/// The formulas by their texts.
-static OWN: LazyLock<Mutex<HashMap<String, FormulaRef>>> = LazyLock::new(Mutex::default);
+/// The formulas of texts, which stay as long as the program.
+#[derive(Default)]
+struct Kept {
+    by_text: HashMap<String, FormulaRef>,
+    /// Number of nodes of all of them.
+    nodes: usize,
+}
+
+static OWN: LazyLock<Mutex<Kept>> = LazyLock::new(Mutex::default);
+
+thread_local! {
+    /// Number of new texts that the document which is read may still bring; none while no document is read.
+    static LEFT_IN_DOCUMENT: Cell<Option<usize>> = const { Cell::new(None) };
+}
+
+/// Reads a document: with more than [`MAX_IN_DOCUMENT`] new texts, reading ends with an error.
+pub fn in_document<T>(read: impl FnOnce() -> T) -> T {
+    LEFT_IN_DOCUMENT.set(Some(MAX_IN_DOCUMENT));
+    let result = read();
+    LEFT_IN_DOCUMENT.set(None);
+    result
+}
 
 /// A fractal of `formula` with the values that `old` has changed, where `formula` has such parameters.
 ///
@@ -80,16 +103,23 @@ pub fn of_text(text: &str) -> Result<FormulaRef, TextError> {
     }
     // Each insertion is complete, so the map is valid even if a thread panicked with the lock.
     let mut own = OWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(&formula) = own.get(text) {
+    if let Some(&formula) = own.by_text.get(text) {
         return Ok(formula);
     }
-    if own.len() >= MAX_TEXTS {
-        let message = "too many formulas were tried since the program started: start it again";
-        return Err(TextError::new(text, Span::default(), message));
+    let refused = |message: String| Err(TextError::new(text, Span::default(), message));
+    if own.nodes >= MAX_NODES {
+        let message = "too many formulas were tried since the program started: restart it, or reload the page";
+        return refused(message.to_owned());
     }
-    let id: &'static str = Box::leak(format!("own_{}", own.len()).into_boxed_str());
-    let formula = TextFormula::own(id, text)?;
+    if let Some(left) = LEFT_IN_DOCUMENT.get() {
+        if left == 0 {
+            return refused(format!("a document may bring {MAX_IN_DOCUMENT} formulas of its own"));
+        }
+        LEFT_IN_DOCUMENT.set(Some(left - 1));
+    }
+    let formula = TextFormula::own(&format!("own_{}", own.by_text.len()), text)?;
+    own.nodes += formula.size();
     let formula = FormulaRef(Box::leak(Box::new(formula)));
-    own.insert(text.to_owned(), formula);
+    own.by_text.insert(text.to_owned(), formula);
     Ok(formula)
 }

@@ -102,7 +102,8 @@ impl CutField {
             }
         }
         // Up to rounding: the point lies on a plane.
-        let is_left = self.height(ray.at(entry)) <= 1e-9 * entry;
+        let offset = self.planes.iter().map(|plane| plane.offset.abs()).fold(0.0, f64::max);
+        let is_left = self.height(ray.at(entry)) <= 1e-9 * entry + 1e-14 * offset;
         (entry > 0.0 && is_left).then_some((entry, band_reach))
     }
 }

@@ -18,6 +18,7 @@ use std::io;
 use serde::Serialize;
 
 use super::{description::Scene, project::Project};
+use crate::formula::own;
 
 mod check;
 mod envelope;
@@ -105,8 +106,10 @@ pub fn project_from_json(text: &str) -> Result<Project, DocumentError> {
         let found = header.version.map_or("none".into(), |version| clipped(&version.to_string()));
         return Err(DocumentError::Version { found });
     }
-    let Document { scene, path, .. } = parse::<Document<Scene, keys::PathDraft>>(text)?;
-    Ok(Project { scene: checked(scene)?, path: path.finish(text)? })
+    own::in_document(|| {
+        let Document { scene, path, .. } = parse::<Document<Scene, keys::PathDraft>>(text)?;
+        Ok(Project { scene: checked(scene)?, path: path.finish(text)? })
+    })
 }
 
 /// Reads a scene without its envelope, in the words of this [`VERSION`].

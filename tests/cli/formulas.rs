@@ -42,7 +42,7 @@ fn a_text_is_checked_and_its_first_error_is_shown_with_its_line() {
     let said = said(&output);
     assert_eq!(code(&output), 2, "{said}");
     assert!(
-        said.contains("own.formula:3:20: `box_flod` is unknown; is `box_fold` meant?"),
+        said.contains("own.formula:3:20: `box_flod` is unknown; did you mean `box_fold`?"),
         "{said}"
     );
     assert!(said.contains("step { z = scale"), "{said}");

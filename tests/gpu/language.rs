@@ -8,7 +8,7 @@ use mandelight::{
         derive,
         graph::{Binary, Graph, Input, Node, NodeId, Unary},
         syntax,
-        wgsl::{Emitter, Lane},
+        wgsl::Emitter,
     },
     gpu::{device::in_parallel, readback::Readback},
 };
@@ -47,9 +47,9 @@ fn generated(seed: u64) -> Generated {
 fn shader(batch: &[Generated]) -> String {
     let mut text = include_str!("../../shaders/lib/numeric.wgsl").to_owned();
     let orbit = include_str!("../../src/formula/language/orbit.wgsl");
-    let (_, operations) = orbit.split_once("fn natural_log").expect("the operations");
+    let (_, operations) = orbit.split_once("struct Rows").expect("the operations");
     let (operations, _) = operations.split_once("// What each step adds.").expect("their end");
-    let _ = write!(text, "fn natural_log{operations}");
+    let _ = write!(text, "struct Rows{operations}");
     text += "@group(0) @binding(0) var<storage, read> inputs: array<vec4f>;\n\
              @group(0) @binding(1) var<storage, read_write> outputs: array<vec4f>;\n";
     let mut calls = String::new();
@@ -59,17 +59,23 @@ fn shader(batch: &[Generated]) -> String {
             graph,
             slots: &HashMap::new(),
             non_negative: &graph.non_negative(),
-            lane: Lane::One,
             base: "",
         };
         let (body, v) = emitter.body(&[&one.checked.step[..], &one.tangents].concat());
+        // The same direction in all three places: the middle one is compared.
+        let derivatives: Vec<_> = one
+            .tangents
+            .iter()
+            .zip(&v[3..])
+            .map(|(&id, text)| format!("({}).y", emitter.as_derivative(id, text)))
+            .collect();
         let _ = writeln!(
             text,
-            "fn step_{i}(z: vec3f, c: vec3f, p: vec3f, tz: vec3f) -> array<vec3f, 2> {{\n    \
-             let tc = vec3f(0.0);\n    let tp = vec3f(0.0);\n{body}    \
+            "fn step_{i}(z: vec3f, c: vec3f, p: vec3f, tz: Rows) -> array<vec3f, 2> {{\n    \
+             let tc = Rows();\n    let tp = Rows();\n{body}    \
              return array<vec3f, 2>(vec3f({}), vec3f({}));\n}}",
             v[..3].join(", "),
-            v[3..].join(", ")
+            derivatives.join(", ")
         );
         let _ = writeln!(
             calls,
@@ -81,7 +87,8 @@ fn shader(batch: &[Generated]) -> String {
         text,
         "@compute @workgroup_size({INPUTS})\nfn main(@builtin(local_invocation_index) t: u32) {{\n    \
          let z = inputs[4u * t].xyz;\n    let c = inputs[4u * t + 1u].xyz;\n    \
-         let p = inputs[4u * t + 2u].xyz;\n    let tz = inputs[4u * t + 3u].xyz;\n{calls}}}\n"
+         let p = inputs[4u * t + 2u].xyz;\n    let d = inputs[4u * t + 3u];\n    \
+         let tz = Rows(vec3f(d.x), vec3f(d.y), vec3f(d.z), vec3f(0.0));\n{calls}}}\n"
     );
     text
 }

@@ -12,7 +12,7 @@ use super::{
     },
 };
 
-/// Most operations of one step, after simplification.
+/// Most operations of one step, after simplification; and of what an orbit's start and end compute.
 pub const MAX_OPERATIONS: usize = 512;
 /// Most numbers that a formula's parameters have in all.
 pub const MAX_PARAM_NUMBERS: usize = 48;
@@ -87,6 +87,8 @@ pub struct Checked {
     pub channel: Option<Channel>,
     /// The size that the bailout limits.
     pub extent: NodeId,
+    /// Whether that is the state's length.
+    pub has_usual_size: bool,
     /// The estimated distance at an orbit's end, not clamped.
     pub distance: NodeId,
     /// How orbits grow.
@@ -101,6 +103,8 @@ pub struct Checked {
     pub bound: Option<NodeId>,
     /// Step of a ray over the estimate.
     pub march: f64,
+    /// Whether the estimate has false minima thinner than a pixel, so that hits are checked.
+    pub checks_hits: bool,
     /// The scene's iterations by default; none for the usual number.
     pub iterations: Option<u32>,
     /// The scene's bailout by default; none for the usual one.
@@ -114,7 +118,12 @@ pub struct Checked {
 /// The first error with its place: an unknown or doubled name, a wrong type, a declaration that is missing,
 /// too many parameters or operations.
 pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
-    let mut scope = Scope { text, graph: Graph::default(), names: HashMap::new() };
+    let mut scope = Scope {
+        text,
+        graph: Graph::default(),
+        names: HashMap::new(),
+        hidden: &["p", "z", "c", "dr", "dc", "color"],
+    };
     let whole = Span { start: 0, end: 0 };
     let missing = |what: &str| TextError::new(text, whole, format!("the text has no {what}"));
     let title = tree.title.clone().ok_or_else(|| missing("name: begin with `name \"…\";`"))?;
@@ -144,6 +153,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         None => None,
     };
     scope.names.insert("p".to_owned(), Value::Number(point.clone()));
+    scope.hidden = &["z", "c", "dr", "dc", "color"];
     let init = match &tree.init {
         Some(init) => scope.sized(init, size, "the state")?,
         None => {
@@ -152,6 +162,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         }
     };
     let outer = scope.names.clone();
+    scope.hidden = &[];
     scope.names.insert("z".to_owned(), Value::Number(state.clone()));
     scope.names.insert("c".to_owned(), Value::Number(addend));
     let derivative = scope.graph.input(Input::Derivative);
@@ -184,12 +195,17 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         ));
     }
     scope.names = outer;
+    // The size is compared at every step: it knows the state alone.
+    let point = scope.names.remove("p");
     scope.names.insert("z".to_owned(), Value::Number(state.clone()));
-    scope.names.insert("dr".to_owned(), Value::Number(vec![scope.graph.input(Input::Derivative)]));
+    scope.hidden = &["p", "c", "dr", "dc", "color"];
     let extent = match &tree.extent {
         Some(extent) => scope.float(extent)?,
         None => scope.graph.length(&state),
     };
+    scope.names.extend(point.map(|point| ("p".to_owned(), point)));
+    scope.names.insert("dr".to_owned(), Value::Number(vec![scope.graph.input(Input::Derivative)]));
+    scope.hidden = &["c", "dc", "color"];
     let distance = scope.distance(tree.estimate.as_ref(), extent, &state)?;
     let height = match tree.estimate {
         Some(EstimateDeclaration::Distance(_)) => distance,
@@ -203,6 +219,15 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
             "the step has {operations} operations, and may have {MAX_OPERATIONS}: simplify it"
         );
         return Err(TextError::new(text, *place, message));
+    }
+    let ends: Vec<_> = init.iter().copied().chain([extent, distance]).chain(bound).collect();
+    let operations = operation_count(&graph, &ends);
+    if operations > MAX_OPERATIONS {
+        let message = format!(
+            "`init`, `size`, `estimate` and `bound` have {operations} operations, and may have {MAX_OPERATIONS}: \
+             simplify them"
+        );
+        return Err(TextError::new(text, whole, message));
     }
     let has_addend = graph
         .needed(&step, |_| false)
@@ -221,6 +246,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
             value,
             label: tree.channel.clone().unwrap_or_else(|| "Formula".to_owned()),
         }),
+        has_usual_size: tree.extent.is_none(),
         extent,
         distance,
         height,
@@ -233,6 +259,7 @@ pub fn check(text: &str, tree: &SyntaxTree) -> Result<Checked, TextError> {
         has_addend,
         bound,
         march,
+        checks_hits: tree.checks_hits,
         iterations: iterations.map(|iterations| iterations as u32),
         bailout,
         graph,
@@ -282,6 +309,13 @@ impl Scope<'_> {
                 if range[0] >= range[1] {
                     return self.error(min.span, "the range is empty: write the smaller end first");
                 }
+                if range[1] - range[0] < LEAST_RANGE {
+                    let message = format!("the range is smaller than {LEAST_RANGE}: widen it");
+                    return self.error(min.span, message);
+                }
+                if *unit == RangeUnit::Logarithmic && range[0] < 0.0 {
+                    return self.error(min.span, "a `logarithmic` range begins at 0 or above");
+                }
                 (self.constants(default, range)?, range, *unit, false)
             }
         };
@@ -304,6 +338,8 @@ impl Scope<'_> {
 
 /// The range of parameters' numbers.
 const ANY: [f64; 2] = [-1e6, 1e6];
+/// Least width of a parameter's range: sliders round to a hundredth of it.
+const LEAST_RANGE: f64 = 1e-6;
 
 impl Checked {
     /// The same formula for orbits whose state has `size` components: steps keep those that they do not know.

@@ -42,6 +42,11 @@ impl Program {
         }
     }
 
+    /// Number of operations.
+    pub fn len(&self) -> usize {
+        self.operations.len()
+    }
+
     /// Computes the outputs; `values` is scratch memory, which calls may share.
     pub fn run<'a>(
         &'a self,

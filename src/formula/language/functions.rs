@@ -114,8 +114,8 @@ functions! {
         |g, a| { let way = each2(g, &a[1], &a[0], Graph::minus); let way = each2(g, &way, &a[2], Graph::times); each2(g, &a[0], &way, Graph::plus) };
     sqrt(x: Any) "The square root; of a negative number 0.", "sqrt(z.x)", |g, a| each(g, a, |g, x| g.unary(Unary::Sqrt, x));
     exp(x: Any) "e to the power of x.", "exp(-z.x)", |g, a| each(g, a, |g, x| g.unary(Unary::Exp, x));
-    log(x: Any) "The natural logarithm; of numbers that are not positive that of a tiny one.", "log(length(z))", |g, a| each(g, a, |g, x| g.unary(Unary::Log, x));
-    pow(x: Any, y: Any) "x to the power of y; a negative x counts as a tiny one unless y is a whole number written out, to 16.", "pow(length(z), 2.5)",
+    log(x: Any) "The natural logarithm; an x below 1.2e-38 counts as 1.2e-38.", "log(length(z))", |g, a| each(g, a, |g, x| g.unary(Unary::Log, x));
+    pow(x: Any, y: Any) "x to the power of y. A negative x counts as 1.2e-38, unless y is a constant whole number of at most 16.", "pow(length(z), 2.5)",
         |g, a| each2(g, &a[0], &a[1], |g, x, y| g.binary(Binary::Power, x, y));
     radians(x: Any) "An angle in radians, from degrees.", "radians(45.0)", |g, a| each(g, a, |g, x| { let one = g.constant(std::f64::consts::PI / 180.0); g.times(x, one) });
     sin(x: Any) "The sine of radians.", "sin(z.x)", |g, a| each(g, a, |g, x| g.unary(Unary::Sin, x));
@@ -138,14 +138,14 @@ functions! {
     rotate_y(v: Vec3, angle: Float) "v, turned about the y axis by radians.", "rotate_y(z, radians(30))", |g, a| turned(g, &a[0], a[1][0], [2, 0]);
     rotate_z(v: Vec3, angle: Float) "v, turned about the z axis by radians.", "rotate_z(z, radians(30))", |g, a| turned(g, &a[0], a[1][0], [0, 1]);
     rotate(v: Vec3, axis: Vec3, angle: Float) "v, turned about an axis by radians.", "rotate(z, vec3(1, 1, 1), 0.5)", |g, a| rotated(g, &a[0], &a[1], a[2][0]);
-    turn(v: Vec3, angles: Vec3) "v, turned by degrees about x, then y, then z.", "turn(z, vec3(0, 30, 45))", |g, a| turned_thrice(g, &a[0], &a[1]);
+    rotate_degrees(v: Vec3, angles: Vec3) "v, turned by degrees about x, then y, then z.", "rotate_degrees(z, vec3(0, 30, 45))", |g, a| turned_thrice(g, &a[0], &a[1]);
     complex_product(x: Vec2, y: Vec2) "The product of two complex numbers.", "complex_product(z.xy, c.xy)", |g, a| complex_product(g, &a[0], &a[1]);
     complex_quotient(x: Vec2, y: Vec2) "The quotient of two complex numbers.", "complex_quotient(z.xy, c.xy)", |g, a| complex_quotient(g, &a[0], &a[1]);
     complex_power(x: Vec2, n: Float) "A complex number to a real power.", "complex_power(z.xy, 3)", |g, a| complex_power(g, &a[0], a[1][0]);
     quaternion_product(x: Vec4, y: Vec4) "The product of two quaternions, real parts first.", "quaternion_product(vec4(z, 0.0), vec4(c, 0.0))", |g, a| quaternion_product(g, &a[0], &a[1]);
     triplex_power(z: Vec3, n: Float) "The Mandelbulb's power: multiplies longitude and latitude by n, and takes the radius to the power n.", "triplex_power(z, 8)", |g, a| triplex_power(g, &a[0], a[1][0]);
     box_fold(x: Any, limit: Any) "Mirrors components beyond ±limit at the limit.", "box_fold(z, 1.0)", |g, a| each2(g, &a[0], &a[1], box_fold);
-    fold_count(v: Vector, limit: Float) "The number of components beyond ±limit, which a box fold mirrors.", "fold_count(z, 1.0)", |g, a| fold_count(g, &a[0], &a[1]);
+    fold_count(v: Vector, limit: Any) "The number of components beyond ±limit, which a box fold mirrors.", "fold_count(z, 1.0)", |g, a| fold_count(g, &a[0], &a[1]);
     sphere_fold_scale(v: Vector, inner: Float, outer: Float) "The factor of a sphere fold: (outer / inner)² inside of the inner radius, (outer / length)² up to the outer radius, 1 beyond.",
         "z * sphere_fold_scale(z, 0.5, 1.0)", |g, a| vec![sphere_fold_scale(g, &a[0], a[1][0], a[2][0])];
     mirror(v: Vector, normal: Vector) "Mirrors v at the plane through the origin if v is behind it.", "mirror(z, normalize(vec3(1, 1, 0)))", |g, a| mirrored(g, &a[0], &a[1]);

@@ -21,7 +21,7 @@
 //! | [`sequence`] | the order of an orbit's steps |
 //! | [`steps`] | the kernel and programs of formulas whose steps take turns |
 //! | `orbit.wgsl` | follows orbits: colours, and what both kinds of estimates share |
-//! | `by_derivative.wgsl`, `by_tangent.wgsl` | estimates with the text's dr, and without |
+//! | `by_derivative.wgsl`, `by_jacobian.wgsl` | estimates with the text's dr, and without |
 //! | [`uniforms`], `types.wgsl` | the kernels' uniforms |
 //! | [`field`] | the distance field in f64 |
 //! | [`text_formula`] | the formula |

@@ -9,7 +9,7 @@ use super::{
     graph::NodeId,
     kernel::Compiled,
     sequence::{FORMULA_BITS, LEADING, MAX_VECTORS},
-    wgsl::{Emitter, Lane},
+    wgsl::Emitter,
 };
 
 /// Which step's formula a function without a number selects.
@@ -45,13 +45,11 @@ macro_rules! signatures {
 
 signatures! {
     INITIAL = "initial"("p: vec3f") -> "State" by First;
-    INITIAL_TANGENT = "initial_tangent"("p: vec3f, tp: vec3f") -> "State" by First;
     INITIAL_ROWS = "initial_rows"("p: vec3f, tp: Rows") -> "Rows" by First;
     EXTENT_TEST = "extent_test"("z: State") -> "f32" by Leading;
     EXTENT = "extent"("z: State") -> "f32" by Leading;
     DISTANCE_AT = "distance_at"("z: State, p: vec3f, dr: f32") -> "f32" by Leading;
     DISTANCE_SLOPE = "distance_slope"("z: State, p: vec3f, dr: f32, tz: Rows, tp: Rows, tdr: vec3f") -> "vec3f" by Leading;
-    NEXT_WITH_TANGENT = "next_with_tangent"("z: State, c: State, p: vec3f, dc: f32, tz: State, tc: State, tp: vec3f") -> "NextTangent" by Nth;
     NEXT_WITH_DERIVATIVE = "next_with_derivative"("z: State, c: State, p: vec3f, dr: f32, dc: f32") -> "NextDerivative" by Nth;
     NEXT_WITH_CHANNEL = "next_with_channel"("z: State, c: State, p: vec3f, dr: f32, dc: f32") -> "NextChannel" by Nth;
     NEXT_WITH_ROWS = "next_with_rows"("z: State, c: State, p: vec3f, dr: f32, dc: f32, tz: Rows, tc: Rows, tp: Rows, tdr: vec3f") -> "NextRows" by Nth;
@@ -78,9 +76,7 @@ pub fn of_several(formulas: &[Compiled]) -> String {
     for (number, compiled) in formulas.iter().enumerate() {
         text += &Writer { compiled, number: Some(number) }.all();
     }
-    let given = formulas[0].checked.derivative.is_some();
-    let used = SIGNATURES.iter().filter(|one| !(given && one.name == NEXT_WITH_TANGENT.name));
-    used.for_each(|signature| text += &selection(signature, formulas.len()));
+    SIGNATURES.iter().for_each(|signature| text += &selection(signature, formulas.len()));
     text
 }
 
@@ -116,7 +112,6 @@ fn header(compiled: &Compiled, vectors: usize) -> String {
     format!(
         "// The operations of formulas' texts, from `operations.rs`.\n\nalias State = vec{size}f;\n\
          const TABLE_VECTORS = {vectors}u;\n\n\
-         struct NextTangent {{\n    z: State,\n    tangent: State,\n}}\n\n\
          struct NextDerivative {{\n    z: State,\n    dr: f32,\n}}\n\n\
          struct NextChannel {{\n    z: State,\n    dr: f32,\n    channel: f32,\n}}\n\n\
          struct NextRows {{\n    z: State,\n    dr: f32,\n    rows: Rows,\n    slope: vec3f,\n}}\n\n\
@@ -156,33 +151,25 @@ impl Writer<'_> {
             format!("Rows({})", v.join(", "))
         };
         let first = |v: &[String]| v[0].clone();
-        let (one, three) = (Lane::One, Lane::Three);
         let init_tangents = (0, &compiled.init_tangents[..]);
         let given = checked.derivative.as_slice();
         let mut text = [
-            self.function(&INITIAL, one, (size, &checked.init), &vector),
-            self.function(&INITIAL_TANGENT, one, init_tangents, &vector),
-            self.function(&INITIAL_ROWS, three, init_tangents, &rows),
-            self.function(&EXTENT_TEST, one, (1, &[compiled.extent_test]), &first),
-            self.function(&EXTENT, one, (1, &[checked.extent]), &first),
-            self.function(&DISTANCE_AT, one, (1, &[checked.distance]), &first),
-            self.function(&DISTANCE_SLOPE, three, (0, &[compiled.distance_tangent]), &first),
+            self.function(&INITIAL, (size, &checked.init), &vector),
+            self.function(&INITIAL_ROWS, init_tangents, &rows),
+            self.function(&EXTENT_TEST, (1, &[compiled.extent_test]), &first),
+            self.function(&EXTENT, (1, &[checked.extent]), &first),
+            self.function(&DISTANCE_AT, (1, &[checked.distance]), &first),
+            self.function(&DISTANCE_SLOPE, (0, &[compiled.distance_tangent]), &first),
         ]
         .concat();
-        if given.is_empty() {
-            let outputs = [&checked.step[..], &compiled.step_tangents].concat();
-            text += &self.function(&NEXT_WITH_TANGENT, one, (size, &outputs), &|v| {
-                format!("NextTangent({}, {})", vector(&v[..size]), vector(&v[size..]))
-            });
-        }
         let outputs = [&checked.step[..], given].concat();
-        text += &self.function(&NEXT_WITH_DERIVATIVE, one, (outputs.len(), &outputs), &|v| {
+        text += &self.function(&NEXT_WITH_DERIVATIVE, (outputs.len(), &outputs), &|v| {
             let dr = v.get(size).map_or("dr", String::as_str);
             format!("NextDerivative({}, {dr})", vector(&v[..size]))
         });
         let channel = compiled.channel();
         let outputs = [&checked.step[..], given, channel.as_slice()].concat();
-        text += &self.function(&NEXT_WITH_CHANNEL, one, (outputs.len(), &outputs), &|v| {
+        text += &self.function(&NEXT_WITH_CHANNEL, (outputs.len(), &outputs), &|v| {
             let (z, mut rest) = (vector(&v[..size]), v[size..].iter());
             let dr = if given.is_empty() { "dr" } else { rest.next().map_or("dr", String::as_str) };
             let channel = rest.next().map_or("0.0", String::as_str);
@@ -192,18 +179,17 @@ impl Writer<'_> {
         let outputs =
             [&checked.step[..], given, &compiled.step_tangents, &[compiled.derivative_tangent]]
                 .concat();
-        text + &self.function(&NEXT_WITH_ROWS, three, (numbers, &outputs), &|v| {
+        text + &self.function(&NEXT_WITH_ROWS, (numbers, &outputs), &|v| {
             let dr = if given.is_empty() { "1.0" } else { &v[size] };
             let (z, tangents) = (vector(&v[..size]), &v[numbers..]);
             format!("NextRows({z}, {dr}, {}, {})", rows(&tangents[..size]), tangents[size])
         })
     }
 
-    /// A function of which the first `numbers` outputs are numbers, and the others derivatives in `lane`.
+    /// A function of which the first `numbers` outputs are numbers, and the others derivatives.
     fn function(
         &self,
         signature: &Signature,
-        lane: Lane,
         (numbers, outputs): (usize, &[NodeId]),
         join: &dyn Fn(&[String]) -> String,
     ) -> String {
@@ -213,7 +199,6 @@ impl Writer<'_> {
             graph,
             slots: &self.compiled.slots,
             non_negative: &non_negative,
-            lane,
             base: if self.number.is_some() { "base + " } else { "" },
         };
         let (body, values) = emitter.body(outputs);
@@ -221,7 +206,11 @@ impl Writer<'_> {
             .iter()
             .zip(values)
             .enumerate()
-            .map(|(i, (&id, value))| if i >= numbers { emitter.as_lane(id, &value) } else { value })
+            .map(
+                |(i, (&id, value))| {
+                    if i >= numbers { emitter.as_derivative(id, &value) } else { value }
+                },
+            )
             .collect();
         let Signature { name, params, result, selected } = signature;
         let (suffix, extra) = match self.number {

@@ -1,7 +1,7 @@
 // Orbits of formulas' texts. The texts' own functions come from `operations.rs`:
 //     State                  vec3f or vec4f
 //     load_slots             copies what depends on parameters only, before an orbit
-//     initial, initial_tangent, initial_rows     the state at the start, its derivatives
+//     initial, initial_rows  the state at the start, its derivatives
 //     next_with_derivative   the step with the number n, with the running derivative if the text gives it
 //     next_with_channel      the step with the number n, and what it adds to the colour channel
 //     extent_test, extent    what is compared with `limit`, and the size itself
@@ -9,8 +9,6 @@
 
 // Derivatives are clamped to this before each step, which must not overflow.
 const MAX_DERIVATIVE = 1e30;
-// Directions of derivatives where a ray gives none: along no axis or diagonal.
-const ANY_DIRECTION = vec3f(0.48, 0.6, 0.64);
 
 // Derivatives of a vector's components in three directions.
 struct Rows {
@@ -77,7 +75,7 @@ fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate {
     return Estimate(0.0, 0.0);
 }
 
-// The direction that stands for all rays of a cone: none, so that estimates take their own.
+// The direction that stands for all rays of a cone: none, since estimates hold in every direction.
 fn cone_direction() -> vec3f {
     return vec3f(0.0);
 }
@@ -119,7 +117,6 @@ fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors {
     if (is_escaped(fractal, z) && n > 0u) {
         smooth_iterations -= excess(fractal, extent(before), extent(z));
     }
-    let is_inside =
-        !is_escaped(fractal, z) && (fractal.has_own_distance == 0u || !(distance_at(z, point, 1.0) > 0.0));
+    let is_inside = select(!is_escaped(fractal, z), !(distance_at(z, point, dr) > 0.0), fractal.has_own_distance != 0u);
     return OrbitColors(smooth_iterations, is_inside, channel / max(f32(n), 1.0), fractal.trap_scale * traps);
 }

@@ -59,6 +59,8 @@ pub(super) struct Scope<'a> {
     pub(super) text: &'a str,
     pub(super) graph: Graph,
     pub(super) names: HashMap<String, Value>,
+    /// Names of the language that the declaration which is read may not use.
+    pub(super) hidden: &'static [&'static str],
 }
 
 impl Scope<'_> {
@@ -89,12 +91,14 @@ impl Scope<'_> {
         };
         let values: Option<Vec<f64>> = parts.iter().map(|&part| self.graph.value(part)).collect();
         let Some(values) = values else {
-            return self.error(expression.span, "expected a number that depends on nothing");
+            return self
+                .error(expression.span, "expected a constant: no parameter can be used here");
         };
-        if values.iter().all(|value| (min..=max).contains(value)) {
-            Ok(values)
-        } else {
-            self.error(expression.span, format!("expected a number from {min} to {max}"))
+        match values.iter().find(|value| !(min..=max).contains(*value)) {
+            None => Ok(values),
+            Some(value) => {
+                self.error(expression.span, format!("{value} is outside {min} to {max}"))
+            }
         }
     }
 
@@ -117,7 +121,10 @@ impl Scope<'_> {
         if name.text.len() > MAX_NAME_BYTES {
             return self.error(name.span, format!("a name has at most {MAX_NAME_BYTES} letters"));
         }
-        self.names.insert(name.text.clone(), value);
+        if self.names.insert(name.text.clone(), value).is_some() {
+            let message = format!("`{}` is declared twice: rename one", name.text);
+            return self.error(name.span, message);
+        }
         Ok(())
     }
 
@@ -136,9 +143,13 @@ impl Scope<'_> {
                         "dr" => assigned.derivative = true,
                         "color" => assigned.color = true,
                         other => {
-                            let message = format!(
-                                "only `z`, `dr` and `color` can be assigned: write `let {other} = …;`"
-                            );
+                            let advice = if RESERVED.contains(&other) {
+                                String::new()
+                            } else {
+                                format!(": write `let {other} = …;`")
+                            };
+                            let message =
+                                format!("only `z`, `dr` and `color` can be assigned{advice}");
                             return self.error(name.span, message);
                         }
                     }
@@ -194,6 +205,17 @@ impl Scope<'_> {
     }
 
     pub(super) fn value(&mut self, expression: &Expression) -> Result<Value, TextError> {
+        let value = self.value_of(expression)?;
+        if let Value::Number(parts) = &value
+            && parts.iter().any(|&part| self.graph.value(part).is_some_and(|x| !is_single(x)))
+        {
+            let message = "the value is not a number of single precision: is a divisor zero?";
+            return self.error(expression.span, message);
+        }
+        Ok(value)
+    }
+
+    fn value_of(&mut self, expression: &Expression) -> Result<Value, TextError> {
         let span = expression.span;
         Ok(match &expression.kind {
             ExpressionKind::Number(number) => Value::Number(vec![self.graph.constant(*number)]),
@@ -247,6 +269,9 @@ impl Scope<'_> {
 
     /// What is wrong with an unknown name, with the nearest known one.
     fn unknown(&self, name: &str) -> String {
+        if self.hidden.contains(&name) {
+            return format!("`{name}` has no value here");
+        }
         let functions = functions::FUNCTIONS.iter().map(|function| function.name);
         let near = functions
             .chain(self.names.keys().map(String::as_str))
@@ -254,7 +279,7 @@ impl Scope<'_> {
             .min();
         match near {
             Some((edits, known)) if edits <= 2 => {
-                format!("`{name}` is unknown; is `{known}` meant?")
+                format!("`{name}` is unknown; did you mean `{known}`?")
             }
             _ => format!("`{name}` is unknown"),
         }
@@ -326,7 +351,8 @@ impl Scope<'_> {
             }
             _ => {
                 let message = format!(
-                    "{} and {} cannot be joined by this operator",
+                    "`{}` cannot join {} and {}",
+                    operator.sign(),
                     a.describe(),
                     b.describe()
                 );
@@ -400,7 +426,10 @@ impl Scope<'_> {
             match value {
                 Value::Number(v) => parts.push(v.clone()),
                 Value::Condition(_) => {
-                    return self.error(span, "a condition is no component: use `select`");
+                    return self.error(
+                        span,
+                        "a vector cannot hold a condition: write `select(condition, 1, 0)`",
+                    );
                 }
             }
         }
@@ -414,6 +443,11 @@ impl Scope<'_> {
         }
         Ok(Value::Number((function.lower)(&mut self.graph, &parts)))
     }
+}
+
+/// Whether single precision holds a number of this size.
+fn is_single(value: f64) -> bool {
+    value.abs() <= f64::from(f32::MAX)
 }
 
 /// Longest name, in bytes.

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     formula::{
         Fractal, Kernel, KernelFiles, MarchPolicy, Packed, PackedFor, march::PLAIN_FOOTPRINT,
-        trap::MAX_TRAP,
+        param::BAILOUT, trap::MAX_TRAP,
     },
     gpu::{host_shared::HostShared, shader::File},
 };
@@ -23,6 +23,9 @@ const FINEST_FOOTPRINT: f64 = 0.1 * PLAIN_FOOTPRINT;
 const WHOLE_FOOTPRINT: f64 = 1e-3;
 /// Orbit steps per halving of the footprint: enough for formulas that stretch by half or more a step.
 const STEPS_PER_HALVING: f64 = 1.5;
+
+/// Halvings of the range in which the largest bailout is searched.
+const HALVINGS: u32 = 16;
 
 /// The programs and kernel of one or several formulas.
 #[derive(Clone, Debug)]
@@ -49,7 +52,7 @@ impl Steps {
         let by = if formulas[0].checked.derivative.is_some() {
             File { path: "language/by_derivative", text: include_str!("by_derivative.wgsl") }
         } else {
-            File { path: "language/by_tangent", text: include_str!("by_tangent.wgsl") }
+            File { path: "language/by_jacobian", text: include_str!("by_jacobian.wgsl") }
         };
         // The pipelines of a formula last as long as the program, and so do its files.
         let kept = |text: String| &*Box::leak(text.into_boxed_str());
@@ -90,12 +93,45 @@ impl Steps {
         self.formulas.iter().map(|programs| programs.march).fold(1.0, f64::min)
     }
 
+    /// The largest bailout from which no step of `sequence` overflows; infinite if none does.
+    pub fn max_bailout(&self, sequence: &Sequence) -> f64 {
+        let steps: Vec<_> = sequence
+            .steps
+            .iter()
+            .map(|step| {
+                (&self.formulas[step.formula], self.formulas[step.formula].slots(&step.params))
+            })
+            .collect();
+        let overflows =
+            |size: f64| steps.iter().any(|(programs, slots)| programs.overflows(slots, size));
+        if !overflows(BAILOUT.max) {
+            return f64::INFINITY;
+        }
+        let (mut low, mut high) = (BAILOUT.min, BAILOUT.max);
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            *(if overflows(middle) { &mut high } else { &mut low }) = middle;
+        }
+        low
+    }
+
+    /// Whether a formula's estimate has false minima thinner than a pixel.
+    fn checks_hits(&self) -> bool {
+        self.formulas.iter().any(|programs| programs.checks_hits)
+    }
+
+    /// The overrides that specialize the kernels.
+    pub fn overrides(&self) -> Vec<(&'static str, f64)> {
+        vec![("CHECKS_HITS", f64::from(u8::from(self.checks_hits())))]
+    }
+
     /// How rays march.
     pub fn march_policy(&self) -> MarchPolicy {
         let (march, usual) = (self.march(), MarchPolicy::default());
         // Shortened steps say that the estimate is no bound: longer ones would pass the surface.
         let relaxation = if march < 1.0 { 1.0 } else { usual.relaxation };
-        MarchPolicy { relaxation, ball_part: march as f32, ..usual }
+        let checks_hits = self.checks_hits();
+        MarchPolicy { relaxation, ball_part: march as f32, checks_hits, ..usual }
     }
 
     /// Iterations of a view whose pixels have radius `footprint` at the nearest surface, in scene units.

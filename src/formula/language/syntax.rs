@@ -9,9 +9,12 @@ use pest::{
     iterators::{Pair, Pairs},
 };
 
-use super::tree::{
-    EstimateDeclaration, Expression, ExpressionKind, Name, Operator, ParamDeclaration, ParamKind,
-    RangeDeclaration, RangeUnit, Span, Statement, SyntaxTree, TextError,
+use super::{
+    tokens::{TokenKind, tokens},
+    tree::{
+        EstimateDeclaration, Expression, ExpressionKind, Name, Operator, ParamDeclaration,
+        ParamKind, RangeDeclaration, RangeUnit, Span, Statement, SyntaxTree, TextError,
+    },
 };
 
 /// Largest text, in bytes.
@@ -64,13 +67,17 @@ fn last_boundary(text: &str, at: usize) -> usize {
     (0..=at).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
 }
 
-/// Refuses brackets that are nested too deeply: the parser recurses into them.
+/// Refuses brackets that are nested too deeply: the parser recurses into them, but not into comments and quotes.
 fn check_nesting(text: &str) -> Result<(), TextError> {
+    let is_skipped = |kind| matches!(kind, TokenKind::Comment | TokenKind::Text);
+    let read = tokens(text).into_iter().filter(|(kind, _)| !is_skipped(*kind));
     let mut depth = 0_usize;
-    for (start, c) in text.char_indices() {
+    for (start, c) in
+        read.flat_map(|(_, span)| (span.start..).zip(text[span.start..span.end].bytes()))
+    {
         match c {
-            '(' | '{' => depth += 1,
-            ')' | '}' => depth = depth.saturating_sub(1),
+            b'(' | b'{' => depth += 1,
+            b')' | b'}' => depth = depth.saturating_sub(1),
             _ => {}
         }
         if depth > MAX_NESTING {
@@ -122,14 +129,15 @@ fn words_of(rule: &Rule) -> String {
         "definition" => "`let`",
         "assignment" => "an assignment",
         "switch" | "on" | "off" => "`true` or `false`",
-        "unit" | "degrees" | "whole" | "logarithmic" => "a unit",
+        "unit" | "degrees" | "whole" | "logarithmic" => "`degrees`, `whole` or `logarithmic`",
         "vec3" | "vec4" => "`vec3` or `vec4`",
-        "log" | "linear" | "distance" => "`log`, `linear` or `distance`",
-        "string" | "text" => "a text in double quotes",
+        "log" | "linear" | "distance" | "none" => "`log`, `linear`, `distance` or `none`",
+        "string" | "text" => "a string in double quotes",
         "name" => "a name",
         "swizzle" | "components" => "components such as `.xy`",
         "or" | "and" | "compare" | "add" | "multiply" => "an operator",
         "label" => "`label`",
+        "checked" => "`checked`",
         "help" => "`help`",
         "EOI" => "the end of the text",
         "mark_semicolon" => "`;`",
@@ -193,7 +201,10 @@ impl Reader<'_> {
             Rule::iterations => self.tree.iterations = Some(self.expression(inner.next())?),
             Rule::bailout => self.tree.bailout = Some(self.expression(inner.next())?),
             Rule::color => self.tree.channel = Some(string(inner.next())),
-            Rule::march => self.tree.march = Some(self.expression(inner.next())?),
+            Rule::march => {
+                self.tree.march = Some(self.expression(inner.next())?);
+                self.tree.checks_hits = inner.next_if_any().is_some();
+            }
             _ => {}
         }
         Ok(())
@@ -303,7 +314,10 @@ impl Reader<'_> {
                 let first = self.expression(first)?;
                 let mut others = Vec::new();
                 while let (Some(sign), Some(operand)) = (inner.next(), inner.next()) {
-                    others.push((operator(sign.as_str()), self.expression(operand)?));
+                    let Some(operator) = Operator::of_sign(sign.as_str()) else {
+                        return Err(self.error(sign.as_span().into(), "the operator is unknown"));
+                    };
+                    others.push((operator, self.expression(operand)?));
                 }
                 if others.is_empty() {
                     return Ok(first);
@@ -366,21 +380,4 @@ fn string(pair: Pair<'_, Rule>) -> String {
 /// The text of a label or a help.
 fn string_in(pair: Pair<'_, Rule>) -> String {
     string(Parts(pair.into_inner()).next())
-}
-
-fn operator(sign: &str) -> Operator {
-    match sign {
-        "+" => Operator::Add,
-        "-" => Operator::Subtract,
-        "*" => Operator::Multiply,
-        "/" => Operator::Divide,
-        "<" => Operator::Less,
-        "<=" => Operator::LessOrEqual,
-        ">" => Operator::Greater,
-        ">=" => Operator::GreaterOrEqual,
-        "==" => Operator::Equal,
-        "!=" => Operator::Unequal,
-        "&&" => Operator::And,
-        _ => Operator::Or,
-    }
 }

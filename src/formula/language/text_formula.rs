@@ -51,35 +51,35 @@ impl TextFormula {
     ///
     /// The first error with its place in the text.
     pub fn new(id: &'static str, text: &str) -> Result<Self, TextError> {
-        let tree = syntax::parse(text)?;
-        let checked = check::check(text, &tree)?;
-        let compiled = Compiled::new(checked);
-        if compiled.slots.len() > MAX_SLOTS {
-            let message = format!(
-                "{} values are computed from the parameters, and {MAX_SLOTS} may be: simplify it",
-                compiled.slots.len()
-            );
-            return Err(TextError::new(text, Span::default(), message));
-        }
-        Ok(Self {
+        Ok(Self::of(id, None, compile(text)?))
+    }
+
+    /// Like [`Self::new`], for a text that documents carry whole. Nothing of a wrong text is kept.
+    ///
+    /// # Errors
+    ///
+    /// The first error with its place in the text.
+    pub fn own(id: &str, text: &str) -> Result<Self, TextError> {
+        let compiled = compile(text)?;
+        Ok(Self::of(kept(id.to_owned()), Some(kept(text.to_owned())), compiled))
+    }
+
+    fn of(id: &'static str, text: Option<&'static str>, compiled: Compiled) -> Self {
+        Self {
             id,
-            text: None,
+            text,
             title: kept(compiled.checked.title.clone()),
             about: kept(compiled.checked.about.clone()),
             channel: compiled.checked.channel.as_ref().map(|channel| kept(channel.label.clone())),
             fields: fields(&compiled.checked).leak(),
             steps: Steps::alone(id, &compiled),
             checked: compiled.checked,
-        })
+        }
     }
 
-    /// Like [`Self::new`], for a text that documents carry whole.
-    ///
-    /// # Errors
-    ///
-    /// The first error with its place in the text.
-    pub fn own(id: &'static str, text: &str) -> Result<Self, TextError> {
-        Ok(Self { text: Some(kept(text.to_owned())), ..Self::new(id, text)? })
+    /// Number of nodes of the formula and its derivatives: how much memory it takes.
+    pub fn size(&self) -> usize {
+        self.checked.graph.nodes().len()
     }
 
     /// Where the equations are from.
@@ -117,6 +117,19 @@ impl TextFormula {
         })
         .collect()
     }
+}
+
+fn compile(text: &str) -> Result<Compiled, TextError> {
+    let tree = syntax::parse(text)?;
+    let compiled = Compiled::new(check::check(text, &tree)?);
+    if compiled.slots.len() > MAX_SLOTS {
+        let message = format!(
+            "the parameters give {} computed values, and may give {MAX_SLOTS}: simplify the text",
+            compiled.slots.len()
+        );
+        return Err(TextError::new(text, Span::default(), message));
+    }
+    Ok(compiled)
 }
 
 /// The addend of the Julia form, if `fractal` has that form.
@@ -273,6 +286,10 @@ impl Formula for TextFormula {
         self.checked.bailout
     }
 
+    fn max_bailout(&self, fractal: &Fractal) -> f64 {
+        self.steps.max_bailout(&self.sequence(fractal))
+    }
+
     fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {
         self.steps.march_policy()
     }
@@ -291,5 +308,9 @@ impl Formula for TextFormula {
 
     fn files(&self, _variant: u32) -> KernelFiles {
         self.steps.files().clone()
+    }
+
+    fn overrides(&self, _variant: u32) -> Vec<(&'static str, f64)> {
+        self.steps.overrides()
     }
 }

@@ -13,6 +13,7 @@ pub const KEYWORDS: &[&str] = &[
     "about",
     "bailout",
     "bound",
+    "checked",
     "color",
     "degrees",
     "distance",

@@ -110,6 +110,37 @@ pub enum Operator {
     Or,
 }
 
+/// The operators with their signs.
+pub const OPERATORS: [(Operator, &str); 12] = [
+    (Operator::Add, "+"),
+    (Operator::Subtract, "-"),
+    (Operator::Multiply, "*"),
+    (Operator::Divide, "/"),
+    (Operator::Less, "<"),
+    (Operator::LessOrEqual, "<="),
+    (Operator::Greater, ">"),
+    (Operator::GreaterOrEqual, ">="),
+    (Operator::Equal, "=="),
+    (Operator::Unequal, "!="),
+    (Operator::And, "&&"),
+    (Operator::Or, "||"),
+];
+
+impl Operator {
+    /// The operator as texts write it.
+    pub fn sign(self) -> &'static str {
+        OPERATORS
+            .iter()
+            .find_map(|(other, sign)| (*other == self).then_some(*sign))
+            .unwrap_or_default()
+    }
+
+    /// The operator that texts write as `sign`; none if there is none.
+    pub fn of_sign(sign: &str) -> Option<Self> {
+        OPERATORS.iter().find_map(|(other, known)| (*known == sign).then_some(*other))
+    }
+}
+
 /// The unit of a parameter's range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RangeUnit {
@@ -212,6 +243,8 @@ pub struct SyntaxTree {
     pub bailout: Option<Expression>,
     /// Step of a ray over the estimate.
     pub march: Option<Expression>,
+    /// Whether hits are checked.
+    pub checks_hits: bool,
     /// What the step assigns to `color`, as a label in the panel.
     pub channel: Option<String>,
 }

@@ -1,30 +1,12 @@
 //! Emits a formula's operations as WGSL.
 //!
-//! A function's inputs are named as in `by_derivative.wgsl` and its neighbours, which call the functions.
+//! A function's inputs are named as in `by_derivative.wgsl` and its neighbours, which call the functions. Derivatives
+//! are vec3f: in three directions at once.
 //! Operations on parameters only are not emitted: the host computes them once, as slots of the formula's table.
 
 use std::{collections::HashMap, fmt::Write};
 
 use super::graph::{Binary, Graph, Input, Node, NodeId, Unary};
-
-/// The type of derivatives in a function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lane {
-    /// One direction.
-    One,
-    /// Three directions at once.
-    Three,
-}
-
-impl Lane {
-    /// The WGSL type.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::One => "f32",
-            Self::Three => "vec3f",
-        }
-    }
-}
 
 /// Emits functions of one graph.
 pub struct Emitter<'a> {
@@ -34,8 +16,6 @@ pub struct Emitter<'a> {
     pub slots: &'a HashMap<NodeId, usize>,
     /// For each node whether it is certainly not negative.
     pub non_negative: &'a [bool],
-    /// The type of derivatives.
-    pub lane: Lane,
     /// What stands before a slot's index in the table: the place where a step's slots begin, with a plus.
     ///
     /// Empty for a formula that draws alone, whose kernels have a copy of its slots.
@@ -124,15 +104,15 @@ impl Emitter<'_> {
     /// The value as one of `kind`: a number beside derivatives stands for each direction.
     fn spread(&self, value: &Emitted, kind: Kind) -> String {
         match (value.kind, kind) {
-            (Kind::Number, Kind::Tangent) => format!("{}({})", self.lane.name(), value.text),
+            (Kind::Number, Kind::Tangent) => format!("vec3f({})", value.text),
             (_, Kind::Condition) => value.condition(),
             _ => value.text.clone(),
         }
     }
 
-    /// An output that is a derivative, as an expression of the lane's type.
-    pub fn as_lane(&self, id: NodeId, text: &str) -> String {
-        if self.is_tangent(id) { text.to_owned() } else { format!("{}({text})", self.lane.name()) }
+    /// An output that is a derivative, as a vec3f: one number for each direction.
+    pub fn as_derivative(&self, id: NodeId, text: &str) -> String {
+        if self.is_tangent(id) { text.to_owned() } else { format!("vec3f({text})") }
     }
 }
 

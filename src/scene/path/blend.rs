@@ -16,7 +16,10 @@ use super::{
     rotation::{Directions, Rotations},
 };
 use crate::{
-    formula::Fractal,
+    formula::{
+        Fractal,
+        table::{Field, Value as FieldValue},
+    },
     precise::PrecisePoint,
     scene::{
         camera::{CLOSE_VIEW_UNIT, Camera},
@@ -89,6 +92,10 @@ fn place(camera: &Camera) -> Place {
 
 /// Restores the rules that hold between fields.
 fn settle(scene: &mut Scene, from: &Scene) {
+    round_whole(scene.fractal.fields_mut());
+    for step in scene.fractal.steps_mut() {
+        round_whole(step.fields_mut());
+    }
     scene.fractal.bailout = scene.fractal.bailout.min(scene.fractal.max_bailout());
     let surface = &mut scene.surface;
     for gradient in [&mut surface.gradient, &mut surface.second_layer.gradient] {
@@ -108,6 +115,16 @@ fn settle(scene: &mut Scene, from: &Scene) {
     }
     while lights.len() > MAX_LIGHTS && lights.point.len() > from.lights.point.len() {
         lights.point.pop();
+    }
+}
+
+/// Rounds the numbers that are whole at both keys.
+fn round_whole<'a>(fields: impl Iterator<Item = (&'static Field, &'a mut FieldValue)>) {
+    let is_whole = |field: &Field| field.param().is_some_and(|param| param.scale == Scale::Integer);
+    for (_, value) in fields.filter(|(field, _)| is_whole(field)) {
+        if let FieldValue::Number(number) = value {
+            *number = number.round();
+        }
     }
 }
 

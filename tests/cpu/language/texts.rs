@@ -62,9 +62,9 @@ fn errors_name_their_place_and_what_to_do() {
         ("name \"A\";\nstep { z = z * }", 2, 16, "found `}`, expected an expression"),
         ("name \"A\"\nstep { }", 2, 1, "`;`"),
         ("name \"A\";\nstep { z = y; }", 2, 12, "`y` is unknown"),
-        ("name \"A\";\nstep { z = lenght(z) * z; }", 2, 12, "is `length` meant?"),
+        ("name \"A\";\nstep { z = lenght(z) * z; }", 2, 12, "did you mean `length`?"),
         ("name \"A\";\nstep { z = 1; }", 2, 12, "found a float, but `z` takes a vec3"),
-        ("name \"A\";\nstep { z = z + vec2(1, 2); }", 2, 12, "cannot be joined"),
+        ("name \"A\";\nstep { z = z + vec2(1, 2); }", 2, 12, "cannot join"),
         ("name \"A\";\nstep { z = z.xyw; }", 2, 14, "does not name components"),
         ("name \"A\";\nstep { z = cross(z, 1); }", 2, 21, "`cross(x: a vec3, y: a vec3)`"),
         ("name \"A\";\nstep { z = min(z); }", 2, 12, "found 1 arguments"),
@@ -77,7 +77,7 @@ fn errors_name_their_place_and_what_to_do() {
             "name \"A\";\nparam a = 3 from 0 to 2 label \"A\";\nstep { z = z; }",
             2,
             11,
-            "from 0 to 2",
+            "3 is outside 0 to 2",
         ),
         (
             "name \"A\";\nparam a = 3 from 4 to 2 label \"A\";\nstep { z = z; }",
@@ -98,6 +98,26 @@ fn errors_name_their_place_and_what_to_do() {
             "whole numbers",
         ),
         ("name \"A\";\nstep { z = 1e99 * z; }", 2, 12, "too large"),
+        ("name \"A\";\nstep { z = z + 1 / 0; }", 2, 16, "is a divisor zero"),
+        ("name \"A\";\nstep { let a = 1; let a = 2; }", 2, 23, "declared twice"),
+        // Each declaration knows the names that have a value there.
+        ("name \"A\";\nsize length(p);\nstep { z = z; }", 2, 13, "`p` has no value here"),
+        ("name \"A\";\nsize dr;\nstep { z = z; }", 2, 6, "`dr` has no value here"),
+        ("name \"A\";\nbound z.x;\nstep { z = z; }", 2, 7, "`z` has no value here"),
+        ("name \"A\";\ninit z;\nstep { z = z; }", 2, 6, "`z` has no value here"),
+        ("name \"A\";\nestimate distance c.x;\nstep { z = z; }", 2, 19, "`c` has no value here"),
+        (
+            "name \"A\";\nparam a = 0 from -1 to 1 logarithmic label \"A\";\nstep { z = z; }",
+            2,
+            18,
+            "begins at 0 or above",
+        ),
+        (
+            "name \"A\";\nparam a = 0 from 0 to 1e-9 label \"A\";\nstep { z = z; }",
+            2,
+            18,
+            "smaller than 0.000001",
+        ),
     ];
     for (text, line, column, message) in cases {
         let error = checked(text).expect_err(text);
@@ -113,6 +133,15 @@ fn limits_are_named_where_they_are_passed() {
     assert!(checked(&long).expect_err("long").message.contains("8192"));
     let deep = step(&format!("z = {}z{};", "(".repeat(40), ")".repeat(40)));
     assert!(checked(&deep).expect_err("deep").message.contains("nested more than 32"));
+    // Comments and quotes neither hide brackets nor count as some.
+    let hidden = format!("name \"A\"; init {}z; step {{ z = z; }}", "(//)\n".repeat(1600));
+    assert!(checked(&hidden).expect_err("hidden").message.contains("nested more than 32"));
+    let quoted = format!("name \"A\"; about \"{0}\"; // {0}\nstep {{ z = z; }}", "(".repeat(40));
+    assert_eq!(checked(&quoted).err(), None);
+    let ends: String = (0..40).map(|i| format!("rotate(z, z, z.x + {i}) + ")).collect();
+    let ends = format!("name \"A\"; estimate distance length({ends}z); step {{ z = z; }}");
+    let error = checked(&ends).expect_err("ends");
+    assert!(error.message.contains("`init`, `size`, `estimate` and `bound` have"), "{error}");
     let many = step(&"z = sin(z) * cos(z) + c;\n".repeat(80));
     let error = checked(&many).expect_err("many");
     assert!(error.message.contains("may have 512"), "{error}");
@@ -300,4 +329,62 @@ fn a_wrong_text_in_a_document_is_named_by_line_and_column() {
     assert!(read(serde_json::json!({ "source": "x" })).contains("unknown field `source`"));
     assert!(read(serde_json::json!({})).contains("missing field `text`"));
     assert!(read(serde_json::json!(3)).contains("a formula's id or text"));
+}
+
+#[test]
+fn a_document_may_bring_64_formulas() {
+    let own = |i: usize| format!("name \"Many {i}\"; step {{ z = z + c + {i}; }}");
+    let steps = |first: usize| -> Vec<_> {
+        let step = |i| serde_json::json!({ "formula": { "text": own(i) } });
+        (9 * first..9 * first + 9).map(step).collect()
+    };
+    let key = |i: usize| serde_json::json!({ "time_secs": i, "scene": { "fractal": { "formula": "hybrid", "steps": steps(i) } } });
+    let read = |keys: usize| {
+        let keys: Vec<_> = (0..keys).map(key).collect();
+        let document = serde_json::json!({ "mandelight": "scene", "version": 2, "scene": {}, "path": { "keys": keys } });
+        document::project_from_json(&document.to_string())
+    };
+    let error = read(8).expect_err("72 formulas").to_string();
+    assert!(error.contains("a document may bring 64 formulas"), "{error}");
+    // Those that are known do not count.
+    read(8).expect("known formulas");
+}
+
+#[test]
+fn bounds_hold_what_is_drawn() {
+    let fractal = |id: &str, values: &[(&str, formula::table::Value)]| {
+        let mut fractal = Fractal::new(formula::find(id).expect("a formula"));
+        for (name, value) in values {
+            assert!(fractal.set(name, value.clone()), "{name}");
+        }
+        fractal
+    };
+    let julia = ("julia", true.into());
+    let turned = ("rotation", [180.0, 0.0, 0.0].into());
+    for (fractal, radius) in [
+        // A fixed point of the Julia form at (5.3, 6.8, 4.9).
+        (fractal("amazing_box_mod", &[julia.clone()]), 9.9),
+        // (0, 10, 0) has an orbit of period 2.
+        (fractal("amazing_box_mod", &[turned]), 10.0),
+        (fractal("mandelbox", &[("scale", 1.1.into())]), 42.0),
+        (fractal("box_fold_bulb", &[("fold_limit", 0.2.into()), ("height", 0.0.into())]), 2.5),
+        (fractal("quaternion_mandelbrot", &[]).with_iterations(2), 1.4),
+    ] {
+        let found = fractal.distance_field().bounding_radius();
+        assert!(found >= radius, "{:?}: {found}", fractal.formula().id());
+        assert!(found < 12.0 * radius, "{:?}: {found}", fractal.formula().id());
+    }
+}
+
+#[test]
+fn a_power_overflows_from_no_bailout_that_is_allowed() {
+    for power in [2.0, 8.0, 16.0] {
+        let mut fractal = Fractal::new(formula::find("juliabulb").expect("a formula"));
+        assert!(fractal.set("power", power));
+        let most = fractal.max_bailout();
+        let is_limit = most == formula::param::BAILOUT.max || most.powf(power) > 1e12;
+        assert!(most.powf(power) < 1.8e19 && is_limit, "{power}: {most}");
+    }
+    let folds = Fractal::new(formula::find("mandelbox").expect("a formula"));
+    assert_eq!(folds.max_bailout(), formula::param::BAILOUT.max);
 }

@@ -9,9 +9,6 @@ use mandelight::{
 };
 use mandelight_test_support::{oracle::orbits, probe, random::Random, statistics::quantile};
 
-/// The direction whose derivative the kernels carry where a text gives none and no ray passes.
-const ANY_DIRECTION: DVec3 = DVec3::new(0.48, 0.6, 0.64);
-
 /// The fractals that are compared: each text as it is, with other values, and in its Julia form.
 fn fractals() -> Vec<Fractal> {
     let mut all = Vec::new();
@@ -102,9 +99,8 @@ fn texts_agree_with_the_oracle_at_random_points() {
         let field = fractal.formula().distance_field(&fractal);
         let expected = in_parallel(&points, |&point| {
             let moved = point + DVec3::splat(1e-6 * point.length());
-            let [here, beside] =
-                [point, moved].map(|point| orbits::distance(&fractal, point, ANY_DIRECTION));
-            (here, (beside - here).abs(), orbits::orbit(&fractal, point, ANY_DIRECTION))
+            let [here, beside] = [point, moved].map(|point| orbits::distance(&fractal, point));
+            (here, (beside - here).abs(), orbits::orbit(&fractal, point))
         });
         let (mut off, mut host_off, mut color_off) = (Vec::new(), Vec::new(), Vec::new());
         for ((point, answer), (distance, sensitivity, end)) in
@@ -186,7 +182,7 @@ fn gradients_of_texts_agree_with_the_oracle() {
         let points = points(&fractal, 2000);
         let answers = probe::ask(&scene, &points, true).expect("answers");
         let expected = in_parallel(&points, |&point| {
-            let distance = orbits::distance(&fractal, point, ANY_DIRECTION);
+            let distance = orbits::distance(&fractal, point);
             (distance >= 1e-3).then(|| gradient(&fractal, point, 1e-5 * distance)).flatten()
         });
         let pairs = answers.iter().zip(expected).filter_map(|(answer, expected)| {
@@ -212,12 +208,12 @@ fn gradients_of_texts_agree_with_the_oracle() {
 /// The gradient by central differences; none where two spacings disagree, as at an edge.
 pub fn gradient(fractal: &Fractal, point: DVec3, spacing: f64) -> Option<DVec3> {
     let derived = orbits::is_derived(fractal);
-    let steps = orbits::orbit(fractal, point, ANY_DIRECTION).steps;
+    let steps = orbits::orbit(fractal, point).steps;
     let value = |point: DVec3| {
         if derived {
             orbits::height(fractal, point, steps)
         } else {
-            orbits::distance(fractal, point, ANY_DIRECTION)
+            orbits::distance(fractal, point)
         }
     };
     let slope = |spacing: f64| {

@@ -13,9 +13,6 @@ use mandelight_test_support::{
     statistics::quantile,
 };
 
-/// A direction that is none of the formulas' own.
-const DIRECTION: DVec3 = DVec3::new(0.48, 0.6, 0.64);
-
 fn fractal(id: &str) -> Fractal {
     Fractal::new(formula::find(id).expect("a formula"))
 }
@@ -80,7 +77,7 @@ fn orbit(fractal: &Fractal, point: DVec3) -> Option<Vec<DVec3>> {
         let orbit = estimate::orbit(&bulb, point);
         return (orbit.r > bulb.bailout).then_some(orbit.points);
     }
-    let end = orbits::orbit(fractal, point, DIRECTION);
+    let end = orbits::orbit(fractal, point);
     end.escaped.then(|| end.points.iter().map(|z| z.xyz()).collect())
 }
 

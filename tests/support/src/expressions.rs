@@ -1,6 +1,10 @@
 //! Random formulas of the language: every function, every type, few operations.
 
-use mandelight::formula::language::functions::{Argument, FUNCTIONS};
+use mandelight::formula::language::{
+    check,
+    functions::{Argument, FUNCTIONS},
+    syntax,
+};
 
 use crate::random::Random;
 
@@ -19,12 +23,23 @@ impl Expressions {
         (self.random.unit() * count as f64) as usize
     }
 
-    /// A formula whose step is random.
+    /// A formula whose step is random, and which the checker accepts.
+    ///
+    /// # Panics
+    ///
+    /// If the checker refuses a step for another reason than a constant that is no number.
     pub fn formula(&mut self) -> String {
-        // Most are shallow: a driver compiles those faster.
-        let depth = if self.below(4) == 0 { 3 } else { 2 };
-        let value = self.expression(3, depth);
-        format!("name \"Random\";\nstep {{\n    z = {value};\n}}")
+        loop {
+            // Most are shallow: a driver compiles those faster.
+            let depth = if self.below(4) == 0 { 3 } else { 2 };
+            let value = self.expression(3, depth);
+            let text = format!("name \"Random\";\nstep {{\n    z = {value};\n}}");
+            match syntax::parse(&text).and_then(|tree| check::check(&text, &tree)) {
+                Ok(_) => return text,
+                Err(error) if error.message.starts_with("the value is not a number") => {}
+                Err(error) => panic!("{text}\n{error}"),
+            }
+        }
     }
 
     /// An expression of `size` components, nested at most `depth` deep.
@@ -83,7 +98,7 @@ impl Expressions {
                 | "fold_count" | "mirror_count" => 1,
                 name if name.starts_with("complex") || name == "polar_repeat" => 2,
                 name if name.starts_with("rotate")
-                    || ["cross", "turn", "triplex_power"].contains(&name) =>
+                    || ["cross", "rotate_degrees", "triplex_power"].contains(&name) =>
                 {
                     3
                 }

@@ -110,13 +110,16 @@ impl Steps {
         (0..count as usize).fold(start, |z, n| self.step(n, z, c, 1.0, 1.0).0)
     }
 
-    /// The length of the state's derivative after `count` steps along a direction, by differences, and how far those
-    /// of two spacings disagree, as a part of it.
-    fn difference(&self, [point, direction]: [DVec3; 2], count: u32) -> [f64; 2] {
+    /// The Frobenius norm of the state's derivative after `count` steps, by differences, and how far those of two
+    /// spacings disagree, as a part of it.
+    fn difference(&self, point: DVec3, count: u32) -> [f64; 2] {
         let at = |spacing: f64| {
-            let [ahead, behind] =
-                [1.0, -1.0].map(|s| self.after(point + s * spacing * direction, count));
-            (ahead - behind).length() / (2.0 * spacing)
+            let along = |axis: DVec3| {
+                let [ahead, behind] =
+                    [1.0, -1.0].map(|s| self.after(point + s * spacing * axis, count));
+                ((ahead - behind) / (2.0 * spacing)).length_squared()
+            };
+            (along(DVec3::X) + along(DVec3::Y) + along(DVec3::Z)).sqrt()
         };
         // Spacings far below the distance to the set.
         let rough = at(1e-9).max(1e-3);
@@ -149,8 +152,8 @@ pub fn is_derived(fractal: &Fractal) -> bool {
     !steps_of(fractal).gives_derivative()
 }
 
-/// The orbit of `point`, with the derivative along `direction` where the text gives none.
-pub fn orbit(fractal: &Fractal, point: DVec3, direction: DVec3) -> End {
+/// The orbit of `point` with its derivative.
+pub fn orbit(fractal: &Fractal, point: DVec3) -> End {
     let all = steps_of(fractal);
     let start = all.start(point);
     let c = all.julia_constant.unwrap_or(start);
@@ -167,7 +170,7 @@ pub fn orbit(fractal: &Fractal, point: DVec3, direction: DVec3) -> End {
     let escaped = size.is_nan() || size > all.bailout;
     let mut uncertain = 0.0;
     if !all.gives_derivative() {
-        [dr, uncertain] = all.difference([point, direction], steps);
+        [dr, uncertain] = all.difference(point, steps);
     }
     let mut smooth_iterations = f64::from(steps);
     if escaped && steps > 0 {
@@ -182,9 +185,9 @@ pub fn orbit(fractal: &Fractal, point: DVec3, direction: DVec3) -> End {
     End { z, dr, uncertain, steps, escaped, points, smooth_iterations }
 }
 
-/// The estimated distance of `point`, with the derivative along `direction` where the text gives none.
-pub fn distance(fractal: &Fractal, point: DVec3, direction: DVec3) -> f64 {
-    let End { z, dr, .. } = orbit(fractal, point, direction);
+/// The estimated distance of `point`.
+pub fn distance(fractal: &Fractal, point: DVec3) -> f64 {
+    let End { z, dr, .. } = orbit(fractal, point);
     let all = steps_of(fractal);
     let (equations, of) = all.leading();
     let (r, seen) = (all.size(z), all.seen(z));
