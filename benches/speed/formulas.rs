@@ -162,7 +162,7 @@ pub fn print(rows: &[Row]) {
     println!("\nformulas: a still of each formula's scene");
     println!(
         "  {:<26}{:>6}{:>8}{:>11}{:>8}{:>9}{:>13}{:>13}",
-        "", "step", "relax", "estimates", "steps", "ms", "overstepped", "compile, ms"
+        "", "march", "relax", "estimates", "steps", "ms", "overstepped", "compile, ms"
     );
     for row in rows {
         let overstepped =

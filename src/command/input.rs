@@ -113,11 +113,11 @@ fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Fail
             .ok_or_else(|| Failure::usage(format!("--set: {path}: there is no such field")))?;
         *field = value_like(field, text);
         if path == "fractal.formula" {
-            // The new formula has parameters of its own, with their defaults.
+            // The new formula has defaults of its own.
             let formula = field.clone();
             let fractal = parent.get_mut("fractal").and_then(Value::as_object_mut);
             if let (Some(fractal), Ok(new)) = (fractal, formula_defaults(formula)) {
-                fractal.retain(|name, _| SHARED.contains(&name.as_str()));
+                fractal.retain(|name, _| KEPT.contains(&name.as_str()));
                 for (name, value) in new {
                     fractal.entry(name).or_insert(value);
                 }
@@ -133,8 +133,8 @@ fn set(project: Project, changes: &[Change], root: &str) -> Result<Project, Fail
     })
 }
 
-/// Fields that every formula has.
-const SHARED: [&str; 3] = ["formula", "iterations", "bailout"];
+/// Fields that a change of the formula keeps.
+const KEPT: [&str; 2] = ["formula", "section_planes"];
 
 /// All fields of the formula of this name, with their defaults.
 fn formula_defaults(formula: Value) -> Result<serde_json::Map<String, Value>, serde_json::Error> {

@@ -6,6 +6,7 @@ use std::{any::Any, fmt, hash, ops::Deref, sync::Arc};
 use glam::DVec3;
 
 use super::{
+    kernel_files::KernelFiles,
     march::{DistanceField, MarchPolicy},
     param,
     recurrence::Recurrence,
@@ -13,7 +14,7 @@ use super::{
     table::{Field, Value},
     trap::Trap,
 };
-use crate::{gpu::shader::File, precise::PrecisePoint};
+use crate::precise::PrecisePoint;
 
 /// One formula. Each `fractal` argument must be of this formula and within its ranges.
 pub trait Formula: Any + Sync {
@@ -411,33 +412,6 @@ impl Kernel {
     pub fn describe(self) -> String {
         self.formula.describe(self.variant)
     }
-}
-
-/// The WGSL files of a kernel.
-///
-/// `types` declares `struct FormulaUniforms` with a member `fractal: Fractal`, which the functions take by
-/// value, and other members that they read as `frame.formula`. The files in `files`
-/// declare, with the types of `shaders/types/estimate.wgsl`:
-///
-/// ```wgsl
-/// fn quick_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate
-/// fn careful_estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate
-/// fn estimate(fractal: Fractal, point: vec3f, along: vec3f) -> Estimate
-/// fn distance_estimate(fractal: Fractal, point: vec3f) -> f32
-/// fn distance_gradient(fractal: Fractal, point: vec3f) -> vec3f
-/// fn orbit_colors(fractal: Fractal, point: vec3f) -> OrbitColors
-/// fn cone_direction() -> vec3f
-/// ```
-///
-/// A march evaluates the quick estimate, and the careful estimate where the quick estimate's step is
-/// negative; the step of `estimate` is never negative. `along` is the ray's direction; several rays that march as
-/// one use `cone_direction` instead.
-#[derive(Clone, Debug)]
-pub struct KernelFiles {
-    /// Declares the uniforms.
-    pub types: File,
-    /// The kernels; their header lines may name files of `shaders/`.
-    pub files: Vec<File>,
 }
 
 /// The view data that a formula reads to [pack](super::Formula::pack) its uniforms.

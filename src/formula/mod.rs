@@ -7,6 +7,7 @@
 //! | file | contents |
 //! |---|---|
 //! | [`contract`] | the trait of a formula, and the types that its methods take and give |
+//! | [`kernel_files`] | what a formula's WGSL files declare |
 //! | [`document`] | a fractal in the scene document |
 //! | [`language`] | formulas from texts |
 //! | [`hybrid`] | steps of several formulas in turn |
@@ -28,6 +29,7 @@ pub mod bounds;
 pub mod contract;
 pub mod document;
 pub mod hybrid;
+pub mod kernel_files;
 pub mod language;
 pub mod mandelbulb;
 pub mod march;
@@ -39,9 +41,10 @@ pub mod table;
 pub mod trap;
 
 pub use contract::{
-    Formula, FormulaRef, Fractal, HybridStep, HybridSteps, Kernel, KernelFiles, Packed, PackedFor,
+    Formula, FormulaRef, Fractal, HybridStep, HybridSteps, Kernel, Packed, PackedFor,
     ReferenceOrbit, ReferenceSteps,
 };
+pub use kernel_files::KernelFiles;
 pub use language::{TextError, TextFormula};
 pub use march::{DistanceField, Estimate, MarchPolicy, Ray};
 pub use recurrence::{OrbitPosition, Recurrence};

@@ -147,10 +147,10 @@ pub fn completions(text: &str, cursor: usize, most: usize) -> Option<(Span, Vec<
     };
     let names = tokens.iter().filter(|(kind, other)| *kind == TokenKind::Name && *other != span);
     for (_, name) in names {
-        add(&text[name.start..name.end], "A name of this text".to_owned());
+        add(&text[name.start..name.end], "A name in this formula".to_owned());
     }
     FUNCTIONS.iter().for_each(|function| add(function.name, signature(function)));
-    KEYWORDS.iter().for_each(|word| add(word, "A word of declarations".to_owned()));
+    KEYWORDS.iter().for_each(|word| add(word, "A keyword".to_owned()));
     found.truncate(most);
     let replaced = Span { start: span.start, end: cursor };
     (!found.is_empty()).then_some((replaced, found))

@@ -21,6 +21,7 @@ impl Preset {
 
     /// The id of a preset called `name`.
     pub fn id_of(name: &str) -> String {
-        name.to_lowercase().replace(' ', "-")
+        let kept = |c: char| (c.is_alphanumeric() || c == '-').then_some(c);
+        name.to_lowercase().replace(' ', "-").chars().filter_map(kept).collect()
     }
 }

@@ -126,7 +126,7 @@ fn sources(channel: Option<&'static str>) -> Vec<(ColorSource, &'static str, &'s
         all.push((
             ColorSource::Channel,
             channel,
-            "Colours by what the formula counts, on average over its steps",
+            "Colours by a number that the formula computes at each step, such as its folds",
         ));
     }
     all

@@ -6,7 +6,7 @@ use super::context::Context;
 use crate::{
     formula::{self, FormulaRef, own},
     scene::{
-        Fractal,
+        Camera, Fractal, Scene,
         presets::{self, Preset},
     },
     ui::{
@@ -16,11 +16,11 @@ use crate::{
 };
 
 /// Columns of the list.
-const COLUMNS: usize = 3;
+const COLUMNS: usize = 2;
 /// Gap between cards, in points.
 const GAP: f32 = 6.0;
 /// Greatest height of the list, in points.
-const MAX_LIST_HEIGHT: f32 = 300.0;
+const MAX_LIST_HEIGHT: f32 = 350.0;
 /// What the list remembers between frames.
 #[derive(Clone, Debug, Default)]
 struct ListState {
@@ -47,8 +47,7 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     if state.is_open {
         ui.add_space(GAP);
-        let kept = cx.settings.formulas.iter().filter_map(|text| own::alone(text).ok());
-        let all: Vec<_> = kept.chain(formula::all()).collect();
+        let all: Vec<_> = kept(cx).into_iter().chain(formula::all()).collect();
         if let Some(chosen) = cards(ui, &mut state.words, &all, Some(current)) {
             if chosen != current {
                 change(cx, chosen);
@@ -60,6 +59,11 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add(Label::new(about).wrap());
     ui.data_mut(|data| data.insert_temp(id, state));
     super::formula_text::button(ui, cx);
+}
+
+/// The formulas that are kept in this browser.
+pub(super) fn kept(cx: &Context<'_>) -> Vec<FormulaRef> {
+    cx.settings.formulas.iter().filter_map(|text| own::alone(text).ok()).collect()
 }
 
 /// The search field and a card for each of the formulas that match; returns the formula that was clicked.
@@ -78,7 +82,10 @@ pub(super) fn cards(
         return None;
     }
     let mut clicked = None;
-    ScrollArea::vertical().max_height(MAX_LIST_HEIGHT).id_salt("formulas").show(ui, |ui| {
+    // Within the panel, which scrolls, a list would shrink to the room that is left.
+    let list =
+        ScrollArea::vertical().min_scrolled_height(MAX_LIST_HEIGHT).max_height(MAX_LIST_HEIGHT);
+    list.id_salt("formulas").show(ui, |ui| {
         let width = ui.available_width();
         let card_width = (width - GAP * (COLUMNS - 1) as f32) / COLUMNS as f32;
         let [width_px, height_px] = thumbnail::SIZE_PX.map(|side| side as f32);
@@ -114,9 +121,15 @@ fn preset_of(formula: FormulaRef) -> Option<&'static Preset> {
     presets::all().find(|preset| preset.name == formula.name())
 }
 
-/// Takes the formula with its default values and without section planes, and the camera to where it sees the whole
-/// set.
+/// Shows the formula as its card does, in the light and the colours of the scene; a formula without a picture is seen
+/// whole, with its default values.
 fn change(cx: &mut Context<'_>, formula: FormulaRef) {
+    if let Some(preset) = preset_of(formula) {
+        let Scene { fractal, camera, .. } = (preset.scene)();
+        cx.scene.fractal = fractal;
+        cx.scene.camera = Camera { stereo: cx.scene.camera.stereo.clone(), ..camera };
+        return;
+    }
     let fractal = Fractal::new(formula);
     let radius = formula.distance_field(&fractal).bounding_radius();
     cx.scene.fractal = fractal;

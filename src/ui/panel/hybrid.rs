@@ -201,10 +201,11 @@ fn add_button(ui: &mut Ui, cx: &mut Context<'_>, state: &mut State) -> Option<Ch
     }
     ui.add_space(6.0);
     // Transforms first: they are fewer, and no other list has them.
+    let kept = super::formula::kept(cx);
     let (mut others, transforms): (Vec<_>, Vec<_>) =
         hybrid::step_formulas().partition(|formula| !hybrid::is_transform(*formula));
     others.sort_by_key(|formula| formula.name());
-    let all: Vec<_> = transforms.into_iter().chain(others).collect();
+    let all: Vec<_> = transforms.into_iter().chain(kept).chain(others).collect();
     let chosen = cards(ui, &mut state.words, &all, None)?;
     state.is_adding = false;
     Some(Change::Add(chosen))

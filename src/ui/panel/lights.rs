@@ -123,9 +123,12 @@ fn first(lights: &Lights) -> Option<LightRef> {
 fn list(ui: &mut Ui, cx: &mut Context<'_>) {
     let selected = &mut cx.selection.light;
     let lights = &mut cx.scene.lights;
-    ScrollArea::vertical().id_salt("light list").max_height(190.0).auto_shrink([false, true]).show(
-        ui,
-        |ui| {
+    ScrollArea::vertical()
+        .id_salt("light list")
+        .min_scrolled_height(190.0)
+        .max_height(190.0)
+        .auto_shrink([false, true])
+        .show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for (index, light) in lights.environment.iter_mut().enumerate() {
                 let this = LightRef::Environment(index);
@@ -135,8 +138,7 @@ fn list(ui: &mut Ui, cx: &mut Context<'_>) {
                 let this = LightRef::Point(index);
                 row(ui, this, selected, &mut light.color, &mut light.muted, &mut light.solo);
             }
-        },
-    );
+        });
 }
 
 fn row(

@@ -40,12 +40,12 @@ const POSITION: Param = Param {
     default: 0.0,
     scale: Scale::Linear,
     step: 0.01,
-    help: "Distance of the plane from the centre. Or drag the plane's handle in the view.",
+    help: "Distance of the plane from the centre. Drag the plane's handle in the view to move it, too.",
 };
 /// The position of a plane in close views: its distance from the pivot.
 const NEAR_POSITION: Param = Param {
     unit: Unit::ViewUnits,
-    help: "Distance of the plane from the point that the view turns about. Or drag the plane's handle in the view.",
+    help: "Distance of the plane from the point that the view turns about. Drag the plane's handle in the view to move it, too.",
     ..POSITION
 };
 
@@ -94,9 +94,9 @@ fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
     ui.horizontal_wrapped(|ui| {
         let normal = plane.normal();
         for (axis, text, hover) in [
-            (Axis::X, "X", "Across the x axis: cuts away what is on the right at the start"),
-            (Axis::Y, "Y", "Across the y axis: cuts away what is behind at the start"),
-            (Axis::Z, "Z", "Across the z axis: cuts away what is above"),
+            (Axis::X, "X", "Across the x axis: cuts away the side of positive x"),
+            (Axis::Y, "Y", "Across the y axis: cuts away the side of positive y"),
+            (Axis::Z, "Z", "Across the z axis: cuts away the side of positive z, above"),
         ] {
             let is_chosen = normal.dot(axis.direction()).abs() > 1.0 - 1e-9;
             if ui.selectable_label(is_chosen, text).on_hover_text(hover).clicked() {
