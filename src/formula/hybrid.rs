@@ -311,7 +311,9 @@ impl Formula for Hybrid {
     }
 
     fn max_bailout(&self, fractal: &Fractal) -> f64 {
-        self.steps.max_bailout(&self.sequence(fractal))
+        // Defaults of a hybrid's formula are asked for without steps.
+        let has_steps = fractal.hybrid().is_some();
+        if has_steps { self.steps.max_bailout(&self.sequence(fractal)) } else { f64::INFINITY }
     }
 
     fn march_policy(&self, _fractal: &Fractal) -> MarchPolicy {

@@ -4,7 +4,7 @@ use egui::{Key, Modifiers, accesskit::Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
     formula::{self, Fractal},
-    scene::Scene,
+    scene::{Scene, presets},
 };
 
 use crate::stage::*;
@@ -122,4 +122,42 @@ fn a_closed_editor_has_drawn_its_text() {
     press(&mut harness, "Close window");
     assert!(harness.query_by_label("Close window").is_none());
     assert_eq!(scene(&harness).fractal.formula().text(), Some(TEXT));
+}
+
+/// The panel scrolls: within it, a list shows several rows at any height of the window.
+#[test]
+fn the_list_of_formulas_shows_several_rows_in_a_low_window() {
+    let mut harness = stage(Scene::default(), unfolded(), [1280.0, 600.0]);
+    press(&mut harness, "Formula: Mandelbulb");
+    let rows = ["Mandelbulb", "Amazing Box mod", "Apollonian"]
+        .map(|name| harness.get_by_role_and_label(Role::Button, name).rect());
+    let height = rows[0].height();
+    assert!(rows.windows(2).all(|pair| pair[1].top() >= pair[0].bottom()), "{rows:?}");
+    assert!(rows[2].bottom() - rows[0].top() > 2.9 * height, "{rows:?}");
+}
+
+#[test]
+fn a_card_brings_the_view_that_it_shows_and_leaves_light_and_colours() {
+    let mut harness = stage(Scene::default(), unfolded(), [1280.0, 3000.0]);
+    let before = scene(&harness).clone();
+    press(&mut harness, "Formula: Mandelbulb");
+    press(&mut harness, "Kleinian");
+    let preset = presets::all().find(|preset| preset.name == "Kleinian").expect("a scene");
+    let expected = (preset.scene)();
+    let scene = scene(&harness);
+    assert_eq!(scene.fractal, expected.fractal);
+    assert_eq!(scene.camera, expected.camera);
+    assert_eq!((&scene.lights, &scene.surface), (&before.lights, &before.surface));
+}
+
+#[test]
+fn kept_formulas_are_steps_of_hybrids_too() {
+    let mut harness = editing("mandelbox");
+    type_whole(&mut harness, TEXT);
+    press(&mut harness, "Keep in my formulas");
+    press(&mut harness, "Mix with another formula");
+    press(&mut harness, "Typed");
+    let hybrid = scene(&harness).fractal.hybrid().expect("a hybrid").clone();
+    assert_eq!(hybrid.steps.len(), 2);
+    assert!(hybrid.steps.iter().all(|step| step.formula().text() == Some(TEXT)));
 }

@@ -68,6 +68,27 @@ fn hybrids_travel_in_documents_links_and_paths() {
 }
 
 #[test]
+fn whole_numbers_stay_whole_between_keys() {
+    let scene = |count: f64| {
+        let mut fractal = hybrid::fractal(of(&["polar_repeat", "mandelbox"])).expect("a hybrid");
+        assert!(fractal.steps_mut()[0].set("count", count));
+        Scene { fractal, ..Scene::default() }
+    };
+    let key = |time_secs, count| Key {
+        time_secs,
+        easing: Easing::default(),
+        scene: Arc::new(scene(count)),
+    };
+    let mut project = Project::from(scene(4.0));
+    project.path.keys = vec![key(0.0, 4.0), key(2.0, 7.0)];
+    let seen: Vec<_> = (0..=8)
+        .map(|i| project.path.at(0.25 * f64::from(i)).expect("a scene").fractal)
+        .map(|fractal| fractal.hybrid().expect("a hybrid").steps[0].values()[0].clone())
+        .collect();
+    assert!(seen.contains(&5.0.into()) && seen.contains(&6.0.into()), "{seen:?}");
+}
+
+#[test]
 fn what_is_no_hybrid_is_refused_by_name() {
     let read = |fractal: Value| {
         let document =
