@@ -29,6 +29,14 @@ fn type_whole(harness: &mut Harness<'_, Stage>, text: &str) {
     harness.run_steps(40);
 }
 
+/// Types words into the open list's search field.
+fn search(harness: &mut Harness<'_, Stage>, words: &str) {
+    harness.get_by_label("Search formulas").focus();
+    harness.run();
+    harness.event(egui::Event::Text(words.to_owned()));
+    harness.run();
+}
+
 fn text_of(harness: &Harness<'_, Stage>) -> String {
     let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Formula text");
     field.value().unwrap_or_default()
@@ -127,9 +135,11 @@ fn a_closed_editor_has_drawn_its_text() {
 /// The panel scrolls: within it, a list shows several rows at any height of the window.
 #[test]
 fn the_list_of_formulas_shows_several_rows_in_a_low_window() {
-    let mut harness = stage(Scene::default(), unfolded(), [1280.0, 600.0]);
+    let mut harness = stage(Scene::default(), unfolded(), [1280.0, 700.0]);
+    harness.get_by_role_and_label(Role::Button, "Formula: Mandelbulb").scroll_to_me();
+    harness.run();
     press(&mut harness, "Formula: Mandelbulb");
-    let rows = ["Mandelbulb", "Amazing Box mod", "Apollonian"]
+    let rows = ["Aexion", "Amazing Surf", "Benesi pine tree"]
         .map(|name| harness.get_by_role_and_label(Role::Button, name).rect());
     let height = rows[0].height();
     assert!(rows.windows(2).all(|pair| pair[1].top() >= pair[0].bottom()), "{rows:?}");
@@ -141,6 +151,7 @@ fn a_card_brings_the_view_that_it_shows_and_leaves_light_and_colours() {
     let mut harness = stage(Scene::default(), unfolded(), [1280.0, 3000.0]);
     let before = scene(&harness).clone();
     press(&mut harness, "Formula: Mandelbulb");
+    search(&mut harness, "inversions");
     press(&mut harness, "Kleinian");
     let preset = presets::all().find(|preset| preset.name == "Kleinian").expect("a scene");
     let expected = (preset.scene)();
@@ -156,6 +167,7 @@ fn kept_formulas_are_steps_of_hybrids_too() {
     type_whole(&mut harness, TEXT);
     press(&mut harness, "Keep in my formulas");
     press(&mut harness, "Mix with another formula");
+    search(&mut harness, "typed");
     press(&mut harness, "Typed");
     let hybrid = scene(&harness).fractal.hybrid().expect("a hybrid").clone();
     assert_eq!(hybrid.steps.len(), 2);
