@@ -23,7 +23,7 @@ use super::{
     },
     own,
     param::{ITERATIONS, params},
-    table::Field,
+    table::{Field, Value},
 };
 
 pub use super::language::text_formula::is_transform;
@@ -106,6 +106,10 @@ pub fn step_of(fractal: &Fractal) -> Result<HybridStep, HybridError> {
     for (field, value) in step.fields_mut() {
         if let Some(known) = fractal.get(field.name).filter(|known| known.fits(field)) {
             *value = known.clone();
+        }
+        // A choice of a formula with kernels of its own is a switch in its text.
+        if fractal.values().contains(&Value::Choice(field.name)) {
+            *value = Value::Switch(true);
         }
     }
     Ok(step)

@@ -60,6 +60,10 @@ pub fn with_values_of(formula: FormulaRef, old: &Fractal) -> Fractal {
         if is_valid {
             new.set(field.name, value.clone());
         }
+        // A choice of a formula with kernels of its own is a switch in its text.
+        if let Value::Choice(word) = value {
+            new.set(word, true);
+        }
     }
     new.section_planes.clone_from(&old.section_planes);
     let usual = Fractal::new(old.formula());

@@ -68,6 +68,21 @@ fn hybrids_travel_in_documents_links_and_paths() {
 }
 
 #[test]
+fn the_text_of_the_bulb_keeps_the_sign_of_its_sine() {
+    let mut bulb = Fractal::default();
+    assert!(
+        bulb.set("variant", formula::table::Value::Choice("negative_sine"))
+            && bulb.set("power", 5.0)
+    );
+    let step = hybrid::step_of(&bulb).expect("a step");
+    let (_, text) = formula::step_texts().find(|(id, _)| *id == "mandelbulb").expect("a text");
+    let edited = formula::own::of_text(&format!("{text}// Edited.\n")).expect("a formula");
+    let edited = formula::own::with_values_of(edited, &bulb);
+    assert!(edited.is_on("negative_sine") && edited.number("power") == Some(5.0));
+    assert_eq!(step.values(), &edited.values()[..step.values().len()]);
+}
+
+#[test]
 fn whole_numbers_stay_whole_between_keys() {
     let scene = |count: f64| {
         let mut fractal = hybrid::fractal(of(&["polar_repeat", "mandelbox"])).expect("a hybrid");

@@ -3,6 +3,7 @@
 mod dives;
 mod document;
 mod follow;
+mod gallery;
 mod path_document;
 mod presets;
 mod versions;
