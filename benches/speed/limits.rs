@@ -134,7 +134,9 @@ impl Limits {
     pub fn complaints(&self, run: &[Measured]) -> Vec<String> {
         let complaint = |Measured { measure, view, value }: &Measured| {
             let limit = self.0.get(&(*measure, view.clone()))?;
-            let falls = !measure.is_within(*value, *limit);
+            // Limits have three decimals: a count that is its limit holds it.
+            let rounded = (1e3 * value).round() / 1e3;
+            let falls = !measure.is_within(rounded, *limit);
             falls.then(|| format!("{measure} {view} {value:.3} breaks its limit of {limit:.3}"))
         };
         run.iter().filter_map(complaint).collect()
