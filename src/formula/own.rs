@@ -35,7 +35,7 @@ thread_local! {
     static LEFT_IN_DOCUMENT: Cell<Option<usize>> = const { Cell::new(None) };
 }
 
-/// Reads a document: with more than [`MAX_IN_DOCUMENT`] new texts, reading ends with an error.
+/// Reads a document: with more than `MAX_IN_DOCUMENT` new texts, reading ends with an error.
 pub fn in_document<T>(read: impl FnOnce() -> T) -> T {
     LEFT_IN_DOCUMENT.set(Some(MAX_IN_DOCUMENT));
     let result = read();

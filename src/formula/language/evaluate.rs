@@ -43,7 +43,7 @@ impl Program {
     }
 
     /// Number of operations.
-    pub fn len(&self) -> usize {
+    pub fn operations(&self) -> usize {
         self.operations.len()
     }
 

@@ -335,7 +335,7 @@ impl TextField {
             let mut z = at.z;
             fill(&mut z, programs.next.run(|input| at.get(input), slots, &mut values));
             at.z = z;
-            *operations += leading.extent.len() + programs.next.len();
+            *operations += leading.extent.operations() + programs.next.operations();
         }
         true
     }

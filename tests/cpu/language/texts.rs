@@ -363,7 +363,7 @@ fn bounds_hold_what_is_drawn() {
     let turned = ("rotation", [180.0, 0.0, 0.0].into());
     for (fractal, radius) in [
         // A fixed point of the Julia form at (5.3, 6.8, 4.9).
-        (fractal("amazing_box_mod", &[julia.clone()]), 9.9),
+        (fractal("amazing_box_mod", &[julia]), 9.9),
         // (0, 10, 0) has an orbit of period 2.
         (fractal("amazing_box_mod", &[turned]), 10.0),
         (fractal("mandelbox", &[("scale", 1.1.into())]), 42.0),
