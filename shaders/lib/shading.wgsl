@@ -1,5 +1,5 @@
 // Light and colour of a sample. Shading marches no ray: it reads visibility bits.
-// uses: lib/color_value, lib/environment_map, lib/eye, lib/lattice, lib/octahedral, types/dispatch_params
+// uses: lib/color_value, lib/environment_map, lib/eye, lib/lattice, lib/light_sample, lib/octahedral, types/dispatch_params
 // uses: types/film, types/frame_uniforms, types/light, types/ray
 
 // Whether this pipeline shows the environment map: 0 no, 1 yes, -1 reads it from the uniforms.
@@ -61,21 +61,16 @@ fn surface_color(stored: vec2f, normal: u32) -> vec3f {
 
 // Blinn-Phong (Blinn 1977) summed over the lights that reach the point. Without normals (thesis
 // fig. 3.3 a) every point faces every light, and there are no highlights.
-fn reflected(point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
+fn reflected(site: Site, point: vec3f, n: vec3f, toward_eye: vec3f, color: vec3f, bits: vec2u) -> vec3f {
     var sum = color * frame.surface.ambient;
     for (var k = 0u; k < frame.surface.light_count; k++) {
         let light = lights[k];
         // Black lights and lights without shadows have no shadow rays: their visibility bits are undefined.
         if (all(light.color == vec3f(0.0))) { continue; }
         if (light.casts_shadows != 0u && !has_light(bits, light)) { continue; }
-        var toward_light = light.vector;
-        var radiance = light.color;
-        if (light.kind == LIGHT_POINT) {
-            let offset = light.vector - point;
-            let distance_squared = max(dot(offset, offset), 1e-24);
-            toward_light = offset * inverseSqrt(distance_squared);
-            radiance /= distance_squared;
-        }
+        let seen = light_sample(LightShape(light.vector, light.kind, light.size, light.seed), point, site);
+        let toward_light = seen.toward;
+        let radiance = seen.gain * light.color;
         if (frame.normals == NORMALS_NONE) {
             sum += radiance * color * frame.surface.diffuse;
             continue;
@@ -106,7 +101,7 @@ fn direct_radiance(site: Site, ray: Ray) -> vec3f {
         return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
     }
     let color = surface_color(color_data[site.index], seen.y);
-    return reflected(ray.origin, octahedral_unpack(seen.y), -ray.direction, color, visibility[site.index]);
+    return reflected(site, ray.origin, octahedral_unpack(seen.y), -ray.direction, color, visibility[site.index]);
 }
 
 // Adds the sum of a pixel's samples to the film, or replaces the film's value.

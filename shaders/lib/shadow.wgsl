@@ -1,5 +1,5 @@
 // Where shadow rays start, and the distance at which a surface blocks them.
-// uses: lib/lattice, lib/octahedral, types/dispatch_params, types/frame_uniforms, types/ray
+// uses: lib/lattice, lib/light_sample, lib/octahedral, types/dispatch_params, types/frame_uniforms, types/ray
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
@@ -14,6 +14,8 @@ struct Receiver {
     surface_distance: f32,
     // True if the sample has a surface point that faces the dispatch's light.
     faces: bool,
+    // Where the sample sees the light.
+    light: LightSample,
 }
 
 fn receiver(site: Site) -> Receiver {
@@ -21,9 +23,15 @@ fn receiver(site: Site) -> Receiver {
     let n = octahedral_unpack(seen.y);
     let ray = rays[site.ray];
     let point = ray.origin + n * (2.0 * ray.radius);
-    let toward = select(dispatch.light_vector, dispatch.light_vector - point, dispatch.light_kind == LIGHT_POINT);
-    let faces = seen.x != 0u && (frame.normals == NORMALS_NONE || dot(n, toward) > 0.0);
-    return Receiver(point, ray.radius, faces);
+    let shape = LightShape(dispatch.light_vector, dispatch.light_kind, dispatch.light_size, dispatch.light_seed);
+    let light = light_sample(shape, point, site);
+    let faces = seen.x != 0u && (frame.normals == NORMALS_NONE || dot(n, light.toward) > 0.0);
+    return Receiver(point, ray.radius, faces, light);
+}
+
+// Whether the rays of a block toward the dispatch's light are parallel.
+fn has_parallel_rays() -> bool {
+    return dispatch.light_kind != LIGHT_POINT && (dispatch.light_size <= 0.0 || dispatch.compact == 0u);
 }
 
 // The word and the mask of the dispatch's light in a sample's visibility bits.

@@ -12,14 +12,11 @@ fn min_step(blocks: f32, surface_distance: f32) -> f32 {
 }
 
 // `clear`: the distance before the point up to which the ray is known to be clear.
-fn light_reaches(fractal: Fractal, point: vec3f, surface_distance: f32, clear: f32) -> bool {
-    var direction = dispatch.light_vector;
-    var farthest = dispatch.light_reach;
-    if (dispatch.light_kind == LIGHT_POINT) {
-        let to_light = dispatch.light_vector - point;
-        farthest = min(farthest, length(to_light));
-        direction = to_light / max(length(to_light), 1e-30);
-    }
+fn light_reaches(fractal: Fractal, seen: Receiver, clear: f32) -> bool {
+    let point = seen.point;
+    let surface_distance = seen.surface_distance;
+    let direction = seen.light.toward;
+    let farthest = min(dispatch.light_reach, seen.light.distance);
     var s = min(min(farthest, clear), bounding_interval(point, direction).y);
     var over = over_relaxation();
     let checks_hits = needs_hit_check();
@@ -68,8 +65,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let seen = receiver(site);
     if (!seen.faces) { return; }
     var clear = 1e30;
-    if (dispatch.light_kind != LIGHT_POINT) { clear = queued.clear - dot(seen.point, dispatch.light_vector); }
-    if (light_reaches(frame.formula.fractal, seen.point, seen.surface_distance, clear)) {
+    if (has_parallel_rays()) { clear = queued.clear - dot(seen.point, dispatch.light_vector); }
+    if (light_reaches(frame.formula.fractal, seen, clear)) {
         visibility[site.index][light_word()] |= light_mask();
     }
 }

@@ -71,6 +71,6 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     }
     if (!any_faces) { return; }
     var clear = 1e30;
-    if (dispatch.light_kind != LIGHT_POINT) { clear = clear_plane(frame.formula.fractal); }
+    if (has_parallel_rays()) { clear = clear_plane(frame.formula.fractal); }
     enqueue_ray(block.index, clear);
 }

@@ -49,6 +49,11 @@ struct DispatchParams {
     jitter_step: vec2f,
     // 1: depths are there, and rays start at their surface points; 0: rays start at the eye.
     starts_at_surface: u32,
+    // The size and the seed of a shadow dispatch's light, as in `Light`.
+    light_size: f32,
+    light_seed: u32,
+    // Number of the first sample among a pixel's jittered samples.
+    first_sample: u32,
 }
 
 const LIGHT_POINT = 1u;

@@ -13,6 +13,10 @@ struct Light {
     shadow_reach: f32,
     // Index of the light's visibility bit.
     bit: u32,
+    // Environment light: sine of half its apparent diameter. Point light: radius in render space.
+    size: f32,
+    // Index among the scene's lights.
+    seed: u32,
 }
 
 const MAX_LIGHTS = 64u;

@@ -15,6 +15,9 @@ use super::{
 };
 use crate::gpu::host_shared::HostShared;
 
+/// Number of the first jittered sample: the centre sample comes before.
+const FIRST_JITTERED: u32 = 1;
+
 /// One pass: its shader, its bindings, and when a frame has the pass.
 pub struct Pass {
     /// The stem of the pass's two files, `pass/<name>.rs` and `shaders/pass/<name>.wgsl`.
@@ -229,7 +232,10 @@ impl<'a> Recorder<'a> {
             params.jitter = lattice::jitter(first);
             params.samples = count;
             params.compact = 1;
-            params.accumulate = 1;
+            params.first_sample = first - FIRST_JITTERED;
+            // Centre samples see the centres of lights: beside soft shadows theirs would stay visible as edges.
+            let replaces = first == FIRST_JITTERED && self.inputs.has_soft_lights();
+            params.accumulate = u32::from(!replaces);
             self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
         }
         params

@@ -45,7 +45,7 @@ const MAX_CHANNEL: f64 = 4.0;
 /// llvmpipe stops an invocation after 65,535 turns; other drivers have watchdogs.
 const LOOP_TURNS: u32 = 60_000;
 
-/// Loop turns of an orbit, besides those of its steps.
+/// Loop turns of an orbit besides its steps.
 const LOOPS_OF_AN_ORBIT: u32 = 8;
 
 /// Most steps of a camera ray: the longest silhouette rays need about 300.
@@ -419,6 +419,11 @@ impl Inputs {
     /// The visibility bits of the lights that shine; other lights need none.
     pub fn shining(&self) -> u64 {
         lights::shining(self.lights_in_use())
+    }
+
+    /// Whether a light that shines has a size.
+    pub fn has_soft_lights(&self) -> bool {
+        lights::any_soft(self.lights_in_use())
     }
 
     /// The visibility bits of the lights that have shadow rays.

@@ -115,8 +115,8 @@ fn followed_edit(document: &Lights, before: &Lights, edited: &Lights) -> Option<
         if !stays {
             return None;
         }
-        let EnvironmentLight { color, intensity, muted, solo, .. } = *light;
-        *light = EnvironmentLight { color, intensity, muted, solo, ..kept.clone() };
+        let EnvironmentLight { color, intensity, size_deg, muted, solo, .. } = *light;
+        *light = EnvironmentLight { color, intensity, size_deg, muted, solo, ..kept.clone() };
     }
     (key(&lights) == key(document)).then_some(lights)
 }

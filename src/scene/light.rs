@@ -27,6 +27,8 @@ pub struct EnvironmentLight {
     pub color: [f32; 3],
     /// Strength, range [`param::ENVIRONMENT_INTENSITY`].
     pub intensity: f64,
+    /// Apparent diameter, range [`param::ENVIRONMENT_SIZE`], degrees.
+    pub size_deg: f64,
     /// True if surfaces block the light.
     pub casts_shadows: bool,
     /// Longest shadow ray, range [`param::SHADOW_REACH`], view units; unlimited if none.
@@ -45,6 +47,7 @@ impl Default for EnvironmentLight {
             direction: DVec3::new(0.4, -0.5, 0.75).normalize().to_array(),
             color: [1.0; 3],
             intensity: param::ENVIRONMENT_INTENSITY.default,
+            size_deg: param::ENVIRONMENT_SIZE.default,
             casts_shadows: true,
             shadow_reach: Some(param::SHADOW_REACH.default),
             frame: LightFrame::Scene,
@@ -64,6 +67,8 @@ pub struct PointLight {
     pub color: [f32; 3],
     /// Strength at a distance of one scene unit, range [`param::POINT_INTENSITY`].
     pub intensity: f64,
+    /// Radius of the glowing sphere, range [`param::POINT_RADIUS`], scene units.
+    pub radius: f64,
     /// True if surfaces block the light.
     pub casts_shadows: bool,
     /// True if the light is switched off.
@@ -78,6 +83,7 @@ impl Default for PointLight {
             position: PrecisePoint::from(DVec3::new(0.0, -1.5, 1.0)),
             color: [1.0; 3],
             intensity: param::POINT_INTENSITY.default,
+            radius: param::POINT_RADIUS.default,
             casts_shadows: true,
             muted: false,
             solo: false,

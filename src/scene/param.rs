@@ -49,10 +49,14 @@ params! {
         "The distance between your eyes, about 6.4 cm. Less is flatter; 0 has no depth.";
     ENVIRONMENT_INTENSITY = "lights.environment[].intensity", "Intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
         "Brightness of the light. At 1, a white surface that faces the light is white.";
+    ENVIRONMENT_SIZE = "lights.environment[].size_deg", "Size", Degrees, 0.0, 90.0, default 0.0, Logarithmic by 0.5,
+        "How large the light looks: 0.5 as the sun, 40 as a window. Larger softens the shadows while the picture refines.";
     SHADOW_REACH = "lights.environment[].shadow_reach", "Shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
         "Maximum distance at which a surface casts a shadow. Shorter brightens crevices and is faster.";
     POINT_INTENSITY = "lights.point[].intensity", "Intensity", None, 0.0, 10000.0, default 1.0, Logarithmic by 0.05,
         "Brightness of the light at a distance of one scene unit. Twice the distance gives a quarter of the light.";
+    POINT_RADIUS = "lights.point[].radius", "Radius", SceneUnits, 0.0, 10.0, default 0.0, Logarithmic by 0.01,
+        "Radius of the glowing ball. Larger softens the shadows while the picture refines.";
     RIG_COUNT = "lights.rig.count", "Rig lights", Count, 3.0, 64.0, default 16.0, Integer by 1.0,
         "Number of lights that represent the sky or the 360° picture. More gives softer, more exact light and is slower.";
     RIG_INTENSITY = "lights.rig.intensity", "Rig intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,

@@ -181,6 +181,7 @@ fn check_lights(lights: &Lights) -> Result<(), Invalid> {
         check_unit_length(|| format!("lights.environment[{i}].direction"), length)?;
         check_color(|| format!("lights.environment[{i}].color"), light.color)?;
         check_at(&param::ENVIRONMENT_INTENSITY, i, light.intensity)?;
+        check_at(&param::ENVIRONMENT_SIZE, i, light.size_deg)?;
         if let Some(reach) = light.shadow_reach {
             check_at(&param::SHADOW_REACH, i, reach)?;
         }
@@ -188,6 +189,7 @@ fn check_lights(lights: &Lights) -> Result<(), Invalid> {
     for (i, light) in lights.point.iter().enumerate() {
         check_color(|| format!("lights.point[{i}].color"), light.color)?;
         check_at(&param::POINT_INTENSITY, i, light.intensity)?;
+        check_at(&param::POINT_RADIUS, i, light.radius)?;
     }
     check_rig(&lights.rig)
 }

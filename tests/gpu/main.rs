@@ -21,6 +21,7 @@ mod picture;
 mod places;
 mod post;
 mod samples;
+mod soft_shadows;
 mod staleness;
 mod stereo;
 mod still;

@@ -32,6 +32,8 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         params.light_reach = light.shadow_reach;
         params.light_vector = light.vector;
         params.light_kind = light.kind;
+        params.light_size = light.size;
+        params.light_seed = light.seed;
         recorder.dispatch_queue(&shadow_cone, &work_queues.enqueue_rays, params, Queue::HitBlocks);
         recorder.dispatch_queue(&shadow, &work_queues.dequeue, params, Queue::Rays(queue));
     }

@@ -43,6 +43,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             color: radiance,
             casts_shadows: casts(light.casts_shadows),
             shadow_reach: light.shadow_reach.map_or(1e30, |reach| (reach * view_unit) as f32),
+            size: (0.5 * light.size_deg).to_radians().sin() as f32,
             ..Light::default()
         }
     });
@@ -51,10 +52,11 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
         let way = place - space.point(&scene.camera.position);
         let casts_shadows = casts(light.casts_shadows);
         // In scene units the square of a distance may overflow an f32.
-        let (vector, kind, falls) = if way.length() > FAR_VIEWS {
-            (way.normalize_or(DVec3::Z), 0, way.length_squared())
+        let radius = light.radius / space.scale();
+        let (vector, kind, falls, size) = if way.length() > FAR_VIEWS {
+            (way.normalize_or(DVec3::Z), 0, way.length_squared(), (radius / way.length()).min(1.0))
         } else {
-            (place, 1, 1.0)
+            (place, 1, 1.0, radius.min(1e15))
         };
         let strength = light.intensity / (space.scale() * space.scale()) / falls;
         Light {
@@ -63,6 +65,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             color: color(light.color, strength.min(1e30), light.muted, light.solo),
             casts_shadows,
             shadow_reach: if kind == 0 { way.length().min(1e30) as f32 } else { 1e30 },
+            size: size as f32,
             ..Light::default()
         }
     });
@@ -81,7 +84,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     let mut table = [Light::default(); MAX_LIGHTS];
     let all = environment.chain(point).chain(rig_lights);
     for (bit, (slot, light)) in (0..).zip(table.iter_mut().zip(all)) {
-        *slot = Light { bit, ..light };
+        *slot = Light { bit, seed: bit, ..light };
     }
     table
 }
@@ -89,6 +92,11 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
 /// The visibility bits of the lights that shine; other lights need none.
 pub fn shining(lights: &[Light]) -> u64 {
     bits(lights.iter().filter(|light| light.color != [0.0; 3]))
+}
+
+/// Whether a light that shines has a size.
+pub fn any_soft(lights: &[Light]) -> bool {
+    lights.iter().any(|light| light.size > 0.0 && light.color != [0.0; 3])
 }
 
 /// The visibility bits of the lights that surfaces block.
@@ -133,7 +141,7 @@ pub fn moved(lights: &[Light], old: &[Light]) -> u64 {
 
 /// Whether rays toward both lights are the same, for any colour.
 fn has_same_rays(a: &Light, b: &Light) -> bool {
-    let rays = |light: &Light| Light { color: [0.0; 3], bit: 0, ..*light };
+    let rays = |light: &Light| Light { color: [0.0; 3], bit: 0, seed: 0, ..*light };
     rays(a) == rays(b)
 }
 

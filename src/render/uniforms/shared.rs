@@ -282,6 +282,12 @@ host_shared! {
         jitter_step: [f32; 2],
         /// 1: depths are there, and rays start at their surface points; 0: rays start at the eye.
         starts_at_surface: u32,
+        /// The size of a shadow dispatch's light, as in [`Light`].
+        light_size: f32,
+        /// The seed of a shadow dispatch's light, as in [`Light`].
+        light_seed: u32,
+        /// Number of the first sample among a pixel's jittered samples.
+        first_sample: u32,
     }
     /// A ray and the cone about it: all that a pass knows of a sample's way through the scene.
     Ray {
@@ -325,5 +331,9 @@ host_shared! {
         shadow_reach: f32,
         /// Index of the light's visibility bit, 0 to 63.
         bit: u32,
+        /// Environment light: sine of half its apparent diameter. Point light: radius in render space.
+        size: f32,
+        /// Index among the scene's lights.
+        seed: u32,
     }
 }

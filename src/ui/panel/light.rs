@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::{
     scene::{
         Camera, EnvironmentLight, LightFrame, PointLight,
-        param::{self, Param},
+        param::{self, Param, Unit},
     },
     ui::{
         theme,
@@ -41,6 +41,7 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
         })
         .inner;
     param_slider(ui, &param::ENVIRONMENT_INTENSITY, &mut light.intensity);
+    param_slider(ui, &param::ENVIRONMENT_SIZE, &mut light.size_deg);
     if let Some(reach) = &mut light.shadow_reach {
         ui.add_enabled_ui(light.casts_shadows, |ui| param_slider(ui, &param::SHADOW_REACH, reach));
     }
@@ -71,6 +72,13 @@ const NEAR_POINT_INTENSITY: Param = Param {
     ..param::POINT_INTENSITY
 };
 
+/// Radius of a near point light in view units.
+const NEAR_POINT_RADIUS: Param = Param {
+    unit: Unit::ViewUnits,
+    help: "Radius of the glowing ball, in view units (the distance from you to the pivot). Larger softens the shadows while the picture refines.",
+    ..param::POINT_RADIUS
+};
+
 /// The distance, in scene units, for which the panel shows a point light's strength.
 ///
 /// One view unit if the view is close and the light is near, otherwise one scene unit.
@@ -87,6 +95,11 @@ pub(super) fn point(ui: &mut Ui, light: &mut PointLight, camera: &Camera) {
     let mut intensity = light.intensity / (length * length);
     if param_slider(ui, param, &mut intensity).changed() {
         light.intensity = param::POINT_INTENSITY.clamp(intensity * length * length);
+    }
+    let radius_param = if length == 1.0 { &param::POINT_RADIUS } else { &NEAR_POINT_RADIUS };
+    let mut radius = light.radius / length;
+    if param_slider(ui, radius_param, &mut radius).changed() {
+        light.radius = param::POINT_RADIUS.clamp(radius * length);
     }
     ui.checkbox(&mut light.casts_shadows, "Shadows").on_hover_text("This light casts shadows");
     let (position, hover) = if length == 1.0 {

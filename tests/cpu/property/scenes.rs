@@ -116,29 +116,39 @@ fn stereo() -> impl Strategy<Value = Stereo> {
 fn environment_light() -> impl Strategy<Value = EnvironmentLight> {
     let frame = select(vec![LightFrame::Scene, LightFrame::View]);
     let reach = option::of(value(&param::SHADOW_REACH));
-    (direction(), color(), value(&param::ENVIRONMENT_INTENSITY), reach, frame, any::<[bool; 3]>())
-        .prop_map(
-            |(direction, color, intensity, shadow_reach, frame, [casts_shadows, muted, solo])| {
-                EnvironmentLight {
-                    direction,
-                    color,
-                    intensity,
-                    casts_shadows,
-                    shadow_reach,
-                    frame,
-                    muted,
-                    solo,
-                }
-            },
-        )
+    let strength = (value(&param::ENVIRONMENT_INTENSITY), value(&param::ENVIRONMENT_SIZE));
+    (direction(), color(), strength, reach, frame, any::<[bool; 3]>()).prop_map(
+        |(
+            direction,
+            color,
+            (intensity, size_deg),
+            shadow_reach,
+            frame,
+            [casts_shadows, muted, solo],
+        )| {
+            EnvironmentLight {
+                direction,
+                color,
+                intensity,
+                size_deg,
+                casts_shadows,
+                shadow_reach,
+                frame,
+                muted,
+                solo,
+            }
+        },
+    )
 }
 
 fn point_light() -> impl Strategy<Value = PointLight> {
-    (point(), color(), value(&param::POINT_INTENSITY), any::<[bool; 3]>()).prop_map(
-        |(position, color, intensity, [casts_shadows, muted, solo])| PointLight {
+    let strength = (value(&param::POINT_INTENSITY), value(&param::POINT_RADIUS));
+    (point(), color(), strength, any::<[bool; 3]>()).prop_map(
+        |(position, color, (intensity, radius), [casts_shadows, muted, solo])| PointLight {
             position,
             color,
             intensity,
+            radius,
             casts_shadows,
             muted,
             solo,
