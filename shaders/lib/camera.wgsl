@@ -1,5 +1,5 @@
 // Camera rays. In stereo each eye has its own.
-// uses: lib/eye, lib/lattice, types/frame_uniforms, types/ray
+// uses: lib/eye, lib/lattice, lib/lens, types/frame_uniforms, types/ray
 
 // The ray of an eye through a position of its own picture: (0, 0) is the picture's upper left corner,
 // (1, 1) the lower right one. Both eyes' frusta meet at the screen (thesis 4.5): the eye moves
@@ -17,5 +17,6 @@ fn eye_ray(position: vec2f, side: f32) -> Ray {
 
 // The ray of the eye through a sample.
 fn camera_ray(site: Site) -> Ray {
-    return eye_ray(eye_position(site.pixel, place_in_pixel(site.sample)), eye_side(site.pixel));
+    let ray = eye_ray(eye_position(site.pixel, place_in_pixel(site.sample)), eye_side(site.pixel));
+    return through_lens(ray, site);
 }

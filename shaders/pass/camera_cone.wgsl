@@ -1,12 +1,13 @@
 // Computes how far all rays of a block go before any of them may hit. Queues the blocks with rays that
 // may hit; the samples of the other blocks miss.
-// uses: lib/camera, lib/cone, lib/eye, lib/lattice, lib/sphere, types/dispatch_params
+// uses: lib/camera, lib/cone, lib/eye, lib/lattice, lib/lens, lib/sphere, types/dispatch_params
 // uses: types/enqueue, types/frame_uniforms, types/gbuffer
 
 // The depth that all rays of a block may go to; negative if all of them miss.
 fn clear_block(fractal: Fractal, block: Block) -> f32 {
     let box = block_box(block);
-    if (is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
+    // Rays through a lens start at different places: no cone holds them.
+    if (sees_through_lens() || is_second_eye(box.first) != is_second_eye(box.last)) { return 0.0; }
     let side = eye_side(box.first);
     let size = vec2f(box.last - box.first + vec2u(1u));
     let middle = eye_ray(eye_position(box.first, 0.5 * size), side);

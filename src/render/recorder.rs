@@ -233,8 +233,8 @@ impl<'a> Recorder<'a> {
             params.samples = count;
             params.compact = 1;
             params.first_sample = first - FIRST_JITTERED;
-            // Centre samples see the centres of lights: beside soft shadows theirs would stay visible as edges.
-            let replaces = first == FIRST_JITTERED && self.inputs.has_soft_lights();
+            // Centre samples see the centres of lights and lens: beside soft edges theirs would stay visible.
+            let replaces = first == FIRST_JITTERED && self.inputs.has_wide_samples();
             params.accumulate = u32::from(!replaces);
             self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
         }

@@ -4,6 +4,7 @@
 //! by field, with its twin in `shaders/types/`.
 
 mod background;
+mod camera;
 mod lights;
 mod shared;
 
@@ -15,7 +16,6 @@ pub use shared::*;
 use super::{
     Region,
     color_curve::{ColorCurve, LayerCurves},
-    region::Eyes as RegionEyes,
     schedule::Stale,
     space::RenderSpace,
 };
@@ -23,7 +23,6 @@ use crate::{
     formula::{
         Packed, PackedFor, contract::MAX_UNIFORM_BYTES, section::MAX_SECTION_PLANES, trap::MAX_TRAP,
     },
-    fractal::pixel_cone,
     gpu::host_shared::{Array, HostShared},
     scene::{
         self, BloomOrder, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals,
@@ -57,12 +56,6 @@ const SHADOW_STEPS: u32 = 320;
 /// Least hit distance in render space: below it f32 positions near the surface coincide.
 const FINEST_HIT: f32 = 4e-7;
 
-/// Distance from the surface at which colours are taken, over the height that the picture shows there.
-///
-/// The hit distance of a picture 150 pixels high. Pictures of any greater height take colours at the same
-/// points; a smaller distance would show finer bands of colour, but only in higher pictures.
-const COLOR_DISTANCE: f64 = 1.0 / 300.0;
-
 impl FrameUniforms {
     /// The uniforms of `scene` in `region`; finds the render space itself.
     pub fn new(scene: &Scene, region: Region) -> Self {
@@ -71,24 +64,11 @@ impl FrameUniforms {
 
     /// The uniforms of `scene` in `region`, in the render space `space`.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
-        let height = f64::from(region.picture_px[1]);
-        let camera = &scene.camera;
-        let rotation = camera.rotation();
-        let aspect = region.aspect();
         let march = march(scene, region, space);
         let iterations = march.iterations;
         Self {
-            camera: Camera {
-                origin: space.point(&camera.position).as_vec3().to_array(),
-                half_height: camera.half_height(aspect) as f32,
-                right: (rotation * DVec3::X).as_vec3().to_array(),
-                aspect: aspect as f32,
-                up: (rotation * DVec3::Y).as_vec3().to_array(),
-                hit_cone: (scene.quality.detail * pixel_cone(camera, aspect, height)) as f32,
-                forward: camera.forward().as_vec3().to_array(),
-                color_cone: (COLOR_DISTANCE * 2.0 * camera.half_height(aspect)) as f32,
-            },
-            eyes: eyes(camera, region, space),
+            camera: camera::camera(scene, region, space),
+            eyes: camera::eyes(&scene.camera, region, space),
             march,
             surface: surface(scene),
             first_layer: layer(&scene.surface.coloring, iterations),
@@ -159,35 +139,6 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
 }
 
 /// The eyes of a region.
-fn eyes(camera: &scene::Camera, region: Region, space: &RenderSpace) -> Eyes {
-    let stereo = &camera.stereo;
-    // With swapped eyes, the left picture shows the right eye.
-    let left = if stereo.swap_eyes { 1.0 } else { -1.0 };
-    // Without stereo the separation has no effect: the uniforms must not change with it or the pivot.
-    let half_shift = match region.eyes {
-        RegionEyes::Camera => 0.0,
-        _ => stereo.half_separation(),
-    };
-    Eyes {
-        second_at: region.second_eye_at(),
-        count: region.eyes.count(),
-        first_side: match region.eyes {
-            RegionEyes::Camera => 0.0,
-            RegionEyes::Right => -left,
-            RegionEyes::Left
-            | RegionEyes::Beside
-            | RegionEyes::Below
-            | RegionEyes::Anaglyph
-            | RegionEyes::WideAnaglyph => left,
-        },
-        half_separation: (half_shift * camera.view_unit() / space.scale()) as f32,
-        half_shift: half_shift as f32,
-        share: region.eyes.on_sheet().map(|eyes| 1.0 / eyes as f32),
-        first_place: if region.eyes == RegionEyes::Right { 1.0 } else { 0.0 },
-        anaglyph: u32::from(region.eyes.is_anaglyph()),
-    }
-}
-
 fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
     let model = space.model();
     let fractal = model.fractal();
@@ -421,9 +372,9 @@ impl Inputs {
         lights::shining(self.lights_in_use())
     }
 
-    /// Whether a light that shines has a size.
-    pub fn has_soft_lights(&self) -> bool {
-        lights::any_soft(self.lights_in_use())
+    /// Whether jittered samples see lights or lens at other places than centre samples.
+    pub fn has_wide_samples(&self) -> bool {
+        self.frame.camera.lens_radius > 0.0 || lights::any_soft(self.lights_in_use())
     }
 
     /// The visibility bits of the lights that have shadow rays.

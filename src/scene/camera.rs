@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::{param, stereo::Stereo};
+use super::{lens::Lens, param, stereo::Stereo};
 use crate::precise::{MAX_COORDINATE, PrecisePoint};
 
 /// Smallest distance from eye to pivot, in scene units: below the deepest zoom that renders.
@@ -28,7 +28,7 @@ impl From<Quaternion> for DQuat {
     }
 }
 
-/// A pinhole camera. In the camera's frame +X is right, +Y is up and −Z is forward.
+/// A camera. In the camera's frame +X is right, +Y is up and −Z is forward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Camera {
@@ -42,6 +42,8 @@ pub struct Camera {
     /// Angle between the picture's lower and upper edges, range [`param::VERTICAL_FOV`], degrees.
     /// [`Self::half_height`] handles pictures taller than wide. Unused in stereo.
     pub vertical_fov_deg: f64,
+    /// The lens.
+    pub lens: Lens,
     /// The viewer's eyes and screen, for stereo pictures.
     pub stereo: Stereo,
 }
@@ -57,6 +59,7 @@ impl Camera {
             pivot: PrecisePoint::from(pivot),
             orientation: orientation.normalize().into(),
             vertical_fov_deg: param::VERTICAL_FOV.default,
+            lens: Lens::default(),
             stereo: Stereo::default(),
         }
     }

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
 //! | `description` | [`Scene`], the whole of its parts |
-//! | `camera`, `stereo`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `camera`, `lens`, `stereo`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | `lighting` | the part that holds all lights |
 //! | `light`, `rig` | single lights; lights generated together |
 //! | [`follow`] | the lights of close views, which follow the view |
@@ -26,6 +26,7 @@ mod background;
 mod bloom;
 mod camera;
 mod description;
+mod lens;
 mod light;
 mod lighting;
 mod project;
@@ -54,6 +55,7 @@ pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use description::Scene;
 pub use environment_map::{EnvironmentMap, MAX_NAME_CHARS};
 pub use indirect::{Indirect, IndirectKind};
+pub use lens::Lens;
 pub use light::{EnvironmentLight, LightFrame, PointLight};
 pub use lighting::{Lights, MAX_LIGHTS};
 pub use path::Path;

@@ -41,6 +41,12 @@ params! {
     SCENE;
     VERTICAL_FOV = "camera.vertical_fov_deg", "Field of view", Degrees, 5.0, 120.0, default 40.0, Linear by 1.0,
         "How wide the camera sees, from the lower to the upper edge (in a tall picture, from left to right). Wider shows more and distorts more.";
+    F_NUMBER = "camera.lens.f_number", "f-number", None, 0.5, 64.0, default 2.8, Logarithmic by 0.1,
+        "The lens's aperture. Lower blurs what is out of focus more.";
+    FOCUS = "camera.lens.focus", "Focus", ViewUnits, 0.01, 100.0, default 1.0, Logarithmic by 0.01,
+        "The distance at which the picture is sharp. 1 is the pivot, which the view turns about.";
+    BLADES = "camera.lens.blades", "Blades", Count, 2.0, 9.0, default 2.0, Integer by 1.0,
+        "Number of the aperture's blades: 5 draws bright points as pentagons. 2: discs.";
     SCREEN_HEIGHT = "camera.stereo.screen_height_cm", "Screen height", Centimetres, 2.0, 1000.0, default 30.0, Logarithmic by 1.0,
         "The height of the picture on your screen or print. Larger gives a wider field of view.";
     EYE_DISTANCE = "camera.stereo.eye_distance_cm", "Eye to screen", Centimetres, 5.0, 2000.0, default 60.0, Logarithmic by 1.0,

@@ -163,6 +163,9 @@ fn check_camera(camera: &Camera) -> Result<(), Invalid> {
     let length = DVec4::from_array(camera.orientation.0).length();
     check_unit_length(|| "camera.orientation".into(), length)?;
     check(&param::VERTICAL_FOV, camera.vertical_fov_deg)?;
+    check(&param::F_NUMBER, camera.lens.f_number)?;
+    check(&param::FOCUS, camera.lens.focus)?;
+    check(&param::BLADES, camera.lens.blades.into())?;
     check(&param::SCREEN_HEIGHT, camera.stereo.screen_height_cm)?;
     check(&param::EYE_DISTANCE, camera.stereo.eye_distance_cm)?;
     check(&param::EYE_SEPARATION, camera.stereo.eye_separation_cm)

@@ -389,7 +389,7 @@ impl Interface {
     /// Records the frame's changes, and updates [`Self::is_moving`].
     fn record_changes(&mut self, ui: &Ui, before: &Project, now_secs: f64, held: bool) {
         let changed = before != self.project();
-        if changed && ui.input(stepped_by_key) {
+        if changed && ui.input(shortcuts::step_a_value) {
             self.pilot.extend_step(ui.ctx());
         }
         let still_down = ui.input(|i| i.pointer.any_down() || i.any_touches());
@@ -446,6 +446,7 @@ impl Interface {
             | Command::NextKey
             | Command::Home
             | Command::FrameAll
+            | Command::Focus
             | Command::Dive
             | Command::Orbit(..)
             | Command::Pan(..)
@@ -489,12 +490,4 @@ impl Interface {
             self.selection = Selection::default();
         }
     }
-}
-
-/// True if this frame's keys step a value: repeated presses are one undo step.
-fn stepped_by_key(input: &egui::InputState) -> bool {
-    use egui::Key;
-    let keys =
-        [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::PageUp, Key::PageDown];
-    keys.into_iter().any(|key| input.key_pressed(key))
 }

@@ -13,6 +13,7 @@
 //! | [`collide`] | collision of the eye with the surface, and sliding along it |
 //! | `recovery` | turns a view that shows no surface toward the nearest |
 //! | [`turntable`] | rotations that keep the horizon level |
+//! | [`focus`] | the focus of the lens |
 //! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
 //! | [`descent`] | zooms about a place, with a turn toward the best view |
 //! | [`guide`] | draws the zoom to places, and dives by itself |
@@ -36,6 +37,7 @@ pub mod collide;
 pub mod descent;
 pub mod flight;
 pub mod fly;
+pub mod focus;
 pub mod guide;
 mod placement;
 mod recovery;

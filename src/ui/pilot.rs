@@ -12,6 +12,7 @@ use super::{
     home::HomeTarget,
     navigation::{
         CameraStatus, FlyInput, Navigator, Viewport, World,
+        focus::focus,
         guide::{Guide, GuideStatus},
     },
     shortcuts::{Command, HeldKeys},
@@ -227,6 +228,9 @@ impl Pilot {
             }
             match command {
                 Command::Dive => self.toggle_dive(&model, &camera, world),
+                Command::Focus => {
+                    focus(&mut camera, world, view.hover_pos().map(|at| frame.ndc(at)))
+                }
                 Command::Dolly(steps) => {
                     let amount = f64::from(steps) * KEY_DOLLY;
                     self.zoom(&model, &mut camera, world, DVec2::ZERO, amount);
@@ -234,6 +238,10 @@ impl Pilot {
                 }
                 _ => self.command(command, &mut camera, world, home, ctx),
             }
+        }
+        let is_focused = view.clicked() && ui.input(|i| i.modifiers.alt);
+        if let Some(at) = view.interact_pointer_pos().filter(|_| is_focused) {
+            focus(&mut camera, world, Some(frame.ndc(at)));
         }
         self.touch(ui, &model, &mut camera, world, frame);
         if !self.pinching {

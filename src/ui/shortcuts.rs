@@ -28,6 +28,8 @@ pub enum Command {
     Home,
     /// Show the whole fractal.
     FrameAll,
+    /// Focus the lens on the surface under the pointer, or in the middle of the picture.
+    Focus,
     /// Begin a dive, or stop it.
     Dive,
     /// Keep the last dive as the camera path.
@@ -147,6 +149,13 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(NONE, Key::Delete, Command::DeleteKey, "Del", "Delete the selected key"),
     row(NONE, Key::Comma, Command::PreviousKey, ",  .", "Go to the previous, to the next key"),
     also(NONE, Key::Period, Command::NextKey),
+    row(
+        NONE,
+        Key::O,
+        Command::Focus,
+        "O",
+        "Focus on the point under the pointer, with a depth of field",
+    ),
     row(NONE, Key::Space, Command::PlayPause, "Space", "Play or pause the path"),
     row(NONE, Key::P, Command::TogglePanel, "P", "Show or hide the panel"),
     row(SHIFT, Key::F, Command::ToggleFullscreen, "Shift F", "Fill the screen"),
@@ -191,9 +200,17 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Wheel, pinch", "Move closer, drawn to good places near the pointer, or farther"),
     ("Two fingers", "Pan and zoom"),
     ("Drag a light's handle", "Move a point light; with Shift toward or away from you"),
+    ("Alt + click", "Focus there, with a depth of field"),
     ("Drag in fly mode", "Look around"),
     ("Double click a slider", "Reset to its default"),
 ];
+
+/// Whether this frame's keys step a value: repeated presses are one undo step.
+pub fn step_a_value(input: &egui::InputState) -> bool {
+    let keys =
+        [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::PageUp, Key::PageDown];
+    keys.into_iter().any(|key| input.key_pressed(key))
+}
 
 /// The commands of this frame's key presses.
 ///

@@ -14,6 +14,7 @@ mod golden;
 mod indirect;
 mod integrator;
 mod language;
+mod lens;
 mod memory;
 mod moving;
 mod oracle;

@@ -93,8 +93,10 @@ fn every_parameter_of_every_formula_has_a_control() {
         scene.surface.coloring.source = ColorSource::SphereTrap;
         scene.surface.second_layer.amount = 0.5;
         let mut harness = stage(scene, unfolded(), [1280.0, 5000.0]);
-        harness.get_by_label("Auto exposure").click();
-        harness.run();
+        for switch in ["Auto exposure", "Depth of field"] {
+            harness.get_by_label(switch).click();
+            harness.run();
+        }
         press(&mut harness, "Add light");
         press(&mut harness, "Cut open");
         let mut missing: Vec<_> =

@@ -9,6 +9,7 @@ mod dive;
 mod editor;
 mod environment_map;
 mod fit;
+mod focus;
 mod follow;
 mod gestures;
 mod hostile;

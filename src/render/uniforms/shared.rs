@@ -29,6 +29,12 @@ host_shared! {
         forward: [f32; 3],
         /// Distance from the surface at which colours are taken, per unit of depth along `forward`.
         color_cone: f32,
+        /// Radius of the aperture, in render space; 0 for a pinhole.
+        lens_radius: f32,
+        /// Depth along `forward` at which the picture is sharp, in render space.
+        focus: f32,
+        /// Number of the aperture's blades; below 3 the aperture is a circle.
+        blades: u32,
     }
     /// Indirect light.
     Indirect {

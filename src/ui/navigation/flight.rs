@@ -78,6 +78,7 @@ impl Flight {
             position: eye,
             orientation: rotation.normalize().into(),
             vertical_fov_deg: mix(from.vertical_fov_deg, to.vertical_fov_deg),
+            lens: to.lens.clone(),
             stereo: to.stereo.clone(),
         }
     }

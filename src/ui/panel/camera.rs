@@ -17,15 +17,20 @@ use crate::{
 };
 
 /// The section of the panel.
-pub(super) const SECTION: Section =
-    Section { name: "camera", title: "Camera", hover: "Field of view, stereo, fly mode", show };
+pub(super) const SECTION: Section = Section {
+    name: "camera",
+    title: "Camera",
+    hover: "Field of view, depth of field, stereo, fly mode",
+    show,
+};
 
-/// Field of view, stereo, home, frame all, fly mode, and the eye's position.
+/// Field of view, lens, stereo, home, frame all, fly mode, and the eye's position.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     // In stereo, the screen's height and distance determine the field of view.
     if !cx.scene.camera.stereo.is_on() {
         param_slider(ui, &param::VERTICAL_FOV, &mut cx.scene.camera.vertical_fov_deg);
     }
+    lens(ui, cx);
     stereo::show(ui, cx);
     ui.columns(3, |columns| {
         let mut button = |index: usize, name: &str, hover: &str, command: Command| {
@@ -79,6 +84,26 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             format!("{} u", significant(camera_status.distance)),
             "The eye's estimated distance to the nearest surface, in scene units. You fly slower when it is small.",
         );
+    }
+}
+
+/// Depth of field: aperture and focus.
+fn lens(ui: &mut Ui, cx: &mut Context<'_>) {
+    let lens = &mut cx.scene.camera.lens;
+    ui.checkbox(&mut lens.depth_of_field, "Depth of field")
+        .on_hover_text("Blurs what is nearer or farther than the focus, while the picture refines");
+    if !lens.depth_of_field {
+        return;
+    }
+    param_slider(ui, &param::F_NUMBER, &mut lens.f_number);
+    param_slider(ui, &param::FOCUS, &mut lens.focus);
+    let mut blades = f64::from(lens.blades);
+    if param_slider(ui, &param::BLADES, &mut blades).changed() {
+        lens.blades = blades as u32;
+    }
+    let hover = "Makes the surface in the middle of the picture sharp. Alt + click or O: the point under the pointer.";
+    if ui.button("Focus on the middle").on_hover_text(hover).clicked() {
+        cx.commands.push(Command::Focus);
     }
 }
 

@@ -9,10 +9,10 @@ use mandelight::{
     },
     scene::{
         Axis, Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
-        EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind, LightFrame,
-        Lights, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight, Scene,
-        SecondLayer, SectionColors, Sky, Stereo, StereoLayout, Surface, Tone, ToneChannels,
-        ToneCurve, ToneMean,
+        EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind, Lens,
+        LightFrame, Lights, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind,
+        RigLight, Scene, SecondLayer, SectionColors, Sky, Stereo, StereoLayout, Surface, Tone,
+        ToneChannels, ToneCurve, ToneMean,
         param::{self, Param},
     },
 };
@@ -88,15 +88,26 @@ fn section_plane() -> impl Strategy<Value = SectionPlane> {
 
 fn camera() -> impl Strategy<Value = Camera> {
     let turn = (direction(), 0.0..std::f64::consts::TAU);
-    (point(), point(), turn, value(&param::VERTICAL_FOV), stereo())
+    (point(), point(), turn, (value(&param::VERTICAL_FOV), lens()), stereo())
         .prop_filter("the pivot is not the eye", |(eye, pivot, ..)| (eye - pivot).length() > 1e-20)
-        .prop_map(|(position, pivot, (axis, angle), vertical_fov_deg, stereo)| Camera {
+        .prop_map(|(position, pivot, (axis, angle), (vertical_fov_deg, lens), stereo)| Camera {
             position,
             pivot,
             orientation: DQuat::from_axis_angle(DVec3::from_array(axis), angle).normalize().into(),
             vertical_fov_deg,
+            lens,
             stereo,
         })
+}
+
+fn lens() -> impl Strategy<Value = Lens> {
+    let numbers = (value(&param::F_NUMBER), value(&param::FOCUS), value(&param::BLADES));
+    (any::<bool>(), numbers).prop_map(|(depth_of_field, (f_number, focus, blades))| Lens {
+        depth_of_field,
+        f_number,
+        focus,
+        blades: blades.round() as u32,
+    })
 }
 
 fn stereo() -> impl Strategy<Value = Stereo> {
