@@ -122,6 +122,15 @@ pub fn pictures() -> Vec<Picture> {
             of("Mandelbulb").with(DUSK).with_environment_map(),
         )
         .sized(README_PX),
+        single("lens", "Through a lens of f/1.4, at 2e-26 in power 8", lens("Rosette"))
+            .sized([720, 450]),
+        picture(
+            "soft",
+            2,
+            "A light of no size, and one of 25 degrees",
+            [pierced(&[]), pierced(&["lights.environment[0].size_deg=25"])],
+        )
+        .sized([960, 300]),
         picture(
             "normals",
             3,
@@ -297,6 +306,27 @@ fn picture<const N: usize>(
 ) -> Picture {
     Picture { name, caption, size_px: [320, 200], columns, panels: panels.into() }
 }
+
+/// A depth of field; blurred parts need many samples.
+const LENS: &[&str] = &["camera.lens.depth_of_field=true", "camera.lens.f_number=1.4"];
+
+fn lens(scene: &'static str) -> Panel {
+    Panel { samples: SOFT_SAMPLES, ..of(scene).with(LENS) }
+}
+
+/// A hole in the sponge, in one light.
+fn pierced(changes: &[&'static str]) -> Panel {
+    let panel = of("Menger sponge").with(&[
+        "lights.environment[1].muted=true",
+        "lights.environment[0].intensity=3.4",
+        "indirect.kind=off",
+        "camera.vertical_fov_deg=16",
+    ]);
+    Panel { samples: SOFT_SAMPLES, ..panel.with(changes) }
+}
+
+/// Samples of pictures with soft shadows.
+const SOFT_SAMPLES: u32 = 128;
 
 fn single(name: &'static str, caption: &'static str, panel: Panel) -> Picture {
     picture(name, 1, caption, [panel])
