@@ -13,13 +13,14 @@ fn sees_through_lens() -> bool {
 fn aperture_point(at: vec2f) -> vec2f {
     let blades = f32(frame.camera.blades);
     if (frame.camera.blades < 3u) {
-        let turn = 6.2831853 * at.y;
+        let turn = 6.2831853 * (at.y - 0.5);
         return sqrt(at.x) * vec2f(cos(turn), sin(turn));
     }
     // One of the triangles from the middle to an edge, and a point in it.
     let blade = min(floor(at.y * blades), blades - 1.0);
     let along = at.y * blades - blade;
-    let corners = 6.2831853 / blades * vec2f(blade, blade + 1.0);
+    // From -pi to pi, where WGSL's functions are exact.
+    let corners = 6.2831853 * (vec2f(blade, blade + 1.0) / blades - 0.5);
     let first = vec2f(cos(corners.x), sin(corners.x));
     let second = vec2f(cos(corners.y), sin(corners.y));
     return sqrt(at.x) * mix(first, second, along);

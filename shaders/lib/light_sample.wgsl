@@ -34,7 +34,8 @@ fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
     if (light.kind == LIGHT_POINT) {
         let offset = light.vector - point;
         let squared = max(dot(offset, offset), 1e-24);
-        gain = 1.0 / squared;
+        // A point within a light sees its surface's strength.
+        gain = 1.0 / max(squared, light.size * light.size);
         toward = offset * inverseSqrt(squared);
         distance = length(offset);
     }
@@ -48,7 +49,7 @@ fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
     // Height below 1 of a direction on the unit sphere about `toward`.
     let drop = at.x * sine * sine / (1.0 + cosine);
     let across = sqrt(max(drop * (2.0 - drop), 0.0));
-    let turn = 6.2831853 * at.y;
+    let turn = 6.2831853 * (at.y - 0.5);
     let side = orthogonal(toward);
     let direction =
         (1.0 - drop) * toward + across * (cos(turn) * side + sin(turn) * cross(toward, side));

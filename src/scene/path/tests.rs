@@ -254,8 +254,8 @@ fn everything_else() -> (Scene, Scene) {
         *direction = DVec3::from_array(*direction).normalize().to_array();
     }
     b.lights.point[0].position = DVec3::new(0.3, 0.4, 0.5).into();
-    let stereo = b.camera.stereo.clone();
-    b.camera = Camera { stereo, ..looking(&deep_point(), 0.01, 2.0).camera };
+    let Camera { lens, stereo, .. } = b.camera.clone();
+    b.camera = Camera { lens, stereo, ..looking(&deep_point(), 0.01, 2.0).camera };
     b.camera.vertical_fov_deg = 77.0;
     b.fractal.bailout = 3.0;
     (a, b)
