@@ -59,7 +59,7 @@ fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
         let beside = distance * across;
         distance = height - sqrt(max(light.size * light.size - beside * beside, 0.0));
     }
-    return LightSample(direction, max(distance, 0.0), gain * 2.0 / (1.0 + cosine));
+    return LightSample(direction, max(distance, 0.0), gain * select(2.0 / (1.0 + cosine), 1.0, frame.normals == NORMALS_NONE));
 }
 
 // A unit vector at a right angle to a unit vector (T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017).

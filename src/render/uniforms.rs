@@ -138,7 +138,7 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
     }
 }
 
-/// The eyes of a region.
+/// The march policy and its limits in a view.
 fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
     let model = space.model();
     let fractal = model.fractal();

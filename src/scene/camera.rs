@@ -1,4 +1,4 @@
-//! The camera: eye, pivot, orientation, field of view and stereo.
+//! The camera: eye, pivot, orientation, field of view, lens and stereo.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};

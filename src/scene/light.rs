@@ -17,7 +17,7 @@ pub enum LightFrame {
     View,
 }
 
-/// A directional light: parallel light from infinitely far away.
+/// A light infinitely far away: one direction, or a disc of directions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EnvironmentLight {
@@ -57,7 +57,7 @@ impl Default for EnvironmentLight {
     }
 }
 
-/// A point light; its light falls with the square of the distance.
+/// A point light, or a glowing ball; its light falls with the square of the distance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PointLight {

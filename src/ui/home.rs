@@ -20,8 +20,9 @@ pub(super) enum HomeTarget {
 impl HomeTarget {
     /// The target from `camera`; none at an opening view that is not deep.
     pub fn of(camera: &Camera, home: &Camera) -> Option<Self> {
-        // Stereo settings describe the viewer's screen, not the view, so they are ignored.
-        let is_home = *camera == Camera { stereo: camera.stereo.clone(), ..home.clone() };
+        // Lens and stereo settings do not describe the view, so they are ignored.
+        let Camera { lens, stereo, .. } = camera.clone();
+        let is_home = *camera == Camera { lens, stereo, ..home.clone() };
         match is_home {
             false => Some(Self::Opening),
             true if zoom(home) >= DEEP_ZOOM => Some(Self::Whole),

@@ -316,8 +316,9 @@ impl Navigator {
     pub fn fly_to(&mut self, camera: &mut Camera, world: World<'_>, to: &Camera) {
         let current = self.flight.take();
         self.cancel();
-        // A flight changes the eye's position, not the viewer's screen.
-        let to = Camera { stereo: camera.stereo.clone(), ..to.clone() };
+        // A flight changes the eye's position, not the lens nor the viewer's screen.
+        let Camera { lens, stereo, .. } = camera.clone();
+        let to = Camera { lens, stereo, ..to.clone() };
         if current.is_none_or(|flight| !flight.leads_to(&to)) {
             self.flight = Flight::plan(world, camera, &to);
         }

@@ -54,7 +54,8 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
         // In scene units the square of a distance may overflow an f32.
         let radius = light.radius / space.scale();
         let (vector, kind, falls, size) = if way.length() > FAR_VIEWS {
-            (way.normalize_or(DVec3::Z), 0, way.length_squared(), (radius / way.length()).min(1.0))
+            let falls = way.length_squared().max(radius * radius);
+            (way.normalize_or(DVec3::Z), 0, falls, (radius / way.length()).min(1.0))
         } else {
             (place, 1, 1.0, radius.min(1e15))
         };

@@ -12,7 +12,7 @@ use crate::{
         shortcuts::Command,
         status::{zoom, zoom_text},
         theme,
-        widgets::param_slider,
+        widgets::{param_slider, param_slider_count},
     },
 };
 
@@ -97,10 +97,7 @@ fn lens(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     param_slider(ui, &param::F_NUMBER, &mut lens.f_number);
     param_slider(ui, &param::FOCUS, &mut lens.focus);
-    let mut blades = f64::from(lens.blades);
-    if param_slider(ui, &param::BLADES, &mut blades).changed() {
-        lens.blades = blades as u32;
-    }
+    param_slider_count(ui, &param::BLADES, &mut lens.blades);
     let hover = "Makes the surface in the middle of the picture sharp. Alt + click or O: the point under the pointer.";
     if ui.button("Focus on the middle").on_hover_text(hover).clicked() {
         cx.commands.push(Command::Focus);

@@ -127,7 +127,8 @@ fn change(cx: &mut Context<'_>, formula: FormulaRef) {
     if let Some(preset) = preset_of(formula) {
         let Scene { fractal, camera, .. } = (preset.scene)();
         cx.scene.fractal = fractal;
-        cx.scene.camera = Camera { stereo: cx.scene.camera.stereo.clone(), ..camera };
+        let Camera { lens, stereo, .. } = cx.scene.camera.clone();
+        cx.scene.camera = Camera { lens, stereo, ..camera };
         return;
     }
     let fractal = Fractal::new(formula);

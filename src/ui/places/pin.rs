@@ -66,6 +66,10 @@ impl Pin {
 fn picture(to: &Camera, scene: &Scene, number: u64) -> SmallPicture {
     let mut scene = Scene { camera: to.clone(), ..scene.clone() };
     scene.camera.stereo.layout = StereoLayout::Off;
+    // Two samples are too few for blur and soft shadows.
+    scene.camera.lens.depth_of_field = false;
+    scene.lights.environment.iter_mut().for_each(|light| light.size_deg = 0.0);
+    scene.lights.point.iter_mut().for_each(|light| light.radius = 0.0);
     scene.quality.samples = SAMPLES;
     SmallPicture { id: SmallPictureId { owner: "place", number }, scene }
 }
