@@ -1,12 +1,12 @@
 // Where a jittered sample's ray passes the lens (thin lens: R. Cook et al., Distributed Ray Tracing, SIGGRAPH 1984).
-// uses: lib/lattice, lib/sobol, types/dispatch_params, types/frame_uniforms, types/ray
+// uses: lib/jittered, lib/lattice, types/frame_uniforms, types/ray
 
 // The seed of the lens's random numbers: no light has it.
 const LENS_SEED = 0x1e45u;
 
 // Whether the samples of the dispatch see through a lens; centre samples see through its middle.
 fn sees_through_lens() -> bool {
-    return frame.camera.lens_radius > 0.0 && dispatch.compact != 0u;
+    return frame.camera.lens_radius > 0.0 && is_jittered();
 }
 
 // A point of the aperture, evenly spread: of the unit disc, or of a regular polygon in it.
@@ -29,9 +29,7 @@ fn aperture_point(at: vec2f) -> vec2f {
 // The ray of a sample through a point of the lens; it meets the pinhole's ray at the focus.
 fn through_lens(ray: Ray, site: Site) -> Ray {
     if (!sees_through_lens()) { return ray; }
-    let place = frame.origin_px + site.pixel;
-    let seed = hash_pair(place.x | (place.y << 16u), LENS_SEED);
-    let at = frame.camera.lens_radius * aperture_point(sobol_point(dispatch.first_sample + site.sample, seed));
+    let at = frame.camera.lens_radius * aperture_point(random_pair(site, LENS_SEED));
     let aside = at.x * frame.camera.right + at.y * frame.camera.up;
     let reach = frame.camera.focus / max(dot(ray.direction, frame.camera.forward), 1e-6);
     return Ray(ray.origin + aside, ray.radius, normalize(reach * ray.direction - aside), ray.spread);

@@ -1,6 +1,6 @@
 // Where a sample sees a light: lights with a size are seen at another place by each sample, so that the mean of
 // many samples has soft shadows.
-// uses: lib/lattice, lib/sobol, types/dispatch_params, types/frame_uniforms
+// uses: lib/jittered, lib/lattice, types/dispatch_params, types/frame_uniforms
 
 // A light, as far as rays toward it go.
 struct LightShape {
@@ -39,13 +39,11 @@ fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
         toward = offset * inverseSqrt(squared);
         distance = length(offset);
     }
-    if (light.size <= 0.0 || dispatch.compact == 0u) { return LightSample(toward, distance, gain); }
+    if (light.size <= 0.0 || !is_jittered()) { return LightSample(toward, distance, gain); }
     // From within a light, half of all directions see it.
     let sine = min(select(light.size, light.size / max(distance, 1e-30), light.kind == LIGHT_POINT), 1.0);
     let cosine = sqrt(1.0 - sine * sine);
-    let place = frame.origin_px + site.pixel;
-    let seed = hash_pair(place.x | (place.y << 16u), light.seed);
-    let at = sobol_point(dispatch.first_sample + site.sample, seed);
+    let at = random_pair(site, light.seed);
     // Height below 1 of a direction on the unit sphere about `toward`.
     let drop = at.x * sine * sine / (1.0 + cosine);
     let across = sqrt(max(drop * (2.0 - drop), 0.0));
@@ -59,7 +57,9 @@ fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
         let beside = distance * across;
         distance = height - sqrt(max(light.size * light.size - beside * beside, 0.0));
     }
-    return LightSample(direction, max(distance, 0.0), gain * select(2.0 / (1.0 + cosine), 1.0, frame.normals == NORMALS_NONE));
+    // Without normals no cosine is applied, which the weight would make up for.
+    let weight = select(2.0 / (1.0 + cosine), 1.0, frame.normals == NORMALS_NONE);
+    return LightSample(direction, max(distance, 0.0), weight * gain);
 }
 
 // A unit vector at a right angle to a unit vector (T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017).

@@ -1,5 +1,5 @@
 // Where shadow rays start, and the distance at which a surface blocks them.
-// uses: lib/lattice, lib/light_sample, lib/octahedral, types/dispatch_params, types/frame_uniforms, types/ray
+// uses: lib/jittered, lib/lattice, lib/light_sample, lib/octahedral, types/dispatch_params, types/frame_uniforms, types/ray
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
@@ -31,7 +31,7 @@ fn receiver(site: Site) -> Receiver {
 
 // Whether the rays of a block toward the dispatch's light are parallel.
 fn has_parallel_rays() -> bool {
-    return dispatch.light_kind != LIGHT_POINT && (dispatch.light_size <= 0.0 || dispatch.compact == 0u);
+    return dispatch.light_kind != LIGHT_POINT && (dispatch.light_size <= 0.0 || !is_jittered());
 }
 
 // The word and the mask of the dispatch's light in a sample's visibility bits.
