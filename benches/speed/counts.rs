@@ -11,7 +11,7 @@ use mandelight::gpu::{
 };
 use serde::Serialize;
 
-use super::instrument::{self, Marks};
+use super::instrument::{self, Counters, Marks};
 
 /// Distance estimates and orbit steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -50,14 +50,18 @@ impl Counts {
 }
 
 /// How to count in the program's modules, whose orbits are in files that begin with `orbits_in`.
-pub fn marks<'a>(orbits_in: &'a str, estimates: &'a [&'a str], buffer: [u32; 2]) -> Marks<'a> {
+pub fn marks<'a>(
+    orbits_in: &'a str,
+    estimates: &'a [&'a str],
+    counters: Counters<'a>,
+) -> Marks<'a> {
     Marks {
         orbits_in,
         other_loops: &[],
         steps: &["near_step"],
         estimates,
         entries: &["main"],
-        buffer,
+        counters,
     }
 }
 

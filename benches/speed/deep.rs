@@ -47,7 +47,10 @@ pub struct Row {
 }
 
 /// The place of the power-8 bulb that is a crevice at every scale.
-fn scene(distance: f64) -> Result<Scene, Failure> {
+///
+/// # Errors
+/// If the place is missing.
+pub fn scene(distance: f64) -> Result<Scene, Failure> {
     let place = PLACES.iter().find(|place| place.name == "streaky" && place.set() == "8");
     place.ok_or("there is no place streaky-8")?.scene(distance)
 }

@@ -20,8 +20,17 @@ pub struct Marks<'a> {
     pub estimates: &'a [&'a str],
     /// Names of the entry points.
     pub entries: &'a [&'a str],
+    /// Where the threads add up their counters.
+    pub counters: Counters<'a>,
+}
+
+/// Two atomic words: of estimates, then of orbit steps.
+#[derive(Clone, Copy, Debug)]
+pub enum Counters<'a> {
     /// Group and binding of a storage buffer that no entry point uses.
-    pub buffer: [u32; 2],
+    Buffer([u32; 2]),
+    /// Words that the module declares.
+    Words([&'a str; 2]),
 }
 
 /// The joined text of `files`, with counters.
@@ -29,11 +38,13 @@ pub struct Marks<'a> {
 /// # Errors
 /// If an entry point, a marked function or an orbit loop isn't in the text.
 pub fn counting(files: &[File<'_>], marks: &Marks<'_>) -> Result<String, String> {
-    let [group, binding] = marks.buffer;
-    let mut text = format!(
-        "@group({group}) @binding({binding}) var<storage, read_write> counts: array<atomic<u32>>;\n\
-         var<private> counted_estimates: u32;\nvar<private> counted_steps: u32;\n"
-    );
+    let mut text = match marks.counters {
+        Counters::Buffer([group, binding]) => format!(
+            "@group({group}) @binding({binding}) var<storage, read_write> counts: array<atomic<u32>>;\n"
+        ),
+        Counters::Words(_) => String::new(),
+    };
+    text += "var<private> counted_estimates: u32;\nvar<private> counted_steps: u32;\n";
     let mut orbits = 0;
     for (path, file) in files {
         if path.starts_with(marks.orbits_in) {
@@ -60,7 +71,7 @@ pub fn counting(files: &[File<'_>], marks: &Marks<'_>) -> Result<String, String>
         text.insert_str(end + 1, "counted_steps += 1u;\n");
     }
     for name in marks.entries {
-        wrap(&mut text, name)?;
+        wrap(&mut text, name, marks.counters)?;
     }
     Ok(text)
 }
@@ -105,7 +116,11 @@ fn count_orbits(file: &str, other_loops: &[&str]) -> (String, u32) {
 }
 
 /// Replaces an entry point by one that calls it and adds up the counters.
-fn wrap(text: &mut String, name: &str) -> Result<(), String> {
+fn wrap(text: &mut String, name: &str, counters: Counters<'_>) -> Result<(), String> {
+    let [estimates, steps] = match counters {
+        Counters::Buffer(_) => ["counts[0]", "counts[1]"],
+        Counters::Words(words) => words,
+    };
     let start = function(text, name)?;
     let attributes = text[..start].rfind("@compute").ok_or_else(|| missing(name))?;
     let open = start + text[start..].find('(').ok_or_else(|| missing(name))?;
@@ -123,7 +138,7 @@ fn wrap(text: &mut String, name: &str) -> Result<(), String> {
     text.replace_range(attributes..close, &inner);
     *text += &format!(
         "{header}fn {name}({parameters}) {{\n    counted_{name}({});\n    \
-         atomicAdd(&counts[0], counted_estimates);\n    atomicAdd(&counts[1], counted_steps);\n}}\n",
+         atomicAdd(&{estimates}, counted_estimates);\n    atomicAdd(&{steps}, counted_steps);\n}}\n",
         names.join(", ")
     );
     Ok(())

@@ -23,12 +23,14 @@ pub enum Measure {
     TextGradient,
     /// The compilation of a formula's passes divided by that of the Mandelbulb's.
     Compilation,
+    /// The largest number of estimates of a path's bounce divided by that of the bounce before.
+    Bounce,
     /// Percentage of pixels whose rays pass the surface.
     Overstepped,
 }
 
 impl Measure {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Ratio,
         Self::Cost,
         Self::Estimates,
@@ -36,6 +38,7 @@ impl Measure {
         Self::TextEstimate,
         Self::TextGradient,
         Self::Compilation,
+        Self::Bounce,
         Self::Overstepped,
     ];
 
@@ -48,6 +51,7 @@ impl Measure {
             Self::TextEstimate => "text-estimate",
             Self::TextGradient => "text-gradient",
             Self::Compilation => "compilation",
+            Self::Bounce => "bounce",
             Self::Overstepped => "overstepped",
         }
     }
@@ -64,7 +68,7 @@ impl Measure {
             // Both sides run on one machine in turn.
             Self::TextEstimate | Self::TextGradient | Self::Compilation => value * 1.3,
             Self::Overstepped => value + 0.1,
-            Self::Estimates | Self::Steps => value * 1.01,
+            Self::Estimates | Self::Steps | Self::Bounce => value * 1.01,
         }
     }
 

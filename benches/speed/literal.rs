@@ -20,10 +20,11 @@ use std::time::Instant;
 
 use super::{counts::Counts, failure::Failure, instrument};
 
-const TEXT: &str = include_str!("literal.wgsl");
+/// The kernel.
+pub const TEXT: &str = include_str!("literal.wgsl");
 
 /// llvmpipe ends an invocation after 65,535 iterations of all its loops together.
-const MAX_LOOP_ITERATIONS: u32 = 60_000;
+pub const MAX_LOOP_ITERATIONS: u32 = 60_000;
 
 /// The settings of the literal kernel for one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +40,7 @@ pub struct Tuning {
 /// Host twin of `Settings` in `literal.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Settings {
+pub struct Settings {
     eye: [f32; 3],
     half_height: f32,
     right: [f32; 3],
@@ -50,7 +51,8 @@ struct Settings {
     power: f32,
     constant: [f32; 3],
     bailout: f32,
-    size_px: [u32; 2],
+    /// Width and height of the picture.
+    pub size_px: [u32; 2],
     stride: u32,
     julia: u32,
     max_iterations: u32,
@@ -73,7 +75,8 @@ struct Settings {
 }
 
 impl Settings {
-    fn new(inputs: &Inputs, tuning: Tuning, stride: u32) -> Self {
+    /// The settings of a view.
+    pub fn new(inputs: &Inputs, tuning: Tuning, stride: u32) -> Self {
         let picture = &inputs.frame;
         let (camera, march) = (&picture.camera, &picture.march);
         let fractal = mandelbulb::uniforms::Fractal::read(&inputs.formula.uniforms);
@@ -176,7 +179,7 @@ impl Literal {
             estimates: &["distance_to_set"],
             entries: &["primary", "shadow"],
             // The film's binding, which these entry points don't use.
-            buffer: [0, 5],
+            counters: instrument::Counters::Buffer([0, 5]),
         };
         instrument::counting(&[("literal.wgsl", TEXT)], &marks)
             .map(|text| Self::from_text(gpu, text))

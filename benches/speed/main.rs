@@ -19,6 +19,7 @@
 //! | `instrument` | shader texts with counters |
 //! | `counts` | counts of distance estimates and orbit steps |
 //! | `literal` | the thesis's algorithm on the GPU |
+//! | `literal_paths` | a path tracer in one kernel |
 //! | `tuning` | the literal kernel's settings for a view |
 //! | `ours` | the program's stills and single passes |
 //! | `image_file` | PNG files of what both sides draw |
@@ -27,6 +28,7 @@
 //! | `powers` | the cost of an orbit step for each power |
 //! | `descent` | the cost of depth in half decades |
 //! | `deep` | the cost of depth at one place |
+//! | `paths` | light paths: times, noise, bounces |
 //! | `scaling` | growth of time with a picture's settings |
 //! | `step_costs` | the cost of an orbit step of formulas' texts |
 //! | `formulas` | pictures of all formulas: counts, times, errors, compilation |
@@ -48,8 +50,10 @@ pub mod image_file;
 pub mod instrument;
 pub mod limits;
 pub mod literal;
+pub mod literal_paths;
 pub mod load;
 pub mod ours;
+pub mod paths;
 pub mod peak;
 pub mod pixels;
 pub mod powers;
@@ -160,6 +164,9 @@ fn measure_tables(
     if arguments.wants(descent::NAME) {
         report.descent = descent::measure(pipelines, rounds.div_ceil(2), size, places)?;
     }
+    if arguments.wants(paths::NAME) {
+        report.paths = paths::measure(pipelines, rounds.div_ceil(2), size)?;
+    }
     if arguments.wants(powers::NAME) {
         let table = powers::measure(&pipelines.gpu, 3 * rounds)?;
         table.print();
@@ -234,6 +241,7 @@ fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
     let tables = [
         deep::NAME,
         descent::NAME,
+        paths::NAME,
         powers::NAME,
         scaling::NAME,
         start::NAME,

@@ -15,15 +15,19 @@ use mandelight::{
         recorder::{Dispatches, Recorder},
         schedule::{BATCH_WORKGROUPS, Points, Stage, Trace},
         shaders,
+        sky::SampledSky,
+        space::RenderSpace,
         targets::Targets,
         uniforms::{FrameUniforms, Inputs},
+        work_queues::WorkQueues,
     },
-    scene::Scene,
+    scene::{RigKind, Scene},
 };
 
 use super::{
     counts::{self, Counts},
     failure::Failure,
+    instrument::Counters,
 };
 
 /// Draws a still; milliseconds from setting the scene to the tone-mapped picture.
@@ -78,13 +82,14 @@ pub struct PassRunner<'a> {
     /// One of this many workgroups is drawn.
     workgroup_stride: u32,
     counts: wgpu::Buffer,
-    counts_layout: wgpu::BindGroupLayout,
-    counts_group: wgpu::BindGroup,
 }
 
 impl<'a> PassRunner<'a> {
-    /// Group and binding of the counters, which no pass of the program uses.
-    pub const COUNTS: [u32; 2] = [3, 0];
+    /// The counters of counting passes: those of queues that few bounces leave unused.
+    ///
+    /// A buffer of their own would exceed the device's number of storage buffers.
+    const COUNTERS: Counters<'static> =
+        Counters::Words(["work_queues.rays[RAY_QUEUES - 2u]", "work_queues.rays[RAY_QUEUES - 1u]"]);
 
     /// Allocates the buffers of a whole picture; expects specialised pipelines.
     pub fn new(pipelines: &'a Pipelines, scene: &Scene, size_px: [u32; 2]) -> Self {
@@ -100,40 +105,22 @@ impl<'a> PassRunner<'a> {
         region: Region,
         workgroup_stride: u32,
     ) -> Self {
-        let inputs = Inputs::new(scene, region);
-        let targets = Targets::new(&pipelines.layouts, region);
+        let space = RenderSpace::of(scene, region);
+        let sky = (scene.lights.rig.kind == RigKind::Sky)
+            .then(|| Arc::new(SampledSky::of_gradient(&scene.lights.rig.sky)));
+        let inputs = Inputs::about(scene, region, &space).with_sky(scene, &space, sky.as_ref());
+        let mut targets = Targets::new(&pipelines.layouts, region);
+        let traces_paths = inputs.traces_paths();
+        targets.fit_paths(&pipelines.layouts, traces_paths, sky.as_ref().filter(|_| traces_paths));
         targets.upload(&pipelines.gpu.queue, &inputs);
         let device = &pipelines.gpu.device;
         let counts = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("counts"),
             size: 8,
-            usage: wgpu::BufferUsages::STORAGE
-                | wgpu::BufferUsages::COPY_SRC
-                | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let counts_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("counts"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: Self::COUNTS[1],
-                visibility: wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: false },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        });
-        let counts_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("counts"),
-            layout: &counts_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: Self::COUNTS[1],
-                resource: counts.as_entire_binding(),
-            }],
-        });
-        Self { pipelines, inputs, targets, workgroup_stride, counts, counts_layout, counts_group }
+        Self { pipelines, inputs, targets, workgroup_stride, counts }
     }
 
     /// The frame's uniforms.
@@ -147,21 +134,6 @@ impl<'a> PassRunner<'a> {
         let pixels: f64 = self.inputs.frame.size_px.into_iter().map(f64::from).product();
         let workgroups = f64::from(grid.workgroups());
         pixels * f64::from(grid.workgroups().div_ceil(self.workgroup_stride)) / workgroups
-    }
-
-    /// A pipeline layout of counting passes, from the layout of the program's passes.
-    pub fn counting_layout(&self, work_queues: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-        let layouts = &self.pipelines.layouts;
-        self.pipelines.gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("counting passes"),
-            bind_group_layouts: &[
-                Some(&layouts.frame),
-                Some(&layouts.gbuffer),
-                Some(work_queues),
-                Some(&self.counts_layout),
-            ],
-            immediate_size: 0,
-        })
     }
 
     /// The kernel that draws the picture.
@@ -223,6 +195,23 @@ impl<'a> PassRunner<'a> {
         Ok(counts.per(f64::from(MAX_SAMPLES_TOGETHER)))
     }
 
+    /// Mean counts of a light path of each pixel, over the first ones.
+    ///
+    /// # Errors
+    /// If the device is lost.
+    pub fn count_paths(&self, passes: &FramePipelines<'_>) -> Result<Counts, Failure> {
+        let mut counts = Counts::default();
+        let points = Points::Samples { first: 1, count: MAX_SAMPLES_TOGETHER };
+        for trace in self.traces(points) {
+            let trace = Trace { from: Stage::Path, lights: 0, ..trace };
+            let follow: Record = pass::scatter::record;
+            for record in [COUNTED_PASSES[0].1, COUNTED_PASSES[1].1, follow] {
+                counts += self.counted(record, passes, trace)?;
+            }
+        }
+        Ok(counts.per(f64::from(MAX_SAMPLES_TOGETHER)))
+    }
+
     /// Runs one pass and reads its counts.
     fn counted(
         &self,
@@ -230,9 +219,13 @@ impl<'a> PassRunner<'a> {
         passes: &FramePipelines<'_>,
         trace: Trace,
     ) -> Result<Counts, ReadbackError> {
-        let queue = &self.pipelines.gpu.queue;
-        queue.write_buffer(&self.counts, 0, &[0; 8]);
-        queue.submit([self.recorded(record, passes, trace)]);
+        let gpu = &self.pipelines.gpu;
+        let (queues, at) = (&self.targets.work_queues.blocks, WorkQueues::LAST_COUNTERS);
+        gpu.queue.write_buffer(queues, at, &[0; 8]);
+        let pass = self.recorded(record, passes, trace);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(queues, at, &self.counts, 0, 8);
+        gpu.queue.submit([pass, encoder.finish()]);
         Counts::read(&self.pipelines.gpu, &self.counts)
     }
 
@@ -266,7 +259,6 @@ impl<'a> PassRunner<'a> {
             &self.inputs,
             &mut dispatches,
         );
-        recorder.bind(Self::COUNTS[0], &self.counts_group);
         record(&mut recorder, &trace, &grid);
         recorder.finish()
     }
@@ -310,36 +302,39 @@ pub fn counting_passes<'a>(
         ("mandelbulb/", "estimate_at")
     };
     let gpu = &pipelines.gpu;
-    let [enqueue, queued] = [&pipelines.layouts.enqueue, &pipelines.layouts.dequeue]
-        .map(|layout| runner.counting_layout(layout));
-    let create =
-        |layout: &wgpu::PipelineLayout, pass: &Pass, estimate: &str| -> Result<_, Failure> {
-            let shader = counts::counting(
-                gpu,
-                &shaders::module(pass.name, Some(kernel)),
-                &counts::marks(orbits_in, &[estimate], PassRunner::COUNTS),
-            )?;
-            Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(pass.name),
-                layout: Some(layout),
-                module: &shader,
-                entry_point: Some("main"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &constants,
-                    ..Default::default()
-                },
-                cache: None,
-            }))
-        };
+    let create = |pass: &Pass, estimate: &str| -> Result<_, Failure> {
+        let shader = counts::counting(
+            gpu,
+            &shaders::module(pass.name, Some(kernel)),
+            &counts::marks(orbits_in, &[estimate], PassRunner::COUNTERS),
+        )?;
+        let groups: Vec<_> = (pass.groups)(&pipelines.layouts).into_iter().map(Some).collect();
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("counting pass"),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        Ok(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(pass.name),
+            layout: Some(&layout),
+            module: &shader,
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: None,
+        }))
+    };
     let mut passes = pipelines.of_frame(&runner.inputs);
-    for (pass, layout, estimate) in [
-        (&pass::camera_cone::PASS, &enqueue, estimate),
-        (&pass::march::PASS, &queued, estimate),
-        (&pass::normal::PASS, &queued, "distance_gradient"),
-        (&pass::shadow_cone::PASS, &enqueue, estimate),
-        (&pass::shadow::PASS, &queued, estimate),
+    for (pass, estimate) in [
+        (&pass::camera_cone::PASS, estimate),
+        (&pass::march::PASS, estimate),
+        (&pass::normal::PASS, "distance_gradient"),
+        (&pass::shadow_cone::PASS, estimate),
+        (&pass::shadow::PASS, estimate),
     ] {
-        passes.replace(pass, create(layout, pass, estimate)?);
+        passes.replace(pass, create(pass, estimate)?);
     }
     Ok(passes)
 }

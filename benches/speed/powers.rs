@@ -21,6 +21,7 @@ use serde::Serialize;
 use super::{
     counts::{self, Counts},
     failure::Failure,
+    instrument::Counters,
     timed_kernel::{TimedKernel, median_secs, pipeline},
 };
 
@@ -94,8 +95,11 @@ pub fn measure(gpu: &Gpu, rounds: u32) -> Result<Table, Failure> {
     };
     let kernels: Vec<_> =
         POWERS.flat_map(|power| [timed(&shader, power, power), timed(&shader, power, 0)]).collect();
-    let counting =
-        counts::counting(gpu, &module, &counts::marks("mandelbulb/", &["estimate"], [2, 0]))?;
+    let counting = counts::counting(
+        gpu,
+        &module,
+        &counts::marks("mandelbulb/", &["estimate"], Counters::Buffer([2, 0])),
+    )?;
     let mut steps = Vec::new();
     for power in POWERS {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;

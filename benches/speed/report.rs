@@ -9,7 +9,7 @@ use super::{
     counts::Counts,
     deep, descent, feel, formulas,
     limits::{Measure, Measured},
-    powers, scaling, start, step_costs,
+    paths, powers, scaling, start, step_costs,
 };
 
 /// All results of one run.
@@ -25,6 +25,8 @@ pub struct Report {
     pub deep: Vec<deep::Row>,
     /// The cost of depth in half decades.
     pub descent: Vec<descent::Row>,
+    /// Light paths.
+    pub paths: Vec<paths::Row>,
     /// Growth of a picture's time.
     pub scaling: Vec<scaling::Row>,
     /// Start-up times.
@@ -63,6 +65,14 @@ impl Report {
         if let Some(worst) = descent::worst(&self.descent) {
             add(Measure::Cost, &format!("{}-worst", descent::NAME), worst);
         }
+        for row in &self.paths {
+            add(Measure::Estimates, row.name, row.ours.counts.estimates);
+            add(Measure::Steps, row.name, row.ours.counts.steps);
+            if let Some(ratio) = row.ratio {
+                add(Measure::Ratio, row.name, ratio);
+            }
+            add(Measure::Bounce, row.name, row.growth);
+        }
         for row in &self.step_costs {
             add(Measure::TextEstimate, row.formula, row.estimate);
             if let Some(gradient) = row.gradient {
@@ -79,9 +89,10 @@ impl Report {
         all
     }
 
-    /// True if every ratio counts, and every power is within the fit.
+    /// True if every ratio counts, every power is within the fit, and light paths agree.
     pub fn is_good(&self) -> bool {
         self.views.iter().all(|view| view.complaints.is_empty())
+            && self.paths.iter().all(|row| row.agrees)
             && self.powers.as_ref().is_none_or(powers::Table::is_good)
     }
 }

@@ -5,7 +5,9 @@
 
 use std::fmt::Write as _;
 
-use super::{compare::Comparison, counts::Counts, descent::Row, formulas, report::Report};
+use super::{
+    compare::Comparison, counts::Counts, descent::Row, formulas, paths::Side, report::Report,
+};
 
 /// `text` with the tables of `report`.
 ///
@@ -39,6 +41,9 @@ pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
     }
     if !report.descent.is_empty() {
         tables.push(("descent", descent(report)));
+    }
+    if !report.paths.is_empty() {
+        tables.push(("light paths", paths(report)));
     }
     if !report.scaling.is_empty() {
         let mut table = head(&["asked for", "beside", "times as much", "times as long"]);
@@ -123,6 +128,41 @@ fn deep(report: &Report) -> String {
             format!("{:.1}", row.cost),
         ];
         line(&mut table, [format!("`{}`", row.name), drawn.to_owned()].into_iter().chain(numbers));
+    }
+    table
+}
+
+fn paths(report: &Report) -> String {
+    let columns = [
+        "view",
+        "µs a path",
+        "paths a second",
+        "estimates a path",
+        "variance a sample",
+        "mean radiance",
+        "time to equal noise",
+        "estimates of bounces 1, 2, 3–4, 5–8",
+    ];
+    let mut table = format!("On {}:\n\n", report.adapter);
+    table += &head(&columns);
+    for row in &report.paths {
+        let both = |value: &dyn Fn(&Side) -> String| {
+            let literal = row.literal.as_ref().map_or("–".into(), value);
+            format!("{literal} / {}", value(&row.ours))
+        };
+        let bounces: Vec<_> =
+            row.bounces.iter().map(|bounce| format!("{:.1}", bounce.estimates)).collect();
+        let cells = [
+            format!("`{}`", row.name),
+            both(&|side| format!("{:.2}", side.path_us)),
+            both(&|side| format!("{:.0}", 1e6 / side.path_us)),
+            both(&|side| format!("{:.0}", side.counts.estimates)),
+            both(&|side| format!("{:.4}", side.variance)),
+            both(&|side| format!("{:.3}", side.radiance)),
+            row.ratio.map_or("–".into(), |ratio| format!("{ratio:.1}")),
+            bounces.join(", "),
+        ];
+        line(&mut table, cells.into_iter());
     }
     table
 }

@@ -1,6 +1,6 @@
 // Where a sample sees a light: lights with a size are seen at another place by each sample, so that the mean of
 // many samples has soft shadows.
-// uses: lib/jittered, lib/lattice, types/dispatch_params, types/frame_uniforms
+// uses: lib/basis, lib/jittered, lib/lattice, types/dispatch_params, types/frame_uniforms
 
 // A light, as far as rays toward it go.
 struct LightShape {
@@ -14,6 +14,46 @@ struct LightShape {
     seed: u32,
 }
 
+// A light as a point sees it: a cone of directions.
+struct LightCone {
+    // Unit vector toward the centre.
+    axis: vec3f,
+    // Distance of the centre; large for environment lights.
+    distance: f32,
+    // 1 minus the cosine of half the cone's angle; 0 for lights without a size.
+    height: f32,
+    // Radius of a point light; 0 for environment lights.
+    radius: f32,
+    // Irradiance of a surface that faces a light that is all at the centre, over the light's radiance or strength.
+    gain: f32,
+}
+
+fn light_cone(light: LightShape, point: vec3f) -> LightCone {
+    var axis = light.vector;
+    var distance = 1e30;
+    var gain = 1.0;
+    var sine = light.size;
+    var radius = 0.0;
+    if (light.kind == LIGHT_POINT) {
+        let offset = light.vector - point;
+        let squared = max(dot(offset, offset), 1e-24);
+        // A point within a light sees its surface's strength.
+        gain = 1.0 / max(squared, light.size * light.size);
+        axis = offset * inverseSqrt(squared);
+        distance = length(offset);
+        radius = light.size;
+        // From within a light, half of all directions see it.
+        sine = min(radius / max(distance, 1e-30), 1.0);
+    }
+    return LightCone(axis, distance, sine * sine / (1.0 + sqrt(max(1.0 - sine * sine, 0.0))), radius, gain);
+}
+
+// Irradiance of a surface that faces the place of a light where `cone` is sampled evenly by solid angle, over that of
+// a light that is all at the centre: the mean over all places is then the light's irradiance.
+fn cone_gain(cone: LightCone) -> f32 {
+    return 2.0 / (2.0 - cone.height);
+}
+
 struct LightSample {
     // Unit vector toward the sampled place.
     toward: vec3f,
@@ -23,48 +63,32 @@ struct LightSample {
     gain: f32,
 }
 
-// The light as `point` sees it. Centre samples see its centre.
-//
-// A place on the light is sampled evenly by solid angle (M. Pharr et al., Physically Based Rendering, 4th ed. 2023,
-// section 6.2.4), and counts as the whole light: the mean over all places is the light's irradiance.
-fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
-    var toward = light.vector;
-    var distance = 1e30;
-    var gain = 1.0;
-    if (light.kind == LIGHT_POINT) {
-        let offset = light.vector - point;
-        let squared = max(dot(offset, offset), 1e-24);
-        // A point within a light sees its surface's strength.
-        gain = 1.0 / max(squared, light.size * light.size);
-        toward = offset * inverseSqrt(squared);
-        distance = length(offset);
-    }
-    if (light.size <= 0.0 || !is_jittered()) { return LightSample(toward, distance, gain); }
-    // From within a light, half of all directions see it.
-    let sine = min(select(light.size, light.size / max(distance, 1e-30), light.kind == LIGHT_POINT), 1.0);
-    let cosine = sqrt(1.0 - sine * sine);
-    let at = random_pair(site, light.seed);
-    // Height below 1 of a direction on the unit sphere about `toward`.
-    let drop = at.x * sine * sine / (1.0 + cosine);
-    let across = sqrt(max(drop * (2.0 - drop), 0.0));
-    let turn = 6.2831853 * (at.y - 0.5);
-    let side = orthogonal(toward);
-    let direction =
-        (1.0 - drop) * toward + across * (cos(turn) * side + sin(turn) * cross(toward, side));
-    if (light.kind == LIGHT_POINT) {
-        // The nearer of the two places where the ray meets the light's surface.
-        let height = distance * (1.0 - drop);
-        let beside = distance * across;
-        distance = height - sqrt(max(light.size * light.size - beside * beside, 0.0));
-    }
-    // Without normals no cosine is applied, which the weight would make up for.
-    let weight = select(2.0 / (1.0 + cosine), 1.0, frame.normals == NORMALS_NONE);
-    return LightSample(direction, max(distance, 0.0), weight * gain);
+// Distance at which a direction of the cone meets the light; `drop` is 1 minus the cosine of its angle to the axis.
+fn cone_distance(cone: LightCone, drop: f32) -> f32 {
+    if (cone.radius <= 0.0) { return cone.distance; }
+    // The nearer of the two places where the ray meets the light's surface.
+    let beside_squared = cone.distance * cone.distance * drop * (2.0 - drop);
+    let half_chord = sqrt(max(cone.radius * cone.radius - beside_squared, 0.0));
+    return max(cone.distance * (1.0 - drop) - half_chord, 0.0);
 }
 
-// A unit vector at a right angle to a unit vector (T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017).
-fn orthogonal(n: vec3f) -> vec3f {
-    let sign = select(-1.0, 1.0, n.z >= 0.0);
-    let a = -1.0 / (sign + n.z);
-    return vec3f(1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x);
+// A place on the light, sampled evenly by solid angle
+// (M. Pharr et al., Physically Based Rendering, 4th ed. 2023, section 6.2.4).
+fn cone_sample(cone: LightCone, at: vec2f) -> LightSample {
+    let drop = at.x * cone.height;
+    let aside = sqrt(max(drop * (2.0 - drop), 0.0));
+    let azimuth = 6.2831853 * (at.y - 0.5);
+    let direction =
+        from_local(cone.axis, vec3f(aside * cos(azimuth), aside * sin(azimuth), 1.0 - drop));
+    return LightSample(direction, cone_distance(cone, drop), cone_gain(cone) * cone.gain);
+}
+
+// The light as `point` sees it. Centre samples see its centre.
+fn light_sample(light: LightShape, point: vec3f, site: Site) -> LightSample {
+    let cone = light_cone(light, point);
+    if (light.size <= 0.0 || !is_jittered()) { return LightSample(cone.axis, cone.distance, cone.gain); }
+    var seen = cone_sample(cone, random_pair(site, light.seed));
+    // Without normals no cosine is applied, which the gain would make up for.
+    if (frame.normals == NORMALS_NONE) { seen.gain = cone.gain; }
+    return seen;
 }

@@ -1,9 +1,11 @@
 // Where shadow rays start, and the distance at which a surface blocks them.
-// uses: lib/jittered, lib/lattice, lib/light_sample, lib/octahedral, types/dispatch_params, types/frame_uniforms, types/ray
+// uses: lib/jittered, lib/lattice, lib/light_sample, lib/octahedral, lib/path_cone, types/dispatch_params
+// uses: types/frame_uniforms, types/ray, types/work_queues
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
-    return max(frame.march.shadow_cone * s, frame.march.shadow_margin * surface_distance);
+    let cone = select(frame.march.shadow_cone, path_cone(), dispatch.ray_list != BLOCK_LIST);
+    return max(cone * s, frame.march.shadow_margin * surface_distance);
 }
 
 // A sample's point as the target of shadow rays.

@@ -1,6 +1,6 @@
 // The light that blooms: the finest mip level of the light above the threshold, before or after the tone
 // curve.
-// uses: lib/curve, lib/exposure, lib/lattice, lib/luminance, lib/mip, types/film
+// uses: lib/curve, lib/exposure, lib/film_mean, lib/lattice, lib/luminance, lib/mip
 // uses: types/frame_uniforms, types/post
 
 // The part of a colour's light above the threshold; continuous at the threshold.

@@ -9,7 +9,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     var any = 0u;
     for (var i = 0u; i < BLOCK_THREADS; i++) {
         let site = block_site(block, i);
-        if (site.is_there) { any |= surface[site.index].x; }
+        if (site.is_there && surface[site.index].x != SKIPPED) { any |= surface[site.index].x; }
     }
     if (any != 0u) { enqueue_hit(block.index); }
 }

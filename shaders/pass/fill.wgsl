@@ -1,7 +1,7 @@
 // Fills the pixels between those of a sparse lattice, one lattice level per dispatch. Each new
 // pixel has four known neighbours in two opposite pairs; the pair that differs less lies along
 // the edge and gets more weight.
-// uses: lib/eye, lib/lattice, lib/luminance, types/dispatch_params, types/film
+// uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, types/dispatch_params, types/film
 // uses: types/frame_uniforms
 
 // Perceived contrast: the difference of the tone-compressed luminances.

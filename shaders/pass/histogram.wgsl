@@ -1,6 +1,6 @@
 // Counts the film's pixels by luminance, in equal steps of its logarithm. Luminances outside the bins
 // count in the first or the last bin. The bins must be zero before the pass.
-// uses: lib/lattice, lib/luminance, lib/mip, types/film, types/frame_uniforms, types/post
+// uses: lib/film_mean, lib/lattice, lib/luminance, lib/mip, types/frame_uniforms, types/post
 
 var<workgroup> own_bins: array<atomic<u32>, HISTOGRAM_BINS>;
 

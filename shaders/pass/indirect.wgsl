@@ -3,7 +3,7 @@
 // level; pixels outside the picture and background pixels contribute nothing. The operator works on the
 // screen: it places the sample and its neighbours by their pixels and depths. (A binding of the rays would exceed
 // the 8 storage buffers of a stage.)
-// uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/shading
+// uses: lib/camera, lib/eye, lib/lattice, lib/noise, lib/octahedral, lib/put_on_film, lib/shading, lib/surface_color
 // uses: lib/shared_exponent, types/direct, types/dispatch_params, types/frame_uniforms
 // uses: types/indirect, types/ray, types/sample
 

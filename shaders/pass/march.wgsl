@@ -1,6 +1,6 @@
 // Marches rays to surface points: writes depth and colour data of each sample, and moves the ray there.
 // uses: formula, lib/estimate_next, lib/over_relaxation, lib/section, lib/sphere
-// uses: types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
+// uses: types/dispatch_params, types/frame_uniforms, types/gbuffer, types/ray, types/work_queues
 
 // Least step, in hit distances; rays may pass thinner parts of the surface.
 const MIN_STEP = 0.25;
@@ -45,6 +45,10 @@ fn ray_end(surface: f32, colors: ColorPoint) -> RayEnd {
     return RayEnd(surface, select(surface, colors.depth, colors.depth > 0.0), false);
 }
 
+fn is_bounced() -> bool {
+    return dispatch.bounce > 0u;
+}
+
 // Sphere tracing (Hart 1996) with the radius of the ray's cone as hit distance, inside the ray's interval, from the
 // depth `clear` up to which the ray is known to be clear.
 fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: f32) -> RayEnd {
@@ -54,8 +58,8 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     // Depth of the last point, and the distance that was missing to a hit there.
     var before = t;
     var left = 0.0;
-    // Depth along `forward` is the same for both eyes.
-    let color_spread = frame.camera.color_cone * dot(ray.direction, frame.camera.forward);
+    // Depth along `forward` is the same for both eyes. Bounced rays take the colours of the surface.
+    let color_spread = select(frame.camera.color_cone * dot(ray.direction, frame.camera.forward), 0.0, is_bounced());
     var colors = ColorPoint(0.0, 0.0);
     let checks_hits = needs_hit_check();
     let min_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
@@ -131,7 +135,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!site.is_there) { return; }
     let fractal = frame.formula.fractal;
     let ray = rays[site.ray];
-    let interval = bounding_interval(ray.origin, ray.direction);
+    var interval = bounding_interval(ray.origin, ray.direction);
+    if (is_bounced()) { interval.y = min(interval.y, frame.paths.ray_reach); }
     let cut = section_entry(ray.origin, ray.direction);
     // A ray that enters the set through a section plane ends there. Estimates are no test for that: some are positive
     // inside. The loop has one turn without section planes, and one copy of the orbit's code.

@@ -1,5 +1,5 @@
 // The finest mip level of the film: mean colour, and mean logarithm of the luminance.
-// uses: lib/lattice, lib/luminance, lib/mip, types/film, types/frame_uniforms, types/post
+// uses: lib/film_mean, lib/lattice, lib/luminance, lib/mip, types/frame_uniforms, types/post
 
 // Keeps the logarithm of black finite (the delta of Reinhard et al. 2002, eq. 1).
 const LOG_OFFSET = 1e-4;

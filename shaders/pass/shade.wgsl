@@ -1,5 +1,5 @@
 // Light and colour of each sample: to the film, or to `direct` as the source of indirect light.
-// uses: lib/lattice, lib/shading, lib/shared_exponent, types/direct, types/dispatch_params
+// uses: lib/lattice, lib/put_on_film, lib/shading, lib/shared_exponent, types/direct, types/dispatch_params
 // uses: types/frame_uniforms, types/gbuffer, types/ray
 
 // True if this pipeline shades single samples: a loop of one turn is slow on llvmpipe.

@@ -1,8 +1,9 @@
-// Sets the visibility bit of the dispatch's light if the light reaches the sample's point; keeps other bits.
+// Sets the visibility bit of the dispatch's light if the light reaches the sample's point; keeps other bits. For paths,
+// adds the chosen light's light.
 // Rays run inward, from where the light enters the bounding sphere to the point (thesis 4.5):
 // their long steps come first.
 // uses: formula, lib/estimate_next, lib/over_relaxation, lib/shadow, lib/sphere
-// uses: types/dispatch_params, types/frame_uniforms, types/gbuffer, types/work_queues
+// uses: types/dispatch_params, types/frame_uniforms, types/gbuffer, types/paths, types/work_queues
 
 // Least step, over the blocking distance.
 const MIN_STEP = 0.25;
@@ -56,17 +57,30 @@ fn light_reaches(fractal: Fractal, seen: Receiver, clear: f32) -> bool {
     return true;
 }
 
+// The vertex of a path as the target of its chosen light's ray.
+fn path_receiver(site: Site) -> Receiver {
+    let path = paths[site.ray];
+    let ray = rays[site.ray];
+    let light = LightSample(path.toward, path.shadow_distance, 1.0);
+    return Receiver(ray.origin, ray.radius / frame.march.shadow_margin, true, light);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }
-    let seen = receiver(site);
+    let is_path = dispatch.ray_list != BLOCK_LIST;
+    var seen: Receiver;
+    if (is_path) { seen = path_receiver(site); } else { seen = receiver(site); }
     if (!seen.faces) { return; }
     var clear = 1e30;
-    if (has_parallel_rays()) { clear = queued.clear - dot(seen.point, dispatch.light_vector); }
-    if (light_reaches(frame.formula.fractal, seen, clear)) {
+    if (!is_path && has_parallel_rays()) { clear = queued.clear - dot(seen.point, dispatch.light_vector); }
+    if (!light_reaches(frame.formula.fractal, seen, clear)) { return; }
+    if (is_path) {
+        paths[site.ray].radiance += paths[site.ray].pending;
+    } else {
         visibility[site.index][light_word()] |= light_mask();
     }
 }

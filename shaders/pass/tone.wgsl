@@ -1,6 +1,6 @@
 // Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
-// uses: lib/curve, lib/exposure, lib/eye, lib/lattice, lib/mip, lib/srgb, types/dispatch_params
-// uses: types/film, types/frame_uniforms, types/post
+// uses: lib/curve, lib/exposure, lib/eye, lib/film_mean, lib/lattice, lib/mip, lib/srgb
+// uses: types/dispatch_params, types/frame_uniforms, types/post
 
 // What this pipeline is specialised for: 0 no, 1 yes, -1 reads it from the uniforms.
 override BLOOM: i32 = -1;

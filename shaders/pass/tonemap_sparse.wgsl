@@ -1,6 +1,6 @@
 // Tone maps the samples of a sparse lattice to display values, before they are upsampled. Only for
 // one eye, without auto exposure and without bloom.
-// uses: lib/curve, lib/lattice, lib/srgb, types/dispatch_params, types/film, types/frame_uniforms
+// uses: lib/curve, lib/film_mean, lib/lattice, lib/srgb, types/dispatch_params, types/frame_uniforms
 // uses: types/tonemap_sparse
 
 @compute @workgroup_size(64)

@@ -54,6 +54,10 @@ struct DispatchParams {
     light_seed: u32,
     // Number of the first sample among a pixel's jittered samples.
     first_sample: u32,
+    // Number of times that the rays' paths have been scattered; 0 for camera rays.
+    bounce: u32,
+    // What the dispatch's ray queue lists: see `types/work_queues.wgsl`.
+    ray_list: u32,
 }
 
 const LIGHT_POINT = 1u;

@@ -30,3 +30,10 @@ fn enqueue_ray(block: u32, clear: f32) {
     work_queues.entries[2u * max_blocks() + entry] = bitcast<u32>(clear);
     count_workgroup(dispatch.ray_queue, entry, BLOCKS);
 }
+
+// Adds a sample to a list of a ray queue.
+fn enqueue_sample(list: u32, queue: u32, ray: u32) {
+    let entry = atomicAdd(&work_queues.rays[queue], 1u);
+    work_queues.entries[list_start(list) + entry] = ray;
+    count_workgroup(queue, entry, WORKGROUP_THREADS);
+}

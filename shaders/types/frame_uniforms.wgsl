@@ -1,5 +1,5 @@
 // The uniforms of a frame, for every pass. Host twin: `render::uniforms`.
-// uses: formula_types
+// uses: formula_types, types/light_type
 
 struct Camera {
     // The eye, in render space, as are all points and lengths without another unit: one unit is
@@ -51,12 +51,37 @@ struct March {
     shadow_min_step: f32,
 }
 
+// Models of the surface: that of the thesis, and GGX lobes over a diffuse surface.
+const SURFACE_BLINN_PHONG = 0u;
+const SURFACE_PHYSICAL = 1u;
+
+// Values that the second layer of colours drives, as bits.
+const DRIVES_ROUGHNESS = 1u;
+const DRIVES_METALNESS = 2u;
+const DRIVES_COAT = 4u;
+const DRIVES_EMISSION = 8u;
+
 struct Surface {
     ambient: f32,
+    // Of Blinn-Phong.
     diffuse: f32,
     specular: f32,
     shininess: f32,
     light_count: u32,
+    // One of the `SURFACE_` constants.
+    model: u32,
+    // Of physical surfaces, 0 to 1.
+    roughness: f32,
+    metalness: f32,
+    // Reflectance of what is not metal at normal incidence.
+    specular_color: vec3f,
+    // Part of the surface that is under a clear coat.
+    coat: f32,
+    coat_roughness: f32,
+    // Emitted radiance over the surface's colour.
+    emission: f32,
+    // Bits of `DRIVES_`.
+    driven: u32,
 }
 
 // The layer is not drawn.
@@ -152,6 +177,36 @@ struct Bloom {
     passes: u32,
 }
 
+// Path tracing.
+struct PathTracing {
+    // Most times that a path is scattered after the first time.
+    bounces: u32,
+    // Number of single lights: the first ones of the scene's lights.
+    light_count: u32,
+    // Which samples gather light: a `SAMPLES_` constant.
+    samples: u32,
+    // Longest ray between two vertices, in render space.
+    reach: f32,
+    // The sun; black if there is none.
+    sun: Light,
+    // Axes of the sky in world space: right, forward, up.
+    sky_x: vec3f,
+    // Factor on the sky's radiance; 0 without a sky.
+    sky_gain: f32,
+    sky_y: vec3f,
+    // Greatest distance of a surface that blocks the sky, in render space.
+    sky_reach: f32,
+    sky_z: vec3f,
+    // Share of the sky in the choice of a light: luminance of its irradiance from one half of it, over pi.
+    sky_importance: f32,
+    // Longest ray: also those toward lights that are blocked from farther away than the reach.
+    ray_reach: f32,
+    // Number of samples of a pixel at which the direct picture has given way; 0: at once.
+    preview_samples: f32,
+    // Relative error at which pixels get no more samples; 0: never.
+    noise: f32,
+}
+
 const NORMALS_NONE = 0u;
 const NORMALS_THREE = 1u;
 const NORMALS_SIX = 2u;
@@ -208,6 +263,7 @@ struct FrameUniforms {
     background: Background,
     tone: Tone,
     bloom: Bloom,
+    paths: PathTracing,
     // Size of one eye's whole picture, the region's corner in that picture, and the region's size with all
     // its eyes; in pixels.
     picture_px: vec2u,

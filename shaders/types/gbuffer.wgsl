@@ -2,6 +2,9 @@
 // `render::targets`.
 // uses: types/ray
 
+// The bits of `surface.x` of samples that are not computed: their pixels get no more.
+const SKIPPED = 0xffffffffu;
+
 // x: depth along the camera ray in render space, the bits of an f32; 0 on a miss.
 // y: unit normal, octahedral, two 16-bit signed normalised numbers.
 @group(1) @binding(0) var<storage, read_write> surface: array<vec2u>;

@@ -9,13 +9,13 @@ struct Ray {
     radius: f32,
     // Unit vector.
     direction: vec3f,
-    // Growth of the radius per unit of depth.
+    // Radius of the cone per unit of depth, where that is more than the radius at the origin.
     spread: f32,
 }
 
 // Distance to the surface below which a ray at this depth has hit.
 fn hit_distance(ray: Ray, depth: f32) -> f32 {
-    return max(ray.radius + ray.spread * depth, frame.march.finest_hit);
+    return max(max(ray.radius, ray.spread * depth), frame.march.finest_hit);
 }
 
 // The ray from its point at a depth on.

@@ -1,23 +1,39 @@
-// Work queues: the blocks of threads that a later pass has work for. Host twin: `render::work_queues`.
-// uses: lib/lattice, types/dispatch_params
+// Work queues: what a later pass has work for, either blocks of threads or single samples of a batch. Host twin:
+// `render::work_queues`.
+// uses: lib/lattice, types/dispatch_params, types/gbuffer
 
-// One queue for camera rays, and one for the rays to each of 64 lights.
-const RAY_QUEUES = 65u;
+// Direct light: one queue for camera rays, and one for the rays to each of 64 lights. Paths: one queue for the rays of
+// each vertex, from the camera to beyond the last of 64 bounces, each followed by one for the vertex's shadow rays.
+const RAY_QUEUES = 132u;
 
 struct WorkQueues {
     // Number of blocks with surface points.
     hits: atomic<u32>,
-    // Number of blocks with rays to march, in each queue.
+    // Number of entries in each ray queue.
     rays: array<atomic<u32>, RAY_QUEUES>,
-    // In thirds: the blocks of `hits`; the blocks of the ray queue in use, since each queue is read before
-    // the next is written; the distances up to which these rays are clear.
+    // The blocks of `hits`; the blocks of the ray queue in use, since each queue is read before the next is written; the
+    // distances up to which these rays are clear. For paths, then three lists of samples.
     entries: array<u32>,
 }
 
 @group(2) @binding(0) var<storage, read_write> work_queues: WorkQueues;
 
 fn max_blocks() -> u32 {
-    return arrayLength(&work_queues.entries) / 3u;
+    return arrayLength(&rays) / BLOCK_THREADS;
+}
+
+// The lists of single samples: those of rays take turns, since a vertex reads one and writes the next.
+const BLOCK_LIST = 0u;
+const SHADOW_LIST = 3u;
+
+// The list that the next vertex reads.
+fn next_list() -> u32 {
+    return 1u + (dispatch.bounce & 1u);
+}
+
+// Index of a list's first entry.
+fn list_start(list: u32) -> u32 {
+    return (3u + (list - 1u) * BLOCK_THREADS) * max_blocks();
 }
 
 // A sample of a queued block.
@@ -35,14 +51,37 @@ fn queued(is_there: bool, entry: u32, thread: u32, clear: u32) -> QueuedSample {
     return QueuedSample(site, bitcast<f32>(clear));
 }
 
+// A thread's sample of the dispatch's list.
+fn listed_sample(thread: u32) -> Site {
+    let is_there = thread < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
+    let ray = select(0u, work_queues.entries[list_start(dispatch.ray_list) + thread], is_there);
+    var site = block_site(block_at(ray / BLOCK_THREADS), ray % BLOCK_THREADS);
+    site.is_there = site.is_there && is_there;
+    return site;
+}
+
 fn queued_hit(thread: u32) -> Site {
+    if (dispatch.ray_list != BLOCK_LIST) { return listed_sample(thread); }
     let entry = thread / BLOCK_THREADS;
     return queued(entry < atomicLoad(&work_queues.hits), entry, thread, 0u).site;
 }
 
 fn queued_ray(thread: u32) -> QueuedSample {
+    if (dispatch.ray_list != BLOCK_LIST) {
+        let site = listed_sample(thread);
+        // A point's own surface does not shade it.
+        return QueuedSample(site, rays[site.ray].radius / frame.march.shadow_margin);
+    }
     let entry = thread / BLOCK_THREADS;
     let is_there = entry < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
     let clear = select(0u, work_queues.entries[2u * max_blocks() + entry], is_there);
     return queued(is_there, max_blocks() + entry, thread, clear);
+}
+
+// A thread's sample of a pass over the vertices of paths: all samples of the batch at first, then those of a list.
+fn path_site(thread: u32) -> Site {
+    if (dispatch.ray_list != BLOCK_LIST) { return listed_sample(thread); }
+    var site = block_site(block_at(thread / BLOCK_THREADS), thread % BLOCK_THREADS);
+    site.is_there = site.is_there && thread / BLOCK_THREADS < dispatch.blocks;
+    return site;
 }

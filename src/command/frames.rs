@@ -29,6 +29,7 @@ use super::{
     environment::{EnvironmentArguments, warn_of_missing_map},
     folder::{Folder, FrameFile, SequenceSettings},
     input::{self, Change},
+    integrator::IntegratorArguments,
     message,
     output::Output,
     render::{interruption, parse_samples, parse_size, progress_bar, show},
@@ -60,6 +61,8 @@ pub struct FramesArguments {
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
     #[command(flatten)]
+    integrator: IntegratorArguments,
+    #[command(flatten)]
     stereo: StereoArguments,
     #[command(flatten)]
     environment: EnvironmentArguments,
@@ -86,6 +89,7 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
         environment.surround_all(&mut project);
     }
     let mut project = input::changed_project(project, &arguments.set)?;
+    arguments.integrator.apply_to_all(&mut project);
     arguments.stereo.apply_to_all(&mut project);
     let path = project.path;
     if environment.is_none() && !arguments.quiet {

@@ -1,6 +1,6 @@
 //! `mandelight info`: the GPU, its limits, the other GPUs, and the memory of a view.
 
-use std::fmt::Write;
+use std::{fmt::Write, sync::Arc};
 
 use mandelight::{
     gpu::{Gpu, device},
@@ -8,6 +8,7 @@ use mandelight::{
         MAX_REGION_PIXELS, MAX_REGION_PX, Pace, Pipelines, Region, View,
         memory::{self, Memory},
     },
+    scene::{EnvironmentMap, Scene},
 };
 use serde_json::{Value, json};
 
@@ -20,7 +21,7 @@ pub struct InfoArguments {
     #[arg(long)]
     json: bool,
     /// Also print the GPU memory of a view of this size with every effect on: stereo, 64 lights,
-    /// indirect light, auto exposure, bloom, an environment map
+    /// indirect light, auto exposure, bloom, an environment map; and of one in path-traced light
     #[arg(long, value_name = "WxH", value_parser = super::render::parse_size)]
     size: Option<[u32; 2]>,
     #[command(flatten)]
@@ -34,7 +35,9 @@ pub fn run(arguments: InfoArguments) -> Result<(), Failure> {
     let limits = limits_of(&gpu.device.limits());
     let formats = formats_of(&gpu.adapter);
     let adapters = pollster::block_on(device::adapter_names());
-    let memory = arguments.size.map(|size_px| memory_of(&gpu, size_px)).transpose()?;
+    let memory_of = |what| arguments.size.map(|size_px| memory_of(&gpu, size_px, what)).transpose();
+    let memory = memory_of(memory::everything_on())?;
+    let traced = memory_of(memory::everything_traced())?;
 
     if arguments.json {
         let mut facts = json!({
@@ -55,6 +58,9 @@ pub fn run(arguments: InfoArguments) -> Result<(), Failure> {
                 .collect::<serde_json::Map<_, Value>>()
                 .into();
             facts["total_bytes"] = memory.total().into();
+        }
+        if let Some(traced) = traced {
+            facts["total_bytes_with_path_tracing"] = traced.total().into();
         }
         return print(&format!("{facts:#}\n"));
     }
@@ -82,12 +88,18 @@ pub fn run(arguments: InfoArguments) -> Result<(), Failure> {
         }
         let _ = writeln!(text, "total_bytes {}", memory.total());
     }
+    if let Some(traced) = traced {
+        let _ = writeln!(text, "total_bytes_with_path_tracing {}", traced.total());
+    }
     print(&text)
 }
 
-/// Creates a view of `size_px` with every effect on and measures its GPU memory.
-fn memory_of(gpu: &Gpu, size_px: [u32; 2]) -> Result<Memory, Failure> {
-    let (scene, environment_map) = memory::everything_on();
+/// Creates a view of `size_px` of a scene with every effect on and measures its GPU memory.
+fn memory_of(
+    gpu: &Gpu,
+    size_px: [u32; 2],
+    (scene, environment_map): (Scene, Arc<EnvironmentMap>),
+) -> Result<Memory, Failure> {
     let region = Region::whole(size_px).shared_by(scene.camera.stereo.layout);
     if !region.fits() {
         let [width, height] = size_px;

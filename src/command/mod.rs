@@ -10,6 +10,7 @@
 //! | [`scene`] | `mandelight scene`: a document to start from |
 //! | [`fractals`] | `--formula`, `--hybrid` and `--cut` |
 //! | [`gradient`] | `--gradient`, `--second-gradient` |
+//! | [`integrator`] | `--integrator`, `--bounces`, `--noise` |
 //! | [`formulas`] | `mandelight formulas`, `mandelight formula check`: formulas and their texts |
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`info`] | `mandelight info`: the GPU |
@@ -29,6 +30,7 @@ mod frames;
 mod gradient;
 mod info;
 mod input;
+mod integrator;
 mod output;
 mod places;
 mod render;

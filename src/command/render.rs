@@ -29,6 +29,7 @@ use super::{
     fractals::OtherFractal,
     gradient::GradientArguments,
     input::{self, Change},
+    integrator::IntegratorArguments,
     message,
     output::Output,
     stereo::{StereoArguments, file_of},
@@ -57,6 +58,8 @@ pub struct RenderArguments {
     other: OtherFractal,
     #[command(flatten)]
     gradient: GradientArguments,
+    #[command(flatten)]
+    integrator: IntegratorArguments,
     /// Change a field of the scene, such as fractal.power=3 or lights.environment[0].intensity=2
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -80,6 +83,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     }
     let scene = arguments.gradient.in_scene(arguments.other.in_scene(scene)?)?;
     let mut scene = input::changed(scene, &arguments.set)?;
+    arguments.integrator.apply(&mut scene);
     arguments.stereo.apply(&mut scene);
     if environment.is_none() && !arguments.quiet {
         warn_of_missing_map(&scene);
@@ -271,7 +275,7 @@ mod tests {
     #[test]
     fn sample_counts_are_parsed_and_checked() {
         assert_eq!(parse_samples("16"), Ok(16));
-        for text in ["0", "1025", "-1", "2.5", "many", ""] {
+        for text in ["0", "65537", "-1", "2.5", "many", ""] {
             assert!(parse_samples(text).is_err(), "{text:?} was accepted");
         }
     }

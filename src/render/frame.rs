@@ -4,7 +4,7 @@ use super::{
     integrator::Integrator,
     pass::{self, Record},
     recorder::Recorder,
-    schedule::Work,
+    schedule::{Points, Work},
 };
 
 /// Records each pass whose `when` holds for the work, in the order of the table.
@@ -12,7 +12,11 @@ pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) 
     match work {
         Work::Trace(trace) => {
             let grid = trace.points.grid(recorder.inputs.frame.size_px);
-            for pass in integrator.passes {
+            let passes = match trace.points {
+                Points::Samples { .. } => integrator.jittered_passes,
+                _ => integrator.center_passes,
+            };
+            for pass in passes {
                 if let Record::Trace { when, record } = pass.record
                     && when(recorder, &trace)
                 {

@@ -20,7 +20,7 @@ pub struct Layouts {
     /// The device.
     pub gpu: Gpu,
     /// Group 0: frame uniforms (a storage buffer), formula table (reference orbit), dispatch parameters (dynamic offset),
-    /// lights, gradient.
+    /// lights, gradient, albedo table.
     pub frame: wgpu::BindGroupLayout,
     /// Group 1: surface, colour data, visibility, rays; all storage.
     pub gbuffer: wgpu::BindGroupLayout,
@@ -38,6 +38,12 @@ pub struct Layouts {
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of shading: the environment map and its sampler.
     pub environment_texture: wgpu::BindGroupLayout,
+    /// Group 3 of passes over light paths: the sky's map, its sampler, its table, the paths.
+    pub paths: wgpu::BindGroupLayout,
+    /// Group 1 of passes after light paths: the paths, the pixels' moments, the number of noisy pixels.
+    pub traced_paths: wgpu::BindGroupLayout,
+    /// Group 3 of cones of camera rays: the pixels' moments.
+    pub moments: wgpu::BindGroupLayout,
     /// Group 3 of the indirect pass: the environment map, its sampler, the indirect source's surface.
     pub indirect: wgpu::BindGroupLayout,
 }
@@ -62,7 +68,14 @@ impl Layouts {
             gpu: gpu.clone(),
             frame: group(
                 "frame",
-                &[READ_ONLY, uniform(false), uniform(true), uniform(false), uniform(false)],
+                &[
+                    READ_ONLY,
+                    uniform(false),
+                    uniform(true),
+                    uniform(false),
+                    uniform(false),
+                    uniform(false),
+                ],
             ),
             gbuffer: group("gbuffer", &[STORAGE; 4]),
             samples: group("samples", &[READ_ONLY; 3]),
@@ -75,6 +88,12 @@ impl Layouts {
                 "environment map",
                 &[environment_texture_binding, environment_sampler_binding],
             ),
+            paths: group(
+                "paths",
+                &[environment_texture_binding, environment_sampler_binding, SKY_TABLE, STORAGE],
+            ),
+            traced_paths: group("traced paths", &[READ_ONLY, STORAGE, STORAGE]),
+            moments: group("moments", &[READ_ONLY]),
             indirect: group(
                 "indirect source",
                 &[environment_texture_binding, environment_sampler_binding, READ_ONLY],
@@ -91,6 +110,13 @@ const READ_ONLY: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: true },
     has_dynamic_offset: false,
     min_binding_size: None,
+};
+
+/// The table of a [`SampledSky`](super::sky::SampledSky).
+const SKY_TABLE: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Uint,
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
 };
 
 const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::scene::{
-    BackgroundKind, EnvironmentLight, EnvironmentMap, IndirectKind, MAX_LIGHTS, RigKind, Scene,
-    StereoLayout, environment_map,
+    BackgroundKind, EnvironmentLight, EnvironmentMap, IndirectKind, IntegratorKind, MAX_LIGHTS,
+    RigKind, RigLight, Scene, StereoLayout, SurfaceModel, environment_map,
 };
 
 /// GPU memory of a view in bytes, by purpose.
@@ -24,6 +24,8 @@ pub struct Memory {
     pub rays: u64,
     /// Work queues between the passes of a batch.
     pub work_queues: u64,
+    /// The light paths of one batch, and the sky that they see.
+    pub paths: u64,
     /// Direct light of the centre samples, as the source of indirect light.
     pub direct_light: u64,
     /// Sums of radiance, 32-bit.
@@ -42,12 +44,13 @@ pub struct Memory {
 
 impl Memory {
     /// Each purpose with its bytes, in the order of a frame.
-    pub fn purposes(&self) -> [(&'static str, u64); 11] {
+    pub fn purposes(&self) -> [(&'static str, u64); 12] {
         let Self {
             sample_points,
             jittered_samples,
             rays,
             work_queues,
+            paths,
             direct_light,
             film,
             mip_levels,
@@ -61,6 +64,7 @@ impl Memory {
             ("jittered samples", jittered_samples),
             ("rays", rays),
             ("work queues", work_queues),
+            ("light paths", paths),
             ("direct light", direct_light),
             ("film", film),
             ("mip levels", mip_levels),
@@ -82,7 +86,19 @@ pub fn mebibytes(bytes: u64) -> String {
     format!("{:.1} MiB", bytes as f64 / f64::from(1_u32 << 20))
 }
 
-/// A scene that uses every buffer, and the largest environment map.
+/// The scene of [`everything_on`] in path-traced light, with a sky of that map.
+pub fn everything_traced() -> (Scene, Arc<EnvironmentMap>) {
+    let (mut scene, environment_map) = everything_on();
+    scene.lights.environment.clear();
+    scene.lights.rig.kind = RigKind::EnvironmentMap;
+    scene.lights.rig.environment_map.lights =
+        vec![RigLight { direction: [0.0, 0.0, 1.0], strength: [1.0; 3] }];
+    scene.surface.model = SurfaceModel::Physical;
+    scene.integrator.kind = IntegratorKind::Path;
+    (scene, environment_map)
+}
+
+/// A scene that uses every buffer of direct light, and the largest environment map.
 pub fn everything_on() -> (Scene, Arc<EnvironmentMap>) {
     let mut scene = Scene::default();
     scene.camera.stereo.layout = StereoLayout::SideBySide;

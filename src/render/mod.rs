@@ -12,6 +12,8 @@
 //! | [`indirect`] | the source of indirect light |
 //! | [`pass`] | one file per pass, named like its shader |
 //! | [`environment_texture`] | the environment map on the GPU |
+//! | [`sky`] | the sky that light paths see |
+//! | [`albedo_table`] | directional albedo of glossy reflection |
 //! | [`pipelines`] | the compute pipelines of a device |
 //! | [`pipeline_set`] | pipelines that are compiled together, and their variants |
 //! | `reconstruction` | how a sparse lattice becomes a whole picture |
@@ -25,12 +27,15 @@
 //! | `layouts` | bind group layouts |
 //! | `region` | the part of a picture that a view draws |
 //! | [`targets`] | buffers and the display texture |
+//! | `path_targets` | buffers and textures of light paths |
 //! | [`uniforms`] | structs shared with the shaders |
 //! | [`samples`] | readback of a finished view's pixels |
 //! | [`memory`] | a view's GPU memory |
+//! | `noise_control` | ends a picture of light paths at the noise asked for |
 //! | `histogram_readback` | readback of the film's histogram |
 //! | [`report`] | the status of a view |
 
+pub mod albedo_table;
 mod anchors;
 mod buffers;
 pub mod color_curve;
@@ -43,7 +48,9 @@ pub mod integrator;
 pub mod lattice;
 mod layouts;
 pub mod memory;
+mod noise_control;
 pub mod pass;
+mod path_targets;
 pub mod pipeline_set;
 pub mod pipelines;
 pub mod post;
@@ -55,6 +62,7 @@ pub mod report;
 pub mod samples;
 pub mod schedule;
 pub mod shaders;
+pub mod sky;
 pub mod space;
 pub mod targets;
 pub mod uniforms;

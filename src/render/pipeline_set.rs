@@ -60,14 +60,17 @@ pub static NORMALS: PipelineSet = PipelineSet {
     rehearsal: || vec![trace(Points::Level(0), Stage::March)],
 };
 
-/// Shading, specialised for an environment map or none.
+/// Shading, specialised for the surface's model, and for an environment map or none.
 pub static SHADE: PipelineSet = PipelineSet {
     name: "shade",
     subject: Some("light"),
     has_kernel: false,
     is_always_needed: true,
     constants: Some(|inputs| {
-        vec![("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.map_gain > 0.0))]
+        vec![
+            ("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.map_gain > 0.0)),
+            ("SURFACE_MODEL", inputs.frame.surface.model),
+        ]
     }),
     // One trace of single samples, and one of several samples per pixel.
     rehearsal: || {
@@ -103,6 +106,16 @@ pub static INDIRECT: PipelineSet = PipelineSet {
     is_always_needed: false,
     constants: None,
     rehearsal: || vec![trace(Points::Indirect(0), Stage::Indirect)],
+};
+
+/// Light paths.
+pub static PATHS: PipelineSet = PipelineSet {
+    name: "paths",
+    subject: Some("path tracing"),
+    has_kernel: false,
+    is_always_needed: false,
+    constants: None,
+    rehearsal: || vec![trace(Points::Samples { first: 1, count: 2 }, Stage::Path)],
 };
 
 /// Mean, histogram, exposure, bloom.

@@ -13,11 +13,12 @@ use std::sync::{
 
 use super::{
     frame,
-    integrator::Integrator,
+    integrator::{DIRECT, PATH},
     pipeline_set,
     pipelines::{PipelineVariant, Pipelines, part_count},
     post::Tasks,
     recorder::{Dispatches, Recorder},
+    schedule::{Stage, Trace, Work},
     targets::Targets,
     uniforms::Inputs,
 };
@@ -82,7 +83,6 @@ impl Preparation {
     /// Takes the next step; compiles at most one pipeline of those that block.
     pub fn step(
         &mut self,
-        integrator: &Integrator,
         pipelines: &Pipelines,
         targets: &Targets,
         inputs: &Inputs,
@@ -114,7 +114,7 @@ impl Preparation {
         }
         if self.made.len() == parts {
             pipelines.keep(&self.variant, std::mem::take(&mut self.made));
-            self.rehearsed = Some(rehearse(integrator, &self.variant, pipelines, targets, inputs));
+            self.rehearsed = Some(rehearse(&self.variant, pipelines, targets, inputs));
         }
         PreparationState::Foreground
     }
@@ -124,7 +124,6 @@ impl Preparation {
 ///
 /// The flag turns true when the GPU has finished.
 fn rehearse(
-    integrator: &Integrator,
     variant: &PipelineVariant,
     pipelines: &Pipelines,
     targets: &Targets,
@@ -145,7 +144,8 @@ fn rehearse(
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
     for work in variant.rehearsal() {
-        frame::record(integrator, &mut recorder, work);
+        let traces_paths = matches!(work, Work::Trace(Trace { from: Stage::Path, .. }));
+        frame::record(if traces_paths { &PATH } else { &DIRECT }, &mut recorder, work);
     }
     let queue = &pipelines.gpu.queue;
     queue.submit([recorder.finish()]);

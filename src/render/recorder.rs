@@ -210,6 +210,21 @@ impl<'a> Recorder<'a> {
         self.compute.set_bind_group(3, &self.targets.environment_texture.group, &[]);
     }
 
+    /// Binds the light paths and their sky.
+    pub fn bind_paths(&mut self) {
+        self.compute.set_bind_group(3, &self.targets.paths.group, &[]);
+    }
+
+    /// Binds the noise of pixels for cones of camera rays.
+    pub fn bind_moments(&mut self) {
+        self.compute.set_bind_group(3, &self.targets.paths.moments_group, &[]);
+    }
+
+    /// Binds the light paths and the noise of pixels for the passes after paths.
+    pub fn bind_traced_paths(&mut self) {
+        self.compute.set_bind_group(1, &self.targets.paths.traced_group, &[]);
+    }
+
     /// Binds the samples of the indirect source and of `trace`.
     pub fn bind_indirect(&mut self, trace: &Trace) {
         let samples = match trace.points {
@@ -233,8 +248,8 @@ impl<'a> Recorder<'a> {
             params.samples = count;
             params.compact = 1;
             params.first_sample = first - FIRST_JITTERED;
-            // Centre samples see the centres of lights and lens: beside soft edges theirs would stay visible.
-            let replaces = first == FIRST_JITTERED && self.inputs.has_wide_samples();
+            // Centre samples see the centres of lights and lens, and no bounced light: theirs would stay visible.
+            let replaces = first == FIRST_JITTERED && self.inputs.replaces_center_samples();
             params.accumulate = u32::from(!replaces);
             self.compute.set_bind_group(1, &self.targets.jittered.group, &[]);
         }

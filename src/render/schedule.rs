@@ -81,6 +81,8 @@ pub struct Schedule {
     pace: Pace,
     budget_ms: f64,
     samples_wanted: u32,
+    /// Whether the picture ends with the samples under way: all its pixels are clean.
+    is_clean: bool,
     progress: Progress,
     /// Whether the film holds pixels that the display does not.
     is_display_stale: bool,
@@ -105,6 +107,7 @@ impl Schedule {
             pace,
             budget_ms: 16.0,
             samples_wanted: 1,
+            is_clean: false,
             progress: Progress::new(plan, size_px),
             is_display_stale: false,
             opening: true,
@@ -131,10 +134,35 @@ impl Schedule {
         }
     }
 
+    /// Sets whether the picture ends with the samples under way; a restart sets it to false.
+    pub fn set_clean(&mut self, is_clean: bool) {
+        self.is_clean = is_clean;
+    }
+
+    /// Whether all submitted samples are whole rounds over all pixels.
+    pub fn is_between_samples(&self) -> bool {
+        self.progress.under_way.is_none()
+    }
+
+    /// Samples that each pixel gets.
+    fn samples_to_do(&self) -> u32 {
+        if self.is_clean {
+            self.samples_wanted.min(self.progress.samples_begun().max(1))
+        } else {
+            self.samples_wanted
+        }
+    }
+
     /// Sets whether exposure follows the film gradually, which it does only while someone watches.
     /// The first picture has its exposure at once.
     pub fn set_adapting(&mut self, adapts: bool) {
         self.adaptation.set_slow(adapts && self.pace == Pace::Interactive);
+    }
+
+    /// Sets the plan of the integrator that computes samples. Call [`Self::change`] after it.
+    pub fn set_plan(&mut self, plan: &'static Plan) {
+        self.progress.plan = plan;
+        self.cost.set_plan(plan);
     }
 
     /// Sets whether there is indirect light. Call [`Self::change`] after it.
@@ -221,6 +249,7 @@ impl Schedule {
             }
             return;
         }
+        self.is_clean = false;
         self.is_display_stale = false;
         self.opening = true;
     }
@@ -295,7 +324,7 @@ impl Schedule {
             cost: &self.cost,
             pace: self.pace,
             budget_ms: self.budget_ms,
-            samples_wanted: self.samples_wanted,
+            samples_wanted: self.samples_to_do(),
             is_opening: self.opening,
             is_display_due: now_secs - self.shown_at >= self.display_interval_secs(),
             in_flight_ms: self.in_flight.expected_ms(Phase::Refining),
@@ -307,7 +336,7 @@ impl Schedule {
     /// Openings, complete lattices, edits and finished pictures are displayed at once, refining ones
     /// at intervals, because a display takes GPU time. A still is displayed once.
     fn is_display_due(&self, now_secs: f64) -> bool {
-        let finished = self.progress.samples_done >= self.samples_wanted;
+        let finished = self.progress.samples_done >= self.samples_to_do();
         if self.pace == Pace::Still {
             return finished;
         }
@@ -406,7 +435,7 @@ impl Schedule {
                 && !self.is_display_stale
                 && self.progress.under_way.is_none()
                 && !self.adaptation.is_under_way()
-                && self.progress.samples_done >= self.samples_wanted,
+                && self.progress.samples_done >= self.samples_to_do(),
         }
     }
 }

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::{
+    albedo_table::{ALBEDO_ENTRIES, ALBEDO_TABLE},
     buffers::{buffer, group, storage},
     color_curve::COLOR_BINS,
     environment_texture::EnvironmentTexture,
@@ -13,11 +14,13 @@ use super::{
     layouts::DISPLAY_FORMAT,
     layouts::Layouts,
     memory::Memory,
+    path_targets::PathTargets,
     post::{Need, Post},
     region::Region,
     schedule::BATCH_WORKGROUPS,
+    sky::SampledSky,
     uniforms::{self, DispatchParams, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray},
-    work_queues::WorkQueues,
+    work_queues::{RAY_QUEUES, WorkQueues},
 };
 use crate::{
     formula::contract::MAX_TABLE_BYTES,
@@ -31,9 +34,14 @@ pub const DISPATCH_PARAMS_STRIDE_BYTES: u32 = 256;
 /// Bytes of one pixel's direct light.
 const DIRECT_BYTES: u64 = 4;
 
-/// Most dispatches of one submit: `camera_rays`, `camera_cone`, `march`, `compact_hits`, `normal`, two per
-/// light, and `shade` or `indirect`.
-pub const MAX_DISPATCHES: u32 = 2 * MAX_LIGHTS as u32 + 6;
+/// Most dispatches of one submit: `camera_rays`, `camera_cone`, `compact_hits`, `film_paths`, and for each vertex of a
+/// path `march`, `normal`, `scatter` and `shadow`. Direct light has fewer: two per light.
+pub const MAX_DISPATCHES: u32 = 2 * RAY_QUEUES as u32 + 4;
+
+const _: () = assert!(MAX_DISPATCHES >= 2 * MAX_LIGHTS as u32 + 6);
+
+/// Bytes of the [`ALBEDO_TABLE`].
+const ALBEDO_TABLE_BYTES: u64 = size_of::<[[f32; 2]; ALBEDO_ENTRIES * ALBEDO_ENTRIES]>() as u64;
 
 /// G-buffer: one element per sample in each buffer; see `shaders/types/gbuffer.wgsl`.
 pub struct GBuffer {
@@ -59,7 +67,9 @@ pub struct Targets {
     pub lights: wgpu::Buffer,
     /// [`GRADIENT_ENTRIES`] colours for each layer.
     pub gradients: wgpu::Buffer,
-    /// The bind group of all five buffers.
+    /// Directional albedo of glossy reflection: see [`albedo_table`](super::albedo_table). Zeros until a surface has it.
+    pub albedo_table: wgpu::Buffer,
+    /// The bind group of all six buffers.
     pub frame_group: wgpu::BindGroup,
     /// The rays of one batch.
     pub rays: wgpu::Buffer,
@@ -87,6 +97,8 @@ pub struct Targets {
     pub post: Arc<Post>,
     /// The environment map: a single pixel until a map is shown.
     pub environment_texture: Arc<EnvironmentTexture>,
+    /// Light paths, and the sky that they see: a few bytes until paths are traced.
+    pub paths: PathTargets,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
@@ -112,6 +124,7 @@ impl Targets {
         );
         let lights = uniform("lights", (Light::SIZE * MAX_LIGHTS) as u64);
         let gradients = uniform("gradients", size_of::<[[[f32; 4]; GRADIENT_ENTRIES]; 2]>() as u64);
+        let albedo_table = uniform("albedo table", ALBEDO_TABLE_BYTES);
         let one_dispatch = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &dispatch_params,
             offset: 0,
@@ -127,6 +140,7 @@ impl Targets {
                 one_dispatch,
                 lights.as_entire_binding(),
                 gradients.as_entire_binding(),
+                albedo_table.as_entire_binding(),
             ],
         );
         let film_rg = storage(device, "film red green", 8 * pixels);
@@ -143,11 +157,13 @@ impl Targets {
             dispatch_params,
             lights,
             gradients,
+            albedo_table,
             frame_group,
             center: GBuffer::new(layouts, pixels, &rays),
             jittered: GBuffer::new(layouts, batch_samples, &rays),
             rays,
-            work_queues: WorkQueues::new(layouts, batch_workgroups),
+            work_queues: WorkQueues::new(layouts, batch_workgroups, false),
+            paths: PathTargets::new(layouts, [0, 0], None, None),
             film_rg,
             film_bw,
             direct,
@@ -170,6 +186,21 @@ impl Targets {
         }
     }
 
+    /// Allocates the paths of a batch and the sky's textures if paths are traced, else frees them.
+    pub fn fit_paths(&mut self, layouts: &Layouts, traced: bool, sky: Option<&Arc<SampledSky>>) {
+        let samples = self.rays.size() / Ray::SIZE as u64;
+        let needed = if traced { samples } else { 0 };
+        if self.paths.samples != needed || self.paths.sky.as_ref() != sky {
+            let shown = &self.environment_texture;
+            let pixels = if traced { self.film_rg.size() / 8 } else { 0 };
+            self.paths = PathTargets::new(layouts, [needed, pixels], sky, Some(shown));
+        }
+        if self.work_queues.for_paths != traced {
+            let workgroups = (samples / u64::from(WORKGROUP_THREADS)) as u32;
+            self.work_queues = WorkQueues::new(layouts, workgroups, traced);
+        }
+    }
+
     /// Finest lattice level whose display values fit the buffer of rays.
     ///
     /// `upsample` reuses that buffer. The level is at least 2, a quarter of all pixels.
@@ -188,12 +219,14 @@ impl Targets {
             &self.dispatch_params,
             &self.lights,
             &self.gradients,
+            &self.albedo_table,
         ];
         Memory {
             sample_points: self.center.bytes(),
             jittered_samples: self.jittered.bytes(),
             rays: self.rays.size(),
             work_queues: self.work_queues.bytes(),
+            paths: self.paths.bytes(),
             direct_light: self.direct.size(),
             film: self.film_rg.size() + self.film_bw.size(),
             mip_levels,
@@ -217,6 +250,9 @@ impl Targets {
         queue.write_buffer(&self.formula_table, 0, &inputs.formula.table);
         queue.write_buffer(&self.lights, 0, &bytes_of_all(&inputs.lights));
         queue.write_buffer(&self.gradients, 0, bytemuck::cast_slice(&inputs.gradients));
+        if inputs.frame.surface.model != 0 {
+            queue.write_buffer(&self.albedo_table, 0, bytemuck::cast_slice(&ALBEDO_TABLE));
+        }
     }
 }
 

@@ -6,7 +6,11 @@
 mod background;
 mod camera;
 mod lights;
+mod paths;
 mod shared;
+mod surface;
+
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -17,6 +21,7 @@ use super::{
     Region,
     color_curve::{ColorCurve, LayerCurves},
     schedule::Stale,
+    sky::SampledSky,
     space::RenderSpace,
 };
 use crate::{
@@ -26,7 +31,7 @@ use crate::{
     gpu::host_shared::{Array, HostShared},
     scene::{
         self, BloomOrder, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals,
-        Scene, SecondLayer, ToneChannels, ToneCurve, ToneMean, color, follow,
+        Scene, ToneChannels, ToneCurve, ToneMean, color,
     },
 };
 
@@ -70,14 +75,15 @@ impl FrameUniforms {
             camera: camera::camera(scene, region, space),
             eyes: camera::eyes(&scene.camera, region, space),
             march,
-            surface: surface(scene),
+            surface: surface::surface(scene),
             first_layer: layer(&scene.surface.coloring, iterations),
-            second_layer: second_layer(&scene.surface.second_layer, iterations),
+            second_layer: second_layer(&scene.surface, iterations),
             sections: sections(scene, space),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
             tone: tone(&scene.tone),
             bloom: bloom(&scene.bloom),
+            paths: paths::paths(scene, space),
             picture_px: region.picture_px,
             origin_px: region.origin_px,
             size_px: region.film_px(),
@@ -180,17 +186,6 @@ fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
     }
 }
 
-fn surface(scene: &Scene) -> Surface {
-    let surface = &scene.surface;
-    Surface {
-        ambient: surface.ambient as f32,
-        diffuse: surface.diffuse as f32,
-        specular: surface.specular as f32,
-        shininess: surface.shininess as f32,
-        light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
-    }
-}
-
 /// Greatest distance of a plane from the origin, in render space, so that sums keep within f32.
 const FARTHEST_PLANE: f64 = 1e30;
 
@@ -240,11 +235,12 @@ fn layer(coloring: &Coloring, iterations: u32) -> ColorLayer {
     }
 }
 
-/// The second layer of colours; its default if it is not visible.
-fn second_layer(second: &SecondLayer, iterations: u32) -> ColorLayer {
-    if !second.is_on() {
+/// The second layer of colours; its default if it is not in use.
+fn second_layer(surface: &scene::Surface, iterations: u32) -> ColorLayer {
+    if !surface.uses_second_layer() {
         return ColorLayer { greatest: 1.0, ..ColorLayer::default() };
     }
+    let second = &surface.second_layer;
     ColorLayer { amount: second.amount as f32, ..layer(&second.coloring, iterations) }
 }
 
@@ -269,6 +265,8 @@ pub struct Inputs {
     pub gradients: [[[f32; 4]; GRADIENT_ENTRIES]; 2],
     /// The [`EnvironmentMap::id`] of the shown environment map; none if none is shown.
     pub environment_map: Option<u64>,
+    /// The sky that paths see; none without one.
+    pub sky: Option<Arc<SampledSky>>,
 }
 
 impl Inputs {
@@ -299,6 +297,7 @@ impl Inputs {
             gradients: [&scene.surface.gradient, &scene.surface.second_layer.gradient]
                 .map(|stops| color::gradient_lut(stops)),
             environment_map: None,
+            sky: None,
         }
     }
 
@@ -314,6 +313,33 @@ impl Inputs {
         let gain = scene.lights.rig.intensity as f32;
         self.frame.background.map_gain = if shown.is_some() { gain } else { 0.0 };
         self
+    }
+
+    /// The inputs with the sky that light paths see; without one, the rig's lights stand for it.
+    pub fn with_sky(
+        mut self,
+        scene: &Scene,
+        space: &RenderSpace,
+        sky: Option<&Arc<SampledSky>>,
+    ) -> Self {
+        if let Some(sky) = sky.filter(|_| scene.traces_paths()) {
+            paths::add_sky(&mut self.frame.paths, scene, space, sky);
+            self.sky = Some(sky.clone());
+        }
+        self
+    }
+
+    /// The inputs with the number of samples over which light paths replace the direct picture.
+    pub fn with_preview(mut self, samples: u32) -> Self {
+        if self.traces_paths() {
+            self.frame.paths.preview_samples = samples as f32;
+        }
+        self
+    }
+
+    /// Whether light paths are traced for jittered samples.
+    pub fn traces_paths(&self) -> bool {
+        self.frame.paths.ray_reach > 0.0
     }
 
     /// The inputs with another view's indirect source; `eye_px` is the size of one eye's picture.
@@ -372,9 +398,11 @@ impl Inputs {
         lights::shining(self.lights_in_use())
     }
 
-    /// Whether jittered samples see lights or lens at other places than centre samples.
-    pub fn has_wide_samples(&self) -> bool {
-        self.frame.camera.lens_radius > 0.0 || lights::any_soft(self.lights_in_use())
+    /// Whether centre samples show another light than jittered ones, which then take their place on the film.
+    pub fn replaces_center_samples(&self) -> bool {
+        self.traces_paths()
+            || self.frame.camera.lens_radius > 0.0
+            || lights::any_with_size(self.lights_in_use())
     }
 
     /// The visibility bits of the lights that have shadow rays.
@@ -416,6 +444,8 @@ impl Inputs {
             let Sections { planes, band_reach, count, .. } = frame.sections;
             (planes, band_reach, count)
         };
+        let paths =
+            |frame: &FrameUniforms| PathTracing { preview_samples: 0.0, noise: 0.0, ..frame.paths };
         let (new_frame, old_frame) = (&self.frame, &old.frame);
         let same_geometry = new_frame.camera == old_frame.camera
             && new_frame.eyes == old_frame.eyes
@@ -432,6 +462,8 @@ impl Inputs {
             && new_frame.sections == old_frame.sections
             && new_frame.color_curves == old_frame.color_curves
             && new_frame.background == old_frame.background
+            && paths(new_frame) == paths(old_frame)
+            && self.sky == old.sky
             && self.environment_map == old.environment_map
             && self.is_lit_as(old)
             && self.gradients == old.gradients
@@ -443,9 +475,12 @@ impl Inputs {
         } else if !same_light {
             Some(Stale::Light)
         } else if self.has_indirect() && new_frame.indirect != old_frame.indirect {
-            Some(Stale::Indirect)
+            // With light paths, the direct picture is stored in place of the direct light.
+            Some(if self.traces_paths() { Stale::Light } else { Stale::Indirect })
         } else {
-            let same_tone = new_frame.tone == old_frame.tone && new_frame.bloom == old_frame.bloom;
+            let same_tone = new_frame.tone == old_frame.tone
+                && new_frame.bloom == old_frame.bloom
+                && new_frame.paths == old_frame.paths;
             (!same_tone).then_some(Stale::Tone)
         }
     }

@@ -8,17 +8,18 @@ use super::{
     frame,
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
-    integrator::{DIRECT, Integrator},
+    integrator::{self, DIRECT, Integrator},
     memory::Memory,
-    pipeline_set::RAYS,
-    pipelines::{PipelineVariant, Pipelines},
+    noise_control::NoiseControl,
+    pipelines::Pipelines,
     post::{Need, Post, Tasks},
     preparation::Preparation,
     reconstruction::Reconstruction,
     recorder::{Dispatches, Recorder},
     region::Region,
     report::{Activity, Report},
-    schedule::{Arithmetic, Pace, Schedule, Stale, Work},
+    schedule::{Pace, Schedule, Stale, Work},
+    sky::{SampledSky, SkyCache},
     space::{self, RenderSpace},
     targets::{Targets, texture_bytes},
     uniforms::Inputs,
@@ -32,6 +33,7 @@ use crate::{
 mod color_following;
 mod colors;
 mod parts;
+mod paths;
 mod prepare;
 mod read;
 
@@ -58,6 +60,9 @@ pub struct View {
     scene: Option<Scene>,
     /// The loaded environment map.
     environment_map: Option<Arc<EnvironmentMap>>,
+    /// The sky that light paths see.
+    sky: Option<Arc<SampledSky>>,
+    sky_cache: SkyCache,
     /// True if the map came after the scene was last read.
     is_environment_map_new: bool,
     inputs: Option<Inputs>,
@@ -66,6 +71,7 @@ pub struct View {
     stats_validity: StatsValidity,
     reconstruction: Reconstruction,
     histogram_readback: HistogramReadback,
+    noise_control: NoiseControl,
     lent: Lent,
     colors: ColorFollowing,
     /// The pipelines in preparation.
@@ -94,6 +100,8 @@ impl View {
             stopwatch: Stopwatch::default(),
             scene: None,
             environment_map: None,
+            sky: None,
+            sky_cache: SkyCache::default(),
             is_environment_map_new: false,
             inputs: None,
             pending: None,
@@ -101,6 +109,7 @@ impl View {
             stats_validity: StatsValidity::default(),
             reconstruction: Reconstruction::default(),
             histogram_readback: HistogramReadback::default(),
+            noise_control: NoiseControl::default(),
             lent: Lent::default(),
             colors: ColorFollowing::default(),
             preparation: None,
@@ -218,11 +227,14 @@ impl View {
             && let Some(work) = self.schedule.next(now_secs)
         {
             self.submit(work);
+            self.assess_noise(work);
         }
+        self.end_at_noise();
         self.follow_colors();
         self.histogram_readback.read(&self.pipelines.gpu, &self.targets.post.statistics);
         let idle = self.schedule.status(now_secs).idle
             && !self.histogram_readback.is_reading()
+            && !self.noise_control.is_reading()
             && !self.waits_for_colors()
             && self.pending.is_none();
         if !idle {
@@ -276,21 +288,31 @@ impl View {
 
     /// Uploads a new scene and passes its stale level to the schedule.
     fn apply(&mut self, scene: Scene) {
+        self.sky = self.sky_cache.sky_of(&scene, self.environment_map.as_ref());
         let Some(space) = &self.space else { return };
         let inputs = self.inputs_about(&scene, space);
         self.is_environment_map_new = false;
+        let has_other_noise = self
+            .inputs
+            .as_ref()
+            .is_some_and(|old| old.frame.paths.noise != inputs.frame.paths.noise);
         let stale = match &self.inputs {
             None => Some(Stale::Geometry),
             Some(old) => inputs.stale_since(old),
         };
+        self.integrator = integrator::of(&inputs);
+        self.schedule.set_plan(self.integrator.plan);
         self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
-        self.schedule.aim(motion_budget_ms, samples);
+        self.schedule.aim(motion_budget_ms, samples.saturating_add(self.replaced_samples()));
         self.schedule.set_indirect((self.integrator.gathers)(&scene));
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.times.now_secs);
             self.times.changed_secs = self.times.now_secs;
+        }
+        if has_other_noise {
+            self.schedule.set_clean(false);
         }
         self.scene = Some(scene);
     }
@@ -307,6 +329,8 @@ impl View {
     fn inputs_about(&self, scene: &Scene, space: &RenderSpace) -> Inputs {
         Inputs::about(scene, self.region, space)
             .with_environment_map(scene, self.environment_map.as_deref())
+            .with_sky(scene, space, self.sky.as_ref())
+            .with_preview(self.preview_samples(scene))
             .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
             .with_color_curves(self.colors.curves())
@@ -319,13 +343,14 @@ impl View {
         self.colors.follow(self.inputs.as_ref(), &inputs);
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_post(Need::of(&inputs.frame));
-        (self.integrator.fit_targets)(&mut self.targets, &self.pipelines.layouts, &inputs);
         if self.targets.environment_texture.id != inputs.environment_map {
             let shown =
                 self.environment_map.as_deref().filter(|_| inputs.environment_map.is_some());
             self.targets.environment_texture =
                 Arc::new(EnvironmentTexture::new(&self.pipelines.layouts, shown));
         }
+        // After the environment map, whose texture a sky may share.
+        (self.integrator.fit_targets)(&mut self.targets, &self.pipelines.layouts, &inputs);
         self.inputs = Some(inputs);
     }
 
@@ -342,21 +367,6 @@ impl View {
     /// The post passes that the view's scene needs; none if another view lends their results.
     fn post_need(&self) -> Option<Need> {
         self.lent.post.is_none().then(|| self.targets.post.need())
-    }
-
-    /// The arithmetic that rays compute orbits with.
-    fn arithmetic(&self) -> Arithmetic {
-        let Some(inputs) = &self.inputs else { return Arithmetic::Real };
-        let kernel = inputs.formula.kernel;
-        if kernel.is_deep() {
-            Arithmetic::Deep
-        } else if kernel.is_general() {
-            Arithmetic::Real
-        } else if self.pipelines.has_own(&PipelineVariant::of(&RAYS, inputs)) {
-            Arithmetic::SpecializedPipeline
-        } else {
-            Arithmetic::Whole
-        }
     }
 
     /// The lattice level from which a display is upsampled; none if it is made of the film.
@@ -445,6 +455,8 @@ impl View {
     /// The view's status.
     pub fn report(&self) -> Report {
         let status = self.schedule.status(self.times.now_secs);
+        // Once jittered samples are on the film, the centre samples are not.
+        let replaced = if status.samples_done > 1 { self.replaced_samples() } else { 0 };
         let activity = if let Some(preparation) = &self.preparation {
             Activity::Compiling(preparation.variant().name())
         } else if self.inputs.is_none() || (status.idle && self.pending.is_none()) {
@@ -457,10 +469,11 @@ impl View {
         Report {
             activity,
             size_px: self.region.display_px(),
-            samples_done: status.samples_done,
-            samples_so_far: status.samples_so_far,
+            samples_done: status.samples_done - replaced,
+            samples_so_far: status.samples_so_far - replaced as f32,
             samples_wanted: self.scene.as_ref().map_or(1, |scene| scene.quality.samples),
             pixels_per_sample: 1 << status.shown_level,
+            clean_part: self.clean_part(),
             elapsed_secs: self.times.elapsed_secs(),
             frame_ms: self.times.frame_ms,
             frame_interval_secs: self.schedule.frame_interval_secs(),

@@ -9,13 +9,24 @@ use super::{
     lattice::WORKGROUP_THREADS,
     layouts::Layouts,
 };
-use crate::scene::MAX_LIGHTS;
+use crate::scene::{MAX_LIGHTS, param};
 
 /// Threads per block; `BLOCK_THREADS` in `shaders/lib/lattice.wgsl`.
 pub const BLOCK_THREADS: u32 = 8;
 
-/// One queue for camera rays and one per light; `RAY_QUEUES` in `shaders/types/work_queues.wgsl`.
-pub const RAY_QUEUES: usize = MAX_LIGHTS + 1;
+/// Number of ray queues; `RAY_QUEUES` in `shaders/types/work_queues.wgsl`.
+///
+/// Direct light needs one for camera rays and one per light. Paths need two per vertex, from the camera to beyond the
+/// last bounce: one for rays, one for shadow rays.
+pub const RAY_QUEUES: usize = 2 * (MAX_BOUNCES as usize + 2);
+
+const _: () = assert!(RAY_QUEUES > MAX_LIGHTS);
+
+/// Greatest number of bounces.
+const MAX_BOUNCES: u32 = param::BOUNCES.max as u32;
+
+/// Lists of single samples that paths need: two of rays in turn, and one of shadow rays.
+const SAMPLE_LISTS: u64 = 3;
 
 /// Bytes per counter.
 const WORD: u64 = 4;
@@ -31,26 +42,37 @@ const WORKGROUPS_BYTES: u64 = size_of::<Workgroups>() as u64;
 /// The work queues between the passes of a batch.
 pub struct WorkQueues {
     /// Counters and entries.
-    blocks: wgpu::Buffer,
+    pub blocks: wgpu::Buffer,
     /// Workgroup counts for hits: one thread per point, then one thread per block.
     hit_workgroups: wgpu::Buffer,
-    /// Workgroup counts for each ray queue.
-    ray_workgroups: wgpu::Buffer,
+    /// Workgroup counts for each ray queue. The vertices of paths use both in turn: a dispatch can't write the buffer
+    /// that holds its own count.
+    ray_workgroups: [wgpu::Buffer; 2],
+    /// Whether there are lists of samples for paths.
+    pub for_paths: bool,
     /// Bound by passes that read a queue.
     pub dequeue: wgpu::BindGroup,
     /// Bound by the pass that writes the queue of hits.
     pub enqueue_hits: wgpu::BindGroup,
     /// Bound by passes that write ray queues.
     pub enqueue_rays: wgpu::BindGroup,
+    /// Bound by the pass that writes the ray queues of even vertices, and of odd ones.
+    enqueue_vertices: [wgpu::BindGroup; 2],
 }
 
 impl WorkQueues {
-    /// Allocates queues for every block of `workgroups` workgroups.
-    pub fn new(layouts: &Layouts, workgroups: u32) -> Self {
+    /// Offset of the counters of the last two ray queues in [`Self::blocks`], bytes.
+    ///
+    /// Only paths with most bounces use those queues.
+    pub const LAST_COUNTERS: u64 = WORD * (RAY_QUEUES as u64 - 1);
+
+    /// Allocates queues for every block of `workgroups` workgroups, and lists of their samples for paths.
+    pub fn new(layouts: &Layouts, workgroups: u32, for_paths: bool) -> Self {
         let device = &layouts.gpu.device;
         let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_THREADS / BLOCK_THREADS);
         let counters = WORD * (RAY_QUEUES as u64 + 1);
-        let blocks = storage(device, "work queues", counters + 3 * WORD * most);
+        let lists = if for_paths { SAMPLE_LISTS * u64::from(BLOCK_THREADS) } else { 0 };
+        let blocks = storage(device, "work queues", counters + (3 + lists) * WORD * most);
         let arguments = |label| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -62,7 +84,7 @@ impl WorkQueues {
             })
         };
         let hit_workgroups = arguments("workgroups for hits");
-        let ray_workgroups = arguments("workgroups for rays");
+        let ray_workgroups = ["workgroups for rays", "workgroups for odd vertices"].map(arguments);
         let enqueue = |workgroups: &wgpu::Buffer| {
             let resources = [&blocks, workgroups].map(wgpu::Buffer::as_entire_binding);
             group(device, &layouts.enqueue, "enqueue", resources)
@@ -70,16 +92,19 @@ impl WorkQueues {
         Self {
             dequeue: group(device, &layouts.dequeue, "dequeue", [blocks.as_entire_binding()]),
             enqueue_hits: enqueue(&hit_workgroups),
-            enqueue_rays: enqueue(&ray_workgroups),
+            enqueue_rays: enqueue(&ray_workgroups[0]),
+            enqueue_vertices: ray_workgroups.each_ref().map(enqueue),
             blocks,
             hit_workgroups,
             ray_workgroups,
+            for_paths,
         }
     }
 
     /// GPU memory of the queues, in bytes.
     pub fn bytes(&self) -> u64 {
-        self.blocks.size() + self.hit_workgroups.size() + self.ray_workgroups.size()
+        let of_rays = self.ray_workgroups.iter().map(wgpu::Buffer::size).sum::<u64>();
+        self.blocks.size() + self.hit_workgroups.size() + of_rays
     }
 
     /// Empties the queue of hits before the next submit.
@@ -92,7 +117,9 @@ impl WorkQueues {
     pub fn clear_rays(&self, queue: &wgpu::Queue) {
         queue.write_buffer(&self.blocks, WORD, bytemuck::bytes_of(&[0_u32; RAY_QUEUES]));
         let none_yet = [NONE_YET; RAY_QUEUES];
-        queue.write_buffer(&self.ray_workgroups, 0, bytemuck::cast_slice(&none_yet));
+        for workgroups in &self.ray_workgroups {
+            queue.write_buffer(workgroups, 0, bytemuck::cast_slice(&none_yet));
+        }
     }
 
     /// Dispatch arguments of a pass that reads `queue`: buffer and byte offset.
@@ -100,8 +127,17 @@ impl WorkQueues {
         match queue {
             Queue::HitPoints => (&self.hit_workgroups, 0),
             Queue::HitBlocks => (&self.hit_workgroups, WORKGROUPS_BYTES),
-            Queue::Rays(index) => (&self.ray_workgroups, WORKGROUPS_BYTES * u64::from(index)),
+            Queue::Rays(index) => (&self.ray_workgroups[0], WORKGROUPS_BYTES * u64::from(index)),
+            Queue::Vertex(rays) => {
+                let of_vertex = &self.ray_workgroups[rays.vertex() as usize % 2];
+                (of_vertex, WORKGROUPS_BYTES * u64::from(rays.queue()))
+            }
         }
+    }
+
+    /// Bound by the pass that scatters paths at their vertex `bounce`: it writes shadow rays, and the next vertex's rays.
+    pub fn enqueue_after(&self, bounce: u32) -> &wgpu::BindGroup {
+        &self.enqueue_vertices[(bounce as usize + 1) % 2]
     }
 }
 
@@ -115,6 +151,44 @@ pub enum Queue {
     HitPoints,
     /// Blocks with surface points, one thread per block.
     HitBlocks,
-    /// A ray queue, one thread per ray: 0 for camera rays, then one per light.
+    /// A ray queue of direct light, one thread per ray: 0 for camera rays, then one per light.
     Rays(u32),
+    /// A queue of paths, one thread per ray.
+    Vertex(VertexRays),
+}
+
+/// The rays to or from the vertices of paths that have been scattered so many times before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VertexRays {
+    /// The rays that find the vertices; 0: those of the camera, queued in blocks.
+    Paths(u32),
+    /// Rays from the vertices to their chosen lights.
+    Shadows(u32),
+}
+
+impl VertexRays {
+    /// Number of the ray queue.
+    pub fn queue(self) -> u32 {
+        match self {
+            Self::Paths(bounce) => 2 * bounce,
+            Self::Shadows(bounce) => 2 * bounce + 1,
+        }
+    }
+
+    /// The list of samples that the queue counts: a `_LIST` of `shaders/types/work_queues.wgsl`.
+    pub fn list(self) -> u32 {
+        match self {
+            Self::Paths(0) => 0,
+            Self::Paths(bounce) => 1 + (bounce - 1) % 2,
+            Self::Shadows(_) => 3,
+        }
+    }
+
+    /// The vertex that the rays are marched before.
+    fn vertex(self) -> u32 {
+        match self {
+            Self::Paths(bounce) => bounce,
+            Self::Shadows(bounce) => bounce + 1,
+        }
+    }
 }

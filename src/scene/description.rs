@@ -8,6 +8,7 @@ use super::{
     camera::Camera,
     environment_map::EnvironmentMap,
     indirect::{Indirect, IndirectKind},
+    integrator::{IntegratorKind, IntegratorSettings},
     lighting::Lights,
     quality::Quality,
     rig::RigKind,
@@ -28,8 +29,10 @@ pub struct Scene {
     pub lights: Lights,
     /// How its surface answers light, and its colours.
     pub surface: Surface,
-    /// Light that reaches the surface by way of others.
+    /// Light that reaches the surface by way of others, as the direct integrator gathers it.
     pub indirect: Indirect,
+    /// How the light of a picture at rest is computed.
+    pub integrator: IntegratorSettings,
     /// What is seen where a ray meets nothing.
     pub background: Background,
     /// How scene radiance becomes display values.
@@ -41,6 +44,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Whether light paths are traced while the picture is at rest.
+    pub fn traces_paths(&self) -> bool {
+        self.integrator.kind == IntegratorKind::Path
+    }
+
     /// Whether the scene has indirect light.
     pub fn has_indirect(&self) -> bool {
         self.indirect.kind != IndirectKind::Off

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
 //! | `description` | [`Scene`], the whole of its parts |
-//! | `camera`, `lens`, `stereo`, `surface`, `indirect`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `camera`, `lens`, `stereo`, `surface`, `indirect`, `integrator`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | `lighting` | the part that holds all lights |
 //! | `light`, `rig` | single lights; lights generated together |
 //! | [`follow`] | the lights of close views, which follow the view |
@@ -26,6 +26,7 @@ mod background;
 mod bloom;
 mod camera;
 mod description;
+mod integrator;
 mod lens;
 mod light;
 mod lighting;
@@ -55,6 +56,7 @@ pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use description::Scene;
 pub use environment_map::{EnvironmentMap, MAX_NAME_CHARS};
 pub use indirect::{Indirect, IndirectKind};
+pub use integrator::{IntegratorKind, IntegratorSettings};
 pub use lens::Lens;
 pub use light::{EnvironmentLight, LightFrame, PointLight};
 pub use lighting::{Lights, MAX_LIGHTS};
@@ -66,8 +68,8 @@ pub use rig::{
 };
 pub use stereo::{Stereo, StereoLayout};
 pub use surface::{
-    Axis, ColorSource, Coloring, GradientStop, MAX_GRADIENT_STOPS, SecondLayer, SectionColors,
-    Surface,
+    Axis, ColorSource, Coloring, DrivenByLayer, GradientStop, MAX_GRADIENT_STOPS, SecondLayer,
+    SectionColors, Surface, SurfaceModel,
 };
 pub use tone::{Tone, ToneChannels, ToneCurve, ToneMean};
 pub use validate::Invalid;

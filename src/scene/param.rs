@@ -85,6 +85,16 @@ params! {
         "Brightness of the highlights.";
     SHININESS = "surface.shininess", "Shininess", None, 1.0, 1000.0, default 40.0, Logarithmic by 1.0,
         "Size of the highlights: higher is smaller and sharper (Blinn-Phong exponent).";
+    ROUGHNESS = "surface.roughness", "Roughness", None, 0.0, 1.0, default 0.4, Linear by 0.01,
+        "Sharpness of reflections: 0 is a mirror, 1 is matte.";
+    METALNESS = "surface.metalness", "Metalness", None, 0.0, 1.0, default 0.0, Linear by 0.01,
+        "1 reflects like a metal of the surface's colour, 0 like plastic or stone.";
+    COAT = "surface.coat", "Clear coat", None, 0.0, 1.0, default 0.0, Linear by 0.01,
+        "A layer of clear varnish over the surface: adds sharp, colourless reflections.";
+    COAT_ROUGHNESS = "surface.coat_roughness", "Coat roughness", None, 0.0, 1.0, default 0.1, Linear by 0.01,
+        "Sharpness of the clear coat's reflections: 0 is a mirror.";
+    EMISSION = "surface.emission", "Emission", None, 0.0, 100.0, default 0.0, Logarithmic by 0.05,
+        "Light of the surface itself, in its colour. With path tracing it lights the surfaces around it.";
     TRAP_CENTER = "surface.coloring.center[]", "Centre", SceneUnits, -8.0, 8.0, default 0.0, Linear by 0.05,
         "Centre of the orbit trap. Moving it moves the pattern of colours over the surface.";
     TRAP_SIZE = "surface.coloring.size", "Size", SceneUnits, 0.01, 8.0, default 1.0, Logarithmic by 0.05,
@@ -115,6 +125,12 @@ params! {
         "Number of directions to sample around each pixel. More is smoother and slower.";
     INDIRECT_SAMPLES = "indirect.samples", "Samples", Count, 1.0, 16.0, default 5.0, Integer by 1.0,
         "Number of samples per direction. More is smoother and slower.";
+    BOUNCES = "integrator.bounces", "Bounces", Count, 0.0, 64.0, default 8.0, Integer by 1.0,
+        "How often light is reflected from surface to surface. 0: light straight from the lights.";
+    BOUNCE_REACH = "integrator.reach", "Reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+        "Maximum distance between two surfaces that light each other. Shorter brightens crevices under a sky and is faster.";
+    NOISE = "integrator.noise", "Noise", None, 0.0, 0.5, default 0.0, Logarithmic by 0.001,
+        "Noise at which a pixel is done, as a part of its brightness: 0.02 looks clean. The samples are then the most that a pixel gets. 0: all pixels get them.";
     BLOOM_STRENGTH = "bloom.strength", "Strength", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "Brightness of the glow around bright spots. 0 is off and costs nothing.";
     BLOOM_RADIUS = "bloom.radius", "Radius", None, 0.005, 0.25, default 0.04, Logarithmic by 0.05,
@@ -125,7 +141,7 @@ params! {
         "Shape of the glow: 1 is square, as in the thesis; 3 and more are round.";
     MOTION_BUDGET = "quality.motion_budget_ms", "Motion budget", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
         "GPU time per frame during motion. Higher is sharper and less fluid.";
-    SAMPLES = "quality.samples", "Samples", Count, 1.0, 1024.0, default 16.0, Integer by 1.0,
+    SAMPLES = "quality.samples", "Samples", Count, 1.0, 65536.0, default 16.0, Integer by 1.0,
         "Number of samples per pixel at rest. More gives smoother edges and takes longer.";
     DETAIL = "quality.detail", "Detail", Footprints, 0.1, 8.0, default 1.0, Logarithmic by 0.1,
         "Size of the finest visible detail, in pixels. Lower is finer and slower.";
@@ -161,7 +177,7 @@ mod tests {
     #[test]
     fn ranges_read_well() {
         assert_eq!(VERTICAL_FOV.range_text(), "5 to 120 degrees");
-        assert_eq!(SAMPLES.range_text(), "1 to 1024, whole numbers");
+        assert_eq!(SAMPLES.range_text(), "1 to 65536, whole numbers");
         assert_eq!(AMBIENT.range_text(), "0 to 1");
     }
 }

@@ -136,18 +136,68 @@ pub struct GradientStop {
     pub color: [f32; 3],
 }
 
+/// How the surface reflects light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SurfaceModel {
+    /// A diffuse surface with a highlight (Blinn 1977; thesis 3.2).
+    #[default]
+    BlinnPhong,
+    /// A diffuse surface or metal with GGX reflection (B. Walter et al., EGSR 2007), under a clear coat: reflects no
+    /// more light than it gets.
+    Physical,
+}
+
+/// Values of the surface that the second layer of colours drives: each is multiplied by the brightness of the layer's
+/// gradient, and emission takes the gradient's colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DrivenByLayer {
+    /// Drives [`Surface::roughness`].
+    pub roughness: bool,
+    /// Drives [`Surface::metalness`].
+    pub metalness: bool,
+    /// Drives [`Surface::coat`].
+    pub coat: bool,
+    /// Drives [`Surface::emission`].
+    pub emission: bool,
+}
+
+impl DrivenByLayer {
+    /// Whether the layer drives any value.
+    pub fn any(self) -> bool {
+        self != Self::default()
+    }
+}
+
 /// The surface's material and colouring.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Surface {
-    /// Fraction of the colour that is visible without light, range [`param::AMBIENT`].
+    /// How the surface reflects light.
+    pub model: SurfaceModel,
+    /// Fraction of the colour that is visible without light, range [`param::AMBIENT`]. Path tracing has none.
     pub ambient: f64,
-    /// Diffuse reflectance, range [`param::DIFFUSE`].
+    /// Blinn-Phong: diffuse reflectance, range [`param::DIFFUSE`].
     pub diffuse: f64,
-    /// Specular reflectance, range [`param::SPECULAR`].
+    /// Blinn-Phong: specular reflectance, range [`param::SPECULAR`].
     pub specular: f64,
-    /// Blinn-Phong exponent, range [`param::SHININESS`].
+    /// Blinn-Phong: exponent, range [`param::SHININESS`].
     pub shininess: f64,
+    /// Physical: roughness, range [`param::ROUGHNESS`]; its square is GGX's width.
+    pub roughness: f64,
+    /// Physical: part of the surface that is metal, range [`param::METALNESS`].
+    pub metalness: f64,
+    /// Physical: reflectance at normal incidence of what is not metal; linear Rec. 709, each channel 0 to 1.
+    pub specular_color: [f32; 3],
+    /// Physical: part of the surface under a clear coat, range [`param::COAT`].
+    pub coat: f64,
+    /// Physical: roughness of the coat, range [`param::COAT_ROUGHNESS`].
+    pub coat_roughness: f64,
+    /// Emitted radiance over the surface's colour, range [`param::EMISSION`].
+    pub emission: f64,
+    /// Which of these values the second layer of colours drives.
+    pub driven_by_layer: DrivenByLayer,
     /// The mapping from a value to the gradient.
     pub coloring: Coloring,
     /// 1 to [`MAX_GRADIENT_STOPS`] stops with non-decreasing positions. The gradient wraps: the
@@ -196,16 +246,21 @@ impl SecondLayer {
 }
 
 impl Surface {
-    /// Whether the colours of a visible layer follow the view.
+    /// Whether the second layer is visible, or drives a value of the surface.
+    pub fn uses_second_layer(&self) -> bool {
+        self.second_layer.is_on() || self.driven_by_layer.any()
+    }
+
+    /// Whether the colours of a layer in use follow the view.
     pub fn follows_view(&self) -> bool {
-        let second = &self.second_layer;
-        self.coloring.follows_view || (second.is_on() && second.coloring.follows_view)
+        self.coloring.follows_view
+            || (self.uses_second_layer() && self.second_layer.coloring.follows_view)
     }
 
     /// The orbit traps of the first and of the second layer; none for layers with other values.
     pub fn traps(&self) -> [Option<Trap>; 2] {
-        let second = &self.second_layer;
-        [self.coloring.trap(), second.is_on().then(|| second.coloring.trap()).flatten()]
+        let second = self.second_layer.coloring.trap();
+        [self.coloring.trap(), second.filter(|_| self.uses_second_layer())]
     }
 }
 
@@ -228,10 +283,18 @@ impl Default for Surface {
     fn default() -> Self {
         let stop = |position, color| GradientStop { position, color };
         Self {
+            model: SurfaceModel::default(),
             ambient: param::AMBIENT.default,
             diffuse: param::DIFFUSE.default,
             specular: param::SPECULAR.default,
             shininess: param::SHININESS.default,
+            roughness: param::ROUGHNESS.default,
+            metalness: param::METALNESS.default,
+            specular_color: [0.04; 3],
+            coat: param::COAT.default,
+            coat_roughness: param::COAT_ROUGHNESS.default,
+            emission: param::EMISSION.default,
+            driven_by_layer: DrivenByLayer::default(),
             coloring: Coloring::default(),
             // The last stop is below 1, so the blend back to the first is not abrupt.
             gradient: vec![

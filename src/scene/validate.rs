@@ -62,6 +62,11 @@ impl Scene {
         check(&param::INDIRECT_AMBIENT, self.indirect.ambient)?;
         check(&param::INDIRECT_DIRECTIONS, self.indirect.directions.into())?;
         check(&param::INDIRECT_SAMPLES, self.indirect.samples.into())?;
+        check(&param::BOUNCES, self.integrator.bounces.into())?;
+        if let Some(reach) = self.integrator.reach {
+            check(&param::BOUNCE_REACH, reach)?;
+        }
+        check(&param::NOISE, self.integrator.noise)?;
         check(&param::BLOOM_STRENGTH, self.bloom.strength)?;
         check(&param::BLOOM_RADIUS, self.bloom.radius)?;
         check(&param::BLOOM_THRESHOLD, self.bloom.threshold)?;
@@ -247,6 +252,12 @@ fn check_surface(surface: &Surface) -> Result<(), Invalid> {
     check(&param::DIFFUSE, surface.diffuse)?;
     check(&param::SPECULAR, surface.specular)?;
     check(&param::SHININESS, surface.shininess)?;
+    check(&param::ROUGHNESS, surface.roughness)?;
+    check(&param::METALNESS, surface.metalness)?;
+    check_color(|| "surface.specular_color".into(), surface.specular_color)?;
+    check(&param::COAT, surface.coat)?;
+    check(&param::COAT_ROUGHNESS, surface.coat_roughness)?;
+    check(&param::EMISSION, surface.emission)?;
     check_layer(&surface.coloring, &surface.gradient)?;
     let second = &surface.second_layer;
     check(&param::SECOND_LAYER_AMOUNT, second.amount)?;

@@ -122,11 +122,16 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         }
         Activity::Refining => {
             let sample = (report.samples_done + 1).min(report.samples_wanted.max(1));
+            // As above: pixels are clean only if all are.
+            let percent = |part: f32| (100.0 * part).clamp(0.0, 99.0).floor();
+            let clean = report
+                .clean_part
+                .map_or_else(String::new, |part| format!(", {} % clean", percent(part)));
             if short {
-                format!("Refining {sample}/{}", report.samples_wanted)
+                format!("Refining {sample}/{}{clean}", report.samples_wanted)
             } else {
                 format!(
-                    "Refining: sample {sample} of {}, {}",
+                    "Refining: sample {sample} of {}{clean}, {}",
                     report.samples_wanted,
                     duration_text(report.elapsed_secs)
                 )

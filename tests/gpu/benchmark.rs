@@ -242,7 +242,7 @@ fn what_cannot_be_counted_is_said() {
         steps: &["step"],
         estimates,
         entries: &["main"],
-        buffer: [0, 0],
+        counters: instrument::Counters::Buffer([0, 0]),
     };
     let orbit = "fn step() {\n    return;\n}\nfn far(n: u32) {\n    for (var i = 0u; i < n; i++) {\n    }\n}\n";
     let entry = "@compute @workgroup_size(1)\nfn main(@builtin(workgroup_id) id: vec3u) {\n}\n";
@@ -259,7 +259,7 @@ fn what_cannot_be_counted_is_said() {
 /// Counts the program's probe at `points`.
 fn counted(gpu: &Gpu, inputs: &Inputs, points: &[DVec3], power: u32) -> counts::Counts {
     let device = &gpu.device;
-    let marks = counts::marks("mandelbulb/", &["estimate"], [2, 0]);
+    let marks = counts::marks("mandelbulb/", &["estimate"], instrument::Counters::Buffer([2, 0]));
     let variant = Variant { power, steps: Steps::Plain }.number();
     let kernel = Kernel { variant, ..inputs.formula.kernel };
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

@@ -11,7 +11,7 @@ use mandelight::{
     render::{
         Activity, Pace, Pipelines, Region, View, pipeline_set::INDIRECT, pipelines::PipelineVariant,
     },
-    scene::{IndirectKind, Scene},
+    scene::{IndirectKind, IntegratorKind, Scene, SurfaceModel},
 };
 use mandelight_test_support::{
     device::{fresh_gpu, fresh_pipelines, pipelines},
@@ -135,7 +135,7 @@ fn nothing_is_compiled_unannounced() {
     watched.show(&scene);
     assert_eq!(watched.announced, ["power 8", "light", "tone mapping"]);
     type Edit = fn(&mut Scene);
-    let edits: [(Edit, &[&str]); 8] = [
+    let edits: [(Edit, &[&str]); 11] = [
         (|scene| _ = scene.fractal.set("power", 4.5), &[]),
         (|scene| _ = scene.fractal.set("power", 3.0), &["power 3"]),
         (|scene| scene.lights.environment[0].muted = true, &[]),
@@ -144,6 +144,9 @@ fn nothing_is_compiled_unannounced() {
         (|scene| scene.bloom.strength = 0.4, &["exposure and bloom", "tone mapping"]),
         (|scene| scene.tone.auto_exposure = true, &[]),
         (|scene| _ = scene.fractal.set("power", 8.0), &[]),
+        (|scene| scene.surface.model = SurfaceModel::Physical, &["light"]),
+        (|scene| scene.integrator.kind = IntegratorKind::Path, &["path tracing"]),
+        (|scene| scene.integrator.bounces = 2, &[]),
     ];
     for (edit, expected) in edits {
         watched.announced.clear();
@@ -165,13 +168,17 @@ fn nothing_is_compiled_unannounced() {
         let checks = u32::from(power < 4);
         all.insert(format!("normal, POWER {power}, CHECKS_HITS {checks}, NORMALS 5"));
     }
-    all.extend([0, 1].map(|single| format!("shade, HAS_ENVIRONMENT_MAP 0, SINGLE {single}")));
+    for model in [0, 1] {
+        let shade = format!("shade, HAS_ENVIRONMENT_MAP 0, SURFACE_MODEL {model}");
+        all.extend([0, 1].map(|single| format!("{shade}, SINGLE {single}")));
+    }
     for (bloom, sparse) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         all.insert(format!("tone, CURVE 1, BLOOM {bloom}, ANAGLYPH 0, SPARSE {sparse}"));
     }
     all.extend(
         ["indirect", "mean", "reduce", "expose", "histogram", "bloom", "blur"].map(str::to_owned),
     );
+    all.extend(["scatter", "film_paths", "assess_noise"].map(str::to_owned));
     assert_eq!(made.len(), all.len(), "each once: {made:?}");
     assert_eq!(BTreeSet::from_iter(made), all);
 }

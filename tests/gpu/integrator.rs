@@ -25,7 +25,8 @@ use super::oracle::pictures::{draw, pixels, point_at};
 
 /// Rays to the surface, and no light.
 static RAYS_ALONE: Integrator = Integrator {
-    passes: &[&camera_rays::PASS, &camera_cone::PASS, &march::PASS],
+    center_passes: &[&camera_rays::PASS, &camera_cone::PASS, &march::PASS],
+    jittered_passes: &[],
     plan: DIRECT.plan,
     gathers: |_| false,
     fit_targets: |_, _, _| {},

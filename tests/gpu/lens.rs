@@ -62,7 +62,7 @@ fn segment(x: f64) -> f64 {
 #[test]
 fn an_edge_out_of_focus_is_blurred_by_the_lens_s_disc() {
     for focus in [0.6, 1.0] {
-        let scene = sampled(wall(focus, 2), 257);
+        let scene = sampled(wall(focus, 2), 256);
         let found = profile(&scene);
         let between = found.iter().filter(|[x, _]| x.abs() < 0.9).count();
         assert!(between > 60, "{between} pixels in the blur");
@@ -85,7 +85,7 @@ fn what_is_in_focus_is_sharp() {
 /// A square aperture blurs a vertical edge by its own profile: that of a square on its corner, or by half of it.
 #[test]
 fn four_blades_blur_as_a_square() {
-    let scene = sampled(wall(1.0, 4), 257);
+    let scene = sampled(wall(1.0, 4), 256);
     // Corners lie on the axes: the share of the square |x| + |y| < 1 left of the edge.
     let square = |x: f64| {
         let x = x.clamp(-1.0, 1.0);

@@ -100,7 +100,7 @@ fn a_ball_throws_the_shadow_of_the_whole_light() {
         ..EnvironmentLight::default()
     };
     let lights = Lights { environment: vec![light], ..Lights::default() };
-    let scene = sampled(floor(true, lights), 257);
+    let scene = sampled(floor(true, lights), 256);
     let half = 15.0_f64.to_radians();
     let directions = cap(direction, half);
     let (center, radius) = BALL;
@@ -135,7 +135,7 @@ fn a_glowing_ball_lights_a_floor_as_its_centre_would() {
         ..PointLight::default()
     };
     let lights = Lights { environment: Vec::new(), point: vec![light], ..Lights::default() };
-    let scene = sampled(floor(false, lights), 129);
+    let scene = sampled(floor(false, lights), 128);
     let ratios: Vec<f64> = seen(&scene)
         .into_iter()
         .map(|(point, found)| {
@@ -157,7 +157,7 @@ fn a_glowing_ball_lights_a_floor_as_its_centre_would() {
 fn pieces_of_a_picture_have_the_same_soft_shadows() {
     let light = EnvironmentLight { size_deg: 40.0, ..EnvironmentLight::default() };
     let lights = Lights { environment: vec![light], ..Lights::default() };
-    let scene = sampled(floor(true, lights), 9);
+    let scene = sampled(floor(true, lights), 8);
     let whole = finished(&scene, SIZE, Pace::Still).film().expect("a film");
     let region = Region { origin_px: [20, 12], size_px: [24, 20], ..Region::whole(SIZE) };
     let piece = finished_in(&scene, region, Pace::Still).film().expect("a film");

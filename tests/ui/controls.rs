@@ -50,6 +50,13 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
         if param == &param::SCREEN_HEIGHT {
             press(&mut harness, "Stereo: Stacked");
         }
+        if param == &param::ROUGHNESS {
+            press(&mut harness, "Surface: Physical");
+        }
+        if param == &param::BOUNCES {
+            harness.get_by_label("Path tracing").click();
+            harness.run();
+        }
         if param == &param::INDIRECT_RADIUS {
             press(&mut harness, "Indirect light: Horizon");
         }
@@ -93,7 +100,7 @@ fn every_parameter_of_every_formula_has_a_control() {
         scene.surface.coloring.source = ColorSource::SphereTrap;
         scene.surface.second_layer.amount = 0.5;
         let mut harness = stage(scene, unfolded(), [1280.0, 5000.0]);
-        for switch in ["Auto exposure", "Depth of field"] {
+        for switch in ["Auto exposure", "Depth of field", "Path tracing"] {
             harness.get_by_label(switch).click();
             harness.run();
         }
@@ -103,7 +110,14 @@ fn every_parameter_of_every_formula_has_a_control() {
             param::of(formula).filter(|param| rails_of(&harness, param.path).is_empty()).collect();
         press(&mut harness, "Add point light");
         missing.retain(|param| rails_of(&harness, param.path).is_empty());
-        for other in ["Rig: Sky", "Rig: Picture", "Stereo: Stacked", "Indirect light: Horizon"] {
+        let others = [
+            "Rig: Sky",
+            "Rig: Picture",
+            "Stereo: Stacked",
+            "Indirect light: Horizon",
+            "Surface: Physical",
+        ];
+        for other in others {
             press(&mut harness, other);
             missing.retain(|param| rails_of(&harness, param.path).is_empty());
         }

@@ -9,8 +9,10 @@ use crate::{
 
 /// Computes samples.
 pub struct Integrator {
-    /// The passes, in the order of a frame.
-    pub passes: &'static [&'static Pass],
+    /// The passes of centre samples, in the order of a frame.
+    pub center_passes: &'static [&'static Pass],
+    /// The passes of jittered samples, in the order of a frame.
+    pub jittered_passes: &'static [&'static Pass],
     /// Where work on samples starts after an edit, and what the work costs.
     pub plan: &'static Plan,
     /// Whether centre samples wait for light from their neighbours before they are filmed.

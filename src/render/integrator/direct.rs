@@ -14,10 +14,14 @@ use crate::{
 
 /// The direct integrator. Own buffer: [`Targets::direct`](crate::render::targets::Targets::direct).
 pub static DIRECT: Integrator = Integrator {
-    passes: pass::DIRECT,
+    center_passes: pass::DIRECT,
+    jittered_passes: pass::DIRECT,
     plan: &Plan { job, sample_cost },
     gathers: Scene::has_indirect,
-    fit_targets: |targets, layouts, inputs| targets.fit_direct(layouts, inputs.has_indirect()),
+    fit_targets: |targets, layouts, inputs| {
+        targets.fit_direct(layouts, inputs.has_indirect());
+        targets.fit_paths(layouts, false, None);
+    },
 };
 
 /// Centre samples start after the stages whose results the G-buffer still holds.
@@ -37,7 +41,7 @@ fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
 fn sample_cost(job: Job, casting: u64) -> SampleCost {
     let lights = f64::from((job.lights & casting).count_ones());
     let (kind, rays) = match job.from {
-        Stage::March | Stage::Normal => (WorkKind::Tracing, 1.0 + lights),
+        Stage::Path | Stage::March | Stage::Normal => (WorkKind::Tracing, 1.0 + lights),
         Stage::Shadow if lights > 0.0 => (WorkKind::Tracing, lights),
         Stage::Shadow | Stage::Shade => (WorkKind::Shading, 1.0),
         Stage::Indirect => (WorkKind::Indirect, 1.0),

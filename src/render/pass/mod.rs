@@ -1,8 +1,9 @@
 //! One file per pass, named like its shader in `shaders/pass/`.
 //!
 //! Each file declares what the pass binds, when a frame has the pass, and how it is dispatched. To add a
-//! pass, add its two files, and here its module and its entry in [`DIRECT`] or [`DISPLAY`].
+//! pass, add its two files, and here its module and its entry in [`DIRECT`], [`PATH`] or [`DISPLAY`].
 
+pub mod assess_noise;
 pub mod bloom;
 pub mod blur;
 pub mod camera_cone;
@@ -11,12 +12,14 @@ pub mod color_histogram;
 pub mod compact_hits;
 pub mod expose;
 pub mod fill;
+pub mod film_paths;
 pub mod histogram;
 pub mod indirect;
 pub mod march;
 pub mod mean;
 pub mod normal;
 pub mod reduce;
+pub mod scatter;
 pub mod shade;
 pub mod shadow;
 pub mod shadow_cone;
@@ -42,6 +45,19 @@ pub const DIRECT: &[&Pass] = &[
     &indirect::PASS,
 ];
 
+/// The passes of a path, in the order of a frame: the camera's ray to the surface, then from vertex to vertex.
+pub const PATH: &[&Pass] = &[
+    &camera_rays::PASS,
+    &camera_cone::PASS,
+    &march::PASS,
+    &compact_hits::PASS,
+    &normal::PASS,
+    &scatter::PASS,
+    &film_paths::PASS,
+    // Between the samples of a picture with a noise target.
+    &assess_noise::PASS,
+];
+
 /// The passes from samples to a display picture, in the order of a frame.
 pub const DISPLAY: &[&Pass] = &[
     // Of centre samples, beside the frames.
@@ -61,7 +77,7 @@ pub const DISPLAY: &[&Pass] = &[
 ];
 
 /// The lists of passes of all integrators.
-const INTEGRATORS: &[&[&Pass]] = &[DIRECT];
+const INTEGRATORS: &[&[&Pass]] = &[DIRECT, PATH];
 
 /// Every pass once, also if several integrators share it.
 pub fn all() -> impl Iterator<Item = &'static Pass> {

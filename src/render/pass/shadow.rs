@@ -12,7 +12,7 @@ use crate::render::{
 /// The pass.
 pub const PASS: Pass = Pass {
     name: "shadow",
-    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.dequeue],
+    groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.dequeue, &layouts.paths],
     set: &pipeline_set::RAYS,
     modes: ONE_MODE,
     record: Record::Trace { when: |_, trace| trace.from <= Stage::Shadow, record },
@@ -22,6 +22,7 @@ pub const PASS: Pass = Pass {
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     let [shadow_cone, shadow] = [&shadow_cone::PASS, &PASS].map(|pass| recorder.pipeline(pass, 0));
     let (inputs, work_queues) = (recorder.inputs, &recorder.targets.work_queues);
+    recorder.bind_paths();
     work_queues.clear_rays(&recorder.layouts.gpu.queue);
     let marched = trace.lights & inputs.casting();
     let lights = inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0);

@@ -36,11 +36,15 @@ const MIN_FOR_SAMPLES: f64 = 0.25;
 /// Cost of a ray by a general pipeline, in rays by specialized ones, until measured.
 const UNSPECIALIZED: f64 = 4.0;
 
+/// Cost of a path, in rays, until measured.
+const RAYS_OF_PATH: f64 = 6.0;
+
 const ARITHMETICS: [Arithmetic; 4] =
     [Arithmetic::SpecializedPipeline, Arithmetic::Whole, Arithmetic::Real, Arithmetic::Deep];
 
-/// Kinds of work that have costs of their own: rays by each arithmetic, shading, indirect light.
-const SHADING: usize = ARITHMETICS.len();
+/// Kinds of work that have costs of their own: rays by each arithmetic, paths by each, shading, indirect light.
+const PATHS: usize = ARITHMETICS.len();
+const SHADING: usize = PATHS + ARITHMETICS.len();
 const INDIRECT: usize = SHADING + 1;
 const KINDS: usize = INDIRECT + 1;
 
@@ -64,6 +68,7 @@ pub struct Cost {
 fn history_index(kind: WorkKind, arithmetic: Arithmetic) -> usize {
     match kind {
         WorkKind::Tracing => arithmetic as usize,
+        WorkKind::Paths => PATHS + arithmetic as usize,
         WorkKind::Shading => SHADING,
         WorkKind::Indirect => INDIRECT,
     }
@@ -81,6 +86,11 @@ impl Cost {
             interface_ms: 0.0,
             casting: u64::MAX,
         }
+    }
+
+    /// Sets what the integrator's work costs.
+    pub fn set_plan(&mut self, plan: &'static Plan) {
+        self.plan = plan;
     }
 
     /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
@@ -155,6 +165,9 @@ impl Cost {
         let rate = |kind: WorkKind| self.histories[history_index(kind, arithmetic)].rate(phase);
         rate(kind).or_else(|| match kind {
             WorkKind::Indirect => rate(WorkKind::Tracing).map(Rate::untried),
+            WorkKind::Paths => {
+                rate(WorkKind::Tracing).map(|rate| rate.scaled(RAYS_OF_PATH).untried())
+            }
             WorkKind::Tracing | WorkKind::Shading => rate(WorkKind::Tracing),
         })
     }

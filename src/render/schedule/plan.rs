@@ -32,6 +32,8 @@ pub struct SampleCost {
 pub enum WorkKind {
     /// Marching of rays.
     Tracing,
+    /// Tracing of light paths.
+    Paths,
     /// Shading alone.
     Shading,
     /// Gathering of indirect light.

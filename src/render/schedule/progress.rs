@@ -14,7 +14,7 @@ use super::{
 #[derive(Clone, Debug)]
 pub struct Progress {
     /// Where the integrator's work starts.
-    plan: &'static Plan,
+    pub plan: &'static Plan,
     /// Width and height of the region, pixels.
     pub size_px: [u32; 2],
     /// Validity of the centre samples' G-buffer.

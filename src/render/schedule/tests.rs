@@ -33,7 +33,7 @@ struct Device {
 /// Time of a pixel as a part of one that starts at the camera, with three lights: mostly shadow rays.
 fn share_of_frame(from: Stage, lights: f64) -> f64 {
     let before = match from {
-        Stage::March => 0.33,
+        Stage::Path | Stage::March => 0.33,
         Stage::Normal => 0.1,
         Stage::Shadow | Stage::Shade => 0.0,
         Stage::Indirect => return 0.3,

@@ -53,6 +53,8 @@ impl Points {
 /// The first stage that a trace computes; later stages follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
+    /// Traces light paths from the camera on.
+    Path,
     /// Marches camera rays.
     March,
     /// Normals; depths are in the G-buffer.

@@ -65,7 +65,11 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
             kind,
             color: color(light.color, strength.min(1e30), light.muted, light.solo),
             casts_shadows,
-            shadow_reach: if kind == 0 { way.length().min(1e30) as f32 } else { 1e30 },
+            shadow_reach: if kind == 0 {
+                (way.length() - radius).clamp(0.0, 1e30) as f32
+            } else {
+                1e30
+            },
             size: size as f32,
             ..Light::default()
         }
@@ -96,7 +100,7 @@ pub fn shining(lights: &[Light]) -> u64 {
 }
 
 /// Whether a light that shines has a size.
-pub fn any_soft(lights: &[Light]) -> bool {
+pub fn any_with_size(lights: &[Light]) -> bool {
     lights.iter().any(|light| light.size > 0.0 && light.color != [0.0; 3])
 }
 

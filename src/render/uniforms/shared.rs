@@ -113,6 +113,22 @@ host_shared! {
         shininess: f32,
         /// Number of lights in use.
         light_count: u32,
+        /// 0 Blinn-Phong, 1 physical.
+        model: u32,
+        /// Roughness, 0 to 1.
+        roughness: f32,
+        /// Part that is metal.
+        metalness: f32,
+        /// Reflectance of what is not metal at normal incidence.
+        specular_color: [f32; 3],
+        /// Part under a clear coat.
+        coat: f32,
+        /// Roughness of the coat.
+        coat_roughness: f32,
+        /// Emitted radiance over the colour.
+        emission: f32,
+        /// Which values the second layer drives: bits 0 roughness, 1 metalness, 2 coat, 3 emission.
+        driven: u32,
     }
     /// How one layer of colours selects positions in its gradient.
     ColorLayer {
@@ -221,6 +237,8 @@ host_shared! {
         tone: Tone,
         /// Bloom settings.
         bloom: Bloom,
+        /// Path tracing.
+        paths: PathTracing,
         /// Size of one eye's whole picture, in pixels.
         picture_px: [u32; 2],
         /// The region's upper left corner in the picture, in pixels.
@@ -294,6 +312,10 @@ host_shared! {
         light_seed: u32,
         /// Number of the first sample among a pixel's jittered samples.
         first_sample: u32,
+        /// Number of times that the rays' paths have been scattered; 0 for camera rays.
+        bounce: u32,
+        /// What the dispatch's ray queue lists: 0 blocks, 1 and 2 samples with rays, 3 samples with shadow rays.
+        ray_list: u32,
     }
     /// A ray and the cone about it: all that a pass knows of a sample's way through the scene.
     Ray {
@@ -303,8 +325,58 @@ host_shared! {
         radius: f32,
         /// Unit vector.
         direction: [f32; 3],
-        /// Growth of the radius per unit of depth.
+        /// Radius of the cone per unit of depth, where that is more than the radius at the origin.
         spread: f32,
+    }
+    /// A light path in progress.
+    PathState {
+        /// Part of the radiance at the next vertex that reaches the film.
+        throughput: [f32; 3],
+        /// Distance from which on the path's ray sees `ahead`.
+        ahead_distance: f32,
+        /// Light gathered so far, as it reaches the film.
+        radiance: [f32; 3],
+        /// 0 the camera ray met a surface, 1 it met none, 2 the pixel gets no more samples.
+        end: u32,
+        /// Light of the light that the path's ray points at, as it reaches the film.
+        ahead: [f32; 3],
+        /// Distance of the chosen light, at most its reach.
+        shadow_distance: f32,
+        /// Light of the chosen light, as it reaches the film if nothing blocks it.
+        pending: [f32; 3],
+        /// Unit vector toward the chosen light.
+        toward: [f32; 3],
+    }
+    /// Path tracing.
+    PathTracing {
+        /// Most times that a path is scattered after the first time.
+        bounces: u32,
+        /// Number of single lights: the first ones of the scene's lights.
+        light_count: u32,
+        /// Which samples gather light: 0 of lights and of surfaces, 1 of lights, 2 of surfaces.
+        samples: u32,
+        /// Longest ray between two vertices, in render space.
+        reach: f32,
+        /// The sun; black if there is none.
+        sun: Light,
+        /// The sky's x axis in world space: right.
+        sky_x: [f32; 3],
+        /// Factor on the sky's radiance; 0 without a sky.
+        sky_gain: f32,
+        /// The sky's y axis in world space: forward.
+        sky_y: [f32; 3],
+        /// Greatest distance of a surface that blocks the sky, in render space.
+        sky_reach: f32,
+        /// The sky's z axis in world space: up.
+        sky_z: [f32; 3],
+        /// Share of the sky in the choice of a light: luminance of its irradiance from one half of it, over pi.
+        sky_importance: f32,
+        /// Longest ray: also those toward lights that are blocked from farther away than the reach.
+        ray_reach: f32,
+        /// Number of samples of a pixel at which the direct picture has given way; 0: at once.
+        preview_samples: f32,
+        /// Relative error at which pixels get no more samples; 0: never.
+        noise: f32,
     }
     /// Statistics of a whole film.
     Statistics {

@@ -5,10 +5,11 @@ use crate::{
     formula::Kernel,
     render::{
         Pace,
-        pipeline_set::{self, INDIRECT, NORMALS, POST, RAYS},
+        pipeline_set::{self, INDIRECT, NORMALS, PATHS, POST, RAYS},
         pipelines::{PipelineSet, PipelineVariant},
         post::Need,
         preparation::{Preparation, PreparationState},
+        schedule::Arithmetic,
     },
     scene::Scene,
 };
@@ -35,7 +36,7 @@ impl View {
             let preparation = self.preparation.insert(preparation);
             let now_secs = self.times.now_secs;
             let (pipelines, targets) = (&self.pipelines, &self.targets);
-            match preparation.step(self.integrator, pipelines, targets, &inputs, now_secs) {
+            match preparation.step(pipelines, targets, &inputs, now_secs) {
                 PreparationState::Ready => {}
                 PreparationState::Background => return is_awaited,
                 PreparationState::Foreground => return true,
@@ -64,11 +65,15 @@ impl View {
         }
     }
 
-    /// The variants that a scene needs for indirect light and for post passes.
+    /// The variants that a scene needs for indirect light, for light paths and for post passes.
     fn behind_shading(&self, scene: &Scene) -> Vec<PipelineVariant> {
         let has_post = self.lent.post.is_none() && !Need::of_scene(scene).is_none()
             || self.histogram_readback.is_wanted();
-        let sets = [scene.has_indirect().then_some(&INDIRECT), has_post.then_some(&POST)];
+        let sets = [
+            scene.has_indirect().then_some(&INDIRECT),
+            scene.traces_paths().then_some(&PATHS),
+            has_post.then_some(&POST),
+        ];
         sets.into_iter().flatten().map(|set| self.needed(set)).collect()
     }
 
@@ -131,6 +136,21 @@ impl View {
         self.specialized(scene)
             .into_iter()
             .find(|variant| is_wanted(variant) && !self.pipelines.is_ready(variant))
+    }
+
+    /// The arithmetic that rays compute orbits with.
+    pub(super) fn arithmetic(&self) -> Arithmetic {
+        let Some(inputs) = &self.inputs else { return Arithmetic::Real };
+        let kernel = inputs.formula.kernel;
+        if kernel.is_deep() {
+            Arithmetic::Deep
+        } else if kernel.is_general() {
+            Arithmetic::Real
+        } else if self.pipelines.has_own(&PipelineVariant::of(&RAYS, inputs)) {
+            Arithmetic::SpecializedPipeline
+        } else {
+            Arithmetic::Whole
+        }
     }
 
     /// Whether a picture is shown and nothing has changed for [`REST_SECS`].

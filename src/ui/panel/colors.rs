@@ -39,11 +39,12 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if ui.checkbox(&mut is_on, "Second layer").on_hover_text(hover).changed() {
         switch(ui, second, is_on);
     }
-    if is_on {
-        if param_slider(ui, &param::SECOND_LAYER_AMOUNT, &mut second.amount).changed() {
-            // Switched off by the checkbox only: the controls stay under the pointer.
-            second.amount = second.amount.max(param::SECOND_LAYER_AMOUNT.step);
-        }
+    if is_on && param_slider(ui, &param::SECOND_LAYER_AMOUNT, &mut second.amount).changed() {
+        // Switched off by the checkbox only: the controls stay under the pointer.
+        second.amount = second.amount.max(param::SECOND_LAYER_AMOUNT.step);
+    }
+    // A layer that drives values of the surface is in use without being visible.
+    if is_on || cx.scene.surface.driven_by_layer.any() {
         ui.push_id("second layer", |ui| layer(ui, cx, LayerRef::Second));
     }
 }

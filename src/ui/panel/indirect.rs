@@ -1,11 +1,14 @@
 //! The indirect light panel.
 
-use egui::Ui;
+use egui::{RichText, Ui};
 
 use super::context::{Context, Section};
 use crate::{
-    scene::{IndirectKind, param},
-    ui::widgets::{choice, param_slider, param_slider_count},
+    scene::{IndirectKind, IntegratorKind, param},
+    ui::{
+        theme,
+        widgets::{choice, param_slider, param_slider_count},
+    },
 };
 
 /// The section of the panel.
@@ -16,8 +19,41 @@ pub(super) const SECTION: Section = Section {
     show,
 };
 
-/// The operator, its radius, strength and sampling.
+/// Samples that a picture gets at least when path tracing is switched on.
+const SAMPLES_OF_PATHS: u32 = 256;
+
+/// Path tracing: its bounces and their reach.
+fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
+    let integrator = &mut cx.scene.integrator;
+    let mut is_on = integrator.kind == IntegratorKind::Path;
+    let hover = "Follows light from surface to surface while the picture is at rest: soft light as it is, and slow";
+    if ui.checkbox(&mut is_on, "Path tracing").on_hover_text(hover).changed() && is_on {
+        // Fewer are noisy.
+        cx.scene.quality.samples = cx.scene.quality.samples.max(SAMPLES_OF_PATHS);
+    }
+    integrator.kind = if is_on { IntegratorKind::Path } else { IntegratorKind::Direct };
+    if !is_on {
+        return;
+    }
+    param_slider_count(ui, &param::BOUNCES, &mut integrator.bounces);
+    let mut is_limited = integrator.reach.is_some();
+    let limit = ui.checkbox(&mut is_limited, "Limit bounce reach").on_hover_text(
+        "Only near surfaces light each other, up to the reach below. Close views need it: all around them is surface.",
+    );
+    if limit.changed() {
+        integrator.reach = is_limited.then_some(param::BOUNCE_REACH.default);
+    }
+    if let Some(reach) = &mut integrator.reach {
+        param_slider(ui, &param::BOUNCE_REACH, reach);
+    }
+    param_slider(ui, &param::NOISE, &mut integrator.noise);
+    let text = "While the picture moves, nearby pixels give an approximation:";
+    ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
+}
+
+/// Path tracing; the operator on the screen, its radius, strength and sampling.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    paths(ui, cx);
     let indirect = &mut cx.scene.indirect;
     choice(
         ui,

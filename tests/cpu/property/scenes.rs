@@ -9,10 +9,10 @@ use mandelight::{
     },
     scene::{
         Axis, Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
-        EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind, Lens,
-        LightFrame, Lights, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind,
-        RigLight, Scene, SecondLayer, SectionColors, Sky, Stereo, StereoLayout, Surface, Tone,
-        ToneChannels, ToneCurve, ToneMean,
+        DrivenByLayer, EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind,
+        IntegratorKind, IntegratorSettings, Lens, LightFrame, Lights, Normals, PointLight, Precise,
+        PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, SecondLayer, SectionColors, Sky,
+        Stereo, StereoLayout, Surface, SurfaceModel, Tone, ToneChannels, ToneCurve, ToneMean,
         param::{self, Param},
     },
 };
@@ -278,8 +278,8 @@ fn surface() -> impl Strategy<Value = Surface> {
         value(&param::SHININESS),
     );
     let sections = (value(&param::SECTION_REPEATS), color());
-    (light, coloring(), gradient(), second_layer, sections).prop_map(
-        |((ambient, diffuse, specular, shininess), coloring, gradient, second, sections)| Surface {
+    (light, coloring(), gradient(), second_layer, (sections, physical())).prop_map(
+        |((ambient, diffuse, specular, shininess), coloring, gradient, second, more)| Surface {
             ambient,
             diffuse,
             specular,
@@ -287,9 +287,45 @@ fn surface() -> impl Strategy<Value = Surface> {
             coloring,
             gradient,
             second_layer: SecondLayer { amount: second.0, coloring: second.1, gradient: second.2 },
-            sections: SectionColors { repeats: sections.0, inside: sections.1 },
+            sections: SectionColors { repeats: more.0.0, inside: more.0.1 },
+            ..more.1
         },
     )
+}
+
+/// A surface with any values of the physical model.
+fn physical() -> impl Strategy<Value = Surface> {
+    let model = select(vec![SurfaceModel::BlinnPhong, SurfaceModel::Physical]);
+    let coat = (value(&param::COAT), value(&param::COAT_ROUGHNESS));
+    let base = (value(&param::ROUGHNESS), value(&param::METALNESS), color());
+    (model, base, coat, value(&param::EMISSION), any::<[bool; 4]>()).prop_map(
+        |(model, base, coat, emission, [by_roughness, by_metalness, by_coat, by_emission])| {
+            Surface {
+                model,
+                roughness: base.0,
+                metalness: base.1,
+                specular_color: base.2,
+                coat: coat.0,
+                coat_roughness: coat.1,
+                emission,
+                driven_by_layer: DrivenByLayer {
+                    roughness: by_roughness,
+                    metalness: by_metalness,
+                    coat: by_coat,
+                    emission: by_emission,
+                },
+                ..Surface::default()
+            }
+        },
+    )
+}
+
+fn integrator() -> impl Strategy<Value = IntegratorSettings> {
+    let kind = select(vec![IntegratorKind::Direct, IntegratorKind::Path]);
+    let limits = (option::of(value(&param::BOUNCE_REACH)), value(&param::NOISE));
+    (kind, count(&param::BOUNCES), limits).prop_map(|(kind, bounces, (reach, noise))| {
+        IntegratorSettings { kind, bounces, reach, noise }
+    })
 }
 
 fn tone() -> impl Strategy<Value = Tone> {
@@ -379,9 +415,20 @@ pub fn scene() -> impl Strategy<Value = Scene> {
     let background =
         (kind, color(), color()).prop_map(|(kind, top, bottom)| Background { kind, top, bottom });
     let what = (fractal(), camera(), lights(), surface(), indirect(), background);
-    let how = (tone(), bloom(), quality());
-    (what, how).prop_map(|(what, (tone, bloom, quality))| {
+    let how = (tone(), bloom(), quality(), integrator());
+    (what, how).prop_map(|(what, (tone, bloom, quality, integrator))| {
         let (fractal, camera, lights, surface, indirect, background) = what;
-        Scene { fractal, camera, lights, surface, indirect, background, tone, bloom, quality }
+        Scene {
+            fractal,
+            camera,
+            lights,
+            surface,
+            indirect,
+            integrator,
+            background,
+            tone,
+            bloom,
+            quality,
+        }
     })
 }

@@ -84,6 +84,11 @@ fn every_parameter_is_held_to_its_range() {
                     assert_eq!(invalid.path, path);
                     assert!(invalid.message.ends_with(&param.range_text()), "{invalid}");
                 }
+                // A whole number below 0 is of no kind that the field can hold.
+                Err(DocumentError::Field { path: found, message, .. }) if outside < 0.0 => {
+                    assert_eq!(found, path);
+                    assert!(message.ends_with(&param.range_text()), "{message}");
+                }
                 other => panic!("{path} = {outside} gave {other:?}"),
             }
         }
@@ -168,7 +173,7 @@ fn errors_name_the_field_and_say_what_is_wrong() {
         ),
         (
             json!({ "quality": { "samples": 2.5 } }),
-            "quality.samples: invalid type: floating point `2.5`, expected u32; it takes 1 to 1024, whole numbers",
+            "quality.samples: invalid type: floating point `2.5`, expected u32; it takes 1 to 65536, whole numbers",
         ),
         (
             json!({ "fractal": { "powr": 8 } }),

@@ -92,7 +92,7 @@ fn errors_in_a_path_name_the_key() {
         ),
         (
             json!([{ "time_secs": 0, "scene": { "quality": { "samples": 0.5 } } }]),
-            "path.keys[0].scene.quality.samples: invalid type: floating point `0.5`, expected u32; it takes 1 to 1024",
+            "path.keys[0].scene.quality.samples: invalid type: floating point `0.5`, expected u32; it takes 1 to 65536",
         ),
         (
             json!([{ "time_secs": 0, "scene": { "fog": {} } }]),

@@ -147,7 +147,8 @@ pub fn color_at(scene: &Scene, value: f64) -> DVec3 {
     layer_color(&scene.surface.coloring, &scene.surface.gradient, value)
 }
 
-fn layer_color(coloring: &Coloring, stops: &[GradientStop], value: f64) -> DVec3 {
+/// The colour of a value in a layer.
+pub fn layer_color(coloring: &Coloring, stops: &[GradientStop], value: f64) -> DVec3 {
     gradient(stops, value * coloring.repeats + coloring.offset)
 }
 

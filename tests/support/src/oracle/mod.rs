@@ -15,6 +15,7 @@
 //! | `light` | Blinn-Phong, the gradient of colours, sRGB |
 //! | `tone` | the tone curves |
 //! | `bloom` | light that spreads |
+//! | `paths` | light paths from surface to surface |
 //! | `views` | the views that pictures are compared on |
 
 pub mod bloom;
@@ -25,6 +26,7 @@ pub mod formulas;
 pub mod light;
 pub mod normals;
 pub mod orbits;
+pub mod paths;
 pub mod quaternion;
 pub mod rays;
 pub mod tone;

@@ -28,11 +28,13 @@ pub type Size = [u32; 2];
 
 /// The unit direction through the centre of pixel (x, y), counted from the upper left.
 pub fn direction(camera: &Camera, size: Size, [x, y]: [u32; 2]) -> DVec3 {
+    direction_at(camera, size, [f64::from(x) + 0.5, f64::from(y) + 0.5])
+}
+
+/// The unit direction through a place of a picture, in pixels from the upper left corner.
+pub fn direction_at(camera: &Camera, size: Size, [x, y]: [f64; 2]) -> DVec3 {
     let [width, height] = size.map(f64::from);
-    let ndc = DVec2::new(
-        (f64::from(x) + 0.5) / width * 2.0 - 1.0,
-        1.0 - (f64::from(y) + 0.5) / height * 2.0,
-    );
+    let ndc = DVec2::new(x / width * 2.0 - 1.0, 1.0 - y / height * 2.0);
     let half_height = (camera.vertical_fov_deg.to_radians() / 2.0).tan();
     let seen = DVec3::new(ndc.x * half_height * width / height, ndc.y * half_height, -1.0);
     (camera.rotation() * seen).normalize()

@@ -1,0 +1,90 @@
+// Lights as a path sees them: the scene's single lights, the sun, and the sky, each with a share in the choice.
+// uses: lib/light_sample, lib/luminance, lib/sky, types/frame_uniforms, types/light
+
+// The index of the sky among a path's lights; the sun is the one after the single lights.
+const SKY = 0xffffu;
+// The index if no light reaches the point.
+const NO_LIGHT = 0xfffeu;
+
+// Kinds of samples that gather light; both together are weighted by the balance heuristic
+// (E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2.2).
+const SAMPLES_BOTH = 0u;
+const SAMPLES_LIGHTS = 1u;
+const SAMPLES_SURFACES = 2u;
+
+fn path_light_count() -> u32 {
+    return frame.paths.light_count + 1u;
+}
+
+fn path_light(index: u32) -> Light {
+    if (index < frame.paths.light_count) { return lights[index]; }
+    return frame.paths.sun;
+}
+
+fn cone_of(light: Light, point: vec3f) -> LightCone {
+    return light_cone(LightShape(light.vector, light.kind, light.size, light.seed), point);
+}
+
+// Share of a light in the choice, over that of the others: its irradiance at the point, at the most.
+fn light_importance(light: Light, cone: LightCone, n: vec3f) -> f32 {
+    let sine = sqrt(cone.height * (2.0 - cone.height));
+    return luminance(light.color) * cone.gain * saturate(dot(n, cone.axis) + sine);
+}
+
+// Sum over all lights.
+fn whole_importance(point: vec3f, n: vec3f) -> f32 {
+    var sum = frame.paths.sky_importance;
+    for (var k = 0u; k < path_light_count(); k++) {
+        let light = path_light(k);
+        sum += light_importance(light, cone_of(light, point), n);
+    }
+    return sum;
+}
+
+// The light that a random number `u` selects, 0 to 1.
+fn chosen_light(point: vec3f, n: vec3f, whole: f32, u: f32) -> u32 {
+    if (whole <= 0.0) { return NO_LIGHT; }
+    var left = u * whole - frame.paths.sky_importance;
+    if (left < 0.0) { return SKY; }
+    var chosen = NO_LIGHT;
+    for (var k = 0u; k < path_light_count(); k++) {
+        let light = path_light(k);
+        let importance = light_importance(light, cone_of(light, point), n);
+        if (importance <= 0.0) { continue; }
+        chosen = k;
+        left -= importance;
+        if (left < 0.0) { break; }
+    }
+    return chosen;
+}
+
+// Density over solid angle of a light's sampled directions; 0 for lights without a size.
+fn cone_density(cone: LightCone) -> f32 {
+    return select(0.0, 1.0 / (6.2831853 * cone.height), cone.height > 0.0);
+}
+
+// Radiance of a light with a size: its color times pi is the irradiance of a surface that faces the light.
+fn cone_radiance(light: Light, cone: LightCone) -> vec3f {
+    return light.color * (0.5 * cone.gain * cone_gain(cone) / cone.height);
+}
+
+// Greatest distance of a surface that blocks a light at `distance`.
+fn blocked_distance(light: Light, distance: f32) -> f32 {
+    return select(0.0, min(distance, light.shadow_reach), light.casts_shadows != 0u);
+}
+
+// Weight of a sample of density `own` whose direction the other kind of sample has with density `other`.
+fn sample_weight(own: f32, other: f32) -> f32 {
+    return own / max(own + other, 1e-30);
+}
+
+// Light from one direction.
+struct LightAhead {
+    // Radiance, weighted and over the density of its sample.
+    radiance: vec3f,
+    direction: vec3f,
+    // Distance up to which surfaces block the light.
+    distance: f32,
+}
+
+const NO_LIGHT_AHEAD = LightAhead(vec3f(0.0), vec3f(0.0, 0.0, 1.0), 0.0);

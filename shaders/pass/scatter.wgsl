@@ -1,0 +1,192 @@
+// The next vertex of each path: gathers the light that the path's ray has met, selects a light for a shadow ray, and
+// the direction of the path's next ray (J. Kajiya, The Rendering Equation, SIGGRAPH 1986).
+// uses: lib/bsdf, lib/jittered, lib/lattice, lib/material, lib/octahedral, lib/path_cone, lib/path_light
+// uses: types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer, types/paths, types/ray
+
+// Numbers of the random pairs of a vertex; other purposes have other numbers.
+const FIRST_PAIR = 0x100u;
+const PAIRS = 5u;
+const PAIR_LOBE = 0u;
+const PAIR_DIRECTION = 1u;
+const PAIR_LIGHT = 2u;
+const PAIR_PLACE = 3u;
+const PAIR_CELL = 4u;
+
+fn vertex_pair(site: Site, pair: u32) -> vec2f {
+    return random_pair(site, FIRST_PAIR + PAIRS * dispatch.bounce + pair);
+}
+
+// Number of bounces before paths may end at random.
+const BOUNCES_BEFORE_ROULETTE = 2u;
+
+// A ray that is shorter, in hit distances of its start, is in a gap that the surface's detail doesn't resolve.
+const GAP = 4.0;
+
+// The hit distance at the path's vertex. In a gap it doubles from vertex to vertex, until the path has left the gap.
+fn vertex_hit_distance(ray: Ray, depth: f32) -> f32 {
+    let start = ray.radius / frame.march.shadow_margin;
+    return select(ray.radius, 2.0 * start, dispatch.bounce > 0u && depth < GAP * start);
+}
+
+// Where a path scatters.
+struct Vertex {
+    // Lifted off the surface, so that the surface near the point does not shade it.
+    point: vec3f,
+    f: Bsdf,
+    // Sum of the lights' importance.
+    whole: f32,
+}
+
+// Light of one light, chosen at random, times the reflected part.
+fn light_by_lights(site: Site, vertex: Vertex) -> LightAhead {
+    if (frame.paths.samples == SAMPLES_SURFACES) { return NO_LIGHT_AHEAD; }
+    let n = vertex.f.n;
+    let chosen = chosen_light(vertex.point, n, vertex.whole, vertex_pair(site, PAIR_LIGHT).x);
+    if (chosen == NO_LIGHT) { return NO_LIGHT_AHEAD; }
+    let place = vertex_pair(site, PAIR_PLACE);
+    let is_both = frame.paths.samples == SAMPLES_BOTH;
+    if (chosen == SKY) {
+        let seen = sky_sample(vertex_pair(site, PAIR_CELL), place);
+        let density = frame.paths.sky_importance / vertex.whole * seen.density;
+        let other = select(0.0, bsdf_density(vertex.f, seen.direction), is_both);
+        let part = bsdf_value(vertex.f, seen.direction) / max(density + other, 1e-30);
+        return LightAhead(part * sky_radiance(seen.direction), seen.direction, frame.paths.sky_reach);
+    }
+    let light = path_light(chosen);
+    let cone = cone_of(light, vertex.point);
+    let seen = cone_sample(cone, place);
+    let share = light_importance(light, cone, n) / vertex.whole;
+    let density = share * cone_density(cone);
+    var weight = 1.0;
+    if (is_both && density > 0.0) { weight = sample_weight(density, bsdf_density(vertex.f, seen.toward)); }
+    let radiance = light.color * (PI * seen.gain * weight / share);
+    return LightAhead(
+        radiance * bsdf_value(vertex.f, seen.toward), seen.toward, blocked_distance(light, seen.distance));
+}
+
+// Light of the lights that lie in a direction; of several one, chosen at random by its luminance.
+fn light_in_direction(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> LightAhead {
+    if (frame.paths.samples == SAMPLES_LIGHTS) { return NO_LIGHT_AHEAD; }
+    let is_both = frame.paths.samples == SAMPLES_BOTH;
+    var seen = NO_LIGHT_AHEAD;
+    var whole = 0.0;
+    var left = u;
+    if (has_sky()) {
+        // In a black sky no light may reach the vertex at all.
+        let other = frame.paths.sky_importance / max(vertex.whole, 1e-30) * sky_density(direction);
+        seen.radiance = sky_radiance(direction) * sample_weight(density, select(0.0, other, is_both));
+        seen.distance = frame.paths.sky_reach;
+        whole = luminance(seen.radiance);
+    }
+    for (var k = 0u; k < path_light_count(); k++) {
+        let light = path_light(k);
+        if (light.size <= 0.0) { continue; }
+        let cone = cone_of(light, vertex.point);
+        let off = direction - cone.axis;
+        // 1 minus the cosine of the angle to the axis.
+        let drop = 0.5 * dot(off, off);
+        let importance = light_importance(light, cone, vertex.f.n);
+        if (drop >= cone.height || importance <= 0.0) { continue; }
+        let other = importance / vertex.whole * cone_density(cone);
+        let radiance = cone_radiance(light, cone) * sample_weight(density, select(0.0, other, is_both));
+        let luminous = luminance(radiance);
+        whole += luminous;
+        let part = luminous / max(whole, 1e-30);
+        if (left < part) {
+            seen.radiance = radiance;
+            seen.distance = blocked_distance(light, cone_distance(cone, drop));
+            left = left / max(part, 1e-30);
+        } else {
+            left = (left - part) / max(1.0 - part, 1e-30);
+        }
+    }
+    seen.radiance *= whole / max(luminance(seen.radiance), 1e-30);
+    return seen;
+}
+
+// The normal on the side of the viewer: at silhouettes it leans away.
+fn facing(n: vec3f, wo: vec3f) -> vec3f {
+    let cosine = dot(n, wo);
+    if (cosine >= 1e-3) { return n; }
+    return normalize(n + (1e-3 - cosine) * wo);
+}
+
+fn new_path() -> PathState {
+    let none = vec3f(0.0);
+    return PathState(vec3f(1.0), 0.0, none, PATH_SCATTERED, none, 0.0, none, none);
+}
+
+// Moves a path that has met a surface on; returns whether its next ray is needed.
+fn scattered(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2u) -> bool {
+    let wo = -ray.direction;
+    let outward = octahedral_unpack(seen.y);
+    let m = material_at(color_data[site.index], seen.y);
+    (*path).radiance += (*path).throughput * m.emission;
+    let n = facing(outward, wo);
+    let clearance = vertex_hit_distance(ray, bitcast<f32>(seen.x));
+    let point = ray.origin + outward * (2.0 * clearance);
+    let vertex = Vertex(point, bsdf_of(m, n, wo), whole_importance(point, n));
+
+    let by_lights = light_by_lights(site, vertex);
+    (*path).pending = (*path).throughput * by_lights.radiance;
+    (*path).toward = by_lights.direction;
+    (*path).shadow_distance = by_lights.distance;
+
+    let lobe = vertex_pair(site, PAIR_LOBE);
+    let direction = bsdf_sample(vertex.f, lobe.x, vertex_pair(site, PAIR_DIRECTION));
+    // The next ray starts at the lifted point, with the clearance of shadow rays.
+    rays[site.ray] = Ray(point, frame.march.shadow_margin * clearance, direction, path_cone());
+    (*path).ahead = vec3f(0.0);
+    let density = bsdf_density(vertex.f, direction);
+    if (density <= 0.0) { return false; }
+    let part = bsdf_value(vertex.f, direction) / density;
+    var throughput = (*path).throughput * part;
+    let ahead = light_in_direction(vertex, direction, density, vertex_pair(site, PAIR_LIGHT).y);
+    (*path).ahead = throughput * ahead.radiance;
+    (*path).ahead_distance = ahead.distance;
+    if (dispatch.bounce >= frame.paths.bounces) { return any((*path).ahead > vec3f(0.0)); }
+    // Russian roulette: the paths that go on carry the light of those that end.
+    if (dispatch.bounce >= BOUNCES_BEFORE_ROULETTE) {
+        let survival = min(max(throughput.r, max(throughput.g, throughput.b)), 1.0);
+        if (lobe.y >= survival) {
+            (*path).ahead = vec3f(0.0);
+            return false;
+        }
+        throughput /= survival;
+        (*path).ahead /= survival;
+    }
+    (*path).throughput = throughput;
+    return any(throughput > vec3f(0.0));
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) thread: vec3u) {
+    frame = frame_uniforms;
+    let site = path_site(thread.x);
+    if (!site.is_there) { return; }
+    let ray = rays[site.ray];
+    let seen = surface[site.index];
+    let depth = bitcast<f32>(seen.x);
+    let is_first = dispatch.bounce == 0u;
+    var path = new_path();
+    if (is_first && seen.x == SKIPPED) {
+        path.end = PATH_SKIPPED;
+        paths[site.ray] = path;
+        return;
+    }
+    if (!is_first) {
+        path = paths[site.ray];
+        if (depth == 0.0 || depth >= path.ahead_distance) { path.radiance += path.ahead; }
+        path.ahead = vec3f(0.0);
+    }
+    path.pending = vec3f(0.0);
+    let is_within_reach = is_first || (depth < frame.paths.reach && dispatch.bounce <= frame.paths.bounces);
+    if (depth > 0.0 && is_within_reach) {
+        let goes_on = scattered(site, &path, ray, seen);
+        if (any(path.pending > vec3f(0.0))) { enqueue_sample(SHADOW_LIST, dispatch.ray_queue + 1u, site.ray); }
+        if (goes_on) { enqueue_sample(next_list(), dispatch.ray_queue + 2u, site.ray); }
+    } else if (is_first) {
+        path.end = PATH_ESCAPED;
+    }
+    paths[site.ray] = path;
+}

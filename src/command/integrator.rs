@@ -1,0 +1,68 @@
+//! `--integrator`, `--bounces` and `--noise`: how the light of the picture is computed.
+
+use std::sync::Arc;
+
+use mandelight::scene::{IntegratorKind, Project, Scene, param};
+
+/// Another integrator than the scene's own.
+#[derive(Clone, Copy, clap::Args)]
+pub struct IntegratorArguments {
+    /// Compute the light by this integrator instead of the scene's
+    #[arg(long, value_enum, value_name = "NAME")]
+    integrator: Option<Name>,
+    /// Bounces of traced light, instead of the scene's number
+    #[arg(long, value_name = "N", value_parser = parse_bounces)]
+    bounces: Option<u32>,
+    /// End at this relative error of traced pixels; --samples is then the most
+    #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
+    noise: Option<f64>,
+}
+
+/// An integrator's name on the command line.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Name {
+    /// Light straight from the lights
+    Direct,
+    /// Path tracing: light on all ways from surface to surface
+    Path,
+}
+
+impl IntegratorArguments {
+    /// Sets the integrator that is asked for.
+    pub fn apply(self, scene: &mut Scene) {
+        if let Some(name) = self.integrator {
+            scene.integrator.kind = match name {
+                Name::Direct => IntegratorKind::Direct,
+                Name::Path => IntegratorKind::Path,
+            };
+        }
+        if let Some(bounces) = self.bounces {
+            scene.integrator.bounces = bounces;
+        }
+        if let Some(noise) = self.noise {
+            scene.integrator.noise = noise;
+        }
+    }
+
+    /// Sets the integrator of a scene and of every key of its path.
+    pub fn apply_to_all(self, project: &mut Project) {
+        self.apply(&mut project.scene);
+        for key in &mut project.path.keys {
+            self.apply(Arc::make_mut(&mut key.scene));
+        }
+    }
+}
+
+fn parse_noise(text: &str) -> Result<f64, String> {
+    let noise: Option<f64> = text.parse().ok();
+    noise
+        .filter(|noise| param::NOISE.accepts(*noise))
+        .ok_or_else(|| format!("write {}", param::NOISE.range_text()))
+}
+
+fn parse_bounces(text: &str) -> Result<u32, String> {
+    let bounces: Option<u32> = text.parse().ok();
+    bounces
+        .filter(|bounces| param::BOUNCES.accepts((*bounces).into()))
+        .ok_or_else(|| format!("write {}", param::BOUNCES.range_text()))
+}

@@ -1,0 +1,29 @@
+//! The uniforms of the surface's material.
+
+use super::Surface;
+use crate::scene::{Scene, SurfaceModel, follow};
+
+/// The material of a scene's surface, and the number of its lights.
+pub fn surface(scene: &Scene) -> Surface {
+    let surface = &scene.surface;
+    let driven = surface.driven_by_layer;
+    let drives = [driven.roughness, driven.metalness, driven.coat, driven.emission];
+    Surface {
+        ambient: surface.ambient as f32,
+        diffuse: surface.diffuse as f32,
+        specular: surface.specular as f32,
+        shininess: surface.shininess as f32,
+        light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
+        model: match surface.model {
+            SurfaceModel::BlinnPhong => 0,
+            SurfaceModel::Physical => 1,
+        },
+        roughness: surface.roughness as f32,
+        metalness: surface.metalness as f32,
+        specular_color: surface.specular_color,
+        coat: surface.coat as f32,
+        coat_roughness: surface.coat_roughness as f32,
+        emission: surface.emission as f32,
+        driven: (0..).zip(drives).fold(0, |bits, (bit, drives)| bits | u32::from(drives) << bit),
+    }
+}
