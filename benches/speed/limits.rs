@@ -23,7 +23,7 @@ pub enum Measure {
     TextGradient,
     /// The compilation of a formula's passes divided by that of the Mandelbulb's.
     Compilation,
-    /// The largest number of estimates of a path's bounce divided by that of the bounce before.
+    /// The largest number of estimates of a path's later bounce divided by that of the first.
     Bounce,
     /// Percentage of pixels whose rays pass the surface.
     Overstepped,

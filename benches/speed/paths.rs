@@ -61,7 +61,7 @@ pub struct Row {
     pub ratio: Option<f64>,
     /// What each bounce adds to a path, for some numbers of bounces in turn.
     pub bounces: Vec<Bounce>,
-    /// The largest number of estimates of a bounce, over that of the bounce before.
+    /// The largest number of estimates of a later bounce, over that of the first.
     pub growth: f64,
     /// Whether both sides' mean radiance agrees.
     pub agrees: bool,
@@ -212,7 +212,7 @@ fn measure_view(
     let cost = |side: &Side| side.path_us * side.variance;
     let estimates: Vec<_> = counts.iter().map(|counts| counts.estimates).collect();
     let bounces = per_bounce(&medians, &estimates);
-    let growths = bounces.windows(2).map(|pair| pair[1].estimates / pair[0].estimates);
+    let growths = bounces.iter().skip(1).map(|later| later.estimates / bounces[0].estimates);
     Ok(Row {
         name,
         ratio: literal.map(|literal| cost(&literal) / cost(&ours)),
