@@ -1,4 +1,4 @@
-//! The opening scenes, the dives, a scene for each formula, and mixes of formulas.
+//! The opening scenes, the dives, a scene for each formula, mixes of formulas, and scenes in path-traced light.
 //!
 //! In: nothing. Out: scenes to start from, each valid, the eye outside of the set and
 //! the pivot on or near what it shows; and places at depth.
@@ -8,6 +8,7 @@ mod formulas;
 mod mixes;
 mod parts;
 mod preset;
+mod traced;
 
 use glam::DVec3;
 
@@ -26,6 +27,7 @@ pub use formulas::formulas;
 pub use mixes::mixes;
 use parts::{camera, headlight, key_and_rim, light, new_scene, of_formula, stops};
 pub use preset::Preset;
+pub use traced::traced;
 
 /// The scene that the program opens on: the first of [`opening_scenes`].
 pub fn opening() -> Scene {
@@ -90,13 +92,14 @@ pub struct PresetList {
 }
 
 /// All lists, in order.
-pub fn lists() -> [PresetList; 4] {
+pub fn lists() -> [PresetList; 5] {
     let list = |name, about, presets| PresetList { name, about, presets };
     [
         list("Scenes", "Whole fractals and near views", opening_scenes()),
         list("Dives", "Views at very deep zooms", dives()),
         list("Formulas", "One view of each formula", formulas()),
         list("Mixes", "Hybrids of formulas, cuts, two layers of colours", mixes()),
+        list("Light", "Scenes in path-traced light", traced()),
     ]
 }
 

@@ -28,6 +28,9 @@ const SIZE_PX: [u32; 2] = [192, 120];
 /// Samples per pixel: noise costs bytes.
 const SAMPLES: u32 = 32;
 
+/// In the document of a scene in path-traced light.
+const TRACED: &str = "\"kind\": \"path\"";
+
 /// Quality of the JPEG files, 1 to 100; `tests/gpu/thumbnails.rs` limits the bytes of all.
 const QUALITY: u8 = 52;
 
@@ -47,13 +50,18 @@ pub fn thumbnails(names: &[String]) -> Result<()> {
     fs::create_dir_all(&parts)?;
     let mut bytes = 0;
     for preset in &presets {
-        let text = shell::output(Command::new(&renderer).args(["scene", "--preset", preset]))
-            .with_context(|| format!("no scene of the preset {preset}"))?;
+        let text_of_scene =
+            shell::output(Command::new(&renderer).args(["scene", "--preset", preset]))
+                .with_context(|| format!("no scene of the preset {preset}"))?;
         let (scene, picture) = (parts.join("scene.json"), parts.join("picture.png"));
-        fs::write(&scene, text)?;
+        fs::write(&scene, &text_of_scene)?;
         let mut render = Command::new(&renderer);
         render.args(["render", "--quiet", "--size", &format!("{}x{}", SIZE_PX[0], SIZE_PX[1])]);
-        render.args(["--samples", &SAMPLES.to_string()]).arg("--output").arg(&picture).arg(&scene);
+        // Few light paths are noisy: their scenes have more samples of their own.
+        if !text_of_scene.contains(TRACED) {
+            render.args(["--samples", &SAMPLES.to_string()]);
+        }
+        render.arg("--output").arg(&picture).arg(&scene);
         shell::run(&mut render)?;
         let file = folder.join(format!("{preset}.jpg"));
         bytes += write(&Image::read_png(&picture)?, &file)?;

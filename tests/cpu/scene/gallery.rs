@@ -8,12 +8,12 @@ const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/gallery.md");
 
 const HEAD: &str = "# Gallery of formulas
 
-A scene for each formula that comes with the program, then hybrids, cuts and scenes with two layers of colours. The panel lists
-them under *Formulas* and *Mixes*. On the command line,
+A scene for each formula that comes with the program, then hybrids, cuts and scenes with two layers of colours, then scenes in
+[path-traced light](scene.md#path-tracing). The panel lists them under *Formulas*, *Mixes* and *Light*. On the command line,
 
     mandelight scene --preset kleinian | mandelight render - -o kleinian.png
 
-draws one of them; the pictures here are `--size 192x120 --samples 32`. The links are relative to the published page, as those of
+draws one of them; the pictures here are `--size 192x120 --samples 32`, those of traced light with the scenes' own samples. The links are relative to the published page, as those of
 [dives](dives.md) are. Written by `MANDELIGHT_BLESS=1 cargo test --test cpu gallery`.
 
 | picture | scene | formula | link |
@@ -35,7 +35,8 @@ fn formula_of(scene: &Scene) -> String {
 #[test]
 fn the_gallery_shows_every_scene_of_a_formula_or_a_mix() {
     let mut text = HEAD.to_owned();
-    let all: Vec<_> = presets::formulas().iter().chain(presets::mixes()).collect();
+    let all: Vec<_> =
+        presets::formulas().iter().chain(presets::mixes()).chain(presets::traced()).collect();
     assert!(all.len() >= 24, "{} scenes", all.len());
     for preset in all {
         let scene = (preset.scene)();

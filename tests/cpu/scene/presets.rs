@@ -160,6 +160,29 @@ fn each_formula_has_a_scene_that_shows_it() {
 }
 
 #[test]
+fn traced_scenes_trace_paths_of_the_fractals_that_they_are_named_after() {
+    let traced = presets::traced();
+    assert!(traced.len() >= 4);
+    for preset in traced {
+        let scene = (preset.scene)();
+        scene.validate().unwrap_or_else(|error| panic!("{}: {error}", preset.name));
+        assert!(scene.traces_paths() && scene.quality.samples >= 256, "{}", preset.name);
+        assert!(!scene.lights.rig.is_empty() || scene.surface.emission > 0.0, "{}", preset.name);
+        let fragment = link::to_fragment(&scene).unwrap();
+        assert_eq!(link::from_fragment(&fragment), Ok(scene));
+    }
+    let formula = |name: &str| {
+        let preset = presets::all().find(|preset| preset.name == name).expect("a preset");
+        (preset.scene)().fractal
+    };
+    for [traced, source] in
+        [["Filigree", "Apollonian"], ["Lamp", "Menger sponge"], ["Deep dahlia", "Dahlia"]]
+    {
+        assert_eq!(formula(traced), formula(source), "{traced}");
+    }
+}
+
+#[test]
 fn mixes_are_what_their_names_say() {
     let mixes: Vec<_> = presets::mixes().iter().map(|preset| (preset.scene)()).collect();
     let counts = [
