@@ -134,10 +134,10 @@ struct Bsdf {
 // Albedo scaling puts lobes in layers: each lobe gets what the lobes above it leave of light from all sides.
 fn physical_bsdf(m: Material, n: vec3f, wo: vec3f) -> Bsdf {
     let cosine = view_cosine(n, wo);
-    let coat = lobe_of(COAT_REFLECTANCE, m.coat_gloss, cosine);
+    let coat = lobe_of(COAT_REFLECTANCE, m.coat_alpha, cosine);
     // A part is metal: its lobe is mixed so that neither part loses light.
-    let metal = lobe_of(m.color, m.gloss, cosine);
-    let other = lobe_of(frame.surface.specular_color, m.gloss, cosine);
+    let metal = lobe_of(m.color, m.alpha, cosine);
+    let other = lobe_of(frame.surface.specular_color, m.alpha, cosine);
     let specular = mixed(other, metal, m.metalness, cosine);
     let under_coat = 1.0 - m.coat * coat.albedo.x;
     let diffuse = under_coat * (1.0 - other.albedo) * m.diffuse;
@@ -151,11 +151,11 @@ fn physical_bsdf(m: Material, n: vec3f, wo: vec3f) -> Bsdf {
 fn blinn_phong_bsdf(m: Material, n: vec3f, wo: vec3f) -> Bsdf {
     let none = Lobe(1.0, vec3f(0.0), vec3f(0.0), vec3f(0.0));
     // The highlight's albedo at normal incidence.
-    let highlight = m.specular * 8.0 / (m.gloss + 2.0);
+    let highlight = m.specular * 8.0 / (m.alpha + 2.0);
     let diffuse = luminance(m.diffuse);
     let share = highlight / max(highlight + diffuse, 1e-20);
     let specular = Lobe(1.0, vec3f(m.specular), vec3f(0.0), vec3f(0.0));
-    return Bsdf(n, wo, m.diffuse / PI, 0.0, 0.0, none, specular, m.gloss, 0.0, share);
+    return Bsdf(n, wo, m.diffuse / PI, 0.0, 0.0, none, specular, m.alpha, 0.0, share);
 }
 
 fn bsdf_of(m: Material, n: vec3f, wo: vec3f) -> Bsdf {

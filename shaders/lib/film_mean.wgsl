@@ -1,5 +1,4 @@
-// The radiance of a pixel, as displays show it: the mean of its samples. While a picture of light paths begins, the direct
-// picture before it gives way with each sample, since few paths are noisy.
+// Mean radiance of a pixel. Path tracing fades in over the direct picture, since few paths are noisy.
 // uses: lib/shared_exponent, types/direct, types/film, types/frame_uniforms
 
 // The mean of a pixel's samples.

@@ -24,7 +24,7 @@ struct LightCone {
     height: f32,
     // Radius of a point light; 0 for environment lights.
     radius: f32,
-    // Irradiance of a surface that faces a light that is all at the centre, over the light's radiance or strength.
+    // Factor from `Light.color` to the irradiance over pi of a surface that faces the centre, if all light came from there.
     gain: f32,
 }
 

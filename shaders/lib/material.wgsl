@@ -12,8 +12,8 @@ fn is_blinn_phong() -> bool {
 struct Material {
     // The surface's colour.
     color: vec3f,
-    // Physical: the surface's squared roughness. Blinn-Phong: the exponent.
-    gloss: f32,
+    // Physical: GGX width, roughness squared. Blinn-Phong: the exponent.
+    alpha: f32,
     // Part of the light that the diffuse lobe reflects; for physical surfaces before the lobes above take theirs.
     diffuse: vec3f,
     // Part of the surface under a clear coat.
@@ -22,17 +22,17 @@ struct Material {
     metalness: f32,
     // Strength of Blinn-Phong's highlight.
     specular: f32,
-    // The coat's squared roughness.
-    coat_gloss: f32,
+    // GGX width of the coat.
+    coat_alpha: f32,
     // Emitted radiance.
     emission: vec3f,
 }
 
 // Least squared roughness: smoother surfaces are mirrors to an f32.
-const LEAST_ALPHA = 1e-3;
+const MIN_ALPHA = 1e-3;
 
 fn alpha_of(roughness: f32) -> f32 {
-    return max(roughness * roughness, LEAST_ALPHA);
+    return max(roughness * roughness, MIN_ALPHA);
 }
 
 // A value of the surface, times the second layer's brightness if the layer drives the value.
@@ -49,7 +49,9 @@ fn material_at(stored: vec2f, normal: u32) -> Material {
         drive = layer_color(frame.second_layer, 1u, stored.y, normal);
     }
     let brightness = luminance(drive);
-    let emission_color = select(color, drive, (s.driven & DRIVES_EMISSION) != 0u);
+    // Cuts have no second layer.
+    let is_driven = (s.driven & DRIVES_EMISSION) != 0u && stored.y != ON_SECTION;
+    let emission_color = select(color, drive, is_driven);
     let emission = s.emission * emission_color;
     if (is_blinn_phong()) {
         return Material(color, s.shininess, s.diffuse * color, 0.0, 0.0, s.specular, 0.0, emission);

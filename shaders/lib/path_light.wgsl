@@ -6,11 +6,11 @@ const SKY = 0xffffu;
 // The index if no light reaches the point.
 const NO_LIGHT = 0xfffeu;
 
-// Kinds of samples that gather light; both together are weighted by the balance heuristic
+// Strategies that gather light; both together are multiple importance sampling by the balance heuristic
 // (E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2.2).
-const SAMPLES_BOTH = 0u;
-const SAMPLES_LIGHTS = 1u;
-const SAMPLES_SURFACES = 2u;
+const STRATEGY_MIS = 0u;
+const STRATEGY_LIGHTS = 1u;
+const STRATEGY_BSDF = 2u;
 
 fn path_light_count() -> u32 {
     return frame.paths.light_count + 1u;
@@ -25,14 +25,14 @@ fn cone_of(light: Light, point: vec3f) -> LightCone {
     return light_cone(LightShape(light.vector, light.kind, light.size, light.seed), point);
 }
 
-// Share of a light in the choice, over that of the others: its irradiance at the point, at the most.
+// Unnormalised selection probability of a light: an estimate of its irradiance over pi.
 fn light_importance(light: Light, cone: LightCone, n: vec3f) -> f32 {
     let sine = sqrt(cone.height * (2.0 - cone.height));
     return luminance(light.color) * cone.gain * saturate(dot(n, cone.axis) + sine);
 }
 
 // Sum over all lights.
-fn whole_importance(point: vec3f, n: vec3f) -> f32 {
+fn total_importance(point: vec3f, n: vec3f) -> f32 {
     var sum = frame.paths.sky_importance;
     for (var k = 0u; k < path_light_count(); k++) {
         let light = path_light(k);
@@ -63,7 +63,7 @@ fn cone_density(cone: LightCone) -> f32 {
     return select(0.0, 1.0 / (6.2831853 * cone.height), cone.height > 0.0);
 }
 
-// Radiance of a light with a size: its color times pi is the irradiance of a surface that faces the light.
+// Radiance of a light with a size: pi times its `color` is the irradiance of a surface that faces the light.
 fn cone_radiance(light: Light, cone: LightCone) -> vec3f {
     return light.color * (0.5 * cone.gain * cone_gain(cone) / cone.height);
 }
@@ -74,17 +74,17 @@ fn blocked_distance(light: Light, distance: f32) -> f32 {
 }
 
 // Weight of a sample of density `own` whose direction the other kind of sample has with density `other`.
-fn sample_weight(own: f32, other: f32) -> f32 {
+fn balance_weight(own: f32, other: f32) -> f32 {
     return own / max(own + other, 1e-30);
 }
 
 // Light from one direction.
-struct LightAhead {
-    // Radiance, weighted and over the density of its sample.
+struct WeightedLight {
+    // MIS-weighted radiance over the sample's density; times the BSDF if a light was sampled.
     radiance: vec3f,
     direction: vec3f,
     // Distance up to which surfaces block the light.
     distance: f32,
 }
 
-const NO_LIGHT_AHEAD = LightAhead(vec3f(0.0), vec3f(0.0, 0.0, 1.0), 0.0);
+const NO_WEIGHTED_LIGHT = WeightedLight(vec3f(0.0), vec3f(0.0, 0.0, 1.0), 0.0);

@@ -1,12 +1,12 @@
 // Decides which pixels get no more samples: those that have as little noise as asked for, with all their neighbours.
-// A pixel's error is the standard error of its mean, estimated from the means of its batches.
+// A pixel's error is the standard error of its mean, estimated from the means of its rounds.
 // uses: lib/film_mean, lib/lattice, lib/luminance, types/dispatch_params, types/film, types/frame_uniforms
 // uses: types/traced_paths
 
-// Samples of a batch.
-const BATCH = 8.0;
-// Batches from which an error can be estimated.
-const LEAST_BATCHES = 4.0;
+// Samples of a round.
+const SAMPLES_PER_ROUND = 8.0;
+// Rounds from which an error can be estimated.
+const MIN_ROUNDS = 4.0;
 // Added to a pixel's value, over the display's white: errors of dark pixels are seen less.
 const DARK = 0.1;
 
@@ -14,10 +14,10 @@ const DARK = 0.1;
 fn relative_error(pixel: vec2u) -> f32 {
     let index = pixel_index(pixel);
     let count = film_bw[index].y;
-    let batches = count / BATCH;
-    if (batches < LEAST_BATCHES) { return 1e30; }
+    let rounds = count / SAMPLES_PER_ROUND;
+    if (rounds < MIN_ROUNDS) { return 1e30; }
     let mean = luminance(sample_mean(index));
-    let variance = max(abs(moments[index]) / count - mean * mean, 0.0) / (batches - 1.0);
+    let variance = max(abs(moments[index]) / count - mean * mean, 0.0) / (rounds - 1.0);
     let exposure = frame.tone.exposure;
     return exposure * sqrt(variance) / (exposure * mean + DARK);
 }

@@ -1,7 +1,7 @@
 // Computes how far all rays of a block go before any of them may hit. Queues the blocks with rays that
 // may hit; the samples of the other blocks miss. Skips pixels that get no more samples.
 // uses: lib/camera, lib/cone, lib/eye, lib/lattice, lib/lens, lib/sphere, types/dispatch_params
-// uses: types/enqueue, types/frame_uniforms, types/gbuffer, types/resting_pixels
+// uses: types/enqueue, types/frame_uniforms, types/gbuffer, types/converged_pixels
 
 // The depth that all rays of a block may go to; negative if all of them miss.
 fn clear_block(fractal: Fractal, block: Block) -> f32 {
@@ -25,8 +25,10 @@ fn clear_block(fractal: Fractal, block: Block) -> f32 {
 }
 
 // Whether a block's samples are of one pixel, which gets no more.
-fn is_resting(block: Block) -> bool {
-    if (frame.paths.noise <= 0.0 || dispatch.compact == 0u || dispatch.samples_shift != 3u) { return false; }
+fn is_converged(block: Block) -> bool {
+    // The first round replaces the film: until then moments are those of an older picture.
+    if (frame.paths.noise <= 0.0 || dispatch.accumulate == 0u) { return false; }
+    if (dispatch.compact == 0u || dispatch.samples_shift != 3u) { return false; }
     let pixel = pixel_at(block.corner);
     return inside_region(pixel) && moments[pixel_index(pixel)] < 0.0;
 }
@@ -36,7 +38,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     if (thread.x >= dispatch.blocks) { return; }
     let block = block_at(thread.x);
-    if (is_resting(block)) {
+    if (is_converged(block)) {
         for (var i = 0u; i < BLOCK_THREADS; i++) { surface[block_site(block, i).index].x = SKIPPED; }
         return;
     }

@@ -19,7 +19,7 @@ fn vertex_pair(site: Site, pair: u32) -> vec2f {
 // Number of bounces before paths may end at random.
 const BOUNCES_BEFORE_ROULETTE = 2u;
 
-// A ray that is shorter, in hit distances of its start, is in a gap that the surface's detail doesn't resolve.
+// A ray shorter than this many hit distances lies in a gap below the resolved detail.
 const GAP = 4.0;
 
 // The hit distance at the path's vertex. In a gap it doubles from vertex to vertex, until the path has left the gap.
@@ -34,47 +34,47 @@ struct Vertex {
     point: vec3f,
     f: Bsdf,
     // Sum of the lights' importance.
-    whole: f32,
+    total_importance: f32,
 }
 
-// Light of one light, chosen at random, times the reflected part.
-fn light_by_lights(site: Site, vertex: Vertex) -> LightAhead {
-    if (frame.paths.samples == SAMPLES_SURFACES) { return NO_LIGHT_AHEAD; }
+// Next-event estimation: one light, chosen at random, times BSDF and MIS weight.
+fn sample_light(site: Site, vertex: Vertex) -> WeightedLight {
+    if (frame.paths.strategy == STRATEGY_BSDF) { return NO_WEIGHTED_LIGHT; }
     let n = vertex.f.n;
-    let chosen = chosen_light(vertex.point, n, vertex.whole, vertex_pair(site, PAIR_LIGHT).x);
-    if (chosen == NO_LIGHT) { return NO_LIGHT_AHEAD; }
+    let chosen = chosen_light(vertex.point, n, vertex.total_importance, vertex_pair(site, PAIR_LIGHT).x);
+    if (chosen == NO_LIGHT) { return NO_WEIGHTED_LIGHT; }
     let place = vertex_pair(site, PAIR_PLACE);
-    let is_both = frame.paths.samples == SAMPLES_BOTH;
+    let is_both = frame.paths.strategy == STRATEGY_MIS;
     if (chosen == SKY) {
         let seen = sky_sample(vertex_pair(site, PAIR_CELL), place);
-        let density = frame.paths.sky_importance / vertex.whole * seen.density;
+        let density = frame.paths.sky_importance / vertex.total_importance * seen.density;
         let other = select(0.0, bsdf_density(vertex.f, seen.direction), is_both);
         let part = bsdf_value(vertex.f, seen.direction) / max(density + other, 1e-30);
-        return LightAhead(part * sky_radiance(seen.direction), seen.direction, frame.paths.sky_reach);
+        return WeightedLight(part * sky_radiance(seen.direction), seen.direction, frame.paths.sky_reach);
     }
     let light = path_light(chosen);
     let cone = cone_of(light, vertex.point);
     let seen = cone_sample(cone, place);
-    let share = light_importance(light, cone, n) / vertex.whole;
+    let share = light_importance(light, cone, n) / vertex.total_importance;
     let density = share * cone_density(cone);
     var weight = 1.0;
-    if (is_both && density > 0.0) { weight = sample_weight(density, bsdf_density(vertex.f, seen.toward)); }
-    let radiance = light.color * (PI * seen.gain * weight / share);
-    return LightAhead(
-        radiance * bsdf_value(vertex.f, seen.toward), seen.toward, blocked_distance(light, seen.distance));
+    if (is_both && density > 0.0) { weight = balance_weight(density, bsdf_density(vertex.f, seen.toward)); }
+    let irradiance = light.color * (PI * seen.gain * weight / share);
+    return WeightedLight(
+        irradiance * bsdf_value(vertex.f, seen.toward), seen.toward, blocked_distance(light, seen.distance));
 }
 
-// Light of the lights that lie in a direction; of several one, chosen at random by its luminance.
-fn light_in_direction(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> LightAhead {
-    if (frame.paths.samples == SAMPLES_LIGHTS) { return NO_LIGHT_AHEAD; }
-    let is_both = frame.paths.samples == SAMPLES_BOTH;
-    var seen = NO_LIGHT_AHEAD;
+// MIS-weighted light that a BSDF-sampled ray may meet; of several lights one, at random by luminance.
+fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> WeightedLight {
+    if (frame.paths.strategy == STRATEGY_LIGHTS) { return NO_WEIGHTED_LIGHT; }
+    let is_both = frame.paths.strategy == STRATEGY_MIS;
+    var seen = NO_WEIGHTED_LIGHT;
     var whole = 0.0;
     var left = u;
     if (has_sky()) {
         // In a black sky no light may reach the vertex at all.
-        let other = frame.paths.sky_importance / max(vertex.whole, 1e-30) * sky_density(direction);
-        seen.radiance = sky_radiance(direction) * sample_weight(density, select(0.0, other, is_both));
+        let other = frame.paths.sky_importance / max(vertex.total_importance, 1e-30) * sky_density(direction);
+        seen.radiance = sky_radiance(direction) * balance_weight(density, select(0.0, other, is_both));
         seen.distance = frame.paths.sky_reach;
         whole = luminance(seen.radiance);
     }
@@ -87,8 +87,8 @@ fn light_in_direction(vertex: Vertex, direction: vec3f, density: f32, u: f32) ->
         let drop = 0.5 * dot(off, off);
         let importance = light_importance(light, cone, vertex.f.n);
         if (drop >= cone.height || importance <= 0.0) { continue; }
-        let other = importance / vertex.whole * cone_density(cone);
-        let radiance = cone_radiance(light, cone) * sample_weight(density, select(0.0, other, is_both));
+        let other = importance / vertex.total_importance * cone_density(cone);
+        let radiance = cone_radiance(light, cone) * balance_weight(density, select(0.0, other, is_both));
         let luminous = luminance(radiance);
         whole += luminous;
         let part = luminous / max(whole, 1e-30);
@@ -104,7 +104,7 @@ fn light_in_direction(vertex: Vertex, direction: vec3f, density: f32, u: f32) ->
     return seen;
 }
 
-// The normal on the side of the viewer: at silhouettes it leans away.
+// The normal, bent toward the viewer where it faces away.
 fn facing(n: vec3f, wo: vec3f) -> vec3f {
     let cosine = dot(n, wo);
     if (cosine >= 1e-3) { return n; }
@@ -116,8 +116,8 @@ fn new_path() -> PathState {
     return PathState(vec3f(1.0), 0.0, none, PATH_SCATTERED, none, 0.0, none, none);
 }
 
-// Moves a path that has met a surface on; returns whether its next ray is needed.
-fn scattered(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2u) -> bool {
+// Extends a path at a surface; true if the path's next ray is needed.
+fn scatter_path(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2u) -> bool {
     let wo = -ray.direction;
     let outward = octahedral_unpack(seen.y);
     let m = material_at(color_data[site.index], seen.y);
@@ -125,35 +125,35 @@ fn scattered(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2u) 
     let n = facing(outward, wo);
     let clearance = vertex_hit_distance(ray, bitcast<f32>(seen.x));
     let point = ray.origin + outward * (2.0 * clearance);
-    let vertex = Vertex(point, bsdf_of(m, n, wo), whole_importance(point, n));
+    let vertex = Vertex(point, bsdf_of(m, n, wo), total_importance(point, n));
 
-    let by_lights = light_by_lights(site, vertex);
-    (*path).pending = (*path).throughput * by_lights.radiance;
-    (*path).toward = by_lights.direction;
-    (*path).shadow_distance = by_lights.distance;
+    let sampled = sample_light(site, vertex);
+    (*path).nee_radiance = (*path).throughput * sampled.radiance;
+    (*path).nee_direction = sampled.direction;
+    (*path).nee_distance = sampled.distance;
 
     let lobe = vertex_pair(site, PAIR_LOBE);
     let direction = bsdf_sample(vertex.f, lobe.x, vertex_pair(site, PAIR_DIRECTION));
     // The next ray starts at the lifted point, with the clearance of shadow rays.
     rays[site.ray] = Ray(point, frame.march.shadow_margin * clearance, direction, path_cone());
-    (*path).ahead = vec3f(0.0);
+    (*path).ray_light = vec3f(0.0);
     let density = bsdf_density(vertex.f, direction);
     if (density <= 0.0) { return false; }
     let part = bsdf_value(vertex.f, direction) / density;
     var throughput = (*path).throughput * part;
-    let ahead = light_in_direction(vertex, direction, density, vertex_pair(site, PAIR_LIGHT).y);
-    (*path).ahead = throughput * ahead.radiance;
-    (*path).ahead_distance = ahead.distance;
-    if (dispatch.bounce >= frame.paths.bounces) { return any((*path).ahead > vec3f(0.0)); }
+    let ahead = light_along_ray(vertex, direction, density, vertex_pair(site, PAIR_LIGHT).y);
+    (*path).ray_light = throughput * ahead.radiance;
+    (*path).ray_light_distance = ahead.distance;
+    if (dispatch.bounce >= frame.paths.bounces) { return any((*path).ray_light > vec3f(0.0)); }
     // Russian roulette: the paths that go on carry the light of those that end.
     if (dispatch.bounce >= BOUNCES_BEFORE_ROULETTE) {
         let survival = min(max(throughput.r, max(throughput.g, throughput.b)), 1.0);
         if (lobe.y >= survival) {
-            (*path).ahead = vec3f(0.0);
+            (*path).ray_light = vec3f(0.0);
             return false;
         }
         throughput /= survival;
-        (*path).ahead /= survival;
+        (*path).ray_light /= survival;
     }
     (*path).throughput = throughput;
     return any(throughput > vec3f(0.0));
@@ -176,14 +176,14 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     }
     if (!is_first) {
         path = paths[site.ray];
-        if (depth == 0.0 || depth >= path.ahead_distance) { path.radiance += path.ahead; }
-        path.ahead = vec3f(0.0);
+        if (depth == 0.0 || depth >= path.ray_light_distance) { path.radiance += path.ray_light; }
+        path.ray_light = vec3f(0.0);
     }
-    path.pending = vec3f(0.0);
+    path.nee_radiance = vec3f(0.0);
     let is_within_reach = is_first || (depth < frame.paths.reach && dispatch.bounce <= frame.paths.bounces);
     if (depth > 0.0 && is_within_reach) {
-        let goes_on = scattered(site, &path, ray, seen);
-        if (any(path.pending > vec3f(0.0))) { enqueue_sample(SHADOW_LIST, dispatch.ray_queue + 1u, site.ray); }
+        let goes_on = scatter_path(site, &path, ray, seen);
+        if (any(path.nee_radiance > vec3f(0.0))) { enqueue_sample(SHADOW_LIST, dispatch.ray_queue + 1u, site.ray); }
         if (goes_on) { enqueue_sample(next_list(), dispatch.ray_queue + 2u, site.ray); }
     } else if (is_first) {
         path.end = PATH_ESCAPED;

@@ -61,7 +61,7 @@ fn light_reaches(fractal: Fractal, seen: Receiver, clear: f32) -> bool {
 fn path_receiver(site: Site) -> Receiver {
     let path = paths[site.ray];
     let ray = rays[site.ray];
-    let light = LightSample(path.toward, path.shadow_distance, 1.0);
+    let light = LightSample(path.nee_direction, path.nee_distance, 1.0);
     return Receiver(ray.origin, ray.radius / frame.march.shadow_margin, true, light);
 }
 
@@ -79,7 +79,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (!is_path && has_parallel_rays()) { clear = queued.clear - dot(seen.point, dispatch.light_vector); }
     if (!light_reaches(frame.formula.fractal, seen, clear)) { return; }
     if (is_path) {
-        paths[site.ray].radiance += paths[site.ray].pending;
+        paths[site.ray].radiance += paths[site.ray].nee_radiance;
     } else {
         visibility[site.index][light_word()] |= light_mask();
     }

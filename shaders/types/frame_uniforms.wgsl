@@ -179,12 +179,12 @@ struct Bloom {
 
 // Path tracing.
 struct PathTracing {
-    // Most times that a path is scattered after the first time.
+    // Most segments of a path between surfaces.
     bounces: u32,
     // Number of single lights: the first ones of the scene's lights.
     light_count: u32,
-    // Which samples gather light: a `SAMPLES_` constant.
-    samples: u32,
+    // Which strategy gathers light: a `STRATEGY_` constant.
+    strategy: u32,
     // Longest ray between two vertices, in render space.
     reach: f32,
     // The sun; black if there is none.
@@ -197,13 +197,13 @@ struct PathTracing {
     // Greatest distance of a surface that blocks the sky, in render space.
     sky_reach: f32,
     sky_z: vec3f,
-    // Share of the sky in the choice of a light: luminance of its irradiance from one half of it, over pi.
+    // Unnormalised selection probability of the sky: half its integrated luminance, over pi.
     sky_importance: f32,
     // Longest ray: also those toward lights that are blocked from farther away than the reach.
     ray_reach: f32,
-    // Number of samples of a pixel at which the direct picture has given way; 0: at once.
+    // Samples per pixel over which path tracing fades in; 0: no fade.
     preview_samples: f32,
-    // Relative error at which pixels get no more samples; 0: never.
+    // Noise target: error at which pixels get no more samples; 0: none.
     noise: f32,
 }
 

@@ -5,7 +5,7 @@ struct Light {
     vector: vec3f,
     // 0 environment, 1 point.
     kind: u32,
-    // Linear radiance; black while muted.
+    // Irradiance of a surface that faces the light, over pi; of point lights at distance 1. Black while muted.
     color: vec3f,
     // 1 if surfaces block the light.
     casts_shadows: u32,

@@ -8,20 +8,20 @@ const PATH_ESCAPED = 1u;
 const PATH_SKIPPED = 2u;
 
 struct PathState {
-    // Part of the radiance at the next vertex that reaches the film.
+    // Path throughput: factor from radiance at the next vertex to the film.
     throughput: vec3f,
-    // Distance from which on the path's ray sees `ahead`.
-    ahead_distance: f32,
+    // Surfaces nearer than this block `ray_light`.
+    ray_light_distance: f32,
     // Light gathered so far, as it reaches the film.
     radiance: vec3f,
     // A `PATH_` constant.
     end: u32,
-    // Light of the light that the path's ray points at, as it reaches the film.
-    ahead: vec3f,
-    // Distance of the chosen light, at most its reach.
-    shadow_distance: f32,
-    // Light of the chosen light, as it reaches the film if nothing blocks it.
-    pending: vec3f,
-    // Unit vector toward the chosen light.
-    toward: vec3f,
+    // Film radiance of the light along the path's ray.
+    ray_light: vec3f,
+    // Distance of the sampled light, at most its reach.
+    nee_distance: f32,
+    // Film radiance of the sampled light, if nothing blocks the light (next-event estimation).
+    nee_radiance: vec3f,
+    // Unit vector toward the sampled light.
+    nee_direction: vec3f,
 }

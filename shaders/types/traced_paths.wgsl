@@ -2,7 +2,7 @@
 // uses: types/path
 
 @group(1) @binding(0) var<storage, read> paths: array<PathState>;
-// For each pixel the sum over its batches of their number of samples times their squared mean luminance; negative once
+// For each pixel the sum over its rounds of samples of their number of samples times their squared mean luminance; negative once
 // the pixel has too little noise for more samples.
 @group(1) @binding(1) var<storage, read_write> moments: array<f32>;
 // Number of pixels with too much noise.

@@ -10,10 +10,10 @@ pub struct IntegratorArguments {
     /// Compute the light by this integrator instead of the scene's
     #[arg(long, value_enum, value_name = "NAME")]
     integrator: Option<Name>,
-    /// Bounces of traced light, instead of the scene's number
+    /// With path tracing, bounces between surfaces, instead of the scene's number
     #[arg(long, value_name = "N", value_parser = parse_bounces)]
     bounces: Option<u32>,
-    /// End at this relative error of traced pixels; --samples is then the most
+    /// With path tracing, stop each pixel at this relative error; --samples is the upper limit
     #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
     noise: Option<f64>,
 }
@@ -23,7 +23,7 @@ pub struct IntegratorArguments {
 enum Name {
     /// Light straight from the lights
     Direct,
-    /// Path tracing: light on all ways from surface to surface
+    /// Path tracing: light that bounces between surfaces
     Path,
 }
 

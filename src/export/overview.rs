@@ -46,7 +46,8 @@ impl Overview {
         format: PictureFormat,
     ) -> Option<Self> {
         let region = region(sheet.picture_px, sheet.overview_eyes());
-        let has_indirect = scene.has_indirect();
+        // Traced paths have no screen-space indirect light.
+        let has_indirect = scene.has_indirect() && !scene.traces_paths();
         // An OpenEXR file stores radiance before exposure and bloom.
         let has_post = format != PictureFormat::Exr && !Need::of_scene(scene).is_none();
         let has_colors = scene.surface.follows_view();

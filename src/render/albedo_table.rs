@@ -1,4 +1,4 @@
-//! Directional albedo of a GGX lobe: the part of light from all sides that the lobe reflects toward a direction.
+//! Directional albedo of a GGX lobe, by roughness and cosine.
 //!
 //! In: nothing. Out: a table by roughness and cosine, for `shaders/lib/bsdf.wgsl`.
 
@@ -9,13 +9,13 @@ use glam::{DVec2, DVec3};
 /// Entries along each side of the table: `ALBEDO_ENTRIES` in the shader.
 pub const ALBEDO_ENTRIES: usize = 32;
 
-/// Least squared roughness: `LEAST_ALPHA` in `shaders/lib/material.wgsl`.
-const LEAST_ALPHA: f64 = 1e-3;
+/// Least squared roughness: `MIN_ALPHA` in `shaders/lib/material.wgsl`.
+const MIN_ALPHA: f64 = 1e-3;
 
 /// Points of the quadrature, and the step between two of them in azimuth: Fibonacci numbers.
 ///
 /// Light that is lost below the horizon is a narrow strip of the directions, which a grid of as many points misses.
-const LATTICE: [u32; 2] = [4181, 2584];
+const LATTICE: [u32; 2] = [1597, 987];
 
 /// Rows by the square root of alpha, columns by the square root of the cosine, both from 0 to 1.
 ///
@@ -26,7 +26,7 @@ pub static ALBEDO_TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
     (0..ALBEDO_ENTRIES * ALBEDO_ENTRIES)
         .map(|i| {
             let [column, row] = [i % ALBEDO_ENTRIES, i / ALBEDO_ENTRIES];
-            albedo(at(column).max(1e-4), at(row).max(LEAST_ALPHA)).as_vec2().to_array()
+            albedo(at(column).max(1e-4), at(row).max(MIN_ALPHA)).as_vec2().to_array()
         })
         .collect()
 });
@@ -69,7 +69,7 @@ mod tests {
     fn mirrors_reflect_all_light_and_rough_surfaces_lose_some() {
         // A mirror's albedo is Schlick's Fresnel.
         for cosine in [0.1, 0.5, 1.0] {
-            let found = albedo(cosine, LEAST_ALPHA);
+            let found = albedo(cosine, MIN_ALPHA);
             let grazing = (1.0_f64 - cosine).powi(5);
             assert!((found.x + found.y - 1.0).abs() < 1e-3, "{cosine}: {found}");
             assert!((found.y - grazing).abs() < 2e-3, "{cosine}: {found}");

@@ -24,7 +24,7 @@ pub struct Memory {
     pub rays: u64,
     /// Work queues between the passes of a batch.
     pub work_queues: u64,
-    /// The light paths of one batch, and the sky that they see.
+    /// Light paths of one batch, noise estimates of all pixels, and the sky's textures.
     pub paths: u64,
     /// Direct light of the centre samples, as the source of indirect light.
     pub direct_light: u64,

@@ -1,4 +1,4 @@
-//! Ends a picture of light paths at the noise that is asked for.
+//! Stops path tracing once every pixel reaches the noise target (adaptive sampling).
 //!
 //! In: complete rounds of samples. Out: the share of pixels that are clean, and whether all are; no call blocks.
 
@@ -9,13 +9,13 @@ use crate::gpu::{Gpu, readback::Readback};
 #[derive(Default)]
 pub struct NoiseControl {
     reading: Option<Readback>,
-    clean_part: Option<f32>,
+    converged_fraction: Option<f32>,
 }
 
 impl NoiseControl {
     /// Share of the pixels that are clean, 0 to 1; none before the first assessment.
-    pub fn clean_part(&self) -> Option<f32> {
-        self.clean_part
+    pub fn converged_fraction(&self) -> Option<f32> {
+        self.converged_fraction
     }
 
     /// Whether an assessment is pending.
@@ -35,12 +35,12 @@ impl NoiseControl {
             Ok(None) => return false,
             Ok(Some(bytes)) => {
                 let noisy: u32 = bytemuck::pod_read_unaligned(&bytes[..4]);
-                self.clean_part = Some(1.0 - noisy as f32 / pixels.max(1) as f32);
+                self.converged_fraction = Some(1.0 - noisy as f32 / pixels.max(1) as f32);
             }
             // Other code reports a lost device.
             Err(_) => {}
         }
         self.reading = None;
-        self.clean_part == Some(1.0)
+        self.converged_fraction == Some(1.0)
     }
 }

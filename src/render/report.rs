@@ -52,7 +52,7 @@ pub struct Report {
     /// Samples that each pixel will hold.
     pub samples_wanted: u32,
     /// Share of the pixels that have as little noise as asked for; none without a noise target.
-    pub clean_part: Option<f32>,
+    pub converged_fraction: Option<f32>,
     /// One pixel of this many has been computed in the picture shown; 1 once the lattice is complete.
     pub pixels_per_sample: u32,
     /// Seconds from the last change to the newest picture, or to the finish once idle.

@@ -82,7 +82,7 @@ pub struct Schedule {
     budget_ms: f64,
     samples_wanted: u32,
     /// Whether the picture ends with the samples under way: all its pixels are clean.
-    is_clean: bool,
+    is_converged: bool,
     progress: Progress,
     /// Whether the film holds pixels that the display does not.
     is_display_stale: bool,
@@ -107,7 +107,7 @@ impl Schedule {
             pace,
             budget_ms: 16.0,
             samples_wanted: 1,
-            is_clean: false,
+            is_converged: false,
             progress: Progress::new(plan, size_px),
             is_display_stale: false,
             opening: true,
@@ -135,8 +135,8 @@ impl Schedule {
     }
 
     /// Sets whether the picture ends with the samples under way; a restart sets it to false.
-    pub fn set_clean(&mut self, is_clean: bool) {
-        self.is_clean = is_clean;
+    pub fn set_converged(&mut self, is_converged: bool) {
+        self.is_converged = is_converged;
     }
 
     /// Whether all submitted samples are whole rounds over all pixels.
@@ -146,7 +146,7 @@ impl Schedule {
 
     /// Samples that each pixel gets.
     fn samples_to_do(&self) -> u32 {
-        if self.is_clean {
+        if self.is_converged {
             self.samples_wanted.min(self.progress.samples_begun().max(1))
         } else {
             self.samples_wanted
@@ -249,7 +249,7 @@ impl Schedule {
             }
             return;
         }
-        self.is_clean = false;
+        self.is_converged = false;
         self.is_display_stale = false;
         self.opening = true;
     }

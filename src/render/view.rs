@@ -9,7 +9,6 @@ use super::{
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     integrator::{self, DIRECT, Integrator},
-    memory::Memory,
     noise_control::NoiseControl,
     pipelines::Pipelines,
     post::{Need, Post, Tasks},
@@ -17,11 +16,10 @@ use super::{
     reconstruction::Reconstruction,
     recorder::{Dispatches, Recorder},
     region::Region,
-    report::{Activity, Report},
     schedule::{Pace, Schedule, Stale, Work},
     sky::{SampledSky, SkyCache},
     space::{self, RenderSpace},
-    targets::{Targets, texture_bytes},
+    targets::Targets,
     uniforms::Inputs,
 };
 use crate::{
@@ -36,6 +34,7 @@ mod parts;
 mod paths;
 mod prepare;
 mod read;
+mod report;
 
 use color_following::ColorFollowing;
 use parts::{Lent, Shown, StatsValidity, Times};
@@ -292,10 +291,9 @@ impl View {
         let Some(space) = &self.space else { return };
         let inputs = self.inputs_about(&scene, space);
         self.is_environment_map_new = false;
-        let has_other_noise = self
-            .inputs
-            .as_ref()
-            .is_some_and(|old| old.frame.paths.noise != inputs.frame.paths.noise);
+        let target = |inputs: &Inputs| (inputs.frame.paths.noise, inputs.frame.tone.exposure);
+        let has_other_target =
+            self.inputs.as_ref().is_some_and(|old| target(old) != target(&inputs));
         let stale = match &self.inputs {
             None => Some(Stale::Geometry),
             Some(old) => inputs.stale_since(old),
@@ -305,14 +303,16 @@ impl View {
         self.upload(inputs);
         let Quality { motion_budget_ms, samples, .. } = scene.quality;
         self.schedule.aim(motion_budget_ms, samples.saturating_add(self.replaced_samples()));
-        self.schedule.set_indirect((self.integrator.gathers)(&scene));
+        // A still's paths replace all centre samples, whose indirect light no one sees.
+        let is_unseen = self.pace == Pace::Still && scene.traces_paths();
+        self.schedule.set_indirect((self.integrator.gathers)(&scene) && !is_unseen);
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
             self.schedule.change(stale, self.moving, self.times.now_secs);
             self.times.changed_secs = self.times.now_secs;
         }
-        if has_other_noise {
-            self.schedule.set_clean(false);
+        if has_other_target {
+            self.schedule.set_converged(false);
         }
         self.scene = Some(scene);
     }
@@ -341,6 +341,8 @@ impl View {
         self.schedule.set_lights(inputs.shining(), moved);
         self.schedule.set_casting(inputs.casting());
         self.colors.follow(self.inputs.as_ref(), &inputs);
+        // A pending assessment is of the picture before.
+        self.noise_control = NoiseControl::default();
         self.targets.upload(&self.pipelines.gpu.queue, &inputs);
         self.fit_post(Need::of(&inputs.frame));
         if self.targets.environment_texture.id != inputs.environment_map {
@@ -450,47 +452,6 @@ impl View {
     /// this before the view has a scene.
     pub fn lend_indirect_source(&mut self, source: Option<IndirectSource>) {
         self.lent.indirect_source = source;
-    }
-
-    /// The view's status.
-    pub fn report(&self) -> Report {
-        let status = self.schedule.status(self.times.now_secs);
-        // Once jittered samples are on the film, the centre samples are not.
-        let replaced = if status.samples_done > 1 { self.replaced_samples() } else { 0 };
-        let activity = if let Some(preparation) = &self.preparation {
-            Activity::Compiling(preparation.variant().name())
-        } else if self.inputs.is_none() || (status.idle && self.pending.is_none()) {
-            Activity::Idle
-        } else if status.moving {
-            Activity::Moving
-        } else {
-            Activity::Refining
-        };
-        Report {
-            activity,
-            size_px: self.region.display_px(),
-            samples_done: status.samples_done - replaced,
-            samples_so_far: status.samples_so_far - replaced as f32,
-            samples_wanted: self.scene.as_ref().map_or(1, |scene| scene.quality.samples),
-            pixels_per_sample: 1 << status.shown_level,
-            clean_part: self.clean_part(),
-            elapsed_secs: self.times.elapsed_secs(),
-            frame_ms: self.times.frame_ms,
-            frame_interval_secs: self.schedule.frame_interval_secs(),
-            anchor_ms: self.anchors.took_ms(),
-            histogram: self.histogram_readback.histogram().cloned(),
-            memory: self.memory(),
-            pictures: self.times.pictures,
-        }
-    }
-
-    /// The view's GPU memory.
-    fn memory(&self) -> Memory {
-        let mut memory = self.targets.memory();
-        if let Some(shown) = self.shown.older_than(&self.targets) {
-            memory.display += texture_bytes(shown);
-        }
-        memory
     }
 
     /// Number of dispatches of each pass so far.

@@ -11,7 +11,7 @@ pub enum IntegratorKind {
     /// Light straight from the lights, and [`Indirect`](super::Indirect) light gathered on the screen.
     #[default]
     Direct,
-    /// Path tracing: light on all ways from surface to surface.
+    /// Path tracing: light that bounces between surfaces.
     Path,
 }
 
@@ -23,12 +23,13 @@ pub struct IntegratorSettings {
     pub kind: IntegratorKind,
     /// Most bounces of a path, range [`param::BOUNCES`]; 0: light straight from the lights.
     pub bounces: u32,
-    /// Longest way from one surface to the next, range [`param::BOUNCE_REACH`], view units; unlimited if none.
+    /// Longest distance between surfaces of a path, range [`param::BOUNCE_REACH`], view units; unlimited if none.
     ///
     /// Farther surfaces send no light and hide no sky.
     pub reach: Option<f64>,
-    /// Relative error of a pixel at which it gets no more samples, range [`param::NOISE`]; 0: every pixel gets the samples
-    /// of [`Quality`](super::Quality).
+    /// Noise target, range [`param::NOISE`]: error of a pixel over its display brightness plus 0.1.
+    ///
+    /// Converged pixels get no more samples. 0: every pixel gets the samples of [`Quality`](super::Quality).
     pub noise: f64,
 }
 

@@ -78,7 +78,7 @@ params! {
     RIG_ROTATION = "lights.rig.picture.rotation_deg", "Rotation", Degrees, -180.0, 180.0, default 0.0, Linear by 1.0,
         "Rotates the 360° picture and its lights around the vertical axis, counterclockwise from above.";
     AMBIENT = "surface.ambient", "Ambient", None, 0.0, 1.0, default 0.04, Linear by 0.01,
-        "Brightens shadows: a constant part of the surface's colour, without any light.";
+        "Brightens shadows: a constant part of the surface's colour, without any light. Path tracing has none.";
     DIFFUSE = "surface.diffuse", "Diffuse", None, 0.0, 1.0, default 0.9, Linear by 0.01,
         "Brightness of the matte surface under the lights.";
     SPECULAR = "surface.specular", "Specular", None, 0.0, 1.0, default 0.25, Linear by 0.01,
@@ -86,15 +86,15 @@ params! {
     SHININESS = "surface.shininess", "Shininess", None, 1.0, 1000.0, default 40.0, Logarithmic by 1.0,
         "Size of the highlights: higher is smaller and sharper (Blinn-Phong exponent).";
     ROUGHNESS = "surface.roughness", "Roughness", None, 0.0, 1.0, default 0.4, Linear by 0.01,
-        "Sharpness of reflections: 0 is a mirror, 1 is matte.";
+        "Blur of reflections: 0 is a mirror, 1 is matte.";
     METALNESS = "surface.metalness", "Metalness", None, 0.0, 1.0, default 0.0, Linear by 0.01,
-        "1 reflects like a metal of the surface's colour, 0 like plastic or stone.";
+        "Makes the surface metallic: 0 is plastic or stone, 1 is metal in the surface's colour.";
     COAT = "surface.coat", "Clear coat", None, 0.0, 1.0, default 0.0, Linear by 0.01,
-        "A layer of clear varnish over the surface: adds sharp, colourless reflections.";
+        "Amount of clear varnish: adds sharp, colourless reflections.";
     COAT_ROUGHNESS = "surface.coat_roughness", "Coat roughness", None, 0.0, 1.0, default 0.1, Linear by 0.01,
-        "Sharpness of the clear coat's reflections: 0 is a mirror.";
+        "Blur of the clear coat's reflections: 0 is a mirror.";
     EMISSION = "surface.emission", "Emission", None, 0.0, 100.0, default 0.0, Logarithmic by 0.05,
-        "Light of the surface itself, in its colour. With path tracing it lights the surfaces around it.";
+        "How brightly the surface glows in its own colour. With path tracing the glow lights nearby surfaces.";
     TRAP_CENTER = "surface.coloring.center[]", "Centre", SceneUnits, -8.0, 8.0, default 0.0, Linear by 0.05,
         "Centre of the orbit trap. Moving it moves the pattern of colours over the surface.";
     TRAP_SIZE = "surface.coloring.size", "Size", SceneUnits, 0.01, 8.0, default 1.0, Logarithmic by 0.05,
@@ -126,11 +126,11 @@ params! {
     INDIRECT_SAMPLES = "indirect.samples", "Samples", Count, 1.0, 16.0, default 5.0, Integer by 1.0,
         "Number of samples per direction. More is smoother and slower.";
     BOUNCES = "integrator.bounces", "Bounces", Count, 0.0, 64.0, default 8.0, Integer by 1.0,
-        "How often light is reflected from surface to surface. 0: light straight from the lights.";
-    BOUNCE_REACH = "integrator.reach", "Reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
-        "Maximum distance between two surfaces that light each other. Shorter brightens crevices under a sky and is faster.";
-    NOISE = "integrator.noise", "Noise", None, 0.0, 0.5, default 0.0, Logarithmic by 0.001,
-        "Noise at which a pixel is done, as a part of its brightness: 0.02 looks clean. The samples are then the most that a pixel gets. 0: all pixels get them.";
+        "How many times light may bounce between surfaces. More brightens crevices and takes longer. 0: only direct light.";
+    BOUNCE_REACH = "integrator.reach", "Bounce distance", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+        "How far bounced light travels; 1 is the distance to the pivot. Shorter is faster; under a sky, shorter also brightens crevices.";
+    NOISE = "integrator.noise", "Stop at noise", None, 0.0, 0.5, default 0.0, Logarithmic by 0.001,
+        "Stops each pixel once it looks this smooth: 0.02 is clean, higher is faster and grainier. 0 always takes all samples.";
     BLOOM_STRENGTH = "bloom.strength", "Strength", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "Brightness of the glow around bright spots. 0 is off and costs nothing.";
     BLOOM_RADIUS = "bloom.radius", "Radius", None, 0.005, 0.25, default 0.04, Logarithmic by 0.05,
@@ -142,7 +142,7 @@ params! {
     MOTION_BUDGET = "quality.motion_budget_ms", "Motion budget", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
         "GPU time per frame during motion. Higher is sharper and less fluid.";
     SAMPLES = "quality.samples", "Samples", Count, 1.0, 65536.0, default 16.0, Integer by 1.0,
-        "Number of samples per pixel at rest. More gives smoother edges and takes longer.";
+        "Number of samples per pixel at rest. More gives smoother edges, less grain with path tracing, and takes longer.";
     DETAIL = "quality.detail", "Detail", Footprints, 0.1, 8.0, default 1.0, Logarithmic by 0.1,
         "Size of the finest visible detail, in pixels. Lower is finer and slower.";
 }

@@ -125,7 +125,7 @@ pub fn activity_text(report: &Report, short: bool) -> String {
             // As above: pixels are clean only if all are.
             let percent = |part: f32| (100.0 * part).clamp(0.0, 99.0).floor();
             let clean = report
-                .clean_part
+                .converged_fraction
                 .map_or_else(String::new, |part| format!(", {} % clean", percent(part)));
             if short {
                 format!("Refining {sample}/{}{clean}", report.samples_wanted)

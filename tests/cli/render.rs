@@ -132,6 +132,9 @@ fn wrong_usage_is_refused() {
         (vec!["render", scene, "-o", out, "--size", "640"], "1280x720"),
         (vec!["render", scene, "-o", out, "--samples", "0"], "1 to 65536"),
         (vec!["render", scene, "-o", out, "--samples", "1e3"], "1 to 65536"),
+        (vec!["render", scene, "-o", out, "--integrator", "photon"], "direct, path"),
+        (vec!["render", scene, "-o", out, "--bounces", "65"], "0 to 64"),
+        (vec!["render", scene, "-o", out, "--noise", "2"], "0 to 0.5"),
         (vec!["render", scene, "-o", out, "--set", "fractal.power"], "path=value"),
         (
             vec!["render", scene, "-o", out, "--set", "fractal.power=40"],
@@ -329,6 +332,28 @@ fn a_piped_scene_becomes_a_picture_that_carries_it() {
 
 /// A render of minutes, caught once it has begun to write.
 #[cfg(unix)]
+/// The command line chooses the integrator, and the picture's scene names it.
+#[test]
+fn a_picture_of_traced_paths_carries_how_it_was_traced() {
+    let document = default_document().to_string();
+    let render = |options: &[&str]| {
+        let mut arguments = vec!["render", "-", "-o", "-", "--size", "48x32", "--samples", "16"];
+        arguments.extend(options);
+        let output = run_with_input(&arguments, document.as_bytes());
+        assert_eq!(code(&output), 0, "{}", said(&output));
+        decoded(&output.stdout)
+    };
+    let direct = render(&[]);
+    let traced = render(&["--integrator", "path", "--bounces", "2", "--noise", "0.3"]);
+    let integrator = &traced.scene["scene"]["integrator"];
+    assert_eq!(integrator["kind"], "path");
+    assert_eq!(
+        (integrator["bounces"].as_u64(), integrator["noise"].as_f64()),
+        (Some(2), Some(0.3))
+    );
+    assert!(traced.rgb != direct.rgb, "traced light looks as direct light does");
+}
+
 fn long_render(out: &Path) -> Child {
     let arguments =
         ["render", "-", "--size", "8000x8000", "--samples", "64", "-o", out.to_str().unwrap()];

@@ -20,7 +20,9 @@ const MEAN: f64 = 4.5;
 
 /// A scene at a thumbnail's size, of fewer samples.
 fn drawn(scene: Scene) -> Vec<u8> {
-    still(&sampled(scene, 8), SIZE_PX)
+    // The tone curve darkens noise: few light paths would look darker.
+    let samples = if scene.traces_paths() { 64 } else { 8 };
+    still(&sampled(scene, samples), SIZE_PX)
 }
 
 /// Means of each block's channels, of RGBA.

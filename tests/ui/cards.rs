@@ -25,7 +25,7 @@ use crate::stage::*;
 const WINDOWS: [[f32; 2]; 3] = [[1440.0, 900.0], [1280.0, 720.0], [390.0, 844.0]];
 
 /// The lists: the heading's button and the presets.
-fn lists() -> [(&'static str, &'static [Preset]); 4] {
+fn lists() -> [(&'static str, &'static [Preset]); 5] {
     presets::lists().map(|list| (list.name, list.presets))
 }
 

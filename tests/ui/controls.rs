@@ -51,7 +51,7 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
             press(&mut harness, "Stereo: Stacked");
         }
         if param == &param::ROUGHNESS {
-            press(&mut harness, "Surface: Physical");
+            press(&mut harness, "Material: Physical");
         }
         if param == &param::BOUNCES {
             harness.get_by_label("Path tracing").click();
@@ -115,7 +115,7 @@ fn every_parameter_of_every_formula_has_a_control() {
             "Rig: Picture",
             "Stereo: Stacked",
             "Indirect light: Horizon",
-            "Surface: Physical",
+            "Material: Physical",
         ];
         for other in others {
             press(&mut harness, other);

@@ -35,7 +35,7 @@ pub fn stage(
     let report = Report {
         activity: Activity::Refining,
         size_px: [size[0] as u32, size[1] as u32],
-        clean_part: None,
+        converged_fraction: None,
         samples_done: 4,
         samples_so_far: 4.5,
         samples_wanted: 16,

@@ -1,4 +1,4 @@
-//! The path tracer: light on all ways from surface to surface.
+//! The path tracer: light that bounces between surfaces.
 //!
 //! Centre samples are those of direct light: a picture in motion shows them, and export takes their depths and normals.
 //! Each jittered sample is a path. Its rays, and at each surface point one shadow ray to a light chosen by its share,

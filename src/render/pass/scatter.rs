@@ -1,4 +1,4 @@
-//! Follows light paths from vertex to vertex: their rays and shadow rays are marched by the passes of direct light.
+//! Extends light paths vertex by vertex; the passes of direct light march their rays.
 
 use super::{march, normal, shadow};
 use crate::render::{

@@ -330,31 +330,31 @@ host_shared! {
     }
     /// A light path in progress.
     PathState {
-        /// Part of the radiance at the next vertex that reaches the film.
+        /// Path throughput: factor from radiance at the next vertex to the film.
         throughput: [f32; 3],
-        /// Distance from which on the path's ray sees `ahead`.
-        ahead_distance: f32,
+        /// Surfaces nearer than this block `ray_light`.
+        ray_light_distance: f32,
         /// Light gathered so far, as it reaches the film.
         radiance: [f32; 3],
         /// 0 the camera ray met a surface, 1 it met none, 2 the pixel gets no more samples.
         end: u32,
-        /// Light of the light that the path's ray points at, as it reaches the film.
-        ahead: [f32; 3],
-        /// Distance of the chosen light, at most its reach.
-        shadow_distance: f32,
-        /// Light of the chosen light, as it reaches the film if nothing blocks it.
-        pending: [f32; 3],
-        /// Unit vector toward the chosen light.
-        toward: [f32; 3],
+        /// Film radiance of the light along the path's ray.
+        ray_light: [f32; 3],
+        /// Distance of the sampled light, at most its reach.
+        nee_distance: f32,
+        /// Film radiance of the sampled light, if nothing blocks the light (next-event estimation).
+        nee_radiance: [f32; 3],
+        /// Unit vector toward the sampled light.
+        nee_direction: [f32; 3],
     }
     /// Path tracing.
     PathTracing {
-        /// Most times that a path is scattered after the first time.
+        /// Most segments of a path between surfaces.
         bounces: u32,
         /// Number of single lights: the first ones of the scene's lights.
         light_count: u32,
-        /// Which samples gather light: 0 of lights and of surfaces, 1 of lights, 2 of surfaces.
-        samples: u32,
+        /// Which strategy gathers light: 0 both, by multiple importance sampling, 1 lights, 2 BSDF.
+        strategy: u32,
         /// Longest ray between two vertices, in render space.
         reach: f32,
         /// The sun; black if there is none.
@@ -369,13 +369,13 @@ host_shared! {
         sky_reach: f32,
         /// The sky's z axis in world space: up.
         sky_z: [f32; 3],
-        /// Share of the sky in the choice of a light: luminance of its irradiance from one half of it, over pi.
+        /// Unnormalised selection probability of the sky: half its integrated luminance, over pi.
         sky_importance: f32,
         /// Longest ray: also those toward lights that are blocked from farther away than the reach.
         ray_reach: f32,
-        /// Number of samples of a pixel at which the direct picture has given way; 0: at once.
+        /// Samples per pixel over which path tracing fades in; 0: no fade.
         preview_samples: f32,
-        /// Relative error at which pixels get no more samples; 0: never.
+        /// Noise target: error at which pixels get no more samples; 0: none.
         noise: f32,
     }
     /// Statistics of a whole film.
@@ -401,7 +401,7 @@ host_shared! {
         vector: [f32; 3],
         /// 0 environment, 1 point.
         kind: u32,
-        /// Linear radiance.
+        /// Irradiance of a surface that faces the light, over pi; of point lights at distance 1. Linear Rec. 709.
         color: [f32; 3],
         /// 1 if surfaces block the light.
         casts_shadows: u32,

@@ -1,4 +1,4 @@
-//! What changes in a view when light paths are traced: the noise at which its picture ends, and what happens when jittered samples replace the direct picture of its centre samples.
+//! Path tracing in a view: noise target, and replacement of centre samples.
 
 use super::View;
 use crate::{
@@ -14,6 +14,9 @@ use crate::{
 
 /// Samples over which light paths replace the direct picture: the noise of each step is below that of the last.
 const PREVIEW_SAMPLES: u32 = 64;
+
+/// Samples from which a pixel may get no more: `MIN_ROUNDS * SAMPLES_PER_ROUND` in `shaders/pass/assess_noise.wgsl`.
+const CONVERGED_SAMPLES: u32 = 32;
 
 impl View {
     /// Assesses the noise of all pixels if `work` completes a round of samples, unless the last one is awaited.
@@ -40,23 +43,32 @@ impl View {
     /// Ends the picture once all pixels are clean.
     pub(super) fn end_at_noise(&mut self) {
         let pixels = self.region.film_px().iter().product();
-        if self.noise_control.collect(&self.pipelines.gpu, pixels) && self.clean_part().is_some() {
-            self.schedule.set_clean(true);
+        if self.noise_control.collect(&self.pipelines.gpu, pixels)
+            && self.converged_fraction().is_some()
+        {
+            self.schedule.set_converged(true);
         }
     }
 
     /// Share of the pixels that are clean; none without a noise target.
-    pub(super) fn clean_part(&self) -> Option<f32> {
+    pub(super) fn converged_fraction(&self) -> Option<f32> {
         let has_target = self.inputs.as_ref().is_some_and(|inputs| inputs.frame.paths.noise > 0.0);
-        self.noise_control.clean_part().filter(|_| has_target)
+        self.noise_control.converged_fraction().filter(|_| has_target)
     }
 
     /// Number of samples over which light paths replace the direct picture: none for stills.
+    ///
+    /// Not more than pixels have that get no more samples, and not more than before once the direct picture is gone.
     pub(super) fn preview_samples(&self, scene: &Scene) -> u32 {
-        match self.pace {
-            Pace::Interactive => scene.quality.samples.min(PREVIEW_SAMPLES),
-            Pace::Still => 0,
+        if self.pace == Pace::Still {
+            return 0;
         }
+        let has_target = scene.integrator.noise > 0.0;
+        let most = if has_target { CONVERGED_SAMPLES } else { PREVIEW_SAMPLES };
+        let before = self.inputs.as_ref().map_or(0.0, |old| old.frame.paths.preview_samples) as u32;
+        let done = self.schedule.status(self.times.now_secs).samples_done;
+        let is_gone = before > 0 && done > before;
+        if is_gone { before } else { scene.quality.samples.min(most) }
     }
 
     /// Number of samples of a pixel that leave the film when others take their place.

@@ -22,17 +22,17 @@ pub fn traced() -> &'static [Preset] {
     &[
         Preset {
             name: "Skylight",
-            blurb: "A crevice of the power-8 bulb under an open sky: light that falls in and goes from wall to wall.",
+            blurb: "A crevice of the power-8 bulb under an open sky: light falls in and bounces between the walls.",
             scene: || new_scene(skylight()),
         },
         Preset {
             name: "Filigree",
-            blurb: "Threads of light in an Apollonian gasket: all that shines is the surface itself.",
+            blurb: "Glowing threads in an Apollonian gasket, under a dim sky.",
             scene: || new_scene(filigree()),
         },
         Preset {
             name: "Lamp",
-            blurb: "A Menger sponge about a ball of light: warm walls within, dusk without.",
+            blurb: "A Menger sponge around a glowing ball: warm walls inside, dusk outside.",
             scene: || new_scene(lamp()),
         },
         Preset {

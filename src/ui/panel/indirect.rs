@@ -26,7 +26,7 @@ const SAMPLES_OF_PATHS: u32 = 256;
 fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
     let integrator = &mut cx.scene.integrator;
     let mut is_on = integrator.kind == IntegratorKind::Path;
-    let hover = "Follows light from surface to surface while the picture is at rest: soft light as it is, and slow";
+    let hover = "Realistic light: when the picture stops moving, light bounces between surfaces and brightens shadows. Slow.";
     if ui.checkbox(&mut is_on, "Path tracing").on_hover_text(hover).changed() && is_on {
         // Fewer are noisy.
         cx.scene.quality.samples = cx.scene.quality.samples.max(SAMPLES_OF_PATHS);
@@ -37,8 +37,8 @@ fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     param_slider_count(ui, &param::BOUNCES, &mut integrator.bounces);
     let mut is_limited = integrator.reach.is_some();
-    let limit = ui.checkbox(&mut is_limited, "Limit bounce reach").on_hover_text(
-        "Only near surfaces light each other, up to the reach below. Close views need it: all around them is surface.",
+    let limit = ui.checkbox(&mut is_limited, "Limit bounce distance").on_hover_text(
+        "Surfaces beyond the bounce distance neither light nor shade each other. Switch this on in close views, which are otherwise dark.",
     );
     if limit.changed() {
         integrator.reach = is_limited.then_some(param::BOUNCE_REACH.default);
@@ -47,7 +47,7 @@ fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
         param_slider(ui, &param::BOUNCE_REACH, reach);
     }
     param_slider(ui, &param::NOISE, &mut integrator.noise);
-    let text = "While the picture moves, nearby pixels give an approximation:";
+    let text = "Quick approximation, shown while the picture moves:";
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
 }
 

@@ -12,7 +12,7 @@ use crate::{
 pub(super) const SECTION: Section = Section {
     name: "surface",
     title: "Surface",
-    hover: "How the surface reflects light: matte, glossy, metal; its own light",
+    hover: "How the surface looks: matte, glossy, metallic or glowing",
     show,
 };
 
@@ -21,14 +21,14 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let surface = &mut cx.scene.surface;
     choice(
         ui,
-        "Surface",
+        "Material",
         &mut surface.model,
         &[
             (SurfaceModel::BlinnPhong, "Classic", "Matte, with round highlights of the lights"),
             (
                 SurfaceModel::Physical,
                 "Physical",
-                "Stone, plastic, metal or varnish: reflects lights and, with path tracing, all around it",
+                "Stone, plastic, metal or varnish. With path tracing, reflections show the surroundings.",
             ),
         ],
     );
@@ -50,8 +50,8 @@ fn physical(ui: &mut Ui, surface: &mut Surface) {
     param_slider(ui, &param::METALNESS, &mut surface.metalness);
     color(
         ui,
-        "Specular colour",
-        "Reflection of what is not metal, seen head-on: dark grey for stone and plastic",
+        "Reflection colour",
+        "Colour of reflections on parts that aren't metal. Dark grey suits stone and plastic; brighter is shinier.",
         &mut surface.specular_color,
     );
     param_slider(ui, &param::COAT, &mut surface.coat);
@@ -62,8 +62,8 @@ fn physical(ui: &mut Ui, surface: &mut Surface) {
 fn driven_by_layer(ui: &mut Ui, surface: &mut Surface) {
     let is_physical = surface.model == SurfaceModel::Physical;
     let driven = &mut surface.driven_by_layer;
-    ui.label("Driven by the second layer").on_hover_text(
-        "The brightness of the second layer's gradient varies these values over the surface. Set up the layer under Colours; an amount of 0 hides its own colours.",
+    ui.label("Vary by the second colour layer").on_hover_text(
+        "Bright parts of the second layer's gradient raise these values, dark parts lower them. Set up the layer under Colours. Amount 0 hides its colours.",
     );
     ui.horizontal_wrapped(|ui| {
         if is_physical {

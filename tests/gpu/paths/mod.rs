@@ -28,7 +28,7 @@ use mandelight_test_support::device::pipelines;
 
 const SIZE: [u32; 2] = [48, 36];
 
-/// The samples that gather light: `SAMPLES_` of `shaders/lib/path_light.wgsl`.
+/// The strategy that gathers light: `STRATEGY_` of `shaders/lib/path_light.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Gather {
     Both,
@@ -50,7 +50,7 @@ impl Tracer {
         let space = RenderSpace::of(scene, region);
         let mut inputs = Inputs::about(scene, region, &space).with_sky(scene, &space, sky.as_ref());
         assert!(inputs.traces_paths());
-        inputs.frame.paths.samples = gather as u32;
+        inputs.frame.paths.strategy = gather as u32;
         let mut targets = Targets::new(&pipelines.layouts, region);
         (PATH.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
         targets.upload(&pipelines.gpu.queue, &inputs);

@@ -8,7 +8,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     device::gpu,
-    view::{finished, finished_in, pipelines, pixels, sampled},
+    view::{finished, finished_in, pipelines, pixels, sampled, settle},
 };
 
 use super::{Gather, SIZE, Tracer, mean, plain, scene_of, under_white_sky};
@@ -163,7 +163,7 @@ fn pictures_end_at_the_noise_that_is_asked_for() {
     let view = finished(&scene, SIZE, Pace::Still);
     let report = view.report();
     assert!((32..1024).contains(&report.samples_done), "{} samples", report.samples_done);
-    assert_eq!(report.clean_part, Some(1.0));
+    assert_eq!(report.converged_fraction, Some(1.0));
     // As the pass measures it: over the pixel's value and a tenth of white.
     let luminance = |c: &[f32; 3]| 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
     let film = view.film().expect("a film");
@@ -215,4 +215,25 @@ fn traced_light_takes_the_place_of_direct_light_step_by_step() {
     println!("{} pictures, {whole:.2} in all, {largest:.2} at a step", pictures.len());
     assert!(whole > 3.0, "traced light looks as direct light does: {whole}");
     assert!(largest < 0.4 * whole, "a step of {largest} of {whole}");
+}
+
+/// Pixels that have converged in one picture are drawn anew in the next.
+#[test]
+fn a_picture_after_a_converged_one_is_that_of_a_fresh_view() {
+    let mut scene = sampled(ball_on_floor(), 64);
+    scene.integrator.noise = 0.5;
+    let mut view = finished(&scene, SIZE, Pace::Interactive);
+    assert_eq!(view.report().converged_fraction, Some(1.0));
+    assert!(view.report().samples_done < 64);
+    scene.lights.environment[0].intensity = 3.0;
+    scene.integrator.noise = 0.02;
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    let fresh = finished(&scene, SIZE, Pace::Interactive);
+    let apart = mean(&view.film().expect("a film")) / mean(&fresh.film().expect("a film")) - 1.0;
+    println!("apart by {apart:.5}");
+    assert!(apart.abs() < 0.01, "apart by {apart}");
+    // Nothing of the direct picture shows any more.
+    let still = finished(&scene, SIZE, Pace::Still);
+    assert!(difference(&pixels(&view), &pixels(&still)) < 2.0);
 }

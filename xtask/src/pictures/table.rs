@@ -122,6 +122,15 @@ pub fn pictures() -> Vec<Picture> {
             of("Mandelbulb").with(DUSK).with_environment_map(),
         )
         .sized(README_PX),
+        picture(
+            "traced",
+            2,
+            "Path-traced light: an open sky over a crevice, threads that glow, a lamp in a sponge, gold",
+            [traced("Skylight"), traced("Filigree"), traced("Lamp"), traced("Gold")],
+        )
+        .sized([720, 450]),
+        single("deep-light", "Path-traced light at 1e-20, in power 16", traced("Deep dahlia"))
+            .sized([480, 300]),
         single("lens", "Through a lens of f/1.4, at 2e-26 in power 8", lens("Rosette"))
             .sized([720, 450]),
         picture(
@@ -314,6 +323,11 @@ fn lens(scene: &'static str) -> Panel {
     Panel { samples: SOFT_SAMPLES, ..of(scene).with(LENS) }
 }
 
+/// A scene in path-traced light.
+fn traced(scene: &'static str) -> Panel {
+    Panel { samples: TRACED_SAMPLES, ..of(scene) }
+}
+
 /// A hole in the sponge, in one light.
 fn pierced(changes: &[&'static str]) -> Panel {
     let panel = of("Menger sponge").with(&[
@@ -324,6 +338,9 @@ fn pierced(changes: &[&'static str]) -> Panel {
     ]);
     Panel { samples: SOFT_SAMPLES, ..panel.with(changes) }
 }
+
+/// Samples of pictures in path-traced light.
+const TRACED_SAMPLES: u32 = 192;
 
 /// Samples of pictures with soft shadows.
 const SOFT_SAMPLES: u32 = 128;
