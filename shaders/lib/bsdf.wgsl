@@ -60,7 +60,7 @@ fn mixed(a: Lobe, b: Lobe, part: f32, cosine: f32) -> Lobe {
 
 // Density of GGX normals at `h` over the projected solid angle of normals (B. Walter et al., Microfacet Models for
 // Refraction, EGSR 2007, eq. 33). The sine is computed by itself: 1 - cos^2 has no digits for smooth surfaces.
-fn ggx_normals(n: vec3f, h: vec3f, alpha: f32) -> f32 {
+fn ggx_ndf(n: vec3f, h: vec3f, alpha: f32) -> f32 {
     let c = dot(n, h);
     let s = cross(n, h);
     let d = alpha * alpha * c * c + dot(s, s);
@@ -89,13 +89,13 @@ fn lobe_value(lobe: Lobe, n: vec3f, wo: vec3f, wi: vec3f) -> vec3f {
     let o = view_cosine(n, wo);
     let i = dot(n, wi);
     let masking = 0.5 * i / max(i * ggx_slope(o, lobe.alpha) + o * ggx_slope(i, lobe.alpha), 1e-20);
-    return lobe.compensation * schlick(lobe.f0, dot(wo, h)) * (ggx_normals(n, h, lobe.alpha) * masking);
+    return lobe.compensation * schlick(lobe.f0, dot(wo, h)) * (ggx_ndf(n, h, lobe.alpha) * masking);
 }
 
 // Density over solid angle of directions reflected by visible normals.
 fn lobe_density(lobe: Lobe, n: vec3f, wo: vec3f, wi: vec3f) -> f32 {
     let o = view_cosine(n, wo);
-    return 0.5 * ggx_normals(n, normalize(wo + wi), lobe.alpha) / (o + ggx_slope(o, lobe.alpha));
+    return 0.5 * ggx_ndf(n, normalize(wo + wi), lobe.alpha) / (o + ggx_slope(o, lobe.alpha));
 }
 
 // A direction reflected by a normal that the viewer sees (J. Dupuy, A. Benyoub, Sampling Visible GGX Normals with
@@ -105,9 +105,9 @@ fn lobe_sample(lobe: Lobe, n: vec3f, wo: vec3f, at: vec2f) -> vec3f {
     let local = vec3f(dot(wo, b.x), dot(wo, b.y), dot(wo, n));
     let stretched = normalize(vec3f(lobe.alpha * local.xy, local.z));
     let z = 1.0 - at.y * (1.0 + stretched.z);
-    let aside = sqrt(saturate(1.0 - z * z));
+    let sin_theta = sqrt(saturate(1.0 - z * z));
     let azimuth = 2.0 * PI * (at.x - 0.5);
-    let h = vec3f(aside * cos(azimuth), aside * sin(azimuth), z) + stretched;
+    let h = vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), z) + stretched;
     let normal = normalize(vec3f(lobe.alpha * h.xy, h.z));
     let m = normal.x * b.x + normal.y * b.y + normal.z * n;
     return 2.0 * dot(wo, m) * m - wo;
@@ -120,15 +120,15 @@ struct Bsdf {
     // Reflected part of the light from all sides, over pi: of the diffuse lobe.
     diffuse: vec3f,
     // Factors on the lobes' values.
-    coat_part: f32,
-    specular_part: f32,
+    coat_weight: f32,
+    specular_weight: f32,
     coat: Lobe,
     specular: Lobe,
     // Blinn-Phong exponent.
     exponent: f32,
     // Probabilities with which a sample is of the coat, and of the specular lobe; else it is diffuse.
-    coat_share: f32,
-    specular_share: f32,
+    coat_probability: f32,
+    specular_probability: f32,
 }
 
 // Albedo scaling puts lobes in layers: each lobe gets what the lobes above it leave of light from all sides.
@@ -173,35 +173,35 @@ fn bsdf_value(f: Bsdf, wi: vec3f) -> vec3f {
         let highlight = pow(max(dot(f.n, normalize(f.wo + wi)), 0.0), f.exponent);
         return value + f.specular.f0 * highlight / PI;
     }
-    if (f.coat_part > 0.0) { value += f.coat_part * lobe_value(f.coat, f.n, f.wo, wi); }
-    return value + f.specular_part * lobe_value(f.specular, f.n, f.wo, wi);
+    if (f.coat_weight > 0.0) { value += f.coat_weight * lobe_value(f.coat, f.n, f.wo, wi); }
+    return value + f.specular_weight * lobe_value(f.specular, f.n, f.wo, wi);
 }
 
 // Density over solid angle with which `bsdf_sample` selects `wi`.
 fn bsdf_density(f: Bsdf, wi: vec3f) -> f32 {
     let cosine = dot(f.n, wi);
     if (cosine <= 0.0) { return 0.0; }
-    var density = (1.0 - f.coat_share - f.specular_share) * cosine / PI;
+    var density = (1.0 - f.coat_probability - f.specular_probability) * cosine / PI;
     if (is_blinn_phong()) {
         let h = normalize(f.wo + wi);
         let normals = (f.exponent + 1.0) / (2.0 * PI) * pow(max(dot(f.n, h), 0.0), f.exponent);
-        return density + f.specular_share * normals / max(4.0 * dot(f.wo, h), 1e-6);
+        return density + f.specular_probability * normals / max(4.0 * dot(f.wo, h), 1e-6);
     }
-    if (f.coat_share > 0.0) { density += f.coat_share * lobe_density(f.coat, f.n, f.wo, wi); }
-    return density + f.specular_share * lobe_density(f.specular, f.n, f.wo, wi);
+    if (f.coat_probability > 0.0) { density += f.coat_probability * lobe_density(f.coat, f.n, f.wo, wi); }
+    return density + f.specular_probability * lobe_density(f.specular, f.n, f.wo, wi);
 }
 
 // A direction toward which the material may reflect; it may point below the surface.
 fn bsdf_sample(f: Bsdf, lobe: f32, at: vec2f) -> vec3f {
-    if (lobe < f.coat_share) { return lobe_sample(f.coat, f.n, f.wo, at); }
+    if (lobe < f.coat_probability) { return lobe_sample(f.coat, f.n, f.wo, at); }
     let azimuth = 2.0 * PI * (at.y - 0.5);
-    if (lobe < f.coat_share + f.specular_share) {
+    if (lobe < f.coat_probability + f.specular_probability) {
         if (!is_blinn_phong()) { return lobe_sample(f.specular, f.n, f.wo, at); }
         let z = pow(at.x, 1.0 / (f.exponent + 1.0));
-        let aside = sqrt(max(1.0 - z * z, 0.0));
-        let h = from_local(f.n, vec3f(aside * cos(azimuth), aside * sin(azimuth), z));
+        let sin_theta = sqrt(max(1.0 - z * z, 0.0));
+        let h = from_local(f.n, vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), z));
         return 2.0 * dot(f.wo, h) * h - f.wo;
     }
-    let aside = sqrt(at.x);
-    return from_local(f.n, vec3f(aside * cos(azimuth), aside * sin(azimuth), sqrt(max(1.0 - at.x, 0.0))));
+    let sin_theta = sqrt(at.x);
+    return from_local(f.n, vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), sqrt(max(1.0 - at.x, 0.0))));
 }

@@ -21,7 +21,7 @@ struct LightCone {
     // Distance of the centre; large for environment lights.
     distance: f32,
     // 1 minus the cosine of half the cone's angle; 0 for lights without a size.
-    height: f32,
+    one_minus_cos: f32,
     // Radius of a point light; 0 for environment lights.
     radius: f32,
     // Factor from `Light.color` to the irradiance over pi of a surface that faces the centre, if all light came from there.
@@ -51,7 +51,7 @@ fn light_cone(light: LightShape, point: vec3f) -> LightCone {
 // Irradiance of a surface that faces the place of a light where `cone` is sampled evenly by solid angle, over that of
 // a light that is all at the centre: the mean over all places is then the light's irradiance.
 fn cone_gain(cone: LightCone) -> f32 {
-    return 2.0 / (2.0 - cone.height);
+    return 2.0 / (2.0 - cone.one_minus_cos);
 }
 
 struct LightSample {
@@ -63,24 +63,24 @@ struct LightSample {
     gain: f32,
 }
 
-// Distance at which a direction of the cone meets the light; `drop` is 1 minus the cosine of its angle to the axis.
-fn cone_distance(cone: LightCone, drop: f32) -> f32 {
+// Distance at which a direction of the cone meets the light; `one_minus_cos` is 1 minus the cosine of its angle to the axis.
+fn cone_distance(cone: LightCone, one_minus_cos: f32) -> f32 {
     if (cone.radius <= 0.0) { return cone.distance; }
     // The nearer of the two places where the ray meets the light's surface.
-    let beside_squared = cone.distance * cone.distance * drop * (2.0 - drop);
+    let beside_squared = cone.distance * cone.distance * one_minus_cos * (2.0 - one_minus_cos);
     let half_chord = sqrt(max(cone.radius * cone.radius - beside_squared, 0.0));
-    return max(cone.distance * (1.0 - drop) - half_chord, 0.0);
+    return max(cone.distance * (1.0 - one_minus_cos) - half_chord, 0.0);
 }
 
 // A place on the light, sampled evenly by solid angle
 // (M. Pharr et al., Physically Based Rendering, 4th ed. 2023, section 6.2.4).
 fn cone_sample(cone: LightCone, at: vec2f) -> LightSample {
-    let drop = at.x * cone.height;
-    let aside = sqrt(max(drop * (2.0 - drop), 0.0));
+    let one_minus_cos = at.x * cone.one_minus_cos;
+    let sin_theta = sqrt(max(one_minus_cos * (2.0 - one_minus_cos), 0.0));
     let azimuth = 6.2831853 * (at.y - 0.5);
     let direction =
-        from_local(cone.axis, vec3f(aside * cos(azimuth), aside * sin(azimuth), 1.0 - drop));
-    return LightSample(direction, cone_distance(cone, drop), cone_gain(cone) * cone.gain);
+        from_local(cone.axis, vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), 1.0 - one_minus_cos));
+    return LightSample(direction, cone_distance(cone, one_minus_cos), cone_gain(cone) * cone.gain);
 }
 
 // The light as `point` sees it. Centre samples see its centre.

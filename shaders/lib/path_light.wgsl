@@ -27,7 +27,7 @@ fn cone_of(light: Light, point: vec3f) -> LightCone {
 
 // Unnormalised selection probability of a light: an estimate of its irradiance over pi.
 fn light_importance(light: Light, cone: LightCone, n: vec3f) -> f32 {
-    let sine = sqrt(cone.height * (2.0 - cone.height));
+    let sine = sqrt(cone.one_minus_cos * (2.0 - cone.one_minus_cos));
     return luminance(light.color) * cone.gain * saturate(dot(n, cone.axis) + sine);
 }
 
@@ -60,12 +60,12 @@ fn chosen_light(point: vec3f, n: vec3f, whole: f32, u: f32) -> u32 {
 
 // Density over solid angle of a light's sampled directions; 0 for lights without a size.
 fn cone_density(cone: LightCone) -> f32 {
-    return select(0.0, 1.0 / (6.2831853 * cone.height), cone.height > 0.0);
+    return select(0.0, 1.0 / (6.2831853 * cone.one_minus_cos), cone.one_minus_cos > 0.0);
 }
 
 // Radiance of a light with a size: pi times its `color` is the irradiance of a surface that faces the light.
 fn cone_radiance(light: Light, cone: LightCone) -> vec3f {
-    return light.color * (0.5 * cone.gain * cone_gain(cone) / cone.height);
+    return light.color * (0.5 * cone.gain * cone_gain(cone) / cone.one_minus_cos);
 }
 
 // Greatest distance of a surface that blocks a light at `distance`.

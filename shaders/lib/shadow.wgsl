@@ -4,7 +4,7 @@
 
 // Distance to the surface below which a shadow ray is blocked, `s` before the point.
 fn blocking_distance(s: f32, surface_distance: f32) -> f32 {
-    let cone = select(frame.march.shadow_cone, path_cone(), dispatch.ray_list != BLOCK_LIST);
+    let cone = select(frame.march.shadow_cone, path_cone(), is_path_queue());
     return max(cone * s, frame.march.shadow_margin * surface_distance);
 }
 

@@ -53,9 +53,9 @@ fn sky_sample(cell: vec2f, place: vec2f) -> SkySample {
     }
     let at = (vec2f(vec2u(index % size.x, index / size.x)) + place) / vec2f(size);
     let z = 1.0 - 2.0 * at.y;
-    let aside = sqrt(max(1.0 - z * z, 0.0));
+    let sin_theta = sqrt(max(1.0 - z * z, 0.0));
     let azimuth = TAU * (at.x - 0.5);
-    let d = vec3f(aside * sin(azimuth), aside * cos(azimuth), z);
+    let d = vec3f(sin_theta * sin(azimuth), sin_theta * cos(azimuth), z);
     let paths = frame.paths;
     return SkySample(d.x * paths.sky_x + d.y * paths.sky_y + d.z * paths.sky_z, bitcast<f32>(entry.z));
 }

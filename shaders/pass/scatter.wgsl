@@ -84,9 +84,9 @@ fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> We
         let cone = cone_of(light, vertex.point);
         let off = direction - cone.axis;
         // 1 minus the cosine of the angle to the axis.
-        let drop = 0.5 * dot(off, off);
+        let one_minus_cos = 0.5 * dot(off, off);
         let importance = light_importance(light, cone, vertex.f.n);
-        if (drop >= cone.height || importance <= 0.0) { continue; }
+        if (one_minus_cos >= cone.one_minus_cos || importance <= 0.0) { continue; }
         let other = importance / vertex.total_importance * cone_density(cone);
         let radiance = cone_radiance(light, cone) * balance_weight(density, select(0.0, other, is_both));
         let luminous = luminance(radiance);
@@ -94,7 +94,7 @@ fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> We
         let part = luminous / max(whole, 1e-30);
         if (left < part) {
             seen.radiance = radiance;
-            seen.distance = blocked_distance(light, cone_distance(cone, drop));
+            seen.distance = blocked_distance(light, cone_distance(cone, one_minus_cos));
             left = left / max(part, 1e-30);
         } else {
             left = (left - part) / max(1.0 - part, 1e-30);
@@ -183,8 +183,8 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let is_within_reach = is_first || (depth < frame.paths.reach && dispatch.bounce <= frame.paths.bounces);
     if (depth > 0.0 && is_within_reach) {
         let goes_on = scatter_path(site, &path, ray, seen);
-        if (any(path.nee_radiance > vec3f(0.0))) { enqueue_sample(SHADOW_LIST, dispatch.ray_queue + 1u, site.ray); }
-        if (goes_on) { enqueue_sample(next_list(), dispatch.ray_queue + 2u, site.ray); }
+        if (any(path.nee_radiance > vec3f(0.0))) { enqueue_sample(SHADOW_REGION, dispatch.ray_queue + 1u, site.ray); }
+        if (goes_on) { enqueue_sample(next_region(), dispatch.ray_queue + 2u, site.ray); }
     } else if (is_first) {
         path.end = PATH_ESCAPED;
     }

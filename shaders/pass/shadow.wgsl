@@ -71,7 +71,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let queued = queued_ray(thread.x);
     let site = queued.site;
     if (!site.is_there) { return; }
-    let is_path = dispatch.ray_list != BLOCK_LIST;
+    let is_path = is_path_queue();
     var seen: Receiver;
     if (is_path) { seen = path_receiver(site); } else { seen = receiver(site); }
     if (!seen.faces) { return; }

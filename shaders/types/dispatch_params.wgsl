@@ -56,8 +56,8 @@ struct DispatchParams {
     first_sample: u32,
     // Number of times that the rays' paths have been scattered; 0 for camera rays.
     bounce: u32,
-    // What the dispatch's ray queue lists: see `types/work_queues.wgsl`.
-    ray_list: u32,
+    // Region of the entries of the dispatch's ray queue: see `types/work_queues.wgsl`.
+    queue_region: u32,
 }
 
 const LIGHT_POINT = 1u;

@@ -31,9 +31,9 @@ fn enqueue_ray(block: u32, clear: f32) {
     count_workgroup(dispatch.ray_queue, entry, BLOCKS);
 }
 
-// Adds a sample to a list of a ray queue.
-fn enqueue_sample(list: u32, queue: u32, ray: u32) {
+// Adds a sample to a ray queue, in a region of its entries.
+fn enqueue_sample(region: u32, queue: u32, ray: u32) {
     let entry = atomicAdd(&work_queues.rays[queue], 1u);
-    work_queues.entries[list_start(list) + entry] = ray;
+    work_queues.entries[region_start(region) + entry] = ray;
     count_workgroup(queue, entry, WORKGROUP_THREADS);
 }

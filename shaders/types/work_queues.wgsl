@@ -12,7 +12,7 @@ struct WorkQueues {
     // Number of entries in each ray queue.
     rays: array<atomic<u32>, RAY_QUEUES>,
     // The blocks of `hits`; the blocks of the ray queue in use, since each queue is read before the next is written; the
-    // distances up to which these rays are clear. For paths, then three lists of samples.
+    // distances up to which these rays are clear. For paths, then three regions of samples.
     entries: array<u32>,
 }
 
@@ -22,18 +22,23 @@ fn max_blocks() -> u32 {
     return arrayLength(&rays) / BLOCK_THREADS;
 }
 
-// The lists of single samples: those of rays take turns, since a vertex reads one and writes the next.
-const BLOCK_LIST = 0u;
-const SHADOW_LIST = 3u;
+// Regions of `entries`. Path rays alternate between regions 1 and 2: a vertex reads one and writes the other.
+const BLOCK_REGION = 0u;
+const SHADOW_REGION = 3u;
 
-// The list that the next vertex reads.
-fn next_list() -> u32 {
+// Whether the dispatch's queue holds single samples of paths, not blocks.
+fn is_path_queue() -> bool {
+    return dispatch.queue_region != BLOCK_REGION;
+}
+
+// The region that the next vertex reads.
+fn next_region() -> u32 {
     return 1u + (dispatch.bounce & 1u);
 }
 
-// Index of a list's first entry.
-fn list_start(list: u32) -> u32 {
-    return (3u + (list - 1u) * BLOCK_THREADS) * max_blocks();
+// Index of a region's first entry.
+fn region_start(region: u32) -> u32 {
+    return (3u + (region - 1u) * BLOCK_THREADS) * max_blocks();
 }
 
 // A sample of a queued block.
@@ -51,24 +56,24 @@ fn queued(is_there: bool, entry: u32, thread: u32, clear: u32) -> QueuedSample {
     return QueuedSample(site, bitcast<f32>(clear));
 }
 
-// A thread's sample of the dispatch's list.
-fn listed_sample(thread: u32) -> Site {
+// A thread's sample of the dispatch's queue of samples.
+fn queued_sample(thread: u32) -> Site {
     let is_there = thread < atomicLoad(&work_queues.rays[dispatch.ray_queue]);
-    let ray = select(0u, work_queues.entries[list_start(dispatch.ray_list) + thread], is_there);
+    let ray = select(0u, work_queues.entries[region_start(dispatch.queue_region) + thread], is_there);
     var site = block_site(block_at(ray / BLOCK_THREADS), ray % BLOCK_THREADS);
     site.is_there = site.is_there && is_there;
     return site;
 }
 
 fn queued_hit(thread: u32) -> Site {
-    if (dispatch.ray_list != BLOCK_LIST) { return listed_sample(thread); }
+    if (is_path_queue()) { return queued_sample(thread); }
     let entry = thread / BLOCK_THREADS;
     return queued(entry < atomicLoad(&work_queues.hits), entry, thread, 0u).site;
 }
 
 fn queued_ray(thread: u32) -> QueuedSample {
-    if (dispatch.ray_list != BLOCK_LIST) {
-        let site = listed_sample(thread);
+    if (is_path_queue()) {
+        let site = queued_sample(thread);
         // A point's own surface does not shade it.
         return QueuedSample(site, rays[site.ray].radius / frame.march.shadow_margin);
     }
@@ -78,9 +83,9 @@ fn queued_ray(thread: u32) -> QueuedSample {
     return queued(is_there, max_blocks() + entry, thread, clear);
 }
 
-// A thread's sample of a pass over the vertices of paths: all samples of the batch at first, then those of a list.
+// A thread's sample of a pass over the vertices of paths: all samples of the batch at first, then those of a queue.
 fn path_site(thread: u32) -> Site {
-    if (dispatch.ray_list != BLOCK_LIST) { return listed_sample(thread); }
+    if (is_path_queue()) { return queued_sample(thread); }
     var site = block_site(block_at(thread / BLOCK_THREADS), thread % BLOCK_THREADS);
     site.is_there = site.is_there && thread / BLOCK_THREADS < dispatch.blocks;
     return site;

@@ -44,8 +44,8 @@ fn albedo(cosine: f64, alpha: f64) -> DVec2 {
         let turn = (f64::from(k * step % count) + 0.5) / f64::from(count);
         let azimuth = turn * std::f64::consts::PI;
         let z = 1.0 - (f64::from(k) + 0.5) / f64::from(count) * (1.0 + stretched.z);
-        let aside = (1.0 - z * z).max(0.0).sqrt();
-        let h = DVec3::new(aside * azimuth.cos(), aside * azimuth.sin(), z) + stretched;
+        let sin_theta = (1.0 - z * z).max(0.0).sqrt();
+        let h = DVec3::new(sin_theta * azimuth.cos(), sin_theta * azimuth.sin(), z) + stretched;
         let normal = (h * DVec3::new(alpha, alpha, 1.0)).normalize();
         let toward = viewer.dot(normal);
         let light = 2.0 * toward * normal.z - cosine;

@@ -6,11 +6,9 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use glam::DVec3;
-
 use crate::scene::{self, EnvironmentMap, RigKind, Scene, color::luminance};
 
-/// Rows of the map of a gradient: each is a hundredth of its haze or less.
+/// Rows of a gradient's map; a row spans a small part of its haze.
 const GRADIENT_ROWS: u32 = 1024;
 
 /// Most columns and rows of the table.
@@ -46,7 +44,7 @@ impl SampledSky {
         let size = [columns.min(MAX_CELLS[0]), (2 * rows).min(MAX_CELLS[1])];
         let energies = energies(map, size);
         let energy: f64 = energies.iter().sum();
-        Self { map: map.clone(), size, cells: table(&energies), energy }
+        Self { map: map.clone(), size, cells: alias_table(&energies), energy }
     }
 
     /// The sky of a gradient, without its sun.
@@ -103,12 +101,12 @@ fn energies(map: &EnvironmentMap, [columns, rows]: [u32; 2]) -> Vec<f64> {
 }
 
 /// The alias table of cells with these energies.
-fn table(energies: &[f64]) -> Vec<Cell> {
+fn alias_table(energies: &[f64]) -> Vec<Cell> {
     let count = energies.len() as f64;
     let whole: f64 = energies.iter().sum();
     let solid_angle = 4.0 * PI / count;
     // Probability of each cell, times the number of cells.
-    let mut left: Vec<f64> = energies
+    let mut scaled: Vec<f64> = energies
         .iter()
         .map(|energy| {
             let part = if whole > 0.0 { energy / whole * count } else { 1.0 };
@@ -116,21 +114,21 @@ fn table(energies: &[f64]) -> Vec<Cell> {
         })
         .collect();
     let mut cells: Vec<Cell> = (0..)
-        .zip(&left)
+        .zip(&scaled)
         .map(|(index, part)| {
             [index, 1.0_f32.to_bits(), ((part / count / solid_angle) as f32).to_bits(), 0]
         })
         .collect();
-    let (mut poor, mut rich): (Vec<usize>, Vec<usize>) =
-        (0..left.len()).partition(|&index| left[index] < 1.0);
-    while let (Some(&needy), Some(&giver)) = (poor.last(), rich.last()) {
-        poor.pop();
-        cells[needy][0] = giver as u32;
-        cells[needy][1] = (left[needy] as f32).to_bits();
-        left[giver] -= 1.0 - left[needy];
-        if left[giver] < 1.0 {
-            rich.pop();
-            poor.push(giver);
+    let (mut small, mut large): (Vec<usize>, Vec<usize>) =
+        (0..scaled.len()).partition(|&index| scaled[index] < 1.0);
+    while let (Some(&low), Some(&high)) = (small.last(), large.last()) {
+        small.pop();
+        cells[low][0] = high as u32;
+        cells[low][1] = (scaled[low] as f32).to_bits();
+        scaled[high] -= 1.0 - scaled[low];
+        if scaled[high] < 1.0 {
+            large.pop();
+            small.push(high);
         }
     }
     cells
@@ -181,17 +179,19 @@ impl SkyCache {
     }
 }
 
-/// The direction at the middle of a cell, in the sky's own frame.
-pub fn cell_direction([column, row]: [u32; 2], [columns, rows]: [u32; 2]) -> DVec3 {
-    let z = 1.0 - 2.0 * (f64::from(row) + 0.5) / f64::from(rows);
-    let azimuth = 2.0 * PI * ((f64::from(column) + 0.5) / f64::from(columns) - 0.5);
-    let aside = (1.0 - z * z).max(0.0).sqrt();
-    DVec3::new(aside * azimuth.sin(), aside * azimuth.cos(), z)
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
+
+    /// The direction at the middle of a cell, in the sky's own frame.
+    fn cell_direction([column, row]: [u32; 2], [columns, rows]: [u32; 2]) -> DVec3 {
+        let z = 1.0 - 2.0 * (f64::from(row) + 0.5) / f64::from(rows);
+        let azimuth = 2.0 * PI * ((f64::from(column) + 0.5) / f64::from(columns) - 0.5);
+        let aside = (1.0 - z * z).max(0.0).sqrt();
+        DVec3::new(aside * azimuth.sin(), aside * azimuth.cos(), z)
+    }
 
     /// Probability of each cell, as the table selects them.
     fn probabilities(cells: &[Cell]) -> Vec<f64> {

@@ -25,8 +25,8 @@ const _: () = assert!(RAY_QUEUES > MAX_LIGHTS);
 /// Greatest number of bounces.
 const MAX_BOUNCES: u32 = param::BOUNCES.max as u32;
 
-/// Lists of single samples that paths need: two of rays in turn, and one of shadow rays.
-const SAMPLE_LISTS: u64 = 3;
+/// Regions of single samples that paths need: two of rays in turn, and one of shadow rays.
+const SAMPLE_REGIONS: u64 = 3;
 
 /// Bytes per counter.
 const WORD: u64 = 4;
@@ -48,7 +48,7 @@ pub struct WorkQueues {
     /// Workgroup counts for each ray queue. The vertices of paths use both in turn: a dispatch can't write the buffer
     /// that holds its own count.
     ray_workgroups: [wgpu::Buffer; 2],
-    /// Whether there are lists of samples for paths.
+    /// Whether there are regions of samples for paths.
     pub for_paths: bool,
     /// Bound by passes that read a queue.
     pub dequeue: wgpu::BindGroup,
@@ -66,13 +66,13 @@ impl WorkQueues {
     /// Only paths with most bounces use those queues.
     pub const LAST_COUNTERS: u64 = WORD * (RAY_QUEUES as u64 - 1);
 
-    /// Allocates queues for every block of `workgroups` workgroups, and lists of their samples for paths.
+    /// Allocates queues for every block of `workgroups` workgroups, and regions of their samples for paths.
     pub fn new(layouts: &Layouts, workgroups: u32, for_paths: bool) -> Self {
         let device = &layouts.gpu.device;
         let most = u64::from(workgroups.max(1)) * u64::from(WORKGROUP_THREADS / BLOCK_THREADS);
         let counters = WORD * (RAY_QUEUES as u64 + 1);
-        let lists = if for_paths { SAMPLE_LISTS * u64::from(BLOCK_THREADS) } else { 0 };
-        let blocks = storage(device, "work queues", counters + (3 + lists) * WORD * most);
+        let regions = if for_paths { SAMPLE_REGIONS * u64::from(BLOCK_THREADS) } else { 0 };
+        let blocks = storage(device, "work queues", counters + (3 + regions) * WORD * most);
         let arguments = |label| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -175,8 +175,8 @@ impl VertexRays {
         }
     }
 
-    /// The list of samples that the queue counts: a `_LIST` of `shaders/types/work_queues.wgsl`.
-    pub fn list(self) -> u32 {
+    /// The region of the queue's entries: see `shaders/types/work_queues.wgsl`.
+    pub fn region(self) -> u32 {
         match self {
             Self::Paths(0) => 0,
             Self::Paths(bounce) => 1 + (bounce - 1) % 2,

@@ -10,22 +10,20 @@ mod parts;
 mod preset;
 mod traced;
 
-use glam::DVec3;
-
 use super::{
     background::Background,
     description::Scene,
-    light::{EnvironmentLight, PointLight},
     lighting::Lights,
     surface::{ColorSource, Coloring, Surface},
-    tone::Tone,
 };
 use crate::formula::mandelbulb::Mandelbulb;
 
 pub use dives::dives;
 pub use formulas::formulas;
 pub use mixes::mixes;
-use parts::{camera, headlight, key_and_rim, light, new_scene, of_formula, stops};
+use parts::{
+    camera, four_petals, headlight, key_and_rim, lantern, light, new_scene, of_formula, stops,
+};
 pub use preset::Preset;
 pub use traced::traced;
 
@@ -163,34 +161,6 @@ fn coral_reef() -> Scene {
     }
 }
 
-fn four_petals() -> Scene {
-    Scene {
-        fractal: Mandelbulb { power: 4.0, iterations: 14, ..Default::default() }.into(),
-        camera: camera([1.55, -2.4, 1.35], [0.0, 0.0, 0.0], 40.0),
-        lights: Lights {
-            environment: vec![
-                light([-0.4, -0.8, 0.7], [1.0, 0.9, 0.95], 2.4),
-                light([0.9, 0.1, 0.1], [0.9, 0.35, 0.6], 0.9),
-                light([-0.2, 0.9, 0.4], [0.5, 0.6, 1.0], 1.3),
-            ],
-            point: vec![],
-            ..Default::default()
-        },
-        surface: Surface {
-            gradient: stops(&[
-                (0.0, [0.07, 0.01, 0.10]),
-                (0.25, [0.48, 0.07, 0.30]),
-                (0.5, [0.88, 0.36, 0.46]),
-                (0.7, [0.97, 0.78, 0.66]),
-                (0.85, [0.40, 0.22, 0.50]),
-            ]),
-            ..Default::default()
-        },
-        background: Background::gradient([0.012, 0.006, 0.022], [0.07, 0.035, 0.08]),
-        ..Default::default()
-    }
-}
-
 fn sea_urchin() -> Scene {
     Scene {
         fractal: Mandelbulb { power: 16.0, iterations: 12, bailout: 3.0, ..Default::default() }
@@ -320,33 +290,6 @@ fn julia() -> Scene {
             ..Default::default()
         },
         background: Background::gradient([0.004, 0.01, 0.018], [0.03, 0.055, 0.07]),
-        ..Default::default()
-    }
-}
-
-fn lantern() -> Scene {
-    let lamp = |position: [f64; 3], color, intensity| PointLight {
-        position: DVec3::from_array(position).into(),
-        color,
-        intensity,
-        ..Default::default()
-    };
-    Scene {
-        camera: camera([0.35, -1.25, 0.25], [0.1, -0.85, 0.15], 55.0),
-        lights: Lights {
-            environment: vec![EnvironmentLight {
-                casts_shadows: false,
-                ..light([0.2, -0.4, 0.9], [0.35, 0.45, 0.8], 0.12)
-            }],
-            point: vec![
-                lamp([0.2, -0.95, 0.2], [1.0, 0.62, 0.28], 0.06),
-                lamp([0.0, -1.0, 0.35], [0.3, 0.55, 1.0], 0.04),
-            ],
-            ..Default::default()
-        },
-        surface: Surface { ambient: 0.02, ..Default::default() },
-        tone: Tone { exposure: 0.3, ..Default::default() },
-        background: Background::gradient([0.002, 0.002, 0.005], [0.01, 0.01, 0.016]),
         ..Default::default()
     }
 }

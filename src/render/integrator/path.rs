@@ -10,7 +10,7 @@ use crate::render::{
     schedule::{GBufferValidity, Job, Plan, Points, SampleCost, Stage, WorkKind},
 };
 
-/// The path tracer. Own buffers: [`Targets::paths`](crate::render::targets::Targets::paths) and lists of samples in
+/// The path tracer. Own buffers: [`Targets::paths`](crate::render::targets::Targets::paths) and regions of samples in
 /// [`Targets::work_queues`](crate::render::targets::Targets::work_queues).
 pub static PATH: Integrator = Integrator {
     center_passes: pass::DIRECT,

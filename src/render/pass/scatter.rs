@@ -31,7 +31,7 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         let of_rays = |recorder: &mut Recorder<'_>, rays: VertexRays| DispatchParams {
             bounce,
             ray_queue: rays.queue(),
-            ray_list: rays.list(),
+            queue_region: rays.region(),
             light_reach: f32::MAX,
             ..recorder.dispatch_params(trace, grid)
         };

@@ -314,8 +314,8 @@ host_shared! {
         first_sample: u32,
         /// Number of times that the rays' paths have been scattered; 0 for camera rays.
         bounce: u32,
-        /// What the dispatch's ray queue lists: 0 blocks, 1 and 2 samples with rays, 3 samples with shadow rays.
-        ray_list: u32,
+        /// Region of the queue's entries: 0 blocks, 1 and 2 samples with rays, 3 samples with shadow rays.
+        queue_region: u32,
     }
     /// A ray and the cone about it: all that a pass knows of a sample's way through the scene.
     Ray {

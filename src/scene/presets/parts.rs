@@ -3,16 +3,17 @@
 use glam::DVec3;
 
 use crate::{
-    formula::{self, Fractal},
+    formula::{self, Fractal, mandelbulb::Mandelbulb},
     scene::{
         background::Background,
         camera::Camera,
         description::Scene,
         gradient::library,
         indirect::{Indirect, IndirectKind},
-        light::{EnvironmentLight, LightFrame},
+        light::{EnvironmentLight, LightFrame, PointLight},
         lighting::Lights,
         surface::{Coloring, GradientStop, Surface},
+        tone::Tone,
     },
 };
 
@@ -93,4 +94,61 @@ pub(super) fn key_and_rim() -> Vec<EnvironmentLight> {
             ..headlight([0.5, 0.35, 0.8], [0.5, 0.66, 1.0], 0.4)
         },
     ]
+}
+
+/// Power 4, in rose.
+pub(super) fn four_petals() -> Scene {
+    Scene {
+        fractal: Mandelbulb { power: 4.0, iterations: 14, ..Default::default() }.into(),
+        camera: camera([1.55, -2.4, 1.35], [0.0, 0.0, 0.0], 40.0),
+        lights: Lights {
+            environment: vec![
+                light([-0.4, -0.8, 0.7], [1.0, 0.9, 0.95], 2.4),
+                light([0.9, 0.1, 0.1], [0.9, 0.35, 0.6], 0.9),
+                light([-0.2, 0.9, 0.4], [0.5, 0.6, 1.0], 1.3),
+            ],
+            point: vec![],
+            ..Default::default()
+        },
+        surface: Surface {
+            gradient: stops(&[
+                (0.0, [0.07, 0.01, 0.10]),
+                (0.25, [0.48, 0.07, 0.30]),
+                (0.5, [0.88, 0.36, 0.46]),
+                (0.7, [0.97, 0.78, 0.66]),
+                (0.85, [0.40, 0.22, 0.50]),
+            ]),
+            ..Default::default()
+        },
+        background: Background::gradient([0.012, 0.006, 0.022], [0.07, 0.035, 0.08]),
+        ..Default::default()
+    }
+}
+
+/// A crevice of the power-8 bulb with two points of light.
+pub(super) fn lantern() -> Scene {
+    let lamp = |position: [f64; 3], color, intensity| PointLight {
+        position: DVec3::from_array(position).into(),
+        color,
+        intensity,
+        ..Default::default()
+    };
+    Scene {
+        camera: camera([0.35, -1.25, 0.25], [0.1, -0.85, 0.15], 55.0),
+        lights: Lights {
+            environment: vec![EnvironmentLight {
+                casts_shadows: false,
+                ..light([0.2, -0.4, 0.9], [0.35, 0.45, 0.8], 0.12)
+            }],
+            point: vec![
+                lamp([0.2, -0.95, 0.2], [1.0, 0.62, 0.28], 0.06),
+                lamp([0.0, -1.0, 0.35], [0.3, 0.55, 1.0], 0.04),
+            ],
+            ..Default::default()
+        },
+        surface: Surface { ambient: 0.02, ..Default::default() },
+        tone: Tone { exposure: 0.3, ..Default::default() },
+        background: Background::gradient([0.002, 0.002, 0.005], [0.01, 0.01, 0.016]),
+        ..Default::default()
+    }
 }

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::{
-    dives, formulas, four_petals, lantern,
-    parts::{camera, new_scene, stops},
+    dives::dives,
+    formulas::formulas,
+    parts::{camera, four_petals, lantern, new_scene, stops},
     preset::Preset,
 };
 use crate::scene::{
