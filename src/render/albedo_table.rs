@@ -15,7 +15,7 @@ const MIN_ALPHA: f64 = 1e-3;
 /// Points of the quadrature, and the step between two of them in azimuth: Fibonacci numbers.
 ///
 /// Light that is lost below the horizon is a narrow strip of the directions, which a grid of as many points misses.
-const LATTICE: [u32; 2] = [1597, 987];
+const LATTICE: [u32; 2] = [2584, 1597];
 
 /// Rows by the square root of alpha, columns by the square root of the cosine, both from 0 to 1.
 ///

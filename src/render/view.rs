@@ -414,7 +414,7 @@ impl View {
         }
     }
 
-    /// Sets whether [`Report::histogram`] is kept up to date.
+    /// Sets whether [`Report::histogram`](super::Report::histogram) is kept up to date.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if wanted == self.histogram_readback.is_wanted() {
             return;
