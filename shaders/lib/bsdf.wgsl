@@ -43,18 +43,17 @@ struct Lobe {
     albedo: vec3f,
 }
 
-fn lobe_of(f0: vec3f, alpha: f32, cosine: f32) -> Lobe {
-    let single = albedo_at(cosine, alpha);
+// `single`: the table's value for the viewer's cosine and `alpha`.
+fn lobe_of(f0: vec3f, alpha: f32, single: vec2f) -> Lobe {
     let whole = max(single.x + single.y, 1e-3);
     let compensation = 1.0 + f0 * (1.0 - whole) / whole;
     return Lobe(alpha, f0, compensation, compensation * (f0 * single.x + single.y));
 }
 
 // The lobe of a surface that is `b` in part: with the albedo of both parts.
-fn mixed(a: Lobe, b: Lobe, part: f32, cosine: f32) -> Lobe {
+fn mixed(a: Lobe, b: Lobe, part: f32, single: vec2f) -> Lobe {
     let f0 = mix(a.f0, b.f0, part);
     let albedo = mix(a.albedo, b.albedo, part);
-    let single = albedo_at(cosine, a.alpha);
     return Lobe(a.alpha, f0, albedo / max(f0 * single.x + single.y, vec3f(1e-4)), albedo);
 }
 
@@ -134,11 +133,12 @@ struct Bsdf {
 // Albedo scaling puts lobes in layers: each lobe gets what the lobes above it leave of light from all sides.
 fn physical_bsdf(m: Material, n: vec3f, wo: vec3f) -> Bsdf {
     let cosine = view_cosine(n, wo);
-    let coat = lobe_of(COAT_REFLECTANCE, m.coat_alpha, cosine);
+    let coat = lobe_of(COAT_REFLECTANCE, m.coat_alpha, albedo_at(cosine, m.coat_alpha));
     // A part is metal: its lobe is mixed so that neither part loses light.
-    let metal = lobe_of(m.color, m.alpha, cosine);
-    let other = lobe_of(frame.surface.specular_color, m.alpha, cosine);
-    let specular = mixed(other, metal, m.metalness, cosine);
+    let single = albedo_at(cosine, m.alpha);
+    let metal = lobe_of(m.color, m.alpha, single);
+    let other = lobe_of(frame.surface.specular_color, m.alpha, single);
+    let specular = mixed(other, metal, m.metalness, single);
     let under_coat = 1.0 - m.coat * coat.albedo.x;
     let diffuse = under_coat * (1.0 - other.albedo) * m.diffuse;
     let shares = vec3f(
