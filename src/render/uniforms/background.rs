@@ -7,15 +7,8 @@ use crate::scene::{BackgroundKind, EnvironmentMap, LightFrame, Scene};
 
 /// The scene's background: the gradient, until [`shown`] finds the environment map.
 pub fn background(scene: &Scene) -> Background {
-    let rig = &scene.lights.rig;
-    let frame = match rig.frame {
-        LightFrame::Scene => DQuat::IDENTITY,
-        LightFrame::View => scene.camera.rotation(),
-    };
     let world_from_map = match scene.background.kind {
-        BackgroundKind::EnvironmentMap => {
-            frame * DQuat::from_rotation_z(rig.environment_map.rotation_deg.to_radians())
-        }
+        BackgroundKind::EnvironmentMap => world_from_map(scene),
         // The orientation of a map that is not shown must not make the shading stale.
         BackgroundKind::Gradient => DQuat::IDENTITY,
     };
@@ -37,4 +30,18 @@ pub fn shown<'a>(scene: &Scene, at_hand: Option<&'a EnvironmentMap>) -> Option<&
     let is_wanted =
         scene.background.kind == BackgroundKind::EnvironmentMap && scene.lights.rig.intensity > 0.0;
     at_hand.filter(|environment_map| is_wanted && environment_map.name() == name)
+}
+
+/// The rotation from the rig's frame into world space.
+pub fn world_from_rig(scene: &Scene) -> DQuat {
+    match scene.lights.rig.frame {
+        LightFrame::Scene => DQuat::IDENTITY,
+        LightFrame::View => scene.camera.rotation(),
+    }
+}
+
+/// The rotation from the environment map's own frame into world space.
+pub fn world_from_map(scene: &Scene) -> DQuat {
+    let rotation_deg = scene.lights.rig.environment_map.rotation_deg;
+    world_from_rig(scene) * DQuat::from_rotation_z(rotation_deg.to_radians())
 }

@@ -4,10 +4,14 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 
-use super::{Light, PathTracing, lights};
+use super::{
+    Light, PathTracing,
+    background::{world_from_map, world_from_rig},
+    lights,
+};
 use crate::{
     render::{sky::SampledSky, space::RenderSpace},
-    scene::{LightFrame, Rig, RigKind, Scene, follow},
+    scene::{Rig, RigKind, Scene, follow},
 };
 
 /// Length of rays without a limit, in render space.
@@ -53,15 +57,9 @@ pub fn add_sky(paths: &mut PathTracing, scene: &Scene, space: &RenderSpace, sky:
     } else {
         0.0
     };
-    let frame = match rig.frame {
-        LightFrame::Scene => DQuat::IDENTITY,
-        LightFrame::View => scene.camera.rotation(),
-    };
     let world_from_sky = match rig.kind {
-        RigKind::EnvironmentMap => {
-            frame * DQuat::from_rotation_z(rig.environment_map.rotation_deg.to_radians())
-        }
-        RigKind::Sky | RigKind::None => frame,
+        RigKind::EnvironmentMap => world_from_map(scene),
+        RigKind::Sky | RigKind::None => world_from_rig(scene),
     };
     let axis = |axis: DVec3| (world_from_sky * axis).as_vec3().to_array();
     [paths.sky_x, paths.sky_y, paths.sky_z] = [DVec3::X, DVec3::Y, DVec3::Z].map(axis);
@@ -69,15 +67,15 @@ pub fn add_sky(paths: &mut PathTracing, scene: &Scene, space: &RenderSpace, sky:
     paths.sky_importance = (0.5 * rig.intensity * sky.energy() / PI) as f32;
     paths.sky_reach = reach;
     if rig.kind == RigKind::Sky {
-        paths.sun = sun(rig, frame, reach);
+        paths.sun = sun(rig, world_from_sky, reach);
     }
     paths.ray_reach = paths.ray_reach.max(reach).max(reach_of(&paths.sun));
 }
 
-fn sun(rig: &Rig, frame: DQuat, reach: f32) -> Light {
+fn sun(rig: &Rig, world_from_rig: DQuat, reach: f32) -> Light {
     let strength = rig.sky.sun_strength * rig.intensity;
     Light {
-        vector: (frame * DVec3::from_array(rig.sky.sun_direction)).as_vec3().to_array(),
+        vector: (world_from_rig * DVec3::from_array(rig.sky.sun_direction)).as_vec3().to_array(),
         color: rig.sky.sun_color.map(|channel| channel * strength as f32),
         casts_shadows: u32::from(reach > 0.0),
         shadow_reach: reach,
