@@ -25,10 +25,15 @@ fn cone_of(light: Light, point: vec3f) -> LightCone {
     return light_cone(LightShape(light.vector, light.kind, light.size, light.seed), point);
 }
 
+// The normal of points in a medium, which all lights reach.
+const NO_NORMAL = vec3f(0.0);
+
 // Unnormalised selection probability of a light: an estimate of its irradiance over pi.
 fn light_importance(light: Light, cone: LightCone, n: vec3f) -> f32 {
+    let strength = luminance(light.color) * cone.gain;
+    if (all(n == NO_NORMAL)) { return strength; }
     let sine = sqrt(cone.one_minus_cos * (2.0 - cone.one_minus_cos));
-    return luminance(light.color) * cone.gain * saturate(dot(n, cone.axis) + sine);
+    return strength * saturate(dot(n, cone.axis) + sine);
 }
 
 // Sum over all lights.

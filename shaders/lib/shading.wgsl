@@ -1,5 +1,5 @@
 // Direct light of a sample. Shading marches no ray: it reads visibility bits.
-// uses: lib/background, lib/bsdf, lib/eye, lib/lattice, lib/light_sample, lib/material, lib/octahedral
+// uses: lib/background, lib/bsdf, lib/eye, lib/fog, lib/lattice, lib/light_sample, lib/material, lib/octahedral
 // uses: types/dispatch_params, types/frame_uniforms, types/light, types/ray
 
 // Light of all lights that reach the point, reflected toward the eye; ambient light and the surface's own light. Without
@@ -28,8 +28,11 @@ fn reflected(site: Site, point: vec3f, n: vec3f, toward_eye: vec3f, m: Material,
 fn direct_radiance(site: Site, ray: Ray) -> vec3f {
     let seen = surface[site.index];
     if (seen.x == 0u) {
-        return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
+        let behind = background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
+        return through_fog(behind, ray.origin, ray.direction, NO_COLLISION);
     }
     let m = material_at(color_data[site.index], seen.y);
-    return reflected(site, ray.origin, octahedral_unpack(seen.y), -ray.direction, m, visibility[site.index]);
+    let n = octahedral_unpack(seen.y);
+    let radiance = reflected(site, ray.origin, n, -ray.direction, m, visibility[site.index]);
+    return through_fog(radiance, ray.origin, -ray.direction, bitcast<f32>(seen.x));
 }

@@ -18,10 +18,15 @@ fn clear_block(fractal: Fractal, block: Block) -> f32 {
     }
     let entry = bounding_entry(middle.origin, middle.direction, spread);
     if (entry < 0.0) { return -1.0; }
-    if (has_section_bands()) { return entry; }
+    if (has_section_bands() || has_cloud()) { return entry; }
     // Its rays find out where they come within the colour distance.
     let cone = max(frame.camera.hit_cone, frame.camera.color_cone);
     return clear_cone(fractal, middle.origin, middle.direction, spread, entry, cone);
+}
+
+// Whether paths meet a medium around the set.
+fn has_cloud() -> bool {
+    return frame.medium.kind == MEDIUM_ITERATIONS && is_jittered();
 }
 
 // Whether a block's samples are of one pixel, which gets no more.

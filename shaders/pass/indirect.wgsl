@@ -124,7 +124,9 @@ fn radiance_of(site: Site) -> vec3f {
     } else {
         arriving = horizon_light(site, point, n, reach);
     }
-    return radiance + frame.indirect.strength * surface_color(color_data[site.index], seen.y) * arriving;
+    let passed = fog_transmittance(point, -ray.direction, t);
+    let color = surface_color(color_data[site.index], seen.y);
+    return radiance + passed * frame.indirect.strength * color * arriving;
 }
 
 @compute @workgroup_size(64)

@@ -1,6 +1,7 @@
-// The next vertex of each path: gathers the light that the path's ray has met, selects a light for a shadow ray, and
-// the direction of the path's next ray (J. Kajiya, The Rendering Equation, SIGGRAPH 1986).
-// uses: lib/bsdf, lib/jittered, lib/lattice, lib/material, lib/octahedral, lib/path_cone, lib/path_light
+// The next vertex of each path, at a surface or in a medium: gathers the light that the path's ray has met, selects a
+// light for a shadow ray, and the direction of the path's next ray (J. Kajiya, The Rendering Equation, SIGGRAPH 1986).
+// uses: lib/bsdf, lib/camera, lib/fog, lib/jittered, lib/lattice, lib/material, lib/octahedral, lib/path_cone
+// uses: lib/path_light, lib/phase
 // uses: types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer, types/paths, types/ray
 
 // Numbers of the random pairs of a vertex; other purposes have other numbers.
@@ -16,6 +17,14 @@ fn vertex_pair(site: Site, pair: u32) -> vec2f {
     return random_pair(site, FIRST_PAIR + PAIRS * dispatch.bounce + pair);
 }
 
+// Numbers of the random pairs of rays in fog.
+const FIRST_FOG_PAIR = 0x400u;
+
+// A random number of the ray that is a path's `bounce`th after the camera's.
+fn fog_number(site: Site, bounce: u32) -> f32 {
+    return random_pair(site, FIRST_FOG_PAIR + bounce).x;
+}
+
 // Number of bounces before paths may end at random.
 const BOUNCES_BEFORE_ROULETTE = 2u;
 
@@ -28,50 +37,83 @@ fn vertex_hit_distance(ray: Ray, depth: f32) -> f32 {
     return select(ray.radius, 2.0 * start, dispatch.bounce > 0u && depth < GAP * start);
 }
 
-// Where a path scatters.
+// Where a path scatters: at a surface, or in a medium.
 struct Vertex {
-    // Lifted off the surface, so that the surface near the point does not shade it.
+    // At a surface lifted off it, so that the surface near the point does not shade it.
     point: vec3f,
+    // `NO_NORMAL` in a medium.
+    normal: vec3f,
+    // Of a surface.
     f: Bsdf,
+    // Of a medium: direction of the ray, and mean cosine of scattering.
+    along: vec3f,
+    anisotropy: f32,
+    // Part of the light that a medium scatters.
+    albedo: vec3f,
     // Sum of the lights' importance.
     total_importance: f32,
+    // The hit distance there.
+    hit_distance: f32,
 }
 
-// Next-event estimation: one light, chosen at random, times BSDF and MIS weight.
+fn is_in_medium(vertex: Vertex) -> bool {
+    return all(vertex.normal == NO_NORMAL);
+}
+
+// Part of the light from `wi` that goes on along the path, with the cosine at a surface.
+fn scattered(vertex: Vertex, wi: vec3f) -> vec3f {
+    if (is_in_medium(vertex)) { return vertex.albedo * phase_value(vertex.anisotropy, vertex.along, wi); }
+    return bsdf_value(vertex.f, wi);
+}
+
+// Density over solid angle with which `next_direction` selects `wi`.
+fn direction_density(vertex: Vertex, wi: vec3f) -> f32 {
+    if (is_in_medium(vertex)) { return phase_value(vertex.anisotropy, vertex.along, wi); }
+    return bsdf_density(vertex.f, wi);
+}
+
+fn next_direction(vertex: Vertex, lobe: f32, at: vec2f) -> vec3f {
+    if (is_in_medium(vertex)) { return phase_sample(vertex.anisotropy, vertex.along, at); }
+    return bsdf_sample(vertex.f, lobe, at);
+}
+
+// Next-event estimation: one light, chosen at random, times BSDF or phase function, transmittance and MIS weight.
 fn sample_light(site: Site, vertex: Vertex) -> WeightedLight {
     if (frame.paths.strategy == STRATEGY_BSDF) { return NO_WEIGHTED_LIGHT; }
-    let n = vertex.f.n;
-    let chosen = chosen_light(vertex.point, n, vertex.total_importance, vertex_pair(site, PAIR_LIGHT).x);
+    let chosen = chosen_light(vertex.point, vertex.normal, vertex.total_importance, vertex_pair(site, PAIR_LIGHT).x);
     if (chosen == NO_LIGHT) { return NO_WEIGHTED_LIGHT; }
     let place = vertex_pair(site, PAIR_PLACE);
     let is_both = frame.paths.strategy == STRATEGY_MIS;
     if (chosen == SKY) {
         let seen = sky_sample(vertex_pair(site, PAIR_CELL), place);
         let density = frame.paths.sky_importance / vertex.total_importance * seen.density;
-        let other = select(0.0, bsdf_density(vertex.f, seen.direction), is_both);
-        let part = bsdf_value(vertex.f, seen.direction) / max(density + other, 1e-30);
-        return WeightedLight(part * sky_radiance(seen.direction), seen.direction, frame.paths.sky_reach);
+        let other = select(0.0, direction_density(vertex, seen.direction), is_both);
+        let part = scattered(vertex, seen.direction) / max(density + other, 1e-30);
+        let passed = fog_transmittance(vertex.point, seen.direction, NO_COLLISION);
+        return WeightedLight(passed * part * sky_radiance(seen.direction), seen.direction, frame.paths.sky_reach);
     }
     let light = path_light(chosen);
     let cone = cone_of(light, vertex.point);
     let seen = cone_sample(cone, place);
-    let share = light_importance(light, cone, n) / vertex.total_importance;
+    let share = light_importance(light, cone, vertex.normal) / vertex.total_importance;
     let density = share * cone_density(cone);
     var weight = 1.0;
-    if (is_both && density > 0.0) { weight = balance_weight(density, bsdf_density(vertex.f, seen.toward)); }
-    let irradiance = light.color * (PI * seen.gain * weight / share);
+    if (is_both && density > 0.0) { weight = balance_weight(density, direction_density(vertex, seen.toward)); }
+    let passed = fog_transmittance(vertex.point, seen.toward, seen.distance);
+    let irradiance = light.color * (PI * seen.gain * weight * passed / share);
     return WeightedLight(
-        irradiance * bsdf_value(vertex.f, seen.toward), seen.toward, blocked_distance(light, seen.distance));
+        irradiance * scattered(vertex, seen.toward), seen.toward, blocked_distance(light, seen.distance));
 }
 
-// MIS-weighted light that a BSDF-sampled ray may meet; of several lights one, at random by luminance.
-fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> WeightedLight {
+// MIS-weighted light that the path's next ray may meet before it ends in fog; of several lights one, at random by
+// luminance.
+fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, limit: f32, u: f32) -> WeightedLight {
     if (frame.paths.strategy == STRATEGY_LIGHTS) { return NO_WEIGHTED_LIGHT; }
     let is_both = frame.paths.strategy == STRATEGY_MIS;
     var seen = NO_WEIGHTED_LIGHT;
     var whole = 0.0;
     var left = u;
-    if (has_sky()) {
+    if (has_sky() && limit >= NO_COLLISION) {
         // In a black sky no light may reach the vertex at all.
         let other = frame.paths.sky_importance / max(vertex.total_importance, 1e-30) * sky_density(direction);
         seen.radiance = sky_radiance(direction) * balance_weight(density, select(0.0, other, is_both));
@@ -85,8 +127,10 @@ fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> We
         let off = direction - cone.axis;
         // 1 minus the cosine of the angle to the axis.
         let one_minus_cos = 0.5 * dot(off, off);
-        let importance = light_importance(light, cone, vertex.f.n);
+        let importance = light_importance(light, cone, vertex.normal);
         if (one_minus_cos >= cone.one_minus_cos || importance <= 0.0) { continue; }
+        let distance = cone_distance(cone, one_minus_cos);
+        if (distance > limit) { continue; }
         let other = importance / vertex.total_importance * cone_density(cone);
         let radiance = cone_radiance(light, cone) * balance_weight(density, select(0.0, other, is_both));
         let luminous = luminance(radiance);
@@ -94,7 +138,7 @@ fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, u: f32) -> We
         let part = luminous / max(whole, 1e-30);
         if (left < part) {
             seen.radiance = radiance;
-            seen.distance = blocked_distance(light, cone_distance(cone, one_minus_cos));
+            seen.distance = blocked_distance(light, distance);
             left = left / max(part, 1e-30);
         } else {
             left = (left - part) / max(1.0 - part, 1e-30);
@@ -116,8 +160,8 @@ fn new_path() -> PathState {
     return PathState(vec3f(1.0), 0.0, none, PATH_SCATTERED, none, 0.0, none, none);
 }
 
-// Extends a path at a surface; true if the path's next ray is needed.
-fn scatter_path(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2u) -> bool {
+// The vertex of a path at a surface, which may emit.
+fn surface_vertex(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2u) -> Vertex {
     let wo = -ray.direction;
     let outward = octahedral_unpack(seen.y);
     let m = material_at(color_data[site.index], seen.y);
@@ -125,23 +169,42 @@ fn scatter_path(site: Site, path: ptr<function, PathState>, ray: Ray, seen: vec2
     let n = facing(outward, wo);
     let clearance = vertex_hit_distance(ray, bitcast<f32>(seen.x));
     let point = ray.origin + outward * (2.0 * clearance);
-    let vertex = Vertex(point, bsdf_of(m, n, wo), total_importance(point, n));
+    let total = total_importance(point, n);
+    return Vertex(point, n, bsdf_of(m, n, wo), vec3f(0.0), 0.0, vec3f(0.0), total, clearance);
+}
 
+// The vertex of a path at the start of `ray`, in a medium.
+fn medium_vertex(ray: Ray, albedo: vec3f, anisotropy: f32) -> Vertex {
+    var vertex: Vertex;
+    vertex.point = ray.origin;
+    vertex.normal = NO_NORMAL;
+    vertex.along = ray.direction;
+    vertex.anisotropy = anisotropy;
+    vertex.albedo = albedo;
+    vertex.total_importance = total_importance(ray.origin, NO_NORMAL);
+    vertex.hit_distance = ray.radius;
+    return vertex;
+}
+
+// Extends a path at a vertex; true if the path's next ray is needed.
+fn scatter_path(site: Site, path: ptr<function, PathState>, vertex: Vertex) -> bool {
     let sampled = sample_light(site, vertex);
     (*path).nee_radiance = (*path).throughput * sampled.radiance;
     (*path).nee_direction = sampled.direction;
     (*path).nee_distance = sampled.distance;
 
     let lobe = vertex_pair(site, PAIR_LOBE);
-    let direction = bsdf_sample(vertex.f, lobe.x, vertex_pair(site, PAIR_DIRECTION));
+    let direction = next_direction(vertex, lobe.x, vertex_pair(site, PAIR_DIRECTION));
     // The next ray starts at the lifted point, with the clearance of shadow rays.
-    rays[site.ray] = Ray(point, frame.march.shadow_margin * clearance, direction, path_cone());
+    rays[site.ray] = Ray(vertex.point, frame.march.shadow_margin * vertex.hit_distance, direction, path_cone());
     (*path).ray_light = vec3f(0.0);
-    let density = bsdf_density(vertex.f, direction);
+    let limit = fog_collision(vertex.point, direction, NO_COLLISION, fog_number(site, dispatch.bounce + 1u));
+    visibility[site.index].x = bitcast<u32>(limit);
+    let density = direction_density(vertex, direction);
     if (density <= 0.0) { return false; }
-    let part = bsdf_value(vertex.f, direction) / density;
+    let part = scattered(vertex, direction) / density;
     var throughput = (*path).throughput * part;
-    let ahead = light_along_ray(vertex, direction, density, vertex_pair(site, PAIR_LIGHT).y);
+    let ahead = light_along_ray(vertex, direction, density, limit, vertex_pair(site, PAIR_LIGHT).y);
     (*path).ray_light = throughput * ahead.radiance;
     (*path).ray_light_distance = ahead.distance;
     if (dispatch.bounce >= frame.paths.bounces) { return any((*path).ray_light > vec3f(0.0)); }
@@ -164,9 +227,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     let site = path_site(thread.x);
     if (!site.is_there) { return; }
-    let ray = rays[site.ray];
     let seen = surface[site.index];
-    let depth = bitcast<f32>(seen.x);
     let is_first = dispatch.bounce == 0u;
     var path = new_path();
     if (is_first && seen.x == SKIPPED) {
@@ -174,15 +235,36 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
         paths[site.ray] = path;
         return;
     }
-    if (!is_first) {
+    let depth = bitcast<f32>(seen.x);
+    // A ray that starts in this point, if it ends in fog.
+    var ray = rays[site.ray];
+    var limit = NO_COLLISION;
+    if (is_first) {
+        let farthest = select(NO_COLLISION, depth, depth > 0.0);
+        let from_eye = camera_ray(site);
+        limit = fog_collision(from_eye.origin, from_eye.direction, farthest, fog_number(site, 0u));
+        if (limit < NO_COLLISION) { ray = from_eye; }
+    } else {
+        limit = ray_limit(site.index);
         path = paths[site.ray];
         if (depth == 0.0 || depth >= path.ray_light_distance) { path.radiance += path.ray_light; }
         path.ray_light = vec3f(0.0);
     }
     path.nee_radiance = vec3f(0.0);
-    let is_within_reach = is_first || (depth < frame.paths.reach && dispatch.bounce <= frame.paths.bounces);
-    if (depth > 0.0 && is_within_reach) {
-        let goes_on = scatter_path(site, &path, ray, seen);
+    let is_within_bounces = dispatch.bounce <= frame.paths.bounces;
+    let is_within_reach = is_first || (depth < frame.paths.reach && is_within_bounces);
+    let is_in_fog = limit < NO_COLLISION && (is_first || depth == 0.0);
+    let is_at_set = !is_in_fog && depth > 0.0 && is_within_reach;
+    if (is_at_set || (is_in_fog && is_within_bounces)) {
+        var vertex: Vertex;
+        if (is_in_fog) {
+            vertex = medium_vertex(advanced(ray, limit), frame.fog.color, frame.fog.anisotropy);
+        } else if (frame.medium.kind != MEDIUM_NONE) {
+            vertex = medium_vertex(ray, frame.medium.color, frame.medium.anisotropy);
+        } else {
+            vertex = surface_vertex(site, &path, ray, seen);
+        }
+        let goes_on = scatter_path(site, &path, vertex);
         if (any(path.nee_radiance > vec3f(0.0))) { enqueue_sample(SHADOW_REGION, dispatch.ray_queue + 1u, site.ray); }
         if (goes_on) { enqueue_sample(next_region(), dispatch.ray_queue + 2u, site.ray); }
     } else if (is_first) {

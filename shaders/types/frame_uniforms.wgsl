@@ -148,6 +148,47 @@ struct Background {
     map_z: vec3f,
 }
 
+// The set has a surface.
+const MEDIUM_NONE = 0u;
+// The set's inside is a medium.
+const MEDIUM_SET = 1u;
+// A medium about the set, as dense as iteration counts are high.
+const MEDIUM_ITERATIONS = 2u;
+
+// The medium in place of the set's surface, for paths.
+struct Medium {
+    // Single-scattering albedo, linear Rec. 709.
+    color: vec3f,
+    // One of the `MEDIUM_` constants.
+    kind: u32,
+    // At full density, in render space.
+    mean_free_path: f32,
+    // Mean cosine of scattering.
+    anisotropy: f32,
+    // Iteration count up to which the density is 0, and the rise of the density per iteration above.
+    thin: f32,
+    per_iteration: f32,
+}
+
+// Fog in a ball, thinner with the height.
+struct Fog {
+    // Single-scattering albedo, linear Rec. 709.
+    color: vec3f,
+    // Extinction coefficient at full density, per unit of render space; 0 without fog.
+    density: f32,
+    // The ball's centre in render space.
+    center: vec3f,
+    radius: f32,
+    // Radiance of thick fog in direct light: that of all lights, without shadows.
+    ambient: vec3f,
+    // Mean cosine of scattering.
+    anisotropy: f32,
+    // Height over the centre up to which the density is full, in render space.
+    level: f32,
+    // One over the height in which the density falls by the factor e; 0 for the same density everywhere.
+    inverse_height: f32,
+}
+
 struct Tone {
     // Factor on radiance.
     exposure: f32,
@@ -261,6 +302,8 @@ struct FrameUniforms {
     sections: Sections,
     indirect: Indirect,
     background: Background,
+    medium: Medium,
+    fog: Fog,
     tone: Tone,
     bloom: Bloom,
     paths: PathTracing,

@@ -13,6 +13,8 @@ pub enum Unit {
     SceneUnits,
     /// Multiples of the distance from the camera to its pivot.
     ViewUnits,
+    /// Reciprocal [`Self::ViewUnits`].
+    PerViewUnit,
     /// Hundredths of a metre, measured from the screen towards the viewer.
     Centimetres,
     /// Photographic stops: one stop more doubles the light.
@@ -33,6 +35,7 @@ impl Unit {
             Self::Degrees => "°",
             Self::SceneUnits => " u",
             Self::ViewUnits => " view",
+            Self::PerViewUnit => " /view",
             Self::Centimetres => " cm",
             Self::Stops => " EV",
             Self::Seconds => " s",
@@ -49,6 +52,7 @@ impl Unit {
             Self::Degrees => "degrees",
             Self::SceneUnits => "scene units",
             Self::ViewUnits => "view units (camera to pivot)",
+            Self::PerViewUnit => "per view unit",
             Self::Centimetres => "centimetres",
             Self::Stops => "stops",
             Self::Seconds => "seconds",

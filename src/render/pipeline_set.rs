@@ -108,6 +108,16 @@ pub static INDIRECT: PipelineSet = PipelineSet {
     rehearsal: || vec![trace(Points::Indirect(0), Stage::Indirect)],
 };
 
+/// Rays through the set as a medium.
+pub static MEDIUM: PipelineSet = PipelineSet {
+    name: "medium",
+    subject: None,
+    has_kernel: true,
+    is_always_needed: false,
+    constants: Some(|_| Vec::new()),
+    rehearsal: || vec![trace(Points::Samples { first: 1, count: 2 }, Stage::Path)],
+};
+
 /// Light paths.
 pub static PATHS: PipelineSet = PipelineSet {
     name: "paths",
@@ -129,7 +139,7 @@ pub static POST: PipelineSet = PipelineSet {
 };
 
 /// Sets with special variants.
-pub const SPECIALIZED: [&PipelineSet; 4] = [&RAYS, &NORMALS, &SHADE, &TONE];
+pub const SPECIALIZED: [&PipelineSet; 5] = [&RAYS, &NORMALS, &MEDIUM, &SHADE, &TONE];
 
 fn trace(points: Points, from: Stage) -> Work {
     Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
@@ -228,5 +238,9 @@ impl PipelineVariant {
 
 /// The special variants for a frame, one per set that has them.
 pub fn specialized(inputs: &Inputs) -> Vec<PipelineVariant> {
-    SPECIALIZED.iter().map(|set| PipelineVariant::of(set, inputs)).collect()
+    SPECIALIZED
+        .iter()
+        .filter(|set| **set != &MEDIUM || inputs.traces_medium())
+        .map(|set| PipelineVariant::of(set, inputs))
+        .collect()
 }

@@ -13,7 +13,7 @@ use std::sync::{
 
 use super::{
     frame,
-    integrator::{DIRECT, PATH},
+    integrator::{DIRECT, PATH, PATH_IN_MEDIUM},
     pipeline_set,
     pipelines::{PipelineVariant, Pipelines, part_count},
     post::Tasks,
@@ -145,7 +145,12 @@ fn rehearse(
     }
     for work in variant.rehearsal() {
         let traces_paths = matches!(work, Work::Trace(Trace { from: Stage::Path, .. }));
-        frame::record(if traces_paths { &PATH } else { &DIRECT }, &mut recorder, work);
+        let integrator = match (*variant.set == pipeline_set::MEDIUM, traces_paths) {
+            (true, _) => &PATH_IN_MEDIUM,
+            (false, true) => &PATH,
+            (false, false) => &DIRECT,
+        };
+        frame::record(integrator, &mut recorder, work);
     }
     let queue = &pipelines.gpu.queue;
     queue.submit([recorder.finish()]);

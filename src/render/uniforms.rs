@@ -6,6 +6,7 @@
 mod background;
 mod camera;
 mod lights;
+mod media;
 mod paths;
 mod shared;
 mod surface;
@@ -31,7 +32,7 @@ use crate::{
     gpu::host_shared::{Array, HostShared},
     scene::{
         self, BloomOrder, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals,
-        Scene, ToneChannels, ToneCurve, ToneMean, color,
+        Scene, ToneChannels, ToneCurve, ToneMean,
     },
 };
 
@@ -81,6 +82,8 @@ impl FrameUniforms {
             sections: sections(scene, space),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
+            medium: media::medium(scene, space),
+            fog: media::fog(scene, space),
             tone: tone(&scene.tone),
             bloom: bloom(&scene.bloom),
             paths: paths::paths(scene, space),
@@ -277,7 +280,7 @@ impl Inputs {
 
     /// The inputs of `scene` in `region`, in the render space `space`.
     pub fn about(scene: &Scene, region: Region, space: &RenderSpace) -> Self {
-        let frame = FrameUniforms::about(scene, region, space);
+        let mut frame = FrameUniforms::about(scene, region, space);
         let model = space.model();
         let formula = model.fractal().formula().pack(
             model.fractal(),
@@ -290,12 +293,13 @@ impl Inputs {
                 traps: scene.surface.traps(),
             },
         );
+        let lights = lights(scene, space);
+        frame.fog = frame.fog.lit_by(&lights);
         Self {
             frame,
             formula,
-            lights: lights(scene, space),
-            gradients: [&scene.surface.gradient, &scene.surface.second_layer.gradient]
-                .map(|stops| color::gradient_lut(stops)),
+            lights,
+            gradients: media::gradients(scene),
             environment_map: None,
             sky: None,
         }
@@ -340,6 +344,11 @@ impl Inputs {
     /// Whether light paths are traced for jittered samples.
     pub fn traces_paths(&self) -> bool {
         self.frame.paths.ray_reach > 0.0
+    }
+
+    /// Whether paths scatter inside the set, which has no surface for them.
+    pub fn traces_medium(&self) -> bool {
+        self.traces_paths() && self.frame.medium.kind != 0
     }
 
     /// The inputs with another view's indirect source; `eye_px` is the size of one eye's picture.
@@ -462,6 +471,8 @@ impl Inputs {
             && new_frame.sections == old_frame.sections
             && new_frame.color_curves == old_frame.color_curves
             && new_frame.background == old_frame.background
+            && new_frame.medium == old_frame.medium
+            && new_frame.fog == old_frame.fog
             && paths(new_frame) == paths(old_frame)
             && self.sky == old.sky
             && self.environment_map == old.environment_map

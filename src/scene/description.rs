@@ -7,9 +7,11 @@ use super::{
     bloom::Bloom,
     camera::Camera,
     environment_map::EnvironmentMap,
+    fog::Fog,
     indirect::{Indirect, IndirectKind},
     integrator::{IntegratorKind, IntegratorSettings},
     lighting::Lights,
+    medium::{Medium, MediumKind},
     quality::Quality,
     rig::RigKind,
     surface::Surface,
@@ -29,6 +31,10 @@ pub struct Scene {
     pub lights: Lights,
     /// How its surface answers light, and its colours.
     pub surface: Surface,
+    /// The medium that takes the surface's place in path tracing.
+    pub medium: Medium,
+    /// Air that scatters light.
+    pub fog: Fog,
     /// Light that reaches the surface by way of others, as the direct integrator gathers it.
     pub indirect: Indirect,
     /// How the light of a picture at rest is computed.
@@ -47,6 +53,19 @@ impl Scene {
     /// Whether light paths are traced while the picture is at rest.
     pub fn traces_paths(&self) -> bool {
         self.integrator.kind == IntegratorKind::Path
+    }
+
+    /// Switches path tracing on, with enough samples for it.
+    pub fn trace_paths(&mut self) {
+        /// Fewer samples are noisy.
+        const SAMPLES: u32 = 256;
+        self.integrator.kind = IntegratorKind::Path;
+        self.quality.samples = self.quality.samples.max(SAMPLES);
+    }
+
+    /// Whether paths scatter inside the set, which has no surface for them.
+    pub fn traces_medium(&self) -> bool {
+        self.traces_paths() && self.medium.kind != MediumKind::None
     }
 
     /// Whether the scene has indirect light.

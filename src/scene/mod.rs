@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`param`] | every number's unit, range, default and help text, in one table |
 //! | `description` | [`Scene`], the whole of its parts |
-//! | `camera`, `lens`, `stereo`, `surface`, `indirect`, `integrator`, `background`, `tone`, `bloom`, `quality` | the parts of a scene |
+//! | `camera`, `lens`, `stereo`, `surface`, `indirect`, `integrator`, `background`, `fog`, `medium`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | `lighting` | the part that holds all lights |
 //! | `light`, `rig` | single lights; lights generated together |
 //! | [`follow`] | the lights of close views, which follow the view |
@@ -26,10 +26,12 @@ mod background;
 mod bloom;
 mod camera;
 mod description;
+mod fog;
 mod integrator;
 mod lens;
 mod light;
 mod lighting;
+mod medium;
 mod project;
 mod quality;
 mod rig;
@@ -55,11 +57,13 @@ pub use bloom::{Bloom, BloomOrder};
 pub use camera::{Camera, MIN_VIEW_UNIT, Quaternion};
 pub use description::Scene;
 pub use environment_map::{EnvironmentMap, MAX_NAME_CHARS};
+pub use fog::Fog;
 pub use indirect::{Indirect, IndirectKind};
 pub use integrator::{IntegratorKind, IntegratorSettings};
 pub use lens::Lens;
 pub use light::{EnvironmentLight, LightFrame, PointLight};
 pub use lighting::{Lights, MAX_LIGHTS};
+pub use medium::{Medium, MediumKind};
 pub use path::Path;
 pub use project::Project;
 pub use quality::{Normals, Quality};

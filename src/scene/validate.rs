@@ -10,7 +10,9 @@ use super::{
     camera::{Camera, MIN_VIEW_UNIT},
     description::Scene,
     environment_map::MAX_NAME_CHARS,
+    fog::Fog,
     lighting::{Lights, MAX_LIGHTS},
+    medium::Medium,
     param::{self, Param},
     rig::{MAX_RIG_RADIANCE, RIG_DIRECTION_TOLERANCE, Rig, RigLight, Sky},
     surface::{Coloring, GradientStop, MAX_GRADIENT_STOPS, Surface},
@@ -52,6 +54,8 @@ impl Scene {
         check_camera(&self.camera)?;
         check_lights(&self.lights)?;
         check_surface(&self.surface)?;
+        check_medium(&self.medium)?;
+        check_fog(&self.fog)?;
         check_color(|| "background.top".into(), self.background.top)?;
         check_color(|| "background.bottom".into(), self.background.bottom)?;
         check(&param::EXPOSURE, self.tone.exposure)?;
@@ -267,6 +271,25 @@ fn check_surface(surface: &Surface) -> Result<(), Invalid> {
         path: error.path.replacen("surface.", "surface.second_layer.", 1),
         ..error
     })
+}
+
+fn check_medium(medium: &Medium) -> Result<(), Invalid> {
+    check_color(|| "medium.color".into(), medium.color)?;
+    check(&param::MEAN_FREE_PATH, medium.mean_free_path)?;
+    check(&param::MEDIUM_ANISOTROPY, medium.anisotropy)?;
+    check(&param::THIN_ITERATIONS, medium.thin_iterations)?;
+    check(&param::DENSE_ITERATIONS, medium.dense_iterations)
+}
+
+fn check_fog(fog: &Fog) -> Result<(), Invalid> {
+    check(&param::FOG_DENSITY, fog.density)?;
+    check_color(|| "fog.color".into(), fog.color)?;
+    check(&param::FOG_ANISOTROPY, fog.anisotropy)?;
+    if let Some(height) = fog.height {
+        check(&param::FOG_HEIGHT, height)?;
+    }
+    check(&param::FOG_LEVEL, fog.level)?;
+    check(&param::FOG_RADIUS, fog.radius)
 }
 
 /// A layer of colours, with the paths of the first one.

@@ -239,12 +239,62 @@ def box():
     ]
 
 
-# Name: the pictures whose sum is the reference, and the samples of a pixel. A scene with fog adds a medium to its
-# surfaces and takes the integrator `volpath`.
+def medium(albedo, extinction, anisotropy):
+    """A homogeneous medium that scatters by Henyey-Greenstein's function."""
+    return {
+        "type": "homogeneous",
+        "albedo": rgb(*albedo),
+        "sigma_t": float(extinction),
+        "phase": {"type": "hg", "g": anisotropy},
+    }
+
+
+def filled_sphere(center, radius, inside):
+    """A sphere without a surface, full of a medium."""
+    return {
+        "type": "sphere",
+        "center": center,
+        "radius": float(radius),
+        "bsdf": {"type": "null"},
+        "interior": inside,
+    }
+
+
+def foggy_ball():
+    """The ball above the floor, in a ball of fog around the eye."""
+    fog = medium([0.9, 0.7, 0.5], 0.2, 0.4) | {"id": "fog"}
+    inside = {"type": "ref", "id": "fog"}
+    # There is no fog inside of the light's shape, so the light is small.
+    small_light = point_light([-1.4, -0.8, 1.9], 0.03, 4.0, [0.6, 0.8, 1])
+    scenes = ball([DISC_LIGHT, small_light], diffuse(0.8, 0.8, 0.8), diffuse(0.8, 0.8, 0.8), bounces=20)
+    for scene in scenes:
+        scene["integrator"] = path(20) | {"type": "volpath"}
+        scene["fog"] = fog
+        scene["air"] = filled_sphere([0, 0, -0.7], 5.5, inside)
+        scene["sensor"] = BALL_CAMERA | {"medium": inside}
+        if scene["light"] is small_light:
+            scene["light"] = small_light | {"exterior": inside}
+    return scenes
+
+
+def cloudy_ball():
+    """A ball that is a medium, in a white sky and in the light of a disc."""
+    scene = {
+        "type": "scene",
+        "integrator": path(64) | {"type": "volpath"},
+        "sensor": camera([0, -4, 1], [0, 0, 0], 36),
+        "ball": filled_sphere([0, 0, 0], 1, medium([0.98, 0.9, 0.7], 5, -0.3)),
+    }
+    return [scene | {"light": light} for light in [DISC_LIGHT, white_sky()]]
+
+
+# Name: the pictures whose sum is the reference, and the samples of a pixel.
 SCENES = {
     "diffuse_ball": (diffuse_ball, 4096),
     "box": (box, 4096),
     "metal_ball": (metal_ball, 512),
+    "foggy_ball": (foggy_ball, 16384),
+    "cloudy_ball": (cloudy_ball, 8192),
 }
 
 

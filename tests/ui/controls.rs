@@ -53,6 +53,16 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
         if param == &param::ROUGHNESS {
             press(&mut harness, "Material: Physical");
         }
+        if param == &param::MEAN_FREE_PATH {
+            press(&mut harness, "Material: Cloud");
+        }
+        if param == &param::FOG_ANISOTROPY {
+            harness.get_by_label("Ground fog").click();
+            harness.run();
+        }
+        if param == &param::EXPOSURE {
+            press(&mut harness, "Material: Physical");
+        }
         if param == &param::BOUNCES {
             harness.get_by_label("Path tracing").click();
             harness.run();
@@ -99,6 +109,7 @@ fn every_parameter_of_every_formula_has_a_control() {
         // Controls of layers and traps show where they have an effect.
         scene.surface.coloring.source = ColorSource::SphereTrap;
         scene.surface.second_layer.amount = 0.5;
+        (scene.fog.density, scene.fog.height) = (0.5, Some(0.5));
         let mut harness = stage(scene, unfolded(), [1280.0, 5000.0]);
         for switch in ["Auto exposure", "Depth of field", "Path tracing"] {
             harness.get_by_label(switch).click();
@@ -116,6 +127,7 @@ fn every_parameter_of_every_formula_has_a_control() {
             "Stereo: Stacked",
             "Indirect light: Horizon",
             "Material: Physical",
+            "Material: Cloud",
         ];
         for other in others {
             press(&mut harness, other);

@@ -25,11 +25,17 @@ mod path;
 
 pub use contract::Integrator;
 pub use direct::DIRECT;
-pub use path::PATH;
+pub use path::{PATH, PATH_IN_MEDIUM};
 
 use super::uniforms::Inputs;
 
 /// The integrator of a scene.
 pub fn of(inputs: &Inputs) -> &'static Integrator {
-    if inputs.traces_paths() { &PATH } else { &DIRECT }
+    if inputs.traces_medium() {
+        &PATH_IN_MEDIUM
+    } else if inputs.traces_paths() {
+        &PATH
+    } else {
+        &DIRECT
+    }
 }

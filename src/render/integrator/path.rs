@@ -24,6 +24,10 @@ pub static PATH: Integrator = Integrator {
     },
 };
 
+/// The path tracer for sets that are a medium.
+pub static PATH_IN_MEDIUM: Integrator =
+    Integrator { jittered_passes: pass::PATH_IN_MEDIUM, ..PATH };
+
 /// Jittered samples are paths, whose lights are chosen as they go.
 fn job(points: Points, valid: &GBufferValidity, shining: u64) -> Job {
     match points {

@@ -1,7 +1,7 @@
 //! One file per pass, named like its shader in `shaders/pass/`.
 //!
 //! Each file declares what the pass binds, when a frame has the pass, and how it is dispatched. To add a
-//! pass, add its two files, and here its module and its entry in [`DIRECT`], [`PATH`] or [`DISPLAY`].
+//! pass, add its two files, and here its module and its entry in [`DIRECT`], [`PATH`], [`PATH_IN_MEDIUM`] or [`DISPLAY`].
 
 pub mod assess_noise;
 pub mod bloom;
@@ -25,6 +25,7 @@ pub mod shadow;
 pub mod shadow_cone;
 pub mod tone;
 pub mod tonemap_sparse;
+pub mod track;
 pub mod upsample;
 
 use std::sync::LazyLock;
@@ -58,6 +59,16 @@ pub const PATH: &[&Pass] = &[
     &assess_noise::PASS,
 ];
 
+/// The passes of a path that scatters inside the set.
+pub const PATH_IN_MEDIUM: &[&Pass] = &[
+    &camera_rays::PASS,
+    &camera_cone::PASS,
+    &track::PASS,
+    &scatter::PASS,
+    &film_paths::PASS,
+    &assess_noise::PASS,
+];
+
 /// The passes from samples to a display picture, in the order of a frame.
 pub const DISPLAY: &[&Pass] = &[
     // Of centre samples, beside the frames.
@@ -77,7 +88,7 @@ pub const DISPLAY: &[&Pass] = &[
 ];
 
 /// The lists of passes of all integrators.
-const INTEGRATORS: &[&[&Pass]] = &[DIRECT, PATH];
+const INTEGRATORS: &[&[&Pass]] = &[DIRECT, PATH, PATH_IN_MEDIUM];
 
 /// Every pass once, also if several integrators share it.
 pub fn all() -> impl Iterator<Item = &'static Pass> {

@@ -1,6 +1,6 @@
 //! Extends light paths vertex by vertex; the passes of direct light march their rays.
 
-use super::{march, normal, shadow};
+use super::{march, normal, shadow, track};
 use crate::render::{
     lattice::Grid,
     pipeline_set,
@@ -21,8 +21,13 @@ pub const PASS: Pass = Pass {
 
 /// Follows the paths of `trace` from their first surface points to their ends.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
-    let [march, normal, scatter, shadow] =
-        [&march::PASS, &normal::PASS, &PASS, &shadow::PASS].map(|pass| recorder.pipeline(pass, 0));
+    // A medium has collisions in place of surface points, and no normals.
+    let in_medium = recorder.inputs.traces_medium();
+    let (marching, shadowing) =
+        if in_medium { (&track::PASS, &track::PASS) } else { (&march::PASS, &shadow::PASS) };
+    let [march, shadow, scatter] =
+        [marching, shadowing, &PASS].map(|pass| recorder.pipeline(pass, 0));
+    let normal = (!in_medium).then(|| recorder.pipeline(&normal::PASS, 0));
     let work_queues = &recorder.targets.work_queues;
     recorder.bind_paths();
     let bounces = recorder.inputs.frame.paths.bounces;
@@ -44,8 +49,8 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
         } else {
             let queue = Queue::Vertex(paths);
             recorder.dispatch_queue(&march, &work_queues.dequeue, params, queue);
-            if bounce <= bounces {
-                recorder.dispatch_queue(&normal, &work_queues.dequeue, params, queue);
+            if let Some(normal) = normal.as_ref().filter(|_| bounce <= bounces) {
+                recorder.dispatch_queue(normal, &work_queues.dequeue, params, queue);
             }
             recorder.dispatch_queue(&scatter, enqueue, params, queue);
         }

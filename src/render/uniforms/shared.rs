@@ -233,6 +233,10 @@ host_shared! {
         indirect: Indirect,
         /// The background.
         background: Background,
+        /// The medium in place of the set's surface, for paths.
+        medium: Medium,
+        /// Fog.
+        fog: Fog,
         /// Tone settings.
         tone: Tone,
         /// Bloom settings.
@@ -249,6 +253,40 @@ host_shared! {
         normals: u32,
         /// The knots of the layers' colour curves: see [`ColorCurve`](crate::render::color_curve::ColorCurve).
         color_curves: Array<[f32; 4], 32>,
+    }
+    /// The medium in place of the set's surface, for paths.
+    Medium {
+        /// Single-scattering albedo, linear Rec. 709.
+        color: [f32; 3],
+        /// 0 no medium, 1 the set's inside, 2 by iteration counts.
+        kind: u32,
+        /// At full density, in render space.
+        mean_free_path: f32,
+        /// Mean cosine of scattering.
+        anisotropy: f32,
+        /// Iteration count up to which the density is 0.
+        thin: f32,
+        /// Rise of the density per iteration above.
+        per_iteration: f32,
+    }
+    /// Fog in a ball, thinner with the height.
+    Fog {
+        /// Single-scattering albedo, linear Rec. 709.
+        color: [f32; 3],
+        /// Extinction coefficient at full density, per unit of render space; 0 without fog.
+        density: f32,
+        /// The ball's centre in render space.
+        center: [f32; 3],
+        /// The ball's radius in render space.
+        radius: f32,
+        /// Radiance of thick fog in direct light: that of all lights, without shadows.
+        ambient: [f32; 3],
+        /// Mean cosine of scattering.
+        anisotropy: f32,
+        /// Height over the centre up to which the density is full, in render space.
+        level: f32,
+        /// One over the scale height; 0 for the same density everywhere.
+        inverse_height: f32,
     }
     /// The parameters of one dispatch.
     DispatchParams {

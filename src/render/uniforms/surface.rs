@@ -1,11 +1,14 @@
 //! The uniforms of the surface's material.
 
 use super::Surface;
-use crate::scene::{Scene, SurfaceModel, follow};
+use crate::scene::{MediumKind, Scene, SurfaceModel, follow};
 
 /// The material of a scene's surface, and the number of its lights.
 pub fn surface(scene: &Scene) -> Surface {
     let surface = &scene.surface;
+    if scene.medium.kind != MediumKind::None {
+        return translucent(scene);
+    }
     let driven = surface.driven_by_layer;
     let drives = [driven.roughness, driven.metalness, driven.coat, driven.emission];
     Surface {
@@ -13,7 +16,7 @@ pub fn surface(scene: &Scene) -> Surface {
         diffuse: surface.diffuse as f32,
         specular: surface.specular as f32,
         shininess: surface.shininess as f32,
-        light_count: follow::effective(&scene.lights, &scene.camera).len() as u32,
+        light_count: light_count(scene),
         model: match surface.model {
             SurfaceModel::BlinnPhong => 0,
             SurfaceModel::Physical => 1,
@@ -26,4 +29,19 @@ pub fn surface(scene: &Scene) -> Surface {
         emission: surface.emission as f32,
         driven: (0..).zip(drives).fold(0, |bits, (bit, drives)| bits | u32::from(drives) << bit),
     }
+}
+
+/// A matte surface, which direct light draws in place of a medium.
+fn translucent(scene: &Scene) -> Surface {
+    Surface {
+        ambient: scene.surface.ambient as f32,
+        diffuse: 1.0,
+        shininess: 1.0,
+        light_count: light_count(scene),
+        ..Surface::default()
+    }
+}
+
+fn light_count(scene: &Scene) -> u32 {
+    follow::effective(&scene.lights, &scene.camera).len() as u32
 }

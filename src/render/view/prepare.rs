@@ -5,7 +5,7 @@ use crate::{
     formula::Kernel,
     render::{
         Pace,
-        pipeline_set::{self, INDIRECT, NORMALS, PATHS, POST, RAYS},
+        pipeline_set::{self, INDIRECT, MEDIUM, NORMALS, PATHS, POST, RAYS},
         pipelines::{PipelineSet, PipelineVariant},
         post::Need,
         preparation::{Preparation, PreparationState},
@@ -85,10 +85,11 @@ impl View {
     /// The next variant to prepare, and whether the scene cannot be drawn without it.
     fn missing(&self) -> Option<(PipelineVariant, bool)> {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
-        let rays = self
-            .inputs
-            .iter()
-            .flat_map(|inputs| [&RAYS, &NORMALS].map(|set| PipelineVariant::of(set, inputs)));
+        let rays = self.inputs.iter().flat_map(|inputs| {
+            let of_medium = inputs.traces_medium().then_some(&MEDIUM);
+            let sets = [&RAYS, &NORMALS].into_iter().chain(of_medium);
+            sets.map(|set| PipelineVariant::of(set, inputs))
+        });
         // A general variant draws until the special variant is ready; deep views have no general variant.
         let drawn_by = rays.map(|special| special.general().unwrap_or(special));
         let awaited: Vec<_> = drawn_by.chain(self.behind_shading(scene)).collect();

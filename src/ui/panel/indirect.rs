@@ -19,22 +19,21 @@ pub(super) const SECTION: Section = Section {
     show,
 };
 
-/// Samples that a picture gets at least when path tracing is switched on.
-const SAMPLES_OF_PATHS: u32 = 256;
-
 /// Path tracing: its bounces and their reach.
 fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
-    let integrator = &mut cx.scene.integrator;
-    let mut is_on = integrator.kind == IntegratorKind::Path;
+    let mut is_on = cx.scene.traces_paths();
     let hover = "Realistic light: when the picture stops moving, light bounces between surfaces and brightens shadows. Slow.";
-    if ui.checkbox(&mut is_on, "Path tracing").on_hover_text(hover).changed() && is_on {
-        // Fewer are noisy.
-        cx.scene.quality.samples = cx.scene.quality.samples.max(SAMPLES_OF_PATHS);
+    if ui.checkbox(&mut is_on, "Path tracing").on_hover_text(hover).changed() {
+        if is_on {
+            cx.scene.trace_paths();
+        } else {
+            cx.scene.integrator.kind = IntegratorKind::Direct;
+        }
     }
-    integrator.kind = if is_on { IntegratorKind::Path } else { IntegratorKind::Direct };
     if !is_on {
         return;
     }
+    let integrator = &mut cx.scene.integrator;
     param_slider_count(ui, &param::BOUNCES, &mut integrator.bounces);
     let mut is_limited = integrator.reach.is_some();
     let limit = ui.checkbox(&mut is_limited, "Limit bounce distance").on_hover_text(

@@ -10,6 +10,7 @@ mod colors;
 mod context;
 mod export;
 mod fields;
+mod fog;
 mod formula;
 mod formula_text;
 mod fractal;
@@ -51,6 +52,7 @@ const SECTIONS: &[Section] = &[
     colors::SECTION,
     surface::SECTION,
     indirect::SECTION,
+    fog::SECTION,
     tone::SECTION,
     bloom::SECTION,
     quality::SECTION,

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::context::{Context, Section};
 use crate::{
-    scene::{Surface, SurfaceModel, param},
+    scene::{MediumKind, Scene, Surface, SurfaceModel, param},
     ui::widgets::{choice, color, param_slider},
 };
 
@@ -16,23 +16,72 @@ pub(super) const SECTION: Section = Section {
     show,
 };
 
-/// The model, its reflectance, emission.
+/// What the set is made of: surface models, and media.
+#[derive(Clone, Copy, PartialEq)]
+enum Substance {
+    Surface(SurfaceModel),
+    Medium(MediumKind),
+}
+
+impl Substance {
+    fn of(scene: &Scene) -> Self {
+        match scene.medium.kind {
+            MediumKind::None => Self::Surface(scene.surface.model),
+            kind => Self::Medium(kind),
+        }
+    }
+
+    fn set(self, scene: &mut Scene) {
+        match self {
+            Self::Surface(model) => {
+                (scene.medium.kind, scene.surface.model) = (MediumKind::None, model);
+            }
+            Self::Medium(kind) => scene.medium.kind = kind,
+        }
+    }
+}
+
+/// The substance; a surface's reflectance and emission, or a medium.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    let surface = &mut cx.scene.surface;
+    let mut substance = Substance::of(cx.scene);
     choice(
         ui,
         "Material",
-        &mut surface.model,
+        &mut substance,
         &[
-            (SurfaceModel::BlinnPhong, "Classic", "Matte, with round highlights of the lights"),
             (
-                SurfaceModel::Physical,
+                Substance::Surface(SurfaceModel::BlinnPhong),
+                "Classic",
+                "Matte, with round highlights of the lights",
+            ),
+            (
+                Substance::Surface(SurfaceModel::Physical),
                 "Physical",
                 "Stone, plastic, metal or varnish. With path tracing, reflections show the surroundings.",
             ),
+            (
+                Substance::Medium(MediumKind::Set),
+                "Translucent",
+                "Light shines through, as through wax or jade. Needs path tracing.",
+            ),
+            (
+                Substance::Medium(MediumKind::Iterations),
+                "Cloud",
+                "Soft clouds around the fractal. Needs path tracing.",
+            ),
         ],
     );
-    match surface.model {
+    if substance != Substance::of(cx.scene) {
+        substance.set(cx.scene);
+    }
+    match substance {
+        Substance::Surface(model) => of_surface(ui, &mut cx.scene.surface, model),
+        Substance::Medium(kind) => of_medium(ui, cx.scene, kind),
+    }
+}
+
+fn of_surface(ui: &mut Ui, surface: &mut Surface, model: SurfaceModel) {
+    match model {
         SurfaceModel::BlinnPhong => {
             param_slider(ui, &param::DIFFUSE, &mut surface.diffuse);
             param_slider(ui, &param::SPECULAR, &mut surface.specular);
@@ -43,6 +92,28 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider(ui, &param::AMBIENT, &mut surface.ambient);
     param_slider(ui, &param::EMISSION, &mut surface.emission);
     driven_by_layer(ui, surface);
+}
+
+fn of_medium(ui: &mut Ui, scene: &mut Scene, kind: MediumKind) {
+    if !scene.traces_paths() {
+        let hover = "Draws the light inside when the picture stops moving; until then only the surface shows";
+        if ui.button("Show the light inside").on_hover_text(hover).clicked() {
+            scene.trace_paths();
+        }
+    }
+    let medium = &mut scene.medium;
+    color(
+        ui,
+        "Inner colour",
+        "Colour of the light that is scattered inside. Repeated scattering makes it stronger: choose pale colours.",
+        &mut medium.color,
+    );
+    param_slider(ui, &param::MEAN_FREE_PATH, &mut medium.mean_free_path);
+    param_slider(ui, &param::MEDIUM_ANISOTROPY, &mut medium.anisotropy);
+    if kind == MediumKind::Iterations {
+        param_slider(ui, &param::THIN_ITERATIONS, &mut medium.thin_iterations);
+        param_slider(ui, &param::DENSE_ITERATIONS, &mut medium.dense_iterations);
+    }
 }
 
 fn physical(ui: &mut Ui, surface: &mut Surface) {

@@ -9,10 +9,11 @@ use mandelight::{
     },
     scene::{
         Axis, Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
-        DrivenByLayer, EnvironmentLight, EnvironmentMapRig, GradientStop, Indirect, IndirectKind,
-        IntegratorKind, IntegratorSettings, Lens, LightFrame, Lights, Normals, PointLight, Precise,
-        PrecisePoint, Quality, Rig, RigKind, RigLight, Scene, SecondLayer, SectionColors, Sky,
-        Stereo, StereoLayout, Surface, SurfaceModel, Tone, ToneChannels, ToneCurve, ToneMean,
+        DrivenByLayer, EnvironmentLight, EnvironmentMapRig, Fog, GradientStop, Indirect,
+        IndirectKind, IntegratorKind, IntegratorSettings, Lens, LightFrame, Lights, Medium,
+        MediumKind, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight,
+        Scene, SecondLayer, SectionColors, Sky, Stereo, StereoLayout, Surface, SurfaceModel, Tone,
+        ToneChannels, ToneCurve, ToneMean,
         param::{self, Param},
     },
 };
@@ -320,6 +321,35 @@ fn physical() -> impl Strategy<Value = Surface> {
     )
 }
 
+fn medium() -> impl Strategy<Value = Medium> {
+    let kind = select(vec![MediumKind::None, MediumKind::Set, MediumKind::Iterations]);
+    let numbers = (value(&param::MEAN_FREE_PATH), value(&param::MEDIUM_ANISOTROPY));
+    let range = (value(&param::THIN_ITERATIONS), value(&param::DENSE_ITERATIONS));
+    (kind, color(), numbers, range).prop_map(|(kind, color, numbers, range)| Medium {
+        kind,
+        color,
+        mean_free_path: numbers.0,
+        anisotropy: numbers.1,
+        thin_iterations: range.0,
+        dense_iterations: range.1,
+    })
+}
+
+fn fog() -> impl Strategy<Value = Fog> {
+    let numbers = (value(&param::FOG_DENSITY), value(&param::FOG_ANISOTROPY));
+    let height = (option::of(value(&param::FOG_HEIGHT)), value(&param::FOG_LEVEL));
+    (color(), numbers, height, value(&param::FOG_RADIUS)).prop_map(
+        |(color, numbers, height, radius)| Fog {
+            density: numbers.0,
+            color,
+            anisotropy: numbers.1,
+            height: height.0,
+            level: height.1,
+            radius,
+        },
+    )
+}
+
 fn integrator() -> impl Strategy<Value = IntegratorSettings> {
     let kind = select(vec![IntegratorKind::Direct, IntegratorKind::Path]);
     let limits = (option::of(value(&param::BOUNCE_REACH)), value(&param::NOISE));
@@ -414,15 +444,18 @@ pub fn scene() -> impl Strategy<Value = Scene> {
     let kind = select(vec![BackgroundKind::Gradient, BackgroundKind::EnvironmentMap]);
     let background =
         (kind, color(), color()).prop_map(|(kind, top, bottom)| Background { kind, top, bottom });
-    let what = (fractal(), camera(), lights(), surface(), indirect(), background);
+    let what =
+        (fractal(), camera(), lights(), surface(), indirect(), (background, medium(), fog()));
     let how = (tone(), bloom(), quality(), integrator());
     (what, how).prop_map(|(what, (tone, bloom, quality, integrator))| {
-        let (fractal, camera, lights, surface, indirect, background) = what;
+        let (fractal, camera, lights, surface, indirect, (background, medium, fog)) = what;
         Scene {
             fractal,
             camera,
             lights,
             surface,
+            medium,
+            fog,
             indirect,
             integrator,
             background,

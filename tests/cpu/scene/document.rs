@@ -124,8 +124,8 @@ fn scalar_defaults_are_those_of_the_parameter_table() {
         let scene = from_json(&document.to_string()).unwrap();
         document = serde_json::from_str(&to_json(&scene)).unwrap();
         let path = param.path_at(0);
-        // Two defaults are not one number: a point in space, and "the whole scene".
-        if param == &param::SHADOW_REACH
+        // Three defaults are not one number: a point in space, "the whole scene", and "no height".
+        if [&param::SHADOW_REACH, &param::FOG_HEIGHT].contains(&param)
             || param.path.starts_with("fractal.") && param.path.ends_with("[]")
         {
             continue;
@@ -180,7 +180,7 @@ fn errors_name_the_field_and_say_what_is_wrong() {
             "fractal.powr: unknown field `powr`, expected one of `formula`",
         ),
         (json!({ "fractal": { "variant": "other" } }), "fractal.variant: unknown variant `other`"),
-        (json!({ "fog": {} }), "fog: unknown field `fog`"),
+        (json!({ "haze": {} }), "haze: unknown field `haze`"),
         (
             json!({ "fractal": { "power": 16, "bailout": 16 } }),
             "fractal.bailout: 16 is above 15.98, the most that power 16 allows",

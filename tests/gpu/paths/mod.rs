@@ -2,9 +2,11 @@
 //!
 //! | file | contents |
 //! |---|---|
+//! | `media` | fog, and sets that are a medium |
 //! | `truth` | white furnaces and closed forms |
 //! | `sampling` | kinds of samples, convergence, pieces of a picture |
 
+mod media;
 mod sampling;
 mod truth;
 
@@ -12,8 +14,7 @@ use mandelight::{
     formula::{Fractal, own},
     gpu::readback::Readback,
     render::{
-        Region, frame,
-        integrator::PATH,
+        Region, frame, integrator,
         recorder::{Dispatches, Recorder},
         samples::means,
         schedule::{Points, Stage, Trace, Work},
@@ -52,7 +53,7 @@ impl Tracer {
         assert!(inputs.traces_paths());
         inputs.frame.paths.strategy = gather as u32;
         let mut targets = Targets::new(&pipelines.layouts, region);
-        (PATH.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
+        (integrator::of(&inputs).fit_targets)(&mut targets, &pipelines.layouts, &inputs);
         targets.upload(&pipelines.gpu.queue, &inputs);
         pipelines.specialize(scene);
         Self { targets, inputs }
@@ -79,7 +80,7 @@ impl Tracer {
                 &self.inputs,
                 &mut dispatches,
             );
-            frame::record(&PATH, &mut recorder, batch);
+            frame::record(integrator::of(&self.inputs), &mut recorder, batch);
             gpu.queue.submit([recorder.finish()]);
         }
         let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("the film's bytes");

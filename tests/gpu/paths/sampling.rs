@@ -14,7 +14,7 @@ use mandelight_test_support::{
 use super::{Gather, SIZE, Tracer, mean, plain, scene_of, under_white_sky};
 
 /// A ball over a floor, with lights of both kinds and a sky.
-fn ball_on_floor() -> Scene {
+pub fn ball_on_floor() -> Scene {
     let distance = "min(p.z + 0.5, length(p - vec3(0, 0, 0.1)) - 0.5)";
     let mut scene = under_white_sky(scene_of(distance, [0.8, 0.6, 0.4]));
     scene.camera =
@@ -40,7 +40,7 @@ fn ball_on_floor() -> Scene {
 }
 
 /// The mean over all pixels, and its standard error by 64 batches of eight samples.
-fn mean_of_batches(scene: &Scene, gather: Gather) -> (f64, f64) {
+pub fn mean_of_batches(scene: &Scene, gather: Gather) -> (f64, f64) {
     const BATCHES: u32 = 64;
     let tracer = Tracer::new(scene, gather);
     let means: Vec<f64> = (0..BATCHES).map(|batch| mean(&tracer.film(8 * batch, 8))).collect();

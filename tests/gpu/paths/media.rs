@@ -1,0 +1,244 @@
+//! Fog, and sets that are a medium: closed forms, furnaces, and two ways to gather light.
+
+use glam::DVec3;
+use mandelight::{
+    formula::Fractal,
+    render::Pace,
+    scene::{Background, Camera, Fog, IntegratorKind, Medium, MediumKind, Scene, param},
+};
+use mandelight_test_support::{
+    oracle::rays,
+    view::{finished, sampled},
+};
+
+use super::{
+    Gather, SIZE, mean, plain,
+    sampling::{ball_on_floor, mean_of_batches},
+    scene_of, under_white_sky,
+};
+
+/// The unit ball as a set: points outside of it escape.
+const BALL: &str = "name \"Ball\"; step { z = z * length(z); } estimate distance length(p) - 1; bound 1.3; iterations 40;";
+
+/// A medium in a set of that formula.
+fn ball_of(medium: Medium) -> Scene {
+    let formula = mandelight::formula::own::alone(BALL).expect("a formula");
+    let mut scene = plain(Fractal::new(formula), [1.0; 3]);
+    scene.camera = Camera::looking_at(DVec3::new(0.5, -2.8, 0.9), DVec3::ZERO, DVec3::Z);
+    scene.medium = medium;
+    scene
+}
+
+/// Fog that falls off upward, seen against a white background.
+fn foggy(fog: Fog) -> Scene {
+    let mut scene = scene_of("length(p) - 0.4", [0.0; 3]);
+    scene.background = Background::gradient([1.0; 3], [1.0; 3]);
+    scene.camera = Camera::looking_at(DVec3::new(0.3, -1.6, 0.4), DVec3::ZERO, DVec3::Z);
+    scene.fog = fog;
+    scene
+}
+
+fn kinds_of_fog() -> [Fog; 3] {
+    let even = Fog { density: 0.8, color: [0.0; 3], ..Fog::default() };
+    let high = Fog { height: Some(0.15), level: -0.1, radius: 2.0, ..even.clone() };
+    // The eye is outside.
+    let small = Fog { density: 3.0, height: Some(0.3), level: -0.2, radius: 0.7, ..even.clone() };
+    [even, high, small]
+}
+
+/// The fog's part of the light of a ray over `distance`, by the midpoint rule.
+fn passed(scene: &Scene, direction: DVec3, distance: f64) -> f64 {
+    const STEPS: u32 = 20_000;
+    let unit = scene.camera.view_unit();
+    let (fog, eye) = (&scene.fog, scene.camera.position.to_dvec3());
+    let way = distance.min(3.0 * unit * (1.0 + fog.radius));
+    let step = way / f64::from(STEPS);
+    let density = |t: f64| {
+        let point = eye + t * direction - scene.camera.pivot.to_dvec3();
+        if point.length() > fog.radius * unit {
+            return 0.0;
+        }
+        let over = (point.z / unit - fog.level).max(0.0);
+        fog.height.map_or(1.0, |height| (-over / height).exp()) * fog.density / unit
+    };
+    let depth: f64 = (0..STEPS).map(|i| density((f64::from(i) + 0.5) * step) * step).sum();
+    (-depth).exp()
+}
+
+#[test]
+fn fog_dims_direct_light_as_its_optical_depth_says() {
+    for fog in kinds_of_fog() {
+        let mut scene = foggy(fog);
+        scene.integrator.kind = IntegratorKind::Direct;
+        scene.surface.emission = 1.0;
+        scene.surface.gradient[0].color = [0.5; 3];
+        let view = finished(&sampled(scene.clone(), 1), SIZE, Pace::Still);
+        let (film, depths) = (view.film().expect("a film"), view.gbuffer().expect("samples").depth);
+        let mut worst = 0.0_f64;
+        for (i, (color, depth)) in film.iter().zip(depths).enumerate() {
+            let pixel = [i as u32 % SIZE[0], i as u32 / SIZE[0]];
+            let direction = rays::direction(&scene.camera, SIZE, pixel);
+            let (radiance, distance) =
+                if depth > 0.0 { (0.5, f64::from(depth)) } else { (1.0, f64::INFINITY) };
+            let expected = radiance * passed(&scene, direction, distance);
+            worst = worst.max((f64::from(color[1]) - expected).abs());
+        }
+        println!("off by {worst:.6}");
+        // The rule's own error where the ball of fog ends is 1e-4.
+        assert!(worst < 3e-4, "off by {worst}");
+    }
+}
+
+#[test]
+fn paths_meet_as_much_fog_as_direct_light() {
+    for fog in kinds_of_fog() {
+        let mut scene = foggy(fog);
+        // Black things before a white background.
+        let traced = finished(&sampled(scene.clone(), 256), SIZE, Pace::Still).film();
+        scene.integrator.kind = IntegratorKind::Direct;
+        let direct = finished(&sampled(scene, 16), SIZE, Pace::Still).film();
+        let (traced, direct) = (traced.expect("a film"), direct.expect("a film"));
+        for (traced, direct) in traced.chunks(6 * 48).zip(direct.chunks(6 * 48)) {
+            let (traced, direct) = (mean(traced), mean(direct));
+            // Four standard errors of what is yes or no.
+            let allowed = 4.0 * (0.25 / (6.0 * 48.0 * 256.0_f64)).sqrt();
+            assert!((traced - direct).abs() < allowed, "{traced} instead of {direct}");
+        }
+    }
+}
+
+#[test]
+fn an_absorbing_ball_dims_its_background_by_its_chords() {
+    let scene = |kind| {
+        let black = Medium { kind, color: [0.0; 3], mean_free_path: 0.3, ..Medium::default() };
+        let mut scene = ball_of(Medium { thin_iterations: 5.0, dense_iterations: 8.0, ..black });
+        scene.background = Background::gradient([1.0; 3], [1.0; 3]);
+        scene
+    };
+    for kind in [MediumKind::Set, MediumKind::Iterations] {
+        let scene = scene(kind);
+        let free_path = 0.3 * scene.camera.view_unit();
+        let eye = scene.camera.position.to_dvec3();
+        // The steps of |z| -> |z|^2 until the bailout are counted smoothly: by two logarithms.
+        let log_bailout = scene.fractal.bailout.ln();
+        let density = |radius: f64| {
+            if radius <= 1.0 {
+                return 1.0;
+            }
+            let iterations = (log_bailout / radius.ln()).log2();
+            let within = kind == MediumKind::Iterations && radius < 1.3;
+            if within { ((iterations - 5.0) / 3.0).clamp(0.0, 1.0) } else { 0.0 }
+        };
+        let expected = |pixel: [f64; 2]| {
+            const STEP: f64 = 1e-3;
+            let direction = rays::direction_at(&scene.camera, SIZE, pixel);
+            let depth: f64 = (0..5000)
+                .map(|i| STEP * density((eye + (f64::from(i) + 0.5) * STEP * direction).length()))
+                .sum();
+            (-depth / free_path).exp()
+        };
+        let film = finished(&sampled(scene.clone(), 256), SIZE, Pace::Still).film();
+        let film = film.expect("a film");
+        let (mut found, mut wanted) = (0.0, 0.0);
+        for (i, color) in film.iter().enumerate() {
+            let [x, y] = [i as u32 % SIZE[0], i as u32 / SIZE[0]].map(f64::from);
+            // The mean over a pixel, by four places.
+            let places = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]];
+            let here: f64 = places.map(|[u, v]| expected([x + u, y + v])).iter().sum::<f64>() / 4.0;
+            let off = (f64::from(color[1]) - here).abs();
+            assert!(off < 0.2, "{kind:?}, pixel {x}, {y}: {} instead of {here}", color[1]);
+            (found, wanted) = (found + f64::from(color[1]), wanted + here);
+        }
+        println!("{kind:?}: {:.5} of {:.5}", found / film.len() as f64, wanted / film.len() as f64);
+        assert!((found / wanted - 1.0).abs() < 0.004, "{kind:?}: {found} instead of {wanted}");
+    }
+}
+
+/// Draws `scene` under a white sky, before a white background, and returns its mean.
+fn furnace(scene: Scene, samples: u32) -> f64 {
+    let mut scene = under_white_sky(scene);
+    scene.background = Background::gradient([1.0; 3], [1.0; 3]);
+    scene.integrator.bounces = 64;
+    let film = finished(&sampled(scene, samples), SIZE, Pace::Still).film().expect("a film");
+    mean(&film)
+}
+
+#[test]
+fn white_media_vanish_in_a_white_sky() {
+    let white = |kind, mean_free_path, anisotropy| {
+        let medium =
+            Medium { kind, mean_free_path, anisotropy, color: [1.0; 3], ..Medium::default() };
+        Scene { medium, ..plain(Fractal::default(), [1.0; 3]) }
+    };
+    let in_fog = |fog: Fog| Scene {
+        fog: Fog { color: [1.0; 3], ..fog },
+        ..scene_of("max(length(p) - 1, 0.85 - length(p - vec3(0, -0.35, 0.35)))", [1.0; 3])
+    };
+    let [even, high, _] = kinds_of_fog();
+    let both = Scene { fog: in_fog(even.clone()).fog, ..white(MediumKind::Set, 0.3, 0.0) };
+    let kinds = [
+        ("the set", white(MediumKind::Set, 0.15, 0.0)),
+        ("the set, forward", white(MediumKind::Set, 0.05, 0.8)),
+        ("a cloud, backward", white(MediumKind::Iterations, 0.15, -0.5)),
+        ("even fog", in_fog(even)),
+        ("high fog", in_fog(high)),
+        ("fog about the set", both),
+    ];
+    for (kind, scene) in kinds {
+        let found = furnace(scene, 32);
+        println!("{kind}: {found:.5}");
+        assert!((found - 1.0).abs() < 0.005, "{kind}: {found}");
+    }
+}
+
+#[test]
+fn samples_of_lights_and_of_phase_functions_gather_the_same_light() {
+    let fog =
+        Fog { density: 1.5, anisotropy: 0.5, height: Some(0.4), level: 0.0, ..Fog::default() };
+    let foggy = Scene { fog, ..ball_on_floor() };
+    let medium =
+        Medium { kind: MediumKind::Set, mean_free_path: 0.1, anisotropy: 0.4, ..Medium::default() };
+    let mut cloudy = Scene { medium: medium.clone(), ..ball_on_floor() };
+    cloudy.fractal = ball_of(medium).fractal;
+    cloudy.camera = Camera::looking_at(DVec3::new(0.6, -2.8, 1.4), DVec3::ZERO, DVec3::Z);
+    for scene in [foggy, cloudy] {
+        let (both, both_error) = mean_of_batches(&scene, Gather::Both);
+        for gather in [Gather::Lights, Gather::Surfaces] {
+            let (found, error) = mean_of_batches(&scene, gather);
+            let allowed = 4.0 * both_error.hypot(error);
+            println!("{gather:?}: {found:.5} ± {error:.5}, both {both:.5} ± {both_error:.5}");
+            assert!(allowed < 0.03 * both, "{gather:?}: the errors {allowed} say too little");
+            assert!((found - both).abs() < allowed, "{gather:?}: {found} instead of {both}");
+        }
+    }
+}
+
+#[test]
+fn extreme_media_give_finite_numbers() {
+    let fogs = [
+        Fog { density: param::FOG_DENSITY.max, radius: param::FOG_RADIUS.max, ..Fog::default() },
+        Fog {
+            density: param::FOG_DENSITY.max,
+            height: Some(param::FOG_HEIGHT.min),
+            level: param::FOG_LEVEL.min,
+            anisotropy: param::FOG_ANISOTROPY.min,
+            ..Fog::default()
+        },
+        Fog { density: 1e-6, radius: param::FOG_RADIUS.min, ..Fog::default() },
+    ];
+    let media = [
+        Medium { mean_free_path: param::MEAN_FREE_PATH.min, anisotropy: 0.9, ..Medium::default() },
+        Medium { thin_iterations: 1000.0, dense_iterations: 0.0, ..Medium::default() },
+        Medium { mean_free_path: param::MEAN_FREE_PATH.max, ..Medium::default() },
+    ];
+    for (fog, medium) in fogs.into_iter().zip(media) {
+        for kind in [MediumKind::None, MediumKind::Set, MediumKind::Iterations] {
+            let medium = Medium { kind, ..medium.clone() };
+            let mut scene = Scene { fog: fog.clone(), medium, ..ball_on_floor() };
+            scene.fractal = Fractal::default();
+            let film = finished(&sampled(scene, 8), SIZE, Pace::Still).film().expect("a film");
+            let wrong = film.iter().flatten().filter(|c| !c.is_finite() || **c < 0.0).count();
+            assert_eq!(wrong, 0, "values that are no light");
+        }
+    }
+}
