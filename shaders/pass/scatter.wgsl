@@ -2,7 +2,7 @@
 // light for a shadow ray, and the direction of the path's next ray (J. Kajiya, The Rendering Equation, SIGGRAPH 1986).
 // uses: lib/bsdf, lib/camera, lib/fog, lib/jittered, lib/lattice, lib/material, lib/octahedral, lib/path_cone
 // uses: lib/path_light, lib/phase
-// uses: types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer, types/paths, types/ray
+// uses: types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer, types/guides, types/paths, types/ray
 
 // Numbers of the random pairs of a vertex; other purposes have other numbers.
 const FIRST_PAIR = 0x100u;
@@ -157,7 +157,8 @@ fn facing(n: vec3f, wo: vec3f) -> vec3f {
 
 fn new_path() -> PathState {
     let none = vec3f(0.0);
-    return PathState(vec3f(1.0), 0.0, none, PATH_SCATTERED, none, 0.0, none, none);
+    let white = pack_path_guides(vec3f(1.0), none);
+    return PathState(vec3f(1.0), 0.0, none, PATH_SCATTERED, none, 0.0, none, white, none);
 }
 
 // The vertex of a path at a surface, which may emit.
@@ -170,6 +171,7 @@ fn surface_vertex(site: Site, path: ptr<function, PathState>, ray: Ray, seen: ve
     let clearance = vertex_hit_distance(ray, bitcast<f32>(seen.x));
     let point = ray.origin + outward * (2.0 * clearance);
     let total = total_importance(point, n);
+    if (dispatch.bounce == 0u) { (*path).guides = pack_path_guides(m.color, outward); }
     return Vertex(point, n, bsdf_of(m, n, wo), vec3f(0.0), 0.0, vec3f(0.0), total, clearance);
 }
 

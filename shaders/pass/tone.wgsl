@@ -22,6 +22,9 @@ fn is_sparse() -> bool {
     return dispatch.spacing != 0u;
 }
 
+// Denoised light, packed by `shared_exponent_pack`.
+@group(3) @binding(0) var<storage, read> denoised: array<u32>;
+
 @group(2) @binding(2) var display: texture_storage_2d<rgba8unorm, write>;
 
 // The film at `offset` from a pixel; the pixel's own value outside the region or in another eye's part.
@@ -35,6 +38,7 @@ fn film_beside(pixel: vec2u, offset: vec2i) -> vec3f {
 // pixels that were filled in around it along edges. The clamp to its neighbours' range keeps
 // the sample from standing out as a dot.
 fn reconstructed(pixel: vec2u) -> vec3f {
+    if (dispatch.denoised != 0u) { return shared_exponent_unpack(denoised[pixel_index(pixel)]); }
     let own = film_mean(pixel_index(pixel));
     if (!is_sparse()) { return own; }
     let left = film_beside(pixel, vec2i(-1, 0));

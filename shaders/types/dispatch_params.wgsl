@@ -58,6 +58,10 @@ struct DispatchParams {
     bounce: u32,
     // Region of the entries of the dispatch's ray queue: see `types/work_queues.wgsl`.
     queue_region: u32,
+    // Number of a denoiser's iteration.
+    iteration: u32,
+    // 1: the display shows the denoised film.
+    denoised: u32,
 }
 
 const LIGHT_POINT = 1u;

@@ -246,6 +246,8 @@ struct PathTracing {
     preview_samples: f32,
     // Noise target: error at which pixels get no more samples; 0: none.
     noise: f32,
+    // 1: displays show denoised light.
+    denoise: u32,
 }
 
 const NORMALS_NONE = 0u;

@@ -22,6 +22,8 @@ struct PathState {
     nee_distance: f32,
     // Film radiance of the sampled light, if nothing blocks the light (next-event estimation).
     nee_radiance: vec3f,
+    // Albedo and normal of the first vertex, packed by `pack_path_guides`.
+    guides: u32,
     // Unit vector toward the sampled light.
     nee_direction: vec3f,
 }

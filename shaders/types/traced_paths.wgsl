@@ -7,3 +7,5 @@
 @group(1) @binding(1) var<storage, read_write> moments: array<f32>;
 // Number of pixels with too much noise.
 @group(1) @binding(2) var<storage, read_write> noisy_pixels: atomic<u32>;
+// The guides of the denoiser, one element a pixel; in place of the visibility of centre samples.
+@group(1) @binding(3) var<storage, read_write> guides: array<vec2u>;

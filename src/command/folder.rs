@@ -38,6 +38,8 @@ pub struct SequenceSettings<'a> {
     pub format: PictureFormat,
     /// The eye of each file of a frame.
     pub eyes: &'static [Option<Eye>],
+    /// As [`StillOptions::denoise`](mandelight::export::StillOptions::denoise).
+    pub denoise: Option<bool>,
 }
 
 /// A file of a sequence: the frame's number, and the eye for one file of a stereo pair.
@@ -51,7 +53,7 @@ impl SequenceSettings<'_> {
         let mut hash = Sha256::new();
         let line = |hash: &mut Sha256, text: String| hash.update(text + "\n");
         let (version, format, eyes) = (env!("CARGO_PKG_VERSION"), self.format, self.eyes);
-        line(&mut hash, format!("{version} {format:?} {eyes:?}"));
+        line(&mut hash, format!("{version} {format:?} {eyes:?} {:?}", self.denoise));
         line(
             &mut hash,
             format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second),

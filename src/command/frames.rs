@@ -104,6 +104,7 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let frames = requested_frames(arguments.frames, &path, &arguments.scene)?;
     let environment_map = environment.map(|environment| environment.environment_map);
     let FramesArguments { size, samples, quiet, .. } = arguments;
+    let denoise = arguments.integrator.denoise();
     let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
     let eyes = arguments.stereo.eyes();
     let sequence = SequenceSettings {
@@ -113,8 +114,9 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
         environment_map: environment_map.as_deref(),
         format,
         eyes,
+        denoise,
     };
-    let options = StillOptions { samples, format, ..StillOptions::new(size) };
+    let options = StillOptions { samples, format, denoise, ..StillOptions::new(size) };
     for (key, &eye) in path.keys.iter().flat_map(|key| eyes.iter().map(move |eye| (key, eye))) {
         let of_eye = StillOptions { eye, ..options.clone() };
         of_eye.sheet_px(&key.scene).map_err(Failure::usage)?;

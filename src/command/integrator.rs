@@ -1,4 +1,4 @@
-//! `--integrator`, `--bounces` and `--noise`: how the light of the picture is computed.
+//! `--integrator`, `--bounces`, `--noise` and `--denoise`: how the light of the picture is computed.
 
 use std::sync::Arc;
 
@@ -16,6 +16,9 @@ pub struct IntegratorArguments {
     /// With path tracing, stop each pixel at this relative error; --samples is the upper limit
     #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
     noise: Option<f64>,
+    /// With path tracing, smooth the noise that is left; needed for OpenEXR, which else keeps the noise
+    #[arg(long)]
+    denoise: bool,
 }
 
 /// An integrator's name on the command line.
@@ -42,6 +45,12 @@ impl IntegratorArguments {
         if let Some(noise) = self.noise {
             scene.integrator.noise = noise;
         }
+        scene.integrator.denoise |= self.denoise;
+    }
+
+    /// What [`StillOptions::denoise`](mandelight::export::StillOptions::denoise) gets.
+    pub fn denoise(self) -> Option<bool> {
+        self.denoise.then_some(true)
     }
 
     /// Sets the integrator of a scene and of every key of its path.

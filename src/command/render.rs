@@ -96,6 +96,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
         samples: arguments.samples,
         environment_map: environment.map(|environment| environment.environment_map),
         format: PictureFormat::of(&arguments.output),
+        denoise: arguments.integrator.denoise(),
         ..StillOptions::new(arguments.size)
     };
     let files: Vec<File> = eyes

@@ -11,6 +11,10 @@
 //! | `N.X`, `N.Y`, `N.Z` | unit normal of the surface in scene axes; 0 for the background |
 //! | `P.X`, `P.Y`, `P.Z` | surface point minus anchor, scene units; 0 for the background |
 //!
+//! | `albedo.R`, `.G`, `.B` | with path tracing: mean albedo of the first surfaces, 8 bits; 1 for the background |
+//! | `normal.X`, `.Y`, `.Z` | with path tracing: mean of their normals, 8 bits; 0 for the background |
+//!
+//! The last two are guides for denoisers, means over all samples of a pixel.
 //! Depth, normal and position belong to the ray through the pixel's centre. The anchor is the
 //! camera's pivot, stored exactly as decimal numbers in the attributes `mandelight.anchor.x`,
 //! `.y` and `.z`.
@@ -33,11 +37,24 @@ use crate::{
     scene::{Camera, Scene, document},
 };
 
-/// The channels in alphabetical order, which the format requires.
-const CHANNELS: [&str; 10] = ["B", "G", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "R", "Z"];
+/// All channels in alphabetical order, which the format requires; the last ones are guides for denoisers.
+const CHANNELS: [&str; 16] = [
+    "B", "G", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "R", "Z", "albedo.B", "albedo.G",
+    "albedo.R", "normal.X", "normal.Y", "normal.Z",
+];
+
+/// Number of guides.
+const GUIDES: usize = 6;
+
+/// The channels of a picture.
+fn channels(has_guides: bool) -> &'static [&'static str] {
+    &CHANNELS[..if has_guides { CHANNELS.len() } else { CHANNELS.len() - GUIDES }]
+}
 
 /// Bytes per pixel, all channels together.
-pub(super) const PIXEL_BYTES: usize = CHANNELS.len() * size_of::<f32>();
+pub(super) fn bytes_of_pixel(has_guides: bool) -> usize {
+    channels(has_guides).len() * size_of::<f32>()
+}
 
 /// The first bytes of every OpenEXR file.
 const SIGNATURE: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
@@ -48,6 +65,8 @@ const ROW_HEADER_BYTES: usize = 8;
 /// An OpenEXR file being written. Dropping it before [`Self::finish`] leaves an incomplete file.
 pub struct ExrStream<W: Write> {
     sink: W,
+    /// Number of channels.
+    channels: usize,
     width: usize,
     rows: u32,
     rows_written: u32,
@@ -62,13 +81,14 @@ impl<W: Write> ExrStream<W> {
     pub fn new(mut sink: W, size_px: [u32; 2], scene: &Scene) -> Result<Self, ExportError> {
         let mut start = header(size_px, scene)?;
         let width = size_px[0] as usize;
-        let row_bytes = (ROW_HEADER_BYTES + width * PIXEL_BYTES) as u64;
+        let channels = channels(scene.traces_paths()).len();
+        let row_bytes = (ROW_HEADER_BYTES + width * channels * size_of::<f32>()) as u64;
         let rows_offset = (start.len() + 8 * size_px[1] as usize) as u64;
         for y in 0..u64::from(size_px[1]) {
             start.extend((rows_offset + y * row_bytes).to_le_bytes());
         }
         sink.write_all(&start)?;
-        Ok(Self { sink, width, rows: size_px[1], rows_written: 0, row: Vec::new() })
+        Ok(Self { sink, channels, width, rows: size_px[1], rows_written: 0, row: Vec::new() })
     }
 
     /// Appends whole rows, in the pixel format of this module's `pixel_bytes`.
@@ -76,16 +96,16 @@ impl<W: Write> ExrStream<W> {
     /// # Errors
     /// [`ExportError::Write`] from the sink; [`ExportError::Encode`] past the last row.
     pub fn write_rows(&mut self, pixels: &[u8]) -> Result<(), ExportError> {
-        for pixels in pixels.chunks_exact(self.width * PIXEL_BYTES) {
+        for pixels in pixels.chunks_exact(self.width * self.channels * size_of::<f32>()) {
             if self.rows_written == self.rows {
                 return Err(ExportError::Encode("more rows than the picture has".to_owned()));
             }
             self.row.clear();
             self.row.extend(self.rows_written.to_le_bytes());
             self.row.extend((pixels.len() as u32).to_le_bytes());
-            for channel in 0..CHANNELS.len() {
+            for channel in 0..self.channels {
                 let values = pixels.as_chunks::<4>().0.iter();
-                self.row.extend(values.skip(channel).step_by(CHANNELS.len()).flatten());
+                self.row.extend(values.skip(channel).step_by(self.channels).flatten());
             }
             self.sink.write_all(&self.row)?;
             self.rows_written += 1;
@@ -106,12 +126,12 @@ impl<W: Write> ExrStream<W> {
     }
 }
 
-/// The pixels of a tile of one eye's picture, as [`PIXEL_BYTES`] each, in [`CHANNELS`] order.
+/// The pixels of a tile of one eye's picture, as [`bytes_of_pixel`] each, in [`CHANNELS`] order.
 pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample]) -> Vec<u8> {
     let rays = Rays::new(camera, tile);
     let eye_from_anchor = (&camera.position - &camera.pivot) + rays.eye_from_camera;
     let forward = camera.forward();
-    let mut bytes = Vec::with_capacity(pixels.len() * PIXEL_BYTES);
+    let mut bytes = Vec::new();
     for (i, pixel) in (0..).zip(pixels) {
         let at = [i % tile.size_px[0], i / tile.size_px[0]];
         let ray = rays.through(std::array::from_fn(|k| tile.origin_px[k] + at[k]));
@@ -122,9 +142,13 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
         let z = if is_hit { depth * ray.dot(forward) } else { f64::INFINITY };
         let [nx, ny, nz] = if is_hit { pixel.normal.to_array() } else { [0.0; 3] };
         let [px, py, pz] = point.as_vec3().to_array();
-        bytes.extend(
-            [b, g, nx, ny, nz, px, py, pz, r, z as f32].iter().flat_map(|v| v.to_le_bytes()),
-        );
+        let plain = [b, g, nx, ny, nz, px, py, pz, r, z as f32];
+        let guides = pixel.guides.map(|guides| {
+            let ([r, g, b], normal) = (guides.albedo, guides.normal);
+            [b, g, r, normal.x, normal.y, normal.z]
+        });
+        let values = plain.into_iter().chain(guides.into_iter().flatten());
+        bytes.extend(values.flat_map(f32::to_le_bytes));
     }
     bytes
 }
@@ -173,7 +197,7 @@ impl Rays {
 fn header(size_px: [u32; 2], scene: &Scene) -> Result<Vec<u8>, ExportError> {
     let channel =
         |name: &&str| exr::ChannelDescription::new(text(name), exr::SampleType::F32, false);
-    let channels: exr::SmallVec<_> = CHANNELS.iter().map(channel).collect();
+    let channels: exr::SmallVec<_> = channels(scene.traces_paths()).iter().map(channel).collect();
     let size = (size_px[0] as usize, size_px[1] as usize);
     let mut header = Header::new(text(""), size, channels).with_encoding(
         exr::Compression::Uncompressed,

@@ -50,10 +50,10 @@ impl PictureFormat {
     }
 
     /// Bytes per pixel of the encoder's input.
-    pub(super) fn pixel_bytes(self) -> usize {
+    pub(super) fn pixel_bytes(self, has_guides: bool) -> usize {
         match self {
             Self::Png => 3,
-            Self::Exr => exr::PIXEL_BYTES,
+            Self::Exr => exr::bytes_of_pixel(has_guides),
         }
     }
 

@@ -47,6 +47,8 @@ pub struct StillOptions {
     pub environment_map: Option<Arc<EnvironmentMap>>,
     /// The file format.
     pub format: PictureFormat,
+    /// Whether path-traced light is denoised; none for the scene's choice in PNG, and never in OpenEXR.
+    pub denoise: Option<bool>,
 }
 
 impl StillOptions {
@@ -59,7 +61,14 @@ impl StillOptions {
             tile_px: TILE_PX,
             environment_map: None,
             format: PictureFormat::default(),
+            denoise: None,
         }
+    }
+
+    /// Whether a still of `scene` is denoised.
+    pub fn denoises(&self, scene: &Scene) -> bool {
+        let is_png = self.format == PictureFormat::Png;
+        scene.traces_paths() && self.denoise.unwrap_or(is_png && scene.integrator.denoise)
     }
 
     /// The scene that a still of `scene` shows and stores in its file.

@@ -16,7 +16,7 @@ use super::{
     tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Pace, Pipelines, View},
+    render::{Pace, Pipelines, View, pass::denoise},
     scene::{Camera, Scene},
 };
 
@@ -70,6 +70,8 @@ pub struct StillJob<W: Write> {
     /// The band that is being encoded.
     encoding: Band,
     format: PictureFormat,
+    /// Whether the picture has guides for denoisers.
+    has_guides: bool,
     camera: Camera,
     /// Number of samples, summed over all pixels.
     samples: f64,
@@ -96,15 +98,20 @@ impl Band {
         self.encoded == self.bytes.len()
     }
 
-    /// Copies a tile's pixels into the band's rows, which are `sheet_width_px` wide.
+    /// Copies a tile's part of its rendered pixels into the band's rows, which are `sheet_width_px` wide.
     fn copy_tile(&mut self, tile: Tile, sheet_width_px: u32, pixels: &[u8], pixel_bytes: usize) {
         let [width, height] = tile.region.size_px.map(|px| px as usize);
+        let [skipped, above] = std::array::from_fn(|i| {
+            (tile.region.origin_px[i] - tile.rendered.origin_px[i]) as usize
+        });
         let stride = sheet_width_px as usize * pixel_bytes;
-        let width = width * pixel_bytes;
+        let rendered = tile.rendered.size_px[0] as usize * pixel_bytes;
+        let [width, skipped] = [width, skipped].map(|px| px * pixel_bytes);
         self.bytes.resize(stride * height, 0);
         let left = tile.left_px as usize * pixel_bytes;
-        for (row, pixels) in self.bytes.chunks_exact_mut(stride).zip(pixels.chunks_exact(width)) {
-            row[left..left + width].copy_from_slice(pixels);
+        let rows = pixels.chunks_exact(rendered).skip(above);
+        for (row, pixels) in self.bytes.chunks_exact_mut(stride).zip(rows) {
+            row[left..left + width].copy_from_slice(&pixels[skipped..skipped + width]);
         }
     }
 }
@@ -126,14 +133,21 @@ impl<W: Write> StillJob<W> {
         scene.validate()?;
 
         let sheet_px = sheet.size_px();
-        let row_bytes = sheet_px[0] as usize * options.format.pixel_bytes();
+        let has_guides = scene.traces_paths();
+        let row_bytes = sheet_px[0] as usize * options.format.pixel_bytes(has_guides);
         let [tile_width, tile_height] = options.tile_px;
         let max_rows = (MAX_BAND_BYTES / row_bytes).max(1) as u32;
-        let tiling = Tiling::new(sheet, [tile_width, tile_height.min(max_rows)]);
+        let denoises = options.denoises(&scene);
+        // Tall tiles render fewer pixels twice.
+        let (apron_px, factor) = if denoises { (denoise::REACH_PX, 2) } else { (0, 1) };
+        let max_tile_px = [tile_width, (factor * tile_height).min(max_rows)];
+        let tiling = Tiling::new(sheet, max_tile_px, apron_px);
         let environment_map = options.environment_map.as_ref();
-        let mut view = View::new(pipelines, tiling.tile(0).region, Pace::Still);
+        let mut view = View::new(pipelines, tiling.tile(0).rendered, Pace::Still);
         view.set_environment_map(environment_map);
-        view.set_scene(&scene, false);
+        let mut drawn = scene.clone();
+        drawn.integrator.denoise = denoises;
+        view.set_scene(&drawn, false);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             pipelines: pipelines.clone(),
@@ -145,6 +159,7 @@ impl<W: Write> StillJob<W> {
             filling: Band::default(),
             encoding: Band::default(),
             format: options.format,
+            has_guides,
             encoder: Encoder::new(options.format, sink, sheet_px, &scene)?,
             samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera,
@@ -206,7 +221,7 @@ impl<W: Write> StillJob<W> {
         self.tile_index += 1;
         if self.tile_index < self.tiling.count() {
             // The copy is submitted, so the next tile may overwrite the view.
-            self.view.set_region(self.tiling.tile(self.tile_index).region);
+            self.view.set_region(self.tiling.tile(self.tile_index).rendered);
         }
     }
 
@@ -228,11 +243,12 @@ impl<W: Write> StillJob<W> {
             && let Some((tile, readback)) = &mut self.readback
         {
             let pixels = readback
-                .take(&self.pipelines.gpu, &self.camera, tile.region)
+                .take(&self.pipelines.gpu, &self.camera, tile.rendered)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
             if let Some(pixels) = pixels {
                 let [sheet_width, _] = self.tiling.sheet_px();
-                self.filling.copy_tile(*tile, sheet_width, &pixels, self.format.pixel_bytes());
+                let pixel_bytes = self.format.pixel_bytes(self.has_guides);
+                self.filling.copy_tile(*tile, sheet_width, &pixels, pixel_bytes);
                 self.filling.is_full = tile.ends_band;
                 self.readback = None;
             }
@@ -251,7 +267,8 @@ impl<W: Write> StillJob<W> {
         if self.encoding.is_encoded() {
             return Ok(());
         }
-        let row_bytes = self.tiling.sheet_px()[0] as usize * self.format.pixel_bytes();
+        let row_bytes =
+            self.tiling.sheet_px()[0] as usize * self.format.pixel_bytes(self.has_guides);
         let rows = (BYTES_PER_STEP / row_bytes).max(1);
         let waiting = &self.encoding.bytes[self.encoding.encoded..];
         let now = &waiting[..waiting.len().min(rows * row_bytes)];

@@ -14,6 +14,8 @@ pub(super) struct Tiling {
     /// Columns and rows of tiles in each picture.
     columns: u32,
     rows: u32,
+    /// Pixels around a tile that are rendered too.
+    apron_px: u32,
 }
 
 /// One tile of a sheet.
@@ -21,6 +23,8 @@ pub(super) struct Tiling {
 pub(super) struct Tile {
     /// The part of the picture that the tile shows.
     pub region: Region,
+    /// The part that is rendered: the tile with its apron, as far as the picture goes.
+    pub rendered: Region,
     /// Distance from the sheet's left edge, pixels.
     pub left_px: u32,
     /// True for the last tile of a band.
@@ -33,7 +37,9 @@ impl Tiling {
     /// The tiles are as equal as whole pixels allow, because the view reallocates its buffers when
     /// the size changes. All sides are at least 1. Tiles start at multiples of the workgroup's
     /// side, so that rays form the same cones as in the whole picture; smaller tiles are not aligned.
-    pub fn new(sheet: Sheet, max_tile_px: [u32; 2]) -> Self {
+    ///
+    /// `apron_px`: how far beyond a tile its pixels depend on the picture, a multiple of the workgroup's side.
+    pub fn new(sheet: Sheet, max_tile_px: [u32; 2], apron_px: u32) -> Self {
         let picture_px = sheet.picture_px;
         let tile_px = std::array::from_fn(|i| {
             let side = if max_tile_px[i] < WORKGROUP_SIDE { 1 } else { WORKGROUP_SIDE };
@@ -43,7 +49,7 @@ impl Tiling {
         });
         // Rounding up to workgroups can make one tile fewer enough.
         let [columns, rows] = std::array::from_fn(|i| picture_px[i].div_ceil(tile_px[i]));
-        Self { sheet, tile_px, columns, rows }
+        Self { sheet, tile_px, columns, rows, apron_px }
     }
 
     /// Width and height of the whole sheet, pixels.
@@ -67,8 +73,13 @@ impl Tiling {
         let origin_px = std::array::from_fn(|i| cell[i] * self.tile_px[i]);
         let size_px = std::array::from_fn(|i| self.tile_px[i].min(picture_px[i] - origin_px[i]));
         let eyes = self.sheet.pictures[picture as usize];
+        let start = origin_px.map(|px| px.saturating_sub(self.apron_px));
+        let rendered_px = std::array::from_fn(|i| {
+            (origin_px[i] + size_px[i] + self.apron_px).min(picture_px[i]) - start[i]
+        });
         Tile {
             region: Region { picture_px, origin_px, size_px, eyes },
+            rendered: Region { picture_px, origin_px: start, size_px: rendered_px, eyes },
             left_px: picture_column * picture_px[0] + origin_px[0],
             ends_band: column == band_tiles - 1,
         }
@@ -81,7 +92,7 @@ mod tests {
     use crate::render::Eyes;
 
     fn cut(picture_px: [u32; 2], max_tile_px: [u32; 2]) -> Tiling {
-        Tiling::new(Sheet::single(picture_px), max_tile_px)
+        Tiling::new(Sheet::single(picture_px), max_tile_px, 0)
     }
 
     #[test]
@@ -157,6 +168,21 @@ mod tests {
                 }
             }
             assert_eq!(y, height);
+        }
+    }
+
+    #[test]
+    fn aprons_end_at_the_pictures_edges() {
+        let tiling = Tiling::new(Sheet::single([100, 60]), [40, 24], 8);
+        for index in 0..tiling.count() {
+            let Tile { region, rendered, .. } = tiling.tile(index);
+            for axis in 0..2 {
+                let start = region.origin_px[axis];
+                let end = start + region.size_px[axis];
+                assert_eq!(rendered.origin_px[axis], start.saturating_sub(8));
+                let rendered_end = rendered.origin_px[axis] + rendered.size_px[axis];
+                assert_eq!(rendered_end, (end + 8).min(region.picture_px[axis]));
+            }
         }
     }
 }

@@ -40,8 +40,14 @@ pub struct Layouts {
     pub environment_texture: wgpu::BindGroupLayout,
     /// Group 3 of passes over light paths: the sky's map, its sampler, its table, the paths.
     pub paths: wgpu::BindGroupLayout,
-    /// Group 1 of passes after light paths: the paths, the pixels' moments, the number of noisy pixels.
+    /// Group 1 of passes after light paths: the paths, the pixels' moments, the number of noisy pixels, guides.
     pub traced_paths: wgpu::BindGroupLayout,
+    /// Group 1 of the denoiser's input: the pixels' moments, guides, light.
+    pub denoise_input: wgpu::BindGroupLayout,
+    /// Group 1 of the denoiser: guides, surface, light before and after even iterations.
+    pub denoise: wgpu::BindGroupLayout,
+    /// Group 3 of tone mapping: denoised light.
+    pub denoised: wgpu::BindGroupLayout,
     /// Group 3 of cones of camera rays: the pixels' moments.
     pub moments: wgpu::BindGroupLayout,
     /// Group 3 of the indirect pass: the environment map, its sampler, the indirect source's surface.
@@ -92,7 +98,10 @@ impl Layouts {
                 "paths",
                 &[environment_texture_binding, environment_sampler_binding, SKY_TABLE, STORAGE],
             ),
-            traced_paths: group("traced paths", &[READ_ONLY, STORAGE, STORAGE]),
+            traced_paths: group("traced paths", &[READ_ONLY, STORAGE, STORAGE, STORAGE]),
+            denoise_input: group("denoise input", &[READ_ONLY, STORAGE, STORAGE]),
+            denoise: group("denoise", &[READ_ONLY, READ_ONLY, STORAGE, STORAGE]),
+            denoised: group("denoised", &[READ_ONLY]),
             moments: group("moments", &[READ_ONLY]),
             indirect: group(
                 "indirect source",

@@ -26,6 +26,8 @@ pub struct Memory {
     pub work_queues: u64,
     /// Light paths of one batch, noise estimates of all pixels, and the sky's textures.
     pub paths: u64,
+    /// Denoised light of all pixels.
+    pub denoiser: u64,
     /// Direct light of the centre samples, as the source of indirect light.
     pub direct_light: u64,
     /// Sums of radiance, 32-bit.
@@ -44,13 +46,14 @@ pub struct Memory {
 
 impl Memory {
     /// Each purpose with its bytes, in the order of a frame.
-    pub fn purposes(&self) -> [(&'static str, u64); 12] {
+    pub fn purposes(&self) -> [(&'static str, u64); 13] {
         let Self {
             sample_points,
             jittered_samples,
             rays,
             work_queues,
             paths,
+            denoiser,
             direct_light,
             film,
             mip_levels,
@@ -65,6 +68,7 @@ impl Memory {
             ("rays", rays),
             ("work queues", work_queues),
             ("light paths", paths),
+            ("denoiser", denoiser),
             ("direct light", direct_light),
             ("film", film),
             ("mip levels", mip_levels),
@@ -94,7 +98,7 @@ pub fn everything_traced() -> (Scene, Arc<EnvironmentMap>) {
     scene.lights.rig.environment_map.lights =
         vec![RigLight { direction: [0.0, 0.0, 1.0], strength: [1.0; 3] }];
     scene.surface.model = SurfaceModel::Physical;
-    scene.integrator.kind = IntegratorKind::Path;
+    (scene.integrator.kind, scene.integrator.denoise) = (IntegratorKind::Path, true);
     (scene, environment_map)
 }
 

@@ -39,6 +39,7 @@ pub mod albedo_table;
 mod anchors;
 mod buffers;
 pub mod color_curve;
+pub mod denoiser;
 pub mod environment_texture;
 pub mod frame;
 pub mod gbuffer;

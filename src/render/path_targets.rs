@@ -20,7 +20,7 @@ pub struct PathTargets {
     /// A [`PathState`] per sample of a batch.
     paths: wgpu::Buffer,
     /// An f32 per pixel, for the estimate of its noise.
-    moments: wgpu::Buffer,
+    pub moments: wgpu::Buffer,
     /// The number of pixels with too much noise, a u32.
     pub noisy_pixels: wgpu::Buffer,
     /// The bind group of passes over paths: the sky's map, its sampler, its table, the paths.
@@ -35,12 +35,13 @@ pub struct PathTargets {
 impl PathTargets {
     /// Allocates `samples` paths of a batch, moments of `pixels`, one at least, and the sky's textures.
     ///
-    /// `shown`: the environment map's texture, which the sky shares if it is of the same map.
+    /// `guides`: the buffer for [guides of the denoiser](super::denoiser::DenoiserSources::guides). `shown`: the environment map's texture, which the sky shares if it is of the same map.
     pub fn new(
         layouts: &Layouts,
         [samples, pixels]: [u64; 2],
         sky: Option<&Arc<SampledSky>>,
         shown: Option<&Arc<EnvironmentTexture>>,
+        guides: &wgpu::Buffer,
     ) -> Self {
         let device = &layouts.gpu.device;
         let paths = storage(device, "paths", samples.max(1) * PathState::SIZE as u64);
@@ -60,7 +61,7 @@ impl PathTargets {
             wgpu::BindingResource::TextureView(&view),
             paths.as_entire_binding(),
         ];
-        let traced = [&paths, &moments, &noisy_pixels].map(wgpu::Buffer::as_entire_binding);
+        let traced = [&paths, &moments, &noisy_pixels, guides].map(wgpu::Buffer::as_entire_binding);
         Self {
             samples,
             sky: sky.cloned(),

@@ -128,6 +128,16 @@ pub static PATHS: PipelineSet = PipelineSet {
     rehearsal: || vec![trace(Points::Samples { first: 1, count: 2 }, Stage::Path)],
 };
 
+/// The denoiser.
+pub static DENOISE: PipelineSet = PipelineSet {
+    name: "denoise",
+    subject: Some("denoising"),
+    has_kernel: false,
+    is_always_needed: false,
+    constants: None,
+    rehearsal: || vec![display(0)],
+};
+
 /// Mean, histogram, exposure, bloom.
 pub static POST: PipelineSet = PipelineSet {
     name: "post",

@@ -143,6 +143,7 @@ fn rehearse(
     if *variant.set == pipeline_set::POST {
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
+    recorder.denoises = *variant.set == pipeline_set::DENOISE;
     for work in variant.rehearsal() {
         let traces_paths = matches!(work, Work::Trace(Trace { from: Stage::Path, .. }));
         let integrator = match (*variant.set == pipeline_set::MEDIUM, traces_paths) {

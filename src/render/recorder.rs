@@ -137,6 +137,8 @@ pub struct Recorder<'a> {
     pub indirect_source: IndirectSource,
     /// The post passes that a display runs.
     pub tasks: Tasks,
+    /// Whether a display shows denoised light.
+    pub denoises: bool,
     /// A workgroup count of zero for all dispatches, to rehearse pipelines; none in other submits.
     ///
     /// Drivers then compile what they leave for the first use of a pipeline.
@@ -171,6 +173,7 @@ impl<'a> Recorder<'a> {
             post: &targets.post,
             indirect_source: IndirectSource::of(targets, inputs.frame.indirect.source_px),
             tasks: Tasks::default(),
+            denoises: false,
             rehearsal: None,
             upsample_level: None,
             dispatches,

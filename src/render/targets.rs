@@ -9,6 +9,7 @@ use super::{
     albedo_table::{ALBEDO_ENTRIES, ALBEDO_TABLE},
     buffers::{buffer, group, storage},
     color_curve::COLOR_BINS,
+    denoiser::{Denoiser, DenoiserSources},
     environment_texture::EnvironmentTexture,
     lattice::{COARSEST, Grid, MAX_SAMPLES_TOGETHER, WORKGROUP_THREADS, sample_places},
     layouts::DISPLAY_FORMAT,
@@ -99,6 +100,8 @@ pub struct Targets {
     pub environment_texture: Arc<EnvironmentTexture>,
     /// Light paths, and the sky that they see: a few bytes until paths are traced.
     pub paths: PathTargets,
+    /// The denoiser's light: a few bytes until there is something to denoise.
+    pub denoiser: Denoiser,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
@@ -151,6 +154,9 @@ impl Targets {
         let color_bins = storage(device, "colour bins", 2 * 4 * COLOR_BINS as u64);
         let color_bins_group =
             group(device, &layouts.color_bins, "colour bins", [color_bins.as_entire_binding()]);
+        let center = GBuffer::new(layouts, pixels, &rays);
+        let paths = PathTargets::new(layouts, [0, 0], None, None, &center.visibility);
+        let denoiser = Denoiser::new(layouts, 0, denoiser_sources(&center, &paths));
         Self {
             frame,
             formula_table,
@@ -159,11 +165,12 @@ impl Targets {
             gradients,
             albedo_table,
             frame_group,
-            center: GBuffer::new(layouts, pixels, &rays),
+            center,
             jittered: GBuffer::new(layouts, batch_samples, &rays),
             rays,
             work_queues: WorkQueues::new(layouts, batch_workgroups, false),
-            paths: PathTargets::new(layouts, [0, 0], None, None),
+            paths,
+            denoiser,
             film_rg,
             film_bw,
             direct,
@@ -193,11 +200,26 @@ impl Targets {
         if self.paths.samples != needed || self.paths.sky.as_ref() != sky {
             let shown = &self.environment_texture;
             let pixels = if traced { self.film_rg.size() / 8 } else { 0 };
-            self.paths = PathTargets::new(layouts, [needed, pixels], sky, Some(shown));
+            self.paths = PathTargets::new(
+                layouts,
+                [needed, pixels],
+                sky,
+                Some(shown),
+                &self.center.visibility,
+            );
         }
         if self.work_queues.for_paths != traced {
             let workgroups = (samples / u64::from(WORKGROUP_THREADS)) as u32;
             self.work_queues = WorkQueues::new(layouts, workgroups, traced);
+        }
+    }
+
+    /// Allocates light for the denoiser if needed, else frees it.
+    pub fn fit_denoiser(&mut self, layouts: &Layouts, needed: bool) {
+        let sources = denoiser_sources(&self.center, &self.paths);
+        let pixels = if needed { self.film_rg.size() / 8 } else { 0 };
+        if !self.denoiser.fits(pixels, &sources) {
+            self.denoiser = Denoiser::new(layouts, pixels, sources);
         }
     }
 
@@ -227,6 +249,7 @@ impl Targets {
             rays: self.rays.size(),
             work_queues: self.work_queues.bytes(),
             paths: self.paths.bytes(),
+            denoiser: self.denoiser.bytes(),
             direct_light: self.direct.size(),
             film: self.film_rg.size() + self.film_bw.size(),
             mip_levels,
@@ -278,6 +301,16 @@ impl GBuffer {
             [&surface, &color_data, &visibility, rays].map(wgpu::Buffer::as_entire_binding),
         );
         Self { surface, color_data, visibility, group }
+    }
+}
+
+/// Paths keep the guides in place of the centre samples' visibility: see `GBufferValidity`.
+fn denoiser_sources(center: &GBuffer, paths: &PathTargets) -> DenoiserSources {
+    let GBuffer { surface, visibility, .. } = center;
+    DenoiserSources {
+        moments: paths.moments.clone(),
+        guides: visibility.clone(),
+        surface: surface.clone(),
     }
 }
 

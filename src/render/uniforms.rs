@@ -453,8 +453,12 @@ impl Inputs {
             let Sections { planes, band_reach, count, .. } = frame.sections;
             (planes, band_reach, count)
         };
-        let paths =
-            |frame: &FrameUniforms| PathTracing { preview_samples: 0.0, noise: 0.0, ..frame.paths };
+        let paths = |frame: &FrameUniforms| PathTracing {
+            preview_samples: 0.0,
+            noise: 0.0,
+            denoise: 0,
+            ..frame.paths
+        };
         let (new_frame, old_frame) = (&self.frame, &old.frame);
         let same_geometry = new_frame.camera == old_frame.camera
             && new_frame.eyes == old_frame.eyes

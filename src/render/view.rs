@@ -391,6 +391,7 @@ impl View {
             Some(_) => Tasks::default(),
             None => self.stats_validity.tasks(work, self.post_need(), &self.histogram_readback),
         };
+        let denoises = self.denoises();
         let Some(inputs) = &self.inputs else { return };
         let passes = self.pipelines.of_frame(inputs);
         let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
@@ -398,6 +399,7 @@ impl View {
             let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
             recorder.tasks = tasks;
             recorder.upsample_level = upsample_level;
+            recorder.denoises = denoises;
             if let Some(lent) = &self.lent.post {
                 recorder.post = lent;
             }

@@ -55,12 +55,18 @@ impl Scene {
         self.integrator.kind == IntegratorKind::Path
     }
 
-    /// Switches path tracing on, with enough samples for it.
+    /// Switches path tracing on, with enough samples for it, and denoised.
     pub fn trace_paths(&mut self) {
         /// Fewer samples are noisy.
         const SAMPLES: u32 = 256;
         self.integrator.kind = IntegratorKind::Path;
+        self.integrator.denoise = true;
         self.quality.samples = self.quality.samples.max(SAMPLES);
+    }
+
+    /// Whether displays show denoised light.
+    pub fn denoises(&self) -> bool {
+        self.traces_paths() && self.integrator.denoise
     }
 
     /// Whether paths scatter inside the set, which has no surface for them.

@@ -31,6 +31,8 @@ pub struct IntegratorSettings {
     ///
     /// Converged pixels get no more samples. 0: every pixel gets the samples of [`Quality`](super::Quality).
     pub noise: f64,
+    /// Whether noise of path tracing is smoothed for display. OpenEXR files keep the noise.
+    pub denoise: bool,
 }
 
 impl Default for IntegratorSettings {
@@ -40,6 +42,7 @@ impl Default for IntegratorSettings {
             bounces: param::BOUNCES.default as u32,
             reach: Some(param::BOUNCE_REACH.default),
             noise: param::NOISE.default,
+            denoise: false,
         }
     }
 }

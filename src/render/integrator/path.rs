@@ -21,6 +21,7 @@ pub static PATH: Integrator = Integrator {
         // Also keeps the direct picture, while paths take its place.
         targets.fit_direct(layouts, true);
         targets.fit_paths(layouts, true, inputs.sky.as_ref());
+        targets.fit_denoiser(layouts, inputs.frame.paths.denoise != 0);
     },
 };
 

@@ -10,6 +10,8 @@ pub mod camera_cone;
 pub mod camera_rays;
 pub mod color_histogram;
 pub mod compact_hits;
+pub mod denoise;
+pub mod denoise_input;
 pub mod expose;
 pub mod fill;
 pub mod film_paths;
@@ -84,6 +86,8 @@ pub const DISPLAY: &[&Pass] = &[
     &expose::PASS,
     &bloom::PASS,
     &blur::PASS,
+    &denoise_input::PASS,
+    &denoise::PASS,
     &tone::PASS,
 ];
 

@@ -11,7 +11,7 @@ use crate::render::{
 /// The pass.
 pub const PASS: Pass = Pass {
     name: "tone",
-    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film],
+    groups: |layouts| vec![&layouts.frame, &layouts.post, &layouts.film, &layouts.denoised],
     set: &pipeline_set::TONE,
     modes: &[&[("SPARSE", 0)], &[("SPARSE", 1)]],
     record: Record::Film { when: |_, _| true, record },
@@ -24,5 +24,8 @@ pub fn record(recorder: &mut Recorder<'_>, &Display { level, .. }: &Display) {
     recorder.bind_post();
     let spacing = if level == 0 { 0 } else { 1 << (level / 2) };
     let whole = Grid::level(0, recorder.inputs.frame.size_px);
-    recorder.dispatch_plane(&pipeline, DispatchParams { spacing, ..whole.dispatch_params(0) });
+    recorder.bind(3, &recorder.targets.denoiser.output_group);
+    let denoised = u32::from(recorder.denoises);
+    let params = DispatchParams { spacing, denoised, ..whole.dispatch_params(0) };
+    recorder.dispatch_plane(&pipeline, params);
 }

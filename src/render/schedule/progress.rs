@@ -7,7 +7,7 @@ use super::{
     gbuffer_validity::GBufferValidity,
     plan::Plan,
     types::Stale,
-    work::{Job, Points},
+    work::{Job, Points, Stage},
 };
 
 /// Progress of one picture, from a change to the last sample.
@@ -82,6 +82,7 @@ impl Progress {
 
     /// Marks points as completely submitted. True where the film has changed.
     pub fn complete(&mut self, points: Points) -> bool {
+        self.note_guides(points);
         self.under_way = None;
         let is_filmed = match points {
             Points::Level(_) | Points::Added(_) | Points::All => {
@@ -104,8 +105,17 @@ impl Progress {
         is_filmed
     }
 
+    /// Discards the visibility of centre samples if `points` are paths, which keep guides of the denoiser in its place.
+    fn note_guides(&mut self, points: Points) {
+        let is_sampled = matches!(points, Points::Samples { .. });
+        if is_sampled && self.job(points).from == Stage::Path {
+            self.gbuffer_validity.invalidate_lights(u64::MAX);
+        }
+    }
+
     /// Marks points as submitted up to a workgroup. True where the film can be shown meanwhile.
     pub fn advance(&mut self, points: Points, next_workgroup: u32) -> bool {
+        self.note_guides(points);
         self.under_way = Some((points, next_workgroup));
         // The film holds a complete lattice, and pixels under way that need no indirect light.
         let is_filmed = match points {

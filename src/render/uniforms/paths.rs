@@ -31,6 +31,7 @@ pub fn paths(scene: &Scene, space: &RenderSpace) -> PathTracing {
         light_count: count as u32,
         reach: reach as f32,
         noise: scene.integrator.noise as f32,
+        denoise: scene.denoises().into(),
         ray_reach: table[..count].iter().map(reach_of).fold(reach as f32, f32::max),
         ..PathTracing::default()
     }

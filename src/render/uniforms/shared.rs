@@ -354,6 +354,10 @@ host_shared! {
         bounce: u32,
         /// Region of the queue's entries: 0 blocks, 1 and 2 samples with rays, 3 samples with shadow rays.
         queue_region: u32,
+        /// Number of a denoiser's iteration.
+        iteration: u32,
+        /// 1: the display shows the denoised film.
+        denoised: u32,
     }
     /// A ray and the cone about it: all that a pass knows of a sample's way through the scene.
     Ray {
@@ -382,6 +386,8 @@ host_shared! {
         nee_distance: f32,
         /// Film radiance of the sampled light, if nothing blocks the light (next-event estimation).
         nee_radiance: [f32; 3],
+        /// Albedo and normal of the first vertex, packed as in `shaders/types/guides.wgsl`.
+        guides: u32,
         /// Unit vector toward the sampled light.
         nee_direction: [f32; 3],
     }
@@ -415,6 +421,8 @@ host_shared! {
         preview_samples: f32,
         /// Noise target: error at which pixels get no more samples; 0: none.
         noise: f32,
+        /// 1: displays show denoised light.
+        denoise: u32,
     }
     /// Statistics of a whole film.
     Statistics {

@@ -71,6 +71,14 @@ impl View {
         if is_gone { before } else { scene.quality.samples.min(most) }
     }
 
+    /// Whether a display shows denoised light: if it is wanted, and every pixel has a path.
+    pub(super) fn denoises(&self) -> bool {
+        /// The centre sample, which paths replace, and one path.
+        const SAMPLES: u32 = 2;
+        let is_wanted = self.inputs.as_ref().is_some_and(|inputs| inputs.frame.paths.denoise != 0);
+        is_wanted && self.schedule.status(self.times.now_secs).samples_done >= SAMPLES
+    }
+
     /// Number of samples of a pixel that leave the film when others take their place.
     pub(super) fn replaced_samples(&self) -> u32 {
         u32::from(self.inputs.as_ref().is_some_and(Inputs::replaces_center_samples))

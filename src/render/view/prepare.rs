@@ -5,7 +5,7 @@ use crate::{
     formula::Kernel,
     render::{
         Pace,
-        pipeline_set::{self, INDIRECT, MEDIUM, NORMALS, PATHS, POST, RAYS},
+        pipeline_set::{self, DENOISE, INDIRECT, MEDIUM, NORMALS, PATHS, POST, RAYS},
         pipelines::{PipelineSet, PipelineVariant},
         post::Need,
         preparation::{Preparation, PreparationState},
@@ -72,6 +72,7 @@ impl View {
         let sets = [
             scene.has_indirect().then_some(&INDIRECT),
             scene.traces_paths().then_some(&PATHS),
+            scene.denoises().then_some(&DENOISE),
             has_post.then_some(&POST),
         ];
         sets.into_iter().flatten().map(|set| self.needed(set)).collect()

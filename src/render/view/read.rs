@@ -5,9 +5,10 @@ use crate::{
     gpu::readback::{Readback, ReadbackError},
     render::{
         gbuffer::Samples,
-        samples::{self, SamplesReadback},
+        samples::{self, Light, SamplesReadback},
         space::RenderSpace,
         targets::Targets,
+        uniforms::Inputs,
     },
 };
 
@@ -49,13 +50,32 @@ impl View {
         Ok(samples::means(&rg, &bw).collect())
     }
 
-    /// Starts to read back every pixel's radiance, depth and normal.
+    /// Reads back each pixel's denoised radiance, and waits for it; native only. None if it is not denoised.
+    ///
+    /// # Errors
+    ///
+    /// See [`ReadbackError`].
+    pub fn denoised(&self) -> Result<Option<Vec<[f32; 3]>>, ReadbackError> {
+        if !self.denoises() {
+            return Ok(None);
+        }
+        let gpu = &self.pipelines.gpu;
+        let light = Readback::buffer(gpu, self.targets.denoiser.output()).wait(gpu)?;
+        Ok(Some(samples::denoised(&light).collect()))
+    }
+
+    /// Starts to read back every pixel's radiance, denoised if the display is, depth and normal.
     ///
     /// The view may draw again at once.
     pub fn read_samples(&self) -> SamplesReadback {
-        let Targets { film_rg, film_bw, center, .. } = &self.targets;
-        let film = [film_rg, film_bw];
-        SamplesReadback::new(&self.pipelines.gpu, film, &center.surface, self.scale())
+        let Targets { film_rg, film_bw, center, denoiser, .. } = &self.targets;
+        let light = match self.denoises() {
+            true => Light::Denoised(denoiser.output()),
+            false => Light::Film([film_rg, film_bw]),
+        };
+        let has_guides = self.inputs.as_ref().is_some_and(Inputs::traces_paths);
+        let guides = has_guides.then_some(&center.visibility);
+        SamplesReadback::new(&self.pipelines.gpu, light, &center.surface, guides, self.scale())
     }
 
     /// Reads back the centre samples' G-buffer, and waits for it; native only, for tests and tools.

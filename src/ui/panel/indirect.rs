@@ -46,6 +46,8 @@ fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
         param_slider(ui, &param::BOUNCE_REACH, reach);
     }
     param_slider(ui, &param::NOISE, &mut integrator.noise);
+    ui.checkbox(&mut integrator.denoise, "Denoise")
+        .on_hover_text("Smooths the grain of path tracing; edges and patterns stay sharp");
     let text = "Quick approximation, shown while the picture moves:";
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
 }

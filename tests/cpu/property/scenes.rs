@@ -353,9 +353,15 @@ fn fog() -> impl Strategy<Value = Fog> {
 fn integrator() -> impl Strategy<Value = IntegratorSettings> {
     let kind = select(vec![IntegratorKind::Direct, IntegratorKind::Path]);
     let limits = (option::of(value(&param::BOUNCE_REACH)), value(&param::NOISE));
-    (kind, count(&param::BOUNCES), limits).prop_map(|(kind, bounces, (reach, noise))| {
-        IntegratorSettings { kind, bounces, reach, noise }
-    })
+    (kind, count(&param::BOUNCES), limits, any::<bool>()).prop_map(
+        |(kind, bounces, (reach, noise), denoise)| IntegratorSettings {
+            kind,
+            bounces,
+            reach,
+            noise,
+            denoise,
+        },
+    )
 }
 
 fn tone() -> impl Strategy<Value = Tone> {

@@ -2,10 +2,12 @@
 //!
 //! | file | contents |
 //! |---|---|
+//! | `denoise` | the denoiser |
 //! | `media` | fog, and sets that are a medium |
 //! | `truth` | white furnaces and closed forms |
 //! | `sampling` | kinds of samples, convergence, pieces of a picture |
 
+mod denoise;
 mod media;
 mod sampling;
 mod truth;

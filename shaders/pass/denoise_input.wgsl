@@ -1,0 +1,80 @@
+// The input of the denoiser: each pixel's light over its albedo, and the standard error of that light.
+// uses: lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, types/denoise_input, types/dispatch_params
+// uses: types/film, types/frame_uniforms, types/guides
+
+// Samples of a round.
+const SAMPLES_PER_ROUND = 8.0;
+// Rounds from which their spread gives a pixel's error.
+const MIN_ROUNDS = 4.0;
+
+// Rounds of one Sobol sequence are no independent numbers: errors fall with the power -0.6 of the samples, not -0.5.
+const SOBOL_GAIN = -0.1;
+
+// Light over albedo.
+fn demodulated(index: u32) -> vec3f {
+    return film_mean(index) / demodulator(unpack_guides(guides[index]).albedo);
+}
+
+// Squared standard error of a pixel's mean luminance, from the means of its rounds; negative if it has too few.
+fn squared_error(index: u32) -> f32 {
+    let count = film_bw[index].y;
+    let rounds = count / SAMPLES_PER_ROUND;
+    if (rounds < MIN_ROUNDS) { return -1.0; }
+    let mean = luminance(sample_mean(index));
+    let albedo = luminance(demodulator(unpack_guides(guides[index]).albedo));
+    // A part of the picture may still be that of direct light.
+    let part = min(count / max(frame.paths.preview_samples, 1.0), 1.0) * pow(count, SOBOL_GAIN) / albedo;
+    return part * part * max(abs(moments[index]) / count - mean * mean, 0.0) / (rounds - 1.0);
+}
+
+// The mean of the squared errors about a pixel: a single one is as noisy as the pixel.
+fn smooth_error(pixel: vec2u) -> f32 {
+    var sum = 0.0;
+    var total = 0.0;
+    let low = max(pixel, vec2u(1u)) - 1u;
+    let high = min(pixel + 1u, frame.size_px - 1u);
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            let off = abs(vec2i(vec2u(x, y)) - vec2i(pixel));
+            let weight = f32((2 - off.x) * (2 - off.y));
+            let error = squared_error(pixel_index(vec2u(x, y)));
+            if (error < 0.0) { return -1.0; }
+            sum += weight * error;
+            total += weight;
+        }
+    }
+    return sqrt(sum / total);
+}
+
+// The spread of the light about a pixel, for pixels with few samples.
+fn spread_around(pixel: vec2u) -> f32 {
+    let own = unpack_guides(guides[pixel_index(pixel)]).normal;
+    let low = max(pixel, vec2u(2u)) - 2u;
+    let high = min(pixel + 2u, frame.size_px - 1u);
+    var sum = vec3f(0.0);
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            let index = pixel_index(vec2u(x, y));
+            let off = unpack_guides(guides[index]).normal - own;
+            let weight = exp(-4.0 * dot(off, off));
+            let light = luminance(demodulated(index));
+            sum += weight * vec3f(1.0, light, light * light);
+        }
+    }
+    let mean = sum.y / sum.x;
+    return sqrt(max(sum.z / sum.x - mean * mean, 0.0));
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    frame = frame_uniforms;
+    let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
+    if (!inside_region(pixel)) { return; }
+    let index = pixel_index(pixel);
+    var error = smooth_error(pixel);
+    if (error < 0.0) { error = spread_around(pixel); }
+    light[index] = shared_exponent_pack(demodulated(index));
+    var known = unpack_guides(guides[index]);
+    known.error = error;
+    guides[index] = pack_guides(known);
+}

@@ -1,0 +1,27 @@
+//! The input of the denoiser: light over albedo, and its error.
+
+use crate::render::{
+    pipeline_set,
+    recorder::{ONE_MODE, Pass, Record, Recorder},
+    uniforms::DispatchParams,
+};
+
+/// The pass.
+pub const PASS: Pass = Pass {
+    name: "denoise_input",
+    groups: |layouts| vec![&layouts.frame, &layouts.denoise_input, &layouts.film],
+    set: &pipeline_set::DENOISE,
+    modes: ONE_MODE,
+    record: Record::Film {
+        when: |recorder, _| recorder.denoises,
+        record: |recorder, _| record(recorder),
+    },
+};
+
+/// Divides the film of the whole region by its albedo.
+pub fn record(recorder: &mut Recorder<'_>) {
+    let pipeline = recorder.pipeline(&PASS, 0);
+    recorder.bind(1, &recorder.targets.denoiser.input_group);
+    recorder.bind_film();
+    recorder.dispatch_plane(&pipeline, DispatchParams::default());
+}

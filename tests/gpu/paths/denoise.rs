@@ -1,0 +1,122 @@
+//! The denoiser: nearer to the truth than what it gets, and nothing lost.
+
+use std::{io::Cursor, ops::ControlFlow};
+
+use super::{mean, plain, sampling::ball_on_floor, under_white_sky};
+use exr::prelude::{ReadChannels as _, ReadLayers as _};
+use mandelight::{
+    export::{PictureFormat, StillJob, StillOptions},
+    formula::Fractal,
+    render::{Pace, View},
+    scene::{GradientStop, Scene},
+};
+use mandelight_test_support::{
+    device::pipelines,
+    picture::Picture,
+    view::{finished, sampled},
+};
+
+const SIZE: [u32; 2] = [96, 72];
+
+/// Colourful bulbs in soft light.
+fn bulb() -> Scene {
+    let mut scene = under_white_sky(plain(Fractal::default(), [1.0; 3]));
+    let color = |position, color| GradientStop { position, color };
+    scene.surface.gradient = vec![color(0.0, [0.8, 0.3, 0.1]), color(0.5, [0.1, 0.4, 0.8])];
+    scene
+}
+
+fn denoised(scene: &Scene, samples: u32) -> View {
+    let mut scene = sampled(scene.clone(), samples);
+    scene.integrator.denoise = true;
+    finished(&scene, SIZE, Pace::Still)
+}
+
+/// Root mean square of the relative difference, where dark pixels count as those of a tenth of white.
+fn error_of(film: &[[f32; 3]], reference: &[[f32; 3]]) -> f64 {
+    let pairs = film.iter().flatten().zip(reference.iter().flatten());
+    let sum: f64 = pairs.map(|(a, b)| f64::from((a - b) / (b + 0.1)).powi(2)).sum();
+    (sum / (3 * film.len()) as f64).sqrt()
+}
+
+#[test]
+fn denoised_light_is_nearer_to_the_truth() {
+    // In the bulb almost every pixel differs from those beside it: there is little to gain.
+    let gains = [("floor", ball_on_floor(), [0.65, 0.8, 0.95]), ("bulb", bulb(), [0.9, 1.0, 1.03])];
+    for (name, scene, gains) in gains {
+        let reference =
+            finished(&sampled(scene.clone(), 2048), SIZE, Pace::Still).film().expect("a film");
+        for (samples, gain) in [8, 32, 128].into_iter().zip(gains) {
+            let view = denoised(&scene, samples);
+            let noisy = view.film().expect("a film");
+            let smooth = view.denoised().expect("a film").expect("denoised light");
+            let (before, after) = (error_of(&noisy, &reference), error_of(&smooth, &reference));
+            let bias = mean(&smooth) / mean(&noisy) - 1.0;
+            println!("{name}, {samples} samples: {before:.4}, denoised {after:.4}, bias {bias:.4}");
+            assert!(after < gain * before, "{name}: {after} instead of {before}");
+            assert!(bias.abs() < 0.01, "{name}: {bias} of all light");
+        }
+    }
+}
+
+/// A file of this format.
+fn still(
+    scene: &Scene,
+    tile_px: [u32; 2],
+    format: PictureFormat,
+    denoise: Option<bool>,
+) -> Vec<u8> {
+    let options = StillOptions { tile_px, format, denoise, ..StillOptions::new([200, 150]) };
+    let job = StillJob::new(pipelines(), scene, options, Vec::new()).expect("a job");
+    job.run(|_| ControlFlow::Continue(())).expect("a picture")
+}
+
+#[test]
+fn denoised_tiles_have_no_seams() {
+    let mut scene = sampled(ball_on_floor(), 4);
+    scene.integrator.denoise = true;
+    let decode = |bytes: Vec<u8>| Picture::decode(Cursor::new(bytes)).expect("a PNG").bytes;
+    let whole = decode(still(&scene, [2048, 2048], PictureFormat::Png, None));
+    let tiles = decode(still(&scene, [72, 24], PictureFormat::Png, None));
+    let noisy = decode(still(&scene, [2048, 2048], PictureFormat::Png, Some(false)));
+    let apart = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(apart(&whole, &tiles) <= Some(1), "{:?}", apart(&whole, &tiles));
+    assert!(apart(&whole, &noisy) > Some(20), "nothing was denoised");
+}
+
+#[test]
+fn open_exr_keeps_its_noise_unless_asked() {
+    let mut scene = sampled(bulb(), 4);
+    let plain = still(&scene, [2048; 2], PictureFormat::Exr, None);
+    scene.integrator.denoise = true;
+    let of_scene = still(&scene, [2048; 2], PictureFormat::Exr, None);
+    let asked = still(&scene, [2048; 2], PictureFormat::Exr, Some(true));
+    let read = |bytes: &[u8]| {
+        let image = exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+            .expect("an OpenEXR file");
+        let channels = image.layer_data.channel_data.list;
+        let values = |name: &str| -> Vec<f32> {
+            let channel = channels.iter().find(|channel| channel.name.eq(name));
+            channel.expect(name).sample_data.values_as_f32().collect()
+        };
+        ["R", "albedo.R", "albedo.B", "normal.X", "normal.Y", "normal.Z", "Z"].map(values)
+    };
+    let [plain, of_scene, asked] = [&plain, &of_scene, &asked].map(|bytes| read(bytes));
+    assert!(plain[0] == of_scene[0] && plain[0] != asked[0]);
+    let [_, red, blue, x, y, z, depth] = plain;
+    for i in 0..depth.len() {
+        let length = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt();
+        assert!(length < 1.02 && (0.0..=1.0).contains(&red[i]), "{length}, {}", red[i]);
+        // Between the two colours, or in part background.
+        assert!(red[i] >= 0.06 && blue[i] >= 0.06, "{} {}", red[i], blue[i]);
+    }
+    let of_bulb = depth.iter().filter(|depth| depth.is_finite()).count();
+    let lit = x.iter().zip(&z).filter(|(x, z)| x.hypot(**z) > 0.1).count();
+    assert!(lit > of_bulb / 2, "{lit} normals of {of_bulb} points");
+}
