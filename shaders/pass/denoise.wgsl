@@ -25,7 +25,10 @@ const ALBEDO_WIDTH = 0.15;
 const DEPTH_WIDTH = 4.0;
 
 // Most change of a pixel's light, in standard errors: so denoised light converges to the truth as the error falls.
-const MOST_CHANGE = 1.0;
+const MOST_CHANGE = 2.0;
+// The same for pixels with few samples: `MIN_ROUNDS` of `shaders/pass/denoise_input.wgsl`.
+const MOST_CHANGE_OF_FEW = 4.0;
+const FEW_SAMPLES = 32.0;
 
 fn light_at(index: u32) -> vec3f {
     if ((dispatch.iteration & 1u) == 0u) { return shared_exponent_unpack(even[index]); }
@@ -87,7 +90,9 @@ fn output_of(index: u32, light: vec3f) -> vec3f {
     let albedo = demodulator(here.albedo);
     let own = film_mean(index) / albedo;
     let off = light - own;
-    let part = min(MOST_CHANGE * here.error / max(luminance(abs(off)), 1e-20), 1.0);
+    // The errors of few samples are guesses.
+    let most = select(MOST_CHANGE, MOST_CHANGE_OF_FEW, film_bw[index].y < FEW_SAMPLES);
+    let part = min(most * here.error / max(luminance(abs(off)), 1e-20), 1.0);
     return albedo * (own + part * off);
 }
 

@@ -27,8 +27,9 @@ fn squared_error(index: u32) -> f32 {
     return part * part * max(abs(moments[index]) / count - mean * mean, 0.0) / (rounds - 1.0);
 }
 
-// The mean of the squared errors about a pixel: a single one is as noisy as the pixel.
-fn smooth_error(pixel: vec2u) -> f32 {
+// The error by the mean of the squared errors about a pixel, since a single one is as noisy as the pixel; at least the
+// pixel's own, for pixels that few paths make bright. Negative if a pixel has too few rounds.
+fn error_of(pixel: vec2u) -> f32 {
     var sum = 0.0;
     var total = 0.0;
     let low = max(pixel, vec2u(1u)) - 1u;
@@ -43,7 +44,7 @@ fn smooth_error(pixel: vec2u) -> f32 {
             total += weight;
         }
     }
-    return sqrt(sum / total);
+    return sqrt(max(sum / total, squared_error(pixel_index(pixel))));
 }
 
 // The spread of the light about a pixel, for pixels with few samples.
@@ -71,7 +72,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
     if (!inside_region(pixel)) { return; }
     let index = pixel_index(pixel);
-    var error = smooth_error(pixel);
+    var error = error_of(pixel);
     if (error < 0.0) { error = spread_around(pixel); }
     light[index] = shared_exponent_pack(demodulated(index));
     var known = unpack_guides(guides[index]);

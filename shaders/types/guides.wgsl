@@ -2,7 +2,8 @@
 // uses: lib/octahedral
 
 // x: albedo, three 8-bit unsigned normalised numbers. y: normal, three 8-bit signed normalised numbers; shorter than 1 where
-// normals differ, 0 in media and in the background. The high bytes hold the pixel's standard error, an f16.
+// normals differ, 0 in media and in the background. The high bytes hold the logarithm of the pixel's
+// standard error, in 16 bits.
 struct Guides {
     albedo: vec3f,
     normal: vec3f,
@@ -10,15 +11,20 @@ struct Guides {
     error: f32,
 }
 
+// Steps of the error per factor of two, and the logarithm of the least error.
+const ERROR_STEPS = 1024.0;
+const LEAST_ERROR = -24.0;
+
 fn pack_guides(guides: Guides) -> vec2u {
-    let error = pack2x16float(vec2f(min(guides.error, 65000.0), 0.0));
+    let error = u32(clamp(ERROR_STEPS * (log2(max(guides.error, 1e-9)) - LEAST_ERROR), 0.0, 65535.0));
     let albedo = pack4x8unorm(vec4f(guides.albedo, 0.0));
     let normal = pack4x8snorm(vec4f(guides.normal, 0.0));
     return vec2u((albedo & 0xffffffu) | (error << 24u), (normal & 0xffffffu) | ((error >> 8u) << 24u));
 }
 
 fn unpack_guides(packed: vec2u) -> Guides {
-    let error = unpack2x16float((packed.x >> 24u) | ((packed.y >> 24u) << 8u)).x;
+    let steps = (packed.x >> 24u) | ((packed.y >> 24u) << 8u);
+    let error = exp2(f32(steps) / ERROR_STEPS + LEAST_ERROR);
     return Guides(unpack4x8unorm(packed.x).xyz, unpack4x8snorm(packed.y).xyz, error);
 }
 

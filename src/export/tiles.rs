@@ -139,7 +139,7 @@ mod tests {
     fn bands_end_at_the_right_edge() {
         let tiling = cut([101, 67], [32, 24]);
         for index in 0..tiling.count() {
-            let Tile { region, ends_band, left_px } = tiling.tile(index);
+            let Tile { region, ends_band, left_px, .. } = tiling.tile(index);
             assert_eq!(ends_band, region.origin_px[0] + region.size_px[0] == 101);
             assert_eq!(left_px, region.origin_px[0]);
         }
@@ -151,7 +151,7 @@ mod tests {
         for columns in [1, 2] {
             let pictures = &[Eyes::Left, Eyes::Right];
             let sheet = Sheet { picture_px: [101, 67], pictures, columns };
-            let tiling = Tiling::new(sheet, [32, 24]);
+            let tiling = Tiling::new(sheet, [32, 24], 0);
             let [width, height] = tiling.sheet_px();
             let (mut x, mut y) = (0, 0);
             for tile in (0..tiling.count()).map(|index| tiling.tile(index)) {

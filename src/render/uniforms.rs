@@ -26,9 +26,7 @@ use super::{
     space::RenderSpace,
 };
 use crate::{
-    formula::{
-        Packed, PackedFor, contract::MAX_UNIFORM_BYTES, section::MAX_SECTION_PLANES, trap::MAX_TRAP,
-    },
+    formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
     gpu::host_shared::{Array, HostShared},
     scene::{
         self, BloomOrder, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals,
@@ -79,7 +77,7 @@ impl FrameUniforms {
             surface: surface::surface(scene),
             first_layer: layer(&scene.surface.coloring, iterations),
             second_layer: second_layer(&scene.surface, iterations),
-            sections: sections(scene, space),
+            sections: surface::sections(scene, space),
             indirect: indirect(&scene.indirect, region),
             background: background::background(scene),
             medium: media::medium(scene, space),
@@ -187,27 +185,6 @@ fn shadow_steps(iterations: u32, is_deep: bool) -> u32 {
     } else {
         SHADOW_STEPS.min(march_steps(iterations, false))
     }
-}
-
-/// Greatest distance of a plane from the origin, in render space, so that sums keep within f32.
-const FARTHEST_PLANE: f64 = 1e30;
-
-fn sections(scene: &Scene, space: &RenderSpace) -> Sections {
-    let planes = &scene.fractal.section_planes;
-    let mut sections = Sections {
-        inside: scene.surface.sections.inside,
-        count: planes.len() as u32,
-        repeats: scene.surface.sections.repeats as f32,
-        ..Sections::default()
-    };
-    for (k, plane) in planes.iter().take(MAX_SECTION_PLANES).enumerate() {
-        let normal = plane.normal();
-        let offset = normal.dot(space.point(&plane.point));
-        let offset = offset.clamp(-FARTHEST_PLANE, FARTHEST_PLANE);
-        sections.planes[k] = normal.extend(offset).as_vec4().to_array();
-        sections.band_reach[k] = (plane.band_reach / space.scale()).min(FARTHEST_PLANE) as f32;
-    }
-    sections
 }
 
 /// One layer of colours; `iterations` are those of the view.

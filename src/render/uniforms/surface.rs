@@ -1,7 +1,11 @@
-//! The uniforms of the surface's material.
+//! The uniforms of the surface: its material, and the planes that cut it.
 
-use super::Surface;
-use crate::scene::{MediumKind, Scene, SurfaceModel, follow};
+use super::{Sections, Surface};
+use crate::{
+    formula::section::MAX_SECTION_PLANES,
+    render::space::RenderSpace,
+    scene::{MediumKind, Scene, SurfaceModel, follow},
+};
 
 /// The material of a scene's surface, and the number of its lights.
 pub fn surface(scene: &Scene) -> Surface {
@@ -44,4 +48,26 @@ fn translucent(scene: &Scene) -> Surface {
 
 fn light_count(scene: &Scene) -> u32 {
     follow::effective(&scene.lights, &scene.camera).len() as u32
+}
+
+/// Greatest distance of a plane from the origin, in render space, so that sums keep within f32.
+const FARTHEST_PLANE: f64 = 1e30;
+
+/// The planes that cut the set open.
+pub fn sections(scene: &Scene, space: &RenderSpace) -> Sections {
+    let planes = &scene.fractal.section_planes;
+    let mut sections = Sections {
+        inside: scene.surface.sections.inside,
+        count: planes.len() as u32,
+        repeats: scene.surface.sections.repeats as f32,
+        ..Sections::default()
+    };
+    for (k, plane) in planes.iter().take(MAX_SECTION_PLANES).enumerate() {
+        let normal = plane.normal();
+        let offset = normal.dot(space.point(&plane.point));
+        let offset = offset.clamp(-FARTHEST_PLANE, FARTHEST_PLANE);
+        sections.planes[k] = normal.extend(offset).as_vec4().to_array();
+        sections.band_reach[k] = (plane.band_reach / space.scale()).min(FARTHEST_PLANE) as f32;
+    }
+    sections
 }

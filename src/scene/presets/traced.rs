@@ -10,9 +10,11 @@ use super::{
 };
 use crate::scene::{
     description::Scene,
+    fog::Fog,
     integrator::{IntegratorKind, IntegratorSettings},
     light::{LightFrame, PointLight},
     lighting::Lights,
+    medium::{Medium, MediumKind},
     quality::Quality,
     rig::{Rig, RigKind, Sky},
     surface::{ColorSource, Coloring, DrivenByLayer, SecondLayer, Surface, SurfaceModel},
@@ -42,6 +44,16 @@ pub fn traced() -> &'static [Preset] {
             scene: || new_scene(gold()),
         },
         Preset {
+            name: "Jade",
+            blurb: "A translucent power-8 bulb: sunlight enters, scatters inside and comes out green.",
+            scene: || new_scene(jade()),
+        },
+        Preset {
+            name: "Beams",
+            blurb: "A lamp in a Menger sponge, in fog: light falls out of its windows.",
+            scene: || new_scene(beams()),
+        },
+        Preset {
             name: "Deep dahlia",
             blurb: "At 10⁻²⁰, power 16: petals about petals, in light that bounces between them.",
             scene: deep_dahlia,
@@ -55,6 +67,7 @@ fn with_paths(scene: Scene, reach: Option<f64>, samples: u32) -> Scene {
         integrator: IntegratorSettings {
             kind: IntegratorKind::Path,
             reach,
+            denoise: true,
             ..IntegratorSettings::default()
         },
         quality: Quality { samples, ..scene.quality },
@@ -141,6 +154,36 @@ fn gold() -> Scene {
     lights.rig.sky.sun_size_deg = 30.0;
     let camera = camera([1.55, -2.15, 1.1], [0.0, 0.0, 0.05], 38.0);
     with_paths(Scene { lights, surface, camera, ..scene }, None, 512)
+}
+
+fn jade() -> Scene {
+    let mut lights = sky(1.2, 5.0);
+    lights.rig.sky.sun_size_deg = 6.0;
+    lights.rig.sky.sun_direction = DVec3::new(0.9, 0.6, 0.3).normalize().to_array();
+    let medium = Medium {
+        kind: MediumKind::Set,
+        color: [0.93, 0.99, 0.96],
+        mean_free_path: 0.02,
+        anisotropy: 0.2,
+        ..Medium::default()
+    };
+    let mut scene = with_paths(Scene { lights, medium, ..lantern() }, None, 512);
+    // Light goes a long way inside.
+    scene.integrator.bounces = 24;
+    scene
+}
+
+fn beams() -> Scene {
+    let mut scene = lamp();
+    scene.lights.rig.intensity = 0.04;
+    for light in &mut scene.lights.point {
+        (light.intensity, light.radius) = (30.0, 0.03);
+    }
+    scene.fog = Fog { density: 0.8, anisotropy: 0.0, radius: 1.0, ..Fog::default() };
+    scene.fractal.iterations = 4;
+    scene.camera = camera([2.6, -3.9, 2.3], [0.0; 3], 42.0);
+    scene.quality.samples = 1024;
+    scene
 }
 
 fn deep_dahlia() -> Scene {

@@ -125,10 +125,10 @@ pub fn pictures() -> Vec<Picture> {
         picture(
             "traced",
             2,
-            "Path-traced light: an open sky over a crevice, threads that glow, a lamp in a sponge, gold",
-            [traced("Skylight"), traced("Filigree"), traced("Lamp"), traced("Gold")],
+            "Path-traced light: an open sky over a crevice, threads that glow, a lamp in a sponge, gold, jade, a lamp in fog",
+            ["Skylight", "Filigree", "Lamp", "Gold", "Jade", "Beams"].map(traced),
         )
-        .sized([720, 450]),
+        .sized([720, 675]),
         single("deep-light", "Path-traced light at 1e-20, in power 16", traced("Deep dahlia"))
             .sized([480, 300]),
         single("lens", "Through a lens of f/1.4, at 2e-26 in power 8", lens("Rosette"))
