@@ -249,6 +249,9 @@ impl Schedule {
             }
             return;
         }
+        if self.pace == Pace::Interactive {
+            self.cost.forget_paths();
+        }
         self.is_converged = false;
         self.is_display_stale = false;
         self.opening = true;

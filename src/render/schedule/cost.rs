@@ -93,6 +93,13 @@ impl Cost {
         self.plan = plan;
     }
 
+    /// Forgets what paths cost: in another view, or with other settings, paths are longer or shorter.
+    ///
+    /// The next pieces are small, and grow as they are measured.
+    pub fn forget_paths(&mut self) {
+        self.histories[PATHS..SHADING].fill(CostHistory::default());
+    }
+
     /// Sets the lights that have shadow rays, by their visibility bits: others cost next to nothing.
     pub fn set_casting(&mut self, casting: u64) {
         self.casting = casting;

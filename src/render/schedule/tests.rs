@@ -1,11 +1,12 @@
 //! The schedule against simulated devices, from fast to 200 times slower, with spikes.
 
 use super::*;
-use crate::render::integrator::DIRECT;
+use crate::render::integrator::{DIRECT, PATH};
 
 mod arithmetic;
 mod hand;
 mod light;
+mod paths;
 mod stalls;
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -21,6 +22,8 @@ struct Device {
     pixel_ns: f64,
     /// Cost of a pixel of a sparse lattice, in pixels of a dense one.
     sparser: f64,
+    /// Cost of a light path, in pixels.
+    path: f64,
     /// The lights that have shadow rays.
     casting: u64,
     spike_ms: f64,
@@ -62,6 +65,7 @@ impl Device {
             // 20 ns a pixel: 18 ms for a full 1280x720 frame at slowness 1.
             pixel_ns: 20.0 * slowness,
             sparser: 1.0,
+            path: 1.0,
             casting: u64::MAX,
             spike_ms,
             busy_until: 0.0,
@@ -90,6 +94,7 @@ impl Device {
                 let lights = f64::from((trace.lights & self.casting).count_ones());
                 let is_sparse = matches!(trace.points, Points::Level(1..) | Points::Added(_));
                 let each = if is_sparse { self.sparser } else { 1.0 };
+                let each = if trace.from == Stage::Path { self.path } else { each };
                 whole * each * share_of_frame(trace.from, lights)
             }
             Work::Display(_) => f64::from(SIZE[0] * SIZE[1]) * 0.02,

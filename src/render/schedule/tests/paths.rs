@@ -1,0 +1,20 @@
+//! Light paths: their cost depends on the view more than that of rays.
+
+use super::*;
+
+/// From the background into a crevice, paths get a hundred times as long: no piece takes a hundred times its time.
+#[test]
+fn paths_of_another_view_start_with_small_pieces() {
+    let (mut device, mut now) = (Device::new(1.0, 0.0), 0.0);
+    let mut schedule = Schedule::new(PATH.plan, Pace::Interactive, SIZE);
+    schedule.set_lights(LIGHTS, LIGHTS);
+    schedule.aim(16.0, 64);
+    for path in [0.5, 50.0] {
+        (device.path, device.longest_ms) = (path, 0.0);
+        schedule.change(Stale::Geometry, false, now);
+        settle(&mut schedule, &mut device, &mut now);
+        assert_eq!(schedule.status(now).samples_done, 64);
+        let budget_ms = 16.0;
+        assert!(device.longest_ms < 2.0 * budget_ms, "{path}: {} ms", device.longest_ms);
+    }
+}
