@@ -23,16 +23,21 @@ fn reflected(site: Site, point: vec3f, n: vec3f, toward_eye: vec3f, m: Material,
     return sum;
 }
 
-// Direct light that a sample reflects to the eye. The ray starts at the sample's surface point, if it has
+// Direct light that a sample reflects to the eye, without fog. The ray starts at the sample's surface point, if it has
 // one.
-fn direct_radiance(site: Site, ray: Ray) -> vec3f {
+fn clear_radiance(site: Site, ray: Ray) -> vec3f {
     let seen = surface[site.index];
     if (seen.x == 0u) {
-        let behind = background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
-        return through_fog(behind, ray.origin, ray.direction, NO_COLLISION);
+        return background(ray.direction, eye_position(site.pixel, place_in_pixel(site.sample)).y);
     }
     let m = material_at(color_data[site.index], seen.y);
-    let n = octahedral_unpack(seen.y);
-    let radiance = reflected(site, ray.origin, n, -ray.direction, m, visibility[site.index]);
-    return through_fog(radiance, ray.origin, -ray.direction, bitcast<f32>(seen.x));
+    return reflected(site, ray.origin, octahedral_unpack(seen.y), -ray.direction, m, visibility[site.index]);
+}
+
+// The same through fog.
+fn direct_radiance(site: Site, ray: Ray) -> vec3f {
+    let radiance = clear_radiance(site, ray);
+    let depth = bitcast<f32>(surface[site.index].x);
+    if (depth == 0.0) { return through_fog(radiance, ray.origin, ray.direction, NO_COLLISION); }
+    return through_fog(radiance, ray.origin, -ray.direction, depth);
 }

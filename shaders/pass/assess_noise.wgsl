@@ -38,5 +38,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let magnitude = max(abs(moments[index]), 1e-30);
     let is_noisy = error > frame.paths.noise;
     moments[index] = select(-magnitude, magnitude, is_noisy);
-    if (is_noisy) { atomicAdd(&noisy_pixels, 1u); }
+    if (is_noisy) { atomicAdd(&path_counts.noisy_pixels, 1u); }
 }

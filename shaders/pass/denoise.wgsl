@@ -1,4 +1,4 @@
-// One iteration of the denoiser: an edge-avoiding filter with holes (H. Dammertz et al., Edge-Avoiding A-Trous Wavelet
+// One iteration of the denoiser: an edge-avoiding a-trous wavelet filter (H. Dammertz et al., Edge-Avoiding A-Trous Wavelet
 // Transform for fast Global Illumination Filtering, HPG 2010), with the pixel's own error as the width in light
 // (C. Schied et al., Spatiotemporal Variance-Guided Filtering, HPG 2017). Each iteration doubles the distances.
 // uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, types/dispatch_params
@@ -24,10 +24,10 @@ const ALBEDO_WIDTH = 0.15;
 // Difference of the depth over that across a pixel of a surface that faces the eye.
 const DEPTH_WIDTH = 4.0;
 
-// Most change of a pixel's light, in standard errors: so denoised light converges to the truth as the error falls.
-const MOST_CHANGE = 2.0;
+// Largest change of a pixel's light, in standard errors: so denoised light converges to the truth as the error falls.
+const MAX_CHANGE = 2.0;
 // The same for pixels with few samples: `MIN_ROUNDS` of `shaders/pass/denoise_input.wgsl`.
-const MOST_CHANGE_OF_FEW = 4.0;
+const MAX_CHANGE_OF_FEW = 4.0;
 const FEW_SAMPLES = 32.0;
 
 fn light_at(index: u32) -> vec3f {
@@ -35,20 +35,22 @@ fn light_at(index: u32) -> vec3f {
     return shared_exponent_unpack(odd[index]);
 }
 
-// A pixel as the filter compares it.
-struct Compared {
+// What the filter compares of a pixel.
+struct FilterPixel {
     light: vec3f,
     guides: Guides,
     // 0 in the background.
     depth: f32,
 }
 
-fn compared(index: u32) -> Compared {
-    return Compared(light_at(index), unpack_guides(guides[index]), bitcast<f32>(surface[index].x));
+fn filter_pixel(index: u32) -> FilterPixel {
+    // Depths are those of a surface, which paths in a medium do not see.
+    let depth = select(0.0, bitcast<f32>(surface[index].x), frame.medium.kind == MEDIUM_NONE);
+    return FilterPixel(light_at(index), unpack_guides(guides[index]), depth);
 }
 
 // How alike two pixels are, `distance` pixels apart, 0 to 1.
-fn likeness(a: Compared, b: Compared, distance: f32) -> f32 {
+fn edge_weight(a: FilterPixel, b: FilterPixel, distance: f32) -> f32 {
     if ((a.depth > 0.0) != (b.depth > 0.0)) { return 0.0; }
     // The error falls with each iteration, as the light gets smooth.
     let error = (a.guides.error + 1e-3 * luminance(a.light)) * exp2(-f32(dispatch.iteration));
@@ -61,7 +63,7 @@ fn likeness(a: Compared, b: Compared, distance: f32) -> f32 {
 }
 
 fn filtered(pixel: vec2u) -> vec3f {
-    let own = compared(pixel_index(pixel));
+    let own = filter_pixel(pixel_index(pixel));
     let step = 1i << dispatch.iteration;
     var sum = vec3f(0.0);
     var total = 0.0;
@@ -73,8 +75,8 @@ fn filtered(pixel: vec2u) -> vec3f {
             var weight = SPLINE[abs(x)] * SPLINE[abs(y)];
             var light = own.light;
             if (x != 0i || y != 0i) {
-                let other = compared(pixel_index(vec2u(at)));
-                weight *= likeness(own, other, f32(step) * length(vec2f(vec2i(x, y))));
+                let other = filter_pixel(pixel_index(vec2u(at)));
+                weight *= edge_weight(own, other, f32(step) * length(vec2f(vec2i(x, y))));
                 light = other.light;
             }
             sum += weight * light;
@@ -91,7 +93,7 @@ fn output_of(index: u32, light: vec3f) -> vec3f {
     let own = film_mean(index) / albedo;
     let off = light - own;
     // The errors of few samples are guesses.
-    let most = select(MOST_CHANGE, MOST_CHANGE_OF_FEW, film_bw[index].y < FEW_SAMPLES);
+    let most = select(MAX_CHANGE, MAX_CHANGE_OF_FEW, film_bw[index].y < FEW_SAMPLES);
     let part = min(most * here.error / max(luminance(abs(off)), 1e-20), 1.0);
     return albedo * (own + part * off);
 }

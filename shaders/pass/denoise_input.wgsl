@@ -1,5 +1,5 @@
 // The input of the denoiser: each pixel's light over its albedo, and the standard error of that light.
-// uses: lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, types/denoise_input, types/dispatch_params
+// uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, types/denoise_input, types/dispatch_params
 // uses: types/film, types/frame_uniforms, types/guides
 
 // Samples of a round.
@@ -36,6 +36,7 @@ fn error_of(pixel: vec2u) -> f32 {
     let high = min(pixel + 1u, frame.size_px - 1u);
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
+            if (is_second_eye(vec2u(x, y)) != is_second_eye(pixel)) { continue; }
             let off = abs(vec2i(vec2u(x, y)) - vec2i(pixel));
             let weight = f32((2 - off.x) * (2 - off.y));
             let error = squared_error(pixel_index(vec2u(x, y)));
@@ -47,14 +48,15 @@ fn error_of(pixel: vec2u) -> f32 {
     return sqrt(max(sum / total, squared_error(pixel_index(pixel))));
 }
 
-// The spread of the light about a pixel, for pixels with few samples.
-fn spread_around(pixel: vec2u) -> f32 {
+// The standard deviation of the light about a pixel, for pixels with few samples.
+fn local_deviation(pixel: vec2u) -> f32 {
     let own = unpack_guides(guides[pixel_index(pixel)]).normal;
     let low = max(pixel, vec2u(2u)) - 2u;
     let high = min(pixel + 2u, frame.size_px - 1u);
     var sum = vec3f(0.0);
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
+            if (is_second_eye(vec2u(x, y)) != is_second_eye(pixel)) { continue; }
             let index = pixel_index(vec2u(x, y));
             let off = unpack_guides(guides[index]).normal - own;
             let weight = exp(-4.0 * dot(off, off));
@@ -73,7 +75,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     if (!inside_region(pixel)) { return; }
     let index = pixel_index(pixel);
     var error = error_of(pixel);
-    if (error < 0.0) { error = spread_around(pixel); }
+    if (error < 0.0) { error = local_deviation(pixel); }
     light[index] = shared_exponent_pack(demodulated(index));
     var known = unpack_guides(guides[index]);
     known.error = error;

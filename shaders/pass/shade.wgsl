@@ -5,17 +5,20 @@
 // True if this pipeline shades single samples: a loop of one turn is slow on llvmpipe.
 override SINGLE: bool = false;
 
+fn shaded(site: Site) -> vec3f {
+    // Fog between the eye and a surface does not dim the light that the surface sends to others.
+    if (frame.indirect.kind != INDIRECT_OFF) { return clear_radiance(site, rays[site.ray]); }
+    return direct_radiance(site, rays[site.ray]);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    if (SINGLE) { sum = direct_radiance(first, rays[first.ray]); }
-    for (var i = 0u; !SINGLE && i < dispatch.samples; i++) {
-        let site = sample_site(first, i);
-        sum += direct_radiance(site, rays[site.ray]);
-    }
+    if (SINGLE) { sum = shaded(first); }
+    for (var i = 0u; !SINGLE && i < dispatch.samples; i++) { sum += shaded(sample_site(first, i)); }
     if (frame.indirect.kind == INDIRECT_OFF) {
         put_on_film(first.pixel, sum);
     } else {

@@ -13,13 +13,16 @@ const STEP_PAIRS = 0x1000u;
 // Least step through empty space, in hit distances.
 const MIN_STEP = 0.25;
 
-// Half of the steps of a march: a step here may follow two orbits.
+// A third of the steps of a march: a step here may follow three orbits.
 fn max_steps() -> u32 {
-    return frame.march.march_steps / 2u;
+    return max(frame.march.march_steps / 3u, 1u);
 }
 
 // Depth of the first collision along a ray, of which the part up to `clear` is empty; 0 if there is none.
 fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32) -> f32 {
+    // In a cloud at least so long that the steps suffice.
+    let longest = select(4.0 * (interval.y - interval.x) / f32(max_steps()), 0.0, is_empty_outside());
+    let free_path = max(frame.medium.mean_free_path, longest);
     let first_pair = FIRST_STEP_PAIR + STEP_PAIRS * dispatch.ray_queue;
     var t = max(interval.x, clear);
     var i = 0u;
@@ -32,20 +35,22 @@ fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32
                 let ahead = estimate_next(&pending, fractal, point, ray.direction);
                 if (pending.is_needed) { break; }
                 let hit = hit_distance(ray, t);
-                if (ahead.distance > hit) {
+                // Some estimates are positive inside of the set.
+                if (ahead.distance > hit && !orbit_colors(fractal, point).is_inside) {
                     t += max(ahead.step, MIN_STEP * hit);
                     continue;
                 }
             }
             let u = random_pair(site, first_pair + i);
-            t -= log(max(1.0 - u.x, 1e-12)) * frame.medium.mean_free_path;
+            t -= log(max(1.0 - u.x, 1e-12)) * free_path;
             if (t > interval.y) { return 0.0; }
             if (u.y < medium_density(fractal, ray.origin + t * ray.direction)) { return max(t, 1e-30); }
         }
         if (!pending.is_needed) { break; }
         pending.estimate = careful_estimate(fractal, ray.origin + t * ray.direction, ray.direction);
     }
-    return 0.0;
+    // Out of steps, while creeping along the set.
+    return select(0.0, t, t <= interval.y);
 }
 
 @compute @workgroup_size(64)

@@ -248,6 +248,8 @@ struct PathTracing {
     noise: f32,
     // 1: displays show denoised light.
     denoise: u32,
+    // Greatest luminance of a path; 0: no limit.
+    firefly_limit: f32,
 }
 
 const NORMALS_NONE = 0u;

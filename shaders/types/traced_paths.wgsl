@@ -5,7 +5,15 @@
 // For each pixel the sum over its rounds of samples of their number of samples times their squared mean luminance; negative once
 // the pixel has too little noise for more samples.
 @group(1) @binding(1) var<storage, read_write> moments: array<f32>;
-// Number of pixels with too much noise.
-@group(1) @binding(2) var<storage, read_write> noisy_pixels: atomic<u32>;
+struct PathCounts {
+    // Number of pixels with too much noise.
+    noisy_pixels: atomic<u32>,
+    // Luminance of all paths before the firefly limit, and what the limit took away, both in firefly limits over
+    // `LIGHT_STEPS`. Neither counts on once the first is large.
+    light: atomic<u32>,
+    clamped: atomic<u32>,
+}
+
+@group(1) @binding(2) var<storage, read_write> path_counts: PathCounts;
 // The guides of the denoiser, one element a pixel; in place of the visibility of centre samples.
 @group(1) @binding(3) var<storage, read_write> guides: array<vec2u>;

@@ -1,4 +1,4 @@
-//! `--integrator`, `--bounces`, `--noise` and `--denoise`: how the light of the picture is computed.
+//! `--integrator`, `--bounces`, `--noise`, `--denoise` and `--firefly-limit`: how the light of the picture is computed.
 
 use std::sync::Arc;
 
@@ -16,9 +16,12 @@ pub struct IntegratorArguments {
     /// With path tracing, stop each pixel at this relative error; --samples is the upper limit
     #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
     noise: Option<f64>,
-    /// With path tracing, smooth the noise that is left; needed for OpenEXR, which else keeps the noise
+    /// With path tracing, smooth the remaining noise; without it OpenEXR files keep their noise
     #[arg(long)]
     denoise: bool,
+    /// With path tracing, limit the brightness of single paths, which leave bright dots
+    #[arg(long, value_name = "RADIANCE", value_parser = parse_firefly_limit)]
+    firefly_limit: Option<f64>,
 }
 
 /// An integrator's name on the command line.
@@ -46,6 +49,9 @@ impl IntegratorArguments {
             scene.integrator.noise = noise;
         }
         scene.integrator.denoise |= self.denoise;
+        if self.firefly_limit.is_some() {
+            scene.integrator.firefly_limit = self.firefly_limit;
+        }
     }
 
     /// What [`StillOptions::denoise`](mandelight::export::StillOptions::denoise) gets.
@@ -67,6 +73,13 @@ fn parse_noise(text: &str) -> Result<f64, String> {
     noise
         .filter(|noise| param::NOISE.accepts(*noise))
         .ok_or_else(|| format!("write {}", param::NOISE.range_text()))
+}
+
+fn parse_firefly_limit(text: &str) -> Result<f64, String> {
+    let limit: Option<f64> = text.parse().ok();
+    limit
+        .filter(|limit| param::FIREFLY_LIMIT.accepts(*limit))
+        .ok_or_else(|| format!("write {}", param::FIREFLY_LIMIT.range_text()))
 }
 
 fn parse_bounces(text: &str) -> Result<u32, String> {

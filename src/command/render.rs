@@ -18,7 +18,7 @@ use mandelight::{
         self, ExportError, PictureFormat, StillJob, StillOptions, StillStatus,
         sequence::remaining_secs,
     },
-    render::Pipelines,
+    render::{Pipelines, report::clamped_text},
     scene::param,
 };
 
@@ -118,6 +118,7 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     let progress = progress_bar(arguments.quiet);
     let count = files.len() as u32;
     let mut complete = Vec::new();
+    let mut clamped = None;
     for ((index, file), output) in (0..).zip(&files).zip(outputs) {
         let job = StillJob::new(&pipelines, &scene, file.options.clone(), output)
             .map_err(|error| file.failed(error))?;
@@ -127,6 +128,9 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
                 let of_all = remaining_secs(progress.elapsed().as_secs_f64(), all_done, count);
                 let remaining = if count == 1 { of_file } else { of_all };
                 show(&progress, all_done / f64::from(count), remaining);
+            }
+            if let StillStatus::Done { clamped_fraction } = status {
+                clamped = clamped_fraction;
             }
             if health.loss().is_some() || interrupted.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
@@ -162,6 +166,12 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
             "{name}: {width}x{height}, {samples} samples, {secs:.1} s on {}",
             gpu.name()
         ));
+        if let Some(fraction) = clamped {
+            message(&format!(
+                "the firefly limit took away {} of the light",
+                clamped_text(fraction)
+            ));
+        }
     }
     Ok(())
 }

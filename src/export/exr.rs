@@ -10,11 +10,10 @@
 //! | `Z` | distance from the eye along the view's axis, scene units; infinite for the background |
 //! | `N.X`, `N.Y`, `N.Z` | unit normal of the surface in scene axes; 0 for the background |
 //! | `P.X`, `P.Y`, `P.Z` | surface point minus anchor, scene units; 0 for the background |
-//!
 //! | `albedo.R`, `.G`, `.B` | with path tracing: mean albedo of the first surfaces, 8 bits; 1 for the background |
-//! | `normal.X`, `.Y`, `.Z` | with path tracing: mean of their normals, 8 bits; 0 for the background |
+//! | `normal.X`, `.Y`, `.Z` | with path tracing: mean normal of the first surfaces, 8 bits; 0 for the background |
 //!
-//! The last two are guides for denoisers, means over all samples of a pixel.
+//! `albedo` and `normal` are guides for denoisers: means over the first few hundred samples.
 //! Depth, normal and position belong to the ray through the pixel's centre. The anchor is the
 //! camera's pivot, stored exactly as decimal numbers in the attributes `mandelight.anchor.x`,
 //! `.y` and `.z`.

@@ -47,7 +47,7 @@ pub struct StillOptions {
     pub environment_map: Option<Arc<EnvironmentMap>>,
     /// The file format.
     pub format: PictureFormat,
-    /// Whether path-traced light is denoised; none for the scene's choice in PNG, and never in OpenEXR.
+    /// Whether path-traced light is denoised. None: PNG as the scene says, OpenEXR not.
     pub denoise: Option<bool>,
 }
 

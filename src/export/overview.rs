@@ -60,6 +60,8 @@ impl Overview {
         let enough_samples = if has_post { min_samples.max(MAX_SAMPLES) } else { 1 };
         let samples = scene.quality.samples.min(enough_samples);
         scene.quality.samples = samples;
+        // Nobody sees the overview itself.
+        scene.integrator.denoise = false;
         let mut view = View::new(pipelines, region, Pace::Still);
         view.set_environment_map(environment_map);
         view.set_scene(&scene, false);

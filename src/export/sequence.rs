@@ -90,7 +90,7 @@ impl<W: Write> SequenceJob<W> {
     pub fn step(&mut self, now_secs: f64) -> Result<StillStatus, ExportError> {
         let started_secs = *self.started_secs.get_or_insert(now_secs);
         if self.frame >= self.frames.end {
-            return Ok(StillStatus::Done);
+            return Ok(StillStatus::Done { clamped_fraction: None });
         }
         let mut still = match self.still.take() {
             Some(still) => still,
@@ -102,7 +102,7 @@ impl<W: Write> SequenceJob<W> {
                 of_file = done;
                 self.still = Some(still);
             }
-            StillStatus::Done => {
+            StillStatus::Done { .. } => {
                 let eye = self.eyes[self.files as usize];
                 self.archive.add(&file_name(self.frame, eye), &still.finish()?)?;
                 self.files += 1;

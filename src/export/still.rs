@@ -16,7 +16,7 @@ use super::{
     tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Pace, Pipelines, View, pass::denoise},
+    render::{Pace, Pipelines, View, pass::denoise, report::ClampedLight},
     scene::{Camera, Scene},
 };
 
@@ -52,7 +52,10 @@ pub enum StillStatus {
         remaining_secs: Option<f64>,
     },
     /// All rows are written: call [`StillJob::finish`].
-    Done,
+    Done {
+        /// Part of the light that the firefly limit took away, 0 to 1; none without a limit.
+        clamped_fraction: Option<f64>,
+    },
 }
 
 /// A still in progress. Dropping the job cancels it and leaves an incomplete file.
@@ -76,6 +79,8 @@ pub struct StillJob<W: Write> {
     /// Number of samples, summed over all pixels.
     samples: f64,
     encoder: Encoder<W>,
+    /// What the firefly limit took away, in the tiles so far; none without a limit.
+    clamped_light: Option<ClampedLight>,
     rows_left: u32,
     started_secs: Option<f64>,
     /// The largest reported progress.
@@ -163,6 +168,7 @@ impl<W: Write> StillJob<W> {
             encoder: Encoder::new(options.format, sink, sheet_px, &scene)?,
             samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera,
+            clamped_light: None,
             rows_left: sheet_px[1],
             started_secs: None,
             max_done: 0.0,
@@ -187,7 +193,8 @@ impl<W: Write> StillJob<W> {
             return Err(ExportError::Gpu("the device reported an error".to_owned()));
         }
         if self.rows_left == 0 {
-            return Ok(StillStatus::Done);
+            let clamped_fraction = self.clamped_light.map(ClampedLight::fraction);
+            return Ok(StillStatus::Done { clamped_fraction });
         }
         self.max_done = self.max_done.max(self.part_done());
         let elapsed_secs = now_secs - started_secs;
@@ -217,6 +224,11 @@ impl<W: Write> StillJob<W> {
             return;
         }
         let Some(readback) = self.format.read(&self.pipelines.gpu, &self.view) else { return };
+        if let Some(of_tile) = self.view.report().clamped_light {
+            let all = self.clamped_light.get_or_insert_default();
+            all.light += of_tile.light;
+            all.clamped += of_tile.clamped;
+        }
         self.readback = Some((self.tiling.tile(self.tile_index), readback));
         self.tile_index += 1;
         if self.tile_index < self.tiling.count() {
@@ -309,7 +321,7 @@ impl<W: Write> StillJob<W> {
             if on_status(status).is_break() {
                 return Err(ExportError::Cancelled);
             }
-            if status == StillStatus::Done {
+            if matches!(status, StillStatus::Done { .. }) {
                 return self.finish();
             }
             self.view.wait();

@@ -7,7 +7,7 @@ use super::{
     environment_texture::EnvironmentTexture,
     layouts::Layouts,
     sky::SampledSky,
-    uniforms::PathState,
+    uniforms::{PathCounts, PathState},
 };
 use crate::gpu::host_shared::HostShared;
 
@@ -21,8 +21,8 @@ pub struct PathTargets {
     paths: wgpu::Buffer,
     /// An f32 per pixel, for the estimate of its noise.
     pub moments: wgpu::Buffer,
-    /// The number of pixels with too much noise, a u32.
-    pub noisy_pixels: wgpu::Buffer,
+    /// [`PathCounts`].
+    pub counts: wgpu::Buffer,
     /// The bind group of passes over paths: the sky's map, its sampler, its table, the paths.
     pub group: wgpu::BindGroup,
     /// The bind group of the passes after paths.
@@ -46,7 +46,7 @@ impl PathTargets {
         let device = &layouts.gpu.device;
         let paths = storage(device, "paths", samples.max(1) * PathState::SIZE as u64);
         let moments = storage(device, "moments", 4 * pixels.max(1));
-        let noisy_pixels = storage(device, "noisy pixels", 4);
+        let counts = storage(device, "path counts", PathCounts::SIZE as u64);
         let map = sky.map(|sky| &**sky.map());
         let shared = shown.filter(|shown| map.is_some_and(|map| shown.id == Some(map.id())));
         let texture = match shared {
@@ -61,7 +61,7 @@ impl PathTargets {
             wgpu::BindingResource::TextureView(&view),
             paths.as_entire_binding(),
         ];
-        let traced = [&paths, &moments, &noisy_pixels, guides].map(wgpu::Buffer::as_entire_binding);
+        let traced = [&paths, &moments, &counts, guides].map(wgpu::Buffer::as_entire_binding);
         Self {
             samples,
             sky: sky.cloned(),
@@ -77,7 +77,7 @@ impl PathTargets {
                 + if shared.is_some() { 0 } else { texture.bytes },
             paths,
             moments,
-            noisy_pixels,
+            counts,
         }
     }
 

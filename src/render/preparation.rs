@@ -13,7 +13,8 @@ use std::sync::{
 
 use super::{
     frame,
-    integrator::{DIRECT, PATH, PATH_IN_MEDIUM},
+    integrator::{DIRECT, PATH},
+    pass::track,
     pipeline_set,
     pipelines::{PipelineVariant, Pipelines, part_count},
     post::Tasks,
@@ -146,12 +147,14 @@ fn rehearse(
     recorder.denoises = *variant.set == pipeline_set::DENOISE;
     for work in variant.rehearsal() {
         let traces_paths = matches!(work, Work::Trace(Trace { from: Stage::Path, .. }));
-        let integrator = match (*variant.set == pipeline_set::MEDIUM, traces_paths) {
-            (true, _) => &PATH_IN_MEDIUM,
-            (false, true) => &PATH,
-            (false, false) => &DIRECT,
-        };
-        frame::record(integrator, &mut recorder, work);
+        if let Work::Trace(trace) = work
+            && *variant.set == pipeline_set::MEDIUM
+        {
+            // The other passes of paths belong to other sets.
+            track::record(&mut recorder, &trace, &trace.points.grid(inputs.frame.size_px));
+            continue;
+        }
+        frame::record(if traces_paths { &PATH } else { &DIRECT }, &mut recorder, work);
     }
     let queue = &pipelines.gpu.queue;
     queue.submit([recorder.finish()]);

@@ -18,6 +18,32 @@ pub enum Activity {
     Compiling(String),
 }
 
+/// Light of a picture's paths, and what the firefly limit took away; in the same unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ClampedLight {
+    /// All light, with what was taken away.
+    pub light: f64,
+    /// What was taken away.
+    pub clamped: f64,
+}
+
+impl ClampedLight {
+    /// The part that was taken away, 0 to 1.
+    pub fn fraction(self) -> f64 {
+        if self.light > 0.0 { self.clamped / self.light } else { 0.0 }
+    }
+}
+
+/// The part of the light that the firefly limit took away, as text: `0.34 %`.
+pub fn clamped_text(fraction: f64) -> String {
+    let percent = 100.0 * fraction;
+    if percent > 0.0 && percent < 0.01 {
+        "less than 0.01 %".to_owned()
+    } else {
+        format!("{percent:.2} %")
+    }
+}
+
 /// Bins of a [`Histogram`].
 pub const HISTOGRAM_BINS: usize = 128;
 
@@ -53,6 +79,8 @@ pub struct Report {
     pub samples_wanted: u32,
     /// Share of the pixels that have as little noise as asked for; none without a noise target.
     pub converged_fraction: Option<f32>,
+    /// What the firefly limit took away; none without a limit.
+    pub clamped_light: Option<ClampedLight>,
     /// One pixel of this many has been computed in the picture shown; 1 once the lattice is complete.
     pub pixels_per_sample: u32,
     /// Seconds from the last change to the newest picture, or to the finish once idle.

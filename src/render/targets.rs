@@ -50,7 +50,7 @@ pub struct GBuffer {
     pub surface: wgpu::Buffer,
     /// 2 × u32: smooth iterations and orbit traps.
     pub color_data: wgpu::Buffer,
-    /// 2 × u32: one bit per light.
+    /// 2 × u32: one bit per light. Under paths the centre samples' buffer holds guides of the denoiser.
     pub visibility: wgpu::Buffer,
     /// The bind group of all three buffers and the rays.
     pub group: wgpu::BindGroup,

@@ -225,8 +225,9 @@ impl View {
         while !self.waits_for_colors()
             && let Some(work) = self.schedule.next(now_secs)
         {
+            self.clear_path_counts(work);
             self.submit(work);
-            self.assess_noise(work);
+            self.note_round(work);
         }
         self.end_at_noise();
         self.follow_colors();

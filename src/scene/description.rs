@@ -59,8 +59,11 @@ impl Scene {
     pub fn trace_paths(&mut self) {
         /// Fewer samples are noisy.
         const SAMPLES: u32 = 256;
+        if self.quality.samples < SAMPLES {
+            // The first time; later, the choice of the last time stays.
+            self.integrator.denoise = true;
+        }
         self.integrator.kind = IntegratorKind::Path;
-        self.integrator.denoise = true;
         self.quality.samples = self.quality.samples.max(SAMPLES);
     }
 

@@ -33,6 +33,10 @@ pub struct IntegratorSettings {
     pub noise: f64,
     /// Whether noise of path tracing is smoothed for display. OpenEXR files keep the noise.
     pub denoise: bool,
+    /// Greatest luminance of a path, range [`param::FIREFLY_LIMIT`]; no limit if none.
+    ///
+    /// Removes bright dots, and the light in them: the picture gets darker where few paths carry much light.
+    pub firefly_limit: Option<f64>,
 }
 
 impl Default for IntegratorSettings {
@@ -43,6 +47,7 @@ impl Default for IntegratorSettings {
             reach: Some(param::BOUNCE_REACH.default),
             noise: param::NOISE.default,
             denoise: false,
+            firefly_limit: None,
         }
     }
 }

@@ -109,24 +109,24 @@ params! {
         "How much the second layer covers the first. 0 is off, 1 shows the second layer alone.";
     SECTION_REPEATS = "surface.sections.repeats", "Repeats", None, 0.01, 4.0, default 0.25, Logarithmic by 0.01,
         "How often the gradient repeats per iteration on section planes. More gives narrower bands.";
-    MEAN_FREE_PATH = "medium.mean_free_path", "Mean free path", ViewUnits, 0.001, 10.0, default 0.05, Logarithmic by 0.05,
-        "How far light travels inside before it scatters; 1 is the distance to the pivot. Longer is clearer, shorter is more solid.";
-    MEDIUM_ANISOTROPY = "medium.anisotropy", "Direction", None, -0.9, 0.9, default 0.0, Linear by 0.01,
-        "Where scattered light goes: 0 to all sides, above 0 mostly onward, below 0 mostly back.";
+    MEAN_FREE_PATH = "medium.mean_free_path", "Clarity", ViewUnits, 0.001, 10.0, default 0.05, Logarithmic by 0.05,
+        "How far light gets inside before it scatters (mean free path): low looks solid as stone, high clear as glass.";
+    MEDIUM_ANISOTROPY = "medium.anisotropy", "Forward scatter", None, -0.9, 0.9, default 0.0, Linear by 0.01,
+        "Above 0 the glow is brightest with a light behind the fractal, below 0 with a light behind you.";
     THIN_ITERATIONS = "medium.thin_iterations", "Clear below", None, 0.0, 1000.0, default 2.0, Logarithmic by 0.05,
         "Iteration count below which the cloud is empty. Lower widens the cloud.";
     DENSE_ITERATIONS = "medium.dense_iterations", "Dense above", None, 0.0, 1000.0, default 8.0, Logarithmic by 0.05,
         "Iteration count above which the cloud is densest. Lower makes a harder edge.";
     FOG_DENSITY = "fog.density", "Fog", PerViewUnit, 0.0, 100.0, default 0.0, Logarithmic by 0.01,
         "How thick the fog is. 0 is none; at 1 about a third of the light reaches the pivot.";
-    FOG_ANISOTROPY = "fog.anisotropy", "Direction", None, -0.9, 0.9, default 0.3, Linear by 0.01,
-        "Where fog scatters light: 0 to all sides, above 0 mostly onward, so that fog is brightest toward a light.";
+    FOG_ANISOTROPY = "fog.anisotropy", "Forward scatter", None, -0.9, 0.9, default 0.3, Linear by 0.01,
+        "Above 0 fog is brightest toward a light, below 0 away from it; 0 is even.";
     FOG_HEIGHT = "fog.height", "Fog height", ViewUnits, 0.01, 100.0, default 0.5, Logarithmic by 0.05,
         "How fast the fog thins upward: after this height a third of it is left.";
     FOG_LEVEL = "fog.level", "Fog level", ViewUnits, -10.0, 10.0, default -0.5, Linear by 0.01,
         "Height, over the pivot, up to which the fog is thickest.";
     FOG_RADIUS = "fog.radius", "Fog radius", ViewUnits, 0.05, 1000.0, default 3.0, Logarithmic by 0.05,
-        "Distance from the pivot at which the fog ends. Lights outside have to pass all of it.";
+        "Distance from the pivot at which the fog ends. Lights outside are dimmed by the fog that they shine through.";
     EXPOSURE = "tone.exposure", "Exposure", Stops, -10.0, 10.0, default 0.0, Linear by 0.1,
         "Brightens or darkens the picture; +1 doubles the light.";
     KEY = "tone.key", "Key", None, 0.01, 1.0, default 0.18, Logarithmic by 0.01,
@@ -149,6 +149,8 @@ params! {
         "How far bounced light travels; 1 is the distance to the pivot. Shorter is faster; under a sky, shorter also brightens crevices.";
     NOISE = "integrator.noise", "Stop at noise", None, 0.0, 0.5, default 0.0, Logarithmic by 0.001,
         "Stops each pixel once it looks this smooth: 0.02 is clean, higher is faster and grainier. 0 always takes all samples.";
+    FIREFLY_LIMIT = "integrator.firefly_limit", "Brightest path", None, 0.1, 10000.0, default 10.0, Logarithmic by 0.1,
+        "Limits the light of single paths, which else leave bright dots. Lower removes more dots, and more light.";
     BLOOM_STRENGTH = "bloom.strength", "Strength", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "Brightness of the glow around bright spots. 0 is off and costs nothing.";
     BLOOM_RADIUS = "bloom.radius", "Radius", None, 0.005, 0.25, default 0.04, Logarithmic by 0.05,

@@ -71,6 +71,9 @@ impl Scene {
             check(&param::BOUNCE_REACH, reach)?;
         }
         check(&param::NOISE, self.integrator.noise)?;
+        if let Some(limit) = self.integrator.firefly_limit {
+            check(&param::FIREFLY_LIMIT, limit)?;
+        }
         check(&param::BLOOM_STRENGTH, self.bloom.strength)?;
         check(&param::BLOOM_RADIUS, self.bloom.radius)?;
         check(&param::BLOOM_THRESHOLD, self.bloom.threshold)?;

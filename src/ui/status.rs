@@ -6,7 +6,7 @@ use egui::{Rect, RichText, Sense, Ui, pos2};
 
 use super::{navigation::CameraStatus, theme};
 use crate::{
-    render::report::{Activity, Report},
+    render::report::{Activity, Report, clamped_text},
     scene::{Camera, Fractal, Scene, presets},
 };
 
@@ -104,8 +104,9 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         Activity::Idle if report.pictures == 0 => "Starting".to_owned(),
         Activity::Idle if short => format!("Done in {}", duration_text(report.elapsed_secs)),
         Activity::Idle => format!(
-            "Done: {} in {}",
+            "Done: {}{} in {}",
             count(report.samples_done, "sample"),
+            clamped(report),
             duration_text(report.elapsed_secs)
         ),
         Activity::Moving if report.pixels_per_sample <= 1 => "Moving".to_owned(),
@@ -127,6 +128,7 @@ pub fn activity_text(report: &Report, short: bool) -> String {
             let clean = report
                 .converged_fraction
                 .map_or_else(String::new, |part| format!(", {} % clean", percent(part)));
+            let clean = clean + &clamped(report);
             if short {
                 format!("Refining {sample}/{}{clean}", report.samples_wanted)
             } else {
@@ -139,6 +141,13 @@ pub fn activity_text(report: &Report, short: bool) -> String {
         }
         Activity::Compiling(what) => format!("Preparing {what}…"),
     }
+}
+
+/// What the firefly limit took away, as a part of a sentence; empty without a limit.
+fn clamped(report: &Report) -> String {
+    report.clamped_light.map_or_else(String::new, |light| {
+        format!(", {} of the light cut as fireflies", clamped_text(light.fraction()))
+    })
 }
 
 fn right_text(status: &StatusInputs<'_>, width: f32) -> String {

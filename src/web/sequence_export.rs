@@ -146,7 +146,7 @@ impl SequenceExport {
                 self.progress = (done, remaining_secs);
                 (Some(self), ExportStatus::Working(done, remaining_secs))
             }
-            Ok(StillStatus::Done) => (None, self.finish()),
+            Ok(StillStatus::Done { .. }) => (None, self.finish()),
             Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
     }

@@ -72,7 +72,7 @@ impl StillExport {
                 let left_secs = if file_count == 1 { file_secs } else { pair_secs };
                 (Some(self), ExportStatus::Working(done / f64::from(file_count), left_secs))
             }
-            Ok(StillStatus::Done) => self.finish_file(),
+            Ok(StillStatus::Done { .. }) => self.finish_file(),
             Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
     }

@@ -352,6 +352,23 @@ fn a_picture_of_traced_paths_carries_how_it_was_traced() {
         (Some(2), Some(0.3))
     );
     assert!(traced.rgb != direct.rgb, "traced light looks as direct light does");
+    let denoised =
+        render(&["--integrator", "path", "--bounces", "2", "--noise", "0.3", "--denoise"]);
+    assert_eq!(denoised.scene["scene"]["integrator"]["denoise"], true);
+    assert!(denoised.rgb != traced.rgb, "nothing was denoised");
+}
+
+#[test]
+fn the_firefly_limit_is_reported() {
+    let document = default_document().to_string();
+    let arguments =
+        "render - -o - --size 48x32 --samples 16 --integrator path --firefly-limit 0.1".split(' ');
+    let output = run_with_input(&arguments.collect::<Vec<_>>(), document.as_bytes());
+    assert_eq!(code(&output), 0, "{}", said(&output));
+    let line = said(&output);
+    let percent = line.split("took away ").nth(1).and_then(|rest| rest.split(' ').next());
+    let percent: f64 = percent.and_then(|percent| percent.parse().ok()).expect("a percentage");
+    assert!((1.0..100.0).contains(&percent), "{line}");
 }
 
 fn long_render(out: &Path) -> Child {

@@ -11,7 +11,7 @@ use mandelight::{
     render::{
         Activity, Pace, Pipelines, Region, View, pipeline_set::INDIRECT, pipelines::PipelineVariant,
     },
-    scene::{IndirectKind, IntegratorKind, Scene, SurfaceModel},
+    scene::{IndirectKind, IntegratorKind, MediumKind, Scene, SurfaceModel},
 };
 use mandelight_test_support::{
     device::{fresh_gpu, fresh_pipelines, pipelines},
@@ -135,7 +135,7 @@ fn nothing_is_compiled_unannounced() {
     watched.show(&scene);
     assert_eq!(watched.announced, ["power 8", "light", "tone mapping"]);
     type Edit = fn(&mut Scene);
-    let edits: [(Edit, &[&str]); 11] = [
+    let edits: [(Edit, &[&str]); 15] = [
         (|scene| _ = scene.fractal.set("power", 4.5), &[]),
         (|scene| _ = scene.fractal.set("power", 3.0), &["power 3"]),
         (|scene| scene.lights.environment[0].muted = true, &[]),
@@ -147,6 +147,10 @@ fn nothing_is_compiled_unannounced() {
         (|scene| scene.surface.model = SurfaceModel::Physical, &["light"]),
         (|scene| scene.integrator.kind = IntegratorKind::Path, &["path tracing"]),
         (|scene| scene.integrator.bounces = 2, &[]),
+        (|scene| scene.fog.density = 0.5, &[]),
+        (|scene| scene.integrator.denoise = true, &["denoising"]),
+        (|scene| scene.medium.kind = MediumKind::Set, &["powers", "power 8"]),
+        (|scene| scene.medium.kind = MediumKind::Iterations, &[]),
     ];
     for (edit, expected) in edits {
         watched.announced.clear();

@@ -171,7 +171,7 @@ fn progress_grows_to_the_end_and_rows_leave_on_the_way() {
                     half_way_bytes = sink.0.get();
                 }
             }
-            StillStatus::Done => ended = true,
+            StillStatus::Done { .. } => ended = true,
         }
         ControlFlow::Continue(())
     })

@@ -18,11 +18,23 @@ const MOST: f64 = 30.0;
 /// [`Difference::mean`] that JPEG and fewer samples may make: 2.9 measured.
 const MEAN: f64 = 4.5;
 
+/// How much more scenes with a medium may differ: 1.5 and 3.9 times as much measured, with 64 samples.
+const NOISY: f64 = 5.5;
+
 /// A scene at a thumbnail's size, of fewer samples.
 fn drawn(scene: Scene) -> Vec<u8> {
     // The tone curve darkens noise: few light paths would look darker.
-    let samples = if scene.traces_paths() { 64 } else { 8 };
+    let samples = match scene.traces_paths() {
+        true if is_noisy(&scene) => 32,
+        true => 64,
+        false => 8,
+    };
     still(&sampled(scene, samples), SIZE_PX)
+}
+
+/// Whether light scatters in a medium: few paths are dark then, and many take long.
+fn is_noisy(scene: &Scene) -> bool {
+    scene.traces_medium() || scene.fog.density > 0.0
 }
 
 /// Means of each block's channels, of RGBA.
@@ -70,10 +82,12 @@ fn fault(scene: Scene, file: Option<&[u8]>) -> Option<String> {
     if picture.dimensions() != SIZE_PX.into() {
         return Some(format!("it has {:?} pixels, not {SIZE_PX:?}", picture.dimensions()));
     }
+    let [most, mean] =
+        [MOST, MEAN].map(|limit| if is_noisy(&scene) { NOISY * limit } else { limit });
     let difference = Difference::of(picture.as_raw(), &drawn(scene));
     println!("{difference:?}");
-    let differs = difference.most > MOST || difference.mean > MEAN;
-    differs.then(|| format!("{difference:.1?}, of {MOST} and {MEAN} allowed"))
+    let differs = difference.most > most || difference.mean > mean;
+    differs.then(|| format!("{difference:.1?}, of {most} and {mean} allowed"))
 }
 
 #[test]

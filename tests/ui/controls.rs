@@ -67,6 +67,10 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
             harness.get_by_label("Path tracing").click();
             harness.run();
         }
+        if param == &param::FIREFLY_LIMIT {
+            harness.get_by_label("Limit fireflies").click();
+            harness.run();
+        }
         if param == &param::INDIRECT_RADIUS {
             press(&mut harness, "Indirect light: Horizon");
         }
@@ -111,7 +115,7 @@ fn every_parameter_of_every_formula_has_a_control() {
         scene.surface.second_layer.amount = 0.5;
         (scene.fog.density, scene.fog.height) = (0.5, Some(0.5));
         let mut harness = stage(scene, unfolded(), [1280.0, 5000.0]);
-        for switch in ["Auto exposure", "Depth of field", "Path tracing"] {
+        for switch in ["Auto exposure", "Depth of field", "Path tracing", "Limit fireflies"] {
             harness.get_by_label(switch).click();
             harness.run();
         }

@@ -36,6 +36,7 @@ pub fn stage(
         activity: Activity::Refining,
         size_px: [size[0] as u32, size[1] as u32],
         converged_fraction: None,
+        clamped_light: None,
         samples_done: 4,
         samples_so_far: 4.5,
         samples_wanted: 16,

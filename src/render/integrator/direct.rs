@@ -21,6 +21,7 @@ pub static DIRECT: Integrator = Integrator {
     fit_targets: |targets, layouts, inputs| {
         targets.fit_direct(layouts, inputs.has_indirect());
         targets.fit_paths(layouts, false, None);
+        targets.fit_denoiser(layouts, false);
     },
 };
 

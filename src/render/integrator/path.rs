@@ -2,7 +2,7 @@
 //!
 //! Centre samples are those of direct light: a picture in motion shows them, and export takes their depths and normals.
 //! Each jittered sample is a path. Its rays, and at each surface point one shadow ray to a light chosen by its share,
-//! run through the march passes of direct light.
+//! run through the march passes of direct light, or in a medium through `track`.
 
 use super::{contract::Integrator, direct};
 use crate::render::{

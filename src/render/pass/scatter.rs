@@ -1,4 +1,5 @@
-//! Extends light paths vertex by vertex; the passes of direct light march their rays.
+//! Extends light paths vertex by vertex; the passes of direct light march their rays, or `track` follows the rays through a
+//! medium.
 
 use super::{march, normal, shadow, track};
 use crate::render::{
@@ -22,7 +23,8 @@ pub const PASS: Pass = Pass {
 /// Follows the paths of `trace` from their first surface points to their ends.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     // A medium has collisions in place of surface points, and no normals.
-    let in_medium = recorder.inputs.traces_medium();
+    // A rehearsal is for this pass alone.
+    let in_medium = recorder.inputs.traces_medium() && recorder.rehearsal.is_none();
     let (marching, shadowing) =
         if in_medium { (&track::PASS, &track::PASS) } else { (&march::PASS, &shadow::PASS) };
     let [march, shadow, scatter] =

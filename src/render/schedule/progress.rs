@@ -82,7 +82,7 @@ impl Progress {
 
     /// Marks points as completely submitted. True where the film has changed.
     pub fn complete(&mut self, points: Points) -> bool {
-        self.note_guides(points);
+        self.invalidate_visibility_under_paths(points);
         self.under_way = None;
         let is_filmed = match points {
             Points::Level(_) | Points::Added(_) | Points::All => {
@@ -106,7 +106,7 @@ impl Progress {
     }
 
     /// Discards the visibility of centre samples if `points` are paths, which keep guides of the denoiser in its place.
-    fn note_guides(&mut self, points: Points) {
+    fn invalidate_visibility_under_paths(&mut self, points: Points) {
         let is_sampled = matches!(points, Points::Samples { .. });
         if is_sampled && self.job(points).from == Stage::Path {
             self.gbuffer_validity.invalidate_lights(u64::MAX);
@@ -115,7 +115,7 @@ impl Progress {
 
     /// Marks points as submitted up to a workgroup. True where the film can be shown meanwhile.
     pub fn advance(&mut self, points: Points, next_workgroup: u32) -> bool {
-        self.note_guides(points);
+        self.invalidate_visibility_under_paths(points);
         self.under_way = Some((points, next_workgroup));
         // The film holds a complete lattice, and pixels under way that need no indirect light.
         let is_filmed = match points {

@@ -80,14 +80,15 @@ impl Fog {
             let place = DVec3::from_array(light.vector.map(f64::from));
             let gain = match light.kind {
                 0 => 1.0,
-                _ => center
-                    .distance_squared(place)
-                    .max(f64::from(light.size).powi(2))
-                    .max(1e-24)
-                    .recip(),
+                _ => {
+                    // At least the mean over the ball for a light in its middle.
+                    let least = f64::from(self.radius).powi(2) / 3.0;
+                    let size = f64::from(light.size).powi(2);
+                    center.distance_squared(place).max(least).max(size).max(1e-24).recip()
+                }
             };
             for (channel, color) in light.color.into_iter().enumerate() {
-                // A sphere scatters a quarter of what a surface that faces the light gets.
+                // Irradiance over 4 pi, of a light whose colour is the irradiance over pi.
                 let radiance = 0.25 * gain * f64::from(color);
                 self.ambient[channel] += self.color[channel] * radiance.min(1e30) as f32;
             }

@@ -32,6 +32,7 @@ pub fn paths(scene: &Scene, space: &RenderSpace) -> PathTracing {
         reach: reach as f32,
         noise: scene.integrator.noise as f32,
         denoise: scene.denoises().into(),
+        firefly_limit: scene.integrator.firefly_limit.unwrap_or(0.0) as f32,
         ray_reach: table[..count].iter().map(reach_of).fold(reach as f32, f32::max),
         ..PathTracing::default()
     }

@@ -254,6 +254,15 @@ host_shared! {
         /// The knots of the layers' colour curves: see [`ColorCurve`](crate::render::color_curve::ColorCurve).
         color_curves: Array<[f32; 4], 32>,
     }
+    /// What a picture's paths add up to.
+    PathCounts {
+        /// Number of pixels with too much noise.
+        noisy_pixels: u32,
+        /// Luminance of all paths before the firefly limit, in steps of a part of the limit.
+        light: u32,
+        /// Luminance that the firefly limit took away, in the same steps.
+        clamped: u32,
+    }
     /// The medium in place of the set's surface, for paths.
     Medium {
         /// Single-scattering albedo, linear Rec. 709.
@@ -423,6 +432,8 @@ host_shared! {
         noise: f32,
         /// 1: displays show denoised light.
         denoise: u32,
+        /// Greatest luminance of a path; 0: no limit.
+        firefly_limit: f32,
     }
     /// Statistics of a whole film.
     Statistics {

@@ -2,12 +2,14 @@
 
 use super::View;
 use crate::{
+    gpu::host_shared::HostShared,
     render::{
         Pace,
         pass::assess_noise,
         recorder::Recorder,
+        report::ClampedLight,
         schedule::{Points, Trace, Work},
-        uniforms::Inputs,
+        uniforms::{Inputs, PathCounts},
     },
     scene::Scene,
 };
@@ -19,24 +21,52 @@ const PREVIEW_SAMPLES: u32 = 64;
 const CONVERGED_SAMPLES: u32 = 32;
 
 impl View {
-    /// Assesses the noise of all pixels if `work` completes a round of samples, unless the last one is awaited.
-    pub(super) fn assess_noise(&mut self, work: Work) {
-        let Some(inputs) = self.inputs.as_ref().filter(|inputs| inputs.frame.paths.noise > 0.0)
-        else {
+    /// Clears the counts of paths before `work` if it begins a picture.
+    pub(super) fn clear_path_counts(&self, work: Work) {
+        if let Work::Trace(Trace {
+            points: Points::Samples { first: 1, .. },
+            first_workgroup: 0,
+            ..
+        }) = work
+        {
+            let queue = &self.pipelines.gpu.queue;
+            queue.write_buffer(&self.targets.paths.counts, 0, &PathCounts::default().to_bytes());
+        }
+    }
+
+    /// Notes that `work` completes a round of samples, if it does.
+    pub(super) fn note_round(&mut self, work: Work) {
+        let is_of_samples =
+            matches!(work, Work::Trace(Trace { points: Points::Samples { .. }, .. }));
+        if is_of_samples && self.schedule.is_between_samples() && self.assesses() {
+            self.noise_control.note_round();
+        }
+        self.assess_noise();
+    }
+
+    /// Whether the paths of the picture have a noise target or a limit.
+    fn assesses(&self) -> bool {
+        self.inputs.as_ref().is_some_and(|inputs| {
+            let paths = &inputs.frame.paths;
+            paths.noise > 0.0 || paths.firefly_limit > 0.0
+        })
+    }
+
+    /// Assesses the paths of the newest rounds, unless an assessment is pending.
+    fn assess_noise(&mut self) {
+        let Some(inputs) = self.inputs.as_ref().filter(|_| self.noise_control.is_due()) else {
             return;
         };
-        let Work::Trace(Trace { points: Points::Samples { .. }, .. }) = work else { return };
-        if !self.schedule.is_between_samples() || self.noise_control.is_reading() {
-            return;
-        }
         let gpu = &self.pipelines.gpu;
         let paths = &self.targets.paths;
-        gpu.queue.write_buffer(&paths.noisy_pixels, 0, &0_u32.to_le_bytes());
-        let passes = self.pipelines.of_frame(inputs);
-        let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
-        let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
-        assess_noise::record(&mut recorder);
-        gpu.queue.submit([recorder.finish()]);
+        if inputs.frame.paths.noise > 0.0 {
+            gpu.queue.write_buffer(&paths.counts, 0, &0_u32.to_le_bytes());
+            let passes = self.pipelines.of_frame(inputs);
+            let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
+            let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
+            assess_noise::record(&mut recorder);
+            gpu.queue.submit([recorder.finish()]);
+        }
         self.noise_control.begin(gpu, paths);
     }
 
@@ -48,6 +78,14 @@ impl View {
         {
             self.schedule.set_converged(true);
         }
+        self.assess_noise();
+    }
+
+    /// What the firefly limit took away; none without a limit.
+    pub(super) fn clamped_light(&self) -> Option<ClampedLight> {
+        let has_limit =
+            self.inputs.as_ref().is_some_and(|inputs| inputs.frame.paths.firefly_limit > 0.0);
+        self.noise_control.clamped_light().filter(|_| has_limit)
     }
 
     /// Share of the pixels that are clean; none without a noise target.

@@ -30,6 +30,7 @@ impl View {
             samples_wanted: self.scene.as_ref().map_or(1, |scene| scene.quality.samples),
             pixels_per_sample: 1 << status.shown_level,
             converged_fraction: self.converged_fraction(),
+            clamped_light: self.clamped_light(),
             elapsed_secs: self.times.elapsed_secs(),
             frame_ms: self.times.frame_ms,
             frame_interval_secs: self.schedule.frame_interval_secs(),

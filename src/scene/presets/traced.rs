@@ -163,13 +163,13 @@ fn jade() -> Scene {
     let medium = Medium {
         kind: MediumKind::Set,
         color: [0.93, 0.99, 0.96],
-        mean_free_path: 0.02,
+        mean_free_path: 0.03,
         anisotropy: 0.2,
         ..Medium::default()
     };
-    let mut scene = with_paths(Scene { lights, medium, ..lantern() }, None, 512);
+    let mut scene = with_paths(Scene { lights, medium, ..lantern() }, None, 256);
     // Light goes a long way inside.
-    scene.integrator.bounces = 24;
+    scene.integrator.bounces = 16;
     scene
 }
 

@@ -5,7 +5,7 @@ use egui::{Button, Id, Popup, PopupCloseBehavior, ScrollArea, Ui};
 use super::context::{Context, Section};
 use crate::{
     scene::{
-        Axis, ColorSource, Coloring, GradientStop, SecondLayer,
+        Axis, ColorSource, Coloring, GradientStop, MediumKind, SecondLayer,
         gradient::{NamedGradient, library},
         param::{self, Param},
     },
@@ -31,6 +31,10 @@ const LIST_WIDTH: f32 = 260.0;
 
 /// Both layers.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    if cx.scene.medium.kind != MediumKind::None {
+        ui.label("This material has one inner colour: see Surface.");
+        return;
+    }
     layer(ui, cx, LayerRef::First);
     ui.add_space(6.0);
     let second = &mut cx.scene.surface.second_layer;

@@ -46,6 +46,14 @@ fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
         param_slider(ui, &param::BOUNCE_REACH, reach);
     }
     param_slider(ui, &param::NOISE, &mut integrator.noise);
+    let mut is_limited = integrator.firefly_limit.is_some();
+    let hover = "Removes bright dots. The status line says how much light goes with them.";
+    if ui.checkbox(&mut is_limited, "Limit fireflies").on_hover_text(hover).changed() {
+        integrator.firefly_limit = is_limited.then_some(param::FIREFLY_LIMIT.default);
+    }
+    if let Some(limit) = &mut integrator.firefly_limit {
+        param_slider(ui, &param::FIREFLY_LIMIT, limit);
+    }
     ui.checkbox(&mut integrator.denoise, "Denoise")
         .on_hover_text("Smooths the grain of path tracing; edges and patterns stay sharp");
     let text = "Quick approximation, shown while the picture moves:";

@@ -18,12 +18,12 @@ pub(super) const SECTION: Section = Section {
 
 /// What the set is made of: surface models, and media.
 #[derive(Clone, Copy, PartialEq)]
-enum Substance {
+enum Material {
     Surface(SurfaceModel),
     Medium(MediumKind),
 }
 
-impl Substance {
+impl Material {
     fn of(scene: &Scene) -> Self {
         match scene.medium.kind {
             MediumKind::None => Self::Surface(scene.surface.model),
@@ -41,42 +41,42 @@ impl Substance {
     }
 }
 
-/// The substance; a surface's reflectance and emission, or a medium.
+/// The material; a surface's reflectance and emission, or a medium.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    let mut substance = Substance::of(cx.scene);
+    let mut material = Material::of(cx.scene);
     choice(
         ui,
         "Material",
-        &mut substance,
+        &mut material,
         &[
             (
-                Substance::Surface(SurfaceModel::BlinnPhong),
+                Material::Surface(SurfaceModel::BlinnPhong),
                 "Classic",
                 "Matte, with round highlights of the lights",
             ),
             (
-                Substance::Surface(SurfaceModel::Physical),
+                Material::Surface(SurfaceModel::Physical),
                 "Physical",
                 "Stone, plastic, metal or varnish. With path tracing, reflections show the surroundings.",
             ),
             (
-                Substance::Medium(MediumKind::Set),
+                Material::Medium(MediumKind::Set),
                 "Translucent",
                 "Light shines through, as through wax or jade. Needs path tracing.",
             ),
             (
-                Substance::Medium(MediumKind::Iterations),
+                Material::Medium(MediumKind::Iterations),
                 "Cloud",
                 "Soft clouds around the fractal. Needs path tracing.",
             ),
         ],
     );
-    if substance != Substance::of(cx.scene) {
-        substance.set(cx.scene);
+    if material != Material::of(cx.scene) {
+        material.set(cx.scene);
     }
-    match substance {
-        Substance::Surface(model) => of_surface(ui, &mut cx.scene.surface, model),
-        Substance::Medium(kind) => of_medium(ui, cx.scene, kind),
+    match material {
+        Material::Surface(model) => of_surface(ui, &mut cx.scene.surface, model),
+        Material::Medium(kind) => of_medium(ui, cx.scene, kind),
     }
 }
 

@@ -353,8 +353,10 @@ fn fog() -> impl Strategy<Value = Fog> {
 fn integrator() -> impl Strategy<Value = IntegratorSettings> {
     let kind = select(vec![IntegratorKind::Direct, IntegratorKind::Path]);
     let limits = (option::of(value(&param::BOUNCE_REACH)), value(&param::NOISE));
-    (kind, count(&param::BOUNCES), limits, any::<bool>()).prop_map(
-        |(kind, bounces, (reach, noise), denoise)| IntegratorSettings {
+    let smoothing = (any::<bool>(), option::of(value(&param::FIREFLY_LIMIT)));
+    (kind, count(&param::BOUNCES), limits, smoothing).prop_map(
+        |(kind, bounces, (reach, noise), (denoise, firefly_limit))| IntegratorSettings {
+            firefly_limit,
             kind,
             bounces,
             reach,

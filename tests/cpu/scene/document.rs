@@ -124,8 +124,8 @@ fn scalar_defaults_are_those_of_the_parameter_table() {
         let scene = from_json(&document.to_string()).unwrap();
         document = serde_json::from_str(&to_json(&scene)).unwrap();
         let path = param.path_at(0);
-        // Three defaults are not one number: a point in space, "the whole scene", and "no height".
-        if [&param::SHADOW_REACH, &param::FOG_HEIGHT].contains(&param)
+        // Some defaults are not one number: a point in space, "the whole scene", "no height", "no limit".
+        if [&param::SHADOW_REACH, &param::FOG_HEIGHT, &param::FIREFLY_LIMIT].contains(&param)
             || param.path.starts_with("fractal.") && param.path.ends_with("[]")
         {
             continue;

@@ -133,7 +133,7 @@ fn sequence(frames: std::ops::Range<u32>) -> Vec<Vec<u8>> {
     let mut job = SequenceJob::new(pipelines(), path(), frames.clone(), options, false, sink)
         .expect("frames");
     let mut now_secs = 0.0;
-    while job.step(now_secs).expect("a step") != StillStatus::Done {
+    while !matches!(job.step(now_secs).expect("a step"), StillStatus::Done { .. }) {
         pipelines().gpu.wait();
         now_secs += 0.01;
     }

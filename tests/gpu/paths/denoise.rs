@@ -7,13 +7,13 @@ use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use mandelight::{
     export::{PictureFormat, StillJob, StillOptions},
     formula::Fractal,
-    render::{Pace, View},
-    scene::{GradientStop, Scene},
+    render::{Eyes, Pace, Region, View},
+    scene::{GradientStop, IntegratorKind, Scene, StereoLayout},
 };
 use mandelight_test_support::{
     device::pipelines,
     picture::Picture,
-    view::{finished, sampled},
+    view::{finished, finished_in, pixels, sampled, settle},
 };
 
 const SIZE: [u32; 2] = [96, 72];
@@ -119,4 +119,87 @@ fn open_exr_keeps_its_noise_unless_asked() {
     let of_bulb = depth.iter().filter(|depth| depth.is_finite()).count();
     let lit = x.iter().zip(&z).filter(|(x, z)| x.hypot(**z) > 0.1).count();
     assert!(lit > of_bulb / 2, "{lit} normals of {of_bulb} points");
+}
+
+#[test]
+fn the_firefly_limit_says_what_it_took_away() {
+    let mut scene = sampled(ball_on_floor(), 64);
+    let whole = finished(&scene, SIZE, Pace::Still);
+    assert_eq!(whole.report().clamped_light, None);
+    let luminance = |film: &[[f32; 3]]| {
+        let weights = [0.2126, 0.7152, 0.0722];
+        let pixels = film.iter().map(|c| (0..3).map(|i| f64::from(c[i]) * weights[i]).sum::<f64>());
+        pixels.sum::<f64>()
+    };
+    scene.integrator.firefly_limit = Some(1.0);
+    let limited = finished(&scene, SIZE, Pace::Still);
+    let light = limited.report().clamped_light.expect("what was taken away");
+    // The limited picture lacks what was taken away: the background, which no limit holds, is black.
+    let [all, left] = [&whole, &limited].map(|view| luminance(&view.film().expect("a film")));
+    let lost = 1.0 - left / all;
+    println!("lost {lost:.5}, told {:.5}", light.fraction());
+    assert!(lost > 0.01, "the limit took nothing: {lost}");
+    assert!((light.fraction() / lost - 1.0).abs() < 0.03, "{} instead of {lost}", light.fraction());
+    // A single path is never brighter than the limit.
+    let mut one = sampled(scene, 1);
+    one.integrator.denoise = false;
+    let film = finished(&one, SIZE, Pace::Still).film().expect("a film");
+    assert!(film.iter().all(|pixel| luminance(&[*pixel]) < 1.0 + 1e-5));
+}
+
+/// Paths keep the denoiser's guides where direct light has its shadows.
+#[test]
+fn direct_light_after_paths_is_that_of_a_fresh_view() {
+    let mut scene = sampled(bulb(), 8);
+    scene.lights.environment = Scene::default().lights.environment;
+    for denoise in [false, true] {
+        scene.integrator.kind = IntegratorKind::Path;
+        scene.integrator.denoise = denoise;
+        let mut view = finished(&scene, SIZE, Pace::Interactive);
+        scene.integrator.kind = IntegratorKind::Direct;
+        view.set_scene(&scene, false);
+        settle(&mut view);
+        let fresh = finished(&scene, SIZE, Pace::Interactive);
+        let [found, wanted] = [&view, &fresh].map(|view| view.film().expect("a film"));
+        let pairs = found.iter().flatten().zip(wanted.iter().flatten());
+        // Rays that start at a known point may end on the other side of a shadow's edge.
+        let apart = pairs.filter(|(a, b)| (*a - *b).abs() > 1e-3).count();
+        assert!(apart < found.len() / 100, "{apart} values of {} pixels are apart", found.len());
+        assert_eq!(view.report().memory, fresh.report().memory);
+    }
+}
+
+#[test]
+fn switching_the_denoiser_traces_nothing() {
+    let mut scene = sampled(ball_on_floor(), 64);
+    let mut view = finished(&scene, SIZE, Pace::Interactive);
+    let before = view.dispatches().clone();
+    let noisy = pixels(&view);
+    scene.integrator.denoise = true;
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    let new = view.dispatches().since(&before);
+    assert_eq!(new.passes(), ["denoise", "denoise_input", "tone"]);
+    assert_ne!(pixels(&view), noisy);
+}
+
+/// A pair of pictures beside each other, each as the single eye's.
+#[test]
+fn the_eyes_of_a_pair_do_not_mix() {
+    let mut scene = sampled(ball_on_floor(), 8);
+    scene.integrator.denoise = true;
+    scene.camera.stereo.layout = StereoLayout::SideBySide;
+    let picture_px = SIZE;
+    let region = |eyes| Region { eyes, ..Region::whole(picture_px) };
+    let light = |eyes| {
+        let view = finished_in(&scene, region(eyes), Pace::Still);
+        view.denoised().expect("a film").expect("denoised light")
+    };
+    let (both, right) = (light(Eyes::Beside), light(Eyes::Right));
+    let width = SIZE[0] as usize;
+    for (both, right) in both.chunks(2 * width).zip(right.chunks(width)) {
+        for (a, b) in both[width..].iter().flatten().zip(right.iter().flatten()) {
+            assert!((a - b).abs() < 0.01 * b.abs().max(0.01), "{a} instead of {b}");
+        }
+    }
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use mandelight::{
-    formula::Fractal,
+    formula::{Fractal, section::SectionPlane},
     render::Pace,
-    scene::{Background, Camera, Fog, IntegratorKind, Medium, MediumKind, Scene, param},
+    scene::{Background, Camera, Fog, IntegratorKind, Medium, MediumKind, Scene, param, presets},
 };
 use mandelight_test_support::{
     oracle::rays,
@@ -241,4 +241,41 @@ fn extreme_media_give_finite_numbers() {
             assert_eq!(wrong, 0, "values that are no light");
         }
     }
+}
+
+#[test]
+fn media_keep_their_light_in_the_depth() {
+    // Petals about petals at 1e-20, translucent, and in fog.
+    let dive = presets::traced().iter().find(|preset| preset.name == "Deep dahlia").expect("it");
+    let mut scene = (dive.scene)();
+    scene.integrator.bounces = 4;
+    let [surface, translucent, foggy] = [
+        scene.clone(),
+        Scene { medium: Medium { kind: MediumKind::Set, ..Medium::default() }, ..scene.clone() },
+        Scene { fog: Fog { density: 0.5, ..Fog::default() }, ..scene },
+    ]
+    .map(|scene| {
+        let film = finished(&sampled(scene, 8), SIZE, Pace::Still).film().expect("a film");
+        let wrong = film.iter().flatten().filter(|c| !c.is_finite() || **c < 0.0).count();
+        assert_eq!(wrong, 0, "values that are no light");
+        mean(&film)
+    });
+    println!("surface {surface:.4}, translucent {translucent:.4}, foggy {foggy:.4}");
+    assert!((0.2..5.0).contains(&(translucent / surface)), "{translucent} of {surface}");
+    assert!((0.2..5.0).contains(&(foggy / surface)), "{foggy} of {surface}");
+}
+
+#[test]
+fn a_cut_takes_away_half_of_a_ball_of_medium() {
+    let black =
+        Medium { kind: MediumKind::Set, color: [0.0; 3], mean_free_path: 0.3, ..Medium::default() };
+    let mut scene = ball_of(black);
+    scene.background = Background::gradient([1.0; 3], [1.0; 3]);
+    // The plane through the eye and the middle: rays above it meet nothing.
+    scene.camera = Camera::looking_at(DVec3::new(0.0, -3.0, 0.0), DVec3::ZERO, DVec3::Z);
+    scene.fractal.section_planes.push(SectionPlane::default());
+    let film = finished(&sampled(scene, 32), SIZE, Pace::Still).film().expect("a film");
+    let row = |y: usize| mean(&film[y * SIZE[0] as usize..][..SIZE[0] as usize]);
+    assert!((row(12) - 1.0).abs() < 1e-5, "{}", row(12));
+    assert!(row(23) < 0.9, "{}", row(23));
 }
