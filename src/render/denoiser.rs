@@ -8,7 +8,7 @@ use super::{
 /// Buffers that the denoiser reads and does not own.
 #[derive(Clone, PartialEq)]
 pub struct DenoiserSources {
-    /// [`moments`](super::path_targets::PathTargets::moments).
+    /// The noise of pixels: see `shaders/types/traced_paths.wgsl`.
     pub moments: wgpu::Buffer,
     /// Albedo and normal of pixels: see `shaders/types/guides.wgsl`.
     pub guides: wgpu::Buffer,

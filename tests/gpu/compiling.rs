@@ -183,6 +183,8 @@ fn nothing_is_compiled_unannounced() {
         ["indirect", "mean", "reduce", "expose", "histogram", "bloom", "blur"].map(str::to_owned),
     );
     all.extend(["scatter", "film_paths", "assess_noise"].map(str::to_owned));
+    all.extend(["denoise_input", "denoise"].map(str::to_owned));
+    all.extend(["track", "track, POWER 8, CHECKS_HITS 0"].map(str::to_owned));
     assert_eq!(made.len(), all.len(), "each once: {made:?}");
     assert_eq!(BTreeSet::from_iter(made), all);
 }
