@@ -125,10 +125,17 @@ pub fn pictures() -> Vec<Picture> {
         picture(
             "traced",
             2,
-            "Path-traced light: an open sky over a crevice, threads that glow, a lamp in a sponge, gold, jade, a lamp in fog",
-            ["Skylight", "Filigree", "Lamp", "Gold", "Jade", "Beams"].map(traced),
+            "Path-traced light: an open sky over a crevice, threads that glow, a lamp in a sponge, gold",
+            ["Skylight", "Filigree", "Lamp", "Gold"].map(traced),
         )
-        .sized([720, 675]),
+        .sized([720, 450]),
+        picture(
+            "media",
+            2,
+            "Light that scatters: a bulb of jade, and a lamp in fog",
+            ["Jade", "Beams"].map(|scene| Panel { samples: MEDIA_SAMPLES, ..of(scene) }),
+        )
+        .sized([720, 225]),
         single("deep-light", "Path-traced light at 1e-20, in power 16", traced("Deep dahlia"))
             .sized([480, 300]),
         single("lens", "Through a lens of f/1.4, at 2e-26 in power 8", lens("Rosette"))
@@ -341,6 +348,9 @@ fn pierced(changes: &[&'static str]) -> Panel {
 
 /// Samples of pictures in path-traced light.
 const TRACED_SAMPLES: u32 = 192;
+
+/// Samples of pictures of media, whose paths are long.
+const MEDIA_SAMPLES: u32 = 96;
 
 /// Samples of pictures with soft shadows.
 const SOFT_SAMPLES: u32 = 128;
