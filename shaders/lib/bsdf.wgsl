@@ -2,8 +2,6 @@
 // the one toward the viewer; both are on the side of the normal `n`. Values include the cosine of `wi`.
 // uses: lib/basis, lib/luminance, lib/material, types/frame_uniforms
 
-const PI = 3.14159265;
-
 // Reflectance of a clear coat at normal incidence: an index of refraction of 1.5.
 const COAT_REFLECTANCE = vec3f(0.04);
 
@@ -194,14 +192,11 @@ fn bsdf_density(f: Bsdf, wi: vec3f) -> f32 {
 // A direction toward which the material may reflect; it may point below the surface.
 fn bsdf_sample(f: Bsdf, lobe: f32, at: vec2f) -> vec3f {
     if (lobe < f.coat_probability) { return lobe_sample(f.coat, f.n, f.wo, at); }
-    let azimuth = 2.0 * PI * (at.y - 0.5);
     if (lobe < f.coat_probability + f.specular_probability) {
         if (!is_blinn_phong()) { return lobe_sample(f.specular, f.n, f.wo, at); }
         let z = pow(at.x, 1.0 / (f.exponent + 1.0));
-        let sin_theta = sqrt(max(1.0 - z * z, 0.0));
-        let h = from_local(f.n, vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), z));
+        let h = from_polar(f.n, sqrt(max(1.0 - z * z, 0.0)), z, at.y);
         return 2.0 * dot(f.wo, h) * h - f.wo;
     }
-    let sin_theta = sqrt(at.x);
-    return from_local(f.n, vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), sqrt(max(1.0 - at.x, 0.0))));
+    return from_polar(f.n, sqrt(at.x), sqrt(max(1.0 - at.x, 0.0)), at.y);
 }

@@ -2,7 +2,7 @@
 // exponentially above, in a ball; everything is in closed form.
 // uses: types/frame_uniforms
 
-// The distance of a collision that does not happen; also the end of a ray without one.
+// The distance of a collision that does not happen, and of what is infinitely far away.
 const NO_COLLISION = 1e30;
 
 // Density along a ray, as a function of the height over the level in scale heights.
@@ -16,9 +16,13 @@ struct FogRay {
     rise: f32,
 }
 
+fn has_fog() -> bool {
+    return frame.fog.density > 0.0;
+}
+
+// The part of a ray in the fog; for scenes with fog.
 fn fog_ray(origin: vec3f, direction: vec3f, farthest: f32) -> FogRay {
     let fog = frame.fog;
-    if (fog.density <= 0.0) { return FogRay(0.0, 0.0, 0.0, 0.0); }
     let from_center = origin - fog.center;
     let along = dot(from_center, direction);
     let beside = (from_center - along * direction) / fog.radius;
@@ -84,14 +88,14 @@ fn length_of_integral(ray: FogRay, depth: f32) -> f32 {
 
 // The part of light that passes the fog from `origin` over `distance` in a unit direction.
 fn fog_transmittance(origin: vec3f, direction: vec3f, distance: f32) -> f32 {
+    if (!has_fog()) { return 1.0; }
     let ray = fog_ray(origin, direction, distance);
     return exp(-frame.fog.density * max(density_integral(ray, ray.end - ray.start), 0.0));
 }
 
 // The distance at which a ray first collides with the fog, by a random number of 0 to 1; `NO_COLLISION` if the ray goes
-// `farthest` without.
+// `farthest` without. For scenes with fog.
 fn fog_collision(origin: vec3f, direction: vec3f, farthest: f32, u: f32) -> f32 {
-    if (frame.fog.density <= 0.0) { return NO_COLLISION; }
     let ray = fog_ray(origin, direction, farthest);
     let length = length_of_integral(ray, -log(max(1.0 - u, 1e-12)) / frame.fog.density);
     return select(NO_COLLISION, ray.start + length, length >= 0.0 && ray.start + length < ray.end);

@@ -77,9 +77,7 @@ fn cone_distance(cone: LightCone, one_minus_cos: f32) -> f32 {
 fn cone_sample(cone: LightCone, at: vec2f) -> LightSample {
     let one_minus_cos = at.x * cone.one_minus_cos;
     let sin_theta = sqrt(max(one_minus_cos * (2.0 - one_minus_cos), 0.0));
-    let azimuth = 6.2831853 * (at.y - 0.5);
-    let direction =
-        from_local(cone.axis, vec3f(sin_theta * cos(azimuth), sin_theta * sin(azimuth), 1.0 - one_minus_cos));
+    let direction = from_polar(cone.axis, sin_theta, 1.0 - one_minus_cos, at.y);
     return LightSample(direction, cone_distance(cone, one_minus_cos), cone_gain(cone) * cone.gain);
 }
 

@@ -2,12 +2,10 @@
 // Astrophysical Journal 93, 1941). `g` is the mean cosine of the angle between a ray and the ray that it becomes.
 // uses: lib/basis
 
-const PHASE_PI = 3.14159265;
-
 // Part of the light along `along` that leaves toward `wi`, per unit of solid angle; also the density of `phase_sample`.
 fn phase_value(g: f32, along: vec3f, wi: vec3f) -> f32 {
     let d = 1.0 + g * g - 2.0 * g * dot(along, wi);
-    return (1.0 - g * g) / (4.0 * PHASE_PI * d * sqrt(d));
+    return (1.0 - g * g) / (4.0 * PI * d * sqrt(d));
 }
 
 // A direction in which light along the unit vector `along` leaves
@@ -18,7 +16,5 @@ fn phase_sample(g: f32, along: vec3f, at: vec2f) -> vec3f {
         let s = (1.0 - g * g) / (1.0 + g - 2.0 * g * at.x);
         cosine = clamp((1.0 + g * g - s * s) / (2.0 * g), -1.0, 1.0);
     }
-    let sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    let azimuth = 2.0 * PHASE_PI * (at.y - 0.5);
-    return from_local(along, vec3f(sine * cos(azimuth), sine * sin(azimuth), cosine));
+    return from_polar(along, sqrt(max(1.0 - cosine * cosine, 0.0)), cosine, at.y);
 }

@@ -1,25 +1,18 @@
 // Decides which pixels get no more samples: those that have as little noise as asked for, with all their neighbours.
 // A pixel's error is the standard error of its mean, estimated from the means of its rounds.
-// uses: lib/film_mean, lib/lattice, lib/luminance, types/dispatch_params, types/film, types/frame_uniforms
-// uses: types/traced_paths
+// uses: lib/film_mean, lib/lattice, lib/luminance, lib/standard_error, types/dispatch_params, types/film
+// uses: types/frame_uniforms, types/traced_paths
 
-// Samples of a round.
-const SAMPLES_PER_ROUND = 8.0;
-// Rounds from which an error can be estimated.
-const MIN_ROUNDS = 4.0;
 // Added to a pixel's value, over the display's white: errors of dark pixels are seen less.
 const DARK = 0.1;
 
 // The standard error of a pixel, relative to its value on the display; large where too few samples tell.
 fn relative_error(pixel: vec2u) -> f32 {
     let index = pixel_index(pixel);
-    let count = film_bw[index].y;
-    let rounds = count / SAMPLES_PER_ROUND;
-    if (rounds < MIN_ROUNDS) { return 1e30; }
-    let mean = luminance(sample_mean(index));
-    let variance = max(abs(moments[index]) / count - mean * mean, 0.0) / (rounds - 1.0);
+    if (has_few_rounds(index)) { return 1e30; }
     let exposure = frame.tone.exposure;
-    return exposure * sqrt(variance) / (exposure * mean + DARK);
+    let error = sqrt(squared_standard_error(index, moments[index]));
+    return exposure * error / (exposure * luminance(sample_mean(index)) + DARK);
 }
 
 @compute @workgroup_size(64)

@@ -1,8 +1,8 @@
 // One iteration of the denoiser: an edge-avoiding a-trous wavelet filter (H. Dammertz et al., Edge-Avoiding A-Trous Wavelet
 // Transform for fast Global Illumination Filtering, HPG 2010), with the pixel's own error as the width in light
 // (C. Schied et al., Spatiotemporal Variance-Guided Filtering, HPG 2017). Each iteration doubles the distances.
-// uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, types/dispatch_params
-// uses: types/film, types/frame_uniforms, types/guides
+// uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, lib/standard_error
+// uses: types/dispatch_params, types/film, types/frame_uniforms, types/guides
 
 @group(1) @binding(0) var<storage, read> guides: array<vec2u>;
 // Of centre samples: x is the depth, as in `types/gbuffer`.
@@ -26,9 +26,8 @@ const DEPTH_WIDTH = 4.0;
 
 // Largest change of a pixel's light, in standard errors: so denoised light converges to the truth as the error falls.
 const MAX_CHANGE = 2.0;
-// The same for pixels with few samples: `MIN_ROUNDS` of `shaders/pass/denoise_input.wgsl`.
+// The same for pixels with few rounds of samples.
 const MAX_CHANGE_OF_FEW = 4.0;
-const FEW_SAMPLES = 32.0;
 
 fn light_at(index: u32) -> vec3f {
     if ((dispatch.iteration & 1u) == 0u) { return shared_exponent_unpack(even[index]); }
@@ -93,7 +92,7 @@ fn output_of(index: u32, light: vec3f) -> vec3f {
     let own = film_mean(index) / albedo;
     let off = light - own;
     // The errors of few samples are guesses.
-    let most = select(MAX_CHANGE, MAX_CHANGE_OF_FEW, film_bw[index].y < FEW_SAMPLES);
+    let most = select(MAX_CHANGE, MAX_CHANGE_OF_FEW, has_few_rounds(index));
     let part = min(most * here.error / max(luminance(abs(off)), 1e-20), 1.0);
     return albedo * (own + part * off);
 }

@@ -1,11 +1,6 @@
 // The input of the denoiser: each pixel's light over its albedo, and the standard error of that light.
-// uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, types/denoise_input, types/dispatch_params
-// uses: types/film, types/frame_uniforms, types/guides
-
-// Samples of a round.
-const SAMPLES_PER_ROUND = 8.0;
-// Rounds from which their spread gives a pixel's error.
-const MIN_ROUNDS = 4.0;
+// uses: lib/eye, lib/film_mean, lib/lattice, lib/luminance, lib/shared_exponent, lib/standard_error
+// uses: types/denoise_input, types/dispatch_params, types/film, types/frame_uniforms, types/guides
 
 // Rounds of one Sobol sequence are no independent numbers: errors fall with the power -0.6 of the samples, not -0.5.
 const SOBOL_GAIN = -0.1;
@@ -15,20 +10,17 @@ fn demodulated(index: u32) -> vec3f {
     return film_mean(index) / demodulator(unpack_guides(guides[index]).albedo);
 }
 
-// Squared standard error of a pixel's mean luminance, from the means of its rounds; negative if it has too few.
+// Squared error of a pixel's luminance over that of its albedo.
 fn squared_error(index: u32) -> f32 {
     let count = film_bw[index].y;
-    let rounds = count / SAMPLES_PER_ROUND;
-    if (rounds < MIN_ROUNDS) { return -1.0; }
-    let mean = luminance(sample_mean(index));
     let albedo = luminance(demodulator(unpack_guides(guides[index]).albedo));
     // A part of the picture may still be that of direct light.
     let part = min(count / max(frame.paths.preview_samples, 1.0), 1.0) * pow(count, SOBOL_GAIN) / albedo;
-    return part * part * max(abs(moments[index]) / count - mean * mean, 0.0) / (rounds - 1.0);
+    return part * part * squared_standard_error(index, moments[index]);
 }
 
 // The error by the mean of the squared errors about a pixel, since a single one is as noisy as the pixel; at least the
-// pixel's own, for pixels that few paths make bright. Negative if a pixel has too few rounds.
+// pixel's own, for pixels that few paths make bright. Negative if a pixel there has too few rounds.
 fn error_of(pixel: vec2u) -> f32 {
     var sum = 0.0;
     var total = 0.0;
@@ -39,9 +31,9 @@ fn error_of(pixel: vec2u) -> f32 {
             if (is_second_eye(vec2u(x, y)) != is_second_eye(pixel)) { continue; }
             let off = abs(vec2i(vec2u(x, y)) - vec2i(pixel));
             let weight = f32((2 - off.x) * (2 - off.y));
-            let error = squared_error(pixel_index(vec2u(x, y)));
-            if (error < 0.0) { return -1.0; }
-            sum += weight * error;
+            let index = pixel_index(vec2u(x, y));
+            if (has_few_rounds(index)) { return -1.0; }
+            sum += weight * squared_error(index);
             total += weight;
         }
     }

@@ -136,7 +136,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let fractal = frame.formula.fractal;
     let ray = rays[site.ray];
     var interval = bounding_interval(ray.origin, ray.direction);
-    if (is_bounced()) { interval.y = min(interval.y, min(frame.paths.ray_reach, ray_limit(site.index))); }
+    if (is_bounced()) { interval.y = min(interval.y, min(frame.paths.ray_reach, stored_fog_distance(site.index))); }
     let cut = section_entry(ray.origin, ray.direction);
     // A ray that enters the set through a section plane ends there. Estimates are no test for that: some are positive
     // inside. The loop has one turn without section planes, and one copy of the orbit's code.

@@ -20,9 +20,10 @@ fn vertex_pair(site: Site, pair: u32) -> vec2f {
 // Numbers of the random pairs of rays in fog.
 const FIRST_FOG_PAIR = 0x400u;
 
-// A random number of the ray that is a path's `bounce`th after the camera's.
-fn fog_number(site: Site, bounce: u32) -> f32 {
-    return random_pair(site, FIRST_FOG_PAIR + bounce).x;
+// Distance at which a path's ray collides with fog, within `farthest`; the camera's ray has the number 0.
+fn fog_distance_of(site: Site, number: u32, origin: vec3f, direction: vec3f, farthest: f32) -> f32 {
+    if (!has_fog()) { return NO_COLLISION; }
+    return fog_collision(origin, direction, farthest, random_pair(site, FIRST_FOG_PAIR + number).x);
 }
 
 // Number of bounces before paths may end at random.
@@ -107,13 +108,13 @@ fn sample_light(site: Site, vertex: Vertex) -> WeightedLight {
 
 // MIS-weighted light that the path's next ray may meet before it ends in fog; of several lights one, at random by
 // luminance.
-fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, limit: f32, u: f32) -> WeightedLight {
+fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, fog_distance: f32, u: f32) -> WeightedLight {
     if (frame.paths.strategy == STRATEGY_LIGHTS) { return NO_WEIGHTED_LIGHT; }
     let is_both = frame.paths.strategy == STRATEGY_MIS;
     var seen = NO_WEIGHTED_LIGHT;
     var whole = 0.0;
     var left = u;
-    if (has_sky() && limit >= NO_COLLISION) {
+    if (has_sky() && fog_distance >= NO_COLLISION) {
         // In a black sky no light may reach the vertex at all.
         let other = frame.paths.sky_importance / max(vertex.total_importance, 1e-30) * sky_density(direction);
         seen.radiance = sky_radiance(direction) * balance_weight(density, select(0.0, other, is_both));
@@ -130,7 +131,7 @@ fn light_along_ray(vertex: Vertex, direction: vec3f, density: f32, limit: f32, u
         let importance = light_importance(light, cone, vertex.normal);
         if (one_minus_cos >= cone.one_minus_cos || importance <= 0.0) { continue; }
         let distance = cone_distance(cone, one_minus_cos);
-        if (distance > limit) { continue; }
+        if (distance > fog_distance) { continue; }
         let other = importance / vertex.total_importance * cone_density(cone);
         let radiance = cone_radiance(light, cone) * balance_weight(density, select(0.0, other, is_both));
         let luminous = luminance(radiance);
@@ -200,13 +201,13 @@ fn scatter_path(site: Site, path: ptr<function, PathState>, vertex: Vertex) -> b
     // The next ray starts at the lifted point, with the clearance of shadow rays.
     rays[site.ray] = Ray(vertex.point, frame.march.shadow_margin * vertex.hit_distance, direction, path_cone());
     (*path).ray_light = vec3f(0.0);
-    let limit = fog_collision(vertex.point, direction, NO_COLLISION, fog_number(site, dispatch.bounce + 1u));
-    visibility[site.index].x = bitcast<u32>(limit);
+    let fog_distance = fog_distance_of(site, dispatch.bounce + 1u, vertex.point, direction, NO_COLLISION);
+    store_fog_distance(site.index, fog_distance);
     let density = direction_density(vertex, direction);
     if (density <= 0.0) { return false; }
     let part = scattered(vertex, direction) / density;
     var throughput = (*path).throughput * part;
-    let ahead = light_along_ray(vertex, direction, density, limit, vertex_pair(site, PAIR_LIGHT).y);
+    let ahead = light_along_ray(vertex, direction, density, fog_distance, vertex_pair(site, PAIR_LIGHT).y);
     (*path).ray_light = throughput * ahead.radiance;
     (*path).ray_light_distance = ahead.distance;
     if (dispatch.bounce >= frame.paths.bounces) { return any((*path).ray_light > vec3f(0.0)); }
@@ -238,16 +239,17 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
         return;
     }
     let depth = bitcast<f32>(seen.x);
-    // A ray that starts in this point, if it ends in fog.
+    // Starts at its surface point, if it has one.
     var ray = rays[site.ray];
-    var limit = NO_COLLISION;
-    if (is_first) {
+    var fog_distance = NO_COLLISION;
+    if (is_first && has_fog()) {
         let farthest = select(NO_COLLISION, depth, depth > 0.0);
         let from_eye = camera_ray(site);
-        limit = fog_collision(from_eye.origin, from_eye.direction, farthest, fog_number(site, 0u));
-        if (limit < NO_COLLISION) { ray = from_eye; }
-    } else {
-        limit = ray_limit(site.index);
+        fog_distance = fog_distance_of(site, 0u, from_eye.origin, from_eye.direction, farthest);
+        if (fog_distance < NO_COLLISION) { ray = from_eye; }
+    }
+    if (!is_first) {
+        fog_distance = stored_fog_distance(site.index);
         path = paths[site.ray];
         if (depth == 0.0 || depth >= path.ray_light_distance) { path.radiance += path.ray_light; }
         path.ray_light = vec3f(0.0);
@@ -255,12 +257,12 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     path.nee_radiance = vec3f(0.0);
     let is_within_bounces = dispatch.bounce <= frame.paths.bounces;
     let is_within_reach = is_first || (depth < frame.paths.reach && is_within_bounces);
-    let is_in_fog = limit < NO_COLLISION && (is_first || depth == 0.0);
+    let is_in_fog = fog_distance < NO_COLLISION && (is_first || depth == 0.0);
     let is_at_set = !is_in_fog && depth > 0.0 && is_within_reach;
     if (is_at_set || (is_in_fog && is_within_bounces)) {
         var vertex: Vertex;
         if (is_in_fog) {
-            vertex = medium_vertex(advanced(ray, limit), frame.fog.color, frame.fog.anisotropy);
+            vertex = medium_vertex(advanced(ray, fog_distance), frame.fog.color, frame.fog.anisotropy);
         } else if (frame.medium.kind != MEDIUM_NONE) {
             vertex = medium_vertex(ray, frame.medium.color, frame.medium.anisotropy);
         } else {

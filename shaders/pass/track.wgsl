@@ -21,8 +21,8 @@ fn max_steps() -> u32 {
 // Depth of the first collision along a ray, of which the part up to `clear` is empty; 0 if there is none.
 fn collision(fractal: Fractal, site: Site, ray: Ray, interval: vec2f, clear: f32) -> f32 {
     // In a cloud at least so long that the steps suffice.
-    let longest = select(4.0 * (interval.y - interval.x) / f32(max_steps()), 0.0, is_empty_outside());
-    let free_path = max(frame.medium.mean_free_path, longest);
+    let least = select(4.0 * (interval.y - interval.x) / f32(max_steps()), 0.0, is_empty_outside());
+    let free_path = max(frame.medium.mean_free_path, least);
     let first_pair = FIRST_STEP_PAIR + STEP_PAIRS * dispatch.ray_queue;
     var t = max(interval.x, clear);
     var i = 0u;
@@ -69,7 +69,7 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     if (is_shadow) {
         interval.y = min(interval.y, paths[site.ray].nee_distance);
     } else if (dispatch.bounce > 0u) {
-        interval.y = min(interval.y, min(frame.paths.ray_reach, ray_limit(site.index)));
+        interval.y = min(interval.y, min(frame.paths.ray_reach, stored_fog_distance(site.index)));
     }
     let depth = collision(fractal, site, ray, interval, clear);
     if (is_shadow) {

@@ -10,13 +10,17 @@ const SKIPPED = 0xffffffffu;
 @group(1) @binding(0) var<storage, read_write> surface: array<vec2u>;
 // The values that select the colours of the two layers.
 @group(1) @binding(1) var<storage, read_write> color_data: array<vec2f>;
-// One bit per light that casts shadows: set if the light reaches the point. Of paths: x is the ray's limit, the bits of
-// an f32.
+// One bit per light that casts shadows: set if the light reaches the point. Of paths: x is
+// the distance at which the ray collides with fog, the bits of an f32.
 @group(1) @binding(2) var<storage, read_write> visibility: array<vec2u>;
 // The rays of a batch, in the order of its threads.
 @group(1) @binding(3) var<storage, read_write> rays: array<Ray>;
 
-// The distance at which a path's ray ends in fog; large if it does not.
-fn ray_limit(index: u32) -> f32 {
+// The distance at which a path's ray collides with fog; large if it does not.
+fn stored_fog_distance(index: u32) -> f32 {
     return bitcast<f32>(visibility[index].x);
+}
+
+fn store_fog_distance(index: u32, distance: f32) {
+    visibility[index].x = bitcast<u32>(distance);
 }

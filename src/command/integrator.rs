@@ -1,8 +1,11 @@
 //! `--integrator`, `--bounces`, `--noise`, `--denoise` and `--firefly-limit`: how the light of the picture is computed.
 
-use std::sync::Arc;
+use std::{str::FromStr, sync::Arc};
 
-use mandelight::scene::{IntegratorKind, Project, Scene, param};
+use mandelight::scene::{
+    IntegratorKind, Project, Scene,
+    param::{self, Param},
+};
 
 /// Another integrator than the scene's own.
 #[derive(Clone, Copy, clap::Args)]
@@ -11,16 +14,16 @@ pub struct IntegratorArguments {
     #[arg(long, value_enum, value_name = "NAME")]
     integrator: Option<Name>,
     /// With path tracing, bounces between surfaces, instead of the scene's number
-    #[arg(long, value_name = "N", value_parser = parse_bounces)]
+    #[arg(long, value_name = "N", value_parser = |text: &str| parse_within::<u32>(&param::BOUNCES, text))]
     bounces: Option<u32>,
     /// With path tracing, stop each pixel at this relative error; --samples is the upper limit
-    #[arg(long, value_name = "ERROR", value_parser = parse_noise)]
+    #[arg(long, value_name = "ERROR", value_parser = |text: &str| parse_within::<f64>(&param::NOISE, text))]
     noise: Option<f64>,
     /// With path tracing, smooth the remaining noise; without it OpenEXR files keep their noise
     #[arg(long)]
     denoise: bool,
     /// With path tracing, limit the brightness of single paths, which leave bright dots
-    #[arg(long, value_name = "RADIANCE", value_parser = parse_firefly_limit)]
+    #[arg(long, value_name = "RADIANCE", value_parser = |text: &str| parse_within::<f64>(&param::FIREFLY_LIMIT, text))]
     firefly_limit: Option<f64>,
 }
 
@@ -68,23 +71,13 @@ impl IntegratorArguments {
     }
 }
 
-fn parse_noise(text: &str) -> Result<f64, String> {
-    let noise: Option<f64> = text.parse().ok();
-    noise
-        .filter(|noise| param::NOISE.accepts(*noise))
-        .ok_or_else(|| format!("write {}", param::NOISE.range_text()))
-}
-
-fn parse_firefly_limit(text: &str) -> Result<f64, String> {
-    let limit: Option<f64> = text.parse().ok();
-    limit
-        .filter(|limit| param::FIREFLY_LIMIT.accepts(*limit))
-        .ok_or_else(|| format!("write {}", param::FIREFLY_LIMIT.range_text()))
-}
-
-fn parse_bounces(text: &str) -> Result<u32, String> {
-    let bounces: Option<u32> = text.parse().ok();
-    bounces
-        .filter(|bounces| param::BOUNCES.accepts((*bounces).into()))
-        .ok_or_else(|| format!("write {}", param::BOUNCES.range_text()))
+/// Parses a number in the range of `param`.
+fn parse_within<T>(param: &Param, text: &str) -> Result<T, String>
+where
+    T: FromStr + Copy + Into<f64>,
+{
+    let value: Option<T> = text.parse().ok();
+    value
+        .filter(|value| param.accepts((*value).into()))
+        .ok_or_else(|| format!("write {}", param.range_text()))
 }

@@ -130,7 +130,8 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
     let rays = Rays::new(camera, tile);
     let eye_from_anchor = (&camera.position - &camera.pivot) + rays.eye_from_camera;
     let forward = camera.forward();
-    let mut bytes = Vec::new();
+    let has_guides = pixels.first().is_some_and(|pixel| pixel.guides.is_some());
+    let mut bytes = Vec::with_capacity(pixels.len() * bytes_of_pixel(has_guides));
     for (i, pixel) in (0..).zip(pixels) {
         let at = [i % tile.size_px[0], i / tile.size_px[0]];
         let ray = rays.through(std::array::from_fn(|k| tile.origin_px[k] + at[k]));

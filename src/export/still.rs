@@ -73,8 +73,8 @@ pub struct StillJob<W: Write> {
     /// The band that is being encoded.
     encoding: Band,
     format: PictureFormat,
-    /// Whether the picture has guides for denoisers.
-    has_guides: bool,
+    /// Bytes per pixel of the encoder's input.
+    pixel_bytes: usize,
     camera: Camera,
     /// Number of samples, summed over all pixels.
     samples: f64,
@@ -138,8 +138,8 @@ impl<W: Write> StillJob<W> {
         scene.validate()?;
 
         let sheet_px = sheet.size_px();
-        let has_guides = scene.traces_paths();
-        let row_bytes = sheet_px[0] as usize * options.format.pixel_bytes(has_guides);
+        let pixel_bytes = options.format.pixel_bytes(scene.traces_paths());
+        let row_bytes = sheet_px[0] as usize * pixel_bytes;
         let [tile_width, tile_height] = options.tile_px;
         let max_rows = (MAX_BAND_BYTES / row_bytes).max(1) as u32;
         let denoises = options.denoises(&scene);
@@ -164,7 +164,7 @@ impl<W: Write> StillJob<W> {
             filling: Band::default(),
             encoding: Band::default(),
             format: options.format,
-            has_guides,
+            pixel_bytes,
             encoder: Encoder::new(options.format, sink, sheet_px, &scene)?,
             samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera,
@@ -259,8 +259,7 @@ impl<W: Write> StillJob<W> {
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
             if let Some(pixels) = pixels {
                 let [sheet_width, _] = self.tiling.sheet_px();
-                let pixel_bytes = self.format.pixel_bytes(self.has_guides);
-                self.filling.copy_tile(*tile, sheet_width, &pixels, pixel_bytes);
+                self.filling.copy_tile(*tile, sheet_width, &pixels, self.pixel_bytes);
                 self.filling.is_full = tile.ends_band;
                 self.readback = None;
             }
@@ -279,8 +278,7 @@ impl<W: Write> StillJob<W> {
         if self.encoding.is_encoded() {
             return Ok(());
         }
-        let row_bytes =
-            self.tiling.sheet_px()[0] as usize * self.format.pixel_bytes(self.has_guides);
+        let row_bytes = self.tiling.sheet_px()[0] as usize * self.pixel_bytes;
         let rows = (BYTES_PER_STEP / row_bytes).max(1);
         let waiting = &self.encoding.bytes[self.encoding.encoded..];
         let now = &waiting[..waiting.len().min(rows * row_bytes)];

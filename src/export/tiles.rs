@@ -35,8 +35,9 @@ impl Tiling {
     /// Divides every picture into the fewest tiles of at most `max_tile_px`.
     ///
     /// The tiles are as equal as whole pixels allow, because the view reallocates its buffers when
-    /// the size changes: with aprons only at the picture's edges. All sides are at least 1. Tiles start at multiples of the workgroup's
-    /// side, so that rays form the same cones as in the whole picture; smaller tiles are not aligned.
+    /// the size changes; with aprons it changes at the picture's edges. All sides are at least 1.
+    /// Tiles start at multiples of the workgroup's side, so that rays form the same cones as in the
+    /// whole picture; smaller tiles are not aligned.
     ///
     /// `apron_px`: how far beyond a tile its pixels depend on the picture, a multiple of the workgroup's side.
     pub fn new(sheet: Sheet, max_tile_px: [u32; 2], apron_px: u32) -> Self {

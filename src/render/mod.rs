@@ -63,6 +63,7 @@ pub mod report;
 pub mod samples;
 pub mod schedule;
 pub mod shaders;
+mod shared_exponent;
 pub mod sky;
 pub mod space;
 pub mod targets;

@@ -55,11 +55,10 @@ impl NoiseControl {
         match reading.take(gpu) {
             Ok(None) => return false,
             Ok(Some(bytes)) => {
-                let count =
-                    |i: usize| bytes[4 * i..].first_chunk().map_or(0, |b| u32::from_le_bytes(*b));
-                self.converged_fraction = Some(1.0 - count(0) as f32 / pixels.max(1) as f32);
+                let [noisy, light, clamped]: [u32; 3] = bytemuck::pod_read_unaligned(&bytes);
+                self.converged_fraction = Some(1.0 - noisy as f32 / pixels.max(1) as f32);
                 self.clamped_light =
-                    Some(ClampedLight { light: count(1).into(), clamped: count(2).into() });
+                    Some(ClampedLight { light: light.into(), clamped: clamped.into() });
             }
             // Other code reports a lost device.
             Err(_) => {}

@@ -5,7 +5,7 @@
 
 use glam::Vec3;
 
-use super::gbuffer::Samples;
+use super::{gbuffer::Samples, shared_exponent};
 use crate::gpu::{
     Gpu,
     readback::{Readback, ReadbackError},
@@ -45,17 +45,16 @@ impl Guides {
 }
 
 /// The light of a view's pixels, as its buffers hold it.
-pub enum Light<'a> {
+pub enum Light<T> {
     /// The film's two halves.
-    Film([&'a wgpu::Buffer; 2]),
+    Film([T; 2]),
     /// Denoised light, in shared exponents.
-    Denoised(&'a wgpu::Buffer),
+    Denoised(T),
 }
 
 /// A pending readback of a view's buffers.
 pub struct SamplesReadback {
-    /// The film's halves, or denoised light.
-    light: Vec<Arrival>,
+    light: Light<Arrival>,
     surface: Arrival,
     guides: Option<Arrival>,
     scale: f64,
@@ -88,15 +87,15 @@ impl SamplesReadback {
     /// Depths are in units of `scale` scene units.
     pub fn new(
         gpu: &Gpu,
-        light: Light<'_>,
+        light: Light<&wgpu::Buffer>,
         surface: &wgpu::Buffer,
         guides: Option<&wgpu::Buffer>,
         scale: f64,
     ) -> Self {
         let read = |buffer| Arrival::Awaited(Readback::buffer(gpu, buffer));
         let light = match light {
-            Light::Film(halves) => halves.map(read).into(),
-            Light::Denoised(buffer) => vec![read(buffer)],
+            Light::Film(halves) => Light::Film(halves.map(read)),
+            Light::Denoised(buffer) => Light::Denoised(read(buffer)),
         };
         Self { light, surface: read(surface), guides: guides.map(read), scale }
     }
@@ -107,12 +106,8 @@ impl SamplesReadback {
     ///
     /// See [`ReadbackError`].
     pub fn take(&mut self, gpu: &Gpu) -> Result<Option<Vec<PixelSample>>, ReadbackError> {
-        let mut light = Vec::new();
-        for arrival in &mut self.light {
-            let Some(bytes) = arrival.look(gpu)? else { return Ok(None) };
-            light.push(bytes);
-        }
         let Some(surface) = self.surface.look(gpu)? else { return Ok(None) };
+        let surface = Samples::decode(surface, &[], self.scale);
         let guides: Vec<Guides> = match &mut self.guides {
             None => Vec::new(),
             Some(arrival) => {
@@ -120,7 +115,6 @@ impl SamplesReadback {
                 Guides::decode(bytes).collect()
             }
         };
-        let surface = Samples::decode(surface, &[], self.scale);
         let points = surface.depth.into_iter().zip(surface.normal).enumerate();
         let pixel = |(radiance, (i, (depth, normal)))| PixelSample {
             radiance,
@@ -128,20 +122,23 @@ impl SamplesReadback {
             normal,
             guides: guides.get(i).copied(),
         };
-        Ok(Some(match light[..] {
-            [rg, bw] => means(rg, bw).zip(points).map(pixel).collect(),
-            [packed, ..] => denoised(packed).zip(points).map(pixel).collect(),
-            [] => Vec::new(),
-        }))
+        Ok(match &mut self.light {
+            Light::Film([rg, bw]) => match [rg.look(gpu)?, bw.look(gpu)?] {
+                [Some(rg), Some(bw)] => Some(means(rg, bw).zip(points).map(pixel).collect()),
+                _ => None,
+            },
+            Light::Denoised(light) => {
+                light.look(gpu)?.map(|light| denoised(light).zip(points).map(pixel).collect())
+            }
+        })
     }
 }
 
-/// Each pixel's radiance, from the bytes of denoised light: see `shaders/lib/shared_exponent.wgsl`.
+/// Each pixel's radiance, from the bytes of denoised light.
 pub fn denoised(packed: &[u8]) -> impl Iterator<Item = [f32; 3]> + '_ {
-    packed.as_chunks::<4>().0.iter().map(|bytes| {
-        let bits = u32::from_le_bytes(*bytes);
-        let scale = ((bits >> 27) as f32 - 24.0).exp2();
-        [0, 9, 18].map(|shift| (bits >> shift & 511) as f32 * scale)
+    let colors = packed.as_chunks::<4>().0.iter();
+    colors.map(|bytes| {
+        shared_exponent::unpack(u32::from_le_bytes(*bytes)).map(|channel| channel as f32)
     })
 }
 

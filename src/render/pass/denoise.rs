@@ -1,5 +1,6 @@
 //! The denoiser's iterations: smooth noise, keep edges.
 
+use super::denoise_input;
 use crate::render::{
     pipeline_set,
     recorder::{ONE_MODE, Pass, Record, Recorder},
@@ -30,6 +31,7 @@ pub const PASS: Pass = Pass {
 
 /// Filters the light of the whole region.
 pub fn record(recorder: &mut Recorder<'_>) {
+    denoise_input::record(recorder);
     let pipeline = recorder.pipeline(&PASS, 0);
     recorder.bind(1, &recorder.targets.denoiser.group);
     recorder.bind_film();

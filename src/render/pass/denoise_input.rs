@@ -6,16 +6,13 @@ use crate::render::{
     uniforms::DispatchParams,
 };
 
-/// The pass.
+/// The pass. The denoiser records the pass first.
 pub const PASS: Pass = Pass {
     name: "denoise_input",
     groups: |layouts| vec![&layouts.frame, &layouts.denoise_input, &layouts.film],
     set: &pipeline_set::DENOISE,
     modes: ONE_MODE,
-    record: Record::Film {
-        when: |recorder, _| recorder.denoises,
-        record: |recorder, _| record(recorder),
-    },
+    record: Record::Within,
 };
 
 /// Divides the film of the whole region by its albedo.

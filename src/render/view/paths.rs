@@ -17,7 +17,7 @@ use crate::{
 /// Samples over which light paths replace the direct picture: the noise of each step is below that of the last.
 const PREVIEW_SAMPLES: u32 = 64;
 
-/// Samples from which a pixel may get no more: `MIN_ROUNDS * SAMPLES_PER_ROUND` in `shaders/pass/assess_noise.wgsl`.
+/// Samples from which a pixel may get no more: `MIN_ROUNDS * SAMPLES_PER_ROUND` in `shaders/lib/standard_error.wgsl`.
 const CONVERGED_SAMPLES: u32 = 32;
 
 impl View {

@@ -12,9 +12,11 @@ use mandelight_test_support::{
 };
 
 use super::{
-    Gather, SIZE, mean, plain,
-    sampling::{ball_on_floor, mean_of_batches},
-    scene_of, under_white_sky,
+    SIZE, assert_is_light, mean, plain,
+    sampling::{assert_strategies_agree, ball_on_floor},
+    scene_of,
+    truth::{bowl, furnace},
+    under_white_sky,
 };
 
 /// The unit ball as a set: points outside of it escape.
@@ -154,15 +156,6 @@ fn an_absorbing_ball_dims_its_background_by_its_chords() {
     }
 }
 
-/// Draws `scene` under a white sky, before a white background, and returns its mean.
-fn furnace(scene: Scene, samples: u32) -> f64 {
-    let mut scene = under_white_sky(scene);
-    scene.background = Background::gradient([1.0; 3], [1.0; 3]);
-    scene.integrator.bounces = 64;
-    let film = finished(&sampled(scene, samples), SIZE, Pace::Still).film().expect("a film");
-    mean(&film)
-}
-
 #[test]
 fn white_media_vanish_in_a_white_sky() {
     let white = |kind, mean_free_path, anisotropy| {
@@ -170,10 +163,7 @@ fn white_media_vanish_in_a_white_sky() {
             Medium { kind, mean_free_path, anisotropy, color: [1.0; 3], ..Medium::default() };
         Scene { medium, ..plain(Fractal::default(), [1.0; 3]) }
     };
-    let in_fog = |fog: Fog| Scene {
-        fog: Fog { color: [1.0; 3], ..fog },
-        ..scene_of("max(length(p) - 1, 0.85 - length(p - vec3(0, -0.35, 0.35)))", [1.0; 3])
-    };
+    let in_fog = |fog: Fog| Scene { fog: Fog { color: [1.0; 3], ..fog }, ..bowl() };
     let [even, high, _] = kinds_of_fog();
     let both = Scene { fog: in_fog(even.clone()).fog, ..white(MediumKind::Set, 0.3, 0.0) };
     let kinds = [
@@ -185,7 +175,7 @@ fn white_media_vanish_in_a_white_sky() {
         ("fog about the set", both),
     ];
     for (kind, scene) in kinds {
-        let found = furnace(scene, 32);
+        let found = furnace(under_white_sky(scene), 32);
         println!("{kind}: {found:.5}");
         assert!((found - 1.0).abs() < 0.005, "{kind}: {found}");
     }
@@ -202,14 +192,7 @@ fn samples_of_lights_and_of_phase_functions_gather_the_same_light() {
     cloudy.fractal = ball_of(medium).fractal;
     cloudy.camera = Camera::looking_at(DVec3::new(0.6, -2.8, 1.4), DVec3::ZERO, DVec3::Z);
     for scene in [foggy, cloudy] {
-        let (both, both_error) = mean_of_batches(&scene, Gather::Both);
-        for gather in [Gather::Lights, Gather::Surfaces] {
-            let (found, error) = mean_of_batches(&scene, gather);
-            let allowed = 4.0 * both_error.hypot(error);
-            println!("{gather:?}: {found:.5} ± {error:.5}, both {both:.5} ± {both_error:.5}");
-            assert!(allowed < 0.03 * both, "{gather:?}: the errors {allowed} say too little");
-            assert!((found - both).abs() < allowed, "{gather:?}: {found} instead of {both}");
-        }
+        assert_strategies_agree(&scene);
     }
 }
 
@@ -237,8 +220,7 @@ fn extreme_media_give_finite_numbers() {
             let mut scene = Scene { fog: fog.clone(), medium, ..ball_on_floor() };
             scene.fractal = Fractal::default();
             let film = finished(&sampled(scene, 8), SIZE, Pace::Still).film().expect("a film");
-            let wrong = film.iter().flatten().filter(|c| !c.is_finite() || **c < 0.0).count();
-            assert_eq!(wrong, 0, "values that are no light");
+            assert_is_light(&film);
         }
     }
 }
@@ -256,8 +238,7 @@ fn media_keep_their_light_in_the_depth() {
     ]
     .map(|scene| {
         let film = finished(&sampled(scene, 8), SIZE, Pace::Still).film().expect("a film");
-        let wrong = film.iter().flatten().filter(|c| !c.is_finite() || **c < 0.0).count();
-        assert_eq!(wrong, 0, "values that are no light");
+        assert_is_light(&film);
         mean(&film)
     });
     println!("surface {surface:.4}, translucent {translucent:.4}, foggy {foggy:.4}");

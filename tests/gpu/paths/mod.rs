@@ -127,3 +127,9 @@ fn mean(film: &[[f32; 3]]) -> f64 {
     let sum: f64 = film.iter().flatten().map(|&channel| f64::from(channel)).sum();
     sum / (3 * film.len()) as f64
 }
+
+/// Checks that every value of a film is finite and not negative.
+fn assert_is_light(film: &[[f32; 3]]) {
+    let wrong = film.iter().flatten().filter(|c| !c.is_finite() || **c < 0.0).count();
+    assert_eq!(wrong, 0, "values that are no light");
+}

@@ -11,7 +11,7 @@ use mandelight_test_support::{
     view::{finished, finished_in, pipelines, pixels, sampled, settle},
 };
 
-use super::{Gather, SIZE, Tracer, mean, plain, scene_of, under_white_sky};
+use super::{Gather, SIZE, Tracer, assert_is_light, mean, plain, scene_of, under_white_sky};
 
 /// A ball over a floor, with lights of both kinds and a sky.
 pub fn ball_on_floor() -> Scene {
@@ -40,7 +40,7 @@ pub fn ball_on_floor() -> Scene {
 }
 
 /// The mean over all pixels, and its standard error by 64 batches of eight samples.
-pub fn mean_of_batches(scene: &Scene, gather: Gather) -> (f64, f64) {
+fn mean_of_batches(scene: &Scene, gather: Gather) -> (f64, f64) {
     const BATCHES: u32 = 64;
     let tracer = Tracer::new(scene, gather);
     let means: Vec<f64> = (0..BATCHES).map(|batch| mean(&tracer.film(8 * batch, 8))).collect();
@@ -57,14 +57,19 @@ fn samples_of_lights_and_of_surfaces_gather_the_same_light() {
     glossy.surface.model = SurfaceModel::Physical;
     (glossy.surface.roughness, glossy.surface.metalness, glossy.surface.coat) = (0.5, 0.3, 0.5);
     for scene in [diffuse, glossy] {
-        let (both, both_error) = mean_of_batches(&scene, Gather::Both);
-        for gather in [Gather::Lights, Gather::Surfaces] {
-            let (found, error) = mean_of_batches(&scene, gather);
-            let allowed = 4.0 * both_error.hypot(error);
-            println!("{gather:?}: {found:.5} ± {error:.5}, both {both:.5} ± {both_error:.5}");
-            assert!(allowed < 0.03 * both, "{gather:?}: the errors {allowed} say too little");
-            assert!((found - both).abs() < allowed, "{gather:?}: {found} instead of {both}");
-        }
+        assert_strategies_agree(&scene);
+    }
+}
+
+/// Checks that samples of lights alone, of directions alone and of both gather the same light.
+pub fn assert_strategies_agree(scene: &Scene) {
+    let (both, both_error) = mean_of_batches(scene, Gather::Both);
+    for gather in [Gather::Lights, Gather::Surfaces] {
+        let (found, error) = mean_of_batches(scene, gather);
+        let allowed = 4.0 * both_error.hypot(error);
+        println!("{gather:?}: {found:.5} ± {error:.5}, both {both:.5} ± {both_error:.5}");
+        assert!(allowed < 0.03 * both, "{gather:?}: the errors {allowed} say too little");
+        assert!((found - both).abs() < allowed, "{gather:?}: {found} instead of {both}");
     }
 }
 
@@ -149,8 +154,7 @@ fn every_number_is_finite() {
     scenes.push(classic);
     for scene in scenes {
         let film = finished(&sampled(scene, 16), SIZE, Pace::Still).film().expect("a film");
-        let wrong = film.iter().flatten().filter(|c| !c.is_finite() || **c < 0.0).count();
-        assert_eq!(wrong, 0, "values that are no light");
+        assert_is_light(&film);
         assert!(mean(&film) > 0.0);
     }
 }

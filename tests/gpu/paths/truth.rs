@@ -14,7 +14,7 @@ use mandelight_test_support::{
 use super::{SIZE, mean, plain, scene_of, under_white_sky};
 
 /// Draws a white surface under a white sky, before a white background, and returns its mean.
-fn furnace(mut scene: Scene, samples: u32) -> f64 {
+pub fn furnace(mut scene: Scene, samples: u32) -> f64 {
     scene.background = Background::gradient([1.0; 3], [1.0; 3]);
     scene.integrator.bounces = 64;
     let film = finished(&sampled(scene, samples), SIZE, Pace::Still).film().expect("a film");
@@ -22,7 +22,7 @@ fn furnace(mut scene: Scene, samples: u32) -> f64 {
 }
 
 /// A ball with a deep hollow, from whose inside light needs several bounces.
-fn bowl() -> Scene {
+pub fn bowl() -> Scene {
     let distance = "max(length(p) - 1, 0.85 - length(p - vec3(0, -0.35, 0.35)))";
     let mut scene = under_white_sky(scene_of(distance, [1.0; 3]));
     scene.camera = Camera::looking_at(DVec3::new(0.0, -2.2, 1.6), DVec3::ZERO, DVec3::Z);
