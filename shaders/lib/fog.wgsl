@@ -2,6 +2,9 @@
 // exponentially above, in a ball; everything is in closed form.
 // uses: types/frame_uniforms
 
+// Whether this pipeline computes fog: 0 or 1; -1 reads it from the uniforms.
+override HAS_FOG: i32 = -1;
+
 // The distance of a collision that does not happen, and of what is infinitely far away.
 const NO_COLLISION = 1e30;
 
@@ -17,6 +20,7 @@ struct FogRay {
 }
 
 fn has_fog() -> bool {
+    if (HAS_FOG >= 0) { return HAS_FOG == 1; }
     return frame.fog.density > 0.0;
 }
 

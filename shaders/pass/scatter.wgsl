@@ -4,6 +4,14 @@
 // uses: lib/path_light, lib/phase
 // uses: types/dispatch_params, types/enqueue, types/frame_uniforms, types/gbuffer, types/guides, types/paths, types/ray
 
+// Whether paths scatter in the set: 0 or 1; -1 reads it from the uniforms.
+override HAS_MEDIUM: i32 = -1;
+
+fn has_medium() -> bool {
+    if (HAS_MEDIUM >= 0) { return HAS_MEDIUM == 1; }
+    return frame.medium.kind != MEDIUM_NONE;
+}
+
 // Numbers of the random pairs of a vertex; other purposes have other numbers.
 const FIRST_PAIR = 0x100u;
 const PAIRS = 5u;
@@ -58,7 +66,7 @@ struct Vertex {
 }
 
 fn is_in_medium(vertex: Vertex) -> bool {
-    return all(vertex.normal == NO_NORMAL);
+    return (has_fog() || has_medium()) && all(vertex.normal == NO_NORMAL);
 }
 
 // Part of the light from `wi` that goes on along the path, with the cosine at a surface.
@@ -257,13 +265,13 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     path.nee_radiance = vec3f(0.0);
     let is_within_bounces = dispatch.bounce <= frame.paths.bounces;
     let is_within_reach = is_first || (depth < frame.paths.reach && is_within_bounces);
-    let is_in_fog = fog_distance < NO_COLLISION && (is_first || depth == 0.0);
+    let is_in_fog = has_fog() && fog_distance < NO_COLLISION && (is_first || depth == 0.0);
     let is_at_set = !is_in_fog && depth > 0.0 && is_within_reach;
     if (is_at_set || (is_in_fog && is_within_bounces)) {
         var vertex: Vertex;
         if (is_in_fog) {
             vertex = medium_vertex(advanced(ray, fog_distance), frame.fog.color, frame.fog.anisotropy);
-        } else if (frame.medium.kind != MEDIUM_NONE) {
+        } else if (has_medium()) {
             vertex = medium_vertex(ray, frame.medium.color, frame.medium.anisotropy);
         } else {
             vertex = surface_vertex(site, &path, ray, seen);

@@ -58,7 +58,7 @@ struct DispatchParams {
     bounce: u32,
     // Region of the entries of the dispatch's ray queue: see `types/work_queues.wgsl`.
     queue_region: u32,
-    // Number of a denoiser's iteration.
+    // Number of a pass that is repeated: the denoiser's iteration, or a sub-frame.
     iteration: u32,
     // 1: the display shows the denoised film.
     denoised: u32,

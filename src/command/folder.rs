@@ -56,7 +56,10 @@ impl SequenceSettings<'_> {
         line(&mut hash, format!("{version} {format:?} {eyes:?} {:?}", self.denoise));
         line(
             &mut hash,
-            format!("{:?} {:?} {}", self.size_px, self.samples, self.path.frames_per_second),
+            format!(
+                "{:?} {:?} {} {:?}",
+                self.size_px, self.samples, self.path.frames_per_second, self.path.shutter
+            ),
         );
         for key in &self.path.keys {
             let scene = document::to_json_compact(&key.scene);

@@ -239,10 +239,9 @@ impl Work<'_> {
         file: &FilePath,
         on_progress: impl Fn(f64),
     ) -> Result<(), ExportError> {
-        let scene = self.path.frame(frame).ok_or(ExportError::NoFrames)?;
         let output = Output::create(file)?;
         let options = StillOptions { eye, ..self.options.clone() };
-        let job = StillJob::new(&self.pipelines, &scene, options, output)?;
+        let job = StillJob::of_frame(&self.pipelines, self.path, frame, options, output)?;
         let result = job.run(|status| {
             if let StillStatus::Working { done, .. } = status {
                 on_progress(done);

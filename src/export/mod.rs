@@ -11,6 +11,7 @@
 //! | [`archive`] | a streaming zip writer |
 //! | `options` | the options of a still |
 //! | `sheet` | the layout of one or both eyes' pictures in a file |
+//! | `motion` | motion blur: a picture as the mean of sub-frames |
 //! | `overview` | a small whole picture: exposure, bloom and indirect light for all tiles |
 //! | `tiles` | the division of a sheet into tiles |
 //! | `error` | why an export failed, and the largest picture |
@@ -22,6 +23,7 @@ pub mod archive;
 mod error;
 pub mod exr;
 mod format;
+mod motion;
 mod options;
 mod overview;
 pub mod png;

@@ -5,9 +5,13 @@
 
 use std::sync::Arc;
 
-use super::{PictureFormat, sheet::Sheet};
+use super::{
+    PictureFormat,
+    motion::{Moments, MomentsView},
+    sheet::Sheet,
+};
 use crate::{
-    render::{Eyes, MAX_REGION_PX, Pace, Pipelines, Region, View, post::Need},
+    render::{Eyes, MAX_REGION_PX, Pipelines, Region, View, post::Need},
     scene::{EnvironmentMap, Scene},
 };
 
@@ -28,7 +32,7 @@ const MIN_TOTAL_SAMPLES: f64 = 1e6;
 
 /// A small rendering of the whole picture.
 pub(super) struct Overview {
-    view: View,
+    view: MomentsView,
     samples: u32,
     has_post: bool,
     has_indirect: bool,
@@ -37,10 +41,11 @@ pub(super) struct Overview {
 }
 
 impl Overview {
-    /// The overview for a file of `scene`; none if no effect needs the whole picture.
+    /// The overview for a file of `scene`, drawn by `moments`; none if no effect needs the whole picture.
     pub fn new(
         pipelines: &Arc<Pipelines>,
         scene: &Scene,
+        moments: &Moments,
         environment_map: Option<&Arc<EnvironmentMap>>,
         sheet: &Sheet,
         format: PictureFormat,
@@ -54,17 +59,13 @@ impl Overview {
         if !has_post && !has_indirect && !has_colors {
             return None;
         }
-        let mut scene = scene.clone();
         let min_samples = (MIN_TOTAL_SAMPLES / pixels(region)) as u32;
         // Indirect light and colours read the centre samples only.
         let enough_samples = if has_post { min_samples.max(MAX_SAMPLES) } else { 1 };
         let samples = scene.quality.samples.min(enough_samples);
-        scene.quality.samples = samples;
         // Nobody sees the overview itself.
-        scene.integrator.denoise = false;
-        let mut view = View::new(pipelines, region, Pace::Still);
-        view.set_environment_map(environment_map);
-        view.set_scene(&scene, false);
+        let moments = moments.reduced(samples, |scene| scene.integrator.denoise = false);
+        let view = MomentsView::new(pipelines, region, environment_map, moments);
         Some(Self { view, samples, has_post, has_indirect, has_colors, is_finished: false })
     }
 
@@ -81,26 +82,26 @@ impl Overview {
 
     /// Lends exposure, bloom, indirect light and the colour curve to the view of a tile.
     pub fn lend_to(&self, tile: &mut View) {
+        let view = self.view.view();
         if self.has_post {
-            tile.lend_post(Some(self.view.post()));
+            tile.lend_post(Some(view.post()));
         }
         if self.has_indirect {
-            tile.lend_indirect_source(Some(self.view.indirect_source()));
+            tile.lend_indirect_source(Some(view.indirect_source()));
         }
         if self.has_colors {
-            tile.lend_color_curves(self.view.color_curves());
+            tile.lend_color_curves(view.color_curves());
         }
     }
 
     /// Number of samples, summed over all pixels.
     pub fn samples(&self) -> f64 {
-        pixels(self.view.region()) * f64::from(self.samples)
+        pixels(self.view.view().region()) * f64::from(self.samples)
     }
 
     /// Rendered fraction of the samples, 0 to 1.
     pub fn part_done(&self) -> f64 {
-        let done = f64::from(self.view.report().samples_done) / f64::from(self.samples);
-        if self.is_finished { 1.0 } else { done.min(1.0) }
+        if self.is_finished { 1.0 } else { self.view.part_done() }
     }
 }
 

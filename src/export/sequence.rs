@@ -120,9 +120,8 @@ impl<W: Write> SequenceJob<W> {
     }
 
     fn begin(&self) -> Result<StillJob<Vec<u8>>, ExportError> {
-        let scene = self.path.frame(self.frame).ok_or(ExportError::NoFrames)?;
         let options = StillOptions { eye: self.eyes[self.files as usize], ..self.options.clone() };
-        StillJob::new(&self.pipelines, &scene, options, Vec::new())
+        StillJob::of_frame(&self.pipelines, &self.path, self.frame, options, Vec::new())
     }
 
     /// Ends the archive and returns the sink.

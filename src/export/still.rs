@@ -11,13 +11,14 @@ use web_time::Instant;
 use super::{
     ExportError, PictureFormat, StillOptions,
     format::{Encoder, TileReadback},
+    motion::{Moments, MomentsView},
     overview::Overview,
     sheet::Sheet,
     tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Pace, Pipelines, View, pass::denoise, report::ClampedLight},
-    scene::{Camera, Scene},
+    render::{Pipelines, pass::denoise, report::ClampedLight},
+    scene::{Camera, Path, Scene},
 };
 
 /// Maximum size of a band of rows, in bytes; reduces the tile's height if pixels are large.
@@ -62,7 +63,7 @@ pub enum StillStatus {
 pub struct StillJob<W: Write> {
     pipelines: Arc<Pipelines>,
     overview: Option<Overview>,
-    view: View,
+    view: MomentsView,
     tiling: Tiling,
     /// Index of the tile being rendered; equals the number of tiles after the last one.
     tile_index: u32,
@@ -79,8 +80,6 @@ pub struct StillJob<W: Write> {
     /// Number of samples, summed over all pixels.
     samples: f64,
     encoder: Encoder<W>,
-    /// What the firefly limit took away, in the tiles so far; none without a limit.
-    clamped_light: Option<ClampedLight>,
     rows_left: u32,
     started_secs: Option<f64>,
     /// The largest reported progress.
@@ -134,29 +133,59 @@ impl<W: Write> StillJob<W> {
         sink: W,
     ) -> Result<Self, ExportError> {
         let scene = options.shown(scene);
-        let sheet = Sheet::new(&scene, &options)?;
         scene.validate()?;
+        Self::begin(pipelines, &scene, Moments::single(scene.clone()), options, sink)
+    }
 
+    /// Starts the still of frame `frame` of `path`, with its motion blur.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; [`ExportError::NoFrames`] for a path without keys.
+    pub fn of_frame(
+        pipelines: &Arc<Pipelines>,
+        path: &Path,
+        frame: u32,
+        options: StillOptions,
+        sink: W,
+    ) -> Result<Self, ExportError> {
+        let scene = options.shown(&path.frame(frame).ok_or(ExportError::NoFrames)?);
+        scene.validate()?;
+        let moments = Moments::of_frame(path, frame, &scene, &options);
+        for scene in moments.scenes() {
+            scene.validate()?;
+        }
+        Self::begin(pipelines, &scene, moments, options, sink)
+    }
+
+    /// Starts a still that stores `scene` and is drawn by `moments`.
+    fn begin(
+        pipelines: &Arc<Pipelines>,
+        scene: &Scene,
+        moments: Moments,
+        options: StillOptions,
+        sink: W,
+    ) -> Result<Self, ExportError> {
+        let sheet = Sheet::new(scene, &options)?;
         let sheet_px = sheet.size_px();
         let pixel_bytes = options.format.pixel_bytes(scene.traces_paths());
         let row_bytes = sheet_px[0] as usize * pixel_bytes;
         let [tile_width, tile_height] = options.tile_px;
         let max_rows = (MAX_BAND_BYTES / row_bytes).max(1) as u32;
-        let denoises = options.denoises(&scene);
+        let denoises = options.denoises(scene);
         // Tall tiles render fewer pixels twice.
         let (apron_px, factor) = if denoises { (denoise::REACH_PX, 2) } else { (0, 1) };
         let max_tile_px = [tile_width, (factor * tile_height).min(max_rows)];
         let tiling = Tiling::new(sheet, max_tile_px, apron_px);
         let environment_map = options.environment_map.as_ref();
-        let mut view = View::new(pipelines, tiling.tile(0).rendered, Pace::Still);
-        view.set_environment_map(environment_map);
-        let mut drawn = scene.clone();
-        drawn.integrator.denoise = denoises;
-        view.set_scene(&drawn, false);
+        let overview =
+            Overview::new(pipelines, scene, &moments, environment_map, &sheet, options.format);
+        let mut drawn = moments;
+        drawn.change(|scene| scene.integrator.denoise = denoises);
+        let view = MomentsView::new(pipelines, tiling.tile(0).rendered, environment_map, drawn);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             pipelines: pipelines.clone(),
-            overview: Overview::new(pipelines, &scene, environment_map, &sheet, options.format),
+            overview,
             view,
             tiling,
             tile_index: 0,
@@ -165,10 +194,9 @@ impl<W: Write> StillJob<W> {
             encoding: Band::default(),
             format: options.format,
             pixel_bytes,
-            encoder: Encoder::new(options.format, sink, sheet_px, &scene)?,
+            encoder: Encoder::new(options.format, sink, sheet_px, scene)?,
             samples: pixels * f64::from(scene.quality.samples),
-            camera: scene.camera,
-            clamped_light: None,
+            camera: scene.camera.clone(),
             rows_left: sheet_px[1],
             started_secs: None,
             max_done: 0.0,
@@ -193,7 +221,7 @@ impl<W: Write> StillJob<W> {
             return Err(ExportError::Gpu("the device reported an error".to_owned()));
         }
         if self.rows_left == 0 {
-            let clamped_fraction = self.clamped_light.map(ClampedLight::fraction);
+            let clamped_fraction = self.view.clamped_light().map(ClampedLight::fraction);
             return Ok(StillStatus::Done { clamped_fraction });
         }
         self.max_done = self.max_done.max(self.part_done());
@@ -223,12 +251,9 @@ impl<W: Write> StillJob<W> {
         {
             return;
         }
-        let Some(readback) = self.format.read(&self.pipelines.gpu, &self.view) else { return };
-        if let Some(of_tile) = self.view.report().clamped_light {
-            let all = self.clamped_light.get_or_insert_default();
-            all.light += of_tile.light;
-            all.clamped += of_tile.clamped;
-        }
+        let Some(readback) = self.format.read(&self.pipelines.gpu, self.view.view()) else {
+            return;
+        };
         self.readback = Some((self.tiling.tile(self.tile_index), readback));
         self.tile_index += 1;
         if self.tile_index < self.tiling.count() {
@@ -244,7 +269,7 @@ impl<W: Write> StillJob<W> {
             if !overview.pump(now_secs) {
                 return false;
             }
-            overview.lend_to(&mut self.view);
+            overview.lend_to(self.view.view_mut());
         }
         true
     }
@@ -291,10 +316,9 @@ impl<W: Write> StillJob<W> {
 
     /// Fraction of all samples that are rendered, including the overview's, 0 to 1.
     fn part_done(&self) -> f64 {
-        let report = self.view.report();
-        let of_tile = f64::from(report.samples_done) / f64::from(report.samples_wanted.max(1));
-        let tiles = f64::from(self.tile_index)
-            + if self.tile_index < self.tiling.count() { of_tile } else { 0.0 };
+        let is_drawing = self.tile_index < self.tiling.count();
+        let of_tile = if is_drawing { self.view.part_done() } else { 0.0 };
+        let tiles = f64::from(self.tile_index) + of_tile;
         let of_tiles = (tiles / f64::from(self.tiling.count())).min(1.0);
         let Some(overview) = &self.overview else { return of_tiles };
         let done = self.samples * of_tiles + overview.samples() * overview.part_done();
@@ -322,7 +346,7 @@ impl<W: Write> StillJob<W> {
             if matches!(status, StillStatus::Done { .. }) {
                 return self.finish();
             }
-            self.view.wait();
+            self.view.view().wait();
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     integrator::Integrator,
-    pass::{self, Record},
+    pass::{self, Record, shutter},
     recorder::Recorder,
     schedule::{Points, Work},
 };
@@ -25,6 +25,12 @@ pub fn record(integrator: &Integrator, recorder: &mut Recorder<'_>, work: Work) 
             }
         }
         Work::Display(display) => {
+            if let Some(sub_frame) = recorder.inputs.sub_frame {
+                shutter::record(recorder, sub_frame.index);
+                if !sub_frame.is_last() {
+                    return;
+                }
+            }
             let sparse_level = recorder.upsample_level;
             for pass in pass::DISPLAY {
                 match (&pass.record, sparse_level) {

@@ -44,6 +44,8 @@ pub struct Layouts {
     pub traced_paths: wgpu::BindGroupLayout,
     /// Group 1 of the denoiser's input: the pixels' moments, guides, light.
     pub denoise_input: wgpu::BindGroupLayout,
+    /// Group 1 of the pass that averages sub-frames: their sums, the pixels' moments, guides.
+    pub shutter: wgpu::BindGroupLayout,
     /// Group 1 of the denoiser: guides, surface, light before and after even iterations.
     pub denoise: wgpu::BindGroupLayout,
     /// Group 3 of tone mapping: denoised light.
@@ -100,6 +102,7 @@ impl Layouts {
             ),
             traced_paths: group("traced paths", &[READ_ONLY, STORAGE, STORAGE, STORAGE]),
             denoise_input: group("denoise input", &[READ_ONLY, STORAGE, STORAGE]),
+            shutter: group("shutter", &[STORAGE; 3]),
             denoise: group("denoise", &[READ_ONLY, READ_ONLY, STORAGE, STORAGE]),
             denoised: group("denoised", &[READ_ONLY]),
             moments: group("moments", &[READ_ONLY]),

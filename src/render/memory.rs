@@ -28,6 +28,8 @@ pub struct Memory {
     pub paths: u64,
     /// Denoised light of all pixels.
     pub denoiser: u64,
+    /// Sums of the sub-frames of motion blur.
+    pub shutter: u64,
     /// Direct light of the centre samples, as the source of indirect light.
     pub direct_light: u64,
     /// Sums of radiance, 32-bit.
@@ -46,7 +48,7 @@ pub struct Memory {
 
 impl Memory {
     /// Each purpose with its bytes, in the order of a frame.
-    pub fn purposes(&self) -> [(&'static str, u64); 13] {
+    pub fn purposes(&self) -> [(&'static str, u64); 14] {
         let Self {
             sample_points,
             jittered_samples,
@@ -54,6 +56,7 @@ impl Memory {
             work_queues,
             paths,
             denoiser,
+            shutter,
             direct_light,
             film,
             mip_levels,
@@ -69,6 +72,7 @@ impl Memory {
             ("work queues", work_queues),
             ("light paths", paths),
             ("denoiser", denoiser),
+            ("motion blur", shutter),
             ("direct light", direct_light),
             ("film", film),
             ("mip levels", mip_levels),

@@ -29,6 +29,8 @@
 //! | [`targets`] | buffers and the display texture |
 //! | `path_targets` | buffers and textures of light paths |
 //! | [`uniforms`] | structs shared with the shaders |
+//! | [`sub_frame`] | sub-frames of motion blur |
+//! | `shutter` | the sums of their films |
 //! | [`samples`] | readback of a finished view's pixels |
 //! | [`memory`] | a view's GPU memory |
 //! | `noise_control` | ends a picture of light paths at the noise asked for |
@@ -64,8 +66,10 @@ pub mod samples;
 pub mod schedule;
 pub mod shaders;
 mod shared_exponent;
+mod shutter;
 pub mod sky;
 pub mod space;
+pub mod sub_frame;
 pub mod targets;
 pub mod uniforms;
 pub mod view;

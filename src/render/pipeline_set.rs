@@ -60,17 +60,21 @@ pub static NORMALS: PipelineSet = PipelineSet {
     rehearsal: || vec![trace(Points::Level(0), Stage::March)],
 };
 
-/// Shading, specialised for the surface's model, and for an environment map or none.
+/// What shading and light paths compile in: the surface's model, and fog or none.
+fn light_constants(inputs: &Inputs) -> Constants {
+    let frame = &inputs.frame;
+    vec![("HAS_FOG", u32::from(frame.fog.density > 0.0)), ("SURFACE_MODEL", frame.surface.model)]
+}
+
+/// Shading, specialised for the surface's model, and for fog and an environment map or none.
 pub static SHADE: PipelineSet = PipelineSet {
     name: "shade",
     subject: Some("light"),
     has_kernel: false,
     is_always_needed: true,
     constants: Some(|inputs| {
-        vec![
-            ("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.map_gain > 0.0)),
-            ("SURFACE_MODEL", inputs.frame.surface.model),
-        ]
+        let map = ("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.map_gain > 0.0));
+        light_constants(inputs).into_iter().chain([map]).collect()
     }),
     // One trace of single samples, and one of several samples per pixel.
     rehearsal: || {
@@ -115,17 +119,40 @@ pub static MEDIUM: PipelineSet = PipelineSet {
     has_kernel: true,
     is_always_needed: false,
     constants: Some(|_| Vec::new()),
-    rehearsal: || vec![trace(Points::Samples { first: 1, count: 2 }, Stage::Path)],
+    rehearsal: path_rehearsal,
 };
 
-/// Light paths.
-pub static PATHS: PipelineSet = PipelineSet {
-    name: "paths",
+/// The vertices of light paths, specialised like shading, and for a medium or none.
+pub static SCATTER: PipelineSet = PipelineSet {
+    name: "scatter",
+    subject: Some("light paths"),
+    has_kernel: false,
+    is_always_needed: false,
+    constants: Some(|inputs| {
+        let medium = ("HAS_MEDIUM", u32::from(inputs.traces_medium()));
+        light_constants(inputs).into_iter().chain([medium]).collect()
+    }),
+    rehearsal: path_rehearsal,
+};
+
+/// What becomes of finished light paths.
+pub static FILM_PATHS: PipelineSet = PipelineSet {
+    name: "film paths",
     subject: Some("path tracing"),
     has_kernel: false,
     is_always_needed: false,
     constants: None,
-    rehearsal: || vec![trace(Points::Samples { first: 1, count: 2 }, Stage::Path)],
+    rehearsal: path_rehearsal,
+};
+
+/// The average of sub-frames.
+pub static SHUTTER: PipelineSet = PipelineSet {
+    name: "shutter",
+    subject: Some("motion blur"),
+    has_kernel: false,
+    is_always_needed: false,
+    constants: None,
+    rehearsal: Vec::new,
 };
 
 /// The denoiser.
@@ -149,10 +176,14 @@ pub static POST: PipelineSet = PipelineSet {
 };
 
 /// Sets with special variants.
-pub const SPECIALIZED: [&PipelineSet; 5] = [&RAYS, &NORMALS, &MEDIUM, &SHADE, &TONE];
+pub const SPECIALIZED: [&PipelineSet; 6] = [&RAYS, &NORMALS, &MEDIUM, &SCATTER, &SHADE, &TONE];
 
 fn trace(points: Points, from: Stage) -> Work {
     Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
+}
+
+fn path_rehearsal() -> Vec<Work> {
+    vec![trace(Points::Samples { first: 1, count: 2 }, Stage::Path)]
 }
 
 fn display(level: u32) -> Work {
@@ -250,7 +281,11 @@ impl PipelineVariant {
 pub fn specialized(inputs: &Inputs) -> Vec<PipelineVariant> {
     SPECIALIZED
         .iter()
-        .filter(|set| **set != &MEDIUM || inputs.traces_medium())
+        .filter(|set| match **set {
+            set if set == &MEDIUM => inputs.traces_medium(),
+            set if set == &SCATTER => inputs.traces_paths(),
+            _ => true,
+        })
         .map(|set| PipelineVariant::of(set, inputs))
         .collect()
 }

@@ -13,12 +13,12 @@ use std::sync::{
 
 use super::{
     frame,
-    integrator::{DIRECT, PATH},
-    pass::track,
+    integrator::{DIRECT, PATH, PATH_IN_MEDIUM},
+    pass::{self, assess_noise},
     pipeline_set,
     pipelines::{PipelineVariant, Pipelines, part_count},
     post::Tasks,
-    recorder::{Dispatches, Recorder},
+    recorder::{Dispatches, Recorder, Rehearsal},
     schedule::{Stage, Trace, Work},
     targets::Targets,
     uniforms::Inputs,
@@ -132,32 +132,40 @@ fn rehearse(
 ) -> Arc<AtomicBool> {
     let mut passes = pipelines.of_frame(inputs);
     passes.draw_by(variant);
-    let mut uncounted = Dispatches::default();
-    let mut recorder = Recorder::new(&pipelines.layouts, &passes, targets, inputs, &mut uncounted);
+    let mut rehearsed = Dispatches::default();
+    let mut recorder = Recorder::new(&pipelines.layouts, &passes, targets, inputs, &mut rehearsed);
     // An indirect dispatch with a count of zero: browsers warn of a direct dispatch with zero.
-    recorder.rehearsal = Some(pipelines.gpu.device.create_buffer(&wgpu::BufferDescriptor {
+    let no_workgroups = pipelines.gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("no workgroups"),
         size: 12,
         usage: wgpu::BufferUsages::INDIRECT,
         mapped_at_creation: false,
-    }));
+    });
+    recorder.rehearsal = Some(Rehearsal { set: variant.set, no_workgroups });
     if *variant.set == pipeline_set::POST {
         recorder.tasks = Tasks { mean: true, histogram: true, adapt: Some(1.0), bloom: true };
     }
     recorder.denoises = *variant.set == pipeline_set::DENOISE;
     for work in variant.rehearsal() {
-        let traces_paths = matches!(work, Work::Trace(Trace { from: Stage::Path, .. }));
-        if let Work::Trace(trace) = work
-            && *variant.set == pipeline_set::MEDIUM
-        {
-            // The other passes of paths belong to other sets.
-            track::record(&mut recorder, &trace, &trace.points.grid(inputs.frame.size_px));
-            continue;
-        }
-        frame::record(if traces_paths { &PATH } else { &DIRECT }, &mut recorder, work);
+        let integrator = match work {
+            _ if *variant.set == pipeline_set::MEDIUM => &PATH_IN_MEDIUM,
+            Work::Trace(Trace { from: Stage::Path, .. }) => &PATH,
+            _ => &DIRECT,
+        };
+        frame::record(integrator, &mut recorder, work);
+    }
+    if *variant.set == pipeline_set::FILM_PATHS {
+        // Otherwise between samples.
+        assess_noise::record(&mut recorder);
     }
     let queue = &pipelines.gpu.queue;
     queue.submit([recorder.finish()]);
+    let mut of_set = pass::all().filter(|pass| pass.set == variant.set);
+    debug_assert!(
+        of_set.all(|pass| rehearsed.of(pass).dispatches > 0),
+        "the rehearsal of {variant:?} has only {:?}",
+        rehearsed.passes(),
+    );
     let is_over = Arc::new(AtomicBool::new(false));
     let tell = is_over.clone();
     queue.on_submitted_work_done(move || tell.store(true, Ordering::Release));

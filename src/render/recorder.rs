@@ -69,7 +69,16 @@ pub trait PipelineSource {
 /// A pass with its pipeline, for dispatches.
 pub struct PassPipeline {
     pass: &'static Pass,
-    pipeline: wgpu::ComputePipeline,
+    /// None for a pass that a rehearsal leaves out.
+    pipeline: Option<wgpu::ComputePipeline>,
+}
+
+/// A first use of a set's pipelines, without work: drivers then compile what they leave for it.
+pub struct Rehearsal {
+    /// The set whose passes are recorded; other passes are left out.
+    pub set: &'static PipelineSet,
+    /// A workgroup count of zero for all dispatches.
+    pub no_workgroups: wgpu::Buffer,
 }
 
 /// The recorded work of one pass.
@@ -139,10 +148,8 @@ pub struct Recorder<'a> {
     pub tasks: Tasks,
     /// Whether a display shows denoised light.
     pub denoises: bool,
-    /// A workgroup count of zero for all dispatches, to rehearse pipelines; none in other submits.
-    ///
-    /// Drivers then compile what they leave for the first use of a pipeline.
-    pub rehearsal: Option<wgpu::Buffer>,
+    /// The rehearsal that this submit is; none in other submits.
+    pub rehearsal: Option<Rehearsal>,
     /// The lattice level from whose samples alone the display is made; the film stays as it is.
     pub upsample_level: Option<u32>,
     /// Counters of the recorded work.
@@ -185,7 +192,8 @@ impl<'a> Recorder<'a> {
 
     /// The fastest compiled pipeline of `pass`, in one of the pass's modes.
     pub fn pipeline(&self, pass: &'static Pass, mode: usize) -> PassPipeline {
-        PassPipeline { pass, pipeline: self.pipelines.pipeline(pass, mode) }
+        let is_recorded = self.rehearsal.as_ref().is_none_or(|rehearsal| rehearsal.set == pass.set);
+        PassPipeline { pass, pipeline: is_recorded.then(|| self.pipelines.pipeline(pass, mode)) }
     }
 
     /// Binds the film statistics, for passes over the whole film.
@@ -247,10 +255,11 @@ impl<'a> Recorder<'a> {
         params.starts_at_surface = u32::from(trace.from > Stage::March);
         params.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
         if let Points::Samples { first, count } = trace.points {
-            params.jitter = lattice::jitter(first);
+            let skipped = self.inputs.sub_frame.map_or(0, |sub_frame| sub_frame.first_sample);
+            params.jitter = lattice::jitter(first + skipped);
             params.samples = count;
             params.compact = 1;
-            params.first_sample = first - FIRST_JITTERED;
+            params.first_sample = first - FIRST_JITTERED + skipped;
             // Centre samples see the centres of lights and lens, and no bounced light: theirs would stay visible.
             let replaces = first == FIRST_JITTERED && self.inputs.replaces_center_samples();
             params.accumulate = u32::from(!replaces);
@@ -302,9 +311,11 @@ impl<'a> Recorder<'a> {
         queue: Queue,
     ) {
         self.compute.set_bind_group(2, work_queues, &[]);
-        self.prepare(pipeline, params);
+        if !self.prepare(pipeline, params) {
+            return;
+        }
         let (workgroups, offset) = match &self.rehearsal {
-            Some(nothing) => (nothing, 0),
+            Some(rehearsal) => (&rehearsal.no_workgroups, 0),
             None => self.targets.work_queues.workgroups(queue),
         };
         self.compute.dispatch_workgroups_indirect(workgroups, offset);
@@ -321,16 +332,19 @@ impl<'a> Recorder<'a> {
         params: DispatchParams,
         [columns, rows]: [u32; 2],
     ) {
-        self.prepare(pipeline, params);
-        if let Some(nothing) = &self.rehearsal {
-            self.compute.dispatch_workgroups_indirect(nothing, 0);
+        if !self.prepare(pipeline, params) {
+            return;
+        }
+        if let Some(rehearsal) = &self.rehearsal {
+            self.compute.dispatch_workgroups_indirect(&rehearsal.no_workgroups, 0);
             return;
         }
         self.compute.dispatch_workgroups(columns, rows, 1);
     }
 
-    /// Sets the pipeline and the parameters of the next dispatch.
-    fn prepare(&mut self, pipeline: &PassPipeline, params: DispatchParams) {
+    /// Sets the pipeline and the parameters of the next dispatch; false if a rehearsal leaves the pass out.
+    fn prepare(&mut self, of: &PassPipeline, params: DispatchParams) -> bool {
+        let Some(pipeline) = &of.pipeline else { return false };
         debug_assert!(
             self.recorded < MAX_DISPATCHES,
             "a submit has {MAX_DISPATCHES} dispatches at most"
@@ -343,9 +357,10 @@ impl<'a> Recorder<'a> {
             &params.to_bytes(),
         );
         self.recorded += 1;
-        self.dispatches.add(pipeline.pass, &params);
-        self.compute.set_pipeline(&pipeline.pipeline);
+        self.dispatches.add(of.pass, &params);
+        self.compute.set_pipeline(pipeline);
         self.compute.set_bind_group(0, &self.targets.frame_group, &[offset]);
+        true
     }
 
     /// The commands, ready for submission.

@@ -19,6 +19,7 @@ use super::{
     post::{Need, Post},
     region::Region,
     schedule::BATCH_WORKGROUPS,
+    shutter::Shutter,
     sky::SampledSky,
     uniforms::{self, DispatchParams, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray},
     work_queues::{RAY_QUEUES, WorkQueues},
@@ -102,6 +103,8 @@ pub struct Targets {
     pub paths: PathTargets,
     /// The denoiser's light: a few bytes until there is something to denoise.
     pub denoiser: Denoiser,
+    /// Sums of sub-frames: a few bytes without motion blur.
+    pub shutter: Shutter,
     /// The display picture.
     pub texture: wgpu::Texture,
 }
@@ -157,6 +160,7 @@ impl Targets {
         let center = GBuffer::new(layouts, pixels, &rays);
         let paths = PathTargets::new(layouts, [0, 0], None, None, &center.visibility);
         let denoiser = Denoiser::new(layouts, 0, denoiser_sources(&center, &paths));
+        let shutter = Shutter::new(layouts, 0, averaged(&center, &paths));
         Self {
             frame,
             formula_table,
@@ -171,6 +175,7 @@ impl Targets {
             work_queues: WorkQueues::new(layouts, batch_workgroups, false),
             paths,
             denoiser,
+            shutter,
             film_rg,
             film_bw,
             direct,
@@ -223,6 +228,15 @@ impl Targets {
         }
     }
 
+    /// Allocates sums of sub-frames if needed, else frees them.
+    pub fn fit_shutter(&mut self, layouts: &Layouts, needed: bool) {
+        let averaged = averaged(&self.center, &self.paths);
+        let pixels = if needed { self.film_rg.size() / 8 } else { 0 };
+        if !self.shutter.fits(pixels, &averaged) {
+            self.shutter = Shutter::new(layouts, pixels, averaged);
+        }
+    }
+
     /// Finest lattice level whose display values fit the buffer of rays.
     ///
     /// `upsample` reuses that buffer. The level is at least 2, a quarter of all pixels.
@@ -250,6 +264,7 @@ impl Targets {
             work_queues: self.work_queues.bytes(),
             paths: self.paths.bytes(),
             denoiser: self.denoiser.bytes(),
+            shutter: self.shutter.bytes(),
             direct_light: self.direct.size(),
             film: self.film_rg.size() + self.film_bw.size(),
             mip_levels,
@@ -312,6 +327,12 @@ fn denoiser_sources(center: &GBuffer, paths: &PathTargets) -> DenoiserSources {
         guides: visibility.clone(),
         surface: surface.clone(),
     }
+}
+
+/// What sub-frames average besides their films.
+fn averaged(center: &GBuffer, paths: &PathTargets) -> [wgpu::Buffer; 2] {
+    let DenoiserSources { moments, guides, .. } = denoiser_sources(center, paths);
+    [moments, guides]
 }
 
 fn film_group(

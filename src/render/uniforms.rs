@@ -24,6 +24,7 @@ use super::{
     schedule::Stale,
     sky::SampledSky,
     space::RenderSpace,
+    sub_frame::SubFrame,
 };
 use crate::{
     formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
@@ -247,6 +248,8 @@ pub struct Inputs {
     pub environment_map: Option<u64>,
     /// The sky that paths see; none without one.
     pub sky: Option<Arc<SampledSky>>,
+    /// The sub-frame of motion blur; none for other pictures.
+    pub sub_frame: Option<SubFrame>,
 }
 
 impl Inputs {
@@ -279,6 +282,7 @@ impl Inputs {
             gradients: media::gradients(scene),
             environment_map: None,
             sky: None,
+            sub_frame: None,
         }
     }
 
@@ -307,6 +311,12 @@ impl Inputs {
             paths::add_sky(&mut self.frame.paths, scene, space, sky);
             self.sky = Some(sky.clone());
         }
+        self
+    }
+
+    /// The inputs of a sub-frame.
+    pub fn with_sub_frame(mut self, sub_frame: Option<SubFrame>) -> Self {
+        self.sub_frame = sub_frame;
         self
     }
 
@@ -384,9 +394,11 @@ impl Inputs {
         lights::shining(self.lights_in_use())
     }
 
-    /// Whether centre samples show another light than jittered ones, which then take their place on the film.
+    /// Whether jittered samples take the place of centre samples on the film: if centre samples show another light, or
+    /// would be a large part of a sub-frame, all in the middle of pixels.
     pub fn replaces_center_samples(&self) -> bool {
         self.traces_paths()
+            || self.sub_frame.is_some()
             || self.frame.camera.lens_radius > 0.0
             || lights::any_with_size(self.lights_in_use())
     }
@@ -459,7 +471,8 @@ impl Inputs {
             && self.environment_map == old.environment_map
             && self.is_lit_as(old)
             && self.gradients == old.gradients
-            && self.has_indirect() == old.has_indirect();
+            && self.has_indirect() == old.has_indirect()
+            && self.sub_frame == old.sub_frame;
         if !same_geometry {
             Some(Stale::Geometry)
         } else if new_frame.normals != old_frame.normals {

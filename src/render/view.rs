@@ -19,6 +19,7 @@ use super::{
     schedule::{Pace, Schedule, Stale, Work},
     sky::{SampledSky, SkyCache},
     space::{self, RenderSpace},
+    sub_frame::SubFrame,
     targets::Targets,
     uniforms::Inputs,
 };
@@ -66,6 +67,8 @@ pub struct View {
     is_environment_map_new: bool,
     inputs: Option<Inputs>,
     pending: Option<Scene>,
+    /// The sub-frame of motion blur that the newest scene is; none for other pictures.
+    sub_frame: Option<SubFrame>,
     moving: bool,
     stats_validity: StatsValidity,
     reconstruction: Reconstruction,
@@ -104,6 +107,7 @@ impl View {
             is_environment_map_new: false,
             inputs: None,
             pending: None,
+            sub_frame: None,
             moving: false,
             stats_validity: StatsValidity::default(),
             reconstruction: Reconstruction::default(),
@@ -158,8 +162,18 @@ impl View {
     pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
         self.moving = moving;
         self.schedule.set_moving(moving);
-        let is_new = self.scene.as_ref() != Some(scene) || self.is_environment_map_new;
+        let had_sub_frames = self.sub_frame.take().is_some();
+        let is_new =
+            self.scene.as_ref() != Some(scene) || self.is_environment_map_new || had_sub_frames;
         self.pending = is_new.then(|| scene.clone());
+    }
+
+    /// Sets the scene of a sub-frame, whose film is averaged with those of the sub-frames before it.
+    ///
+    /// For stills; call it once the sub-frame before is complete. The picture is that of the last one.
+    pub fn set_sub_frame(&mut self, scene: &Scene, sub_frame: SubFrame) {
+        self.sub_frame = Some(sub_frame);
+        self.pending = Some(scene.clone());
     }
 
     /// Shares fractal models with other users, such as the interface's navigation.
@@ -332,6 +346,7 @@ impl View {
             .with_environment_map(scene, self.environment_map.as_deref())
             .with_sky(scene, space, self.sky.as_ref())
             .with_preview(self.preview_samples(scene))
+            .with_sub_frame(self.sub_frame)
             .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
             .with_color_curves(self.colors.curves())
@@ -354,6 +369,7 @@ impl View {
         }
         // After the environment map, whose texture a sky may share.
         (self.integrator.fit_targets)(&mut self.targets, &self.pipelines.layouts, &inputs);
+        self.targets.fit_shutter(&self.pipelines.layouts, inputs.sub_frame.is_some());
         self.inputs = Some(inputs);
     }
 
@@ -388,8 +404,12 @@ impl View {
 
     fn submit(&mut self, work: Work) {
         let upsample_level = self.upsample_level(work);
+        // Sub-frames before the last are not shown.
+        let is_shown = self.sub_frame.is_none_or(|sub_frame| sub_frame.is_last());
+        let is_unseen_display = matches!(work, Work::Display(_)) && !is_shown;
         let tasks = match upsample_level {
             Some(_) => Tasks::default(),
+            None if is_unseen_display => Tasks::default(),
             None => self.stats_validity.tasks(work, self.post_need(), &self.histogram_readback),
         };
         let denoises = self.denoises();
@@ -411,7 +431,7 @@ impl View {
             recorder.finish()
         });
         self.stopwatch.submit(&self.pipelines.gpu, commands, Some(work));
-        if matches!(work, Work::Display(_)) {
+        if matches!(work, Work::Display(_)) && is_shown {
             self.shown.note(&self.targets);
             self.histogram_readback.note_picture();
         }

@@ -55,6 +55,19 @@ pub const FRAME_RATE: Param = Param {
     help: "Frames per second of the rendered sequence. More is smoother and takes longer.",
 };
 
+/// For how much of a frame's time the shutter is open.
+pub const SHUTTER: Param = Param {
+    path: "path.shutter",
+    label: "Shutter",
+    unit: Unit::None,
+    min: 0.0,
+    max: 1.0,
+    default: 0.0,
+    scale: Scale::Linear,
+    step: 0.05,
+    help: "Motion blur: for which part of a frame's time the shutter is open. 0.5 is a film camera's; at 0 every frame is sharp.",
+};
+
 /// Times closer together than this are one, seconds: far less than any frame takes.
 const SAME_SECS: f64 = 1e-6;
 
@@ -88,13 +101,19 @@ pub struct Key {
 pub struct Path {
     /// Frames per second, in [`FRAME_RATE`].
     pub frames_per_second: u32,
+    /// Motion blur, in [`SHUTTER`].
+    pub shutter: f64,
     /// At most [`MAX_KEYS`], times increasing.
     pub keys: Vec<Key>,
 }
 
 impl Default for Path {
     fn default() -> Self {
-        Self { frames_per_second: FRAME_RATE.default as u32, keys: Vec::new() }
+        Self {
+            frames_per_second: FRAME_RATE.default as u32,
+            shutter: SHUTTER.default,
+            keys: Vec::new(),
+        }
     }
 }
 
@@ -195,6 +214,41 @@ impl Path {
         self.at(self.frame_secs(frame))
     }
 
+    /// When the shutter opens and closes for frame `frame`, seconds; both the frame's time without motion blur.
+    ///
+    /// The frame's time is in the middle, except at the path's ends and near a cut, a key that a hold jumps to: a frame
+    /// shows the light of one side only.
+    pub fn shutter_secs(&self, frame: u32) -> [f64; 2] {
+        let secs = self.frame_secs(frame);
+        let half = 0.5 * self.shutter / f64::from(self.frames_per_second.max(1));
+        let pairs = self.keys.iter().zip(self.keys.iter().skip(1));
+        let cuts =
+            pairs.filter(|(key, _)| key.easing == Easing::Hold).map(|(_, next)| next.time_secs);
+        let [mut from, mut to] = [0.0, self.duration_secs().max(secs)];
+        for cut in cuts {
+            if cut <= secs {
+                from = cut;
+            } else {
+                to = to.min(cut);
+            }
+        }
+        [(secs - half).max(from).min(secs), (secs + half).min(to)]
+    }
+
+    /// The scenes of frame `frame` in the middle of `count` equal parts of the time in which the shutter is open.
+    ///
+    /// None without motion blur, and where nothing moves.
+    pub fn shutter_scenes(&self, frame: u32, count: u32) -> Vec<Scene> {
+        let [open, close] = self.shutter_secs(frame);
+        if close <= open {
+            return Vec::new();
+        }
+        let part = (close - open) / f64::from(count);
+        let scenes = (0..count).filter_map(|i| self.at(open + (f64::from(i) + 0.5) * part));
+        let scenes: Vec<_> = scenes.collect();
+        if scenes.iter().all(|scene| *scene == scenes[0]) { Vec::new() } else { scenes }
+    }
+
     /// Checks the keys' times and scenes.
     ///
     /// # Errors
@@ -206,6 +260,9 @@ impl Path {
         let rate = f64::from(self.frames_per_second);
         if !FRAME_RATE.accepts(rate) {
             return invalid(FRAME_RATE.path.to_owned(), outside(&FRAME_RATE, rate));
+        }
+        if !SHUTTER.accepts(self.shutter) {
+            return invalid(SHUTTER.path.to_owned(), outside(&SHUTTER, self.shutter));
         }
         if self.keys.len() > MAX_KEYS {
             let message = format!("has {} keys; a path has at most {MAX_KEYS}", self.keys.len());

@@ -110,7 +110,7 @@ fn short_path() -> Project {
     };
     let keys = vec![key(0.0, 8.0), key(1.0, 7.0)];
     let scene = (*keys[0].scene).clone();
-    Project { scene, path: Path { frames_per_second: 2, keys } }
+    Project { scene, path: Path { frames_per_second: 2, keys, ..Path::default() } }
 }
 
 #[test]

@@ -107,6 +107,7 @@ impl Watched {
     fn show(&mut self, scene: &Scene) {
         self.view.set_scene(scene, false);
         self.settle();
+        assert_eq!(self.pipelines.gpu.faults(), 0);
     }
 }
 
@@ -145,11 +146,14 @@ fn nothing_is_compiled_unannounced() {
         (|scene| scene.tone.auto_exposure = true, &[]),
         (|scene| _ = scene.fractal.set("power", 8.0), &[]),
         (|scene| scene.surface.model = SurfaceModel::Physical, &["light"]),
-        (|scene| scene.integrator.kind = IntegratorKind::Path, &["path tracing"]),
+        (|scene| scene.integrator.kind = IntegratorKind::Path, &["path tracing", "light paths"]),
         (|scene| scene.integrator.bounces = 2, &[]),
-        (|scene| scene.fog.density = 0.5, &[]),
+        (|scene| scene.fog.density = 0.5, &["light paths", "light"]),
         (|scene| scene.integrator.denoise = true, &["denoising"]),
-        (|scene| scene.medium.kind = MediumKind::Set, &["powers", "power 8"]),
+        (
+            |scene| scene.medium.kind = MediumKind::Set,
+            &["powers", "power 8", "light paths", "light"],
+        ),
         (|scene| scene.medium.kind = MediumKind::Iterations, &[]),
     ];
     for (edit, expected) in edits {
@@ -172,9 +176,15 @@ fn nothing_is_compiled_unannounced() {
         let checks = u32::from(power < 4);
         all.insert(format!("normal, POWER {power}, CHECKS_HITS {checks}, NORMALS 5"));
     }
-    for model in [0, 1] {
-        let shade = format!("shade, HAS_ENVIRONMENT_MAP 0, SURFACE_MODEL {model}");
+    for (fog, model) in [(0, 0), (0, 1), (1, 1), (1, 0)] {
+        let light = format!("HAS_FOG {fog}, SURFACE_MODEL {model}");
+        let shade = format!("shade, {light}, HAS_ENVIRONMENT_MAP 0");
         all.extend([0, 1].map(|single| format!("{shade}, SINGLE {single}")));
+        if model == 1 {
+            all.insert(format!("scatter, {light}, HAS_MEDIUM 0"));
+        } else if fog == 1 {
+            all.insert(format!("scatter, {light}, HAS_MEDIUM 1"));
+        }
     }
     for (bloom, sparse) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         all.insert(format!("tone, CURVE 1, BLOOM {bloom}, ANAGLYPH 0, SPARSE {sparse}"));

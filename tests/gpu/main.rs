@@ -17,6 +17,7 @@ mod language;
 mod lens;
 mod memory;
 mod mitsuba;
+mod motion_blur;
 mod moving;
 mod oracle;
 mod paths;

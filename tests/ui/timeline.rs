@@ -197,6 +197,11 @@ fn times_and_rates_are_typed_and_kept_in_range() {
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(path(&harness).frames_per_second, 240);
+    press(&mut harness, "Shutter value");
+    harness.get_by_label("Shutter value").type_text("0.5");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(path(&harness).shutter, 0.5);
     assert_eq!(path(&harness).validate(), Ok(()));
 }
 

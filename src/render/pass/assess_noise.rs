@@ -10,7 +10,7 @@ use crate::render::{
 pub const PASS: Pass = Pass {
     name: "assess_noise",
     groups: |layouts| vec![&layouts.frame, &layouts.traced_paths, &layouts.film],
-    set: &pipeline_set::PATHS,
+    set: &pipeline_set::FILM_PATHS,
     modes: ONE_MODE,
     record: Record::Within,
 };

@@ -13,7 +13,7 @@ pub const PASS: Pass = Pass {
     groups: |layouts| {
         vec![&layouts.frame, &layouts.traced_paths, &layouts.film, &layouts.environment_texture]
     },
-    set: &pipeline_set::PATHS,
+    set: &pipeline_set::FILM_PATHS,
     modes: ONE_MODE,
     record: Record::Trace { when: |_, _| true, record },
 };

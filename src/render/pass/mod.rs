@@ -25,6 +25,7 @@ pub mod scatter;
 pub mod shade;
 pub mod shadow;
 pub mod shadow_cone;
+pub mod shutter;
 pub mod tone;
 pub mod tonemap_sparse;
 pub mod track;
@@ -78,6 +79,8 @@ pub const DISPLAY: &[&Pass] = &[
     // Of a sparse lattice's samples alone.
     &tonemap_sparse::PASS,
     &upsample::PASS,
+    // Of a sub-frame, before the passes of the film.
+    &shutter::PASS,
     // Of the film.
     &fill::PASS,
     &mean::PASS,

@@ -15,7 +15,7 @@ use crate::render::{
 pub const PASS: Pass = Pass {
     name: "scatter",
     groups: |layouts| vec![&layouts.frame, &layouts.gbuffer, &layouts.enqueue, &layouts.paths],
-    set: &pipeline_set::PATHS,
+    set: &pipeline_set::SCATTER,
     modes: ONE_MODE,
     record: Record::Trace { when: |_, _| true, record },
 };
@@ -23,8 +23,7 @@ pub const PASS: Pass = Pass {
 /// Follows the paths of `trace` from their first surface points to their ends.
 pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     // A medium has collisions in place of surface points, and no normals.
-    // A rehearsal is for this pass alone.
-    let in_medium = recorder.inputs.traces_medium() && recorder.rehearsal.is_none();
+    let in_medium = recorder.inputs.traces_medium();
     let (marching, shadowing) =
         if in_medium { (&track::PASS, &track::PASS) } else { (&march::PASS, &shadow::PASS) };
     let [march, shadow, scatter] =

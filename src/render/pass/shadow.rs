@@ -26,7 +26,9 @@ pub fn record(recorder: &mut Recorder<'_>, trace: &Trace, grid: &Grid) {
     work_queues.clear_rays(&recorder.layouts.gpu.queue);
     let marched = trace.lights & inputs.casting();
     let lights = inputs.lights_in_use().iter().filter(|light| (marched >> light.bit) & 1 != 0);
-    for (queue, light) in (CAMERA_RAYS + 1..).zip(lights) {
+    // A rehearsal has a light even if the scene has none.
+    let rehearsed = recorder.rehearsal.is_some().then_some(&inputs.lights[0]);
+    for (queue, light) in (CAMERA_RAYS + 1..).zip(lights.chain(rehearsed)) {
         let mut params = recorder.dispatch_params(trace, grid);
         params.ray_queue = queue;
         params.light_bit = light.bit;

@@ -263,6 +263,17 @@ host_shared! {
         /// Luminance that the firefly limit took away, in the same steps.
         clamped: u32,
     }
+    /// A pixel's sums over the sub-frames of motion blur.
+    ShutterPixel {
+        /// Sum of the mean radiance of each sub-frame.
+        light: [f32; 3],
+        /// Sum of the number of samples.
+        samples: f32,
+        /// Mean guides of the denoiser, packed.
+        guides: [u32; 2],
+        /// Sum of the squares that noise is estimated from.
+        moment: f32,
+    }
     /// The medium in place of the set's surface, for paths.
     Medium {
         /// Single-scattering albedo, linear Rec. 709.
@@ -363,7 +374,7 @@ host_shared! {
         bounce: u32,
         /// Region of the queue's entries: 0 blocks, 1 and 2 samples with rays, 3 samples with shadow rays.
         queue_region: u32,
-        /// Number of a denoiser's iteration.
+        /// Number of a pass that is repeated: the denoiser's iteration, or a sub-frame.
         iteration: u32,
         /// 1: the display shows the denoised film.
         denoised: u32,

@@ -5,7 +5,9 @@ use crate::{
     formula::Kernel,
     render::{
         Pace,
-        pipeline_set::{self, DENOISE, INDIRECT, MEDIUM, NORMALS, PATHS, POST, RAYS},
+        pipeline_set::{
+            self, DENOISE, FILM_PATHS, INDIRECT, MEDIUM, NORMALS, POST, RAYS, SCATTER, SHUTTER,
+        },
         pipelines::{PipelineSet, PipelineVariant},
         post::Need,
         preparation::{Preparation, PreparationState},
@@ -71,8 +73,9 @@ impl View {
             || self.histogram_readback.is_wanted();
         let sets = [
             scene.has_indirect().then_some(&INDIRECT),
-            scene.traces_paths().then_some(&PATHS),
+            scene.traces_paths().then_some(&FILM_PATHS),
             scene.denoises().then_some(&DENOISE),
+            self.sub_frame.is_some().then_some(&SHUTTER),
             has_post.then_some(&POST),
         ];
         sets.into_iter().flatten().map(|set| self.needed(set)).collect()
@@ -88,7 +91,8 @@ impl View {
         let scene = self.pending.as_ref().or(self.scene.as_ref())?;
         let rays = self.inputs.iter().flat_map(|inputs| {
             let of_medium = inputs.traces_medium().then_some(&MEDIUM);
-            let sets = [&RAYS, &NORMALS].into_iter().chain(of_medium);
+            let of_paths = inputs.traces_paths().then_some(&SCATTER);
+            let sets = [&RAYS, &NORMALS].into_iter().chain(of_medium).chain(of_paths);
             sets.map(|set| PipelineVariant::of(set, inputs))
         });
         // A general variant draws until the special variant is ready; deep views have no general variant.

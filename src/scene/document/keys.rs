@@ -23,6 +23,7 @@ use crate::scene::{
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PathText {
     frames_per_second: u32,
+    shutter: f64,
     keys: Vec<KeyText>,
 }
 
@@ -35,7 +36,8 @@ struct KeyText {
 
 impl Default for PathText {
     fn default() -> Self {
-        Self { frames_per_second: Path::default().frames_per_second, keys: Vec::new() }
+        let Path { frames_per_second, shutter, .. } = Path::default();
+        Self { frames_per_second, shutter, keys: Vec::new() }
     }
 }
 
@@ -47,7 +49,8 @@ pub fn text_of(project: &Project) -> PathText {
         easing: key.easing,
         scene: parts_apart(&base, value_of(&*key.scene)),
     });
-    PathText { frames_per_second: project.path.frames_per_second, keys: keys.collect() }
+    let Path { frames_per_second, shutter, .. } = project.path;
+    PathText { frames_per_second, shutter, keys: keys.collect() }
 }
 
 /// The parts of `scene` that differ from those of `base`.
@@ -91,12 +94,14 @@ pub(in crate::scene) fn value_of(part: &impl Serialize) -> Value {
 #[serde(deny_unknown_fields, default)]
 pub struct PathDraft {
     frames_per_second: u32,
+    shutter: f64,
     keys: Vec<KeyDraft>,
 }
 
 impl Default for PathDraft {
     fn default() -> Self {
-        Self { frames_per_second: Path::default().frames_per_second, keys: Vec::new() }
+        let Path { frames_per_second, shutter, .. } = Path::default();
+        Self { frames_per_second, shutter, keys: Vec::new() }
     }
 }
 
@@ -113,12 +118,13 @@ struct KeyDraft {
 impl PathDraft {
     /// The path, valid, where `text` is the whole document that it was read from.
     pub fn finish(self, text: &str) -> Result<Path, DocumentError> {
-        if self.keys.is_empty() {
-            let path = Path { frames_per_second: self.frames_per_second, keys: Vec::new() };
+        let Self { frames_per_second, shutter, keys } = self;
+        if keys.is_empty() {
+            let path = Path { frames_per_second, shutter, keys: Vec::new() };
             return path.validate().map(|()| path).map_err(DocumentError::from);
         }
         let document: Value = parse(text)?;
-        let keys = self.keys.into_iter().enumerate().map(|(i, key)| {
+        let keys = keys.into_iter().enumerate().map(|(i, key)| {
             let scene = match whole_scene(&document, i) {
                 // The same fields have been read as part of this document already.
                 Some(whole) => serde_json::from_value(whole)
@@ -130,7 +136,7 @@ impl PathDraft {
             Ok(Key { time_secs: key.time_secs, easing: key.easing, scene: Arc::new(scene) })
         });
         let keys = keys.collect::<Result<Vec<_>, DocumentError>>()?;
-        let path = Path { frames_per_second: self.frames_per_second, keys };
+        let path = Path { frames_per_second, shutter, keys };
         path.validate()?;
         Ok(path)
     }

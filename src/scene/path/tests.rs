@@ -235,6 +235,35 @@ fn frames_run_from_the_beginning_to_the_last_key() {
     assert_eq!(path.frame_count(), 1);
 }
 
+#[test]
+fn the_shutter_is_open_about_a_frame_but_not_beyond_ends_and_cuts() {
+    let (a, b) = (Scene::default(), looking(&DVec3::ZERO.into(), 1.0, 1.0));
+    let mut path = path(vec![
+        key(0.0, Easing::Linear, &a),
+        key(2.1, Easing::Hold, &b),
+        key(3.2, Easing::Linear, &a),
+        key(5.0, Easing::Linear, &b),
+    ]);
+    path.frames_per_second = 1;
+    assert_eq!(path.shutter_secs(1), [1.0, 1.0]);
+    path.shutter = 0.5;
+    let times = [[0.0, 0.25], [0.75, 1.25], [1.75, 2.25], [2.75, 3.2], [3.75, 4.25], [4.75, 5.0]];
+    for (frame, expected) in (0..).zip(times) {
+        let found = path.shutter_secs(frame);
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+    }
+    // From 2.1 to 3.2 s nothing moves.
+    let counts = (0..7).map(|frame| path.shutter_scenes(frame, 4).len());
+    assert_eq!(counts.collect::<Vec<_>>(), [4, 4, 4, 0, 4, 4, 0]);
+    let second = path.shutter_scenes(1, 2);
+    assert_eq!(second, [0.875, 1.125].map(|secs| path.at(secs).unwrap()));
+    // A frame on a cut shows the new side.
+    path.keys[2].time_secs = 4.0;
+    assert_eq!(path.shutter_secs(4), [4.0, 4.25]);
+    path.keys.clear();
+    assert_eq!(path.shutter_scenes(0, 4), []);
+}
+
 /// A scene of which every number differs from the default scene's.
 fn everything_else() -> (Scene, Scene) {
     let mut a = Scene {

@@ -7,7 +7,7 @@ use crate::{
     scene::{
         Path,
         param::{Param, Scale, Unit},
-        path::{Easing, FRAME_RATE, KEY_TIME, MAX_KEYS},
+        path::{Easing, FRAME_RATE, KEY_TIME, MAX_KEYS, SHUTTER},
     },
     ui::{
         action::Action,
@@ -61,6 +61,7 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
         ui.horizontal(|ui| {
             strip.selected_key(ui);
             strip.rate(ui);
+            strip.shutter(ui);
             strip.frames(ui);
             strip.save(ui);
         });
@@ -73,7 +74,10 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
             strip.rate(ui);
             strip.frames(ui);
         });
-        ui.horizontal(|ui| strip.save(ui));
+        ui.horizontal(|ui| {
+            strip.shutter(ui);
+            strip.save(ui);
+        });
     }
 }
 
@@ -196,6 +200,12 @@ impl Strip<'_, '_> {
             // The field only accepts whole numbers in the range.
             self.path.frames_per_second = rate as u32;
         }
+        ui.add_space(8.0);
+    }
+
+    fn shutter(&mut self, ui: &mut Ui) {
+        label(ui, SHUTTER.label, SHUTTER.help);
+        short_number(ui, 40.0, &SHUTTER, &mut self.path.shutter).on_hover_text(SHUTTER.help);
         ui.add_space(8.0);
     }
 

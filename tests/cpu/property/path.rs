@@ -14,7 +14,7 @@ use super::scenes::scene;
 fn path() -> impl Strategy<Value = Path> {
     let easing = select(vec![Easing::Smooth, Easing::Linear, Easing::Hold]);
     let keys = vec((0.01..100.0_f64, easing, scene(), option::of(-29.0..1.0_f64)), 0..5);
-    (keys, 1..=240_u32).prop_map(|(keys, frames_per_second)| {
+    (keys, 1..=240_u32, 0.0..=1.0_f64).prop_map(|(keys, frames_per_second, shutter)| {
         let mut time_secs = 0.0;
         let keys = keys.into_iter().map(|(wait_secs, easing, mut scene, depth)| {
             time_secs += wait_secs;
@@ -29,7 +29,7 @@ fn path() -> impl Strategy<Value = Path> {
             }
             Key { time_secs, easing, scene: Arc::new(scene) }
         });
-        Path { frames_per_second, keys: keys.collect() }
+        Path { frames_per_second, shutter, keys: keys.collect() }
     })
 }
 

@@ -7,7 +7,7 @@ use mandelight::scene::{
     document::{self, from_json, to_json},
     link,
     param::Param,
-    path::{Easing, FRAME_RATE, KEY_TIME, Key, MAX_KEYS},
+    path::{Easing, FRAME_RATE, KEY_TIME, Key, MAX_KEYS, SHUTTER},
 };
 use serde_json::{Value, json};
 
@@ -26,7 +26,7 @@ fn a_key_says_only_what_differs_from_the_scene() {
         { "time_secs": 4, "easing": "hold", "scene": { "fractal": {} } },
     ]);
     let project = document::project_from_json(&with_keys(keys)).unwrap();
-    assert_eq!(project.path.frames_per_second, 30);
+    assert_eq!((project.path.frames_per_second, project.path.shutter), (30, 0.0));
     let scenes: Vec<&Scene> = project.path.keys.iter().map(|key| &*key.scene).collect();
     assert_eq!(*scenes[0], project.scene);
     assert_eq!((scenes[1].fractal.number("power"), scenes[1].tone.exposure), (Some(5.0), 1.0));
@@ -49,7 +49,7 @@ fn what_is_written_of_the_fullest_path_is_read() {
     scene.lights.environment = vec![light; MAX_LIGHTS];
     let scene = Arc::new(scene);
     let key = |i| Key { time_secs: i as f64 + 0.1, easing: Easing::Linear, scene: scene.clone() };
-    let path = Path { frames_per_second: 60, keys: (0..MAX_KEYS).map(key).collect() };
+    let path = Path { frames_per_second: 60, shutter: 0.3, keys: (0..MAX_KEYS).map(key).collect() };
     let project = Project { scene: Scene::default(), path };
     let text = document::project_to_json(&project);
     assert_eq!(document::project_from_json(&text), Ok(project), "{} bytes", text.len());
@@ -64,7 +64,8 @@ fn every_link_that_is_made_is_read() {
     let scene = Arc::new(scene);
     let key = |i| Key { time_secs: i as f64, easing: Easing::Smooth, scene: scene.clone() };
     for count in [1, 40, MAX_KEYS] {
-        let path = Path { frames_per_second: 24, keys: (0..count).map(key).collect() };
+        let path =
+            Path { frames_per_second: 24, shutter: 0.5, keys: (0..count).map(key).collect() };
         let project = Project { scene: Scene::default(), path };
         match link::project_to_fragment(&project) {
             Ok(fragment) => assert_eq!(link::project_from_fragment(&fragment), Ok(project)),
@@ -109,6 +110,9 @@ fn errors_in_a_path_name_the_key() {
     let rate = with_keys(json!([])).replace("\"keys\"", "\"frames_per_second\":0,\"keys\"");
     let error = from_json(&rate).unwrap_err().to_string();
     assert!(error.starts_with("path.frames_per_second: 0 is outside 1 to 240"), "{error}");
+    let shutter = with_keys(json!([])).replace("\"keys\"", "\"shutter\":1.5,\"keys\"");
+    let error = from_json(&shutter).unwrap_err().to_string();
+    assert!(error.starts_with("path.shutter: 1.5 is outside 0 to 1"), "{error}");
 }
 
 #[test]
@@ -124,7 +128,7 @@ fn the_example_is_what_the_documentation_says() {
 #[test]
 fn the_documentation_has_the_path_s_parameters() {
     let docs = include_str!("../../../docs/paths.md");
-    for param in [&FRAME_RATE, &KEY_TIME] {
+    for param in [&FRAME_RATE, &SHUTTER, &KEY_TIME] {
         let Param { path, unit, default, help, .. } = param;
         let range = param.range_text();
         let row = format!("| `{path}` | {} | {range} | {default} | {help} |", unit.name());

@@ -123,7 +123,8 @@ fn path() -> Path {
         easing: Easing::Smooth,
         scene: Arc::new(sampled(lit(scale), 1)),
     };
-    Path { frames_per_second: 4, keys: vec![key(0.0, 1e-2), key(0.5, 1e-5), key(1.0, 1e-12)] }
+    let keys = vec![key(0.0, 1e-2), key(0.5, 1e-5), key(1.0, 1e-12)];
+    Path { frames_per_second: 4, keys, ..Path::default() }
 }
 
 /// The files of a sequence's frames.

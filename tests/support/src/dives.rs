@@ -36,5 +36,5 @@ pub fn fall() -> Project {
         scene: scene.clone().into(),
     };
     let keys = vec![key(0.0, &start), key(4.0, &end)];
-    Project { scene: start, path: Path { frames_per_second: 2, keys } }
+    Project { scene: start, path: Path { frames_per_second: 2, keys, ..Path::default() } }
 }

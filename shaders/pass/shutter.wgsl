@@ -1,0 +1,30 @@
+// Averages the films of sub-frames: puts the mean of this and all earlier sub-frames on the film.
+// uses: lib/film_mean, lib/lattice, types/dispatch_params, types/film, types/frame_uniforms, types/guides
+// uses: types/shutter
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
+    frame = frame_uniforms;
+    let pixel = WORKGROUP_SIDE * workgroup.xy + place_in_workgroup(local_index);
+    if (!inside_region(pixel)) { return; }
+    let index = pixel_index(pixel);
+    var all = ShutterPixel(vec3f(0.0), 0.0, vec2u(0u), 0.0);
+    if (dispatch.iteration > 0u) { all = shutter[index]; }
+    // Every moment of the shutter time counts alike, however many samples it needed.
+    all.light += sample_mean(index);
+    all.samples += film_bw[index].y;
+    let share = 1.0 / f32(dispatch.iteration + 1u);
+    if (frame.paths.ray_reach > 0.0) {
+        all.moment += abs(moments[index]);
+        moments[index] = all.moment;
+        let before = unpack_guides(all.guides);
+        let here = unpack_guides(guides[index]);
+        let albedo = mix(before.albedo, here.albedo, share);
+        all.guides = pack_guides(Guides(albedo, mix(before.normal, here.normal, share), 0.0));
+        guides[index] = all.guides;
+    }
+    shutter[index] = all;
+    let sum = all.light * (share * all.samples);
+    film_rg[index] = sum.rg;
+    film_bw[index] = vec2f(sum.b, all.samples);
+}
