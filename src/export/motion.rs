@@ -16,12 +16,12 @@ const SAMPLES_PER_ROUND: u32 = 8;
 
 /// The scenes of a picture: one, or with motion blur those of its sub-frames.
 #[derive(Clone)]
-pub(super) struct Moments {
+pub(super) struct SubFrames {
     /// In the order in which they are drawn: the middle of the shutter time last. Its depths and normals remain.
     scenes: Vec<Scene>,
 }
 
-impl Moments {
+impl SubFrames {
     /// A picture without motion blur.
     pub fn single(scene: Scene) -> Self {
         Self { scenes: vec![scene] }
@@ -30,7 +30,7 @@ impl Moments {
     /// The picture of frame `frame` of `path`, whose scene is `scene`; both as `options` show them.
     pub fn of_frame(path: &Path, frame: u32, scene: &Scene, options: &StillOptions) -> Self {
         let samples = scene.quality.samples;
-        // Where noise is estimated, whole rounds; at least a few moments.
+        // Where noise is estimated, whole rounds; at least a few sub_frames.
         let needs_rounds =
             scene.traces_paths() && (options.denoises(scene) || scene.integrator.noise > 0.0);
         let round = if needs_rounds { SAMPLES_PER_ROUND } else { 1 };
@@ -51,7 +51,7 @@ impl Moments {
         Self { scenes }
     }
 
-    /// The same moments, or fewer of them, each changed by `change`, for `samples` of each pixel.
+    /// The same sub-frames, or fewer of them, with `samples` of each pixel in all, each changed by `change`.
     pub fn reduced(&self, samples: u32, change: impl Fn(&mut Scene)) -> Self {
         let count = self.scenes.len().min(samples.max(1) as usize);
         let step = self.scenes.len().div_ceil(count);
@@ -77,28 +77,28 @@ impl Moments {
     }
 }
 
-/// A view that draws the moments of a picture one after the other.
-pub(super) struct MomentsView {
+/// A view that draws the sub-frames of a picture one after the other.
+pub(super) struct SubFrameView {
     view: View,
-    moments: Moments,
-    /// Index of the moment that is being drawn.
+    sub_frames: SubFrames,
+    /// Index of the sub-frame that is being drawn.
     index: u32,
-    /// What the firefly limit took away from the complete moments; none without a limit.
+    /// What the firefly limit took away from the complete sub-frames; none without a limit.
     clamped_light: Option<ClampedLight>,
     is_finished: bool,
 }
 
-impl MomentsView {
+impl SubFrameView {
     /// A view of `region`.
     pub fn new(
         pipelines: &Arc<Pipelines>,
         region: Region,
         environment_map: Option<&Arc<EnvironmentMap>>,
-        moments: Moments,
+        sub_frames: SubFrames,
     ) -> Self {
         let mut view = View::new(pipelines, region, Pace::Still);
         view.set_environment_map(environment_map);
-        let mut this = Self { view, moments, index: 0, clamped_light: None, is_finished: false };
+        let mut this = Self { view, sub_frames, index: 0, clamped_light: None, is_finished: false };
         this.begin(0);
         this
     }
@@ -111,10 +111,10 @@ impl MomentsView {
         if self.view.pump(now_secs) {
             return true;
         }
-        if let Some(of_moment) = self.view.report().clamped_light {
+        if let Some(of_sub_frame) = self.view.report().clamped_light {
             let all = self.clamped_light.get_or_insert_default();
-            all.light += of_moment.light;
-            all.clamped += of_moment.clamped;
+            all.light += of_sub_frame.light;
+            all.clamped += of_sub_frame.clamped;
         }
         self.is_finished = self.index + 1 == self.count();
         if !self.is_finished {
@@ -123,7 +123,7 @@ impl MomentsView {
         !self.is_finished
     }
 
-    /// Draws another region, from its first moment on.
+    /// Draws another region, from its first sub-frame on.
     pub fn set_region(&mut self, region: Region) {
         self.view.set_region(region);
         self.begin(0);
@@ -133,7 +133,7 @@ impl MomentsView {
         self.index = index;
         self.is_finished = false;
         let count = self.count();
-        let scene = &self.moments.scenes[index as usize];
+        let scene = &self.sub_frames.scenes[index as usize];
         if count == 1 {
             self.view.set_scene(scene, false);
             return;
@@ -144,20 +144,25 @@ impl MomentsView {
 
     fn count(&self) -> u32 {
         // At most `MAX_SUB_FRAMES`.
-        self.moments.scenes.len() as u32
+        self.sub_frames.scenes.len() as u32
     }
 
     /// Completed fraction of the samples, 0 to 1.
     pub fn part_done(&self) -> f64 {
         let report = self.view.report();
-        let of_moment = f64::from(report.samples_done) / f64::from(report.samples_wanted.max(1));
-        let done = if self.is_finished { 1.0 } else { of_moment.min(1.0) };
+        let of_sub_frame = f64::from(report.samples_done) / f64::from(report.samples_wanted.max(1));
+        let done = if self.is_finished { 1.0 } else { of_sub_frame.min(1.0) };
         (f64::from(self.index) + done) / f64::from(self.count())
     }
 
-    /// What the firefly limit took away from all complete moments of all regions; none without a limit.
+    /// What the firefly limit took away from all complete sub-frames of all regions; none without a limit.
     pub fn clamped_light(&self) -> Option<ClampedLight> {
         self.clamped_light
+    }
+
+    /// True if the picture is complete.
+    pub fn is_finished(&self) -> bool {
+        self.is_finished
     }
 
     /// The view, for its results.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::{
     PictureFormat,
-    motion::{Moments, MomentsView},
+    motion::{SubFrameView, SubFrames},
     sheet::Sheet,
 };
 use crate::{
@@ -32,20 +32,19 @@ const MIN_TOTAL_SAMPLES: f64 = 1e6;
 
 /// A small rendering of the whole picture.
 pub(super) struct Overview {
-    view: MomentsView,
+    view: SubFrameView,
     samples: u32,
     has_post: bool,
     has_indirect: bool,
     has_colors: bool,
-    is_finished: bool,
 }
 
 impl Overview {
-    /// The overview for a file of `scene`, drawn by `moments`; none if no effect needs the whole picture.
+    /// The overview for a file of `scene`, drawn by `sub_frames`; none if no effect needs the whole picture.
     pub fn new(
         pipelines: &Arc<Pipelines>,
         scene: &Scene,
-        moments: &Moments,
+        sub_frames: &SubFrames,
         environment_map: Option<&Arc<EnvironmentMap>>,
         sheet: &Sheet,
         format: PictureFormat,
@@ -64,20 +63,19 @@ impl Overview {
         let enough_samples = if has_post { min_samples.max(MAX_SAMPLES) } else { 1 };
         let samples = scene.quality.samples.min(enough_samples);
         // Nobody sees the overview itself.
-        let moments = moments.reduced(samples, |scene| scene.integrator.denoise = false);
-        let view = MomentsView::new(pipelines, region, environment_map, moments);
-        Some(Self { view, samples, has_post, has_indirect, has_colors, is_finished: false })
+        let sub_frames = sub_frames.reduced(samples, |scene| scene.integrator.denoise = false);
+        let view = SubFrameView::new(pipelines, region, environment_map, sub_frames);
+        Some(Self { view, samples, has_post, has_indirect, has_colors })
     }
 
     /// Continues the rendering without waiting. True if the overview is complete.
     pub fn pump(&mut self, now_secs: f64) -> bool {
-        self.is_finished = self.is_finished || !self.view.pump(now_secs);
-        self.is_finished
+        !self.view.pump(now_secs)
     }
 
     /// True if the overview is complete.
     pub fn is_finished(&self) -> bool {
-        self.is_finished
+        self.view.is_finished()
     }
 
     /// Lends exposure, bloom, indirect light and the colour curve to the view of a tile.
@@ -101,7 +99,7 @@ impl Overview {
 
     /// Rendered fraction of the samples, 0 to 1.
     pub fn part_done(&self) -> f64 {
-        if self.is_finished { 1.0 } else { self.view.part_done() }
+        self.view.part_done()
     }
 }
 

@@ -11,7 +11,7 @@ use web_time::Instant;
 use super::{
     ExportError, PictureFormat, StillOptions,
     format::{Encoder, TileReadback},
-    motion::{Moments, MomentsView},
+    motion::{SubFrameView, SubFrames},
     overview::Overview,
     sheet::Sheet,
     tiles::{Tile, Tiling},
@@ -63,7 +63,7 @@ pub enum StillStatus {
 pub struct StillJob<W: Write> {
     pipelines: Arc<Pipelines>,
     overview: Option<Overview>,
-    view: MomentsView,
+    view: SubFrameView,
     tiling: Tiling,
     /// Index of the tile being rendered; equals the number of tiles after the last one.
     tile_index: u32,
@@ -134,7 +134,7 @@ impl<W: Write> StillJob<W> {
     ) -> Result<Self, ExportError> {
         let scene = options.shown(scene);
         scene.validate()?;
-        Self::begin(pipelines, &scene, Moments::single(scene.clone()), options, sink)
+        Self::begin(pipelines, &scene, SubFrames::single(scene.clone()), options, sink)
     }
 
     /// Starts the still of frame `frame` of `path`, with its motion blur.
@@ -150,18 +150,18 @@ impl<W: Write> StillJob<W> {
     ) -> Result<Self, ExportError> {
         let scene = options.shown(&path.frame(frame).ok_or(ExportError::NoFrames)?);
         scene.validate()?;
-        let moments = Moments::of_frame(path, frame, &scene, &options);
-        for scene in moments.scenes() {
+        let sub_frames = SubFrames::of_frame(path, frame, &scene, &options);
+        for scene in sub_frames.scenes() {
             scene.validate()?;
         }
-        Self::begin(pipelines, &scene, moments, options, sink)
+        Self::begin(pipelines, &scene, sub_frames, options, sink)
     }
 
-    /// Starts a still that stores `scene` and is drawn by `moments`.
+    /// Starts a still that stores `scene` and is drawn by `sub_frames`.
     fn begin(
         pipelines: &Arc<Pipelines>,
         scene: &Scene,
-        moments: Moments,
+        sub_frames: SubFrames,
         options: StillOptions,
         sink: W,
     ) -> Result<Self, ExportError> {
@@ -178,10 +178,10 @@ impl<W: Write> StillJob<W> {
         let tiling = Tiling::new(sheet, max_tile_px, apron_px);
         let environment_map = options.environment_map.as_ref();
         let overview =
-            Overview::new(pipelines, scene, &moments, environment_map, &sheet, options.format);
-        let mut drawn = moments;
+            Overview::new(pipelines, scene, &sub_frames, environment_map, &sheet, options.format);
+        let mut drawn = sub_frames;
         drawn.change(|scene| scene.integrator.denoise = denoises);
-        let view = MomentsView::new(pipelines, tiling.tile(0).rendered, environment_map, drawn);
+        let view = SubFrameView::new(pipelines, tiling.tile(0).rendered, environment_map, drawn);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             pipelines: pipelines.clone(),
