@@ -2,6 +2,8 @@
 
 use std::{fs::File, io::BufWriter, path::Path};
 
+use mandelight::scene::color::srgb_from_linear;
+
 use super::literal::LiteralPixel;
 
 /// Writes 8-bit RGBA pixels as a PNG file, rows from the top.
@@ -38,14 +40,14 @@ pub fn tone_mapped(
         let scale = (1.0 + luminance / (white * white)) / (1.0 + luminance);
         let at = 4 * (y * size_px[0] + x) as usize;
         for (channel, value) in exposed.into_iter().enumerate() {
-            rgba[at + channel] = (255.0 * srgb(value * scale)).round() as u8;
+            rgba[at + channel] = encoded(value * scale);
         }
         rgba[at + 3] = 255;
     }
     rgba
 }
 
-fn srgb(linear: f64) -> f64 {
-    let v = linear.clamp(0.0, 1.0);
-    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+/// A linear channel as an 8-bit sRGB value.
+pub fn encoded(linear: f64) -> u8 {
+    (255.0 * srgb_from_linear(linear as f32)).round() as u8
 }

@@ -29,6 +29,7 @@
 //! | `descent` | the cost of depth in half decades |
 //! | `deep` | the cost of depth at one place |
 //! | `paths` | light paths: times, noise, bounces |
+//! | `mandelbulber` | light paths beside Mandelbulber's Monte Carlo |
 //! | `scaling` | growth of time with a picture's settings |
 //! | `step_costs` | the cost of an orbit step of formulas' texts |
 //! | `formulas` | pictures of all formulas: counts, times, errors, compilation |
@@ -52,6 +53,7 @@ pub mod limits;
 pub mod literal;
 pub mod literal_paths;
 pub mod load;
+pub mod mandelbulber;
 pub mod ours;
 pub mod paths;
 pub mod peak;
@@ -167,6 +169,9 @@ fn measure_tables(
     if arguments.wants(paths::NAME) {
         report.paths = paths::measure(pipelines, rounds.div_ceil(2), size)?;
     }
+    if arguments.wants(mandelbulber::NAME) {
+        report.mandelbulber = beside_mandelbulber(arguments, pipelines)?;
+    }
     if arguments.wants(powers::NAME) {
         let table = powers::measure(&pipelines.gpu, 3 * rounds)?;
         table.print();
@@ -193,6 +198,19 @@ fn measure_tables(
         report.feel = Some(feel);
     }
     Ok(())
+}
+
+/// Draws light paths beside Mandelbulber's, which only those who ask for it must have installed.
+fn beside_mandelbulber(
+    arguments: &Arguments,
+    pipelines: &Arc<Pipelines>,
+) -> Result<Vec<mandelbulber::Row>, Failure> {
+    let &Arguments { rounds, size, ref pictures, ref views, .. } = arguments;
+    if views.is_empty() && !mandelbulber::is_installed() {
+        println!("\n{}: left out, because it is not installed", mandelbulber::NAME);
+        return Ok(Vec::new());
+    }
+    mandelbulber::measure(pipelines, rounds.div_ceil(2), size, pictures.as_deref())
 }
 
 /// Writes the report as JSON and as tables, where the arguments name a file.
@@ -242,6 +260,7 @@ fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
         deep::NAME,
         descent::NAME,
         paths::NAME,
+        mandelbulber::NAME,
         powers::NAME,
         scaling::NAME,
         start::NAME,

@@ -32,13 +32,13 @@ const SIZE_PX: [u32; 2] = [96, 72];
 /// The name of the view in the crevice.
 const CREVICE: &str = "paths-crevice";
 /// Bounces of the comparison.
-const BOUNCES: u32 = 4;
+pub const BOUNCES: u32 = 4;
 /// Bounces of the pictures whose times are told apart.
 const SERIES: [u32; 5] = [0, 1, 2, 4, 8];
 /// The part of the light that the surface reflects.
-const ALBEDO: f32 = 0.7;
+pub const ALBEDO: f32 = 0.7;
 /// Samples of a timed picture of the program: its later samples outweigh the first.
-const SAMPLES: u32 = 32;
+pub const SAMPLES: u32 = 32;
 /// Samples of the program's picture that is taken for the truth.
 const MANY_SAMPLES: u32 = 8 * SAMPLES;
 /// Samples of a timed picture of the single kernel.
@@ -94,7 +94,7 @@ pub struct Bounce {
 /// A view's scene with a diffuse surface of one colour under a sky, and rays of a length in view units.
 ///
 /// The sides' iteration limits differ, and so would colours of orbits.
-fn diffuse(mut scene: Scene, reach: Option<f64>) -> Scene {
+pub fn diffuse(mut scene: Scene, reach: Option<f64>) -> Scene {
     scene.surface.model = SurfaceModel::BlinnPhong;
     scene.surface.specular = 0.0;
     scene.surface.diffuse = 1.0;
@@ -113,7 +113,8 @@ fn diffuse(mut scene: Scene, reach: Option<f64>) -> Scene {
     scene
 }
 
-fn bouncing(scene: &Scene, bounces: u32) -> Scene {
+/// A scene with another number of bounces.
+pub fn bouncing(scene: &Scene, bounces: u32) -> Scene {
     let mut scene = scene.clone();
     scene.integrator.bounces = bounces;
     scene
@@ -243,7 +244,10 @@ fn per_bounce(path_us: &[f64], estimates: &[f64]) -> Vec<Bounce> {
 }
 
 /// Mean luminance of the program's picture, and its variance times its samples.
-fn our_noise(
+///
+/// # Errors
+/// If the device is lost.
+pub fn our_noise(
     pipelines: &Arc<Pipelines>,
     scene: &Scene,
     size_px: [u32; 2],

@@ -9,7 +9,7 @@ use super::{
     counts::Counts,
     deep, descent, feel, formulas,
     limits::{Measure, Measured},
-    paths, powers, scaling, start, step_costs,
+    mandelbulber, paths, powers, scaling, start, step_costs,
 };
 
 /// All results of one run.
@@ -27,6 +27,8 @@ pub struct Report {
     pub descent: Vec<descent::Row>,
     /// Light paths.
     pub paths: Vec<paths::Row>,
+    /// Light paths beside Mandelbulber's.
+    pub mandelbulber: Vec<mandelbulber::Row>,
     /// Growth of a picture's time.
     pub scaling: Vec<scaling::Row>,
     /// Start-up times.
@@ -73,6 +75,9 @@ impl Report {
             }
             add(Measure::Bounce, row.name, row.growth);
         }
+        for row in &self.mandelbulber {
+            add(Measure::Ratio, row.name, row.ratio);
+        }
         for row in &self.step_costs {
             add(Measure::TextEstimate, row.formula, row.estimate);
             if let Some(gradient) = row.gradient {
@@ -93,6 +98,7 @@ impl Report {
     pub fn is_good(&self) -> bool {
         self.views.iter().all(|view| view.complaints.is_empty())
             && self.paths.iter().all(|row| row.agrees)
+            && self.mandelbulber.iter().all(|row| row.agrees)
             && self.powers.as_ref().is_none_or(powers::Table::is_good)
     }
 }

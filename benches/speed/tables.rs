@@ -6,7 +6,8 @@
 use std::fmt::Write as _;
 
 use super::{
-    compare::Comparison, counts::Counts, descent::Row, formulas, paths::Side, report::Report,
+    compare::Comparison, counts::Counts, descent::Row, formulas, mandelbulber, paths::Side,
+    report::Report,
 };
 
 /// `text` with the tables of `report`.
@@ -44,6 +45,9 @@ pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
     }
     if !report.paths.is_empty() {
         tables.push(("light paths", paths(report)));
+    }
+    if !report.mandelbulber.is_empty() {
+        tables.push(("mandelbulber", mandelbulber(report)));
     }
     if !report.scaling.is_empty() {
         let mut table = head(&["asked for", "beside", "times as much", "times as long"]);
@@ -161,6 +165,28 @@ fn paths(report: &Report) -> String {
             both(&|side| format!("{:.3}", side.radiance)),
             row.ratio.map_or("–".into(), |ratio| format!("{ratio:.1}")),
             bounces.join(", "),
+        ];
+        line(&mut table, cells.into_iter());
+    }
+    table
+}
+
+fn mandelbulber(report: &Report) -> String {
+    let columns =
+        ["view", "ms a sample", "variance a sample", "mean radiance", "seconds to 5 % noise"];
+    let mut table = format!("On {}:\n\n", report.adapter);
+    table += &head(&[columns.as_slice(), &["time to equal noise"]].concat());
+    for row in &report.mandelbulber {
+        let both = |value: &dyn Fn(&mandelbulber::Side) -> String| {
+            format!("{} / {}", value(&row.theirs), value(&row.ours))
+        };
+        let cells = [
+            format!("`{}`", row.name),
+            both(&|side| format!("{:.0}", side.sample_ms)),
+            both(&|side| format!("{:.4}", side.variance)),
+            both(&|side| format!("{:.3}", side.radiance)),
+            both(&|side| format!("{:.1}", side.secs_to_noise())),
+            format!("{:.1}", row.ratio),
         ];
         line(&mut table, cells.into_iter());
     }

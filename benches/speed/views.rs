@@ -64,7 +64,8 @@ fn deep_view(name: &'static str, about: &'static str, scene: Scene) -> View {
     View { normals_within_deg: 3.0, ..view(name, about, scene) }
 }
 
-fn whole() -> Scene {
+/// The view of the whole Mandelbulb.
+pub fn whole() -> Scene {
     scene([1.57, -2.88, 1.05], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0])
 }
 
