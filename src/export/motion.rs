@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use super::StillOptions;
 use crate::{
-    render::{Pace, Pipelines, Region, View, report::ClampedLight, sub_frame::SubFrame},
+    render::{
+        Pace, Pipelines, Region, View, pass::assess_noise::SAMPLES_PER_ROUND, report::ClampedLight,
+        sub_frame::SubFrame,
+    },
     scene::{EnvironmentMap, Path, Scene, param::NOISE},
 };
 
 /// Most sub-frames of a picture: what moves farther than as many pixels shows steps.
 const MAX_SUB_FRAMES: u32 = 64;
-
-/// Paths of a pixel that its noise is estimated from: `SAMPLES_PER_ROUND` in `shaders/lib/standard_error.wgsl`.
-const SAMPLES_PER_ROUND: u32 = 8;
 
 /// The scenes of a picture: one, or with motion blur those of its sub-frames.
 #[derive(Clone)]

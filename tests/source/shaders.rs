@@ -273,6 +273,8 @@ fn host_constants_match_their_wgsl_twins() {
         ("HISTOGRAM_BINS", report::HISTOGRAM_BINS as f64),
         ("HISTOGRAM_LOW_STOPS", report::HISTOGRAM_LOW_STOPS),
         ("HISTOGRAM_BINS_PER_STOP", report::HISTOGRAM_BINS_PER_STOP),
+        ("SAMPLES_PER_ROUND", whole(pass::assess_noise::SAMPLES_PER_ROUND)),
+        ("MIN_ROUNDS", whole(pass::assess_noise::MIN_ROUNDS)),
         ("FIRST_MIP_LEVEL", whole(post::FIRST_LEVEL)),
     ];
     for (name, value) in host {

@@ -6,6 +6,12 @@ use crate::render::{
     uniforms::DispatchParams,
 };
 
+/// Samples of a round; the spread of the rounds' means gives a pixel's error.
+pub const SAMPLES_PER_ROUND: u32 = 8;
+
+/// Rounds of a pixel from which it may get no more samples.
+pub const MIN_ROUNDS: u32 = 4;
+
 /// The pass. A view with a noise target records the pass between its samples.
 pub const PASS: Pass = Pass {
     name: "assess_noise",

@@ -17,8 +17,8 @@ use crate::{
 /// Samples over which light paths replace the direct picture: the noise of each step is below that of the last.
 const PREVIEW_SAMPLES: u32 = 64;
 
-/// Samples from which a pixel may get no more: `MIN_ROUNDS * SAMPLES_PER_ROUND` in `shaders/lib/standard_error.wgsl`.
-const CONVERGED_SAMPLES: u32 = 32;
+/// Samples from which a pixel may get no more.
+const CONVERGED_SAMPLES: u32 = assess_noise::MIN_ROUNDS * assess_noise::SAMPLES_PER_ROUND;
 
 impl View {
     /// Clears the counts of paths before `work` if it begins a picture.
@@ -104,7 +104,7 @@ impl View {
         let has_target = scene.integrator.noise > 0.0;
         let most = if has_target { CONVERGED_SAMPLES } else { PREVIEW_SAMPLES };
         let before = self.inputs.as_ref().map_or(0.0, |old| old.frame.paths.preview_samples) as u32;
-        let done = self.schedule.status(self.times.now_secs).samples_done;
+        let done = self.schedule.status(self.times.now_secs()).samples_done;
         let is_gone = before > 0 && done > before;
         if is_gone { before } else { scene.quality.samples.min(most) }
     }
@@ -114,7 +114,7 @@ impl View {
         /// The centre sample, which paths replace, and one path.
         const SAMPLES: u32 = 2;
         let is_wanted = self.inputs.as_ref().is_some_and(|inputs| inputs.frame.paths.denoise != 0);
-        is_wanted && self.schedule.status(self.times.now_secs).samples_done >= SAMPLES
+        is_wanted && self.schedule.status(self.times.now_secs()).samples_done >= SAMPLES
     }
 
     /// Number of samples of a pixel that leave the film when others take their place.
