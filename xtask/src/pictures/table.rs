@@ -206,6 +206,13 @@ pub fn pictures() -> Vec<Picture> {
             [flight(0), flight(48), flight(96), flight(144), flight(192), flight(240)],
         ),
         picture(
+            "shutter",
+            3,
+            "The same frame with the shutter open for none, half and all of its time",
+            ["path.shutter=0", "path.shutter=0.5", "path.shutter=1"].map(blurred),
+        )
+        .sized([960, 180]),
+        picture(
             "layers",
             3,
             "Colour, depth and normals of one OpenEXR file",
@@ -328,6 +335,12 @@ const LENS: &[&str] = &["camera.lens.depth_of_field=true", "camera.lens.f_number
 
 fn lens(scene: &'static str) -> Panel {
     Panel { samples: SOFT_SAMPLES, ..of(scene).with(LENS) }
+}
+
+/// A frame of a fast flight, with its shutter.
+fn blurred(shutter: &'static str) -> Panel {
+    let panel = of("examples/flight.json").frame(32);
+    Panel { samples: 64, ..panel.with(&["path.frames_per_second=6", shutter]) }
 }
 
 /// A scene in path-traced light.
