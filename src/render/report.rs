@@ -83,7 +83,7 @@ pub struct Report {
     pub clamped_light: Option<ClampedLight>,
     /// One pixel of this many has been computed in the picture shown; 1 once the lattice is complete.
     pub pixels_per_sample: u32,
-    /// Seconds from the last change to the newest picture, or to the finish once idle.
+    /// Seconds of work on the picture since the last change; time at rest is not counted.
     pub elapsed_secs: f64,
     /// GPU milliseconds of the last displayed frame's work, as far as could be measured.
     pub frame_ms: f64,

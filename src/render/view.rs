@@ -214,25 +214,25 @@ impl View {
     /// Call it once per displayed frame, or, for a still, in a loop with a device poll. `now_secs` is any
     /// steady clock.
     pub fn pump(&mut self, now_secs: f64) -> bool {
-        self.times.now_secs = now_secs;
+        self.times.advance(now_secs);
         self.collect();
         if self.inputs.is_none() {
             if self.pending.is_none() {
                 return false;
             }
             if !self.apply_pending() {
+                self.times.is_working = true;
                 return true;
             }
         }
         if self.prepare() {
             // Preparation for later use does not count as time of the current picture.
-            if self.pending.is_some() || !self.schedule.status(now_secs).idle {
-                self.times.finished_secs = now_secs;
-            }
+            self.times.is_working = self.pending.is_some() || !self.schedule.status(now_secs).idle;
             return true;
         }
         // The new scene may need other pipelines.
         if self.schedule.accepts_changes() && self.apply_pending() && self.prepare() {
+            self.times.is_working = true;
             return true;
         }
         self.schedule.set_arithmetic(self.arithmetic());
@@ -251,9 +251,7 @@ impl View {
             && !self.noise_control.is_reading()
             && !self.waits_for_colors()
             && self.pending.is_none();
-        if !idle {
-            self.times.finished_secs = now_secs;
-        }
+        self.times.is_working = !idle;
         !idle || self.preparation.is_some()
     }
 
@@ -323,8 +321,8 @@ impl View {
         self.schedule.set_indirect((self.integrator.gathers)(&scene) && !is_unseen);
         self.schedule.set_adapting(scene.tone.auto_exposure);
         if let Some(stale) = stale {
-            self.schedule.change(stale, self.moving, self.times.now_secs);
-            self.times.changed_secs = self.times.now_secs;
+            self.schedule.change(stale, self.moving, self.times.now_secs());
+            self.times.note_change();
         }
         if has_other_target {
             self.schedule.set_converged(false);

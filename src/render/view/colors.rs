@@ -100,7 +100,7 @@ impl View {
         let stale = self.inputs.as_ref().and_then(|old| inputs.stale_since(old));
         self.upload(inputs);
         if let Some(stale) = stale {
-            self.schedule.change(stale, self.moving, self.times.now_secs);
+            self.schedule.change(stale, self.moving, self.times.now_secs());
         }
     }
 

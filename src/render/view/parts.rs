@@ -10,15 +10,20 @@ use crate::render::{
     targets::Targets,
 };
 
-/// When a view changed and finished, and what its pictures took.
+/// The longest time between two pumps that counts as work, seconds: a hidden page isn't pumped.
+const MAX_WORK_STEP_SECS: f64 = 5.0;
+
+/// When a view changed, how long it has worked since, and what its pictures took.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Times {
     /// The present moment on the caller's clock, seconds.
-    pub now_secs: f64,
+    now_secs: f64,
     /// The moment of the last change, seconds.
-    pub changed_secs: f64,
-    /// The last moment at which there was work to do, seconds.
-    pub finished_secs: f64,
+    changed_secs: f64,
+    /// Time since the last change during which there was work to do, seconds.
+    worked_secs: f64,
+    /// True if there was work to do at the present moment.
+    pub is_working: bool,
     /// GPU time of the work since the newest picture, milliseconds.
     busy_ms: f64,
     /// GPU time that the newest picture took, milliseconds.
@@ -38,9 +43,28 @@ impl Times {
         }
     }
 
-    /// Seconds from the last change to the end of its work; up to now while there is work.
+    /// Moves the present moment on.
+    pub fn advance(&mut self, now_secs: f64) {
+        if self.is_working {
+            self.worked_secs += (now_secs - self.now_secs).clamp(0.0, MAX_WORK_STEP_SECS);
+        }
+        self.now_secs = now_secs;
+    }
+
+    /// Notes a change of the picture.
+    pub fn note_change(&mut self) {
+        self.changed_secs = self.now_secs;
+        self.worked_secs = 0.0;
+    }
+
+    /// The present moment on the caller's clock, seconds.
+    pub fn now_secs(&self) -> f64 {
+        self.now_secs
+    }
+
+    /// Seconds of work since the last change, without the time at which there was nothing to do.
     pub fn elapsed_secs(&self) -> f64 {
-        (self.finished_secs - self.changed_secs).max(0.0)
+        self.worked_secs
     }
 
     /// Seconds since the last change.

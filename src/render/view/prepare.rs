@@ -33,10 +33,10 @@ impl View {
             let inputs = self.inputs_of(scene);
             let preparation = match self.preparation.take() {
                 Some(preparation) if *preparation.variant() == variant => preparation,
-                _ => Preparation::announce(variant, self.times.now_secs),
+                _ => Preparation::announce(variant, self.times.now_secs()),
             };
             let preparation = self.preparation.insert(preparation);
-            let now_secs = self.times.now_secs;
+            let now_secs = self.times.now_secs();
             let (pipelines, targets) = (&self.pipelines, &self.targets);
             match preparation.step(pipelines, targets, &inputs, now_secs) {
                 PreparationState::Ready => {}
@@ -102,7 +102,7 @@ impl View {
         let is_free = self.pipelines.gpu.async_compile.is_some()
             && self.pace == Pace::Interactive
             && self.is_at_rest()
-            && self.schedule.status(self.times.now_secs).idle;
+            && self.schedule.status(self.times.now_secs()).idle;
         let others = self.special_to_prepare(scene).into_iter();
         let later = if is_free { self.of_later() } else { Vec::new() };
         let awaited = awaited.into_iter().map(|variant| (variant, true));
@@ -162,7 +162,7 @@ impl View {
     /// Whether a picture is shown and nothing has changed for [`REST_SECS`].
     fn is_at_rest(&self) -> bool {
         self.pending.is_none()
-            && self.schedule.status(self.times.now_secs).shown
+            && self.schedule.status(self.times.now_secs()).shown
             && !self.moving
             && self.times.unchanged_secs() >= REST_SECS
     }

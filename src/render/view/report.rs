@@ -10,7 +10,7 @@ use crate::render::{
 impl View {
     /// The view's status.
     pub fn report(&self) -> Report {
-        let status = self.schedule.status(self.times.now_secs);
+        let status = self.schedule.status(self.times.now_secs());
         // Once jittered samples are on the film, the centre samples are not.
         let replaced = if status.samples_done > 1 { self.replaced_samples() } else { 0 };
         let activity = if let Some(preparation) = &self.preparation {
