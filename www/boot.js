@@ -118,9 +118,11 @@ async function boot() {
     await mandelight.default({ module_or_path: fetchModule(module) });
   } catch (error) {
     console.error(error);
+    // Browsers report a lost connection as a TypeError, whose message is for programmers.
+    const reason = error instanceof TypeError ? "A part of the page did not arrive." : error.message;
     showNotice(
       "Mandelight could not be loaded",
-      `Check the internet connection, then try again.\n\n${error}`,
+      `Check the internet connection, then try again.\n\n${reason}`,
     );
     return;
   }

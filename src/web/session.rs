@@ -22,7 +22,9 @@ use crate::{
 };
 
 /// Seconds that a notice of a success stays.
-const NOTICE_SECS: f64 = 6.0;
+const SUCCESS_SECS: f64 = 6.0;
+/// Seconds that a notice of a failure stays: it has to be read, and acted on.
+const FAILURE_SECS: f64 = 20.0;
 
 /// The state of a visit.
 pub struct Session {
@@ -38,8 +40,8 @@ pub struct Session {
     pub gpu: Option<Gpu>,
     /// The notice to the visitor, until it is dismissed or expires.
     pub notice: Option<Notice>,
-    /// When the notice expires, on the page's clock; `None` for an error, which stays.
-    notice_until_secs: Option<f64>,
+    /// When the notice expires, on the page's clock.
+    notice_until_secs: f64,
     /// The app's status after the last step.
     pub status: AppStatus,
     safe_mode: SafeMode,
@@ -80,7 +82,7 @@ impl Session {
             mailbox,
             gpu: None,
             notice: None,
-            notice_until_secs: None,
+            notice_until_secs: 0.0,
             status: AppStatus::default(),
             safe_mode: SafeMode::Off,
             paused_scene: None,
@@ -148,23 +150,26 @@ impl Session {
 
     /// Shows a success to the visitor, for some seconds.
     pub fn show_notice(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice { text: text.into(), is_error: false });
-        self.notice_until_secs = Some(page::now_secs() + NOTICE_SECS);
+        self.show(Notice { text: text.into(), is_error: false }, SUCCESS_SECS);
     }
 
-    /// Shows a failure to the visitor, until it is dismissed.
+    /// Shows a failure to the visitor, for longer.
     pub fn show_error(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice { text: text.into(), is_error: true });
-        self.notice_until_secs = None;
+        self.show(Notice { text: text.into(), is_error: true }, FAILURE_SECS);
+    }
+
+    fn show(&mut self, notice: Notice, secs: f64) {
+        self.notice = Some(notice);
+        self.notice_until_secs = page::now_secs() + secs;
     }
 
     /// Removes an expired notice. Returns the seconds until the notice expires.
     pub fn expire_notice(&mut self, now_secs: f64) -> Option<f64> {
-        let left_secs = self.notice_until_secs? - now_secs;
+        self.notice.as_ref()?;
+        let left_secs = self.notice_until_secs - now_secs;
         if left_secs > 0.0 {
             return Some(left_secs);
         }
-        self.notice_until_secs = None;
         self.notice = None;
         None
     }

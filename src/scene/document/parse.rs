@@ -11,7 +11,7 @@ pub fn parse<T: DeserializeOwned>(text: &str) -> Result<T, DocumentError> {
     serde_json::from_str::<IgnoredAny>(text).map_err(|error| DocumentError::Syntax {
         line: error.line(),
         column: error.column(),
-        message: message_of(&error),
+        message: syntax_message(&error),
     })?;
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut reader)
@@ -36,6 +36,25 @@ pub fn field_error(path: &str, error: &serde_json::Error) -> DocumentError {
         line: error.line(),
         column: error.column(),
     }
+}
+
+/// What is wrong with text that is not JSON, in words for people who don't know JSON's.
+fn syntax_message(error: &serde_json::Error) -> String {
+    if error.is_eof() {
+        return "the text ends too early: a part of the file is missing".to_owned();
+    }
+    let message = message_of(error);
+    let plain = match message.as_str() {
+        "expected value" => "this is not JSON: a value is missing",
+        "key must be a string" => "the name of a field must stand in double quotes",
+        "trailing comma" => "there is a comma too many",
+        "expected `,` or `}`" => "a comma or } is missing",
+        "expected `,` or `]`" => "a comma or ] is missing",
+        "expected `:`" => "a colon is missing after the name of a field",
+        "trailing characters" => "there is more text after the document's end",
+        _ => return message,
+    };
+    plain.to_owned()
 }
 
 /// The error's text without the position, which is told apart.

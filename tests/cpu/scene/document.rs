@@ -249,8 +249,16 @@ fn errors_name_the_field_and_say_what_is_wrong() {
 #[test]
 fn a_document_that_is_none_says_so() {
     for (text, beginning) in [
-        ("", "line 1, column 0: EOF"),
-        ("{\n  \"mandelight\": \"scene\",\n  oops", "line 3, column 3: key must be a string"),
+        ("", "line 1, column 0: the text ends too early"),
+        ("{\"mandelight\": \"scene\"", "line 1, column 22: the text ends too early"),
+        (
+            "{\"mandelight\": \"scene\" \"version\": 1}",
+            "line 1, column 24: a comma or } is missing",
+        ),
+        (
+            "{\n  \"mandelight\": \"scene\",\n  oops",
+            "line 3, column 3: the name of a field must stand in double quotes",
+        ),
         ("[]", "not a Mandelight scene"),
         ("[\"scene\", 1, {}]", "not a Mandelight scene"),
         ("12", "not a Mandelight scene"),
@@ -276,7 +284,7 @@ fn a_document_that_is_none_says_so() {
         ),
         (
             "{\"mandelight\": \"scene\", \"version\": 1, \"scene\": {}} {}",
-            "line 1, column 52: trailing characters",
+            "line 1, column 52: there is more text after",
         ),
     ] {
         let error = from_json(text).expect_err(text).to_string();
