@@ -1,6 +1,6 @@
-//! Buttons over the picture.
+//! Buttons and captions over the picture.
 
-use egui::{Pos2, Rect, Response, Stroke, StrokeKind, Ui, vec2};
+use egui::{Align2, Label, Margin, Pos2, Rect, Response, Stroke, StrokeKind, Ui, vec2};
 
 use super::{
     icon::{Icon, icon_button},
@@ -20,6 +20,23 @@ pub fn button(ui: &mut Ui, at: Pos2, icon: Icon, (name, hover): (&str, &str)) ->
     let at = Rect::from_min_size(at, vec2(1.0, 1.0) * button_side(ui));
     ui.painter().rect_filled(at, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
     ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
+}
+
+/// A line of text at the lower edge of the picture in `view`, which does not take the pointer.
+pub fn caption(ui: &Ui, view: Rect, text: &str) -> Response {
+    let shown = egui::Area::new(egui::Id::unique("caption"))
+        .fixed_pos(view.center_bottom() - vec2(0.0, 14.0))
+        .pivot(Align2::CENTER_BOTTOM)
+        .constrain_to(view)
+        .interactable(false)
+        .show(ui.ctx(), |ui| {
+            let frame = egui::Frame::new().fill(theme::PANEL.gamma_multiply(0.9)).corner_radius(8);
+            frame.inner_margin(Margin::symmetric(12, 6)).show(ui, |ui| {
+                ui.set_max_width((view.width() - 48.0).max(80.0));
+                ui.add(Label::new(text).selectable(false).wrap());
+            });
+        });
+    shown.response
 }
 
 /// Marks a button whose function is on.

@@ -18,7 +18,7 @@
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
 //! | `small_picture` | small pictures that the shell draws when idle |
-//! | `floating`, `notice` | buttons and the shell's message over the picture |
+//! | `floating`, `notice` | buttons and captions over the picture, and the shell's message |
 //! | [`thumbnail`] | pictures on the buttons of scenes and dives |
 //! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |

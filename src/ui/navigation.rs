@@ -17,7 +17,7 @@
 //! | [`fly`] | flying by keys, at a speed that follows the distance to the surface |
 //! | [`descent`] | zooms about a place, with a turn toward the best view |
 //! | [`guide`] | draws the zoom to places, and dives by itself |
-//! | [`flight`] | animated flights: home, frame-all, level |
+//! | [`flight`] | animated flights: home, frame-all, level, a point of the surface |
 //! | `route` | collision-free routes of flights |
 //!
 //! Pointer positions are normalised device coordinates: −1 to 1, x right, y up. Zoom amounts are
@@ -331,6 +331,16 @@ impl Navigator {
     pub fn frame_all(&mut self, camera: &mut Camera, world: World<'_>) {
         let to = flight::framing_all(camera, world);
         self.fly_to(camera, world, &to);
+    }
+
+    /// Starts a flight toward the surface at `ndc`, which ends in the middle of the picture.
+    ///
+    /// Nothing happens where no surface is seen.
+    pub fn approach(&mut self, camera: &mut Camera, world: World<'_>, ndc: DVec2) {
+        if let Some(offset) = world.pick(camera, ndc) {
+            let to = flight::approaching(camera, world, offset);
+            self.fly_to(camera, world, &to);
+        }
     }
 
     /// Starts a flight that turns a rolled camera upright in place.

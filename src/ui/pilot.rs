@@ -239,9 +239,12 @@ impl Pilot {
                 _ => self.command(command, &mut camera, world, home, ctx),
             }
         }
-        let is_focused = view.clicked() && ui.input(|i| i.modifiers.alt);
-        if let Some(at) = view.interact_pointer_pos().filter(|_| is_focused) {
-            focus(&mut camera, world, Some(frame.ndc(at)));
+        if let Some(at) = view.interact_pointer_pos().map(|at| frame.ndc(at)) {
+            if view.clicked() && ui.input(|i| i.modifiers.alt) {
+                focus(&mut camera, world, Some(at));
+            } else if view.double_clicked() && !self.flying {
+                self.navigator.approach(&mut camera, world, at);
+            }
         }
         self.touch(ui, &model, &mut camera, world, frame);
         if !self.pinching {

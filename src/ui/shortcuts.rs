@@ -193,11 +193,18 @@ pub const FLIGHT: &[FlightKey] = &[
     flight_key(Key::Q, [0.0, -1.0, 0.0], None),
 ];
 
+/// The keys of fly mode in one line.
+pub fn flight_help() -> String {
+    let keys: Vec<_> = FLIGHT.iter().filter_map(|flight| Some(flight.help?.0)).collect();
+    format!("{} to fly, Shift for faster, drag to look around, Esc to stop", keys.join(" · "))
+}
+
 /// The pointer's gestures in the view, each with its effect.
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "Orbit; in close views around the point under the pointer"),
     ("Right drag, Shift + drag", "Pan"),
     ("Wheel, pinch", "Move closer, drawn to good places near the pointer, or farther"),
+    ("Double click, double tap", "Fly to that point"),
     ("Two fingers", "Pan and zoom"),
     ("Drag a light's handle", "Move a point light; with Shift toward or away from you"),
     ("Alt + click", "Focus there, with a depth of field"),

@@ -12,6 +12,8 @@ use crate::{
 
 /// Height of the line, in points.
 pub const HEIGHT: f32 = 24.0;
+/// Size of the progress bar, in points.
+const BAR: egui::Vec2 = egui::vec2(56.0, 4.0);
 /// Width below which all texts are short, in points.
 const SHORT_BELOW: f32 = 560.0;
 /// Width below which the text of the precision limit is short, in points.
@@ -43,15 +45,16 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
     let short = rect.width() < SHORT_BELOW;
     let painter = ui.painter().with_clip_rect(rect);
     painter.rect_filled(rect, 0.0, theme::PANEL);
-    progress(&painter, rect, report);
+    painter.hline(rect.x_range(), rect.top() + 0.5, egui::Stroke::new(1.0, theme::LINE));
 
     let font = egui::FontId::proportional(11.5);
     let right = right_text(status, rect.width());
     let right = painter.layout_no_wrap(right, font.clone(), theme::TEXT_DIM);
     let right_at =
         pos2(rect.right() - 10.0 - right.size().x, rect.center().y - right.size().y / 2.0);
-    let left_width = right_at.x - rect.left() - 20.0;
     painter.galley(right_at, right, theme::TEXT_DIM);
+    let line = rect.with_min_x(rect.left() + 10.0);
+    let left = progress(report).map_or(line.left(), |part| bar(&painter, line, part) + 8.0);
 
     let words = activity_text(report, short);
     let words = match status.camera_status {
@@ -59,18 +62,17 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
         _ => words,
     };
     let words = match status.flight {
-        Some(speed) if speed > 0.0 => format!("Flying at {speed:.2e} u/s · {words}"),
+        Some(speed) if speed > 0.0 => {
+            format!("Flying, {} units a second · {words}", speed_text(speed))
+        }
         Some(_) => format!("Fly mode · {words}"),
         None => words,
     };
     let mut job = egui::text::LayoutJob::simple_singleline(words.clone(), font, theme::TEXT);
-    job.wrap = egui::text::TextWrapping::truncate_at_width(left_width.max(0.0));
-    let left = painter.layout_job(job);
-    painter.galley(
-        pos2(rect.left() + 10.0, rect.center().y - left.size().y / 2.0),
-        left,
-        theme::TEXT,
-    );
+    job.wrap = egui::text::TextWrapping::truncate_at_width((right_at.x - left - 10.0).max(0.0));
+    let galley = painter.layout_job(job);
+    let at = pos2(left, rect.center().y - galley.size().y / 2.0);
+    painter.galley(at, galley, theme::TEXT);
 
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_role(egui::accesskit::Role::Status);
@@ -79,6 +81,9 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
     response.on_hover_ui(|ui| {
         let line = |ui: &mut Ui, text: String| ui.label(RichText::new(text).small());
         line(ui, activity_text(report, false));
+        if report.pixels_per_sample > 1 {
+            line(ui, format!("One of {} pixels is drawn so far.", report.pixels_per_sample));
+        }
         line(ui, right_text(status, f32::INFINITY));
         if is_at_limit(status) {
             line(ui, limit_help(status.scene).to_owned());
@@ -88,38 +93,44 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
     });
 }
 
-/// A thin progress bar at the upper edge: the completed fraction of the samples.
-fn progress(painter: &egui::Painter, rect: Rect, report: &Report) {
-    painter.hline(rect.x_range(), rect.top() + 0.5, egui::Stroke::new(1.0, theme::LINE));
-    if report.activity == Activity::Refining && report.samples_wanted > 0 {
-        let done = (report.samples_so_far / report.samples_wanted as f32).clamp(0.0, 1.0);
-        let to = rect.left() + rect.width() * done;
-        painter.hline(rect.left()..=to, rect.top() + 0.5, egui::Stroke::new(1.0, theme::ACCENT));
-    }
+/// The part of the picture's work that is done, 0 to 1; none where no end is known.
+fn progress(report: &Report) -> Option<f32> {
+    let wanted = match (&report.activity, report.samples_done) {
+        (Activity::Refining, 0) => 1,
+        (Activity::Refining, _) => report.samples_wanted,
+        _ => return None,
+    };
+    let done = report.samples_so_far / wanted.max(1) as f32;
+    // Of a noise target and a number of samples, what is nearer ends the picture.
+    Some(done.max(report.converged_fraction.unwrap_or(0.0)).clamp(0.0, 1.0))
+}
+
+/// Draws the bar of a [`progress`] at the left end of `rect`; returns its right end.
+fn bar(painter: &egui::Painter, rect: Rect, part: f32) -> f32 {
+    let whole = Rect::from_center_size(pos2(rect.left() + BAR.x / 2.0, rect.center().y), BAR);
+    let done = Rect::from_min_size(whole.min, egui::vec2(part * BAR.x, BAR.y));
+    painter.rect_filled(whole, BAR.y / 2.0, theme::LINE);
+    painter.rect_filled(done, BAR.y / 2.0, theme::ACCENT);
+    whole.right()
 }
 
 /// The renderer's activity as text.
 pub fn activity_text(report: &Report, short: bool) -> String {
     match &report.activity {
-        Activity::Idle if report.pictures == 0 => "Starting".to_owned(),
-        Activity::Idle if short => format!("Done in {}", duration_text(report.elapsed_secs)),
+        Activity::Idle if report.pictures == 0 => "Starting…".to_owned(),
+        Activity::Idle if short => format!("Finished in {}", duration_text(report.elapsed_secs)),
         Activity::Idle => format!(
-            "Done: {}{} in {}",
+            "Finished in {}: {}{}",
+            duration_text(report.elapsed_secs),
             count(report.samples_done, "sample"),
             clamped(report),
-            duration_text(report.elapsed_secs)
         ),
-        Activity::Moving if report.pixels_per_sample <= 1 => "Moving".to_owned(),
-        Activity::Moving if short => format!("Moving, 1/{}", report.pixels_per_sample),
-        Activity::Moving => format!("Moving: one pixel of {}", report.pixels_per_sample),
+        Activity::Refining if report.pictures == 0 => "Starting…".to_owned(),
+        Activity::Moving => "Preview".to_owned(),
         Activity::Refining if report.samples_done == 0 => {
             // Rounding must not show 100 % before the sample is complete.
             let percent = (report.samples_so_far * 100.0).clamp(0.0, 99.0).floor();
-            if short {
-                format!("Sharpening, {percent} %")
-            } else {
-                format!("Sharpening: {percent} % of the first sample")
-            }
+            format!("Preview, {percent} % sharp")
         }
         Activity::Refining => {
             let sample = (report.samples_done + 1).min(report.samples_wanted.max(1));
@@ -130,10 +141,10 @@ pub fn activity_text(report: &Report, short: bool) -> String {
                 .map_or_else(String::new, |part| format!(", {} % clean", percent(part)));
             let clean = clean + &clamped(report);
             if short {
-                format!("Refining {sample}/{}{clean}", report.samples_wanted)
+                format!("Sharp, {sample}/{}{clean}", report.samples_wanted)
             } else {
                 format!(
-                    "Refining: sample {sample} of {}{clean}, {}",
+                    "Sharp, getting smoother: sample {sample} of {}{clean}, {}",
                     report.samples_wanted,
                     duration_text(report.elapsed_secs)
                 )
@@ -205,19 +216,29 @@ pub fn zoom_text(zoom: f64) -> String {
     if !zoom.is_finite() || zoom <= 0.0 {
         return "–".to_owned();
     }
-    if zoom < 1e4 {
-        let places = if zoom < 0.1 {
-            2
-        } else if zoom < 100.0 {
-            1
-        } else {
-            0
-        };
-        return format!("{zoom:.places$}×");
-    }
+    if zoom < 1e4 { format!("{}×", plain(zoom)) } else { scientific(zoom) }
+}
+
+/// A speed above 0 as text.
+fn speed_text(speed: f64) -> String {
+    if (0.1..1e4).contains(&speed) { plain(speed) } else { scientific(speed) }
+}
+
+/// A number as text with few decimal places: `0.05`, `1.5`, `812`.
+fn plain(number: f64) -> String {
+    let places = match number {
+        ..0.1 => 2,
+        ..100.0 => 1,
+        _ => 0,
+    };
+    format!("{number:.places$}")
+}
+
+/// A number above 0 as text: `3.2 × 10⁵`.
+fn scientific(number: f64) -> String {
     // A mantissa that rounds to 10.0 becomes 1.0 with the next exponent.
-    let exponent = zoom.log10().floor();
-    let mantissa = (zoom / 10f64.powf(exponent) * 10.0).round() / 10.0;
+    let exponent = number.log10().floor();
+    let mantissa = (number / 10f64.powf(exponent) * 10.0).round() / 10.0;
     let (mantissa, exponent) =
         if mantissa >= 10.0 { (1.0, exponent + 1.0) } else { (mantissa, exponent) };
     format!("{mantissa:.1} × 10{}", superscript(exponent as i32))
@@ -225,7 +246,8 @@ pub fn zoom_text(zoom: f64) -> String {
 
 fn superscript(number: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    number.to_string().chars().map(|c| c.to_digit(10).map_or(c, |d| DIGITS[d as usize])).collect()
+    let of = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
+    number.to_string().chars().map(of).collect()
 }
 
 /// A duration as text: `0.8 s`, `1 min 05 s`, `2 h 10 min`.
@@ -259,6 +281,8 @@ mod tests {
         assert_eq!(zoom_text(9.99e11), "1.0 × 10¹²");
         assert_eq!(zoom_text(3.6e27), "3.6 × 10²⁷");
         assert_eq!(zoom_text(f64::NAN), "–");
+        assert_eq!(speed_text(1.58), "1.6");
+        assert_eq!(speed_text(3.24e-5), "3.2 × 10⁻⁵");
     }
 
     #[test]
@@ -285,14 +309,19 @@ mod tests {
             pictures: 5,
             ..Default::default()
         };
-        assert_eq!(activity_text(&report, false), "Refining: sample 5 of 16, 2.0 s");
-        assert_eq!(activity_text(&report, true), "Refining 5/16");
+        assert_eq!(activity_text(&report, false), "Sharp, getting smoother: sample 5 of 16, 2.0 s");
+        assert_eq!(activity_text(&report, true), "Sharp, 5/16");
         report.samples_done = 0;
         report.samples_so_far = 0.378;
-        assert_eq!(activity_text(&report, false), "Sharpening: 37 % of the first sample");
+        assert_eq!(activity_text(&report, false), "Preview, 37 % sharp");
+        assert!((progress(&report).unwrap() - 0.378).abs() < 1e-6);
         report.samples_so_far = 1.0;
-        assert_eq!(activity_text(&report, true), "Sharpening, 99 %");
+        assert_eq!(activity_text(&report, true), "Preview, 99 % sharp");
         report.activity = Activity::Compiling("power 5".into());
         assert_eq!(activity_text(&report, false), "Preparing power 5…");
+        assert_eq!(progress(&report), None);
+        report.activity = Activity::Refining;
+        report.pictures = 0;
+        assert_eq!(activity_text(&report, false), "Starting…");
     }
 }

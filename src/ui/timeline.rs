@@ -1,8 +1,9 @@
 //! The playhead: the time of the camera path that is in view, and commands on keys.
 //!
 //! In: the edited project, and commands of the panel and the keyboard. Out: an edited path, and the
-//! scene at the playhead. When the playhead moves, the view shows the path's scene; a replaced view
-//! that is not on the path becomes an undo step. This module does not depend on widgets.
+//! scene at the playhead. A view on the path follows the playhead. A view of the user's own stays while the playhead is
+//! dragged, until it is stored as a key; playing, or going to a key, shows the path and puts the own view aside, where it can be
+//! had back. This module does not depend on widgets.
 
 use std::sync::Arc;
 
@@ -32,6 +33,10 @@ pub(super) struct Timeline {
     pub frames: Option<[u32; 2]>,
     /// True if the view must show the path's scene at the end of this frame.
     follows: bool,
+    /// The user's own view that the path's replaced.
+    aside: Option<Box<Scene>>,
+    /// True if [`Self::aside`] must be the view at the end of this frame.
+    returns: bool,
     /// The last computed scene of the path.
     cached: Option<CachedScene>,
     /// True if the view showed the path's scene when this frame began.
@@ -69,23 +74,45 @@ impl Timeline {
         self.selected.filter(|&index| index < path.keys.len())
     }
 
-    /// Moves the playhead to the frame nearest to `secs`; the view follows.
+    /// Moves the playhead to the frame nearest to `secs`, also after the last key. A view on the path follows.
     pub fn seek(&mut self, path: &Path, secs: f64) {
-        let last_secs = path.frame_secs(path.frame_count().saturating_sub(1));
+        let last_secs = if path.is_empty() { 0.0 } else { KEY_TIME.max };
         let secs = path.frame_secs(path.nearest_frame(secs.clamp(0.0, last_secs)));
         // A key may lie between two frames; the playhead then takes the key's exact time.
         self.secs = path.key_at(secs).map_or(secs, |index| path.keys[index].time_secs);
         self.selected = path.key_at(self.secs).or(self.selected);
+        self.follows |= self.was_on_path;
+    }
+
+    /// Shows the path at the playhead, and puts the user's own view aside.
+    pub fn return_to_path(&mut self) {
         self.follows = true;
     }
 
-    /// Selects a key and moves the playhead to the key.
+    /// True if there is a view to [return to](Self::return_to_own_view).
+    pub fn has_own_view_aside(&self) -> bool {
+        self.aside.is_some()
+    }
+
+    /// Shows the user's own view again that the path's replaced.
+    pub fn return_to_own_view(&mut self) {
+        self.played_secs = None;
+        self.returns = true;
+    }
+
+    /// Selects a key and moves the playhead to the key. A view on the path follows.
     pub fn select(&mut self, path: &Path, index: usize) {
         if let Some(key) = path.keys.get(index) {
             self.secs = key.time_secs;
             self.selected = Some(index);
-            self.follows = true;
+            self.follows |= self.was_on_path;
         }
+    }
+
+    /// Selects a key and shows it.
+    pub fn show_key(&mut self, path: &Path, index: usize) {
+        self.select(path, index);
+        self.return_to_path();
     }
 
     /// Moves a key to the frame nearest to `secs`, between its neighbours.
@@ -153,24 +180,24 @@ impl Timeline {
             Command::UpdateKey => {
                 if let Some(index) = path.key_at(self.secs) {
                     project.path.keys[index].scene = Arc::new(project.scene.clone());
+                    self.aside = None;
                 }
             }
             Command::DeleteKey => {
                 if let Some(index) = self.selected(path) {
                     project.path.keys.remove(index);
                     self.selected = None;
-                    self.secs = self.secs.min(project.path.duration_secs());
                 }
             }
             Command::PreviousKey => {
                 if let Some(index) = path.keys.iter().rposition(|k| k.time_secs < self.secs - 1e-9)
                 {
-                    self.select(path, index);
+                    self.show_key(path, index);
                 }
             }
             Command::NextKey => {
                 if let Some(index) = path.keys.iter().position(|k| k.time_secs > self.secs + 1e-9) {
-                    self.select(path, index);
+                    self.show_key(path, index);
                 }
             }
             _ => {}
@@ -195,6 +222,7 @@ impl Timeline {
         {
             self.secs = secs;
             self.selected = Some(index);
+            self.aside = None;
         }
     }
 
@@ -222,11 +250,21 @@ impl Timeline {
         // A restored project shows its scene without a change.
         let path_edited = !was_restored && project.path != before.path;
         let path_changed_below = self.was_on_path && !scene_edited && path_edited;
-        if std::mem::take(&mut self.follows) || path_changed_below {
+        let follows = std::mem::take(&mut self.follows);
+        if std::mem::take(&mut self.returns) {
+            if let Some(own) = self.aside.take() {
+                editor.show(*own, self.was_on_path);
+            }
+        } else if follows || path_changed_below {
             let was_on_path = self.was_on_path;
             if let Some(scene) = self.path_scene(&project.path).cloned() {
+                if !was_on_path && scene != project.scene {
+                    self.aside = Some(Box::new(project.scene.clone()));
+                }
                 editor.show(scene, was_on_path);
             }
+        } else if scene_edited {
+            self.aside = None;
         }
     }
 
@@ -246,6 +284,7 @@ impl Timeline {
     pub fn stop(&mut self) {
         self.played_secs = None;
         self.follows = false;
+        self.aside = None;
         self.was_restored = true;
     }
 }

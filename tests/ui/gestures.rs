@@ -387,3 +387,32 @@ fn a_finger_scrolls_across_a_rail_and_drags_its_handle() {
         "the handle follows"
     );
 }
+
+/// The point that is clicked comes closer and to the middle, in one step, and the sky is no target.
+#[test]
+fn a_double_click_flies_to_the_point() {
+    let mut harness = window();
+    let center = view_center(&harness);
+    let double_click = |harness: &mut egui_kittest::Harness<'_, Stage>, at: Pos2| {
+        harness.event(Event::PointerMoved(at));
+        for _ in 0..2 {
+            pointer(harness, at, PointerButton::Primary, true, Modifiers::NONE);
+            pointer(harness, at, PointerButton::Primary, false, Modifiers::NONE);
+        }
+        harness.run_steps(120);
+    };
+    let before = scene(&harness).camera.clone();
+    double_click(&mut harness, center + vec2(60.0, -40.0));
+    let after = scene(&harness).camera.clone();
+    let ratio = after.view_unit() / before.view_unit();
+    assert!((0.2..0.5).contains(&ratio), "the view unit changes by {ratio}");
+    let shift = before.rotation().inverse() * (after.pivot.to_dvec3() - before.pivot.to_dvec3());
+    assert!(shift.x > 0.05 && shift.y > 0.05, "the pivot is right and up of the old: {shift}");
+    let toward = (after.pivot.to_dvec3() - after.position.to_dvec3()).normalize();
+    assert!(toward.dot(after.forward()) > 0.999_999, "the point is in the middle");
+    assert_eq!(undo_all(&mut harness), 1);
+
+    let corner = harness.state().interface.rects().get("view").unwrap().left_top();
+    double_click(&mut harness, corner + vec2(8.0, 60.0));
+    assert_eq!(scene(&harness).camera, before);
+}

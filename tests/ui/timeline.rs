@@ -88,6 +88,8 @@ fn scrubbing_shows_every_moment_and_keeps_a_view_of_one_s_own() {
     let own = scene(&harness).clone();
     let (from, to) = (ruler_at(&harness, 0.5), ruler_at(&harness, 1.5));
     drag(&mut harness, from, to, 10);
+    assert_eq!(*scene(&harness), own, "a view of one's own stays");
+    press(&mut harness, "Return to path");
     let moment = path(&harness).at(1.5).unwrap();
     assert_eq!(*scene(&harness), moment, "the view is what the path has at 1.5 s");
     assert!((5.0..8.0).contains(&moment.fractal.number("power").unwrap()));
@@ -96,10 +98,61 @@ fn scrubbing_shows_every_moment_and_keeps_a_view_of_one_s_own() {
     let near = ruler_at(&harness, 3.0) + vec2(3.0, 0.0);
     drag(&mut harness, to, near, 4);
     assert_eq!(*scene(&harness), *path(&harness).keys[1].scene);
-    // Further scrubbing adds no step; undo brings the view back that the first one replaced.
+    // Further scrubbing adds no step; the view that the path replaced can be had back, also by undo.
     drag(&mut harness, from, to, 3);
-    assert_eq!(undo_all(&mut harness), 1);
+    press(&mut harness, "Return to my view");
     assert_eq!(*scene(&harness), own);
+    press(&mut harness, "Return to path");
+    assert_eq!(undo_all(&mut harness), 2);
+    assert_eq!(*scene(&harness), own);
+}
+
+/// The first thing that people try: a key, another view, another time, a second key.
+#[test]
+fn a_new_view_becomes_a_key_at_the_time_that_is_clicked() {
+    let mut harness = stage(Scene::default(), open(), [1280.0, 720.0]);
+    harness.key_press(Key::K);
+    harness.run();
+    let first = scene(&harness).clone();
+    let center = harness.state().interface.rects().get("view").unwrap().center();
+    drag(&mut harness, center, center + vec2(120.0, 30.0), 5);
+    harness.run_steps(60);
+    let second = scene(&harness).clone();
+    assert_ne!(second, first, "the drag turns the view");
+
+    let at = track(&harness).center();
+    drag(&mut harness, at - vec2(200.0, 12.0), at - vec2(0.0, 12.0), 5);
+    assert_eq!(*scene(&harness), second, "the playhead leaves the new view alone");
+    harness.key_press(Key::K);
+    harness.run();
+    let [start, end] = times(&harness)[..] else { panic!("{:?}", times(&harness)) };
+    assert!(start == 0.0 && (1.5..4.0).contains(&end), "the second key is at {end}");
+    let scenes: Vec<&Scene> = path(&harness).keys.iter().map(|key| &*key.scene).collect();
+    assert_eq!(scenes, [&first, &second]);
+}
+
+/// Playing and going to a key show the path; nothing that was in view is lost by it.
+#[test]
+fn a_view_that_the_path_replaces_is_put_aside() {
+    let shows: [fn(&mut egui_kittest::Harness<'_, Stage>); 3] = [
+        |harness| {
+            harness.key_press(Key::Space);
+            harness.run_steps(5);
+            harness.key_press(Key::Space);
+        },
+        |harness| harness.key_press(Key::Period),
+        |harness| harness.get_by_label("Key 2 at 3.00 s").click(),
+    ];
+    for show in shows {
+        let mut harness = stage(project(), open(), [1280.0, 720.0]);
+        let own = scene(&harness).clone();
+        show(&mut harness);
+        harness.run();
+        assert_ne!(*scene(&harness), own);
+        press(&mut harness, "Return to my view");
+        assert_eq!(*scene(&harness), own);
+        assert!(harness.query_by_label("Return to my view").is_none());
+    }
 }
 
 #[test]
@@ -134,6 +187,8 @@ fn a_key_is_dragged_between_its_neighbours_as_one_step() {
     let at = |harness: &egui_kittest::Harness<'_, Stage>, name: &str| {
         harness.get_by_label(name).rect().center()
     };
+    harness.get_by_label("Key 2 at 3.00 s").click();
+    harness.run();
     let from = at(&harness, "Key 2 at 3.00 s");
     let to = pos2(ruler_at(&harness, 4.0).x, from.y);
     drag(&mut harness, from, to, 10);
@@ -147,8 +202,8 @@ fn a_key_is_dragged_between_its_neighbours_as_one_step() {
     let secs = times(&harness)[1];
     assert!((5.9..6.0).contains(&secs), "stopped at {secs}");
     assert_eq!(path(&harness).validate(), Ok(()));
-    // The first drag's step brings the view back that selecting the key replaced.
-    assert_eq!(undo_all(&mut harness), 2);
+    // The first of the steps is the view that the click on the key replaced.
+    assert_eq!(undo_all(&mut harness), 3);
     assert_eq!(*scene(&harness), project().scene);
     assert_eq!(path(&harness).keys, project().path.keys);
 }

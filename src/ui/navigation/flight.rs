@@ -1,4 +1,4 @@
-//! Animated flights of the camera to a target: home, frame-all, level.
+//! Animated flights of the camera to a target: home, frame-all, level, a point of the surface.
 //!
 //! A flight follows the route of the module `route`. If the surface blocks every route, the camera
 //! jumps to the target, so no flight shows the inside. The zoom changes by equal factors in equal
@@ -17,6 +17,9 @@ use crate::scene::Camera;
 pub const FLIGHT_SECS: f64 = 0.9;
 /// Maximum zoom rate of a long flight: natural logarithm per second.
 pub const MAX_ZOOM_PER_SEC: f64 = 14.0;
+
+/// The factor by which a flight to a point divides the distance from that point.
+const CLOSER: f64 = 2.5;
 
 /// A flight in progress.
 #[derive(Clone, Debug)]
@@ -121,6 +124,23 @@ pub(super) fn framing_all(camera: &Camera, world: World<'_>) -> Camera {
     Camera {
         position: centre.moved_by(camera.forward() * -depth, 0.0),
         pivot: centre,
+        ..camera.clone()
+    }
+}
+
+/// `camera`, closer to the surface at `offset` from the eye, and turned toward it.
+///
+/// The eye stays on the ray to the surface, on which nothing is in its way.
+pub(super) fn approaching(camera: &Camera, world: World<'_>, offset: DVec3) -> Camera {
+    let depth = offset.length();
+    let left = (depth / CLOSER).max(world.nearest(camera)).min(depth);
+    let direction = offset / depth;
+    let grain = world.grain_at(camera, left);
+    let up = camera.rotation() * DVec3::Y;
+    Camera {
+        position: camera.position.moved_by(direction * (depth - left), grain),
+        pivot: camera.position.moved_by(offset, grain),
+        orientation: Camera::looking_at(DVec3::ZERO, direction, up).orientation,
         ..camera.clone()
     }
 }

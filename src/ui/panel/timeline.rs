@@ -46,6 +46,7 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     ui.horizontal(|ui| {
         strip.transport(ui);
         if wide {
+            strip.own_view(ui);
             strip.keys(ui);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -66,7 +67,10 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
             strip.save(ui);
         });
     } else {
-        ui.horizontal_wrapped(|ui| strip.keys(ui));
+        ui.horizontal_wrapped(|ui| {
+            strip.keys(ui);
+            strip.own_view(ui);
+        });
         if strip.timeline.selected(strip.path).is_some() {
             ui.horizontal(|ui| strip.selected_key(ui));
         }
@@ -115,7 +119,12 @@ impl Strip<'_, '_> {
         let text = if some {
             let frame = self.path.nearest_frame(self.timeline.secs());
             let last = self.path.frame_count().saturating_sub(1);
-            format!("{:.2} s  ·  frame {frame} of {last}", self.timeline.secs())
+            let place = if frame > last {
+                "after the last key".to_owned()
+            } else {
+                format!("frame {frame} of {last}")
+            };
+            format!("{:.2} s  ·  {place}", self.timeline.secs())
         } else {
             "No keys yet".to_owned()
         };
@@ -124,11 +133,31 @@ impl Strip<'_, '_> {
         } else if self.on_path {
             "The playhead's time. The view shows the path at this time."
         } else {
-            "The view differs from the path at this time. Add it as a key, update the key, or move the playhead to return to the path."
+            "The view is your own, not the path's. It stays until you add it as a key, update the key, or return to the path."
         };
         let color = if some && !self.on_path { theme::ACCENT } else { theme::TEXT_DIM };
         ui.label(RichText::new(text).small().color(color)).on_hover_text(hover);
         ui.add_space(6.0);
+    }
+
+    /// The button that changes between the path and a view of the user's own.
+    fn own_view(&mut self, ui: &mut Ui) {
+        let button = |ui: &mut Ui, name, hover| {
+            let height = ui.spacing().interact_size.y;
+            ui.add(Button::new(name).min_size(vec2(0.0, height))).on_hover_text(hover).clicked()
+        };
+        if !self.path.is_empty() && !self.on_path && !self.timeline.is_playing() {
+            let hover =
+                "Show the path at the playhead. Your view is put aside, and you can have it back.";
+            if button(ui, "Return to path", hover) {
+                self.timeline.return_to_path();
+            }
+        } else if self.timeline.has_own_view_aside() {
+            let hover = "Show the view again that you had before the path was shown";
+            if button(ui, "Return to my view", hover) {
+                self.timeline.return_to_own_view();
+            }
+        }
     }
 
     /// Buttons to add, update and delete keys.

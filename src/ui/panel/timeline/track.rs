@@ -77,7 +77,9 @@ pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool
     }
     playhead(&painter, rect, scale.x(timeline.secs()), on_path, !path.is_empty());
     // At the track's corner, the text would cover the buttons above.
-    response.on_hover_text_at_pointer("Drag to move in time. Drag a key to change its time.")
+    response.on_hover_text_at_pointer(
+        "Drag to move in time. Click a key to show it, drag it to change its time.",
+    )
 }
 
 /// The time scale: the path plus 12 %. The scale is constant during a drag.
@@ -174,7 +176,9 @@ fn diamond(
     let response = ui.interact(area, track.id.with(("key", index)), Sense::click_and_drag());
     let name = format!("Key {} at {:.2} s", index + 1, key.time_secs);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name));
-    if response.clicked() || response.drag_started() || response.gained_focus() {
+    if response.clicked() {
+        timeline.show_key(path, index);
+    } else if response.drag_started() || response.gained_focus() {
         timeline.select(path, index);
     }
     if response.dragged()
@@ -192,7 +196,7 @@ fn diamond(
     let corners = corners.map(|(x, y)| center + vec2(x, y) * DIAMOND).to_vec();
     let painter = ui.painter().with_clip_rect(track.rect);
     painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, outline)));
-    response.on_hover_text(format!("{name}. Drag to change its time."));
+    response.on_hover_text(format!("{name}. Click to show it, drag to change its time."));
 }
 
 /// Draws the playhead: a line with a grip, hollow if the view differs from the path.

@@ -1,0 +1,129 @@
+//! The picture's part of a frame: its camera's input, and what lies over it.
+
+use egui::{Align2, Rect, Ui, vec2};
+use web_time::Instant;
+
+use super::Interface;
+use crate::ui::{
+    display_inputs::DisplayInputs,
+    dive,
+    floating::{self, ButtonRow},
+    handles,
+    home::HomeTarget,
+    icon::Icon,
+    panel,
+    pilot::Frame,
+    places::{self, PinInputs},
+    shortcuts::{self, Command},
+    theme, view,
+};
+
+impl Interface {
+    /// Draws the picture and applies input to its camera.
+    pub(super) fn view(
+        &mut self,
+        ui: &mut Ui,
+        inputs: &DisplayInputs<'_>,
+        wide: bool,
+        commands: &mut Vec<Command>,
+    ) {
+        let area = ui.available_rect_before_wrap();
+        let (rect, size_px) = view::snap_to_pixels(area, ui.ctx().pixels_per_point());
+        self.view_px = size_px;
+        let frame = Frame { rect, height_px: size_px[1] };
+        let scene = self.editor.scene_mut();
+        let response = view::show(ui, frame, inputs.picture);
+        self.rects.record("view", &response);
+        // The buttons precede the pilot, which executes this frame's commands.
+        let mut buttons = ButtonRow::new(ui, rect);
+        if !self.settings.timeline_open {
+            let hover = ("Show timeline", "Animate the camera and all settings with keys (T)");
+            let button = buttons.add(ui, Icon::Timeline, hover);
+            self.rects.record("timeline toggle", &button);
+            if button.clicked() {
+                commands.push(Command::ToggleTimeline);
+            }
+        }
+        let button = buttons.add(ui, Icon::Pin, self.places.button());
+        self.rects.record("find places", &button);
+        if self.places.are_shown() {
+            floating::mark(ui, &button);
+        }
+        if button.clicked() {
+            commands.push(Command::FindPlaces);
+        }
+        let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
+        let button = buttons.add(ui, Icon::Dive, hover);
+        self.rects.record("dive", &button);
+        if button.clicked() {
+            commands.push(Command::Dive);
+        }
+        if let Some(target) = HomeTarget::of(&scene.camera, &self.home) {
+            let (icon, hover) = target.button();
+            let button = buttons.add(ui, icon, hover);
+            self.rects.record("home", &button);
+            if button.clicked() {
+                commands.push(Command::Home);
+            }
+        }
+        // A drag belongs to the eye's picture in which it began.
+        let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
+        let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
+        self.pilot.draw_to_places(self.settings.drawn_to_places);
+        self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
+        let has_record = self.pilot.dive_record().len() > 1;
+        dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
+        if self.pilot.is_flying() {
+            let keys = floating::caption(ui, rect, &shortcuts::flight_help());
+            self.rects.record("fly keys", &keys);
+        } else {
+            let light = handles::point_lights(ui, frame, scene, self.selection.light);
+            self.selection.light = light.or(self.selection.light);
+            if panel::shows_section_planes(&self.settings) {
+                handles::section_planes(ui, frame, scene);
+            }
+        }
+        self.camera_status = Some(self.pilot.camera_status(scene, frame));
+        let is_moving = self.timeline.is_playing()
+            || self.pilot.is_moving(ui.input(|i| i.time))
+            || self.pilot.speed() > 0.0;
+        let model = self.pilot.models().of(&scene.fractal);
+        let clock = Instant::now();
+        let mut now_ms = || clock.elapsed().as_secs_f64() * 1e3;
+        self.places.advance(scene, &model, frame, is_moving, &mut now_ms);
+        self.places.request_repaint(ui);
+        let mut toggle = Rect::NOTHING;
+        if wide && !self.settings.panel_open {
+            let at = rect.right_top() + vec2(-10.0 - floating::button_side(ui), 10.0);
+            let hover = ("Show panel", "Show the panel (P)");
+            let button = floating::button(ui, at, Icon::Controls, hover);
+            self.rects.record("panel toggle", &button);
+            toggle = button.rect;
+            if button.clicked() {
+                commands.push(Command::TogglePanel);
+            }
+        }
+        let pins = PinInputs {
+            frame,
+            camera: &scene.camera,
+            textures: inputs.small_pictures,
+            buttons: [buttons.area(rect), toggle],
+        };
+        let chosen = places::show(ui, &mut self.places, &pins, &mut self.rects);
+        if let Some(pin) = chosen.and_then(|index| self.places.pins().get(index)) {
+            self.pilot.fly_to(scene, frame, pin.place.field(), &pin.to);
+            self.places.put_away();
+            ui.ctx().request_repaint();
+        }
+        if inputs.picture.is_none() {
+            ui.painter().text(
+                rect.center(),
+                Align2::CENTER_CENTER,
+                "Preparing the first picture…",
+                egui::FontId::proportional(15.0),
+                theme::TEXT_DIM,
+            );
+        }
+        ui.allocate_rect(area, egui::Sense::hover());
+    }
+}
