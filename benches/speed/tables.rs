@@ -144,7 +144,7 @@ fn paths(report: &Report) -> String {
         "estimates a path",
         "variance a sample",
         "mean radiance",
-        "time to equal noise",
+        "speedup at equal noise",
         "estimates of bounces 1, 2, 3–4, 5–8",
     ];
     let mut table = format!("On {}:\n\n", report.adapter);
@@ -175,7 +175,7 @@ fn mandelbulber(report: &Report) -> String {
     let columns =
         ["view", "ms a sample", "variance a sample", "mean radiance", "seconds to 5 % noise"];
     let mut table = format!("On {}:\n\n", report.adapter);
-    table += &head(&[columns.as_slice(), &["time to equal noise"]].concat());
+    table += &head(&[columns.as_slice(), &["speedup at equal noise"]].concat());
     for row in &report.mandelbulber {
         let both = |value: &dyn Fn(&mandelbulber::Side) -> String| {
             format!("{} / {}", value(&row.theirs), value(&row.ours))

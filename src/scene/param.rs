@@ -78,7 +78,7 @@ params! {
     RIG_ROTATION = "lights.rig.picture.rotation_deg", "Rotation", Degrees, -180.0, 180.0, default 0.0, Linear by 1.0,
         "Rotates the 360° picture and its lights around the vertical axis, counterclockwise from above.";
     AMBIENT = "surface.ambient", "Ambient", None, 0.0, 1.0, default 0.04, Linear by 0.01,
-        "Brightens shadows: a constant part of the surface's colour, without any light. Path tracing has none.";
+        "Brightens shadows: a constant part of the surface's colour, without any light. Path tracing leaves it out.";
     DIFFUSE = "surface.diffuse", "Diffuse", None, 0.0, 1.0, default 0.9, Linear by 0.01,
         "Brightness of the matte surface under the lights.";
     SPECULAR = "surface.specular", "Specular", None, 0.0, 1.0, default 0.25, Linear by 0.01,
@@ -112,7 +112,7 @@ params! {
     MEAN_FREE_PATH = "medium.mean_free_path", "Clarity", ViewUnits, 0.001, 10.0, default 0.05, Logarithmic by 0.05,
         "How far light gets inside before it scatters (mean free path): low looks solid as stone, high clear as glass.";
     MEDIUM_ANISOTROPY = "medium.anisotropy", "Forward scatter", None, -0.9, 0.9, default 0.0, Linear by 0.01,
-        "Above 0 the glow is brightest with a light behind the fractal, below 0 with a light behind you.";
+        "Above 0 it is brightest when you look toward the light, below 0 with the light behind you; 0 is even.";
     THIN_ITERATIONS = "medium.thin_iterations", "Clear below", None, 0.0, 1000.0, default 2.0, Logarithmic by 0.05,
         "Iteration count below which the cloud is empty. Lower widens the cloud.";
     DENSE_ITERATIONS = "medium.dense_iterations", "Dense above", None, 0.0, 1000.0, default 8.0, Logarithmic by 0.05,
@@ -120,9 +120,9 @@ params! {
     FOG_DENSITY = "fog.density", "Fog", PerViewUnit, 0.0, 100.0, default 0.0, Logarithmic by 0.01,
         "How thick the fog is. 0 is none; at 1 about a third of the light reaches the pivot.";
     FOG_ANISOTROPY = "fog.anisotropy", "Forward scatter", None, -0.9, 0.9, default 0.3, Linear by 0.01,
-        "Above 0 fog is brightest toward a light, below 0 away from it; 0 is even.";
-    FOG_HEIGHT = "fog.height", "Fog height", ViewUnits, 0.01, 100.0, default 0.5, Logarithmic by 0.05,
-        "How fast the fog thins upward: after this height a third of it is left.";
+        "Above 0 it is brightest when you look toward the light, below 0 with the light behind you; 0 is even.";
+    FOG_HEIGHT = "fog.height", "Fog falloff", ViewUnits, 0.01, 100.0, default 0.5, Logarithmic by 0.05,
+        "How fast the fog thins above its level: over this height to about a third.";
     FOG_LEVEL = "fog.level", "Fog level", ViewUnits, -10.0, 10.0, default -0.5, Linear by 0.01,
         "Height, over the pivot, up to which the fog is thickest.";
     FOG_RADIUS = "fog.radius", "Fog radius", ViewUnits, 0.05, 1000.0, default 3.0, Logarithmic by 0.05,
@@ -144,13 +144,13 @@ params! {
     INDIRECT_SAMPLES = "indirect.samples", "Samples", Count, 1.0, 16.0, default 5.0, Integer by 1.0,
         "Number of samples per direction. More is smoother and slower.";
     BOUNCES = "integrator.bounces", "Bounces", Count, 0.0, 64.0, default 8.0, Integer by 1.0,
-        "How many times light may bounce between surfaces. More brightens crevices and takes longer. 0: only direct light.";
+        "How many times light may change direction, at surfaces, in fog and in media. More brightens crevices and translucent sets and takes longer. 0: only direct light.";
     BOUNCE_REACH = "integrator.reach", "Bounce distance", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
         "How far bounced light travels; 1 is the distance to the pivot. Shorter is faster; under a sky, shorter also brightens crevices.";
     NOISE = "integrator.noise", "Stop at noise", None, 0.0, 0.5, default 0.0, Logarithmic by 0.001,
-        "Stops each pixel once it looks this smooth: 0.02 is clean, higher is faster and grainier. 0 always takes all samples.";
-    FIREFLY_LIMIT = "integrator.firefly_limit", "Brightest path", None, 0.1, 10000.0, default 10.0, Logarithmic by 0.1,
-        "Limits the light of single paths, which else leave bright dots. Lower removes more dots, and more light.";
+        "Stops each pixel at this noise: 0.02 looks clean, 0.1 is grainy but fast. 0 always takes all samples.";
+    FIREFLY_LIMIT = "integrator.firefly_limit", "Firefly limit", None, 0.1, 10000.0, default 10.0, Logarithmic by 0.1,
+        "Makes single paths no brighter than this, since they leave bright dots. Lower removes more dots, and more light.";
     BLOOM_STRENGTH = "bloom.strength", "Strength", None, 0.0, 1.0, default 0.0, Linear by 0.01,
         "Brightness of the glow around bright spots. 0 is off and costs nothing.";
     BLOOM_RADIUS = "bloom.radius", "Radius", None, 0.005, 0.25, default 0.04, Logarithmic by 0.05,
@@ -160,9 +160,9 @@ params! {
     BLOOM_PASSES = "bloom.passes", "Passes", Count, 1.0, 4.0, default 3.0, Integer by 1.0,
         "Shape of the glow: 1 is square, as in the thesis; 3 and more are round.";
     MOTION_BUDGET = "quality.motion_budget_ms", "Motion budget", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
-        "GPU time per frame during motion. Higher is sharper and less fluid.";
+        "GPU time per frame during motion. Higher is sharper and choppier.";
     SAMPLES = "quality.samples", "Samples", Count, 1.0, 65536.0, default 16.0, Integer by 1.0,
-        "Number of samples per pixel at rest. More gives smoother edges, less grain with path tracing, and takes longer.";
+        "Number of samples per pixel at rest. More gives smoother edges and less grain, and takes longer.";
     DETAIL = "quality.detail", "Detail", Footprints, 0.1, 8.0, default 1.0, Logarithmic by 0.1,
         "Size of the finest visible detail, in pixels. Lower is finer and slower.";
 }

@@ -58,14 +58,14 @@ pub const FRAME_RATE: Param = Param {
 /// For how much of a frame's time the shutter is open.
 pub const SHUTTER: Param = Param {
     path: "path.shutter",
-    label: "Shutter",
+    label: "Motion blur",
     unit: Unit::None,
     min: 0.0,
     max: 1.0,
     default: 0.0,
     scale: Scale::Linear,
     step: 0.05,
-    help: "Motion blur: for which part of a frame's time the shutter is open. 0.5 is a film camera's; at 0 every frame is sharp.",
+    help: "For which part of a frame's time the shutter is open, the shutter angle over 360°. 0.5 is a film camera's; at 0 every frame is sharp.",
 };
 
 /// Times closer together than this are one, seconds: far less than any frame takes.

@@ -117,7 +117,7 @@ fn bar(painter: &egui::Painter, rect: Rect, part: f32) -> f32 {
 /// The renderer's activity as text.
 pub fn activity_text(report: &Report, short: bool) -> String {
     match &report.activity {
-        Activity::Idle if report.pictures == 0 => "Starting…".to_owned(),
+        Activity::Idle | Activity::Refining if report.pictures == 0 => "Starting…".to_owned(),
         Activity::Idle if short => format!("Finished in {}", duration_text(report.elapsed_secs)),
         Activity::Idle => format!(
             "Finished in {}: {}{}",
@@ -125,7 +125,6 @@ pub fn activity_text(report: &Report, short: bool) -> String {
             count(report.samples_done, "sample"),
             clamped(report),
         ),
-        Activity::Refining if report.pictures == 0 => "Starting…".to_owned(),
         Activity::Moving => "Preview".to_owned(),
         Activity::Refining if report.samples_done == 0 => {
             // Rounding must not show 100 % before the sample is complete.

@@ -252,8 +252,8 @@ fn times_and_rates_are_typed_and_kept_in_range() {
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(path(&harness).frames_per_second, 240);
-    press(&mut harness, "Shutter value");
-    harness.get_by_label("Shutter value").type_text("0.5");
+    press(&mut harness, "Motion blur value");
+    harness.get_by_label("Motion blur value").type_text("0.5");
     harness.key_press(Key::Enter);
     harness.run();
     assert_eq!(path(&harness).shutter, 0.5);

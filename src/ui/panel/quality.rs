@@ -40,7 +40,7 @@ fn memory(ui: &mut Ui, cx: &Context<'_>) {
 
 /// The section of the panel.
 pub(super) const SECTION: Section =
-    Section { name: "quality", title: "Quality", hover: "Sharper pictures against speed", show };
+    Section { name: "quality", title: "Quality", hover: "Trade sharpness for speed", show };
 
 /// Samples, detail, motion budget, normals, shadows, memory.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
