@@ -4,11 +4,12 @@ use std::{io::Cursor, ops::ControlFlow};
 
 use super::{mean, plain, sampling::ball_on_floor, under_white_sky};
 use exr::prelude::{ReadChannels as _, ReadLayers as _};
+use glam::{DQuat, DVec3};
 use mandelight::{
     export::{PictureFormat, StillJob, StillOptions},
     formula::Fractal,
     render::{Eyes, Pace, Region, View},
-    scene::{GradientStop, IntegratorKind, Scene, StereoLayout},
+    scene::{Camera, GradientStop, IntegratorKind, Scene, StereoLayout},
 };
 use mandelight_test_support::{
     device::pipelines,
@@ -57,6 +58,42 @@ fn denoised_light_is_nearer_to_the_truth() {
             assert!(bias.abs() < 0.01, "{name}: {bias} of all light");
         }
     }
+}
+
+/// What a sequence's frames get wrong changes from frame to frame, which people see as flicker.
+#[test]
+fn denoised_frames_flicker_less() {
+    let still = ball_on_floor();
+    let mut turned = still.clone();
+    let camera = &still.camera;
+    let turn = DQuat::from_rotation_z(0.3_f64.to_radians());
+    turned.camera = Camera::looking_at(
+        turn * camera.position.to_dvec3(),
+        turn * camera.pivot.to_dvec3(),
+        turn * (camera.rotation() * DVec3::Y),
+    );
+    turned.camera.vertical_fov_deg = camera.vertical_fov_deg;
+    let frames = [still, turned].map(|scene| {
+        let truth = finished(&sampled(scene.clone(), 512), SIZE, Pace::Still);
+        let view = denoised(&scene, 16);
+        let smooth = view.denoised().expect("a film").expect("denoised light");
+        [truth.film().expect("a film"), view.film().expect("a film"), smooth]
+    });
+    // Of one kind of picture: the error of the second frame as it would be if the first were the truth.
+    let flicker = |kind: usize| {
+        let [[first_truth, ..], [truth, ..]] = &frames;
+        let changed = |index: usize| {
+            let of = |channel: usize| {
+                let error = frames[0][kind][index][channel] - first_truth[index][channel];
+                frames[1][kind][index][channel] - error
+            };
+            [of(0), of(1), of(2)]
+        };
+        error_of(&(0..truth.len()).map(changed).collect::<Vec<_>>(), truth)
+    };
+    let (noisy, smooth) = (flicker(1), flicker(2));
+    println!("flicker {noisy:.4}, denoised {smooth:.4}");
+    assert!(smooth < 0.8 * noisy, "{smooth} instead of {noisy}");
 }
 
 /// A file of this format.
