@@ -375,3 +375,16 @@ fn a_colour_is_picked_in_the_square_and_typed() {
     assert_eq!(undo_all(&mut harness), 2, "one step for the drag, one for the text");
     assert_eq!(*scene(&harness), Scene::default());
 }
+
+/// The help of a slider stands beside the panel, or above the row: the next control stays in sight.
+#[test]
+fn hover_texts_leave_the_next_control_in_sight() {
+    for size in [[1280.0, 720.0], [390.0, 844.0]] {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        let row = slider(&harness, "Power").rect();
+        harness.event(egui::Event::PointerMoved(row.center()));
+        harness.run_steps(90);
+        let help = harness.get_by_label_contains("Double click resets").rect();
+        assert!(help.bottom() <= row.top() || help.right() <= row.left(), "{help:?} and {row:?}");
+    }
+}

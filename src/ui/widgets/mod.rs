@@ -5,6 +5,7 @@ mod card;
 mod color;
 mod gradient;
 mod histogram;
+mod hover;
 mod param;
 mod scale;
 mod section;

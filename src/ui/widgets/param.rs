@@ -10,6 +10,7 @@ use egui::{
     vec2,
 };
 
+use super::hover::hover_beside;
 use super::scale::{
     at_fraction, clamp_typed, format_value, fraction, is_logarithmic, round_dragged,
 };
@@ -52,9 +53,9 @@ pub fn param_slider(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
         }
         let number = ui.put(number_at, |ui: &mut Ui| number(ui, param, value));
         let hover = hover_text(param);
-        let label = label.on_hover_text(&hover);
-        let rail = rail.on_hover_text(&hover);
-        rail.union(label).union(number.on_hover_text(hover))
+        let [label, rail, number] =
+            [label, rail, number].map(|part| hover_beside(part, row, &hover));
+        rail.union(label).union(number)
     });
     let mut response = row.inner;
     if *value != before {
