@@ -132,8 +132,14 @@ pub fn pictures() -> Vec<Picture> {
         picture(
             "media",
             2,
-            "Light that scatters: a bulb of jade, and a lamp in fog",
-            ["Jade", "Beams"].map(|scene| Panel { samples: MEDIA_SAMPLES, ..of(scene) }),
+            "Light that scatters: a bulb of jade, and a lamp in fog with a limit for fireflies",
+            [
+                Panel { samples: MEDIA_SAMPLES, ..of("Jade") },
+                Panel {
+                    samples: FOG_SAMPLES,
+                    ..of("Beams").with(&["integrator.firefly_limit=6"])
+                },
+            ],
         )
         .sized([720, 225]),
         single("deep-light", "Path-traced light at 1e-20, in power 16", traced("Deep dahlia"))
@@ -364,6 +370,9 @@ const TRACED_SAMPLES: u32 = 192;
 
 /// Samples of pictures of media, whose paths are long.
 const MEDIA_SAMPLES: u32 = 96;
+
+/// Samples of pictures of lamps in fog, which few paths meet.
+const FOG_SAMPLES: u32 = 384;
 
 /// Samples of pictures with soft shadows.
 const SOFT_SAMPLES: u32 = 128;
