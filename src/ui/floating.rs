@@ -24,8 +24,10 @@ pub fn button(ui: &mut Ui, at: Pos2, icon: Icon, (name, hover): (&str, &str)) ->
 
 /// A line of text at the lower edge of the picture in `view`, which does not take the pointer.
 pub fn caption(ui: &Ui, view: Rect, text: &str) -> Response {
+    // In a narrow picture the buttons of the lower left corner would lie under the text.
+    let above = if view.width() < 800.0 { button_side(ui) + 2.0 * GAP } else { 14.0 };
     let shown = egui::Area::new(egui::Id::unique("caption"))
-        .fixed_pos(view.center_bottom() - vec2(0.0, 14.0))
+        .fixed_pos(view.center_bottom() - vec2(0.0, above))
         .pivot(Align2::CENTER_BOTTOM)
         .constrain_to(view)
         .interactable(false)

@@ -84,7 +84,23 @@ pub fn choice<T: PartialEq + Copy>(
         .unwrap_or_else(|| ui.allocate_response(egui::Vec2::ZERO, Sense::hover()))
 }
 
-/// One row of a choice; each button has the width of one of `columns`.
+/// Space beside the text of a choice's button, in points.
+const CHOICE_PADDING: f32 = 4.0;
+
+/// Widths of buttons with these texts that share `total`: equal ones, unless a text is too long for them and all have room.
+fn choice_widths(text_widths: &[f32], total: f32, columns: usize) -> Vec<f32> {
+    let equal = total / columns as f32;
+    let needed: Vec<f32> = text_widths.iter().map(|width| width + 2.0 * CHOICE_PADDING).collect();
+    let slack = total - needed.iter().sum::<f32>();
+    let is_full = needed.len() == columns;
+    if is_full && slack >= 0.0 && needed.iter().any(|width| *width > equal) {
+        needed.iter().map(|width| width + slack / columns as f32).collect()
+    } else {
+        vec![equal; needed.len()]
+    }
+}
+
+/// One row of a choice; the buttons share the width as [`choice_widths`] says.
 fn choice_row<T: PartialEq + Copy>(
     ui: &mut Ui,
     title: &str,
@@ -93,14 +109,20 @@ fn choice_row<T: PartialEq + Copy>(
     columns: usize,
 ) -> Option<Response> {
     let gap = 4.0;
-    let columns = columns as f32;
-    let width = (ui.available_width() - gap * (columns - 1.0)) / columns;
+    let total = ui.available_width() - gap * (columns as f32 - 1.0);
+    let text_width = |(_, name, _): &(T, &str, &str)| {
+        let text = egui::WidgetText::from(*name);
+        let extend = Some(egui::TextWrapMode::Extend);
+        text.into_galley(ui, extend, f32::INFINITY, egui::TextStyle::Button).size().x.ceil()
+    };
+    let text_widths: Vec<f32> = options.iter().map(text_width).collect();
+    let widths = choice_widths(&text_widths, total, columns);
     let height = ui.spacing().interact_size.y;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = gap;
-        ui.spacing_mut().button_padding.x = 4.0;
+        ui.spacing_mut().button_padding.x = CHOICE_PADDING;
         let mut all: Option<Response> = None;
-        for (option, name, hover) in options {
+        for ((option, name, hover), width) in options.iter().zip(widths) {
             let button = Button::selectable(*value == *option, *name)
                 .min_size(vec2(width, height))
                 .truncate()
@@ -123,4 +145,19 @@ fn choice_row<T: PartialEq + Copy>(
         all
     })
     .inner
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_text_gets_room_from_short_ones() {
+        assert_eq!(choice_widths(&[30.0, 40.0], 200.0, 2), [100.0, 100.0]);
+        let widths = choice_widths(&[40.0, 80.0, 40.0, 40.0], 280.0, 4);
+        assert_eq!(widths, [60.0, 100.0, 60.0, 60.0]);
+        // Without room for all, or with a gap in the row, the texts are cut.
+        assert_eq!(choice_widths(&[90.0, 90.0, 20.0], 180.0, 3), [60.0; 3]);
+        assert_eq!(choice_widths(&[90.0], 180.0, 3), [60.0]);
+    }
 }
