@@ -6,7 +6,7 @@
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
 
-use super::{pilot::Frame, selection::LightRef, theme};
+use super::{frame::Frame, selection::LightRef, theme};
 use crate::scene::{Camera, MIN_VIEW_UNIT, Scene};
 
 /// Side of a handle's sensitive square, in points.

@@ -43,9 +43,14 @@ pub enum Icon {
     Pin,
 }
 
+/// Width and height of a button with an icon, in points.
+pub fn icon_side(ui: &Ui) -> f32 {
+    ui.spacing().interact_size.y.max(26.0)
+}
+
 /// A square button with an icon; `name` is for screen readers.
 pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, hover: &str) -> Response {
-    let side = ui.spacing().interact_size.y.max(26.0);
+    let side = icon_side(ui);
     let response = ui
         .add(
             Button::new("")

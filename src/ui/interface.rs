@@ -32,10 +32,6 @@ use crate::{
 
 /// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
-/// Fraction of a narrow window's height that the open sheet covers.
-const SHEET_PART: f32 = 0.55;
-/// Height of the sheet's heading, in points.
-const SHEET_HEADING: f32 = 54.0;
 
 /// The user interface and the edited project.
 #[derive(Debug)]
@@ -48,6 +44,7 @@ pub struct Interface {
     timeline: Timeline,
     /// The target of Home.
     home: Camera,
+    sheet: panel::Sheet,
     help_open: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
@@ -69,6 +66,7 @@ impl Interface {
             pilot: Pilot::default(),
             places: Places::default(),
             timeline: Timeline::default(),
+            sheet: panel::Sheet::default(),
             help_open: false,
             camera_status: None,
             rects: Rects::default(),
@@ -172,11 +170,14 @@ impl Interface {
         let mut commands = shortcuts::commands(ui.ctx(), self.pilot.is_flying());
         let mut actions = Vec::new();
 
-        let wide = ui.available_width() >= theme::WIDE_FROM;
+        let wide = theme::has_side_panel(ui.available_size());
         theme::set_row_sizes(ui, !wide || ui.input(|i| i.has_touch_screen()));
         self.panels(ui, inputs, wide, &mut commands, &mut actions);
         self.status(ui, inputs);
-        self.view(ui, inputs, wide, &mut commands);
+        // A panel that changes the camera as well has framed the fractal itself.
+        let Scene { fractal, camera, .. } = self.scene();
+        let is_reshaped = *fractal != before.scene.fractal && *camera == before.scene.camera;
+        self.view(ui, inputs, wide, is_reshaped, &mut commands);
         notice::show(ui, inputs.notice, self.rects.get("view"), &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open);
 
@@ -211,7 +212,7 @@ impl Interface {
         let open = self.settings.panel_open;
         let timeline_open = self.settings.timeline_open && (wide || !open);
         self.histogram_shown = false;
-        let height = ui.available_height();
+        let window = ui.available_size();
         let (can_undo, can_redo) = (self.editor.can_undo(), self.editor.can_redo());
         let project = self.editor.project_mut();
         let mut cx = Context {
@@ -227,18 +228,19 @@ impl Interface {
             gradients: &self.loaded.gradients,
             camera_status: self.camera_status,
             view_px: self.view_px,
+            is_sheet: !wide,
             flying: self.pilot.is_flying(),
             can_undo,
             can_redo,
         };
         let frame = egui::Frame::new().fill(theme::PANEL);
         let shown = if !wide {
-            let size =
-                if open { (height * SHEET_PART).floor().max(SHEET_HEADING) } else { SHEET_HEADING };
+            let size = self.sheet.height(cx.settings, window.y);
             let sheet = Panel::bottom("sheet").exact_size(size).frame(frame);
-            Some(sheet.show(ui, |ui| panel::sheet(ui, &mut cx, open)))
+            Some(sheet.show(ui, |ui| self.sheet.show(ui, &mut cx, window.y)))
         } else if open {
-            let side = Panel::right("panel").resizable(false).exact_size(theme::PANEL_WIDTH);
+            let side =
+                Panel::right("panel").resizable(false).exact_size(theme::panel_width(window.x));
             Some(side.frame(frame).show(ui, |ui| panel::side(ui, &mut cx)))
         } else {
             None

@@ -13,7 +13,7 @@
 //! | `loaded` | the environment map and gradients that people opened |
 //! | `panel/` | the panels, one per file |
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
-//! | `view`, `pilot`, `handles` | the picture, the camera's input, handles of point lights |
+//! | `view`, `frame`, `pilot`, `handles` | the picture, where it is, the camera's input, handles of point lights |
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
@@ -33,6 +33,7 @@ mod dive;
 mod export_size;
 mod field;
 mod floating;
+mod frame;
 mod handles;
 mod home;
 mod icon;
@@ -62,7 +63,7 @@ pub use action::Action;
 pub use display_inputs::{DisplayInputs, ExportProgress, Notice, SmallTextures, ViewTexture};
 pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use interface::Interface;
-pub use panel::all_sections_open;
+pub use panel::{SheetHeight, all_sections_open};
 pub use settings::{Sections, Settings};
 pub use small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId};
 pub use status::zoom;

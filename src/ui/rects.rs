@@ -18,7 +18,12 @@ impl Rects {
 
     /// Stores the rectangle of a widget, which may be scrolled out of the window.
     pub(super) fn record(&mut self, name: &'static str, response: &Response) {
-        self.0.insert(name, response.rect);
+        self.record_rect(name, response.rect);
+    }
+
+    /// Stores a rectangle under a name.
+    pub(super) fn record_rect(&mut self, name: &'static str, rect: Rect) {
+        self.0.insert(name, rect);
     }
 
     /// The widget's rectangle, if the widget is shown.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::export_size::ExportSize;
+use super::{export_size::ExportSize, panel::SheetHeight};
 
 /// Settings that are stored between visits and are not part of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -12,6 +12,8 @@ use super::export_size::ExportSize;
 pub struct Settings {
     /// True if the panel is shown.
     pub panel_open: bool,
+    /// Height of the panel where the panel is a sheet at the lower edge.
+    pub sheet: SheetHeight,
     /// True if the timeline is shown.
     pub timeline_open: bool,
     /// True if the section "More" is open.
@@ -33,6 +35,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             panel_open: true,
+            sheet: SheetHeight::default(),
             timeline_open: false,
             more_open: false,
             sections: Sections::default(),

@@ -30,10 +30,25 @@ pub const ON_ACCENT: Color32 = Color32::from_rgb(0x1a, 0x12, 0x06);
 /// Errors.
 pub const ERROR: Color32 = Color32::from_rgb(0xff, 0x7a, 0x6b);
 
-/// Minimum width of a window with a side panel, in points; narrower windows have a bottom sheet.
-pub const WIDE_FROM: f32 = 700.0;
-/// Width of the side panel, in points.
+/// Minimum width of an upright window with a side panel, in points.
+const WIDE_FROM: f32 = 700.0;
+/// Minimum width of a window that is wider than high, with a side panel, in points.
+const LANDSCAPE_FROM: f32 = 480.0;
+/// Maximum width of the side panel, in points.
 pub const PANEL_WIDTH: f32 = 304.0;
+/// Maximum part of the window's width that the side panel takes.
+const PANEL_PART: f32 = 0.46;
+
+/// True if a window of this size has the panel at its side; others have it as a bottom sheet.
+pub fn has_side_panel(window: Vec2) -> bool {
+    let from = if window.x > window.y { LANDSCAPE_FROM } else { WIDE_FROM };
+    window.x >= from
+}
+
+/// Width of the side panel in a window of the width `window`, in points.
+pub fn panel_width(window: f32) -> f32 {
+    PANEL_WIDTH.min((PANEL_PART * window).floor())
+}
 /// Corner radius of buttons, rails and fields, in points.
 pub const RADIUS: u8 = 6;
 

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Rect, Sense, Ui, pos2};
 
-use super::{display_inputs::ViewTexture, pilot::Frame, theme};
+use super::{display_inputs::ViewTexture, frame::Frame, theme};
 
 /// Maximum width or height of the view, in pixels (WebGPU's default texture limit).
 pub const MAX_VIEW_SIDE_PX: u32 = 8192;

@@ -19,9 +19,10 @@ pub fn window() -> Option<Window> {
     web_sys::window()
 }
 
-/// The window's width in CSS pixels.
-pub fn width_px() -> Option<f64> {
-    window()?.inner_width().ok()?.as_f64()
+/// The window's width and height in CSS pixels.
+pub fn size_px() -> Option<[f64; 2]> {
+    let window = window()?;
+    Some([window.inner_width().ok()?.as_f64()?, window.inner_height().ok()?.as_f64()?])
 }
 
 /// The window's document.

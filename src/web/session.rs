@@ -297,11 +297,14 @@ fn initial_project(address: &Address) -> (Option<Project>, Option<String>) {
     (stored, link_error)
 }
 
-/// The settings of a first visit. In a narrow window the panel would cover most of a linked picture,
-/// so it starts closed.
+/// The settings of a first visit. Where the panel is a sheet over the picture, a linked picture has
+/// the window for itself.
 fn first_settings(has_link: bool) -> Settings {
-    let is_narrow = page::width_px().is_some_and(|width| width < f64::from(theme::WIDE_FROM));
-    Settings { panel_open: !(has_link && is_narrow), ..Settings::default() }
+    let has_sheet = page::size_px().is_some_and(|size| {
+        let [width, height] = size.map(|side| side as f32);
+        !theme::has_side_panel(egui::vec2(width, height))
+    });
+    Settings { panel_open: !(has_link && has_sheet), ..Settings::default() }
 }
 
 /// The settings of the last visit.

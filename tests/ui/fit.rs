@@ -3,7 +3,7 @@
 use egui::Rect;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
-    scene::Scene,
+    scene::{Scene, presets},
     ui::{Notice, Settings},
 };
 
@@ -26,6 +26,11 @@ fn misfits(harness: &egui_kittest::Harness<'_, Stage>, window: Rect) -> Vec<Stri
         .children_recursive()
         .filter(|node| egui::accessibility::is_input(node.accesskit_node().role()))
         .filter(|node| node.accesskit_node().bounding_box().is_some())
+        // The scenes of a sheet scroll sideways.
+        .filter(|node| {
+            let label = node.accesskit_node().label();
+            !presets::all().any(|preset| label.as_deref() == Some(preset.name))
+        })
         .filter(|node| {
             let rect = node.rect();
             rect.left() < window.left() - 0.5 || rect.right() > window.right() + 0.5
@@ -89,6 +94,67 @@ fn the_picture_has_the_view_s_pixels_at_any_pixel_ratio() {
         let [width, height] = harness.state().interface.view_size_px();
         assert!((view.width() * ratio - width as f32).abs() < 0.51, "width at {ratio}");
         assert!((view.height() * ratio - height as f32).abs() < 0.51, "height at {ratio}");
+    }
+}
+
+/// The name stands whole beside the buttons, or not at all.
+#[test]
+fn the_heading_is_not_cut_off() {
+    for size in WINDOWS.into_iter().chain([[640.0, 420.0], [320.0, 568.0]]) {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        harness.event(egui::Event::Touch {
+            device_id: egui::TouchDeviceId(1),
+            id: egui::TouchId(1),
+            phase: egui::TouchPhase::Cancel,
+            pos: egui::Pos2::ZERO,
+            force: None,
+        });
+        harness.run();
+        let undo = harness.state().interface.rects().get("undo").expect("the button is there");
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        assert!(window.contains_rect(undo), "{undo:?} in {size:?}");
+        if let Some(name) = harness.query_by_label("Mandelight") {
+            let name = name.rect();
+            assert!(name.right() <= undo.left(), "{name:?} and {undo:?} in {size:?}");
+            assert!(name.width() > 80.0, "{name:?} in {size:?}");
+        }
+    }
+}
+
+#[test]
+fn a_phone_shows_more_picture_than_panel() {
+    for (size, least) in [([390.0, 844.0], 0.65), ([844.0, 390.0], 0.55), ([640.0, 420.0], 0.5)] {
+        let harness = stage(Scene::default(), Settings::default(), size);
+        let view = harness.state().interface.rects().get("view").expect("the view is there");
+        let part = view.area() / (size[0] * size[1]);
+        assert!(part > least, "the view has {part} of {size:?}");
+        let shorter = view.width().min(view.height());
+        assert!(shorter > 300.0, "{view:?} in {size:?}");
+    }
+}
+
+#[test]
+fn the_sheet_follows_a_drag_of_its_heading_and_a_tap() {
+    let mut harness = stage(Scene::default(), Settings::default(), [390.0, 844.0]);
+    let rect = |harness: &egui_kittest::Harness<'_, Stage>, name: &str| {
+        harness.state().interface.rects().get(name).unwrap_or_else(|| panic!("no {name}"))
+    };
+    let low = rect(&harness, "panel").height();
+    assert!(button(&harness, presets::opening_scenes()[0].name).rect().bottom() < 844.0);
+    // The bar is in the middle of the heading's upper edge.
+    let grip = |harness: &_| rect(harness, "sheet handle").center_top() + egui::vec2(0.0, 3.0);
+    let from = grip(&harness);
+    drag(&mut harness, from, from - egui::vec2(0.0, 280.0), 6);
+    let half = rect(&harness, "panel").height();
+    assert!((half - 464.0).abs() < 2.0, "{half}");
+    let from = grip(&harness);
+    drag(&mut harness, from, from + egui::vec2(0.0, 400.0), 6);
+    assert!(!harness.state().interface.settings().panel_open, "a drag to the edge closes it");
+    for height in [low, half, low] {
+        let at = grip(&harness);
+        drag(&mut harness, at, at, 1);
+        let after = rect(&harness, "panel").height();
+        assert!((after - height).abs() < 1.0, "{after} for {height}");
     }
 }
 

@@ -34,10 +34,12 @@ fn turning_a_light_at_depth_keeps_the_others_and_is_one_step() {
     for (unit, settings) in [(1e-6, unfolded()), (3e-3, unfolded()), (1e-6, Settings::default())] {
         let start = close_scene(unit);
         let seen = follow::shown(&start.lights, &start.camera).expect("a close view");
+        let is_unfolded = settings.more_open;
         let mut harness = stage(start.clone(), settings, [1280.0, 4000.0]);
         harness.run();
         assert_eq!(*scene(&harness), start, "showing the lights edits nothing");
-        let ball = harness.state().interface.rects().get("light ball").expect("the ball is there");
+        let name = if is_unfolded { "light ball" } else { "key light ball" };
+        let ball = harness.state().interface.rects().get(name).expect("the ball is there");
         // The ball's dot is where the light is seen: a press on it alone turns nothing.
         let key = seen.environment[0].direction.map(|v| v as f32);
         let radius = ball.width() / 2.0 - 6.0;

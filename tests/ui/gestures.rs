@@ -7,7 +7,7 @@ use egui::{
 use mandelight::{
     formula::mandelbulb,
     scene::{Scene, param},
-    ui::{Action, Settings},
+    ui::{Action, Settings, SheetHeight},
 };
 
 use crate::stage::*;
@@ -286,7 +286,7 @@ fn a_drag_goes_all_the_way_where_its_end_comes_in_the_same_frame() {
 #[test]
 fn the_light_ball_turns_the_light_as_one_step() {
     let mut harness = window();
-    let ball = harness.state().interface.rects().get("light ball").expect("the ball is there");
+    let ball = harness.state().interface.rects().get("key light ball").expect("the ball is there");
     let before = scene(&harness).lights.environment[0].direction;
     drag(&mut harness, ball.center() + vec2(20.0, -10.0), ball.center() + vec2(-20.0, 15.0), 8);
     let light = &scene(&harness).lights.environment[0];
@@ -359,7 +359,8 @@ fn swipe(harness: &mut egui_kittest::Harness<'_, Stage>, from: Pos2, to: Pos2) {
 
 #[test]
 fn a_finger_scrolls_across_a_rail_and_drags_its_handle() {
-    let mut harness = stage(Scene::default(), unfolded(), [390.0, 844.0]);
+    let settings = Settings { sheet: SheetHeight::Half, ..unfolded() };
+    let mut harness = stage(Scene::default(), settings, [390.0, 844.0]);
     let rail = |harness: &egui_kittest::Harness<'_, Stage>| {
         harness.state().interface.rects().get("power").expect("the power row is there")
     };

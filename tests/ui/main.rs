@@ -19,5 +19,6 @@ mod orbit;
 mod places;
 mod sections;
 mod stage;
+mod steady;
 mod timeline;
 mod zoom;

@@ -8,11 +8,11 @@ use crate::ui::{
     display_inputs::DisplayInputs,
     dive,
     floating::{self, ButtonRow},
+    frame::Frame,
     handles,
     home::HomeTarget,
     icon::Icon,
     panel,
-    pilot::Frame,
     places::{self, PinInputs},
     shortcuts::{self, Command},
     theme, view,
@@ -20,11 +20,14 @@ use crate::ui::{
 
 impl Interface {
     /// Draws the picture and applies input to its camera.
+    ///
+    /// `is_reshaped` is true if this frame's panels changed the fractal.
     pub(super) fn view(
         &mut self,
         ui: &mut Ui,
         inputs: &DisplayInputs<'_>,
         wide: bool,
+        is_reshaped: bool,
         commands: &mut Vec<Command>,
     ) {
         let area = ui.available_rect_before_wrap();
@@ -32,6 +35,9 @@ impl Interface {
         self.view_px = size_px;
         let frame = Frame { rect, height_px: size_px[1] };
         let scene = self.editor.scene_mut();
+        if let Some(before) = self.camera_status.filter(|_| is_reshaped) {
+            self.pilot.keep_framed(scene, frame, before);
+        }
         let response = view::show(ui, frame, inputs.picture);
         self.rects.record("view", &response);
         // The buttons precede the pilot, which executes this frame's commands.

@@ -128,6 +128,25 @@ pub(super) fn framing_all(camera: &Camera, world: World<'_>) -> Camera {
     }
 }
 
+/// `camera`, for which the set looks as large as one of the bounding radius `before` did.
+pub fn framing_alike(camera: &Camera, world: World<'_>, before: f64) -> Camera {
+    let radius = world.field.bounding_radius();
+    let (eye, scale) = (world.eye(camera), radius / before);
+    if !(scale.is_finite() && scale > 0.0) {
+        return camera.clone();
+    }
+    let moved = |offset: DVec3| (world.field.center() - offset) * (1.0 - scale);
+    let pivot = world.field.local(&camera.pivot);
+    if (eye + moved(eye)).length() > MAX_EYE_DISTANCE {
+        return camera.clone();
+    }
+    Camera {
+        position: camera.position.moved_by(moved(eye), 1e-6 * radius),
+        pivot: camera.pivot.moved_by(moved(pivot), 1e-6 * radius),
+        ..camera.clone()
+    }
+}
+
 /// `camera`, closer to the surface at `offset` from the eye, and turned toward it.
 ///
 /// The eye stays on the ray to the surface, on which nothing is in its way.

@@ -67,6 +67,8 @@ pub struct CameraStatus {
     pub bounding_radius: f64,
     /// True if the last zoom found no surface in the picture to come nearer to.
     pub nothing_ahead: bool,
+    /// True if the set as a whole is in the picture.
+    pub shows_whole: bool,
 }
 
 impl World<'_> {
@@ -108,6 +110,7 @@ impl World<'_> {
             at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,
             bounding_radius: self.field.bounding_radius(),
             nothing_ahead: false,
+            shows_whole: self.shows_whole(camera),
         }
     }
 

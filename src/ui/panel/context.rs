@@ -48,6 +48,8 @@ pub struct Context<'a> {
     pub camera_status: Option<CameraStatus>,
     /// Size of the view in the last frame, in pixels.
     pub view_px: [u32; 2],
+    /// True if the panel is a sheet at the window's lower edge.
+    pub is_sheet: bool,
     /// True in fly mode.
     pub flying: bool,
     /// True if there is something to undo.

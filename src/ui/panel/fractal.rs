@@ -12,7 +12,7 @@ use crate::{
         Fractal,
         param::{self, Param},
     },
-    ui::widgets::{param_slider, param_slider_count},
+    ui::widgets::{param_slider, param_slider_count, param_slider_wide},
 };
 
 /// The formula's first number, with buttons for the values that many choose.
@@ -22,7 +22,7 @@ pub(super) fn headline(ui: &mut Ui, cx: &mut Context<'_>) {
     if let Some((field, Value::Number(value))) = first
         && let Kind::Number { param, quick } = field.kind
     {
-        let slider = param_slider(ui, param, value);
+        let slider = param_slider_wide(ui, param, value);
         cx.rects.record(field.name, &slider);
         quick_values(ui, param, quick, value);
     }

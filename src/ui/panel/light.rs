@@ -18,7 +18,7 @@ use crate::{
 pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Camera) -> Response {
     let ball = ui
         .horizontal(|ui| {
-            let ball = direction_ball(ui, 112.0, light, camera);
+            let ball = direction_ball(ui, "Light direction", 112.0, light, camera);
             ui.vertical(|ui| {
                 ui.add_space(6.0);
                 let mut behind = toward_light_in_view(light, camera).z < 0.0;
@@ -118,15 +118,16 @@ pub(super) fn point(ui: &mut Ui, light: &mut PointLight, camera: &Camera) {
     ui.label(RichText::new(position).small().color(theme::TEXT_DIM)).on_hover_text(hover);
 }
 
-/// The ball that edits a light's direction.
+/// The ball that edits a light's direction; `name` is for screen readers.
 pub(super) fn direction_ball(
     ui: &mut Ui,
+    name: &str,
     diameter: f32,
     light: &mut EnvironmentLight,
     camera: &Camera,
 ) -> Response {
     let mut direction = toward_light_in_view(light, camera);
-    let response = ball(ui, "Light direction", diameter, light.color, &mut direction);
+    let response = ball(ui, name, diameter, light.color, &mut direction);
     if response.changed() {
         set_direction(light, camera, direction);
     }

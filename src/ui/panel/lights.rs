@@ -1,6 +1,6 @@
 //! The lights panel: a list of lights, and the selected light's properties.
 
-use egui::{Button, Response, RichText, ScrollArea, Ui, vec2};
+use egui::{Button, Id, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
 use super::{
@@ -16,13 +16,16 @@ use crate::{
     },
 };
 
+/// Number of lights that the list shows without scrolling.
+const MAX_SHOWN_ROWS: f32 = 6.0;
+/// Gap between the list's rows, in points.
+const ROW_GAP: f32 = 2.0;
+
 /// The essential controls of light: the key light's direction and colour, and the exposure.
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     caption(ui, "Light");
-    // The open section of all lights has its own ball.
-    if !(cx.settings.more_open && cx.settings.sections.is_open(SECTION.name)) {
-        edit_as_seen(ui, cx, key_ball);
-    }
+    // The ball stays while the section of all lights shows its own: nothing moves under the pointer.
+    edit_as_seen(ui, cx, key_ball);
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
     cx.rects.record("exposure", &response);
 }
@@ -36,8 +39,8 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
     if let Some(light) = cx.scene.lights.environment.get_mut(key) {
         let camera = &cx.scene.camera;
         ui.horizontal(|ui| {
-            let response = light::direction_ball(ui, 84.0, light, camera);
-            cx.rects.record("light ball", &response);
+            let response = light::direction_ball(ui, "Key light direction", 84.0, light, camera);
+            cx.rects.record("key light ball", &response);
             ui.vertical(|ui| {
                 ui.add_space(4.0);
                 ui.label(
@@ -123,24 +126,38 @@ fn first(lights: &Lights) -> Option<LightRef> {
 fn list(ui: &mut Ui, cx: &mut Context<'_>) {
     let selected = &mut cx.selection.light;
     let lights = &mut cx.scene.lights;
-    ScrollArea::vertical()
+    let row_height = ui.spacing().interact_size.y + ROW_GAP;
+    let height = row_height * MAX_SHOWN_ROWS;
+    // A light that was selected elsewhere, or is new, scrolls into sight.
+    let last_shown = Id::unique("light scrolled to");
+    let is_new = ui.data(|data| data.get_temp(last_shown)) != Some(*selected);
+    ui.data_mut(|data| data.insert_temp(last_shown, *selected));
+    let shown = ScrollArea::vertical()
         .id_salt("light list")
-        .min_scrolled_height(190.0)
-        .max_height(190.0)
+        .min_scrolled_height(height)
+        .max_height(height)
         .auto_shrink([false, true])
         .show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 2.0;
-            for (index, light) in lights.environment.iter_mut().enumerate() {
+            ui.spacing_mut().item_spacing.y = ROW_GAP;
+            let environment = lights.environment.iter_mut().enumerate().map(|(index, light)| {
                 let this = LightRef::Environment(index);
-                row(ui, this, selected, &mut light.color, &mut light.muted, &mut light.solo);
-            }
-            for (index, light) in lights.point.iter_mut().enumerate() {
+                (this, &mut light.color, &mut light.muted, &mut light.solo)
+            });
+            let point = lights.point.iter_mut().enumerate().map(|(index, light)| {
                 let this = LightRef::Point(index);
-                row(ui, this, selected, &mut light.color, &mut light.muted, &mut light.solo);
+                (this, &mut light.color, &mut light.muted, &mut light.solo)
+            });
+            for (this, color, muted, solo) in environment.chain(point) {
+                let row = row(ui, this, selected, color, muted, solo);
+                if is_new && *selected == Some(this) {
+                    row.scroll_to_me(None);
+                }
             }
         });
+    cx.rects.record_rect("light list", shown.inner_rect);
 }
 
+/// A light's row: colour, name, mute and solo. Returns the name's response.
 fn row(
     ui: &mut Ui,
     this: LightRef,
@@ -148,7 +165,7 @@ fn row(
     linear: &mut [f32; 3],
     muted: &mut bool,
     solo: &mut bool,
-) {
+) -> Response {
     let name = this.name();
     ui.push_id((this.name(), "row"), |ui| {
         ui.horizontal(|ui| {
@@ -161,11 +178,10 @@ fn row(
             let text =
                 RichText::new(&name).color(if *muted { theme::TEXT_DIM } else { theme::TEXT });
             let button = Button::selectable(chosen, text).min_size(vec2(width, height)).truncate();
-            if ui
+            let response = ui
                 .add_sized(vec2(width, height), button)
-                .on_hover_text("Select this light to edit it below")
-                .clicked()
-            {
+                .on_hover_text("Select this light to edit it below");
+            if response.clicked() {
                 *selected = Some(this);
             }
             toggle(ui, "M", &format!("Mute {name}"), "Mute: switch this light off", muted);
@@ -176,8 +192,11 @@ fn row(
                 "Solo: while any light is solo, only solo lights shine",
                 solo,
             );
-        });
-    });
+            response
+        })
+        .inner
+    })
+    .inner
 }
 
 fn toggle(ui: &mut Ui, letter: &str, name: &str, hover: &str, on: &mut bool) {

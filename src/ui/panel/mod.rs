@@ -23,6 +23,7 @@ mod quality;
 mod rig;
 mod scenes;
 mod section_planes;
+mod sheet;
 mod stereo;
 mod surface;
 mod timeline;
@@ -31,7 +32,7 @@ mod tone;
 use egui::{Frame, Margin, RichText, ScrollArea, Ui};
 
 use super::{
-    icon::{Icon, icon_button},
+    icon::{Icon, icon_button, icon_side},
     settings::{Sections, Settings},
     shortcuts::Command,
     theme,
@@ -41,6 +42,8 @@ pub(super) use context::Context;
 use context::Section;
 pub(super) use formula_text::formula_window;
 pub(super) use help::help_window;
+pub(super) use sheet::Sheet;
+pub use sheet::SheetHeight;
 pub(super) use timeline::strip;
 
 /// The sections of "More", from top to bottom. A new panel adds its module above and its line here.
@@ -59,6 +62,11 @@ const SECTIONS: &[Section] = &[
     export::SECTION,
 ];
 
+/// Number of buttons in the heading.
+const HEADING_BUTTONS: f32 = 5.0;
+/// Width that the program's name takes in the heading, with the gaps, in points.
+const TITLE_ROOM: f32 = 112.0;
+
 /// The panel at the window's side: heading at the top, saving at the bottom, the rest scrolls.
 pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
     let margin = Margin { left: 14, right: 8, top: 8, bottom: 6 };
@@ -68,28 +76,6 @@ pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
         .show(ui, |ui| heading(ui, cx, true));
     saving(ui, cx);
     scrolled(ui, cx, false);
-}
-
-/// Minimum height of a sheet with a fixed area for saving, in points.
-const TALL_SHEET: f32 = 320.0;
-
-/// The panel as a sheet at the window's lower edge. In a low sheet, saving scrolls too.
-pub(super) fn sheet(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
-    egui::Panel::top("heading")
-        .frame(
-            Frame::new()
-                .inner_margin(Margin { left: 14, right: 8, top: 4, bottom: 4 })
-                .fill(theme::PANEL),
-        )
-        .show_separator_line(false)
-        .show(ui, |ui| heading(ui, cx, open));
-    if open {
-        let is_tall = ui.max_rect().height() >= TALL_SHEET;
-        if is_tall {
-            saving(ui, cx);
-        }
-        scrolled(ui, cx, !is_tall);
-    }
 }
 
 fn saving(ui: &mut Ui, cx: &mut Context<'_>) {
@@ -120,18 +106,19 @@ fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
 
 fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
     ui.horizontal(|ui| {
-        ui.add(egui::Label::new(RichText::new("Mandelight").heading().color(theme::ACCENT)));
+        let title = RichText::new("Mandelight").heading().color(theme::ACCENT);
+        // Beside buttons for fingers, a narrow panel has no room for the name.
+        if ui.available_width() >= HEADING_BUTTONS * icon_side(ui) + TITLE_ROOM {
+            ui.add(egui::Label::new(title));
+        }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            let narrow = ui.available_width() < 150.0;
-            let (icon, hover) = if open {
-                (Icon::ChevronDown, "Hide the panel (P)")
+            let (icon, name, hover) = if open {
+                (Icon::Cross, "Hide panel", "Hide the panel (P)")
             } else {
-                (Icon::ChevronUp, "Show the panel (P)")
+                (Icon::ChevronUp, "Show panel", "Show the panel (P)")
             };
-            let icon = if open && cx.settings.panel_open && !narrow { Icon::Cross } else { icon };
-            let toggle =
-                icon_button(ui, icon, if open { "Hide panel" } else { "Show panel" }, hover);
+            let toggle = icon_button(ui, icon, name, hover);
             cx.rects.record("panel toggle", &toggle);
             if toggle.clicked() {
                 cx.commands.push(Command::TogglePanel);

@@ -2,13 +2,13 @@
 
 use std::sync::LazyLock;
 
-use egui::{Button, Id, Rect, RichText, Sense, Ui, Vec2, vec2};
+use egui::{Button, Id, Rect, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
 
 use super::context::Context;
 use crate::{
     scene::{
         Scene,
-        presets::{self, PresetList},
+        presets::{self, Preset, PresetList},
     },
     ui::{shortcuts::Command, status::zoom, thumbnail, widgets::card},
 };
@@ -42,7 +42,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     });
     if let Some(list) = lists.get(chosen) {
         let first = lists.iter().take(chosen).map(|list| list.presets.len()).sum();
-        cards(ui, cx, list, first);
+        if cx.is_sheet {
+            strip(ui, cx, list, first);
+        } else {
+            cards(ui, cx, list, first);
+        }
     }
     if chosen == 1 {
         let drawn = ui
@@ -70,20 +74,52 @@ fn cards(ui: &mut Ui, cx: &mut Context<'_>, list: &PresetList, first: usize) {
     for (index, preset) in presets.iter().enumerate() {
         let place = vec2((index % columns) as f32, (index / columns) as f32);
         let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
-        let is_chosen = chosen == Some(first + index);
-        let card = card(ui, rect, preset.name, thumbnail::image(preset), is_chosen);
-        // The opening scenes have number keys, of which there are nine.
-        let hover = match first {
-            0 if index < 9 => format!("{} ({})", preset.blurb, index + 1),
-            _ => preset.blurb.to_owned(),
-        };
-        let response = card.on_hover_text(hover);
-        if first + index == 0 {
-            cx.rects.record("first scene", &response);
+        preset_card(ui, cx, rect, preset, first + index, chosen);
+    }
+}
+
+/// Height of a card in a sheet's row, in points.
+const STRIP_HEIGHT: f32 = 100.0;
+
+/// A row of large cards for the presets of a list, which scrolls sideways.
+fn strip(ui: &mut Ui, cx: &mut Context<'_>, list: &PresetList, first: usize) {
+    let [width_px, height_px] = thumbnail::SIZE_PX.map(|side| side as f32);
+    let size = vec2((STRIP_HEIGHT * width_px / height_px).round(), STRIP_HEIGHT);
+    let chosen = chosen(cx.scene);
+    ScrollArea::horizontal().id_salt(list.name).show(ui, |ui| {
+        let count = list.presets.len() as f32;
+        let width = (size.x + GAP) * count - GAP;
+        let (area, _) = ui.allocate_exact_size(vec2(width.max(0.0), size.y), Sense::hover());
+        for (index, preset) in list.presets.iter().enumerate() {
+            let at = area.min + vec2((size.x + GAP) * index as f32, 0.0);
+            let rect = Rect::from_min_size(at, size);
+            preset_card(ui, cx, rect, preset, first + index, chosen);
         }
-        if response.clicked() {
-            cx.commands.push(Command::Preset(first + index));
-        }
+    });
+}
+
+/// The card of the preset that is number `index` of all; `chosen` is the one in view.
+fn preset_card(
+    ui: &mut Ui,
+    cx: &mut Context<'_>,
+    rect: Rect,
+    preset: &Preset,
+    index: usize,
+    chosen: Option<usize>,
+) {
+    let is_chosen = chosen == Some(index);
+    let card = card(ui, rect, preset.name, thumbnail::image(preset), is_chosen);
+    // The first nine scenes have number keys.
+    let hover = match index {
+        0..9 => format!("{} ({})", preset.blurb, index + 1),
+        _ => preset.blurb.to_owned(),
+    };
+    let response = card.on_hover_text(hover);
+    if index == 0 {
+        cx.rects.record("first scene", &response);
+    }
+    if response.clicked() {
+        cx.commands.push(Command::Preset(index));
     }
 }
 

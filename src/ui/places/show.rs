@@ -15,8 +15,8 @@ use crate::{
     ui::{
         display_inputs::SmallTextures,
         floating::GAP,
+        frame::Frame,
         icon::{self, Icon},
-        pilot::Frame,
         rects::Rects,
         theme,
     },

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     fractal::FractalModel,
     scene::{Camera, Scene},
-    ui::{handles, pilot::Frame, small_picture::SmallPicture},
+    ui::{frame::Frame, handles, small_picture::SmallPicture},
 };
 
 /// Most pins.

@@ -33,19 +33,51 @@ const LOG_KEY_FRACTION: f64 = 0.01;
 /// A double click on the slider or the name resets the value; arrow keys step the value while
 /// the slider is focused.
 pub fn param_slider(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
-    let before = *value;
     let height = ui.spacing().interact_size.y;
     let width = ui.available_width();
     let label_width = (width * 0.37).clamp(70.0, 108.0);
-    let row = ui.push_id(param.path, |ui| {
-        let (row, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+    row(ui, param, value, height, |row| {
         let label = Rect::from_min_size(row.min, vec2(label_width, height));
-        let number_at = Rect::from_min_max(pos2(row.right() - VALUE_WIDTH, row.top()), row.max);
+        let number = Rect::from_min_max(pos2(row.right() - VALUE_WIDTH, row.top()), row.max);
         let rail = Rect::from_min_max(
             pos2(label.right(), row.top()),
-            pos2(number_at.left() - 6.0, row.bottom()),
+            pos2(number.left() - 6.0, row.bottom()),
         );
+        Parts { label, rail, number }
+    })
+}
 
+/// As [`param_slider`], with the rail over the whole width below the name and the number.
+///
+/// A longer rail sets values of a wide range more finely.
+pub fn param_slider_wide(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
+    let height = ui.spacing().interact_size.y;
+    row(ui, param, value, 2.0 * height, |row| {
+        let (top, rail) = row.split_top_bottom_at_y(row.top() + height);
+        let (label, number) = top.split_left_right_at_x(top.right() - VALUE_WIDTH);
+        Parts { label, rail, number }
+    })
+}
+
+/// Where the parts of a row are.
+struct Parts {
+    label: Rect,
+    rail: Rect,
+    number: Rect,
+}
+
+/// A row of the given height, whose parts are where `place` puts them.
+fn row(
+    ui: &mut Ui,
+    param: &Param,
+    value: &mut f64,
+    height: f32,
+    place: impl FnOnce(Rect) -> Parts,
+) -> Response {
+    let before = *value;
+    let row = ui.push_id(param.path, |ui| {
+        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let Parts { label, rail, number: number_at } = place(row);
         let label = label_ui(ui, label, param.label);
         let rail = rail_ui(ui, rail, param, value);
         if label.double_clicked() || rail.double_clicked() {

@@ -1,0 +1,114 @@
+//! What people hold and look at stays in place: rows of lists, headings, the framed set.
+
+use egui::{Rect, vec2};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use mandelight::{
+    formula::table::Value,
+    fractal::FractalModel,
+    scene::{Scene, presets},
+    ui::{
+        Settings,
+        navigation::{Viewport, World},
+    },
+};
+
+use crate::stage::*;
+
+fn rect(harness: &Harness<'_, Stage>, name: &str) -> Rect {
+    harness.state().interface.rects().get(name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+#[test]
+fn opening_the_lights_moves_nothing_above_or_under_the_pointer() {
+    let settings = Settings { more_open: true, ..Settings::default() };
+    let mut harness = stage(Scene::default(), settings, [1280.0, 2400.0]);
+    harness.run();
+    let before = ["key light ball", "exposure", "more", "Lights"].map(|name| rect(&harness, name));
+    harness.get_by_label("Lights").click();
+    harness.run();
+    assert!(harness.query_by_label("Add light").is_some(), "the section is open");
+    let after = ["key light ball", "exposure", "more", "Lights"].map(|name| rect(&harness, name));
+    assert_eq!(before, after);
+}
+
+#[test]
+fn the_list_shows_whole_rows_and_a_new_light_is_in_sight() {
+    for height in [5000.0, 844.0] {
+        // A phone's rows are taller than a desktop's.
+        let width = if height < 1000.0 { 390.0 } else { 1280.0 };
+        let mut harness = stage(Scene::default(), unfolded(), [width, height]);
+        harness.run();
+        let lights = scene(&harness).lights.environment.len();
+        for count in lights + 1..lights + 12 {
+            harness.get_by_label("Add light").click_accesskit();
+            harness.run();
+            assert_eq!(scene(&harness).lights.environment.len(), count);
+            let list = rect(&harness, "light list");
+            let rows =
+                (1..=count).map(|index| harness.get_by_label(&format!("Light {index}")).rect());
+            let rows: Vec<Rect> = rows.collect();
+            let new = rows[count - 1];
+            assert!(list.expand(0.6).contains_rect(new), "{count}: {new:?} in {list:?}");
+            let whole = rows.iter().filter(|row| list.expand(0.6).contains_rect(**row)).count();
+            assert_eq!(whole, count.min(6), "{count} rows in {list:?}");
+            let partly = rows.iter().filter(|row| {
+                let seen = row.intersect(list).height();
+                seen > 2.0 && seen < row.height() - 2.0
+            });
+            assert_eq!(partly.count(), 0, "{count} rows in {list:?}");
+        }
+    }
+}
+
+fn power(scene: &Scene) -> f64 {
+    match scene.fractal.fields().next() {
+        Some((_, Value::Number(power))) => *power,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn shows_whole(harness: &Harness<'_, Stage>) -> bool {
+    let (scene, view) = (scene(harness), rect(harness, "view"));
+    let (aspect, height_px) = (f64::from(view.width() / view.height()), f64::from(view.height()));
+    let viewport = Viewport { aspect, height_px, detail: 1.0 };
+    let model = FractalModel::new(&scene.fractal);
+    World { field: &**model.whole(), viewport }.shows_whole(&scene.camera)
+}
+
+#[test]
+fn the_power_is_set_finely_and_the_set_stays_framed() {
+    let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 720.0]);
+    harness.run();
+    assert!(shows_whole(&harness), "the opening view");
+    let start = scene(&harness).clone();
+    // From 8 toward the lowest power, in steps of 30 points.
+    let rail = slider(&harness, "Power").rect();
+    let mut at = rail.left() + rail.width() * 6.0 / 14.0;
+    while at > rail.left() + 30.0 {
+        let before = power(scene(&harness));
+        drag(
+            &mut harness,
+            egui::pos2(at, rail.center().y),
+            egui::pos2(at - 30.0, rail.center().y),
+            3,
+        );
+        let moved = before - power(scene(&harness));
+        assert!((0.2..2.5).contains(&moved), "30 points move the power by {moved}");
+        assert!(shows_whole(&harness), "at power {}", power(scene(&harness)));
+        at -= 30.0;
+    }
+    assert!(power(scene(&harness)) < 4.0);
+    undo_all(&mut harness);
+    assert_eq!(*scene(&harness), start, "the camera comes back too");
+}
+
+#[test]
+fn a_close_view_stays_where_it_is_when_the_power_changes() {
+    let dive = presets::all().find(|preset| preset.name == "Rosette").expect("a dive");
+    let mut harness = stage((dive.scene)(), Settings::default(), [1280.0, 720.0]);
+    harness.run();
+    let camera = scene(&harness).camera.clone();
+    let rail = slider(&harness, "Power").rect();
+    drag(&mut harness, rail.center(), rail.center() + vec2(40.0, 0.0), 3);
+    assert_eq!(scene(&harness).camera, camera);
+}
