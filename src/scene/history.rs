@@ -33,6 +33,18 @@ impl<T: Clone> History<T> {
         Self { past: VecDeque::new(), future: Vec::new(), open: None }
     }
 
+    /// A history with these undo steps, the most recent last; older ones than [`MAX_STEPS`] are dropped.
+    pub fn with_past(steps: impl IntoIterator<Item = T>) -> Self {
+        let mut past: VecDeque<T> = steps.into_iter().collect();
+        past.drain(..past.len().saturating_sub(MAX_STEPS));
+        Self { past, future: Vec::new(), open: None }
+    }
+
+    /// The undo steps, the most recent first.
+    pub fn past(&self) -> impl Iterator<Item = &T> {
+        self.past.iter().rev()
+    }
+
     /// Records `before`, the state before a change, as an undo step.
     ///
     /// Call this for real changes only, before or after the change. Within one gesture only the

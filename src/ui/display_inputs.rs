@@ -10,6 +10,8 @@ use crate::render::report::Report;
 pub struct DisplayInputs<'a> {
     /// The newest picture; none before the first.
     pub picture: Option<ViewTexture>,
+    /// A picture of the same scene from before a change of size, until the newest is as good.
+    pub kept_picture: Option<ViewTexture>,
     /// The renderer's report.
     pub report: &'a Report,
     /// The export in progress, if any.

@@ -29,6 +29,16 @@ impl Editor {
         }
     }
 
+    /// Replaces the history by undo steps of an earlier visit, the most recent last.
+    pub fn restore_steps(&mut self, steps: impl IntoIterator<Item = Project>) {
+        self.history = History::with_past(steps);
+    }
+
+    /// The undo steps, the most recent first.
+    pub fn steps(&self) -> impl Iterator<Item = &Project> {
+        self.history.past()
+    }
+
     /// The current scene and path.
     pub fn project(&self) -> &Project {
         &self.project

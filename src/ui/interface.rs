@@ -149,6 +149,11 @@ impl Interface {
         &self.settings
     }
 
+    /// The editor, for its project and history.
+    pub fn editor(&self) -> &Editor {
+        &self.editor
+    }
+
     /// The editor, for undo and redo by the shell.
     pub fn editor_mut(&mut self) -> &mut Editor {
         &mut self.editor

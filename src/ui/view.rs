@@ -22,17 +22,22 @@ pub fn snap_to_pixels(area: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
     (rect, [side(right - left), side(bottom - top)])
 }
 
-/// Draws the picture over `frame` and returns the area's pointer response.
-pub fn show(ui: &Ui, frame: Frame, picture: Option<ViewTexture>) -> egui::Response {
+/// Draws the pictures over `frame`, the last on top, and returns the area's pointer response.
+///
+/// `is_stereo` is true if a picture holds both eyes.
+pub fn show(
+    ui: &Ui,
+    frame: Frame,
+    pictures: impl IntoIterator<Item = ViewTexture>,
+    is_stereo: bool,
+) -> egui::Response {
     let painter = ui.painter().with_clip_rect(frame.rect);
     painter.rect_filled(frame.rect, 0.0, theme::BACKGROUND);
-    if let Some(picture) = picture {
-        painter.image(
-            picture.texture,
-            frame.rect,
-            visible_part(picture.size_px, frame.aspect()),
-            Color32::WHITE,
-        );
+    for picture in pictures {
+        // The pictures of both eyes have their own places.
+        let at = if is_stereo { frame.rect } else { placed(picture.size_px, frame) };
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        painter.image(picture.texture, at, whole, Color32::WHITE);
     }
     let response = ui.interact(frame.rect, ui.scope_id().with("view"), Sense::click_and_drag());
     ui.ctx().accesskit_node_builder(response.id, |node| {
@@ -42,18 +47,21 @@ pub fn show(ui: &Ui, frame: Frame, picture: Option<ViewTexture>) -> egui::Respon
     response
 }
 
-/// The central part of a picture with the area's aspect, in texture coordinates.
+/// Where a picture of this size shows what the picture of `frame` will show, in the window.
 ///
-/// After a change of size, the old picture fills the area undistorted until the new one exists.
-fn visible_part(size_px: [u32; 2], aspect: f64) -> Rect {
-    let [width, height] = size_px.map(|side| f64::from(side.max(1)));
-    let ratio = (width / height / aspect) as f32;
-    let (u, v) = if (ratio - 1.0).abs() < 0.01 {
-        (1.0, 1.0)
-    } else {
-        ((1.0 / ratio).min(1.0), ratio.min(1.0))
-    };
-    Rect::from_center_size(pos2(0.5, 0.5), egui::vec2(u, v))
+/// The camera's angle spans a picture's shorter side, so pictures of a scene agree in its length.
+/// A picture of another shape than the frame's sticks out of the frame, or leaves its edges free.
+fn placed(size_px: [u32; 2], frame: Frame) -> Rect {
+    let [width, height] = size_px.map(|side| side.max(1) as f32);
+    let points_per_px = frame.rect.width().min(frame.rect.height()) / width.min(height);
+    let size = egui::vec2(width, height) * points_per_px;
+    if (size - frame.rect.size()).abs().max_elem() < 0.5 {
+        return frame.rect;
+    }
+    // On whole pixels, a picture that is not scaled stays sharp.
+    let pixel = frame.rect.height() / frame.height_px.max(1) as f32;
+    let corner = (frame.rect.center() - size / 2.0 - frame.rect.min) / pixel;
+    Rect::from_min_size(frame.rect.min + corner.round() * pixel, size)
 }
 
 #[cfg(test)]
@@ -80,14 +88,20 @@ mod tests {
     }
 
     #[test]
-    fn an_old_picture_is_cropped_not_stretched() {
-        assert_eq!(
-            visible_part([800, 600], 4.0 / 3.0),
-            Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0))
-        );
-        let tall = visible_part([800, 400], 1.0);
-        assert_eq!((tall.width(), tall.height()), (0.5, 1.0));
-        let wide = visible_part([400, 800], 1.0);
-        assert_eq!((wide.width(), wide.height()), (1.0, 0.5));
+    fn a_picture_of_another_size_shows_the_scene_in_the_same_places() {
+        let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(1280.0, 690.0));
+        let frame = Frame { rect, height_px: 690 };
+        assert_eq!(placed([1280, 690], frame), rect);
+        assert_eq!(placed([640, 345], frame), rect, "a smaller one of the same shape");
+        // The picture beside an open panel is the middle of the one without.
+        let beside = placed([976, 690], frame);
+        assert_eq!(beside, Rect::from_min_size(pos2(10.0 + 152.0, 20.0), vec2(976.0, 690.0)));
+        // On a phone the angle spans the width.
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(390.0, 600.0));
+        let below = placed([390, 350], Frame { rect, height_px: 600 });
+        assert!((below.width() - 390.0 * 390.0 / 350.0).abs() < 1e-3);
+        assert_eq!(below.center(), rect.center());
+        let tall = placed([390, 700], Frame { rect, height_px: 600 });
+        assert_eq!(tall, Rect::from_min_size(pos2(0.0, -50.0), vec2(390.0, 700.0)));
     }
 }

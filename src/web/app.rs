@@ -55,6 +55,7 @@ impl eframe::App for App {
 
         let inputs = DisplayInputs {
             picture: engine.picture(),
+            kept_picture: engine.kept_picture(),
             report: &session.status.report,
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),
@@ -69,7 +70,7 @@ impl eframe::App for App {
 
         let engine_secs = engine.update(session);
         let moving = session.interface.is_moving();
-        let autosave_secs = session.autosave.update(session.interface.project(), moving, now_secs);
+        let autosave_secs = session.autosave.update(session.interface.editor(), moving, now_secs);
         session.status.frames += 1;
         for secs in [notice_secs, engine_secs, autosave_secs].into_iter().flatten() {
             ui.ctx().request_repaint_after_secs(secs as f32);

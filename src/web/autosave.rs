@@ -1,13 +1,21 @@
 //! Autosave: writes the scene and its path to the browser's storage and the address bar.
 //!
-//! In: the project of each frame. Out: one write, half a second after the last change.
+//! In: the edited project of each frame. Out: one write, half a second after the last change. The undo
+//! steps are written too, so that a reload does not end them.
 
-use crate::scene::{Project, document, link};
+use crate::{
+    scene::{Project, document, link},
+    ui::editor::Editor,
+};
 
 use super::{address::Address, storage};
 
 /// Seconds without a change before a write.
 const REST_SECS: f64 = 0.5;
+/// Maximum length of the stored undo steps, in bytes; browsers store about 5 MB per page.
+const MAX_STEPS_BYTES: usize = 500_000;
+/// Maximum number of stored undo steps, so that a write takes no longer than a frame.
+const MAX_STORED_STEPS: usize = 50;
 
 /// The autosave of one project.
 pub struct Autosave {
@@ -26,7 +34,8 @@ impl Autosave {
 
     /// Compares this frame's project with the last one, and writes it when due. Returns the seconds
     /// until the next call is due, if a write is pending. While `moving`, writes wait.
-    pub fn update(&mut self, project: &Project, moving: bool, now_secs: f64) -> Option<f64> {
+    pub fn update(&mut self, editor: &Editor, moving: bool, now_secs: f64) -> Option<f64> {
+        let project = editor.project();
         if self.last.as_ref() != Some(project) {
             let is_first = self.last.replace(project.clone()).is_none();
             self.changed_at_secs = (!is_first).then_some(now_secs);
@@ -37,17 +46,18 @@ impl Autosave {
         if left_secs > 0.0 {
             return Some(left_secs);
         }
-        self.flush();
+        self.flush(editor);
         None
     }
 
     /// Writes the project of the last frame now, if it has unsaved changes.
-    pub fn flush(&mut self) {
+    pub fn flush(&mut self, editor: &Editor) {
         let Some(project) = self.last.as_ref().filter(|_| self.changed_at_secs.is_some()) else {
             return;
         };
         self.changed_at_secs = None;
         storage::SCENE.write(&document::project_to_json_compact(project));
+        storage::STEPS.write(&steps_to_text(editor.steps()));
         // An address is too short for a long path: then it holds the scene alone.
         let fragment = link::project_to_fragment(project);
         match fragment.or_else(|_| link::to_fragment(&project.scene)) {
@@ -55,4 +65,28 @@ impl Autosave {
             Err(error) => log::warn!("the address bar cannot hold this scene: {error}"),
         }
     }
+}
+
+/// The undo steps of the last visit in this tab, the most recent last.
+pub fn stored_steps() -> Vec<Project> {
+    let text = storage::STEPS.read().unwrap_or_default();
+    // A step that cannot be read ends the steps that can be undone.
+    let steps = text.lines().map_while(|line| document::project_from_json(line).ok());
+    let mut steps: Vec<Project> = steps.collect();
+    steps.reverse();
+    steps
+}
+
+/// Undo steps as documents, one a line, the most recent first, as many as have room.
+fn steps_to_text<'a>(steps: impl Iterator<Item = &'a Project>) -> String {
+    let mut text = String::new();
+    for step in steps.take(MAX_STORED_STEPS) {
+        let line = document::project_to_json_compact(step);
+        if text.len() + line.len() > MAX_STEPS_BYTES {
+            break;
+        }
+        text.push_str(&line);
+        text.push('\n');
+    }
+    text
 }

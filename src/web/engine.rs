@@ -95,6 +95,11 @@ impl Engine {
         self.view.shown()
     }
 
+    /// The picture from before a change of size, until the newest is as good.
+    pub fn kept_picture(&self) -> Option<ui::ViewTexture> {
+        self.view.kept()
+    }
+
     /// The small pictures that are finished.
     pub fn small_textures(&self) -> &SmallTextures {
         self.small_pictures.textures()
@@ -107,12 +112,8 @@ impl Engine {
         self.exporter.start_requested_sequence(session);
         let scale = session.update_safe_mode().scale();
         let interface = &session.interface;
-        let settling_secs = self.view.resize(
-            interface.view_size_px(),
-            interface.scene().camera.stereo.layout,
-            scale,
-            now_secs,
-        );
+        let scene = interface.scene();
+        let settling_secs = self.view.resize(scene, interface.view_size_px(), scale, now_secs);
         self.view.note_frame();
         self.view.set_environment_map(interface.environment_map());
         self.view.set_scene(interface.scene(), interface.is_moving());

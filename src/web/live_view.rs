@@ -10,12 +10,12 @@ use eframe::egui_wgpu::RenderState;
 use crate::{
     fractal::SharedModel,
     render::{Activity, Pace, Pipelines, Region, Report, View},
-    scene::{EnvironmentMap, Scene, StereoLayout},
+    scene::{EnvironmentMap, Scene},
     ui,
 };
 
-/// Seconds that a new viewport size must last before the view is resized. Until then egui stretches
-/// the old picture.
+/// Seconds that a new viewport size must last before the view is resized. Until then egui shows the
+/// old picture.
 const SETTLE_SECS: f64 = 0.12;
 
 /// A [`View`] of the size of the viewport, and its texture in egui.
@@ -26,27 +26,50 @@ pub struct LiveView {
     models: SharedModel,
     view: Option<View>,
     shown: Option<Shown>,
+    kept: Option<Kept>,
     /// A new size that has not settled, and since when.
     pending_region: Option<(Region, f64)>,
 }
 
 /// The texture that egui shows.
+#[derive(Clone, Copy)]
 struct Shown {
     picture: ui::ViewTexture,
     /// The view's texture generation.
     generation: u64,
 }
 
+/// A picture from before a change of size, which stays on the screen until the new one is as good.
+struct Kept {
+    shown: Shown,
+    scene: Scene,
+    /// Samples of each of its pixels.
+    samples: u32,
+}
+
 impl LiveView {
     /// A live view without a size and without a picture.
     pub fn new(pipelines: Arc<Pipelines>, render_state: RenderState, models: &SharedModel) -> Self {
         let models = models.clone();
-        Self { pipelines, render_state, models, view: None, shown: None, pending_region: None }
+        Self {
+            pipelines,
+            render_state,
+            models,
+            view: None,
+            shown: None,
+            kept: None,
+            pending_region: None,
+        }
     }
 
     /// The picture for egui; `None` before the first one.
     pub fn shown(&self) -> Option<ui::ViewTexture> {
         self.shown.as_ref().map(|shown| shown.picture)
+    }
+
+    /// The picture from before a change of size, until the newest is as good.
+    pub fn kept(&self) -> Option<ui::ViewTexture> {
+        self.kept.as_ref().map(|kept| kept.shown.picture)
     }
 
     /// The newest picture on the GPU.
@@ -72,15 +95,16 @@ impl LiveView {
         self.view.as_ref().map_or(0, |view| view.dispatches().total())
     }
 
-    /// Resizes the picture to `size_px` times `scale`, a size that both eyes of `layout` share.
+    /// Resizes the picture of `scene` to `size_px` times `scale`, a size that both eyes share.
     /// Returns the seconds until the size settles, if it has not.
     pub fn resize(
         &mut self,
+        scene: &Scene,
         size_px: [u32; 2],
-        layout: StereoLayout,
         scale: f64,
         now_secs: f64,
     ) -> Option<f64> {
+        let layout = scene.camera.stereo.layout;
         let scaled_px = size_px.map(|side| (f64::from(side) * scale).round() as u32);
         let region = Region::whole_within_limits(scaled_px).shared_by(layout);
         let Some(view) = &mut self.view else {
@@ -107,12 +131,50 @@ impl LiveView {
         if left_secs > 0.0 {
             return Some(left_secs);
         }
-        view.set_region(region);
+        self.keep_picture(scene);
+        if let Some(view) = &mut self.view {
+            view.set_region(region);
+        }
         None
+    }
+
+    /// Keeps the picture of `scene` on the screen while the one of another size is made.
+    fn keep_picture(&mut self, scene: &Scene) {
+        let (Some(shown), report) = (self.shown, self.report()) else { return };
+        let samples = report.samples_done;
+        let has_better = self.kept.as_ref().is_some_and(|kept| kept.samples > samples);
+        if samples > 0 && !has_better && !scene.camera.stereo.is_on() {
+            self.drop_kept();
+            self.kept = Some(Kept { shown, scene: scene.clone(), samples });
+        }
+    }
+
+    /// Removes the kept picture from the screen.
+    fn drop_kept(&mut self) {
+        let Some(Kept { shown: Shown { picture, generation }, .. }) = self.kept.take() else {
+            return;
+        };
+        // Without a newer picture, the screen still shows this one.
+        if self.shown.is_none_or(|shown| shown.generation != generation) {
+            self.render_state.renderer.write().free_texture(&picture.texture);
+        }
+    }
+
+    /// Removes the kept picture once the newest one has as many samples, or is finished.
+    fn replace_kept(&mut self) {
+        let (Some(kept), Some(shown)) = (&self.kept, &self.shown) else { return };
+        let report = self.report();
+        let is_as_good = report.samples_done >= kept.samples || report.activity == Activity::Idle;
+        if shown.generation != kept.shown.generation && is_as_good {
+            self.drop_kept();
+        }
     }
 
     /// Sets the scene; `moving` announces more changes at once.
     pub fn set_scene(&mut self, scene: &Scene, moving: bool) {
+        if self.kept.as_ref().is_some_and(|kept| kept.scene != *scene) {
+            self.drop_kept();
+        }
         if let Some(view) = &mut self.view {
             view.set_scene(scene, moving);
         }
@@ -151,6 +213,7 @@ impl LiveView {
         let Some(view) = &mut self.view else { return false };
         let busy = view.pump(now_secs);
         self.update_egui_texture();
+        self.replace_kept();
         busy
     }
 
@@ -166,12 +229,15 @@ impl LiveView {
         let texture_view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let filter = wgpu::FilterMode::Linear;
         let mut renderer = self.render_state.renderer.write();
+        let kept_generation = self.kept.as_ref().map(|kept| kept.shown.generation);
         let id = match &self.shown {
-            Some(Shown { picture: ui::ViewTexture { texture: id, .. }, .. }) => {
+            Some(Shown { picture: ui::ViewTexture { texture: id, .. }, generation })
+                if Some(*generation) != kept_generation =>
+            {
                 renderer.update_egui_texture_from_wgpu_texture(device, &texture_view, filter, *id);
                 *id
             }
-            None => renderer.register_native_texture(device, &texture_view, filter),
+            _ => renderer.register_native_texture(device, &texture_view, filter),
         };
         let stretch = view.region().eyes.pixel_aspect();
         let size_px = [texture.width() * stretch, texture.height()];
@@ -182,6 +248,7 @@ impl LiveView {
 
 impl Drop for LiveView {
     fn drop(&mut self) {
+        self.drop_kept();
         if let Some(shown) = &self.shown {
             self.render_state.renderer.write().free_texture(&shown.picture.texture);
         }

@@ -7,7 +7,7 @@ use std::{cell::RefCell, io::Cursor, rc::Rc, sync::Arc};
 
 use super::{
     address::Address,
-    autosave::Autosave,
+    autosave::{self, Autosave},
     device_loss::{self, SafeMode},
     files::{self, FilePicker},
     mailbox::{Mailbox, Message},
@@ -71,8 +71,9 @@ impl Session {
         let (project, error) = initial_project(&address);
         let has_link = project.is_some() && address.read_foreign().is_some();
         let settings = stored_settings().unwrap_or_else(|| first_settings(has_link));
-        let interface =
+        let mut interface =
             Interface::new(project.unwrap_or_else(|| presets::opening().into()), settings);
+        interface.editor_mut().restore_steps(autosave::stored_steps());
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
         let mut session = Self {
@@ -272,7 +273,7 @@ impl Session {
 
     /// Writes the project and the interface's settings now.
     pub fn save(&mut self) {
-        self.autosave.flush();
+        self.autosave.flush(self.interface.editor());
         match serde_json::to_string(self.interface.settings()) {
             Ok(text) => storage::SETTINGS.write(&text),
             Err(error) => log::warn!("cannot store the settings: {error}"),

@@ -13,6 +13,8 @@ pub const SCENE: StorageKey =
 /// The interface's settings, as JSON.
 pub const SETTINGS: StorageKey =
     StorageKey { name: "mandelight.settings", lifetime: Lifetime::Permanent };
+/// The undo steps, as documents, one a line.
+pub const STEPS: StorageKey = StorageKey { name: "mandelight.steps", lifetime: Lifetime::Tab };
 /// The times of GPU losses and the scene of the last one, as JSON.
 pub const LOSSES: StorageKey = StorageKey { name: "mandelight.losses", lifetime: Lifetime::Tab };
 

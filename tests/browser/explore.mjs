@@ -32,6 +32,19 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   await sleep(3);
   v.seen.idle.push(await page.report());
 
+  // Without the panel, the finished picture stays on the screen while its sides are made.
+  const beside = await page.rect("view");
+  await v.screenshot("panel-720x420");
+  await page.click("panel toggle");
+  await v.until("the picture to have the window", async () => (await page.rect("view")).width > beside.width, 60);
+  await v.screenshot("no-panel-720x420");
+  v.seen.views = [beside, await page.rect("view")];
+  await page.settled();
+  await v.screenshot("no-panel-finished-720x420");
+  await page.click("panel toggle");
+  await page.rested("the panel", () => page.rect("panel"));
+  await page.settled();
+
   const [x, y] = await page.middle("view");
   const offCentre = [x - 80, y + 30];
   scenes.turned = await page.changed("a drag", () => page.drag(offCentre, [90, -40]));
@@ -42,8 +55,9 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   });
   await page.settled();
 
-  scenes.powered = await page.changed("the power's slider", async () =>
-    page.drag(await page.scrollTo("power"), [-30, 0]));
+  // The rail is the lower half of the power's row.
+  const [railX, railY] = await page.scrollTo("power");
+  scenes.powered = await page.changed("the power's slider", () => page.drag([railX, railY + 12], [-60, 0]));
   await page.settled();
   await v.screenshot("another-power-720x420");
 
@@ -66,6 +80,9 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   await v.tab.reload();
   await page.firstPicture();
   scenes.reloaded = await page.scene();
+  scenes.undone = await page.changed("undo after a reload", () => v.tab.keyboard.press("Control+z"));
+  await page.changed("redo", () => v.tab.keyboard.press("Control+Shift+z"));
+  await sleep(2);
   await page.open();
   scenes.revisited = await page.scene();
   await page.open(process.env.MANDELIGHT_LINK);

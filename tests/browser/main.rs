@@ -61,6 +61,20 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
         assert_eq!(early, late, "an idle page went on: {count}");
     }
 
+    // Hiding the panel leaves the picture on the screen, and the finished one is no other.
+    let shot = |name: &str| Picture::read_png(&visit.folder.join(format!("{name}-720x420.png")));
+    let part = |picture: &Picture, view: usize| {
+        let side = |name: &str| visit.number(&format!("/views/{view}/{name}"));
+        let center = [side("x") + side("width") / 2.0, side("y") + side("height") / 2.0];
+        picture.crop(center.map(|at| at as u32 - 90), [180, 180])
+    };
+    let shown = part(&shot("panel"), 0);
+    assert!(shown.contrast() > 20.0, "{}", shown.contrast());
+    for name in ["no-panel", "no-panel-finished"] {
+        let difference = shown.difference(&part(&shot(name), 1));
+        assert!(difference.mean < 1.0, "{name}: {difference:?}");
+    }
+
     only_changes(&visit, "quick", "turned", &["camera"]);
     let turned = visit.scene("turned");
     assert_ne!(turned.camera.orientation, opened.camera.orientation);
@@ -95,6 +109,7 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     let before = visit.scene("before_reload");
     assert_eq!(link::from_fragment(visit.text("/fragment")).unwrap(), before);
     assert_eq!(visit.scene("reloaded"), before);
+    assert_eq!(visit.scene("undone"), visit.scene("lit"), "the steps outlive a reload");
     assert_eq!(visit.scene("revisited"), before);
     assert_eq!(visit.scene("linked"), linked());
 }

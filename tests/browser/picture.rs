@@ -45,6 +45,18 @@ impl Picture {
         Self::new([info.width, info.height], rgba)
     }
 
+    /// The part of `size_px` whose upper left corner is at `corner`.
+    pub fn crop(&self, corner: [u32; 2], size_px: [u32; 2]) -> Self {
+        let width = self.size_px[0] as usize;
+        let [left, top] = corner.map(|at| at as usize);
+        let [columns, rows] = size_px.map(|side| side as usize);
+        let row = |y: usize| {
+            let start = 4 * ((top + y) * width + left);
+            &self.rgba[start..start + 4 * columns]
+        };
+        Self::new(size_px, (0..rows).flat_map(row).copied().collect())
+    }
+
     /// The difference between this picture and `other`, of the same size.
     pub fn difference(&self, other: &Self) -> Difference {
         assert_eq!(self.size_px, other.size_px);

@@ -9,7 +9,8 @@ use mandelight::{
 
 use crate::stage::*;
 
-const WINDOWS: [[f32; 2]; 6] = [
+const WINDOWS: [[f32; 2]; 7] = [
+    [640.0, 420.0],
     [360.0, 640.0],
     [390.0, 844.0],
     [844.0, 390.0],
@@ -73,6 +74,8 @@ fn the_parts_of_the_window_do_not_overlap_and_the_view_has_room() {
         let rects = harness.state().interface.rects();
         let [view, panel, status] =
             ["view", "panel", "status"].map(|name| rects.get(name).expect(name));
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        assert!(window.expand(0.6).contains_rect(panel), "{panel:?} in {size:?}");
         for (a, b) in [(view, panel), (view, status), (panel, status)] {
             let both = a.intersect(b);
             assert!(both.width() < 0.6 || both.height() < 0.6, "{a:?} and {b:?} in {size:?}");

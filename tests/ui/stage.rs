@@ -66,6 +66,7 @@ pub fn stage(
             |ui, stage: &mut Stage| {
                 let inputs = DisplayInputs {
                     picture: None,
+                    kept_picture: None,
                     report: &stage.report,
                     export: stage.export,
                     notice: stage.notice.as_ref(),

@@ -38,7 +38,9 @@ impl Interface {
         if let Some(before) = self.camera_status.filter(|_| is_reshaped) {
             self.pilot.keep_framed(scene, frame, before);
         }
-        let response = view::show(ui, frame, inputs.picture);
+        let pictures = inputs.picture.into_iter().chain(inputs.kept_picture);
+        let is_stereo = scene.camera.stereo.is_on();
+        let response = view::show(ui, frame, pictures, is_stereo);
         self.rects.record("view", &response);
         // The buttons precede the pilot, which executes this frame's commands.
         let mut buttons = ButtonRow::new(ui, rect);

@@ -28,7 +28,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     // A user who opens a link to a dive sees the list of dives.
     let opening = usize::from(zoom(&cx.scene.camera) >= DIVE_ZOOM);
     let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        // All lists fit in one row of the panel.
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().button_padding.x = 5.0;
         for (index, list) in lists.iter().enumerate() {
             let text = RichText::new(list.name).small();
             let button = ui.add(Button::selectable(index == chosen, text));
