@@ -16,6 +16,8 @@ const element = (id) => document.getElementById(id);
  */
 function showNotice(text, detail = "", { again = true, progress } = {}) {
   element("notice").hidden = !text;
+  // Progress leaves the opening picture in sight; an obstacle does not.
+  element("notice").className = progress !== undefined && !element("opening").hidden ? "small" : "";
   element("notice-text").textContent = text || "";
   element("notice-detail").textContent = detail;
   element("notice-again").hidden = !again;
@@ -23,6 +25,24 @@ function showNotice(text, detail = "", { again = true, progress } = {}) {
   bar.hidden = progress === undefined;
   if (Number.isFinite(progress)) bar.value = progress;
   else bar.removeAttribute("value");
+}
+
+/**
+ * Shows the opening picture on a first visit, where the interface will draw the same. A link or a
+ * stored scene opens on another picture.
+ */
+function showOpening() {
+  if (window.location.hash.length > 1) return;
+  try {
+    if (localStorage.getItem("mandelight.scene")) return;
+    const settings = JSON.parse(localStorage.getItem("mandelight.settings") ?? "{}");
+    // The style sheet knows the places of the panel at a first visit alone.
+    if (settings.timeline_open || (settings.sheet ?? "low") !== "low") return;
+    element("opening").dataset.panel = settings.panel_open === false ? "hidden" : "shown";
+  } catch {
+    // Without storage, each visit is a first one.
+  }
+  element("opening").hidden = false;
 }
 
 const showLoading = (text, progress) => showNotice("Mandelight", text, { again: false, progress });
@@ -103,6 +123,7 @@ async function fixDevicePixels(canvas) {
 }
 
 async function boot() {
+  showOpening();
   showLoading("Loading…", NaN);
   const obstacle = await findObstacle();
   if (obstacle) {

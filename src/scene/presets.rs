@@ -109,7 +109,7 @@ pub fn all() -> impl Iterator<Item = &'static Preset> + Clone {
 /// The opening picture: a warm key from the left, a cool rim behind, dark ground.
 fn mandelbulb() -> Scene {
     Scene {
-        camera: camera([0.95, -2.05, 1.05], [0.08, 0.0, 0.06], 41.0),
+        camera: camera([1.32, -2.91, 1.45], [0.08, 0.0, 0.03], 41.0),
         lights: Lights { environment: key_and_rim(), point: vec![], ..Default::default() },
         surface: Surface {
             gradient: stops(&[

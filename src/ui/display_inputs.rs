@@ -10,8 +10,8 @@ use crate::render::report::Report;
 pub struct DisplayInputs<'a> {
     /// The newest picture; none before the first.
     pub picture: Option<ViewTexture>,
-    /// A picture of the same scene from before a change of size, until the newest is as good.
-    pub kept_picture: Option<ViewTexture>,
+    /// An older picture of the same scene, which covers the newest until that is as good.
+    pub kept_picture: Option<KeptPicture>,
     /// The renderer's report.
     pub report: &'a Report,
     /// The export in progress, if any.
@@ -31,6 +31,15 @@ pub struct ViewTexture {
     pub texture: egui::TextureId,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
+}
+
+/// An older picture of the scene in view, of any size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeptPicture {
+    /// The picture.
+    pub picture: ViewTexture,
+    /// Part of the picture's shorter side that the camera's angle spans; below 1, it shows more.
+    pub span: f32,
 }
 
 /// The small pictures that have been drawn.

@@ -31,7 +31,7 @@ pub enum Icon {
     Previous,
     /// A triangle that points right to a bar.
     Next,
-    /// Diamonds on a line.
+    /// A strip of film.
     Timeline,
     /// A house.
     Home,
@@ -127,9 +127,13 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
             line(&[(4.5 * s, -5.0), (4.5 * s, 5.0)]);
         }
         Icon::Timeline => {
-            line(&[(-8.0, 0.0), (8.0, 0.0)]);
-            for x in [-4.5, 4.5] {
-                fill(&[(x, -4.0), (x + 4.0, 0.0), (x, 4.0), (x - 4.0, 0.0)]);
+            line(&[(-7.0, -5.5), (7.0, -5.5), (7.0, 5.5), (-7.0, 5.5), (-7.0, -5.5)]);
+            for x in [-3.5, 3.5] {
+                line(&[(x, -5.5), (x, 5.5)]);
+            }
+            for y in [-1.8, 1.8] {
+                line(&[(-7.0, y), (-3.5, y)]);
+                line(&[(3.5, y), (7.0, y)]);
             }
         }
         Icon::Fullscreen | Icon::Whole => {

@@ -18,8 +18,8 @@
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
 //! | `small_picture` | small pictures that the shell draws when idle |
-//! | `floating`, `notice` | buttons and captions over the picture, and the shell's message |
-//! | [`thumbnail`] | pictures on the buttons of scenes and dives |
+//! | `floating`, `hints`, `notice` | buttons and captions over the picture, first hints, the shell's message |
+//! | [`thumbnail`], [`opening`] | pictures on the buttons of scenes and dives; the picture that the page shows first |
 //! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
@@ -35,6 +35,7 @@ mod field;
 mod floating;
 mod frame;
 mod handles;
+mod hints;
 mod home;
 mod icon;
 mod interface;
@@ -54,14 +55,18 @@ mod widgets;
 
 pub mod editor;
 pub mod navigation;
+pub mod opening;
 pub mod rects;
 pub mod shortcuts;
 pub mod theme;
 pub mod thumbnail;
 
 pub use action::Action;
-pub use display_inputs::{DisplayInputs, ExportProgress, Notice, SmallTextures, ViewTexture};
+pub use display_inputs::{
+    DisplayInputs, ExportProgress, KeptPicture, Notice, SmallTextures, ViewTexture,
+};
 pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
+pub use hints::Hints;
 pub use interface::Interface;
 pub use panel::{SheetHeight, all_sections_open};
 pub use settings::{Sections, Settings};

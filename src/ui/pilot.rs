@@ -119,11 +119,11 @@ impl Pilot {
         }
     }
 
-    /// Keeps the size at which a set shows whose shape was edited, if all of it was in the picture.
+    /// Keeps the size at which a set shows whose shape was edited, in a view from outside.
     ///
     /// `before` is the camera's status before the edit.
     pub fn keep_framed(&mut self, scene: &mut Scene, frame: Frame, before: CameraStatus) {
-        if before.shows_whole {
+        if before.is_outside {
             let viewport = viewport(scene, frame);
             let field = field_of(&self.models.of(&scene.fractal), scene, viewport);
             let world = World { field: &*field, viewport };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{export_size::ExportSize, panel::SheetHeight};
+use super::{export_size::ExportSize, hints::Hints, panel::SheetHeight};
 
 /// Settings that are stored between visits and are not part of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,6 +16,8 @@ pub struct Settings {
     pub sheet: SheetHeight,
     /// True if the timeline is shown.
     pub timeline_open: bool,
+    /// The hints that were followed, of those for a first visit.
+    pub hints: Hints,
     /// True if the section "More" is open.
     pub more_open: bool,
     /// The open sections within "More".
@@ -37,6 +39,7 @@ impl Default for Settings {
             panel_open: true,
             sheet: SheetHeight::default(),
             timeline_open: false,
+            hints: Hints::default(),
             more_open: false,
             sections: Sections::default(),
             drawn_to_places: true,

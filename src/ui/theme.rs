@@ -31,13 +31,13 @@ pub const ON_ACCENT: Color32 = Color32::from_rgb(0x1a, 0x12, 0x06);
 pub const ERROR: Color32 = Color32::from_rgb(0xff, 0x7a, 0x6b);
 
 /// Minimum width of an upright window with a side panel, in points.
-const WIDE_FROM: f32 = 700.0;
+pub(super) const WIDE_FROM: f32 = 700.0;
 /// Minimum width of a window that is wider than high, with a side panel, in points.
-const LANDSCAPE_FROM: f32 = 480.0;
+pub(super) const LANDSCAPE_FROM: f32 = 480.0;
 /// Maximum width of the side panel, in points.
 pub const PANEL_WIDTH: f32 = 304.0;
 /// Maximum part of the window's width that the side panel takes.
-const PANEL_PART: f32 = 0.46;
+pub(super) const PANEL_PART: f32 = 0.46;
 
 /// True if a window of this size has the panel at its side; others have it as a bottom sheet.
 pub fn has_side_panel(window: Vec2) -> bool {

@@ -2,7 +2,11 @@
 
 use egui::{Color32, Rect, Sense, Ui, pos2};
 
-use super::{display_inputs::ViewTexture, frame::Frame, theme};
+use super::{
+    display_inputs::{KeptPicture, ViewTexture},
+    frame::Frame,
+    theme,
+};
 
 /// Maximum width or height of the view, in pixels (WebGPU's default texture limit).
 pub const MAX_VIEW_SIDE_PX: u32 = 8192;
@@ -22,20 +26,22 @@ pub fn snap_to_pixels(area: Rect, pixels_per_point: f32) -> (Rect, [u32; 2]) {
     (rect, [side(right - left), side(bottom - top)])
 }
 
-/// Draws the pictures over `frame`, the last on top, and returns the area's pointer response.
+/// Draws the picture over `frame`, the kept one on top, and returns the area's pointer response.
 ///
-/// `is_stereo` is true if a picture holds both eyes.
+/// `is_stereo` is true if the picture holds both eyes.
 pub fn show(
     ui: &Ui,
     frame: Frame,
-    pictures: impl IntoIterator<Item = ViewTexture>,
+    picture: Option<ViewTexture>,
+    kept: Option<KeptPicture>,
     is_stereo: bool,
 ) -> egui::Response {
     let painter = ui.painter().with_clip_rect(frame.rect);
     painter.rect_filled(frame.rect, 0.0, theme::BACKGROUND);
-    for picture in pictures {
+    let newest = picture.map(|picture| KeptPicture { picture, span: 1.0 });
+    for KeptPicture { picture, span } in newest.into_iter().chain(kept) {
         // The pictures of both eyes have their own places.
-        let at = if is_stereo { frame.rect } else { placed(picture.size_px, frame) };
+        let at = if is_stereo { frame.rect } else { placed(picture.size_px, span, frame) };
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         painter.image(picture.texture, at, whole, Color32::WHITE);
     }
@@ -49,19 +55,21 @@ pub fn show(
 
 /// Where a picture of this size shows what the picture of `frame` will show, in the window.
 ///
-/// The camera's angle spans a picture's shorter side, so pictures of a scene agree in its length.
-/// A picture of another shape than the frame's sticks out of the frame, or leaves its edges free.
-fn placed(size_px: [u32; 2], frame: Frame) -> Rect {
+/// The camera's angle spans a picture's shorter side, or the part `span` of that side in a picture
+/// that shows more. So pictures of a scene agree in this length. A picture of another shape than the frame's sticks out of the frame, or leaves its edges free.
+fn placed(size_px: [u32; 2], span: f32, frame: Frame) -> Rect {
     let [width, height] = size_px.map(|side| side.max(1) as f32);
-    let points_per_px = frame.rect.width().min(frame.rect.height()) / width.min(height);
+    let points_per_px = frame.rect.width().min(frame.rect.height()) / (width.min(height) * span);
     let size = egui::vec2(width, height) * points_per_px;
     if (size - frame.rect.size()).abs().max_elem() < 0.5 {
         return frame.rect;
     }
-    // On whole pixels, a picture that is not scaled stays sharp.
     let pixel = frame.rect.height() / frame.height_px.max(1) as f32;
     let corner = (frame.rect.center() - size / 2.0 - frame.rect.min) / pixel;
-    Rect::from_min_size(frame.rect.min + corner.round() * pixel, size)
+    // On whole pixels, a picture that is not scaled stays sharp.
+    let is_scaled = (points_per_px / pixel - 1.0).abs() > 1e-3;
+    let corner = if is_scaled { corner } else { corner.round() };
+    Rect::from_min_size(frame.rect.min + corner * pixel, size)
 }
 
 #[cfg(test)]
@@ -91,17 +99,21 @@ mod tests {
     fn a_picture_of_another_size_shows_the_scene_in_the_same_places() {
         let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(1280.0, 690.0));
         let frame = Frame { rect, height_px: 690 };
-        assert_eq!(placed([1280, 690], frame), rect);
-        assert_eq!(placed([640, 345], frame), rect, "a smaller one of the same shape");
+        assert_eq!(placed([1280, 690], 1.0, frame), rect);
+        assert_eq!(placed([640, 345], 1.0, frame), rect, "a smaller one of the same shape");
         // The picture beside an open panel is the middle of the one without.
-        let beside = placed([976, 690], frame);
+        let beside = placed([976, 690], 1.0, frame);
         assert_eq!(beside, Rect::from_min_size(pos2(10.0 + 152.0, 20.0), vec2(976.0, 690.0)));
         // On a phone the angle spans the width.
         let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(390.0, 600.0));
-        let below = placed([390, 350], Frame { rect, height_px: 600 });
+        let below = placed([390, 350], 1.0, Frame { rect, height_px: 600 });
         assert!((below.width() - 390.0 * 390.0 / 350.0).abs() < 1e-3);
-        assert_eq!(below.center(), rect.center());
-        let tall = placed([390, 700], Frame { rect, height_px: 600 });
+        assert!((below.center() - rect.center()).length() < 1e-3);
+        let tall = placed([390, 700], 1.0, Frame { rect, height_px: 600 });
         assert_eq!(tall, Rect::from_min_size(pos2(0.0, -50.0), vec2(390.0, 700.0)));
+        // A picture that shows twice as much is twice as large.
+        let more = placed([100, 100], 0.5, Frame { rect, height_px: 600 });
+        assert_eq!(more.size(), vec2(780.0, 780.0));
+        assert!((more.center() - rect.center()).length() < 1e-3);
     }
 }

@@ -10,6 +10,7 @@ use super::{
     files,
     image_decoder::ImageDecoder,
     mailbox::{Mailbox, Message},
+    opening::{self, Opening},
     page,
     session::Session,
 };
@@ -17,7 +18,7 @@ use crate::{
     export::PictureFormat,
     gpu::Gpu,
     scene::document,
-    ui::{Action, DisplayInputs, theme},
+    ui::{Action, DisplayInputs, KeptPicture, theme},
 };
 
 /// The app on one device.
@@ -25,6 +26,8 @@ pub struct App {
     adapter_name: String,
     engine: Rc<RefCell<Engine>>,
     session: Rc<RefCell<Session>>,
+    /// The picture that the page opened with, while the view has no better one.
+    opening: Option<Opening>,
 }
 
 impl App {
@@ -40,7 +43,19 @@ impl App {
         session.borrow().mailbox.set_context(&context.egui_ctx);
         let adapter_name = gpu.name();
         let engine = Engine::new(gpu, render_state, context.egui_ctx.clone(), session.clone());
-        Some(Self { adapter_name, engine, session })
+        let opening = Opening::of_document(&context.egui_ctx, session.borrow().interface.scene());
+        Some(Self { adapter_name, engine, session, opening })
+    }
+
+    /// The opening picture, if it is still of use; otherwise removes it.
+    fn opening_picture(opening: &mut Option<Opening>, session: &Session) -> Option<KeptPicture> {
+        let scene = session.interface.scene();
+        let is_of_use = opening.as_ref()?.is_of_use(scene, &session.status.report);
+        if !is_of_use {
+            *opening = None;
+            opening::remove_from_document(true);
+        }
+        opening.as_ref()?.shown()
     }
 }
 
@@ -53,9 +68,10 @@ impl eframe::App for App {
         let now_secs = page::now_secs();
         let notice_secs = session.expire_notice(now_secs);
 
+        let opening = Self::opening_picture(&mut self.opening, session);
         let inputs = DisplayInputs {
             picture: engine.picture(),
-            kept_picture: engine.kept_picture(),
+            kept_picture: engine.kept_picture().or(opening),
             report: &session.status.report,
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),
@@ -63,6 +79,9 @@ impl eframe::App for App {
             small_pictures: engine.small_textures(),
         };
         let actions = session.interface.show(ui, &inputs);
+        if opening.is_some() {
+            opening::remove_from_document(false);
+        }
         show_drop_hint(ui);
         for action in actions {
             perform(action, engine, session);

@@ -96,7 +96,7 @@ impl Engine {
     }
 
     /// The picture from before a change of size, until the newest is as good.
-    pub fn kept_picture(&self) -> Option<ui::ViewTexture> {
+    pub fn kept_picture(&self) -> Option<ui::KeptPicture> {
         self.view.kept()
     }
 

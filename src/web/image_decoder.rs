@@ -81,7 +81,10 @@ fn lock(pictures: &Mutex<Pictures>) -> std::sync::MutexGuard<'_, Pictures> {
 }
 
 /// The pixels of a file that the browser can decode.
-async fn decode(file: &[u8]) -> Result<ColorImage, JsValue> {
+///
+/// # Errors
+/// What the browser says of a file that it cannot decode.
+pub async fn decode(file: &[u8]) -> Result<ColorImage, JsValue> {
     let blob = Blob::new_with_u8_array_sequence(&Array::of1(&Uint8Array::from(file)))?;
     let window = page::window().ok_or("no window")?;
     let bitmap = JsFuture::from(window.create_image_bitmap_with_blob(&blob)?).await?;

@@ -68,8 +68,8 @@ impl LiveView {
     }
 
     /// The picture from before a change of size, until the newest is as good.
-    pub fn kept(&self) -> Option<ui::ViewTexture> {
-        self.kept.as_ref().map(|kept| kept.shown.picture)
+    pub fn kept(&self) -> Option<ui::KeptPicture> {
+        self.kept.as_ref().map(|kept| ui::KeptPicture { picture: kept.shown.picture, span: 1.0 })
     }
 
     /// The newest picture on the GPU.

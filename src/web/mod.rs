@@ -27,6 +27,7 @@
 //! | `async_compile` | pipelines compiled while the page goes on |
 //! | `image_decoder` | pictures in the interface, decoded by the browser |
 //! | `mailbox` | messages from callbacks to the next frame |
+//! | `opening` | the opening picture, until the view's first is as good |
 //! | `page` | the window: clocks, timers, listeners |
 
 mod address;
@@ -42,6 +43,7 @@ mod files;
 mod image_decoder;
 mod live_view;
 mod mailbox;
+mod opening;
 mod page;
 mod sequence_export;
 mod session;

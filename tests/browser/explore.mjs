@@ -35,13 +35,14 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   // Without the panel, the finished picture stays on the screen while its sides are made.
   const beside = await page.rect("view");
   await v.screenshot("panel-720x420");
-  await page.click("panel toggle");
+  const toggle = async () => v.tab.mouse.click(...(await page.middle("panel toggle")));
+  await toggle();
   await v.until("the picture to have the window", async () => (await page.rect("view")).width > beside.width, 60);
   await v.screenshot("no-panel-720x420");
   v.seen.views = [beside, await page.rect("view")];
   await page.settled();
   await v.screenshot("no-panel-finished-720x420");
-  await page.click("panel toggle");
+  await toggle();
   await page.rested("the panel", () => page.rect("panel"));
   await page.settled();
 

@@ -4,6 +4,7 @@ use egui::{
     Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase,
     vec2,
 };
+use egui_kittest::kittest::Queryable as _;
 use mandelight::{
     formula::mandelbulb,
     scene::{Scene, param},
@@ -416,4 +417,31 @@ fn a_double_click_flies_to_the_point() {
     let corner = harness.state().interface.rects().get("view").unwrap().left_top();
     double_click(&mut harness, corner + vec2(8.0, 60.0));
     assert_eq!(scene(&harness).camera, before);
+}
+
+/// Two hints stand on the picture at a first visit, and each goes once it was followed, for good.
+#[test]
+fn hints_go_when_they_are_followed() {
+    let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 720.0]);
+    harness.run();
+    let center = view_center(&harness);
+    assert!(harness.query_by_label_contains("Drag to turn").is_some());
+    drag(&mut harness, center, center + vec2(60.0, 10.0), 4);
+    assert!(harness.query_by_label_contains("Drag to turn").is_none());
+    assert!(harness.query_by_label("Scroll to come closer").is_some());
+    harness.event(egui::Event::PointerMoved(center));
+    harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, 100.0),
+        phase: TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    });
+    harness.run();
+    assert!(harness.state().interface.rects().get("hint").is_none());
+    let settings = harness.state().interface.settings().clone();
+    assert!(settings.hints.has_turned && settings.hints.has_zoomed);
+    let mut harness = stage(Scene::default(), settings, [1280.0, 720.0]);
+    harness.run();
+    assert!(harness.state().interface.rects().get("hint").is_none());
 }

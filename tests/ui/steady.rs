@@ -6,10 +6,7 @@ use mandelight::{
     formula::table::Value,
     fractal::FractalModel,
     scene::{Scene, presets},
-    ui::{
-        Settings,
-        navigation::{Viewport, World},
-    },
+    ui::Settings,
 };
 
 use crate::stage::*;
@@ -67,39 +64,37 @@ fn power(scene: &Scene) -> f64 {
     }
 }
 
-fn shows_whole(harness: &Harness<'_, Stage>) -> bool {
-    let (scene, view) = (scene(harness), rect(harness, "view"));
-    let (aspect, height_px) = (f64::from(view.width() / view.height()), f64::from(view.height()));
-    let viewport = Viewport { aspect, height_px, detail: 1.0 };
-    let model = FractalModel::new(&scene.fractal);
-    World { field: &**model.whole(), viewport }.shows_whole(&scene.camera)
+/// The size of the set's bounding sphere in the picture: its radius over the eye's distance.
+fn apparent_size(harness: &Harness<'_, Stage>) -> f64 {
+    let scene = scene(harness);
+    let radius = FractalModel::new(&scene.fractal).whole().bounding_radius();
+    radius / scene.camera.position.to_dvec3().length()
 }
 
 #[test]
 fn the_power_is_set_finely_and_the_set_stays_framed() {
-    let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 720.0]);
-    harness.run();
-    assert!(shows_whole(&harness), "the opening view");
-    let start = scene(&harness).clone();
-    // From 8 toward the lowest power, in steps of 30 points.
-    let rail = slider(&harness, "Power").rect();
-    let mut at = rail.left() + rail.width() * 6.0 / 14.0;
-    while at > rail.left() + 30.0 {
-        let before = power(scene(&harness));
-        drag(
-            &mut harness,
-            egui::pos2(at, rail.center().y),
-            egui::pos2(at - 30.0, rail.center().y),
-            3,
-        );
-        let moved = before - power(scene(&harness));
-        assert!((0.2..2.5).contains(&moved), "30 points move the power by {moved}");
-        assert!(shows_whole(&harness), "at power {}", power(scene(&harness)));
-        at -= 30.0;
+    for start in [Scene::default(), presets::opening()] {
+        let mut harness = stage(start.clone(), Settings::default(), [1280.0, 720.0]);
+        harness.run();
+        let size = apparent_size(&harness);
+        // From 8 toward the lowest power, in steps of 30 points.
+        let rail = slider(&harness, "Power").rect();
+        let mut at = rail.left() + rail.width() * 6.0 / 14.0;
+        while at > rail.left() + 30.0 {
+            let before = power(scene(&harness));
+            let y = rail.center().y;
+            drag(&mut harness, egui::pos2(at, y), egui::pos2(at - 30.0, y), 3);
+            let moved = before - power(scene(&harness));
+            assert!((0.2..2.5).contains(&moved), "30 points move the power by {moved}");
+            let now = apparent_size(&harness);
+            let power = power(scene(&harness));
+            assert!((now / size - 1.0).abs() < 1e-3, "{now} for {size} at power {power}");
+            at -= 30.0;
+        }
+        assert!(power(scene(&harness)) < 4.0);
+        undo_all(&mut harness);
+        assert_eq!(*scene(&harness), start, "the camera comes back too");
     }
-    assert!(power(scene(&harness)) < 4.0);
-    undo_all(&mut harness);
-    assert_eq!(*scene(&harness), start, "the camera comes back too");
 }
 
 #[test]

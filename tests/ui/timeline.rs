@@ -52,7 +52,7 @@ fn ruler_at(harness: &egui_kittest::Harness<'_, Stage>, secs: f64) -> egui::Pos2
 #[test]
 fn views_become_keys_and_the_playhead_brings_them_back() {
     let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 720.0]);
-    press(&mut harness, "Show timeline");
+    press(&mut harness, "Animate");
     assert!(harness.state().interface.settings().timeline_open);
     let first = scene(&harness).clone();
     press(&mut harness, "Add key");
@@ -321,7 +321,7 @@ fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
 fn it_fits_every_window_and_every_control_says_what_it_does() {
     for size in [[360.0, 640.0], [390.0, 844.0], [844.0, 390.0], [700.0, 500.0], [1280.0, 720.0]] {
         let mut harness = stage(project(), Settings::default(), size);
-        press(&mut harness, "Show timeline");
+        press(&mut harness, "Animate");
         harness.get_by_label("Key 2 at 3.00 s").click();
         harness.run();
         harness.run();

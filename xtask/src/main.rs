@@ -26,7 +26,8 @@ Usage: cargo xtask <command>
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   pictures [NAME…]  render the pictures of the README and the docs again
   thumbnails [NAME…]
-                    render the small pictures on the buttons of scenes and dives again
+                    render the small pictures on the buttons of scenes and dives again,
+                    and the page's opening picture (\"opening\")
   help              print this text
 ";
 

@@ -11,6 +11,7 @@ use std::{
 };
 
 use anyhow::{Context as _, Result, bail, ensure};
+use base64::{Engine as _, prelude::BASE64_STANDARD};
 use flate2::{Compression, write::GzEncoder};
 use sha2::{Digest as _, Sha256};
 use wasm_bindgen_cli_support::Bindgen;
@@ -46,6 +47,9 @@ const WASM_OPT_FLAGS: [&str; 9] = [
 ///
 /// boot.js shows the download's progress, and a host that compresses does not send the size.
 const SIZE_PLACEHOLDER: &str = "const WASM_BYTES = 0;";
+
+/// The picture that `index.html` contains and shows first.
+const OPENING: &str = "opening.jpg";
 
 /// Hexadecimal digits of the hash in a file name: 48 bits.
 const HASH_DIGITS: usize = 12;
@@ -127,9 +131,16 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     boot.bytes = replaced(&boot.bytes, SIZE_PLACEHOLDER, &size)
         .with_context(|| format!("boot.js does not contain `{SIZE_PLACEHOLDER}`"))?;
     parts.push(boot);
-    for name in ["favicon.svg", "style.css", "index.html"] {
+    for name in ["favicon.svg", "style.css"] {
         parts.push(read(www, name)?);
     }
+    let mut index = read(www, "index.html")?;
+    let picture = BASE64_STANDARD.encode(read(www, OPENING)?.bytes);
+    let address = format!("data:image/jpeg;base64,{picture}");
+    // Within the document, the picture is there before anything else is fetched.
+    index.bytes = replaced(&index.bytes, &format!("./{OPENING}"), &address)
+        .with_context(|| format!("index.html does not show ./{OPENING}"))?;
+    parts.push(index);
     Ok(parts)
 }
 

@@ -1,7 +1,7 @@
 //! `cargo xtask thumbnails`: renders the pictures on the buttons of the opening scenes and dives.
 //!
 //! In: the presets, by the command line program. Out: a JPEG file per preset in
-//! `src/ui/thumbnails/`, which the interface embeds.
+//! `src/ui/thumbnails/`, which the interface embeds; and the picture that the page shows first.
 
 use std::{
     collections::BTreeSet,
@@ -25,6 +25,21 @@ const EMBEDDED_BY: &str = "src/ui/thumbnail.rs";
 /// Width and height in pixels, equal to `SIZE_PX` of `src/ui/thumbnail.rs`.
 const SIZE_PX: [u32; 2] = [192, 120];
 
+/// The picture that the page shows first, relative to the repository's top folder.
+const OPENING: &str = "www/opening.jpg";
+
+/// Name of the opening picture on the command line, beside the presets' names.
+const OPENING_NAME: &str = "opening";
+
+/// Width and height of the opening picture in pixels, equal to `SIDE_PX` of `src/ui/opening.rs`.
+const OPENING_SIDE_PX: u32 = 1024;
+
+/// Part of its side that the opening scene's angle spans, equal to `SPAN` of `src/ui/opening.rs`.
+const OPENING_SPAN: f64 = 9.0 / 16.0;
+
+/// Quality of the opening picture, 1 to 100.
+const OPENING_QUALITY: u8 = 62;
+
 /// Samples per pixel: noise costs bytes.
 const SAMPLES: u32 = 32;
 
@@ -34,11 +49,50 @@ const TRACED: &str = "\"kind\": \"path\"";
 /// Quality of the JPEG files, 1 to 100; `tests/gpu/thumbnails.rs` limits the bytes of all.
 const QUALITY: u8 = 52;
 
-/// Renders the pictures of these presets; without names, all, and deletes pictures of no preset.
+/// Renders the pictures of these presets, or the one named "opening"; without names, all.
 pub fn thumbnails(names: &[String]) -> Result<()> {
     need::vulkan_driver()?;
     let renderer = shell::renderer()?;
-    let list = shell::output(Command::new(&renderer).args(["scene", "--list-presets"]))
+    if names.is_empty() || names.iter().any(|name| name == OPENING_NAME) {
+        opening(&renderer)?;
+    }
+    let others: Vec<String> = names.iter().filter(|name| *name != OPENING_NAME).cloned().collect();
+    if others.is_empty() && !names.is_empty() {
+        return Ok(());
+    }
+    presets(&renderer, &others)
+}
+
+/// Renders the picture that the page shows first.
+fn opening(renderer: &Path) -> Result<()> {
+    let scene =
+        shell::output(Command::new(renderer).arg("scene")).context("`mandelight scene` failed")?;
+    let fov = number_of(&scene, "vertical_fov_deg").context("the scene has no field of view")?;
+    let half_height = (fov.to_radians() / 2.0).tan() / OPENING_SPAN;
+    let wide = 2.0 * half_height.atan().to_degrees();
+    let parts = shell::target()?.join("thumbnails");
+    fs::create_dir_all(&parts)?;
+    let (document, picture) = (parts.join("opening.json"), parts.join("opening.png"));
+    fs::write(&document, &scene)?;
+    let mut render = Command::new(renderer);
+    render.args(["render", "--quiet", "--samples", &SAMPLES.to_string()]);
+    render.args(["--size", &format!("{OPENING_SIDE_PX}x{OPENING_SIDE_PX}")]);
+    render.args(["--set", &format!("camera.vertical_fov_deg={wide}")]);
+    shell::run(render.arg("--output").arg(&picture).arg(&document))?;
+    let bytes = write(&Image::read_png(&picture)?, &shell::root()?.join(OPENING), OPENING_QUALITY)?;
+    eprintln!("{OPENING}: {:.1} kB", bytes as f64 / 1e3);
+    Ok(())
+}
+
+/// The number of a field in the text of a document.
+fn number_of(document: &str, field: &str) -> Option<f64> {
+    let value = document.split_once(&format!("\"{field}\":"))?.1;
+    value.split([',', '}', '\n']).next()?.trim().parse().ok()
+}
+
+/// Renders the pictures of these presets; without names, all, and deletes pictures of no preset.
+fn presets(renderer: &Path, names: &[String]) -> Result<()> {
+    let list = shell::output(Command::new(renderer).args(["scene", "--list-presets"]))
         .context("`mandelight scene --list-presets` failed")?;
     let presets = selected(&list, names)?;
     let folder = shell::root()?.join(FOLDER);
@@ -51,11 +105,11 @@ pub fn thumbnails(names: &[String]) -> Result<()> {
     let mut bytes = 0;
     for preset in &presets {
         let text_of_scene =
-            shell::output(Command::new(&renderer).args(["scene", "--preset", preset]))
+            shell::output(Command::new(renderer).args(["scene", "--preset", preset]))
                 .with_context(|| format!("no scene of the preset {preset}"))?;
         let (scene, picture) = (parts.join("scene.json"), parts.join("picture.png"));
         fs::write(&scene, &text_of_scene)?;
-        let mut render = Command::new(&renderer);
+        let mut render = Command::new(renderer);
         render.args(["render", "--quiet", "--size", &format!("{}x{}", SIZE_PX[0], SIZE_PX[1])]);
         // Few light paths are noisy: their scenes have more samples of their own.
         if !text_of_scene.contains(TRACED) {
@@ -64,7 +118,7 @@ pub fn thumbnails(names: &[String]) -> Result<()> {
         render.arg("--output").arg(&picture).arg(&scene);
         shell::run(&mut render)?;
         let file = folder.join(format!("{preset}.jpg"));
-        bytes += write(&Image::read_png(&picture)?, &file)?;
+        bytes += write(&Image::read_png(&picture)?, &file, QUALITY)?;
     }
     eprintln!("{FOLDER}: {} pictures, {:.1} kB", presets.len(), bytes as f64 / 1e3);
     // Cargo sees changed files of the folder, but no new ones.
@@ -96,10 +150,10 @@ fn delete_others(folder: &Path, presets: &BTreeSet<String>) -> Result<()> {
 }
 
 /// Writes a JPEG file and returns its size in bytes.
-fn write(picture: &Image, file: &Path) -> Result<usize> {
+fn write(picture: &Image, file: &Path, quality: u8) -> Result<usize> {
     let ([width, height], pixels) = picture.as_rgba();
     let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, QUALITY);
+    let mut encoder = Encoder::new(&mut bytes, quality);
     encoder.set_sampling_factor(SamplingFactor::F_2_2);
     encoder.set_progressive(true);
     encoder.set_optimized_huffman_tables(true);
@@ -111,6 +165,14 @@ fn write(picture: &Image, file: &Path) -> Result<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_found_in_documents() {
+        let document = "{\n  \"a\": 4,\n  \"vertical_fov_deg\": 41.5,\n  \"b\": 1\n}";
+        assert_eq!(number_of(document, "vertical_fov_deg"), Some(41.5));
+        assert_eq!(number_of(document, "b"), Some(1.0));
+        assert_eq!(number_of(document, "c"), None);
+    }
 
     const LIST: &str = "coral-reef  Close to the bulb.\nvine        Bunches.\n";
 

@@ -38,14 +38,14 @@ impl Interface {
         if let Some(before) = self.camera_status.filter(|_| is_reshaped) {
             self.pilot.keep_framed(scene, frame, before);
         }
-        let pictures = inputs.picture.into_iter().chain(inputs.kept_picture);
         let is_stereo = scene.camera.stereo.is_on();
-        let response = view::show(ui, frame, pictures, is_stereo);
+        let response = view::show(ui, frame, inputs.picture, inputs.kept_picture, is_stereo);
         self.rects.record("view", &response);
         // The buttons precede the pilot, which executes this frame's commands.
         let mut buttons = ButtonRow::new(ui, rect);
         if !self.settings.timeline_open {
-            let hover = ("Show timeline", "Animate the camera and all settings with keys (T)");
+            let hover =
+                ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
             let button = buttons.add(ui, Icon::Timeline, hover);
             self.rects.record("timeline toggle", &button);
             if button.clicked() {
@@ -78,13 +78,26 @@ impl Interface {
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
         self.pilot.draw_to_places(self.settings.drawn_to_places);
+        let before = scene.camera.clone();
         self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
+        let (is_zoom, is_held) = ui.input(|i| {
+            let is_zoom = i.is_scrolling() || i.multi_touch().is_some();
+            (is_zoom, i.pointer.any_down())
+        });
+        if is_zoom || is_held {
+            self.settings.hints.note(&before, &scene.camera, is_zoom);
+        }
         let has_record = self.pilot.dive_record().len() > 1;
         dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
         if self.pilot.is_flying() {
             let keys = floating::caption(ui, rect, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);
         } else {
+            // A phone has told of no touch before the first one.
+            let has_touch = !wide || ui.input(|i| i.has_touch_screen());
+            if let Some(hint) = self.settings.hints.show(ui, rect, has_touch) {
+                self.rects.record("hint", &hint);
+            }
             let light = handles::point_lights(ui, frame, scene, self.selection.light);
             self.selection.light = light.or(self.selection.light);
             if panel::shows_section_planes(&self.settings) {
@@ -123,7 +136,7 @@ impl Interface {
             self.places.put_away();
             ui.ctx().request_repaint();
         }
-        if inputs.picture.is_none() {
+        if inputs.picture.is_none() && inputs.kept_picture.is_none() {
             ui.painter().text(
                 rect.center(),
                 Align2::CENTER_CENTER,

@@ -31,6 +31,8 @@ const AT_LIMIT_OF_PIVOT: f64 = 100.0;
 const ON_SURFACE: f64 = 0.2;
 /// Part of the bounding sphere that is in a picture of the whole set: the set itself is smaller.
 const WHOLE_PART: f64 = 0.8;
+/// Distance of an eye from the set's centre, in bounding radii, from which on it is outside.
+const OUTSIDE: f64 = 1.25;
 /// Rounding of positions, in pixels at the surface's distance.
 const GRAIN_PX: f64 = 1e-4;
 
@@ -67,8 +69,8 @@ pub struct CameraStatus {
     pub bounding_radius: f64,
     /// True if the last zoom found no surface in the picture to come nearer to.
     pub nothing_ahead: bool,
-    /// True if the set as a whole is in the picture.
-    pub shows_whole: bool,
+    /// True if the eye is well outside of the set, as in a picture of the whole.
+    pub is_outside: bool,
 }
 
 impl World<'_> {
@@ -110,7 +112,7 @@ impl World<'_> {
             at_precision_limit: distance <= AT_LIMIT * nearest || pivot_at_limit,
             bounding_radius: self.field.bounding_radius(),
             nothing_ahead: false,
-            shows_whole: self.shows_whole(camera),
+            is_outside: self.is_outside(camera),
         }
     }
 
@@ -179,6 +181,12 @@ impl World<'_> {
         let seen = self.ndc_of(camera, offset).filter(|seen| seen.abs().max_element() <= 1.0);
         let surface = seen.and_then(|seen| self.pick(camera, seen));
         surface.is_some_and(|surface| surface.distance(offset) <= ON_SURFACE * surface.length())
+    }
+
+    /// True if the eye is well outside of the set's bounding sphere.
+    fn is_outside(&self, camera: &Camera) -> bool {
+        let distance = (self.field.center() - self.eye(camera)).length();
+        distance > OUTSIDE * self.field.bounding_radius()
     }
 
     /// True if the set as a whole, but for little of it, is in the picture.

@@ -44,6 +44,8 @@ pub(super) use formula_text::formula_window;
 pub(super) use help::help_window;
 pub(super) use sheet::Sheet;
 pub use sheet::SheetHeight;
+#[cfg(test)]
+pub(super) use sheet::{HALF_PART as SHEET_HALF_PART, LOW as SHEET_LOW};
 pub(super) use timeline::strip;
 
 /// The sections of "More", from top to bottom. A new panel adds its module above and its line here.

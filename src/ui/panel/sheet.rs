@@ -12,9 +12,9 @@ use crate::ui::{settings::Settings, theme};
 /// Height of the heading, in points; the closed sheet shows it alone.
 const HEADING: f32 = 54.0;
 /// Height of the low sheet: heading, lists of scenes, a row of pictures. In points.
-const LOW: f32 = 222.0;
+pub const LOW: f32 = 222.0;
 /// Part of the window that the sheet covers at half height.
-const HALF_PART: f32 = 0.55;
+pub const HALF_PART: f32 = 0.55;
 /// Part of the window that the tall sheet covers; the rest shows what a control changes.
 const TALL_PART: f32 = 0.8;
 /// Minimum height of a sheet with a fixed area for saving, in points.
