@@ -20,6 +20,8 @@ pub struct DisplayInputs<'a> {
     pub notice: Option<&'a Notice>,
     /// The name of the GPU adapter.
     pub adapter: &'a str,
+    /// True if the user asks for as little motion on the screen as possible.
+    pub reduced_motion: bool,
     /// Those of [`Interface::small_pictures`](super::Interface::small_pictures) that are drawn.
     pub small_pictures: &'a SmallTextures,
 }

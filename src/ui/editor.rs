@@ -82,6 +82,13 @@ impl Editor {
         }
     }
 
+    /// Replaces the project by the start of a movement, which joins the undo step.
+    pub(super) fn replace_and_move(&mut self, project: Project) {
+        self.next_gesture();
+        let before = std::mem::replace(&mut self.project, project);
+        self.history.record(&before, Some(self.gesture));
+    }
+
     /// Records the changes since `before`. Changes `during_gesture` join one undo step.
     pub(super) fn record_changes(&mut self, before: &Project, during_gesture: bool, now_secs: f64) {
         if self.project != *before {

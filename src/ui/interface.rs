@@ -11,6 +11,7 @@ use super::{
     display_inputs::DisplayInputs,
     dive,
     editor::Editor,
+    frame::Frame,
     loaded::Loaded,
     navigation::CameraStatus,
     notice,
@@ -49,6 +50,8 @@ pub struct Interface {
     camera_status: Option<CameraStatus>,
     rects: Rects,
     view_px: [u32; 2],
+    /// Where the picture was in the last frame.
+    frame: Option<Frame>,
     moving: bool,
     histogram_shown: bool,
     loaded: Loaded,
@@ -71,6 +74,7 @@ impl Interface {
             camera_status: None,
             rects: Rects::default(),
             view_px: [1, 1],
+            frame: None,
             moving: false,
             histogram_shown: false,
             loaded: Loaded::default(),
@@ -176,6 +180,8 @@ impl Interface {
         let mut actions = Vec::new();
 
         let wide = theme::has_side_panel(ui.available_size());
+        self.pilot.set_jumps(inputs.reduced_motion);
+        theme::set_motion(ui.ctx(), !inputs.reduced_motion);
         theme::set_row_sizes(ui, !wide || ui.input(|i| i.has_touch_screen()));
         self.panels(ui, inputs, wide, &mut commands, &mut actions);
         self.status(ui, inputs);
@@ -376,16 +382,33 @@ impl Interface {
         }
     }
 
-    /// Opens a preset, but keeps the quality settings and the path.
+    /// Flies to a preset's view, but keeps the quality settings and the path.
     ///
     /// Quality depends on the user's machine, and a preset may become a key of the path.
     fn choose_preset(&mut self, index: usize) {
-        if let Some(preset) = presets::all().nth(index) {
-            let mut scene = (preset.scene)();
-            scene.quality = self.scene().quality.clone();
-            let path = self.project().path.clone();
-            self.replace_project(Project { scene, path });
-            self.selection = Selection::default();
+        let Some(preset) = presets::all().nth(index) else { return };
+        let mut scene = (preset.scene)();
+        scene.quality = self.scene().quality.clone();
+        self.selection = Selection::default();
+        self.fly_into(scene);
+    }
+
+    /// Shows a scene by a flight to its view, as one undo step; the path stays.
+    fn fly_into(&mut self, mut scene: Scene) {
+        self.home = scene.camera.clone();
+        self.pilot.cancel();
+        self.places.put_away();
+        self.timeline.stop();
+        let current = self.scene();
+        if *current == scene {
+            return;
         }
+        let is_same_set = current.fractal == scene.fractal;
+        let from = is_same_set.then(|| current.camera.clone());
+        if let Some(frame) = self.frame {
+            self.pilot.arrive(&mut scene, frame, from.as_ref());
+        }
+        let path = self.project().path.clone();
+        self.editor.replace_and_move(Project { scene, path });
     }
 }

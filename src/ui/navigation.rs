@@ -103,9 +103,16 @@ pub struct Navigator {
     is_recovering: bool,
     fly_speed: FlySpeed,
     flight: Option<Flight>,
+    /// True if flights jump to their targets.
+    jumps: bool,
 }
 
 impl Navigator {
+    /// Sets whether flights jump to their targets, for people whom motion on a screen makes ill.
+    pub fn set_jumps(&mut self, jumps: bool) {
+        self.jumps = jumps;
+    }
+
     /// True between the start and the end of a gesture, or during a flight.
     pub fn is_active(&self) -> bool {
         self.gesture.is_some() || self.flight.is_some()
@@ -312,14 +319,15 @@ impl Navigator {
 
     /// Starts a flight to `to`.
     ///
-    /// Jumps there if the surface blocks every route, or if a flight to `to` is in progress.
+    /// Jumps there if the surface blocks every route, if a flight to `to` is in progress, or if all
+    /// flights jump.
     pub fn fly_to(&mut self, camera: &mut Camera, world: World<'_>, to: &Camera) {
         let current = self.flight.take();
         self.cancel();
         // A flight changes the eye's position, not the lens nor the viewer's screen.
         let Camera { lens, stereo, .. } = camera.clone();
         let to = Camera { lens, stereo, ..to.clone() };
-        if current.is_none_or(|flight| !flight.leads_to(&to)) {
+        if !self.jumps && current.is_none_or(|flight| !flight.leads_to(&to)) {
             self.flight = Flight::plan(world, camera, &to);
         }
         if self.flight.is_none() {

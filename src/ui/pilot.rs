@@ -13,7 +13,7 @@ use super::{
     home::HomeTarget,
     navigation::{
         CameraStatus, FlyInput, Navigator, Viewport, World,
-        flight::framing_alike,
+        flight::{framing_alike, framing_all},
         focus::focus,
         guide::{Guide, GuideStatus},
     },
@@ -149,6 +149,24 @@ impl Pilot {
     /// Forgets the cameras of the last dive.
     pub fn forget_dive(&mut self) {
         self.guide.forget_record();
+    }
+
+    /// Sets whether flights jump to their targets.
+    pub fn set_jumps(&mut self, jumps: bool) {
+        self.navigator.set_jumps(jumps);
+    }
+
+    /// Flies to the camera of `scene`, from `current` in the same set, otherwise from a view of the
+    /// whole set.
+    pub fn arrive(&mut self, scene: &mut Scene, frame: Frame, current: Option<&Camera>) {
+        let to = scene.camera.clone();
+        let viewport = viewport(scene, frame);
+        let model = self.models.of(&scene.fractal);
+        let whole = World { field: &**model.whole(), viewport };
+        let from = current.cloned().unwrap_or_else(|| framing_all(&to, whole));
+        scene.camera = Camera { lens: to.lens.clone(), stereo: to.stereo.clone(), ..from };
+        let field = field_of(&model, scene, viewport);
+        self.navigator.fly_to(&mut scene.camera, World { field: &*field, viewport }, &to);
     }
 
     /// Sets whether zooms are drawn to places.

@@ -240,7 +240,7 @@ fn scientific(number: f64) -> String {
     let mantissa = (number / 10f64.powf(exponent) * 10.0).round() / 10.0;
     let (mantissa, exponent) =
         if mantissa >= 10.0 { (1.0, exponent + 1.0) } else { (mantissa, exponent) };
-    format!("{mantissa:.1} × 10{}", superscript(exponent as i32))
+    theme::printable(&format!("{mantissa:.1} × 10{}", superscript(exponent as i32)))
 }
 
 fn superscript(number: i32) -> String {
@@ -281,7 +281,7 @@ mod tests {
         assert_eq!(zoom_text(3.6e27), "3.6 × 10²⁷");
         assert_eq!(zoom_text(f64::NAN), "–");
         assert_eq!(speed_text(1.58), "1.6");
-        assert_eq!(speed_text(3.24e-5), "3.2 × 10⁻⁵");
+        assert_eq!(speed_text(3.24e-5), "3.2 × 10^-5");
     }
 
     #[test]

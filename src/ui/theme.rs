@@ -49,6 +49,8 @@ pub fn has_side_panel(window: Vec2) -> bool {
 pub fn panel_width(window: f32) -> f32 {
     PANEL_WIDTH.min((PANEL_PART * window).floor())
 }
+/// Duration of a widget's animations, in seconds.
+const ANIMATION_SECS: f32 = 0.08;
 /// Corner radius of buttons, rails and fields, in points.
 pub const RADIUS: u8 = 6;
 
@@ -62,6 +64,14 @@ pub fn install(ctx: &Context) {
     });
     // Ctrl +/− is the browser's zoom.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
+}
+
+/// Lets widgets move while they change, or not.
+pub fn set_motion(ctx: &Context, moves: bool) {
+    let secs = if moves { ANIMATION_SECS } else { 0.0 };
+    if ctx.global_style().animation_time != secs {
+        ctx.all_styles_mut(|style| style.animation_time = secs);
+    }
 }
 
 /// Sets the row sizes of this `Ui`: larger for touch screens.
@@ -150,12 +160,26 @@ fn spacing(style: &mut Style) {
     spacing.default_area_size = Vec2::new(320.0, 480.0);
     style.interaction.tooltip_delay = 0.4;
     style.interaction.selectable_labels = false;
-    style.animation_time = 0.08;
+    style.animation_time = ANIMATION_SECS;
 }
 
-/// `text` with characters replaced that the bundled fonts lack.
+/// `text` with characters replaced that the bundled fonts lack: `10⁻⁵` becomes `10^-5`.
 pub fn printable(text: &str) -> String {
-    text.replace('ⁿ', "^n").replace('→', "->")
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let mut printable = String::with_capacity(text.len());
+    let mut is_negative_power = false;
+    for c in text.chars() {
+        let digit = DIGITS.iter().position(|&digit| digit == c);
+        match (c, digit) {
+            ('⁻', _) => printable.push_str("^-"),
+            ('ⁿ', _) => printable.push_str("^n"),
+            ('→', _) => printable.push_str("->"),
+            (_, Some(digit)) if is_negative_power => printable.push_str(&digit.to_string()),
+            _ => printable.push(c),
+        }
+        is_negative_power = c == '⁻' || (is_negative_power && digit.is_some());
+    }
+    printable
 }
 
 /// Texts in quotes, in the formula editor.
@@ -169,4 +193,35 @@ pub const CODE_FUNCTION: Color32 = Color32::from_rgb(0x7c, 0xbd, 0xf0);
 pub fn display_color(linear: [f32; 3]) -> Color32 {
     let [r, g, b] = linear.map(|v| v.clamp(0.0, 1.0));
     egui::Rgba::from_rgb(r, g, b).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{param, presets};
+
+    #[test]
+    fn negative_powers_are_written_with_a_caret() {
+        assert_eq!(printable("At 4 · 10⁻¹², power 6"), "At 4 · 10^-12, power 6");
+        assert_eq!(printable("3.2 × 10⁵"), "3.2 × 10⁵");
+        assert_eq!(printable("zⁿ → c"), "z^n -> c");
+    }
+
+    #[test]
+    fn the_fonts_can_draw_what_the_interface_says() {
+        let context = Context::default();
+        let presets = presets::all().flat_map(|preset| [preset.name, preset.blurb]);
+        let params = param::all().flat_map(|param| [param.label, param.help]);
+        let texts: Vec<String> = presets.chain(params).map(printable).collect();
+        // The fonts are loaded by the first frame.
+        let mut output = context.run_ui(Default::default(), |ui| {
+            for text in &texts {
+                let font = FontId::proportional(13.0);
+                let lacks = |c: &char| !ui.fonts_mut(|fonts| fonts.has_glyph(&font, *c));
+                let missing: String = text.chars().filter(lacks).collect();
+                assert_eq!(missing, "", "in {text:?}");
+            }
+        });
+        output.textures_delta.clear();
+    }
 }

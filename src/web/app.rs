@@ -76,6 +76,7 @@ impl eframe::App for App {
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),
             adapter: &self.adapter_name,
+            reduced_motion: page::prefers_reduced_motion(),
             small_pictures: engine.small_textures(),
         };
         let actions = session.interface.show(ui, &inputs);

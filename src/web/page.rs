@@ -25,6 +25,13 @@ pub fn size_px() -> Option<[f64; 2]> {
     Some([window.inner_width().ok()?.as_f64()?, window.inner_height().ok()?.as_f64()?])
 }
 
+/// True if the visitor asks for as little motion on the screen as possible.
+pub fn prefers_reduced_motion() -> bool {
+    let query = "(prefers-reduced-motion: reduce)";
+    let list = window().and_then(|window| window.match_media(query).ok()?);
+    list.is_some_and(|list| list.matches())
+}
+
 /// The window's document.
 pub fn document() -> Option<Document> {
     window()?.document()

@@ -84,7 +84,7 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     assert_eq!(approached.camera.orientation, turned.camera.orientation);
     assert_ne!(approached.camera.position, turned.camera.position);
 
-    only_changes(&visit, "approached", "powered", &["fractal"]);
+    only_changes(&visit, "approached", "powered", &["fractal", "camera"]);
     assert!(visit.scene("powered").fractal.number("power") < approached.fractal.number("power"));
 
     only_changes(&visit, "powered", "lit", &["lights"]);

@@ -103,7 +103,7 @@ fn cards_fit_and_do_not_overlap() {
 
 #[test]
 fn the_card_of_the_scene_in_view_is_marked() {
-    let mut harness = opened([1280.0, 4000.0]);
+    let mut harness = without_motion(opened([1280.0, 4000.0]));
     assert_eq!(chosen(&harness), [presets::opening_scenes()[0].name]);
     for (heading, presets) in lists() {
         press(&mut harness, heading);
@@ -162,4 +162,38 @@ fn a_focused_card_scrolls_into_the_window() {
     button(&harness, last).focus();
     harness.run();
     assert!(panel.expand2(vec2(2.0, 0.0)).contains_rect(button(&harness, last).rect()));
+}
+
+/// A scene opens by a flight: from the view of the same set, otherwise from the whole of the new one.
+#[test]
+fn a_scene_opens_by_a_flight_that_is_one_step() {
+    let mut harness = stage(presets::opening(), Settings::default(), [1280.0, 4000.0]);
+    harness.run();
+    let (start, dive) = (scene(&harness).clone(), presets::dives()[0]);
+    for (heading, preset) in [("Dives", dive), ("Formulas", presets::formulas()[3])] {
+        button(&harness, heading).click();
+        harness.run_steps(3);
+        button(&harness, preset.name).click();
+        let target = (preset.scene)().camera;
+        let mut distances = Vec::new();
+        for _ in 0..600 {
+            harness.step();
+            distances.push(scene(&harness).camera.view_unit());
+        }
+        let first = distances[4];
+        assert!(first > 1.2 * target.view_unit(), "{}: {first}", preset.name);
+        assert_eq!(scene(&harness).camera, target, "{}", preset.name);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        harness.run_steps(3);
+        assert_eq!(*scene(&harness), start, "{}: one step", preset.name);
+    }
+}
+
+#[test]
+fn with_reduced_motion_a_scene_is_there_at_once() {
+    let mut harness = without_motion(opened([1280.0, 4000.0]));
+    press(&mut harness, "Dives");
+    button(&harness, presets::dives()[0].name).click();
+    harness.run_steps(3);
+    assert_eq!(scene(&harness).camera, (presets::dives()[0].scene)().camera);
 }

@@ -236,7 +236,7 @@ fn gradient_stops_are_added_and_removed() {
 
 #[test]
 fn presets_open_and_keep_the_quality_that_was_chosen() {
-    let mut harness = workshop();
+    let mut harness = without_motion(workshop());
     slider(&harness, "Samples").set_value_accesskit(3.0);
     harness.run();
     for list in presets::lists() {

@@ -19,6 +19,7 @@ pub struct Stage {
     pub export: Option<ExportProgress>,
     pub notice: Option<Notice>,
     pub small_pictures: SmallTextures,
+    pub reduced_motion: bool,
 }
 
 /// Settings with everything unfolded.
@@ -56,11 +57,12 @@ pub fn stage(
         export: None,
         notice: None,
         small_pictures: SmallTextures::default(),
+        reduced_motion: false,
     };
     Harness::builder()
         .with_size(Vec2::from(size))
         .with_step_dt(1.0 / 60.0)
-        .with_max_steps(60)
+        .with_max_steps(150)
         .with_context_setup(theme::install)
         .build_ui_state(
             |ui, stage: &mut Stage| {
@@ -71,6 +73,7 @@ pub fn stage(
                     export: stage.export,
                     notice: stage.notice.as_ref(),
                     adapter: "a test",
+                    reduced_motion: stage.reduced_motion,
                     small_pictures: &stage.small_pictures,
                 };
                 // The harness insets what it shows; the page doesn't.
@@ -85,6 +88,13 @@ pub fn stage(
 /// A new scene on a wide stage, everything unfolded.
 pub fn workshop() -> Harness<'static, Stage> {
     stage(Scene::default(), unfolded(), [1280.0, 5000.0])
+}
+
+/// Lets flights of this stage arrive at once.
+pub fn without_motion(mut harness: Harness<'static, Stage>) -> Harness<'static, Stage> {
+    harness.state_mut().reduced_motion = true;
+    harness.run();
+    harness
 }
 
 pub fn scene<'h>(harness: &'h Harness<'_, Stage>) -> &'h Scene {

@@ -34,6 +34,7 @@ impl Interface {
         let (rect, size_px) = view::snap_to_pixels(area, ui.ctx().pixels_per_point());
         self.view_px = size_px;
         let frame = Frame { rect, height_px: size_px[1] };
+        self.frame = Some(frame);
         let scene = self.editor.scene_mut();
         if let Some(before) = self.camera_status.filter(|_| is_reshaped) {
             self.pilot.keep_framed(scene, frame, before);

@@ -115,7 +115,7 @@ fn ease(progress: f64, ramp: f64) -> f64 {
 }
 
 /// The camera for which the bounding sphere fits the picture, with the direction of `camera`.
-pub(super) fn framing_all(camera: &Camera, world: World<'_>) -> Camera {
+pub fn framing_all(camera: &Camera, world: World<'_>) -> Camera {
     let half_angle = camera.half_height(1.0).atan();
     let radius = world.field.bounding_radius();
     // From a deep view, the centre equals the scene's origin except for rounding.

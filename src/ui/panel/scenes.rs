@@ -10,7 +10,7 @@ use crate::{
         Scene,
         presets::{self, Preset, PresetList},
     },
-    ui::{shortcuts::Command, status::zoom, thumbnail, widgets::card},
+    ui::{shortcuts::Command, status::zoom, theme, thumbnail, widgets::card},
 };
 
 /// Zoom from which on the list of dives is shown first.
@@ -113,9 +113,10 @@ fn preset_card(
     let is_chosen = chosen == Some(index);
     let card = card(ui, rect, preset.name, thumbnail::image(preset), is_chosen);
     // The first nine scenes have number keys.
+    let about = theme::printable(preset.blurb);
     let hover = match index {
-        0..9 => format!("{} ({})", preset.blurb, index + 1),
-        _ => preset.blurb.to_owned(),
+        0..9 => format!("{about} ({})", index + 1),
+        _ => about,
     };
     let response = card.on_hover_text(hover);
     if index == 0 {
