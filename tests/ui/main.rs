@@ -14,6 +14,7 @@ mod follow;
 mod gestures;
 mod hostile;
 mod hybrids;
+mod keyboard;
 mod navigation;
 mod orbit;
 mod places;

@@ -29,7 +29,7 @@ mod surface;
 mod timeline;
 mod tone;
 
-use egui::{Frame, Margin, RichText, ScrollArea, Ui};
+use egui::{Frame, Margin, RichText, ScrollArea, Stroke, Ui, UiBuilder};
 
 use super::{
     icon::{Icon, icon_button, icon_side},
@@ -66,6 +66,10 @@ const SECTIONS: &[Section] = &[
 
 /// Number of buttons in the heading.
 const HEADING_BUTTONS: f32 = 5.0;
+/// Height of the area for saving before it was drawn, in points.
+const SAVING_HEIGHT: f32 = 58.0;
+/// Gap between the heading's buttons, in points.
+const HEADING_GAP: f32 = 2.0;
 /// Width that the program's name takes in the heading, with the gaps, in points.
 const TITLE_ROOM: f32 = 112.0;
 
@@ -76,34 +80,60 @@ pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
         .frame(Frame::new().inner_margin(margin).fill(theme::PANEL))
         .show_separator_line(false)
         .show(ui, |ui| heading(ui, cx, true));
-    saving(ui, cx);
-    scrolled(ui, cx, false);
+    scrolled_and_saving(ui, cx);
 }
 
-fn saving(ui: &mut Ui, cx: &mut Context<'_>) {
+/// The scrolled part of the panel, and below it the fixed area for saving.
+///
+/// The Tab key follows the order of drawing, so saving is drawn last; its height is the last frame's.
+fn scrolled_and_saving(ui: &mut Ui, cx: &mut Context<'_>) {
+    let id = ui.scope_id().with("height of saving");
+    let height = ui.data(|data| data.get_temp(id)).unwrap_or(SAVING_HEIGHT);
+    let area = ui.available_rect_before_wrap();
+    let (above, below) = area.split_top_bottom_at_y((area.bottom() - height).max(area.top()));
+    ui.scope_builder(UiBuilder::new().max_rect(above), |ui| scrolled(ui, cx, false));
     let margin = Margin { left: 14, right: 14, top: 10, bottom: 12 };
-    egui::Panel::bottom("saving")
-        .frame(Frame::new().inner_margin(margin).fill(theme::PANEL))
-        .show_separator_line(true)
-        .show(ui, |ui| export::save(ui, cx));
+    let saving = ui.scope_builder(UiBuilder::new().max_rect(below), |ui| {
+        ui.painter().hline(below.x_range(), below.top(), Stroke::new(1.0, theme::LINE));
+        Frame::new().inner_margin(margin).show(ui, |ui| export::save(ui, cx)).response.rect.height()
+    });
+    if saving.inner != height {
+        ui.data_mut(|data| data.insert_temp(id, saving.inner));
+        ui.ctx().request_repaint();
+    }
 }
 
 fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
     let margin = Margin { left: 14, right: 14, top: 0, bottom: 10 };
-    egui::CentralPanel::no_frame().show(ui, |ui| {
-        ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-            Frame::new().inner_margin(margin).show(ui, |ui| {
-                ui.set_width(ui.available_width());
-                essentials(ui, cx);
-                if with_saving {
-                    ui.add_space(6.0);
-                    export::save(ui, cx);
-                    ui.add_space(4.0);
-                }
-                more(ui, cx);
-            });
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        Frame::new().inner_margin(margin).show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            essentials(ui, cx);
+            if with_saving {
+                ui.add_space(6.0);
+                export::save(ui, cx);
+                ui.add_space(4.0);
+            }
+            more(ui, cx);
+            reveal_focus(ui);
         });
     });
+}
+
+/// Scrolls to the control that the keyboard has just brought the focus to, if it is out of sight.
+fn reveal_focus(ui: &Ui) {
+    let id = ui.scope_id().with("last focus");
+    let focused = ui.memory(|memory| memory.focused());
+    if ui.data(|data| data.get_temp(id)) == Some(focused) {
+        return;
+    }
+    ui.data_mut(|data| data.insert_temp(id, focused));
+    if let Some(control) = focused.and_then(|focused| ui.ctx().read_response(focused)) {
+        let is_cut = !control.interact_rect.expand(1.0).contains_rect(control.rect);
+        if is_cut && control.layer_id == ui.layer_id() {
+            ui.scroll_to_rect(control.rect, None);
+        }
+    }
 }
 
 fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
@@ -113,40 +143,38 @@ fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
         if ui.available_width() >= HEADING_BUTTONS * icon_side(ui) + TITLE_ROOM {
             ui.add(egui::Label::new(title));
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            let (icon, name, hover) = if open {
-                (Icon::Cross, "Hide panel", "Hide the panel (P)")
-            } else {
-                (Icon::ChevronUp, "Show panel", "Show the panel (P)")
-            };
-            let toggle = icon_button(ui, icon, name, hover);
-            cx.rects.record("panel toggle", &toggle);
-            if toggle.clicked() {
-                cx.commands.push(Command::TogglePanel);
-            }
-            if icon_button(ui, Icon::Help, "Help", "Keys and gestures (?)").clicked() {
-                cx.commands.push(Command::ToggleHelp);
-            }
-            if icon_button(ui, Icon::Fullscreen, "Fullscreen", "Fill the screen (Shift F)")
-                .clicked()
-            {
-                cx.commands.push(Command::ToggleFullscreen);
-            }
-            let redo = ui.add_enabled_ui(cx.can_redo, |ui| {
-                icon_button(ui, Icon::Redo, "Redo", "Redo (Ctrl Shift Z)")
-            });
-            if redo.inner.clicked() {
-                cx.commands.push(Command::Redo);
-            }
-            let undo = ui.add_enabled_ui(cx.can_undo, |ui| {
-                icon_button(ui, Icon::Undo, "Undo", "Undo (Ctrl Z)")
-            });
-            cx.rects.record("undo", &undo.inner);
-            if undo.inner.clicked() {
-                cx.commands.push(Command::Undo);
-            }
+        ui.spacing_mut().item_spacing.x = HEADING_GAP;
+        let buttons = HEADING_BUTTONS * (icon_side(ui) + HEADING_GAP);
+        ui.add_space((ui.available_width() - buttons).max(0.0));
+        // Added from left to right, which is the order of the Tab key.
+        let undo = ui
+            .add_enabled_ui(cx.can_undo, |ui| icon_button(ui, Icon::Undo, "Undo", "Undo (Ctrl Z)"));
+        cx.rects.record("undo", &undo.inner);
+        if undo.inner.clicked() {
+            cx.commands.push(Command::Undo);
+        }
+        let redo = ui.add_enabled_ui(cx.can_redo, |ui| {
+            icon_button(ui, Icon::Redo, "Redo", "Redo (Ctrl Shift Z)")
         });
+        if redo.inner.clicked() {
+            cx.commands.push(Command::Redo);
+        }
+        if icon_button(ui, Icon::Fullscreen, "Fullscreen", "Fill the screen (Shift F)").clicked() {
+            cx.commands.push(Command::ToggleFullscreen);
+        }
+        if icon_button(ui, Icon::Help, "Help", "Keys and gestures (?)").clicked() {
+            cx.commands.push(Command::ToggleHelp);
+        }
+        let (icon, name, hover) = if open {
+            (Icon::Cross, "Hide panel", "Hide the panel (P)")
+        } else {
+            (Icon::ChevronUp, "Show panel", "Show the panel (P)")
+        };
+        let toggle = icon_button(ui, icon, name, hover);
+        cx.rects.record("panel toggle", &toggle);
+        if toggle.clicked() {
+            cx.commands.push(Command::TogglePanel);
+        }
     });
 }
 

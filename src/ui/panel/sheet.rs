@@ -6,7 +6,7 @@
 use egui::{Frame, Margin, Rect, Response, Sense, Ui, WidgetInfo, accesskit::Role, vec2};
 use serde::{Deserialize, Serialize};
 
-use super::{Context, heading, saving, scrolled};
+use super::{Context, heading, scrolled, scrolled_and_saving};
 use crate::ui::{settings::Settings, theme};
 
 /// Height of the heading, in points; the closed sheet shows it alone.
@@ -81,11 +81,11 @@ impl Sheet {
             .inner;
         cx.rects.record("sheet handle", &handle);
         if open {
-            let has_saving = height >= WITH_SAVING;
-            if has_saving {
-                saving(ui, cx);
+            if height >= WITH_SAVING {
+                scrolled_and_saving(ui, cx);
+            } else {
+                scrolled(ui, cx, true);
             }
-            scrolled(ui, cx, !has_saving);
         }
         self.resize(&handle, cx.settings, window);
     }

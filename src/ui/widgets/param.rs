@@ -162,7 +162,8 @@ pub fn hover_text(param: &Param) -> String {
 }
 
 fn label_ui(ui: &mut Ui, rect: Rect, text: &str) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with("label"), Sense::click());
+    // The Tab key skips the label: the rail beside it has the name.
+    let response = ui.interact(rect, ui.scope_id().with("label"), Sense::CLICK);
     let color = if response.hovered() { theme::TEXT } else { theme::TEXT_DIM };
     let galley = WidgetText::from(text).into_galley(
         ui,

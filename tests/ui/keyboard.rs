@@ -1,0 +1,74 @@
+//! The interface by keyboard and screen reader: the order of the Tab key, and names.
+
+use egui::{Key, Rect, accesskit::Action};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+use mandelight::{scene::Scene, ui::Settings};
+
+use crate::stage::*;
+
+/// The focused widget's name and place.
+fn focused(harness: &Harness<'_, Stage>) -> Option<(String, Rect)> {
+    let node =
+        harness.root().children_recursive().find(|node| node.accesskit_node().is_focused())?;
+    Some((node.accesskit_node().label().unwrap_or_default(), node.rect()))
+}
+
+/// What the Tab key visits, until it comes back to the first or `most` are visited.
+fn visited(harness: &mut Harness<'_, Stage>, most: usize) -> Vec<(String, Rect)> {
+    let mut visited: Vec<(String, Rect)> = Vec::new();
+    for _ in 0..most {
+        harness.key_press(Key::Tab);
+        harness.run();
+        let Some(next) = focused(harness) else { continue };
+        if visited.first() == Some(&next) {
+            break;
+        }
+        visited.push(next);
+    }
+    visited
+}
+
+/// Down the panel, and in each row from left to right.
+#[test]
+fn tab_goes_through_the_panel_in_reading_order() {
+    for size in [[1280.0, 2000.0], [390.0, 844.0]] {
+        let mut harness = without_motion(stage(Scene::default(), Settings::default(), size));
+        let visited = visited(&mut harness, 80);
+        let panel = harness.state().interface.rects().get("panel").expect("the panel");
+        let in_panel: Vec<_> =
+            visited.iter().filter(|(_, rect)| panel.contains(rect.center())).collect();
+        assert!(in_panel.len() > 10, "{visited:#?}");
+        let heading: Vec<&str> = in_panel.iter().map(|(name, _)| name.as_str()).collect();
+        let place = |name: &str| heading.iter().position(|it| *it == name);
+        let order = ["Fullscreen", "Help", "Hide panel", "Scenes", "Power", "Save picture"];
+        let places = order.map(place);
+        assert!(places.iter().all(Option::is_some), "{heading:?}");
+        // A low sheet scrolls the button with the rest, between the first controls and the others.
+        assert!(places.is_sorted(), "{heading:?}");
+        assert!(heading.iter().all(|name| !name.is_empty()), "{heading:?}");
+    }
+}
+
+/// A screen reader can name every control that can be used.
+#[test]
+fn every_control_has_a_name() {
+    for size in [[1280.0, 6000.0], [390.0, 844.0]] {
+        let harness = stage(Scene::default(), unfolded(), size);
+        let nameless: Vec<String> = harness
+            .root()
+            .children_recursive()
+            .filter(|node| {
+                let node = node.accesskit_node();
+                let name = node.label().or_else(|| node.value()).unwrap_or_default();
+                let is_used = egui::accessibility::is_input(node.role())
+                    || node.data().supports_action(Action::Focus);
+                is_used && name.trim().is_empty()
+            })
+            .map(|node| format!("{:?} at {:?}", node.accesskit_node().role(), node.rect()))
+            .collect();
+        assert!(nameless.is_empty(), "{nameless:#?}");
+    }
+}
