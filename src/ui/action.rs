@@ -36,6 +36,10 @@ pub enum Action {
     ChooseGradient,
     /// Copy a link to this view.
     CopyLink,
+    /// Copy the picture on the screen to the clipboard.
+    CopyPicture,
+    /// Hand the picture on the screen to the system's share sheet.
+    SharePicture,
     /// Enter or leave fullscreen.
     ToggleFullscreen,
     /// Close the notice.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::small_picture::SmallPictureId;
+use super::{share::Sharing, small_picture::SmallPictureId};
 use crate::render::report::Report;
 
 /// The data of one frame that the interface displays.
@@ -20,6 +20,8 @@ pub struct DisplayInputs<'a> {
     pub notice: Option<&'a Notice>,
     /// The name of the GPU adapter.
     pub adapter: &'a str,
+    /// What the shell can share.
+    pub sharing: Sharing<'a>,
     /// True if the user asks for as little motion on the screen as possible.
     pub reduced_motion: bool,
     /// Those of [`Interface::small_pictures`](super::Interface::small_pictures) that are drawn.

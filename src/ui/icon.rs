@@ -41,6 +41,8 @@ pub enum Icon {
     Dive,
     /// A map pin.
     Pin,
+    /// An arrow that points up out of a box.
+    Share,
 }
 
 /// Width and height of a button with an icon, in points.
@@ -160,6 +162,11 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
             outline.push((0.0, 7.5));
             line(&outline);
             painter.circle_filled(at(center.0, center.1), 1.9 * size / 16.0, color);
+        }
+        Icon::Share => {
+            line(&[(0.0, 3.0), (0.0, -7.0)]);
+            line(&[(-3.5, -3.5), (0.0, -7.0), (3.5, -3.5)]);
+            line(&[(-3.5, -0.5), (-6.0, -0.5), (-6.0, 7.0), (6.0, 7.0), (6.0, -0.5), (3.5, -0.5)]);
         }
         Icon::Home => {
             line(&[(-7.0, 0.0), (0.0, -6.5), (7.0, 0.0)]);

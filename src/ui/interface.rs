@@ -21,6 +21,7 @@ use super::{
     rects::Rects,
     selection::Selection,
     settings::Settings,
+    share::Share,
     shortcuts::{self, Command},
     small_picture::SmallPicture,
     status, theme,
@@ -46,6 +47,7 @@ pub struct Interface {
     /// The target of Home.
     home: Camera,
     sheet: panel::Sheet,
+    share: Share,
     help_open: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
@@ -70,6 +72,7 @@ impl Interface {
             places: Places::default(),
             timeline: Timeline::default(),
             sheet: panel::Sheet::default(),
+            share: Share::default(),
             help_open: false,
             camera_status: None,
             rects: Rects::default(),
@@ -191,6 +194,11 @@ impl Interface {
         self.view(ui, inputs, wide, is_reshaped, &mut commands);
         notice::show(ui, inputs.notice, self.rects.get("view"), &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open);
+        if let Some(view) = self.rects.get("view") {
+            let project = self.editor.project();
+            let shared = self.share.show(ui, view, project, inputs.sharing, &mut self.rects);
+            commands.extend(shared);
+        }
 
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
@@ -202,6 +210,9 @@ impl Interface {
             ui.ctx().request_repaint();
         }
         for command in commands {
+            if command == Command::Share {
+                self.share.toggle(self.editor.project(), inputs.sharing);
+            }
             self.dispatch(command, wide, &mut actions);
         }
         self.timeline.end_frame(&mut self.editor, &before, now_secs);
@@ -329,11 +340,14 @@ impl Interface {
             Command::SaveScene => actions.push(Action::SaveScene),
             Command::LoadScene => actions.push(Action::LoadScene),
             Command::CopyLink => actions.push(Action::CopyLink),
+            Command::CopyPicture => actions.push(Action::CopyPicture),
+            Command::SharePicture => actions.push(Action::SharePicture),
             Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
             Command::Preset(index) => self.choose_preset(index),
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
             Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,
+            Command::Leave if self.share.is_open() => self.share = Share::default(),
             Command::Leave if self.places.are_shown() => self.places.put_away(),
             Command::FindPlaces => self.places.toggle(),
             Command::Leave => self.pilot.set_flying(false),
@@ -341,8 +355,9 @@ impl Interface {
             Command::ToggleTimeline => self.toggle_timeline(wide),
             Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
             Command::ToggleHelp => self.help_open = !self.help_open,
-            // The pilot and the timeline execute these commands.
-            Command::PlayPause
+            // The frame, the pilot and the timeline execute these commands.
+            Command::Share
+            | Command::PlayPause
             | Command::AddKey
             | Command::UpdateKey
             | Command::DeleteKey

@@ -17,6 +17,7 @@
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
+//! | `share` | the share window: link, QR code, picture |
 //! | `small_picture` | small pictures that the shell draws when idle |
 //! | `floating`, `hints`, `notice` | buttons and captions over the picture, first hints, the shell's message |
 //! | [`thumbnail`], [`opening`] | pictures on the buttons of scenes and dives; the picture that the page shows first |
@@ -46,6 +47,7 @@ mod pilot;
 mod places;
 mod selection;
 mod settings;
+mod share;
 mod slice;
 mod small_picture;
 mod status;
@@ -70,5 +72,6 @@ pub use hints::Hints;
 pub use interface::Interface;
 pub use panel::{SheetHeight, all_sections_open};
 pub use settings::{Sections, Settings};
+pub use share::Sharing;
 pub use small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId};
 pub use status::zoom;

@@ -22,6 +22,12 @@ pub enum Command {
     LoadScene,
     /// Copy a link to this view.
     CopyLink,
+    /// Open or close the share window.
+    Share,
+    /// Copy the picture on the screen to the clipboard.
+    CopyPicture,
+    /// Hand the picture on the screen to the system's share sheet.
+    SharePicture,
     /// Open the preset of this index: the opening scenes, then the dives.
     Preset(usize),
     /// Fly to the scene's opening view, or out of a deep one.
@@ -143,6 +149,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(COMMAND_SHIFT, Key::S, Command::SaveScene, "Ctrl Shift S", "Save the scene (JSON)"),
     row(COMMAND, Key::O, Command::LoadScene, "Ctrl O", "Open a scene or a picture's scene"),
     row(NONE, Key::L, Command::CopyLink, "L", "Copy a link to this view"),
+    row(NONE, Key::J, Command::Share, "J", "Share: link, QR code, picture"),
     row(NONE, Key::T, Command::ToggleTimeline, "T", "Show or hide the timeline"),
     row(NONE, Key::K, Command::AddKey, "K", "Add the view to the path as a key"),
     row(NONE, Key::U, Command::UpdateKey, "U", "Replace the key at the playhead by the view"),

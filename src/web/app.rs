@@ -6,6 +6,7 @@
 use std::{cell::RefCell, rc::Rc, sync::Arc};
 
 use super::{
+    address::Address,
     engine::Engine,
     files,
     image_decoder::ImageDecoder,
@@ -13,12 +14,13 @@ use super::{
     opening::{self, Opening},
     page,
     session::Session,
+    view_picture,
 };
 use crate::{
     export::PictureFormat,
     gpu::Gpu,
     scene::document,
-    ui::{Action, DisplayInputs, KeptPicture, theme},
+    ui::{Action, DisplayInputs, KeptPicture, Sharing, theme},
 };
 
 /// The app on one device.
@@ -26,6 +28,9 @@ pub struct App {
     adapter_name: String,
     engine: Rc<RefCell<Engine>>,
     session: Rc<RefCell<Session>>,
+    /// The page's address without a fragment.
+    address: String,
+    has_share_sheet: bool,
     /// The picture that the page opened with, while the view has no better one.
     opening: Option<Opening>,
 }
@@ -44,7 +49,10 @@ impl App {
         let adapter_name = gpu.name();
         let engine = Engine::new(gpu, render_state, context.egui_ctx.clone(), session.clone());
         let opening = Opening::of_document(&context.egui_ctx, session.borrow().interface.scene());
-        Some(Self { adapter_name, engine, session, opening })
+        let address = Address::with_fragment("").unwrap_or_default();
+        let address = address.trim_end_matches('#').to_owned();
+        let has_share_sheet = view_picture::has_share_sheet();
+        Some(Self { adapter_name, engine, session, address, has_share_sheet, opening })
     }
 
     /// The opening picture, if it is still of use; otherwise removes it.
@@ -76,6 +84,7 @@ impl eframe::App for App {
             export: engine.exporter.progress(),
             notice: session.notice.as_ref(),
             adapter: &self.adapter_name,
+            sharing: Sharing { address: &self.address, has_share_sheet: self.has_share_sheet },
             reduced_motion: page::prefers_reduced_motion(),
             small_pictures: engine.small_textures(),
         };
@@ -102,10 +111,17 @@ impl eframe::App for App {
     }
 }
 
+/// The error before the first picture.
+const NO_PICTURE: &str = "There is no picture yet. Wait a moment, then try again.";
+
 /// Performs an action of the interface.
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
         Action::SavePicture { size_px, exr, pair } => {
+            let same = if exr || pair { None } else { engine.finished_picture(session, size_px) };
+            if let Some(picture) = same {
+                return picture.save(&session.mailbox);
+            }
             let format = if exr { PictureFormat::Exr } else { PictureFormat::Png };
             engine.exporter.start_still(size_px, format, pair, session);
         }
@@ -127,6 +143,14 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             session.picker.open()
         }
         Action::CopyLink => session.copy_link(),
+        Action::CopyPicture => match engine.view_picture(session) {
+            Some(picture) => picture.copy(&session.mailbox),
+            None => session.show_error(NO_PICTURE),
+        },
+        Action::SharePicture => match engine.view_picture(session) {
+            Some(picture) => picture.share(&session.mailbox),
+            None => session.show_error(NO_PICTURE),
+        },
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::DismissNotice => session.notice = None,
     }

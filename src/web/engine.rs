@@ -19,10 +19,12 @@ use super::{
     page,
     session::{AppStatus, Session},
     small_pictures::SmallPictures,
+    view_picture::ViewPicture,
 };
 use crate::{
     gpu::Gpu,
     render::{Activity, Pipelines, Report},
+    scene::document,
     ui::{self, SmallTextures},
 };
 
@@ -98,6 +100,21 @@ impl Engine {
     /// The picture from before a change of size, until the newest is as good.
     pub fn kept_picture(&self) -> Option<ui::KeptPicture> {
         self.view.kept()
+    }
+
+    /// The picture on the screen with the session's project, once there is one.
+    pub fn view_picture(&self, session: &Session) -> Option<ViewPicture> {
+        self.with_document(self.view.texture()?, session)
+    }
+
+    /// The picture on the screen, if a still of `size_px` would be the same.
+    pub fn finished_picture(&self, session: &Session, size_px: [u32; 2]) -> Option<ViewPicture> {
+        self.with_document(self.view.finished(session.interface.scene(), size_px)?, session)
+    }
+
+    fn with_document(&self, texture: &wgpu::Texture, session: &Session) -> Option<ViewPicture> {
+        let document = document::to_json_compact(session.interface.scene());
+        Some(ViewPicture::new(&self.gpu, texture, document))
     }
 
     /// The small pictures that are finished.

@@ -77,6 +77,21 @@ impl LiveView {
         self.view.as_ref().and_then(View::texture)
     }
 
+    /// The picture on the screen, if a still of `scene` and `size_px` would be the same picture.
+    ///
+    /// Light paths are denoised differently in stills, and stereo pictures have another layout.
+    pub fn finished(&self, scene: &Scene, size_px: [u32; 2]) -> Option<&wgpu::Texture> {
+        let (view, texture) = (self.view.as_ref()?, self.texture()?);
+        let report = view.report();
+        let is_finished = report.activity == Activity::Idle
+            && report.pictures > 0
+            && report.samples_done >= report.samples_wanted
+            && !view.has_pending_scene();
+        let is_plain = !scene.traces_paths() && !scene.camera.stereo.is_on();
+        let is_same_size = [texture.width(), texture.height()] == size_px;
+        (is_finished && is_plain && is_same_size).then_some(texture)
+    }
+
     /// The view's report.
     pub fn report(&self) -> Report {
         self.view.as_ref().map(View::report).unwrap_or_default()

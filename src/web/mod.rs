@@ -11,6 +11,7 @@
 //! | `app` | one frame of the interface |
 //! | `engine` | the GPU work between frames |
 //! | `exporter` | the export in progress |
+//! | `view_picture` | the picture on the screen as a file, for clipboard, share sheet, download |
 //! | `test_hook` | the object by which browser tests drive the page |
 //! | `session` | the state that outlives the GPU: interface, scene, notice |
 //! | `sequence_export` | frames of a path into a zip |
@@ -52,3 +53,4 @@ pub mod start;
 mod still_export;
 mod storage;
 mod test_hook;
+mod view_picture;

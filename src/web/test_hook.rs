@@ -7,18 +7,10 @@ use std::{cell::RefCell, rc::Rc};
 
 use js_sys::{Array, Object, Promise, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
-use wasm_bindgen_futures::{JsFuture, future_to_promise};
+use wasm_bindgen_futures::future_to_promise;
 
-use super::{error_log, page, session::Session};
-use crate::{
-    gpu::{Gpu, readback::Readback},
-    render::Activity,
-    scene::document,
-    ui::zoom,
-};
-
-/// Milliseconds between two polls of a readback.
-const POLL_MS: i32 = 4;
+use super::{error_log, page, session::Session, view_picture::read_pixels};
+use crate::{gpu::Gpu, render::Activity, scene::document, ui::zoom};
 
 /// The page's test hook.
 #[wasm_bindgen]
@@ -138,30 +130,12 @@ impl TestHook {
 
 /// Reads the texture's pixels: `{width, height, data}`.
 async fn read_back(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Object, JsValue> {
-    let size_px = [texture.width(), texture.height()];
-    let mut readback = Readback::texture(gpu, texture, size_px);
-    loop {
-        let pixels = readback.take(gpu).map_err(|error| JsValue::from_str(&error.to_string()))?;
-        if let Some(bytes) = pixels {
-            let object = Object::new();
-            set(&object, "width", size_px[0]);
-            set(&object, "height", size_px[1]);
-            set(&object, "data", Uint8Array::from(bytes.as_slice()));
-            return Ok(object);
-        }
-        sleep(POLL_MS).await?;
-    }
-}
-
-/// Waits without blocking the page.
-async fn sleep(delay_ms: i32) -> Result<(), JsValue> {
-    let promise = Promise::new(&mut |resolve, _| {
-        page::after_ms(delay_ms, move || {
-            // A promise's own resolve function does not throw.
-            let _ = resolve.call0(&JsValue::UNDEFINED);
-        });
-    });
-    JsFuture::from(promise).await.map(|_| ())
+    let bytes = read_pixels(gpu, texture).await?;
+    let object = Object::new();
+    set(&object, "width", texture.width());
+    set(&object, "height", texture.height());
+    set(&object, "data", Uint8Array::from(bytes.as_slice()));
+    Ok(object)
 }
 
 fn set(object: &JsValue, name: &str, value: impl Into<JsValue>) {

@@ -19,6 +19,7 @@ mod navigation;
 mod orbit;
 mod places;
 mod sections;
+mod share;
 mod stage;
 mod steady;
 mod timeline;

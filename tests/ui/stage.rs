@@ -6,7 +6,7 @@ use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
     ui::{
-        Action, DisplayInputs, ExportProgress, Interface, Notice, Settings, SmallTextures,
+        Action, DisplayInputs, ExportProgress, Interface, Notice, Settings, Sharing, SmallTextures,
         all_sections_open, theme,
     },
 };
@@ -20,6 +20,7 @@ pub struct Stage {
     pub notice: Option<Notice>,
     pub small_pictures: SmallTextures,
     pub reduced_motion: bool,
+    pub has_share_sheet: bool,
 }
 
 /// Settings with everything unfolded.
@@ -58,6 +59,7 @@ pub fn stage(
         notice: None,
         small_pictures: SmallTextures::default(),
         reduced_motion: false,
+        has_share_sheet: false,
     };
     Harness::builder()
         .with_size(Vec2::from(size))
@@ -73,6 +75,10 @@ pub fn stage(
                     export: stage.export,
                     notice: stage.notice.as_ref(),
                     adapter: "a test",
+                    sharing: Sharing {
+                        address: "https://example.org/",
+                        has_share_sheet: stage.has_share_sheet,
+                    },
                     reduced_motion: stage.reduced_motion,
                     small_pictures: &stage.small_pictures,
                 };

@@ -53,6 +53,12 @@ impl Interface {
                 commands.push(Command::ToggleTimeline);
             }
         }
+        let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
+        let button = buttons.add(ui, Icon::Share, hover);
+        self.rects.record("share", &button);
+        if button.clicked() {
+            commands.push(Command::Share);
+        }
         let button = buttons.add(ui, Icon::Pin, self.places.button());
         self.rects.record("find places", &button);
         if self.places.are_shown() {

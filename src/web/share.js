@@ -1,0 +1,37 @@
+// The clipboard and the share sheet, for pictures.
+
+/**
+ * Copies a picture to the clipboard. Called within a click, because browsers allow nothing later; the
+ * picture itself may come later.
+ * @param {Promise<Blob>} picture a PNG
+ */
+export async function copyPicture(picture) {
+  if (!navigator.clipboard?.write || typeof ClipboardItem === "undefined") {
+    throw new Error("this browser copies no pictures");
+  }
+  await navigator.clipboard.write([new ClipboardItem({ "image/png": picture })]);
+}
+
+const fileOf = (picture, name) => new File([picture], name, { type: "image/png" });
+
+/** Whether the system has a share sheet that takes pictures. */
+export function hasShareSheet() {
+  try {
+    return Boolean(navigator.canShare?.({ files: [fileOf(new Blob(), "picture.png")] }));
+  } catch {
+    return false;
+  }
+}
+
+/**
+ * Opens the system's share sheet with a picture. A visitor who closes it again has made no mistake.
+ * @param {Promise<Blob>} picture a PNG
+ * @param {string} name the file's name
+ */
+export async function sharePicture(picture, name) {
+  try {
+    await navigator.share({ files: [fileOf(await picture, name)], title: "Mandelight" });
+  } catch (error) {
+    if (error?.name !== "AbortError") throw error;
+  }
+}

@@ -1,0 +1,157 @@
+//! The picture on the screen as a file: for the clipboard, the share sheet and downloads.
+//!
+//! In: the view's texture. Out: its pixels, or a PNG that carries the scene. Nothing is rendered again.
+
+use std::io::Write as _;
+
+use js_sys::{Array, Promise, Uint8Array};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::{JsFuture, future_to_promise, spawn_local};
+use web_sys::{Blob, BlobPropertyBag};
+
+use super::{
+    files::Download,
+    mailbox::{Mailbox, Message},
+    page::{self, describe},
+};
+use crate::{
+    export::png::PngStream,
+    gpu::{Gpu, readback::Readback},
+};
+
+#[wasm_bindgen(module = "/src/web/share.js")]
+extern "C" {
+    #[wasm_bindgen(js_name = copyPicture, catch)]
+    async fn copy_picture(picture: Promise) -> Result<JsValue, JsValue>;
+    #[wasm_bindgen(js_name = hasShareSheet)]
+    fn js_has_share_sheet() -> bool;
+    #[wasm_bindgen(js_name = sharePicture, catch)]
+    async fn share_picture(picture: Promise, name: &str) -> Result<JsValue, JsValue>;
+}
+
+/// Milliseconds between two polls of a readback.
+const POLL_MS: i32 = 4;
+
+const MEDIA_TYPE: &str = "image/png";
+
+/// True if the system has a share sheet that takes pictures.
+pub fn has_share_sheet() -> bool {
+    js_has_share_sheet()
+}
+
+/// The picture on the screen, with its scene.
+pub struct ViewPicture {
+    gpu: Gpu,
+    texture: wgpu::Texture,
+    document: String,
+}
+
+impl ViewPicture {
+    /// The picture in `texture`, of the scene in `document`.
+    pub fn new(gpu: &Gpu, texture: &wgpu::Texture, document: String) -> Self {
+        Self { gpu: gpu.clone(), texture: texture.clone(), document }
+    }
+
+    /// Copies the picture to the clipboard. Browsers allow that only within a click or a key.
+    pub fn copy(self, mailbox: &Mailbox) {
+        let mailbox = mailbox.clone();
+        let picture = self.blob();
+        spawn_local(async move {
+            mailbox.post(match copy_picture(picture).await {
+                Ok(_) => Message::Notice("Picture copied. Paste it anywhere.".to_owned()),
+                Err(error) => Message::Error(format!(
+                    "The picture could not be copied ({}). Save it instead.",
+                    describe(&error)
+                )),
+            });
+        });
+    }
+
+    /// Hands the picture to the system's share sheet, which asks where it goes.
+    pub fn share(self, mailbox: &Mailbox) {
+        let mailbox = mailbox.clone();
+        let (name, picture) = (self.file_name(), self.blob());
+        spawn_local(async move {
+            if let Err(error) = share_picture(picture, &name).await {
+                let reason = describe(&error);
+                mailbox.post(Message::Error(format!(
+                    "The picture could not be shared ({reason}). Save it instead."
+                )));
+            }
+        });
+    }
+
+    /// Downloads the picture.
+    pub fn save(self, mailbox: &Mailbox) {
+        let mailbox = mailbox.clone();
+        let name = self.file_name();
+        spawn_local(async move {
+            let saved = match self.png().await {
+                Ok(bytes) => download(&name, &bytes),
+                Err(error) => Err(describe(&error)),
+            };
+            mailbox.post(match saved {
+                Ok(()) => Message::Notice(format!("Saved {name}.")),
+                Err(reason) => Message::Error(format!("Saving failed: {reason}.")),
+            });
+        });
+    }
+
+    fn file_name(&self) -> String {
+        format!("mandelight-{}x{}.png", self.texture.width(), self.texture.height())
+    }
+
+    fn blob(self) -> Promise {
+        future_to_promise(async move {
+            let bytes = Uint8Array::from(self.png().await?.as_slice());
+            let options = BlobPropertyBag::new();
+            options.set_type(MEDIA_TYPE);
+            let parts = Array::of1(&bytes);
+            Ok(Blob::new_with_u8_array_sequence_and_options(&parts, &options)?.into())
+        })
+    }
+
+    async fn png(&self) -> Result<Vec<u8>, JsValue> {
+        let rgba = read_pixels(&self.gpu, &self.texture).await?;
+        let rgb: Vec<u8> =
+            rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        let size_px = [self.texture.width(), self.texture.height()];
+        let file = PngStream::new(Vec::new(), size_px, &self.document).and_then(|mut file| {
+            file.write_rgb(&rgb)?;
+            file.finish()
+        });
+        file.map_err(|error| JsValue::from_str(&error.to_string()))
+    }
+}
+
+fn download(name: &str, bytes: &[u8]) -> Result<(), String> {
+    let mut download = Download::default();
+    download.write_all(bytes).map_err(|error| error.to_string())?;
+    download.finish(name, MEDIA_TYPE)
+}
+
+/// The texture's pixels: RGBA, the top row first.
+///
+/// # Errors
+/// A lost device.
+pub async fn read_pixels(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, JsValue> {
+    let mut readback = Readback::texture(gpu, texture, [texture.width(), texture.height()]);
+    loop {
+        let pixels = readback.take(gpu).map_err(|error| JsValue::from_str(&error.to_string()))?;
+        if let Some(bytes) = pixels {
+            return Ok(bytes);
+        }
+        sleep(POLL_MS).await?;
+    }
+}
+
+/// Waits without blocking the page.
+async fn sleep(delay_ms: i32) -> Result<(), JsValue> {
+    let promise = Promise::new(&mut |resolve, _| {
+        page::after_ms(delay_ms, move || {
+            // A promise's own resolve function does not throw.
+            let _ = resolve.call0(&JsValue::UNDEFINED);
+        });
+    });
+    JsFuture::from(promise).await.map(|_| ())
+}
