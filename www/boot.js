@@ -1,6 +1,8 @@
 // Boots the page: checks for WebGPU, loads the module, starts it on the canvas.
 // Every failure becomes a notice that says what to do; the page never stays blank.
 
+import * as share from "./share.js";
+
 /** The module's size in bytes, set by the build: a compressed response does not contain it. */
 const WASM_BYTES = 0;
 
@@ -82,21 +84,61 @@ async function findObstacle() {
   }
 }
 
-/** Fetches the module and shows the progress of the download. */
+/**
+ * Fetches the module and shows the progress of the download. Without a connection, the module comes
+ * from the files that the service worker keeps.
+ */
 async function fetchModule(url) {
-  const response = await fetch(url);
-  if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+  const response = await fetch(url).catch(() => null);
+  if (!response?.ok) {
+    const kept = await window.caches?.match(url.href);
+    if (kept) return kept;
+    const reason = response ? `${response.status} ${response.statusText}` : "no connection";
+    throw new TypeError(`${url}: ${reason}`);
+  }
+  // The module is compiled from the response itself, for which the browser keeps the compiled code.
+  showProgress(response.clone().body);
+  return response;
+}
+
+/** Whether the module is on its way; afterwards its progress is no longer shown. */
+let isLoading = true;
+
+/** Shows the progress of the module's download, of which `body` is a copy. */
+async function showProgress(body) {
   let bytes = 0;
-  const counter = new TransformStream({
-    transform(chunk, stream) {
-      bytes += chunk.byteLength;
-      showLoading("Loading…", WASM_BYTES > 0 ? Math.min(bytes / WASM_BYTES, 1) : NaN);
-      stream.enqueue(chunk);
-    },
-  });
-  // With this type the browser compiles the module while it arrives.
-  return new Response(response.body.pipeThrough(counter), {
-    headers: { "Content-Type": "application/wasm" },
+  const reader = body.getReader();
+  for (let part = await reader.read(); !part.done; part = await reader.read()) {
+    bytes += part.value.byteLength;
+    if (isLoading && bytes < WASM_BYTES) showLoading("Loading…", bytes / WASM_BYTES);
+  }
+}
+
+/**
+ * Keeps the page for visits without a connection, and offers new versions. Pages of this computer
+ * itself are under development, and would show old versions; `?offline` keeps those too.
+ */
+async function keepOffline() {
+  const isKept = location.protocol === "https:" || new URLSearchParams(location.search).has("offline");
+  if (!isKept || !navigator.serviceWorker) return;
+  const workers = navigator.serviceWorker;
+  let isAccepted = false;
+  const offer = (worker) => {
+    element("update").hidden = false;
+    element("update-now").onclick = () => {
+      isAccepted = true;
+      worker.postMessage("activate");
+    };
+  };
+  element("update-later").onclick = () => (element("update").hidden = true);
+  workers.addEventListener("controllerchange", () => isAccepted && location.reload());
+  const registration = await workers.register("./service-worker.js", { updateViaCache: "none" });
+  if (registration.waiting && workers.controller) offer(registration.waiting);
+  registration.addEventListener("updatefound", () => {
+    const worker = registration.installing;
+    worker?.addEventListener("statechange", () => {
+      if (worker.state === "installed" && workers.controller) offer(worker);
+    });
   });
 }
 
@@ -147,11 +189,13 @@ async function boot() {
     );
     return;
   }
+  isLoading = false;
   try {
     showLoading("Starting…", NaN);
     await pixelsFixed;
     await mandelight.start(element("mandelight"));
     showNotice("");
+    keepOffline().catch((error) => console.warn("the page is not kept for visits offline:", error));
   } catch (error) {
     console.error(error);
     const reason = error instanceof Error ? error.message : String(error);
@@ -177,6 +221,7 @@ const reportTrap = (error) => {
 window.addEventListener("error", (event) => reportTrap(event.error));
 window.addEventListener("unhandledrejection", (event) => reportTrap(event.reason));
 
+window.mandelightShare = share;
 window.mandelightNotice = (text, detail) => {
   hasModuleNotice = true;
   showNotice(text, detail);

@@ -1,8 +1,11 @@
 //! `mandelight scene`: prints a scene document.
 
-use mandelight::scene::{
-    document,
-    presets::{self, Preset},
+use mandelight::{
+    fractal::Surprise,
+    scene::{
+        document,
+        presets::{self, Preset},
+    },
 };
 
 use super::{
@@ -19,8 +22,11 @@ pub struct SceneArguments {
     /// Print this preset instead of the first opening scene
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
+    /// Print a random scene that is worth seeing; another seed gives another scene
+    #[arg(long, value_name = "SEED", conflicts_with = "preset")]
+    surprise: Option<u64>,
     /// List all presets: opening scenes, dives, the formulas' scenes, mixes
-    #[arg(long, conflicts_with_all = ["preset", "set"])]
+    #[arg(long, conflicts_with_all = ["preset", "set", "surprise"])]
     list_presets: bool,
     #[command(flatten)]
     other: OtherFractal,
@@ -49,7 +55,11 @@ pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
             let wanted = wanted.unwrap_or_default();
             Failure::usage(format!("--preset: no \"{wanted}\"; choose one of {}", names.join(", ")))
         })?;
-    let scene = arguments.gradient.in_scene(arguments.other.in_scene((preset.scene)())?)?;
+    let scene = match arguments.surprise {
+        Some(seed) => Surprise::new(seed).finish(),
+        None => (preset.scene)(),
+    };
+    let scene = arguments.gradient.in_scene(arguments.other.in_scene(scene)?)?;
     let scene = input::changed(scene, &arguments.set)?;
     print(&document::to_json(&scene))
 }

@@ -10,13 +10,16 @@
 //! | [`places`] | finds points of the surface that stay beautiful at every depth |
 //! | [`spiral`] | directions, and points of a disc, spread evenly |
 //! | [`search`] | finds the anchor of a view |
+//! | [`surprise`] | random scenes that are worth seeing |
 
 pub mod camera_ray;
 pub mod model;
 pub mod places;
 pub mod search;
 pub mod spiral;
+pub mod surprise;
 
 pub use camera_ray::{camera_ray, ndc_of, pixel_cone};
 pub use model::{FractalModel, SharedModel};
 pub use search::Search;
+pub use surprise::Surprise;

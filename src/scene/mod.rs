@@ -21,6 +21,7 @@
 //! | `validate` | the check that every loaded scene has passed |
 //! | [`color`] | sRGB, and the gradient as a table |
 //! | [`gradient`] | gradients with names, and those of files |
+//! | [`variation`], [`dice`] | scenes near to a scene; random numbers for them |
 
 mod background;
 mod bloom;
@@ -39,6 +40,7 @@ mod surface;
 mod tone;
 
 pub mod color;
+pub mod dice;
 pub mod document;
 pub mod environment_map;
 pub mod follow;
@@ -51,6 +53,7 @@ pub mod path;
 pub mod presets;
 mod stereo;
 mod validate;
+pub mod variation;
 
 pub use background::{Background, BackgroundKind};
 pub use bloom::{Bloom, BloomOrder};

@@ -43,6 +43,10 @@ pub enum Icon {
     Pin,
     /// An arrow that points up out of a box.
     Share,
+    /// A die that shows five.
+    Dice,
+    /// Nine squares.
+    Grid,
 }
 
 /// Width and height of a button with an icon, in points.
@@ -162,6 +166,23 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
             outline.push((0.0, 7.5));
             line(&outline);
             painter.circle_filled(at(center.0, center.1), 1.9 * size / 16.0, color);
+        }
+        Icon::Dice => {
+            line(&[(-6.5, -6.5), (6.5, -6.5), (6.5, 6.5), (-6.5, 6.5), (-6.5, -6.5)]);
+            for (x, y) in [(-3.2, -3.2), (3.2, -3.2), (0.0, 0.0), (-3.2, 3.2), (3.2, 3.2)] {
+                painter.circle_filled(at(x, y), 1.4 * size / 16.0, color);
+            }
+        }
+        Icon::Grid => {
+            for (x, y) in (0..9).map(|i| ((i % 3) as f32 - 1.0, (i / 3) as f32 - 1.0)) {
+                let (x, y) = (5.0 * x, 5.0 * y);
+                fill(&[
+                    (x - 1.7, y - 1.7),
+                    (x + 1.7, y - 1.7),
+                    (x + 1.7, y + 1.7),
+                    (x - 1.7, y + 1.7),
+                ]);
+            }
         }
         Icon::Share => {
             line(&[(0.0, 3.0), (0.0, -7.0)]);

@@ -13,6 +13,7 @@ use super::{
     editor::Editor,
     frame::Frame,
     loaded::Loaded,
+    mutate::Mutate,
     navigation::CameraStatus,
     notice,
     panel::{self, Context},
@@ -24,7 +25,9 @@ use super::{
     share::Share,
     shortcuts::{self, Command},
     small_picture::SmallPicture,
-    status, theme,
+    status,
+    surprises::Surprises,
+    theme,
     timeline::Timeline,
 };
 use crate::{
@@ -48,6 +51,8 @@ pub struct Interface {
     home: Camera,
     sheet: panel::Sheet,
     share: Share,
+    mutate: Mutate,
+    surprises: Surprises,
     help_open: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
@@ -73,6 +78,8 @@ impl Interface {
             timeline: Timeline::default(),
             sheet: panel::Sheet::default(),
             share: Share::default(),
+            mutate: Mutate::default(),
+            surprises: Surprises::default(),
             help_open: false,
             camera_status: None,
             rects: Rects::default(),
@@ -143,7 +150,7 @@ impl Interface {
 
     /// The small pictures to draw when idle, the first ones first.
     pub fn small_pictures(&self) -> impl Iterator<Item = &SmallPicture> + Clone {
-        self.places.small_pictures()
+        self.places.small_pictures().chain(self.mutate.small_pictures())
     }
 
     /// The positions of named widgets.
@@ -215,6 +222,10 @@ impl Interface {
             }
             self.dispatch(command, wide, &mut actions);
         }
+        if let Some(mut scene) = self.surprises.advance(ui) {
+            scene.quality = self.scene().quality.clone();
+            self.fly_into(scene);
+        }
         self.timeline.end_frame(&mut self.editor, &before, now_secs);
         self.moving |= self.timeline.is_moving();
         if self.timeline.is_playing() {
@@ -259,7 +270,7 @@ impl Interface {
         let shown = if !wide {
             let size = self.sheet.height(cx.settings, window.y);
             let sheet = Panel::bottom("sheet").exact_size(size).frame(frame);
-            Some(sheet.show(ui, |ui| self.sheet.show(ui, &mut cx, window.y)))
+            Some(sheet.show(ui, |ui| panel::sheet(ui, &mut cx, &mut self.sheet, window.y)))
         } else if open {
             let side =
                 Panel::right("panel").resizable(false).exact_size(theme::panel_width(window.x));
@@ -348,6 +359,9 @@ impl Interface {
             Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,
             Command::Leave if self.share.is_open() => self.share = Share::default(),
+            Command::Leave if self.mutate.is_open() => self.mutate.toggle(),
+            Command::Mutate => self.mutate.toggle(),
+            Command::Surprise => self.surprises.begin(),
             Command::Leave if self.places.are_shown() => self.places.put_away(),
             Command::FindPlaces => self.places.toggle(),
             Command::Leave => self.pilot.set_flying(false),

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `interface` | one frame: layout, dispatch, undo |
 //! | `display_inputs`, `action` | the shell's data to display, and requests to the shell |
-//! | `settings`, `export_size` | settings stored between visits, such as the size of saved pictures |
+//! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
 //! | `selection` | the selected light, colour layer and gradient stops |
 //! | `loaded` | the environment map and gradients that people opened |
 //! | `panel/` | the panels, one per file |
@@ -17,6 +17,7 @@
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
+//! | `mutate`, `surprises` | variations of the scene, of which one is chosen; random scenes |
 //! | `share` | the share window: link, QR code, picture |
 //! | `small_picture` | small pictures that the shell draws when idle |
 //! | `floating`, `hints`, `notice` | buttons and captions over the picture, first hints, the shell's message |
@@ -41,6 +42,7 @@ mod home;
 mod icon;
 mod interface;
 mod loaded;
+mod mutate;
 mod notice;
 mod panel;
 mod pilot;
@@ -48,9 +50,11 @@ mod places;
 mod selection;
 mod settings;
 mod share;
+mod sheet_height;
 mod slice;
 mod small_picture;
 mod status;
+mod surprises;
 mod timeline;
 mod view;
 mod widgets;
@@ -70,8 +74,9 @@ pub use display_inputs::{
 pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use hints::Hints;
 pub use interface::Interface;
-pub use panel::{SheetHeight, all_sections_open};
+pub use panel::all_sections_open;
 pub use settings::{Sections, Settings};
 pub use share::Sharing;
+pub use sheet_height::SheetHeight;
 pub use small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId};
 pub use status::zoom;

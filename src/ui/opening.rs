@@ -24,7 +24,7 @@ pub fn scene() -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::{panel, status, theme};
+    use crate::ui::{sheet_height, status, theme};
 
     #[test]
     fn the_picture_spans_the_camera_of_the_opening_scene() {
@@ -40,7 +40,11 @@ mod tests {
         let has = |text: String| assert!(style.contains(&text), "style.css lacks {text}");
         has(format!("--status: {}px;", status::HEIGHT));
         has(format!("--panel: min({}px, {}vw);", theme::PANEL_WIDTH, 100.0 * theme::PANEL_PART));
-        has(format!("--sheet: min({}px, {}vh);", panel::SHEET_LOW, 100.0 * panel::SHEET_HALF_PART));
+        has(format!(
+            "--sheet: min({}px, {}vh);",
+            sheet_height::LOW,
+            100.0 * sheet_height::HALF_PART
+        ));
         has(format!("--span: {};", SPAN));
         let [wide, landscape] = [theme::WIDE_FROM, theme::LANDSCAPE_FROM].map(|from| from - 0.02);
         has(format!("(max-width: {landscape}px)"));

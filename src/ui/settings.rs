@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{export_size::ExportSize, hints::Hints, panel::SheetHeight};
+use super::{export_size::ExportSize, hints::Hints, sheet_height::SheetHeight};
 
 /// Settings that are stored between visits and are not part of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

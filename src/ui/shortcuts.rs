@@ -28,6 +28,10 @@ pub enum Command {
     CopyPicture,
     /// Hand the picture on the screen to the system's share sheet.
     SharePicture,
+    /// Open a random scene.
+    Surprise,
+    /// Show variations of the scene, or put them away.
+    Mutate,
     /// Open the preset of this index: the opening scenes, then the dives.
     Preset(usize),
     /// Fly to the scene's opening view, or out of a deep one.
@@ -140,6 +144,8 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(NONE, Key::A, Command::FrameAll, "A", "Show the whole fractal"),
     row(NONE, Key::D, Command::Dive, "D", "Dive: go down by itself, or stop"),
     row(NONE, Key::N, Command::FindPlaces, "N", "Find places to dive to, or put the pins away"),
+    row(NONE, Key::R, Command::Surprise, "R", "Surprise me: a random scene"),
+    row(NONE, Key::M, Command::Mutate, "M", "Mutate: variations of the scene, side by side"),
     row(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
     row(NONE, Key::Escape, Command::Leave, "Esc", "Close help, put pins away, leave fly mode"),
     row(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),

@@ -19,7 +19,8 @@ use crate::{
     gpu::{Gpu, readback::Readback},
 };
 
-#[wasm_bindgen(module = "/src/web/share.js")]
+// The functions of `www/share.js`, which `boot.js` puts there.
+#[wasm_bindgen(js_namespace = mandelightShare)]
 extern "C" {
     #[wasm_bindgen(js_name = copyPicture, catch)]
     async fn copy_picture(picture: Promise) -> Result<JsValue, JsValue>;

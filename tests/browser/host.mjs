@@ -10,6 +10,7 @@ const MIME = {
   ".css": "text/css; charset=utf-8",
   ".wasm": "application/wasm",
   ".svg": "image/svg+xml",
+  ".webmanifest": "application/manifest+json",
 };
 
 /** A folder below the root: the page's own URLs must be relative. */
@@ -18,12 +19,15 @@ const BASE = "/shared/page/";
 /**
  * Serves `folder`.
  * @param {string} folder
- * @returns {Promise<{address: string, requests: string[], close: () => Promise<void>}>} the page's
- *   address, the files requested so far, and a function that stops the host
+ * @returns {Promise<{address: string, requests: string[], isDown: boolean, appended: object, close: () => Promise<void>}>}
+ *   the page's address; the files requested so far; whether it refuses connections; texts to append
+ *   to files, by their names; a function that stops the host
  */
 export async function host(folder) {
   const requests = [];
+  const state = { isDown: false, appended: {} };
   const server = createServer(async (request, response) => {
+    if (state.isDown) return request.socket.destroy();
     const { pathname } = new URL(request.url, "http://127.0.0.1");
     const name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) || "index.html" : undefined;
     requests.push(name ?? pathname);
@@ -32,15 +36,15 @@ export async function host(folder) {
       if (!file?.startsWith(folder + sep)) throw new Error("outside the page");
       const body = await readFile(file);
       response.writeHead(200, { "Content-Type": MIME[extname(file)] ?? "application/octet-stream" });
-      response.end(body);
+      response.end(Buffer.concat([body, Buffer.from(state.appended[name] ?? "")]));
     } catch {
       response.writeHead(404).end("no such file\n");
     }
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  return {
+  return Object.assign(state, {
     address: `http://127.0.0.1:${server.address().port}${BASE}`,
     requests,
     close: () => new Promise((resolve) => server.close(resolve)),
-  };
+  });
 }

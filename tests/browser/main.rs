@@ -114,6 +114,18 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     assert_eq!(visit.scene("linked"), linked());
 }
 
+#[test]
+fn a_page_that_was_open_once_works_without_a_connection() {
+    let visit = Visit::run("offline");
+    assert!(visit.number("/offline/pictures") > 0.0);
+    let files = fs::read_dir(std::env::var_os("MANDELIGHT_DIST").unwrap()).unwrap().count();
+    // The worker itself is no file of the page, and a folder of scripts counts as one.
+    assert!(visit.number("/kept/files") as usize >= files - 1, "{}", visit.seen["kept"]);
+    assert_eq!(visit.seen["offered"], true);
+    assert_eq!(visit.seen["reloaded"], true);
+    assert_eq!(visit.seen["purged"]["names"].as_array().unwrap().len(), 1);
+}
+
 /// A path of two keys and three frames.
 fn short_path() -> Project {
     let scene = presets::opening_scenes()[0].scene;

@@ -30,4 +30,5 @@ mod soft_shadows;
 mod staleness;
 mod stereo;
 mod still;
+mod surprise;
 mod thumbnails;

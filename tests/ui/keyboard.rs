@@ -1,10 +1,7 @@
 //! The interface by keyboard and screen reader: the order of the Tab key, and names.
 
 use egui::{Key, Rect, accesskit::Action};
-use egui_kittest::{
-    Harness,
-    kittest::{NodeT as _, Queryable as _},
-};
+use egui_kittest::{Harness, kittest::NodeT as _};
 use mandelight::{scene::Scene, ui::Settings};
 
 use crate::stage::*;

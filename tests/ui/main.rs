@@ -15,6 +15,7 @@ mod gestures;
 mod hostile;
 mod hybrids;
 mod keyboard;
+mod mutate;
 mod navigation;
 mod orbit;
 mod places;

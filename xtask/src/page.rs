@@ -1,7 +1,8 @@
 //! Build of the page: from the library to the folder that a browser loads.
 //!
 //! In: the crate and `www/`. Out: a folder of `index.html` and files whose names contain a hash of
-//! their content, so that browsers may cache these files forever. All URLs are relative.
+//! their content, so that browsers may cache these files forever; and a service worker that keeps all
+//! of them for visits without a connection. All URLs are relative.
 
 use std::{
     fs,
@@ -48,6 +49,13 @@ const WASM_OPT_FLAGS: [&str; 9] = [
 /// boot.js shows the download's progress, and a host that compresses does not send the size.
 const SIZE_PLACEHOLDER: &str = "const WASM_BYTES = 0;";
 
+/// The service worker, whose name stays: browsers look for new versions of the page by it.
+const WORKER: &str = "service-worker.js";
+
+/// The placeholders of the version and of its files in the service worker.
+const VERSION_PLACEHOLDER: &str = "const VERSION = \"\";";
+const FILES_PLACEHOLDER: &str = "const FILES = [];";
+
 /// The picture that `index.html` contains and shows first.
 const OPENING: &str = "opening.jpg";
 
@@ -72,7 +80,10 @@ pub fn build(folder: &Path, optimization: Optimization) -> Result<()> {
     if optimization == Optimization::Binaryen {
         optimise(&module)?;
     }
-    let page = link(parts(&bound, &shell::root()?.join("www"))?)?;
+    let www = shell::root()?.join("www");
+    let mut page = link(parts(&bound, &www)?)?;
+    let worker = fs::read(www.join(WORKER)).with_context(|| format!("www/{WORKER}"))?;
+    page.push(keeping(&worker, &page)?);
     write(folder, &page)?;
     print_sizes(folder, &page)
 }
@@ -127,11 +138,12 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     let size = format!("const WASM_BYTES = {};", module.bytes.len());
     parts.push(module);
     parts.push(read(bound, "mandelight.js")?);
+    parts.push(read(www, "share.js")?);
     let mut boot = read(www, "boot.js")?;
     boot.bytes = replaced(&boot.bytes, SIZE_PLACEHOLDER, &size)
         .with_context(|| format!("boot.js does not contain `{SIZE_PLACEHOLDER}`"))?;
     parts.push(boot);
-    for name in ["favicon.svg", "style.css"] {
+    for name in ["favicon.svg", "manifest.webmanifest", "style.css"] {
         parts.push(read(www, name)?);
     }
     let mut index = read(www, "index.html")?;
@@ -184,15 +196,35 @@ fn link(parts: Vec<Part>) -> Result<Vec<Part>> {
     Ok(linked)
 }
 
+/// The service worker of a page, which keeps the page's files.
+fn keeping(worker: &[u8], page: &[Part]) -> Result<Part> {
+    let others = page.iter().filter(|part| part.name != "index.html");
+    let files: Vec<String> = others.map(|part| format!("\"./{}\"", part.name)).collect();
+    // The document contains the names of the files, and so the hashes of what is in them.
+    let document = page.iter().find(|part| part.name == "index.html");
+    let version = hash(&document.context("the page has no index.html")?.bytes);
+    let files = format!("const FILES = [{}];", files.join(", "));
+    let bytes = replaced(worker, VERSION_PLACEHOLDER, &format!("const VERSION = \"{version}\";"))
+        .and_then(|bytes| replaced(&bytes, FILES_PLACEHOLDER, &files))
+        .with_context(|| format!("{WORKER} lacks a placeholder"))?;
+    Ok(Part { name: WORKER.to_owned(), bytes })
+}
+
 /// The name with a hash of the content: `style-0123456789ab.css` for `style.css`.
 fn hashed_name(name: &str, bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    let hash: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-    let hash = &hash[..HASH_DIGITS];
+    let hash = hash(bytes);
     match name.rsplit_once('.') {
         Some((stem, extension)) => format!("{stem}-{hash}.{extension}"),
         None => format!("{name}-{hash}"),
     }
+}
+
+/// The first digits of a content's SHA-256.
+fn hash(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    let mut hash: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    hash.truncate(HASH_DIGITS);
+    hash
 }
 
 /// `text` with every `old` replaced by `new`; none if `text` is not UTF-8 or has no `old`.
@@ -285,6 +317,18 @@ mod tests {
         let parts = vec![part("lost.css", ""), part("index.html", "")];
         let error = link(parts).map(|_| ()).unwrap_err();
         assert!(error.to_string().contains("lost.css"), "{error}");
+    }
+
+    #[test]
+    fn the_service_worker_keeps_every_file_and_has_a_version() {
+        let worker = include_bytes!("../../www/service-worker.js");
+        let of = |index: &str| {
+            let page = [part("boot-1.js", ""), part("a/b-2.js", ""), part("index.html", index)];
+            String::from_utf8(keeping(worker, &page).unwrap().bytes).unwrap()
+        };
+        assert!(of("one").contains("const FILES = [\"./boot-1.js\", \"./a/b-2.js\"];"));
+        assert_ne!(of("one"), of("two"), "another page, another version");
+        assert!(keeping(b"const VERSION = 0;", &[part("index.html", "")]).is_err());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use egui::{Align2, Rect, Ui, vec2};
 use web_time::Instant;
 
 use super::Interface;
+use crate::scene::Project;
 use crate::ui::{
     display_inputs::DisplayInputs,
     dive,
@@ -52,6 +53,18 @@ impl Interface {
             if button.clicked() {
                 commands.push(Command::ToggleTimeline);
             }
+        }
+        let hover = ("Surprise me", "Show a random scene (R)");
+        let button = buttons.add(ui, Icon::Dice, hover);
+        self.rects.record("surprise", &button);
+        if button.clicked() {
+            commands.push(Command::Surprise);
+        }
+        let hover = ("Mutate", "Show variations of this scene, side by side (M)");
+        let button = buttons.add(ui, Icon::Grid, hover);
+        self.rects.record("mutate", &button);
+        if button.clicked() {
+            commands.push(Command::Mutate);
         }
         let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
         let button = buttons.add(ui, Icon::Share, hover);
@@ -151,6 +164,12 @@ impl Interface {
                 egui::FontId::proportional(15.0),
                 theme::TEXT_DIM,
             );
+        }
+        let scene = self.editor.scene();
+        let textures = inputs.small_pictures;
+        if let Some(chosen) = self.mutate.show(ui, rect, scene, textures, &mut self.rects) {
+            let path = self.project().path.clone();
+            self.editor.replace(Project { scene: chosen, path });
         }
         ui.allocate_rect(area, egui::Sense::hover());
     }

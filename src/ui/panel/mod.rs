@@ -34,6 +34,7 @@ use egui::{Frame, Margin, RichText, ScrollArea, Stroke, Ui, UiBuilder};
 use super::{
     icon::{Icon, icon_button, icon_side},
     settings::{Sections, Settings},
+    sheet_height::HEADING,
     shortcuts::Command,
     theme,
     widgets::section,
@@ -43,9 +44,6 @@ use context::Section;
 pub(super) use formula_text::formula_window;
 pub(super) use help::help_window;
 pub(super) use sheet::Sheet;
-pub use sheet::SheetHeight;
-#[cfg(test)]
-pub(super) use sheet::{HALF_PART as SHEET_HALF_PART, LOW as SHEET_LOW};
 pub(super) use timeline::strip;
 
 /// The sections of "More", from top to bottom. A new panel adds its module above and its line here.
@@ -66,6 +64,8 @@ const SECTIONS: &[Section] = &[
 
 /// Number of buttons in the heading.
 const HEADING_BUTTONS: f32 = 5.0;
+/// Minimum height of a sheet with a fixed area for saving, in points.
+const WITH_SAVING: f32 = 320.0;
 /// Height of the area for saving before it was drawn, in points.
 const SAVING_HEIGHT: f32 = 58.0;
 /// Gap between the heading's buttons, in points.
@@ -81,6 +81,31 @@ pub(super) fn side(ui: &mut Ui, cx: &mut Context<'_>) {
         .show_separator_line(false)
         .show(ui, |ui| heading(ui, cx, true));
     scrolled_and_saving(ui, cx);
+}
+
+/// The panel as a sheet of its present height, in a window of the height `window`.
+pub(super) fn sheet(ui: &mut Ui, cx: &mut Context<'_>, sheet: &mut Sheet, window: f32) {
+    let height = ui.max_rect().height();
+    let open = height > HEADING;
+    let margin = Margin { left: 14, right: 8, top: 8, bottom: 2 };
+    let handle = egui::Panel::top("heading")
+        .exact_size(HEADING)
+        .frame(Frame::new().inner_margin(margin).fill(theme::PANEL))
+        .show_separator_line(false)
+        .show(ui, |ui| {
+            // The buttons of the heading are added later, and so lie over the handle.
+            let handle = sheet::handle(ui, open);
+            heading(ui, cx, cx.settings.panel_open);
+            handle
+        })
+        .inner;
+    cx.rects.record("sheet handle", &handle);
+    if height >= WITH_SAVING {
+        scrolled_and_saving(ui, cx);
+    } else if open {
+        scrolled(ui, cx, true);
+    }
+    sheet.resize(&handle, cx.settings, window);
 }
 
 /// The scrolled part of the panel, and below it the fixed area for saving.

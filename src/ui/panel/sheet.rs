@@ -3,51 +3,16 @@
 //! The sheet opens low, with a row of large scene pictures, so that the picture has most of the
 //! window. A drag of its heading changes the height; a tap switches between low and half.
 
-use egui::{Frame, Margin, Rect, Response, Sense, Ui, WidgetInfo, accesskit::Role, vec2};
-use serde::{Deserialize, Serialize};
+use egui::{Rect, Response, Sense, Ui, WidgetInfo, accesskit::Role, vec2};
 
-use super::{Context, heading, scrolled, scrolled_and_saving};
-use crate::ui::{settings::Settings, theme};
+use crate::ui::{
+    settings::Settings,
+    sheet_height::{HEADING, SheetHeight},
+    theme,
+};
 
-/// Height of the heading, in points; the closed sheet shows it alone.
-const HEADING: f32 = 54.0;
-/// Height of the low sheet: heading, lists of scenes, a row of pictures. In points.
-pub const LOW: f32 = 222.0;
-/// Part of the window that the sheet covers at half height.
-pub const HALF_PART: f32 = 0.55;
-/// Part of the window that the tall sheet covers; the rest shows what a control changes.
-const TALL_PART: f32 = 0.8;
-/// Minimum height of a sheet with a fixed area for saving, in points.
-const WITH_SAVING: f32 = 320.0;
 /// Width and height of the bar in the heading that invites to drag, in points.
 const BAR: [f32; 2] = [36.0, 4.0];
-
-/// How much of the window the open sheet covers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SheetHeight {
-    /// The scenes.
-    #[default]
-    Low,
-    /// About half of the window.
-    Half,
-    /// Most of the window.
-    Tall,
-}
-
-impl SheetHeight {
-    const ALL: [Self; 3] = [Self::Low, Self::Half, Self::Tall];
-
-    /// The height in a window of the height `window`, in points.
-    fn points(self, window: f32) -> f32 {
-        let points = match self {
-            Self::Low => LOW.min(HALF_PART * window),
-            Self::Half => HALF_PART * window,
-            Self::Tall => TALL_PART * window,
-        };
-        points.floor().max(HEADING)
-    }
-}
 
 /// The sheet, which may be held at any height.
 #[derive(Clone, Copy, Debug, Default)]
@@ -63,34 +28,8 @@ impl Sheet {
         self.dragged.unwrap_or(rest)
     }
 
-    /// Draws the sheet, and changes its height by a drag or a tap.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut Context<'_>, window: f32) {
-        let height = ui.max_rect().height();
-        let open = height > HEADING;
-        let margin = Margin { left: 14, right: 8, top: 8, bottom: 2 };
-        let handle = egui::Panel::top("heading")
-            .exact_size(HEADING)
-            .frame(Frame::new().inner_margin(margin).fill(theme::PANEL))
-            .show_separator_line(false)
-            .show(ui, |ui| {
-                // The buttons of the heading are added later, and so lie over the handle.
-                let handle = handle(ui, open);
-                heading(ui, cx, cx.settings.panel_open);
-                handle
-            })
-            .inner;
-        cx.rects.record("sheet handle", &handle);
-        if open {
-            if height >= WITH_SAVING {
-                scrolled_and_saving(ui, cx);
-            } else {
-                scrolled(ui, cx, true);
-            }
-        }
-        self.resize(&handle, cx.settings, window);
-    }
-
-    fn resize(&mut self, handle: &Response, settings: &mut Settings, window: f32) {
+    /// Changes the height by a drag or a tap of the handle.
+    pub fn resize(&mut self, handle: &Response, settings: &mut Settings, window: f32) {
         if handle.drag_started() {
             self.dragged = Some(self.height(settings, window));
         }
@@ -125,7 +64,7 @@ fn rest_near(settings: &mut Settings, height: f32, window: f32) {
 }
 
 /// The area of the heading, which drags the sheet, with a bar at its top that says so.
-fn handle(ui: &Ui, open: bool) -> Response {
+pub fn handle(ui: &Ui, open: bool) -> Response {
     let area = ui.max_rect();
     let handle = ui.interact(area, ui.scope_id().with("handle"), Sense::click_and_drag());
     let name = if open { "Resize the panel" } else { "Open the panel" };
@@ -153,15 +92,6 @@ mod tests {
             let mut settings = Settings::default();
             rest_near(&mut settings, height, window);
             assert_eq!((settings.panel_open, settings.sheet), (open, sheet), "{height}");
-        }
-    }
-
-    #[test]
-    fn heights_increase_in_every_window() {
-        for window in [100.0, 320.0, 568.0, 844.0, 1400.0] {
-            let points = SheetHeight::ALL.map(|sheet| sheet.points(window));
-            assert!(points.is_sorted(), "{points:?}");
-            assert!(points[2] <= window.max(HEADING));
         }
     }
 }

@@ -1,0 +1,263 @@
+//! Variations of the scene, side by side over the picture, of which one becomes the scene.
+//!
+//! In: the scene, how far to go, what must stay. Out: small pictures to draw, and the chosen variation.
+
+use egui::{
+    Checkbox, Color32, CornerRadius, Margin, Rect, Response, RichText, Sense, Shape, Stroke,
+    StrokeKind, Ui, UiBuilder, WidgetInfo, accesskit::Role, epaint::RectShape, pos2, vec2,
+};
+
+use super::{
+    display_inputs::SmallTextures,
+    icon::{Icon, icon_button},
+    rects::Rects,
+    small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId},
+    theme,
+};
+use crate::{
+    fractal::surprise::is_worth_seeing,
+    scene::{
+        Quality, Scene,
+        variation::{Locks, vary},
+    },
+};
+
+/// Variations in a row, and rows.
+const COLUMNS: usize = 3;
+/// The place of the scene itself: the middle.
+const MIDDLE: usize = COLUMNS * COLUMNS / 2;
+/// Gap between the pictures, in points.
+const GAP: f32 = 8.0;
+/// Height of the controls below the pictures, in points.
+const CONTROLS: f32 = 92.0;
+/// Samples of a pixel of the small pictures.
+const SAMPLES: u32 = 2;
+/// Variations that are looked at for one that shows something, until any will do.
+const MAX_TRIES: u64 = 5;
+
+/// The variations, while they are shown.
+#[derive(Debug)]
+pub struct Mutate {
+    is_open: bool,
+    /// How far variations go, 0 to 1.
+    amount: f64,
+    locks: Locks,
+    /// The scene, the amount and the locks that the variations are of.
+    made_of: Option<(Scene, f64, Locks)>,
+    variations: Vec<SmallPicture>,
+    /// The number of the next variation, which no other has had.
+    next: u64,
+}
+
+impl Default for Mutate {
+    fn default() -> Self {
+        Self {
+            is_open: false,
+            amount: 0.4,
+            locks: Locks { view: true, ..Locks::default() },
+            made_of: None,
+            variations: Vec::new(),
+            next: 0,
+        }
+    }
+}
+
+impl Mutate {
+    /// Shows the variations, or puts them away.
+    pub fn toggle(&mut self) {
+        self.is_open = !self.is_open;
+        self.forget();
+    }
+
+    /// True while variations are shown.
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// The pictures to draw, the first ones first.
+    pub fn small_pictures(&self) -> impl Iterator<Item = &SmallPicture> + Clone {
+        self.variations.iter()
+    }
+
+    fn forget(&mut self) {
+        self.made_of = None;
+        self.variations.clear();
+    }
+
+    /// Makes one variation a frame, until all are there. Returns whether more are to come.
+    fn make(&mut self, scene: &Scene) -> bool {
+        let wanted = (scene.clone(), self.amount, self.locks);
+        if self.made_of.as_ref() != Some(&wanted) {
+            self.variations.clear();
+            self.made_of = Some(wanted);
+        }
+        let made = self.variations.len();
+        if made < COLUMNS * COLUMNS {
+            let varied = if made == MIDDLE { scene.clone() } else { self.variation(scene) };
+            let quality = Quality { samples: SAMPLES, ..scene.quality.clone() };
+            let id = SmallPictureId { owner: "mutations", number: self.next };
+            self.next += 1;
+            self.variations.push(SmallPicture { id, scene: Scene { quality, ..varied } });
+        }
+        self.variations.len() < COLUMNS * COLUMNS
+    }
+
+    /// A variation that shows something, if the scene itself does.
+    fn variation(&mut self, scene: &Scene) -> Scene {
+        let mut varied = scene.clone();
+        // Close views cannot be judged from the whole set's distance.
+        let is_judged = is_worth_seeing(scene);
+        for _ in 0..MAX_TRIES {
+            varied = vary(scene, self.amount, self.locks, self.next);
+            if !is_judged || is_worth_seeing(&varied) {
+                break;
+            }
+            self.next += 1;
+        }
+        varied
+    }
+
+    /// Shows the variations over the picture in `view`, and returns the chosen one.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        view: Rect,
+        scene: &Scene,
+        textures: &SmallTextures,
+        rects: &mut Rects,
+    ) -> Option<Scene> {
+        if !self.is_open {
+            return None;
+        }
+        if self.make(scene) {
+            ui.ctx().request_repaint();
+        }
+        let backdrop = ui.interact(view, ui.scope_id().with("variations"), Sense::click_and_drag());
+        rects.record("variations", &backdrop);
+        ui.painter().rect_filled(view, 0.0, theme::BACKGROUND.gamma_multiply(0.82));
+        let (pictures, controls) =
+            view.split_top_bottom_at_y((view.bottom() - CONTROLS).max(view.center().y));
+        let mut chosen = None;
+        for (index, variation) in self.variations.iter().enumerate() {
+            let rect = cell(pictures.shrink(GAP), index);
+            let response = respond(ui, rect, index);
+            paint(ui, &response, rect, textures, variation, index);
+            if response.clicked() && index != MIDDLE {
+                let quality = scene.quality.clone();
+                chosen = Some(Scene { quality, ..variation.scene.clone() });
+            }
+        }
+        ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| self.controls(ui, rects));
+        chosen
+    }
+
+    fn controls(&mut self, ui: &mut Ui, rects: &mut Rects) {
+        egui::Frame::new().inner_margin(Margin::symmetric(12, 4)).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.label("How different");
+                let amount = egui::Slider::new(&mut self.amount, 0.05..=1.0).show_value(false);
+                let amount = ui
+                    .add(amount)
+                    .on_hover_text("Farther right, the eight differ more from the middle")
+                    .accessible_name("How different");
+                rects.record("how different", &amount);
+                let more = ui.button("Eight more").on_hover_text("Other variations of the middle");
+                if more.clicked() {
+                    self.forget();
+                }
+                let close = icon_button(ui, Icon::Cross, "Close the variations", "Close (M)");
+                rects.record("close variations", &close);
+                if close.clicked() {
+                    self.toggle();
+                }
+            });
+            ui.horizontal_wrapped(|ui| {
+                ui.label(RichText::new("Keep").color(theme::TEXT_DIM));
+                let Locks { shape, colors, light, view } = &mut self.locks;
+                for (name, lock, hover) in [
+                    ("Shape", shape, "All keep the form of the middle"),
+                    ("Colours", colors, "All keep the colours of the middle"),
+                    ("Light", light, "All keep the lights and the background of the middle"),
+                    ("View", view, "All are seen from where the middle is"),
+                ] {
+                    let response = ui.add(Checkbox::new(lock, name)).on_hover_text(hover);
+                    response.accessible_name(format!("Keep: {name}"));
+                }
+            });
+        });
+    }
+}
+
+/// Where the picture of number `index` is in `area`.
+fn cell(area: Rect, index: usize) -> Rect {
+    let [width, height] = SMALL_PICTURE_PX.map(|side| side as f32);
+    let count = COLUMNS as f32;
+    let room = (area.size() - vec2(GAP, GAP) * (count - 1.0)) / count;
+    // Enlarged, the pictures would show their pixels.
+    let scale = (room.x / width).min(room.y / height).clamp(0.1, 1.6);
+    let size = vec2(width, height) * scale;
+    let step = size + vec2(GAP, GAP);
+    let from = area.center() - (step * count - vec2(GAP, GAP)) / 2.0;
+    let [column, row] = [index % COLUMNS, index / COLUMNS].map(|at| at as f32);
+    Rect::from_min_size(from + vec2(column, row) * step, size)
+}
+
+fn respond(ui: &Ui, rect: Rect, index: usize) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with(("variation", index)), Sense::click());
+    let (name, hover) = match index {
+        MIDDLE => ("The scene itself".to_owned(), "The scene as it is"),
+        _ => {
+            let number = index + usize::from(index < MIDDLE);
+            (format!("Variation {number}"), "Take this one; others around it follow")
+        }
+    };
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    response.on_hover_text(hover)
+}
+
+fn paint(
+    ui: &Ui,
+    response: &Response,
+    rect: Rect,
+    textures: &SmallTextures,
+    variation: &SmallPicture,
+    index: usize,
+) {
+    let painter = ui.painter();
+    let corners = CornerRadius::same(theme::RADIUS);
+    match textures.by_id.get(&variation.id) {
+        Some(picture) => {
+            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            let shape = RectShape::filled(rect, corners, Color32::WHITE);
+            painter.add(Shape::Rect(shape.with_texture(picture.texture, uv)));
+        }
+        None => {
+            painter.rect_filled(rect, corners, theme::PANEL);
+        }
+    }
+    let is_lit = response.hovered() || response.has_focus();
+    let edge = match (index == MIDDLE, is_lit) {
+        (true, _) => Stroke::new(2.0, theme::ACCENT),
+        (_, true) => Stroke::new(2.0, Color32::WHITE),
+        _ => Stroke::new(1.0, Color32::from_white_alpha(40)),
+    };
+    painter.rect_stroke(rect, corners, edge, StrokeKind::Inside);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nine_cells_fit_every_view_and_do_not_overlap() {
+        for [width, height] in [[976.0, 600.0], [390.0, 500.0], [540.0, 270.0], [200.0, 200.0]] {
+            let area = Rect::from_min_size(pos2(5.0, 7.0), vec2(width, height));
+            let cells: Vec<Rect> = (0..9).map(|index| cell(area, index)).collect();
+            for (i, one) in cells.iter().enumerate() {
+                assert!(area.expand(0.1).contains_rect(*one), "{one:?} in {area:?}");
+                assert!(cells[..i].iter().all(|other| !other.shrink(0.1).intersects(*one)));
+            }
+            assert!((cells[MIDDLE].center() - area.center()).length() < 0.1);
+        }
+    }
+}

@@ -1,0 +1,43 @@
+// A visit without a connection after one with, and a new version that is offered.
+
+import { Mandelight } from "./mandelight.mjs";
+import { visit } from "./visit.mjs";
+
+await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) => {
+  const page = new Mandelight(v);
+  await v.tab.goto(`${v.address}?test&offline`);
+  await page.firstPicture();
+  const cached = () => v.tab.evaluate(async () => {
+    const names = (await caches.keys()).filter((name) => name.startsWith("mandelight-"));
+    const counts = names.map(async (name) => (await (await caches.open(name)).keys()).length);
+    return { names, files: (await Promise.all(counts))[0] ?? 0 };
+  });
+  v.seen.kept = await v.until("the page to be kept", async () => {
+    const seen = await cached();
+    const isControlled = await v.tab.evaluate(() => navigator.serviceWorker.controller !== null);
+    return isControlled && seen.files > 5 && seen;
+  });
+
+  // Without the host, the page opens and draws.
+  v.server.isDown = true;
+  await v.tab.reload();
+  await page.firstPicture();
+  await page.sampled(1);
+  v.seen.offline = { pictures: (await page.report()).pictures, scene: await page.scene() };
+  await v.screenshot("offline-480x320");
+  v.server.isDown = false;
+
+  // Another version waits until the visitor takes it.
+  v.server.appended["service-worker.js"] = "\n// another version";
+  await v.tab.reload();
+  await page.firstPicture();
+  const offered = () => v.tab.evaluate(() => !document.getElementById("update").hidden);
+  v.seen.offered = await v.until("the offer of a new version", offered);
+  await v.screenshot("update-480x320");
+  await v.tab.evaluate(() => (window.isOldPage = true));
+  await v.tab.click("#update-now");
+  v.seen.reloaded = await v.until("the new version", () =>
+    v.tab.evaluate(() => window.isOldPage === undefined).catch(() => false));
+  await page.firstPicture();
+  v.seen.purged = await cached();
+});

@@ -1,0 +1,69 @@
+//! Variations and surprises: chosen by a click, one undo step each.
+
+use egui::{Key, Modifiers, Rect};
+use egui_kittest::kittest::Queryable as _;
+use mandelight::{
+    scene::{Scene, presets},
+    ui::Settings,
+};
+
+use crate::stage::*;
+
+#[test]
+fn a_variation_becomes_the_scene_by_a_click_and_locks_hold() {
+    let start = presets::opening();
+    let mut harness = stage(start.clone(), Settings::default(), [1280.0, 720.0]);
+    harness.key_press(Key::M);
+    harness.run_steps(20);
+    let small: Vec<_> = harness.state().interface.small_pictures().cloned().collect();
+    assert_eq!(small.len(), 9);
+    let is_start =
+        |scene: &Scene| Scene { quality: start.quality.clone(), ..scene.clone() } == start;
+    assert!(is_start(&small[4].scene), "the scene is in the middle");
+    assert_eq!(small.iter().filter(|picture| is_start(&picture.scene)).count(), 1);
+    // The view is kept at first.
+    assert!(small.iter().all(|picture| picture.scene.camera == start.camera));
+    harness.get_by_label("Variation 2").click();
+    harness.run_steps(20);
+    let chosen = scene(&harness).clone();
+    assert_eq!(chosen.fractal, small[1].scene.fractal);
+    assert_eq!(chosen.quality, start.quality);
+    harness.get_by_label("Keep: Shape").click();
+    harness.run_steps(20);
+    let kept: Vec<_> = harness.state().interface.small_pictures().cloned().collect();
+    assert!(kept.iter().all(|picture| picture.scene.fractal == chosen.fractal));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(20);
+    assert_eq!(*scene(&harness), start, "one step");
+    harness.key_press(Key::Escape);
+    harness.run_steps(3);
+    assert_eq!(harness.state().interface.small_pictures().count(), 0);
+}
+
+#[test]
+fn the_variations_fit_a_phone() {
+    for size in [[390.0, 844.0], [844.0, 390.0], [1280.0, 720.0]] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        harness.get_by_label("Mutate").click();
+        harness.run_steps(20);
+        let rects = harness.state().interface.rects();
+        let view = rects.get("view").expect("the view");
+        for name in ["how different", "close variations"] {
+            let rect = rects.get(name).unwrap_or(Rect::NOTHING);
+            assert!(view.contains_rect(rect), "{name}: {rect:?} in {view:?}");
+        }
+    }
+}
+
+#[test]
+fn a_surprise_is_another_scene_and_one_step() {
+    let start = presets::opening();
+    let mut harness = without_motion(stage(start.clone(), Settings::default(), [1280.0, 720.0]));
+    harness.get_by_label("Surprise me").click();
+    harness.run_steps(60);
+    let surprise = scene(&harness).clone();
+    assert_ne!(surprise, start);
+    assert_eq!(surprise.validate(), Ok(()));
+    assert_eq!(undo_all(&mut harness), 1);
+    assert_eq!(*scene(&harness), start);
+}

@@ -1,0 +1,47 @@
+// Keeps one version of the page for visits without a connection.
+//
+// The build replaces the two constants below, so each version of the page has a worker of its own. A
+// new version waits until the visitor asks for it: a page that is open never changes under its visitor.
+
+/** This version's name, and its files beside the document. */
+const VERSION = "";
+const FILES = [];
+
+const PREFIX = "mandelight-";
+const CACHE = PREFIX + VERSION;
+/** The document, by the address of the folder. */
+const DOCUMENT = "./";
+
+self.addEventListener("install", (event) => {
+  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll([DOCUMENT, ...FILES])));
+});
+
+self.addEventListener("activate", (event) => {
+  const purge = async () => {
+    const names = await caches.keys();
+    const old = names.filter((name) => name.startsWith(PREFIX) && name !== CACHE);
+    await Promise.all(old.map((name) => caches.delete(name)));
+    await self.clients.claim();
+  };
+  event.waitUntil(purge());
+});
+
+self.addEventListener("message", (event) => {
+  if (event.data === "activate") self.skipWaiting();
+});
+
+self.addEventListener("fetch", (event) => {
+  const { request } = event;
+  const url = new URL(request.url);
+  if (request.method !== "GET" || url.origin !== self.location.origin) return;
+  // Browsers keep compiled code only for responses that come from the network themselves. The page
+  // takes the module from the cache where the network has none.
+  if (url.pathname.endsWith(".wasm")) return;
+  const scope = new URL(self.registration.scope).pathname;
+  const isDocument = request.mode === "navigate" && url.pathname.startsWith(scope);
+  const kept = async () => {
+    const cache = await caches.open(CACHE);
+    return (await cache.match(isDocument ? DOCUMENT : request)) ?? fetch(request);
+  };
+  event.respondWith(kept());
+});
