@@ -1,4 +1,4 @@
-// The clipboard and the share sheet, for pictures.
+// The clipboard, the share sheet and small copies, for pictures.
 
 /**
  * Copies a picture to the clipboard. Called within a click, because browsers allow nothing later; the
@@ -34,4 +34,23 @@ export async function sharePicture(picture, name) {
   } catch (error) {
     if (error?.name !== "AbortError") throw error;
   }
+}
+
+/**
+ * The middle of a picture as a small JPEG file.
+ * @param {Promise<Blob>} picture a PNG
+ * @param {number} width of the small picture, in pixels
+ * @param {number} height
+ * @returns {Promise<Uint8Array>}
+ */
+export async function smallCopy(picture, width, height) {
+  const whole = await createImageBitmap(await picture);
+  const scale = Math.max(width / whole.width, height / whole.height);
+  const [w, h] = [whole.width * scale, whole.height * scale];
+  const canvas = new OffscreenCanvas(width, height);
+  const context = canvas.getContext("2d");
+  context.imageSmoothingQuality = "high";
+  context.drawImage(whole, (width - w) / 2, (height - h) / 2, w, h);
+  const file = await canvas.convertToBlob({ type: "image/jpeg", quality: 0.75 });
+  return new Uint8Array(await file.arrayBuffer());
 }

@@ -36,6 +36,9 @@ pub enum Action {
     ChooseGradient,
     /// Copy a link to this view.
     CopyLink,
+    /// Keep the view with a small picture, for
+    /// [`Interface::keep_favourite`](super::Interface::keep_favourite).
+    KeepFavourite,
     /// Copy the picture on the screen to the clipboard.
     CopyPicture,
     /// Hand the picture on the screen to the system's share sheet.

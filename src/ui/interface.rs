@@ -11,6 +11,7 @@ use super::{
     display_inputs::DisplayInputs,
     dive,
     editor::Editor,
+    favourites::{Favourite, Favourites},
     frame::Frame,
     loaded::Loaded,
     mutate::Mutate,
@@ -32,7 +33,7 @@ use super::{
 };
 use crate::{
     fractal::SharedModel,
-    scene::{Camera, EnvironmentMap, Project, Scene, gradient::NamedGradient, presets},
+    scene::{Camera, EnvironmentMap, Project, Scene, document, gradient::NamedGradient, presets},
 };
 
 /// Pause within a gesture after which the view counts as still and is refined.
@@ -44,6 +45,7 @@ pub struct Interface {
     editor: Editor,
     settings: Settings,
     selection: Selection,
+    favourites: Favourites,
     pilot: Pilot,
     places: Places,
     timeline: Timeline,
@@ -73,6 +75,7 @@ impl Interface {
             editor: Editor::new(project),
             settings,
             selection: Selection::default(),
+            favourites: Favourites::default(),
             pilot: Pilot::default(),
             places: Places::default(),
             timeline: Timeline::default(),
@@ -158,6 +161,17 @@ impl Interface {
         &self.rects
     }
 
+    /// Keeps a view with its small picture, a JPEG file.
+    pub fn keep_favourite(&mut self, document: String, jpeg: Vec<u8>) {
+        let name = self.favourites.free_name();
+        self.favourites.keep(Favourite::new(name, document, jpeg));
+    }
+
+    /// The kept views, to restore and to store them.
+    pub fn favourites_mut(&mut self) -> &mut Favourites {
+        &mut self.favourites
+    }
+
     /// The settings to store until the next visit.
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -224,7 +238,8 @@ impl Interface {
         }
         if let Some(mut scene) = self.surprises.advance(ui) {
             scene.quality = self.scene().quality.clone();
-            self.fly_into(scene);
+            let path = self.project().path.clone();
+            self.fly_into(Project { scene, path });
         }
         self.timeline.end_frame(&mut self.editor, &before, now_secs);
         self.moving |= self.timeline.is_moving();
@@ -252,6 +267,7 @@ impl Interface {
             scene: &mut project.scene,
             settings: &mut self.settings,
             selection: &mut self.selection,
+            favourites: &mut self.favourites,
             rects: &mut self.rects,
             histogram_shown: &mut self.histogram_shown,
             commands,
@@ -355,6 +371,7 @@ impl Interface {
             Command::SharePicture => actions.push(Action::SharePicture),
             Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
             Command::Preset(index) => self.choose_preset(index),
+            Command::Favourite(index) => self.open_favourite(index),
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
             Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,
@@ -418,18 +435,30 @@ impl Interface {
         let Some(preset) = presets::all().nth(index) else { return };
         let mut scene = (preset.scene)();
         scene.quality = self.scene().quality.clone();
-        self.selection = Selection::default();
-        self.fly_into(scene);
+        let path = self.project().path.clone();
+        self.fly_into(Project { scene, path });
     }
 
-    /// Shows a scene by a flight to its view, as one undo step; the path stays.
-    fn fly_into(&mut self, mut scene: Scene) {
+    /// Flies to a kept view.
+    fn open_favourite(&mut self, index: usize) {
+        let Some(kept) = self.favourites.list().get(index) else { return };
+        // What is kept was written by the program; what cannot be read is left where it is.
+        if let Ok(project) = document::project_from_json(&kept.document) {
+            self.favourites.opened = Some(index);
+            self.fly_into(project);
+        }
+    }
+
+    /// Shows a project by a flight to its view, as one undo step.
+    fn fly_into(&mut self, project: Project) {
+        let Project { mut scene, path } = project;
+        self.selection = Selection::default();
         self.home = scene.camera.clone();
         self.pilot.cancel();
         self.places.put_away();
         self.timeline.stop();
         let current = self.scene();
-        if *current == scene {
+        if *current == scene && self.project().path == path {
             return;
         }
         let is_same_set = current.fractal == scene.fractal;
@@ -437,7 +466,6 @@ impl Interface {
         if let Some(frame) = self.frame {
             self.pilot.arrive(&mut scene, frame, from.as_ref());
         }
-        let path = self.project().path.clone();
         self.editor.replace_and_move(Project { scene, path });
     }
 }

@@ -9,6 +9,7 @@
 //! | `interface` | one frame: layout, dispatch, undo |
 //! | `display_inputs`, `action` | the shell's data to display, and requests to the shell |
 //! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
+//! | `favourites` | the views that a person keeps |
 //! | `selection` | the selected light, colour layer and gradient stops |
 //! | `loaded` | the environment map and gradients that people opened |
 //! | `panel/` | the panels, one per file |
@@ -33,6 +34,7 @@ mod action;
 mod display_inputs;
 mod dive;
 mod export_size;
+mod favourites;
 mod field;
 mod floating;
 mod frame;
@@ -72,6 +74,7 @@ pub use display_inputs::{
     DisplayInputs, ExportProgress, KeptPicture, Notice, SmallTextures, ViewTexture,
 };
 pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
+pub use favourites::{Favourite, Favourites};
 pub use hints::Hints;
 pub use interface::Interface;
 pub use panel::all_sections_open;

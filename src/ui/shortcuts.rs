@@ -28,6 +28,8 @@ pub enum Command {
     CopyPicture,
     /// Hand the picture on the screen to the system's share sheet.
     SharePicture,
+    /// Open the kept view of this index.
+    Favourite(usize),
     /// Open a random scene.
     Surprise,
     /// Show variations of the scene, or put them away.

@@ -100,6 +100,7 @@ impl eframe::App for App {
         let engine_secs = engine.update(session);
         let moving = session.interface.is_moving();
         let autosave_secs = session.autosave.update(session.interface.editor(), moving, now_secs);
+        session.save_favourites();
         session.status.frames += 1;
         for secs in [notice_secs, engine_secs, autosave_secs].into_iter().flatten() {
             ui.ctx().request_repaint_after_secs(secs as f32);
@@ -145,6 +146,13 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
         Action::CopyLink => session.copy_link(),
         Action::CopyPicture => match engine.view_picture(session) {
             Some(picture) => picture.copy(&session.mailbox),
+            None => session.show_error(NO_PICTURE),
+        },
+        Action::KeepFavourite => match engine.view_picture(session) {
+            Some(picture) => {
+                let project = session.interface.project();
+                picture.keep(document::project_to_json_compact(project), &session.mailbox);
+            }
             None => session.show_error(NO_PICTURE),
         },
         Action::SharePicture => match engine.view_picture(session) {

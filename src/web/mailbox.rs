@@ -16,6 +16,13 @@ pub enum Message {
     },
     /// The visitor changed the address's fragment, given without `#`.
     Fragment(String),
+    /// A view to keep: its document, and a small picture as a JPEG file.
+    Favourite {
+        /// The project's document.
+        document: String,
+        /// The picture's file.
+        jpeg: Vec<u8>,
+    },
     /// A success to show to the visitor.
     Notice(String),
     /// A failure to show to the visitor.

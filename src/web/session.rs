@@ -18,7 +18,7 @@ use crate::{
     gpu::Gpu,
     render::Report,
     scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
-    ui::{Interface, Notice, Settings, theme},
+    ui::{Favourites, Interface, Notice, Settings, theme},
 };
 
 /// Seconds that a notice of a success stays.
@@ -74,6 +74,7 @@ impl Session {
         let mut interface =
             Interface::new(project.unwrap_or_else(|| presets::opening().into()), settings);
         interface.editor_mut().restore_steps(autosave::stored_steps());
+        *interface.favourites_mut() = stored_favourites();
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
         let mut session = Self {
@@ -213,6 +214,9 @@ impl Session {
                     }
                     Err(error) => self.show_error(error.to_string()),
                 },
+                Message::Favourite { document, jpeg } => {
+                    self.interface.keep_favourite(document, jpeg);
+                }
                 Message::Notice(text) => self.show_notice(text),
                 Message::Error(text) => self.show_error(text),
             }
@@ -271,6 +275,16 @@ impl Session {
         was_exporting
     }
 
+    /// Writes the kept views, if they changed.
+    pub fn save_favourites(&mut self) {
+        let favourites = self.interface.favourites_mut();
+        if favourites.take_changed() && !storage::FAVOURITES.try_write(&favourites.to_json()) {
+            self.show_error(
+                "The browser could not store the view: its storage is full or blocked. Save the scene as a file instead.",
+            );
+        }
+    }
+
     /// Writes the project and the interface's settings now.
     pub fn save(&mut self) {
         self.autosave.flush(self.interface.editor());
@@ -306,6 +320,18 @@ fn first_settings(has_link: bool) -> Settings {
         !theme::has_side_panel(egui::vec2(width, height))
     });
     Settings { panel_open: !(has_link && has_sheet), ..Settings::default() }
+}
+
+/// The views that were kept at earlier visits.
+fn stored_favourites() -> Favourites {
+    let text = storage::FAVOURITES.read().unwrap_or_default();
+    if text.is_empty() {
+        return Favourites::default();
+    }
+    Favourites::from_json(&text).unwrap_or_else(|error| {
+        log::warn!("cannot read the kept views: {error}");
+        Favourites::default()
+    })
 }
 
 /// The settings of the last visit.

@@ -13,6 +13,9 @@ pub const SCENE: StorageKey =
 /// The interface's settings, as JSON.
 pub const SETTINGS: StorageKey =
     StorageKey { name: "mandelight.settings", lifetime: Lifetime::Permanent };
+/// The views that the visitor keeps, as JSON.
+pub const FAVOURITES: StorageKey =
+    StorageKey { name: "mandelight.favourites", lifetime: Lifetime::Permanent };
 /// The undo steps, as documents, one a line.
 pub const STEPS: StorageKey = StorageKey { name: "mandelight.steps", lifetime: Lifetime::Tab };
 /// The times of GPU losses and the scene of the last one, as JSON.
@@ -46,15 +49,21 @@ impl StorageKey {
 
     /// Stores `text`; a full or blocked storage keeps the old text.
     pub fn write(self, text: &str) {
+        self.try_write(text);
+    }
+
+    /// As [`Self::write`], and returns whether the text is stored.
+    pub fn try_write(self, text: &str) -> bool {
         let outcome = self.open().map(|storage| storage.set_item(self.name, text));
         let reason = match outcome {
-            Some(Ok(())) => return,
+            Some(Ok(())) => return true,
             Some(Err(error)) => describe(&error),
             None => "the browser blocks it".to_owned(),
         };
         if !HAS_WARNED.replace(true) {
             log::warn!("cannot write to the browser's storage: {reason}");
         }
+        false
     }
 
     fn open(self) -> Option<web_sys::Storage> {

@@ -17,6 +17,7 @@ use super::{
 use crate::{
     export::png::PngStream,
     gpu::{Gpu, readback::Readback},
+    ui::thumbnail,
 };
 
 // The functions of `www/share.js`, which `boot.js` puts there.
@@ -26,6 +27,8 @@ extern "C" {
     async fn copy_picture(picture: Promise) -> Result<JsValue, JsValue>;
     #[wasm_bindgen(js_name = hasShareSheet)]
     fn js_has_share_sheet() -> bool;
+    #[wasm_bindgen(js_name = smallCopy, catch)]
+    async fn small_copy(picture: Promise, width: u32, height: u32) -> Result<JsValue, JsValue>;
     #[wasm_bindgen(js_name = sharePicture, catch)]
     async fn share_picture(picture: Promise, name: &str) -> Result<JsValue, JsValue>;
 }
@@ -79,6 +82,21 @@ impl ViewPicture {
                     "The picture could not be shared ({reason}). Save it instead."
                 )));
             }
+        });
+    }
+
+    /// Posts a small copy of the picture with `document`, to keep it.
+    pub fn keep(self, document: String, mailbox: &Mailbox) {
+        let mailbox = mailbox.clone();
+        let picture = self.blob();
+        spawn_local(async move {
+            let [width, height] = thumbnail::SIZE_PX;
+            mailbox.post(match small_copy(picture, width, height).await {
+                Ok(file) => Message::Favourite { document, jpeg: Uint8Array::new(&file).to_vec() },
+                Err(error) => {
+                    Message::Error(format!("The view could not be kept: {}.", describe(&error)))
+                }
+            });
         });
     }
 

@@ -72,7 +72,18 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   v.seen.finished = await page.settled();
   await v.screenshot("dragged-light-720x420");
 
+  const { dispatches } = await page.report();
   v.seen.download = await page.keepDownload("download.png", "save picture");
+  v.seen.saved_dispatches = (await page.report()).dispatches - dispatches;
+
+  // A kept view has a picture, and is stored.
+  await page.click("Mine");
+  await page.click("keep view");
+  v.seen.kept = await v.until("the view to be kept", () => v.tab.evaluate(() => {
+    const [kept] = JSON.parse(localStorage.getItem("mandelight.favourites") ?? "[]");
+    return kept && { name: kept.name, picture: kept.picture };
+  }));
+  await v.screenshot("kept-720x420");
 
   // Three ways back: the address, the browser's storage alone, a link.
   scenes.before_reload = await page.scene();

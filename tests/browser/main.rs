@@ -13,6 +13,7 @@ use std::{
     process::Command,
 };
 
+use base64::Engine as _;
 use mandelight::{
     export,
     formula::{self, Fractal},
@@ -103,6 +104,12 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     let text = export::scene_text(BufReader::new(File::open(&file).unwrap())).unwrap();
     let carried = document::from_json(&text.expect("the picture carries a scene")).unwrap();
     assert_eq!(carried, visit.scene("before_reload"));
+
+    // The finished picture was saved as it was.
+    assert_eq!(visit.number("/saved_dispatches"), 0.0);
+
+    let kept = base64::prelude::BASE64_STANDARD.decode(visit.text("/kept/picture")).unwrap();
+    assert!(kept.starts_with(&[0xff, 0xd8]) && kept.len() > 1000, "a small JPEG file");
 
     // The address holds the scene, a reload keeps it, so does the browser's storage, and a link
     // shows its own.

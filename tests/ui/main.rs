@@ -8,6 +8,7 @@ mod descent;
 mod dive;
 mod editor;
 mod environment_map;
+mod favourites;
 mod fit;
 mod focus;
 mod follow;

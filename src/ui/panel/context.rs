@@ -5,8 +5,9 @@ use egui::Ui;
 use crate::{
     scene::{EnvironmentMap, Scene, gradient::NamedGradient},
     ui::{
-        action::Action, display_inputs::DisplayInputs, navigation::CameraStatus, rects::Rects,
-        selection::Selection, settings::Settings, shortcuts::Command,
+        action::Action, display_inputs::DisplayInputs, favourites::Favourites,
+        navigation::CameraStatus, rects::Rects, selection::Selection, settings::Settings,
+        shortcuts::Command,
     },
 };
 
@@ -30,6 +31,8 @@ pub struct Context<'a> {
     pub settings: &'a mut Settings,
     /// The selected light.
     pub selection: &'a mut Selection,
+    /// The views that the person keeps.
+    pub favourites: &'a mut Favourites,
     /// Output: rectangles of named widgets.
     pub rects: &'a mut Rects,
     /// Output: commands, as from a key.

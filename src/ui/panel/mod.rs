@@ -6,6 +6,7 @@
 
 mod bloom;
 mod camera;
+mod card_grid;
 mod colors;
 mod context;
 mod export;
@@ -19,6 +20,7 @@ mod hybrid;
 mod indirect;
 mod light;
 mod lights;
+mod mine;
 mod quality;
 mod rig;
 mod scenes;

@@ -1,10 +1,10 @@
-//! The scenes panel: opening scenes, dives, a scene for each formula, mixes.
+//! The scenes panel: opening scenes, dives, a scene for each formula, mixes, light, one's own.
 
 use std::sync::LazyLock;
 
-use egui::{Button, Id, Rect, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
+use egui::{Button, Id, Rect, RichText, Ui};
 
-use super::context::Context;
+use super::{card_grid::arrange, context::Context};
 use crate::{
     scene::{
         Scene,
@@ -16,11 +16,6 @@ use crate::{
 /// Zoom from which on the list of dives is shown first.
 const DIVE_ZOOM: f64 = 1e4;
 
-/// Gap between cards, in points.
-const GAP: f32 = 6.0;
-/// Smallest width of a card in a row of more than two, in points.
-const MIN_CARD_WIDTH: f32 = 100.0;
-
 /// The headings of all lists, and a card for each scene of the chosen list.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let lists = presets::lists();
@@ -31,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.horizontal_wrapped(|ui| {
         // All lists fit in one row of the panel.
         ui.spacing_mut().item_spacing.x = 4.0;
-        ui.spacing_mut().button_padding.x = 5.0;
+        ui.spacing_mut().button_padding.x = 4.0;
         for (index, list) in lists.iter().enumerate() {
             let text = RichText::new(list.name).small();
             let button = ui.add(Button::selectable(index == chosen, text));
@@ -42,14 +37,20 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
                 ui.data_mut(|data| data.insert_temp(id, chosen));
             }
         }
+        let text = RichText::new("Mine").small();
+        let mine = ui.add(Button::selectable(chosen == lists.len(), text));
+        let mine = mine.on_hover_text("The views that you keep in this browser");
+        cx.rects.record("Mine", &mine);
+        if mine.clicked() {
+            chosen = lists.len();
+            ui.data_mut(|data| data.insert_temp(id, chosen));
+        }
     });
     if let Some(list) = lists.get(chosen) {
         let first = lists.iter().take(chosen).map(|list| list.presets.len()).sum();
-        if cx.is_sheet {
-            strip(ui, cx, list, first);
-        } else {
-            cards(ui, cx, list, first);
-        }
+        cards(ui, cx, list, first);
+    } else {
+        super::mine::show(ui, cx);
     }
     if chosen == 1 {
         let drawn = ui
@@ -59,45 +60,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     }
 }
 
-/// A card for each preset of a list, as many per row as fit.
-///
-/// `first` is the index of the list's first preset among all presets.
+/// A card for each preset of a list; `first` is the index of its first preset among all.
 fn cards(ui: &mut Ui, cx: &mut Context<'_>, list: &PresetList, first: usize) {
-    let presets = list.presets;
-    let width = ui.available_width();
-    let fitting = ((width + GAP) / (MIN_CARD_WIDTH + GAP)).floor() as usize;
-    let columns = fitting.clamp(2, 4);
-    let card_width = (width - GAP * (columns - 1) as f32) / columns as f32;
-    let [width_px, height_px] = thumbnail::SIZE_PX.map(|side| side as f32);
-    let size = vec2(card_width, (card_width * height_px / width_px).round());
-    let rows = presets.len().div_ceil(columns);
-    let height = (size.y + GAP) * rows as f32 - GAP;
-    let (area, _) = ui.allocate_exact_size(vec2(width, height.max(0.0)), Sense::hover());
     let chosen = chosen(cx.scene);
-    for (index, preset) in presets.iter().enumerate() {
-        let place = vec2((index % columns) as f32, (index / columns) as f32);
-        let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
-        preset_card(ui, cx, rect, preset, first + index, chosen);
-    }
-}
-
-/// Height of a card in a sheet's row, in points.
-const STRIP_HEIGHT: f32 = 100.0;
-
-/// A row of large cards for the presets of a list, which scrolls sideways.
-fn strip(ui: &mut Ui, cx: &mut Context<'_>, list: &PresetList, first: usize) {
-    let [width_px, height_px] = thumbnail::SIZE_PX.map(|side| side as f32);
-    let size = vec2((STRIP_HEIGHT * width_px / height_px).round(), STRIP_HEIGHT);
-    let chosen = chosen(cx.scene);
-    ScrollArea::horizontal().id_salt(list.name).show(ui, |ui| {
-        let count = list.presets.len() as f32;
-        let width = (size.x + GAP) * count - GAP;
-        let (area, _) = ui.allocate_exact_size(vec2(width.max(0.0), size.y), Sense::hover());
-        for (index, preset) in list.presets.iter().enumerate() {
-            let at = area.min + vec2((size.x + GAP) * index as f32, 0.0);
-            let rect = Rect::from_min_size(at, size);
-            preset_card(ui, cx, rect, preset, first + index, chosen);
-        }
+    arrange(ui, cx.is_sheet, list.name, list.presets.len(), |ui, index, rect| {
+        preset_card(ui, cx, rect, &list.presets[index], first + index, chosen);
     });
 }
 
