@@ -30,6 +30,7 @@ use super::{
     surprises::Surprises,
     theme,
     timeline::Timeline,
+    widgets,
 };
 use crate::{
     fractal::SharedModel,
@@ -296,6 +297,7 @@ impl Interface {
         };
         if let Some(shown) = shown {
             cx.rects.record("panel", &shown.response);
+            widgets::set_panel_area(ui, shown.response.rect);
         }
         if timeline_open {
             let margin = Margin { left: 12, right: 8, top: 6, bottom: 8 };

@@ -47,7 +47,7 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
     painter.rect_filled(rect, 0.0, theme::PANEL);
     painter.hline(rect.x_range(), rect.top() + 0.5, egui::Stroke::new(1.0, theme::LINE));
 
-    let font = egui::FontId::proportional(11.5);
+    let font = egui::FontId::proportional(12.0);
     let right = right_text(status, rect.width());
     let right = painter.layout_no_wrap(right, font.clone(), theme::TEXT_DIM);
     let right_at =

@@ -88,7 +88,7 @@ pub fn set_row_sizes(ui: &mut Ui, touch: bool) {
 fn text_sizes(style: &mut Style) {
     let proportional = |size| FontId::new(size, FontFamily::Proportional);
     style.text_styles = [
-        (TextStyle::Small, proportional(11.5)),
+        (TextStyle::Small, proportional(12.0)),
         (TextStyle::Body, proportional(13.5)),
         (TextStyle::Button, proportional(13.5)),
         (TextStyle::Heading, proportional(17.0)),

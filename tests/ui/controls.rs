@@ -393,3 +393,22 @@ fn hover_texts_leave_the_next_control_in_sight() {
         assert!(help.bottom() <= row.top() || help.right() <= row.left(), "{help:?} and {row:?}");
     }
 }
+
+/// So does the help of every other kind of control.
+#[test]
+fn the_help_of_buttons_and_choices_hides_no_control() {
+    let mut harness = stage(Scene::default(), unfolded(), [1280.0, 6000.0]);
+    harness.run();
+    for (name, help) in [
+        ("Dives", "Views at very deep zooms"),
+        ("Add light", "Add parallel light"),
+        ("Rig: Sky", "Adds the light of a sky"),
+    ] {
+        let at = harness.get_by_label(name).rect().center();
+        harness.event(egui::Event::PointerMoved(at));
+        harness.run_steps(90);
+        let shown = harness.get_by_label_contains(help).rect();
+        let panel = harness.state().interface.rects().get("panel").expect("the panel");
+        assert!(shown.right() <= panel.left() + 1.0, "{name}: {shown:?} over {panel:?}");
+    }
+}

@@ -12,7 +12,7 @@ use crate::{
         shortcuts::Command,
         status::{zoom, zoom_text},
         theme,
-        widgets::{param_slider, param_slider_count},
+        widgets::{Help as _, param_slider, param_slider_count},
     },
 };
 
@@ -42,7 +42,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             } else {
                 theme::RAISED
             });
-            if ui.add_sized(size, button.truncate()).on_hover_text(hover).clicked() {
+            if ui.add_sized(size, button.truncate()).help(hover).clicked() {
                 cx.commands.push(command);
             }
         };
@@ -69,7 +69,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             });
         })
         .response
-        .on_hover_text(hover);
+        .help(hover);
     };
     let eye = camera.position.to_dvec3();
     line(
@@ -91,7 +91,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
 fn lens(ui: &mut Ui, cx: &mut Context<'_>) {
     let lens = &mut cx.scene.camera.lens;
     ui.checkbox(&mut lens.depth_of_field, "Depth of field")
-        .on_hover_text("Blurs what is nearer or farther than the focus, while the picture refines");
+        .help("Blurs what is nearer or farther than the focus, while the picture refines");
     if !lens.depth_of_field {
         return;
     }
@@ -99,7 +99,7 @@ fn lens(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider(ui, &param::FOCUS, &mut lens.focus);
     param_slider_count(ui, &param::BLADES, &mut lens.blades);
     let hover = "Makes the surface in the middle of the picture sharp. Alt + click or O: the point under the pointer.";
-    if ui.button("Focus on the middle").on_hover_text(hover).clicked() {
+    if ui.button("Focus on the middle").help(hover).clicked() {
         cx.commands.push(Command::Focus);
     }
 }

@@ -12,7 +12,9 @@ use crate::{
     ui::{
         action::Action,
         selection::LayerRef,
-        widgets::{caption, choice, color, gradient, gradient_card, move_stop, param_slider},
+        widgets::{
+            Help as _, caption, choice, color, gradient, gradient_card, move_stop, param_slider,
+        },
     },
 };
 
@@ -40,7 +42,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let second = &mut cx.scene.surface.second_layer;
     let mut is_on = second.is_on();
     let hover = "Blends a second gradient, selected by another value, over the first";
-    if ui.checkbox(&mut is_on, "Second layer").on_hover_text(hover).changed() {
+    if ui.checkbox(&mut is_on, "Second layer").help(hover).changed() {
         switch(ui, second, is_on);
     }
     if is_on && param_slider(ui, &param::SECOND_LAYER_AMOUNT, &mut second.amount).changed() {
@@ -83,7 +85,7 @@ fn layer(ui: &mut Ui, cx: &mut Context<'_>, which: LayerRef) {
     stop(ui, cx, which);
     gradients(ui, cx, which);
     let (coloring, _) = which.of(&mut cx.scene.surface);
-    ui.checkbox(&mut coloring.follows_view, "Follow the view").on_hover_text(
+    ui.checkbox(&mut coloring.follows_view, "Follow the view").help(
         "Spreads the whole gradient over what is in view, at any depth. Off: the colours of a place \
          stay the same wherever you look from",
     );
@@ -178,7 +180,7 @@ fn stop(ui: &mut Ui, cx: &mut Context<'_>, which: LayerRef) {
             let removable = stops.len() > 1;
             let remove = ui
                 .add_enabled(removable, Button::new("Remove stop"))
-                .on_hover_text("Remove the selected stop")
+                .help("Remove the selected stop")
                 .on_disabled_hover_text("A gradient needs at least one stop.");
             if remove.clicked() {
                 stops.remove(*selected);
@@ -195,13 +197,13 @@ fn gradients(ui: &mut Ui, cx: &mut Context<'_>, which: LayerRef) {
             [ui.available_width(), ui.spacing().interact_size.y],
             Button::new("Choose a gradient…"),
         )
-        .on_hover_text("Gradients that come with Mandelight, and those of your files");
+        .help("Gradients that come with Mandelight, and those of your files");
     let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     popup.show(|ui| {
         ui.set_width(LIST_WIDTH);
         let hover =
             "Reads gradients of GIMP (.ggr, .gpl), Fractint (.map) and Ultra Fractal (.ugr)";
-        if ui.button("Open a gradient file…").on_hover_text(hover).clicked() {
+        if ui.button("Open a gradient file…").help(hover).clicked() {
             cx.selection.gradient_target = which;
             cx.actions.push(Action::ChooseGradient);
             ui.close();

@@ -15,7 +15,7 @@ use crate::{
         shortcuts::Command,
         status::duration_text,
         theme,
-        widgets::{caption, choice, number},
+        widgets::{Help as _, caption, choice, number},
     },
 };
 
@@ -43,7 +43,7 @@ pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     let text = RichText::new("Save picture").size(15.0).color(theme::ON_ACCENT);
     let response = ui
         .add_sized(size, Button::new(text).fill(theme::ACCENT))
-        .on_hover_text(format!("Renders the view as {kind} of {extent} (Ctrl S). You can open the file again as a scene. For other sizes, see More, Export."));
+        .help(format!("Renders the view as {kind} of {extent} (Ctrl S). You can open the file again as a scene. For other sizes, see More, Export."));
     cx.rects.record("save picture", &response);
     if response.clicked() {
         cx.commands.push(Command::SavePicture);
@@ -59,7 +59,7 @@ pub(super) fn saving(ui: &mut Ui, cx: &mut Context<'_>, progress: ExportProgress
     ui.horizontal(|ui| {
         ui.label(RichText::new(left).small().color(theme::TEXT_DIM));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let cancel = ui.button("Cancel").on_hover_text("Stop the export; no file is saved");
+            let cancel = ui.button("Cancel").help("Stop the export; no file is saved");
             cx.rects.record("cancel export", &cancel);
             if cancel.clicked() {
                 cx.actions.push(Action::CancelExport);
@@ -124,13 +124,13 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         cx.rects.record("picture pair", &response);
     }
     ui.label(RichText::new(export.text(cx.view_px, layout)).small().color(theme::TEXT_DIM))
-        .on_hover_text("The size of the file of Save picture");
+        .help("The size of the file of Save picture");
     caption(ui, "Scene");
     ui.columns(3, |columns| {
         let mut button = |index: usize, name: &str, hover: &str, command: Command| {
             let ui: &mut Ui = &mut columns[index];
             let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
-            if ui.add_sized(size, Button::new(name).truncate()).on_hover_text(hover).clicked() {
+            if ui.add_sized(size, Button::new(name).truncate()).help(hover).clicked() {
                 cx.commands.push(command);
             }
         };
@@ -152,9 +152,8 @@ fn typed(ui: &mut Ui, export: &mut ExportSize) {
             let mut value = f64::from(export.typed_px[index]);
             ui.label(RichText::new(label).color(theme::TEXT_DIM));
             let response = ui.push_id(label, |ui| number(ui, &param, &mut value)).inner;
-            response.on_hover_text(format!(
-                "{label} of the saved picture in pixels, 1 to {MAX_EXPORT_SIDE_PX}"
-            ));
+            response
+                .help(format!("{label} of the saved picture in pixels, 1 to {MAX_EXPORT_SIDE_PX}"));
             export.typed_px[index] = value as u32;
         }
     });

@@ -7,7 +7,7 @@ use crate::{
     scene::param::Param,
     ui::{
         theme,
-        widgets::{choice, param_slider},
+        widgets::{Help as _, choice, param_slider},
     },
 };
 
@@ -64,7 +64,7 @@ pub(super) fn quick_values(ui: &mut Ui, param: &Param, quick: &[f64], value: &mu
             let fill = if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED };
             let button = Button::selectable(chosen, quick.to_string()).fill(fill);
             let name = format!("{} {quick}", param.label);
-            let response = ui.add_sized(size, button).on_hover_text(&name);
+            let response = ui.add_sized(size, button).help(&name);
             if response.clicked() {
                 *value = quick;
             }

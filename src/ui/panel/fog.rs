@@ -5,7 +5,7 @@ use egui::Ui;
 use super::context::{Context, Section};
 use crate::{
     scene::param,
-    ui::widgets::{color, param_slider},
+    ui::widgets::{Help as _, color, param_slider},
 };
 
 /// The section of the panel.
@@ -27,7 +27,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider(ui, &param::FOG_ANISOTROPY, &mut fog.anisotropy);
     let mut is_low = fog.height.is_some();
     let hover = "Thick below, thin above. Off: the same everywhere.";
-    if ui.checkbox(&mut is_low, "Ground fog").on_hover_text(hover).changed() {
+    if ui.checkbox(&mut is_low, "Ground fog").help(hover).changed() {
         fog.height = is_low.then_some(param::FOG_HEIGHT.default);
     }
     if let Some(height) = &mut fog.height {

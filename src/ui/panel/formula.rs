@@ -11,7 +11,7 @@ use crate::{
     },
     ui::{
         theme, thumbnail,
-        widgets::{caption, card},
+        widgets::{Help as _, caption, card},
     },
 };
 
@@ -39,7 +39,7 @@ pub(super) fn choose(ui: &mut Ui, cx: &mut Context<'_>) {
         Button::selectable(state.is_open, format!("{} …", current.name())).fill(theme::RAISED);
     let response = ui
         .add_sized(size, button)
-        .on_hover_text("Choose another formula")
+        .help("Choose another formula")
         .accessible_name(format!("Formula: {}", current.name()));
     cx.rects.record("formula", &response);
     if response.clicked() {
@@ -98,7 +98,7 @@ pub(super) fn cards(
             let rect = Rect::from_min_size(area.min + place * (size + Vec2::splat(GAP)), size);
             let picture = preset_of(formula).and_then(thumbnail::image);
             let card = card(ui, rect, formula.name(), picture, Some(formula) == current);
-            if card.on_hover_text(formula.about()).clicked() {
+            if card.help(formula.about()).clicked() {
                 clicked = Some(formula);
             }
         }

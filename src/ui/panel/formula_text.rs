@@ -20,7 +20,11 @@ use crate::{
         },
         own,
     },
-    ui::{settings::MAX_KEPT_FORMULAS, theme, widgets::caption},
+    ui::{
+        settings::MAX_KEPT_FORMULAS,
+        theme,
+        widgets::{Help as _, caption},
+    },
 };
 
 /// Pause after the last key before a text is drawn, in seconds.
@@ -75,7 +79,7 @@ pub(super) fn button(ui: &mut Ui, cx: &Context<'_>) {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     let button = ui
         .add_sized(size, Button::new("Edit the formula…"))
-        .on_hover_text("Read the formula, change it, or write your own");
+        .help("Read the formula, change it, or write your own");
     if button.clicked() {
         let mut draft: Draft = ui.data_mut(|data| data.get_temp(draft_id())).unwrap_or_default();
         draft.is_open = !draft.is_open;
@@ -194,7 +198,7 @@ fn completion_row(ui: &mut Ui, id: Id, draft: &mut Draft) {
         for offer in draft.offered.clone() {
             let help = theme::printable(&offer.help);
             let hover = format!("{help}\nTab takes the first.");
-            if ui.button(&offer.word).on_hover_text(hover).clicked() {
+            if ui.button(&offer.word).help(hover).clicked() {
                 insert(ui, id, draft, &offer);
             }
         }
@@ -228,7 +232,7 @@ fn keep_row(ui: &mut Ui, cx: &mut Context<'_>, draft: &Draft) {
     };
     let button = ui
         .add_enabled(has_room && draft.error.is_none(), Button::new(label))
-        .on_hover_text(hover)
+        .help(hover)
         .on_disabled_hover_text(disabled);
     if button.clicked() {
         match place {

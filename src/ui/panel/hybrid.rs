@@ -16,7 +16,7 @@ use crate::{
     ui::{
         icon::{Icon, icon_button},
         theme,
-        widgets::{caption, param_slider_count},
+        widgets::{Help as _, caption, param_slider_count},
     },
 };
 
@@ -102,9 +102,8 @@ fn list(ui: &mut Ui, cx: &mut Context<'_>, state: &mut State) -> Option<Change> 
                 let side = ui.spacing().interact_size.y.max(26.0);
                 let width = ui.available_width() - side - 56.0 - 8.0;
                 let name = Button::selectable(is_open, text).fill(theme::RAISED).truncate();
-                let response = ui
-                    .add_sized(vec2(width.max(40.0), side), name)
-                    .on_hover_text(step.formula().about());
+                let response =
+                    ui.add_sized(vec2(width.max(40.0), side), name).help(step.formula().about());
                 if response.clicked() {
                     state.open = (!is_open).then_some(place);
                 }
@@ -164,16 +163,14 @@ fn handle(ui: &mut Ui, name: &str) -> egui::Response {
     if response.clicked() {
         response.request_focus();
     }
-    response
-        .on_hover_cursor(CursorIcon::Grab)
-        .on_hover_text("Drag to reorder, or use the arrow keys")
+    response.on_hover_cursor(CursorIcon::Grab).help("Drag to reorder, or use the arrow keys")
 }
 
 fn repeats(ui: &mut Ui, place: usize, step: &mut HybridStep) {
     let range = REPEATS.min as u32..=REPEATS.max as u32;
     let value = DragValue::new(&mut step.repeats).range(range).prefix("× ").speed(0.1);
     let size = vec2(56.0, ui.spacing().interact_size.y);
-    let response = ui.add_sized(size, value).on_hover_text(REPEATS.help);
+    let response = ui.add_sized(size, value).help(REPEATS.help);
     let name = format!("Repeats of step {}", place + 1);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
 }
@@ -191,7 +188,7 @@ fn add_button(ui: &mut Ui, cx: &mut Context<'_>, state: &mut State) -> Option<Ch
     };
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     let button = Button::selectable(state.is_adding, text).fill(theme::RAISED);
-    let response = ui.add_sized(size, button).on_hover_text(hover);
+    let response = ui.add_sized(size, button).help(hover);
     cx.rects.record("add step", &response);
     if response.clicked() {
         state.is_adding = !state.is_adding;

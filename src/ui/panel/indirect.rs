@@ -7,7 +7,7 @@ use crate::{
     scene::{IndirectKind, IntegratorKind, param},
     ui::{
         theme,
-        widgets::{choice, param_slider, param_slider_count},
+        widgets::{Help as _, choice, param_slider, param_slider_count},
     },
 };
 
@@ -23,7 +23,7 @@ pub(super) const SECTION: Section = Section {
 fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
     let mut is_on = cx.scene.traces_paths();
     let hover = "Realistic light: when the picture stops moving, light bounces between surfaces and brightens shadows. Slow.";
-    if ui.checkbox(&mut is_on, "Path tracing").on_hover_text(hover).changed() {
+    if ui.checkbox(&mut is_on, "Path tracing").help(hover).changed() {
         if is_on {
             cx.scene.trace_paths();
         } else {
@@ -36,7 +36,7 @@ fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
     let integrator = &mut cx.scene.integrator;
     param_slider_count(ui, &param::BOUNCES, &mut integrator.bounces);
     let mut is_limited = integrator.reach.is_some();
-    let limit = ui.checkbox(&mut is_limited, "Limit bounce distance").on_hover_text(
+    let limit = ui.checkbox(&mut is_limited, "Limit bounce distance").help(
         "Surfaces beyond the bounce distance neither light nor shade each other. Switch this on in close views, which are otherwise dark.",
     );
     if limit.changed() {
@@ -48,14 +48,14 @@ fn paths(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider(ui, &param::NOISE, &mut integrator.noise);
     let mut is_limited = integrator.firefly_limit.is_some();
     let hover = "Removes bright dots. The status line says how much light goes with them.";
-    if ui.checkbox(&mut is_limited, "Limit fireflies").on_hover_text(hover).changed() {
+    if ui.checkbox(&mut is_limited, "Limit fireflies").help(hover).changed() {
         integrator.firefly_limit = is_limited.then_some(param::FIREFLY_LIMIT.default);
     }
     if let Some(limit) = &mut integrator.firefly_limit {
         param_slider(ui, &param::FIREFLY_LIMIT, limit);
     }
     ui.checkbox(&mut integrator.denoise, "Denoise")
-        .on_hover_text("Smooths the grain of path tracing; edges and patterns stay sharp");
+        .help("Smooths the grain of path tracing; edges and patterns stay sharp");
     let text = "Quick approximation, shown while the picture moves:";
     ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
 }

@@ -10,7 +10,7 @@ use crate::{
     },
     ui::{
         theme,
-        widgets::{ball, choice, param_slider},
+        widgets::{Help as _, ball, choice, param_slider},
     },
 };
 
@@ -22,15 +22,15 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
             ui.vertical(|ui| {
                 ui.add_space(6.0);
                 let mut behind = toward_light_in_view(light, camera).z < 0.0;
-                if ui.checkbox(&mut behind, "From behind").on_hover_text("Lights the fractal from behind, as you see it").changed() {
+                if ui.checkbox(&mut behind, "From behind").help("Lights the fractal from behind, as you see it").changed() {
                     let mut direction = toward_light_in_view(light, camera);
                     direction.z = -direction.z;
                     set_direction(light, camera, direction);
                 }
-                ui.checkbox(&mut light.casts_shadows, "Shadows").on_hover_text("This light casts shadows");
+                ui.checkbox(&mut light.casts_shadows, "Shadows").help("This light casts shadows");
                 let mut limited = light.shadow_reach.is_some();
                 let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Limit reach"));
-                if reach.on_hover_text("Only near surfaces cast shadows, up to the shadow reach below. Brightens the picture.").changed() {
+                if reach.help("Only near surfaces cast shadows, up to the shadow reach below. Brightens the picture.").changed() {
                     light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
                 }
                 if light.casts_shadows && light.shadow_reach.is_none() && camera.is_close() {
@@ -101,7 +101,7 @@ pub(super) fn point(ui: &mut Ui, light: &mut PointLight, camera: &Camera) {
     if param_slider(ui, radius_param, &mut radius).changed() {
         light.radius = param::POINT_RADIUS.clamp(radius * length);
     }
-    ui.checkbox(&mut light.casts_shadows, "Shadows").on_hover_text("This light casts shadows");
+    ui.checkbox(&mut light.casts_shadows, "Shadows").help("This light casts shadows");
     let (position, hover) = if length == 1.0 {
         let at = light.position.to_dvec3();
         (
@@ -115,7 +115,7 @@ pub(super) fn point(ui: &mut Ui, light: &mut PointLight, camera: &Camera) {
             "The light's distance, in multiples of the distance from you to the pivot. Drag its handle in the view to move it; with Shift, toward or away from you.",
         )
     };
-    ui.label(RichText::new(position).small().color(theme::TEXT_DIM)).on_hover_text(hover);
+    ui.label(RichText::new(position).small().color(theme::TEXT_DIM)).help(hover);
 }
 
 /// The ball that edits a light's direction; `name` is for screen readers.

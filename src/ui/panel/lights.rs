@@ -12,7 +12,7 @@ use crate::{
     ui::{
         selection::LightRef,
         theme,
-        widgets::{caption, color, param_slider},
+        widgets::{Help as _, caption, color, param_slider},
     },
 };
 
@@ -80,7 +80,7 @@ pub(super) const SECTION: Section = Section {
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let follows = ui
         .checkbox(&mut cx.scene.lights.follow_view, "Follow close views")
-        .on_hover_text(
+        .help(
             "Very close to the surface, the lights turn with you and shadows of far surfaces fade, so that what you see stays lit. The whole fractal keeps its lights in place. Turning a light there ends this.",
         );
     cx.rects.record("follow view", &follows);
@@ -180,7 +180,7 @@ fn row(
             let button = Button::selectable(chosen, text).min_size(vec2(width, height)).truncate();
             let response = ui
                 .add_sized(vec2(width, height), button)
-                .on_hover_text("Select this light to edit it below");
+                .help("Select this light to edit it below");
             if response.clicked() {
                 *selected = Some(this);
             }
@@ -205,7 +205,7 @@ fn toggle(ui: &mut Ui, letter: &str, name: &str, hover: &str, on: &mut bool) {
     let text =
         RichText::new(letter).small().color(if *on { theme::ON_ACCENT } else { theme::TEXT_DIM });
     let response =
-        ui.add_sized(vec2(side.max(30.0), side), Button::new(text).fill(fill)).on_hover_text(hover);
+        ui.add_sized(vec2(side.max(30.0), side), Button::new(text).fill(fill)).help(hover);
     if response.clicked() {
         *on = !*on;
     }
@@ -228,7 +228,7 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
         let add = |ui: &mut Ui, name: &str, hover: &str| -> Response {
             ui.add_enabled_ui(room, |ui| ui.add_sized(size, Button::new(name).truncate()))
                 .inner
-                .on_hover_text(hover)
+                .help(hover)
                 .on_disabled_hover_text(&full)
         };
         let environment =
@@ -252,7 +252,7 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
         let change = |ui: &mut Ui, name: &str, hover: &str, enabled: bool| -> Response {
             ui.add_enabled_ui(enabled, |ui| ui.add_sized(size, Button::new(name).truncate()))
                 .inner
-                .on_hover_text(hover)
+                .help(hover)
         };
         let duplicate = change(ui, "Duplicate", "Add a copy of the selected light", any && room);
         let remove = change(ui, "Remove", "Remove the selected light", any);

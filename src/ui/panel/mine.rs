@@ -4,7 +4,11 @@ use egui::{Button, RichText, TextEdit, Ui, vec2};
 
 use super::{card_grid::arrange, context::Context};
 use crate::ui::{
-    action::Action, favourites::MAX_FAVOURITES, shortcuts::Command, theme, widgets::card,
+    action::Action,
+    favourites::MAX_FAVOURITES,
+    shortcuts::Command,
+    theme,
+    widgets::{Help as _, card},
 };
 
 /// The button that keeps the view, and a card for each kept one.
@@ -14,7 +18,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let keep = ui
         .add_enabled_ui(cx.favourites.has_room(), |ui| ui.add_sized(size, button))
         .inner
-        .on_hover_text("Keeps the scene with a small picture, in this browser alone")
+        .help("Keeps the scene with a small picture, in this browser alone")
         .on_disabled_hover_text(format!("There are {MAX_FAVOURITES} views. Remove one first."));
     cx.rects.record("keep view", &keep);
     if keep.clicked() {
@@ -33,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         let kept = &list[index];
         ui.push_id(index, |ui| {
             let card = card(ui, rect, &kept.name, Some(kept.image()), opened == Some(index));
-            if card.on_hover_text("Fly to this view").clicked() {
+            if card.help("Fly to this view").clicked() {
                 clicked = Some(index);
             }
         });
@@ -53,13 +57,13 @@ fn edit_opened(ui: &mut Ui, cx: &mut Context<'_>) {
         let height = ui.spacing().interact_size.y;
         let width = (ui.available_width() - remove - ui.spacing().item_spacing.x).max(60.0);
         let field = TextEdit::singleline(&mut name);
-        let field = ui.add_sized(vec2(width, height), field).on_hover_text("The view's name");
+        let field = ui.add_sized(vec2(width, height), field).help("The view's name");
         if field.changed() {
             cx.favourites.rename(index, &name);
         }
         field.accessible_name("Name of the view");
         let button = ui.add_sized(vec2(remove, height), Button::new("Remove"));
-        if button.on_hover_text("Remove this view from the list").clicked() {
+        if button.help("Remove this view from the list").clicked() {
             cx.favourites.remove(index);
         }
     });

@@ -8,7 +8,7 @@ use crate::{
     scene::{Normals, param},
     ui::{
         theme,
-        widgets::{choice, param_slider, param_slider_count},
+        widgets::{Help as _, choice, param_slider, param_slider_count},
     },
 };
 
@@ -62,6 +62,6 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ],
     );
     ui.checkbox(&mut quality.shadows, "Shadows")
-        .on_hover_text("Shadows of all lights. Off is faster; each light keeps its own setting.");
+        .help("Shadows of all lights. Off is faster; each light keeps its own setting.");
     memory(ui, cx);
 }

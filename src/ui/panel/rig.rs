@@ -11,7 +11,7 @@ use crate::{
     ui::{
         action::Action,
         theme,
-        widgets::{ball, choice, color, param_slider, param_slider_count},
+        widgets::{Help as _, ball, choice, color, param_slider, param_slider_count},
     },
 };
 
@@ -61,7 +61,7 @@ fn light_view_button(ui: &mut Ui, lights: &Lights) -> Response {
     let button = Button::new("Light what is in view").truncate();
     ui.add_enabled_ui(room >= min && !is_attached_to_view(&lights.rig), |ui| ui.add_sized(size, button))
         .inner
-        .on_hover_text("Lights what you see, at any zoom: a sky that moves with the camera, with shadows of near surfaces only")
+        .help("Lights what you see, at any zoom: a sky that moves with the camera, with shadows of near surfaces only")
         .on_disabled_hover_text(if room < min {
             "The scene has no room for more lights"
         } else {
@@ -189,7 +189,7 @@ fn map_settings(ui: &mut Ui, cx: &mut Context<'_>) {
 fn choose(ui: &mut Ui) -> Response {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     ui.add_sized(size, Button::new("Choose picture…").truncate())
-        .on_hover_text("Choose a 360° picture, Radiance (.hdr) or OpenEXR (.exr)")
+        .help("Choose a 360° picture, Radiance (.hdr) or OpenEXR (.exr)")
 }
 
 /// The switch that shows the environment map behind the fractal.
@@ -197,7 +197,7 @@ fn background(ui: &mut Ui, background: &mut Background) {
     let mut shown = background.kind == BackgroundKind::EnvironmentMap;
     let response = ui
         .checkbox(&mut shown, "Show it behind the fractal")
-        .on_hover_text("Shows the 360° picture instead of the background colours");
+        .help("Shows the 360° picture instead of the background colours");
     if response.changed() {
         background.kind =
             if shown { BackgroundKind::EnvironmentMap } else { BackgroundKind::Gradient };
@@ -208,19 +208,18 @@ fn background(ui: &mut Ui, background: &mut Background) {
 fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
     param_slider(ui, &param::RIG_INTENSITY, &mut rig.intensity);
     ui.horizontal_wrapped(|ui| {
-        ui.checkbox(&mut rig.casts_shadows, "Rig shadows")
-            .on_hover_text("The rig's lights cast shadows");
+        ui.checkbox(&mut rig.casts_shadows, "Rig shadows").help("The rig's lights cast shadows");
         let mut limited = rig.shadow_reach.is_some();
         let reach = egui::Checkbox::new(&mut limited, "Limit rig reach");
         let reach = ui
             .add_enabled(rig.casts_shadows, reach)
-            .on_hover_text("Only near surfaces cast shadows from the rig. Brightens the picture.");
+            .help("Only near surfaces cast shadows from the rig. Brightens the picture.");
         if reach.changed() {
             rig.shadow_reach = limited.then_some(param::RIG_SHADOW_REACH.default);
         }
-        ui.checkbox(&mut rig.muted, "Mute rig").on_hover_text("Switch all lights of the rig off");
+        ui.checkbox(&mut rig.muted, "Mute rig").help("Switch all lights of the rig off");
         ui.checkbox(&mut rig.solo, "Solo rig")
-            .on_hover_text("While any light is solo, only solo lights shine");
+            .help("While any light is solo, only solo lights shine");
     });
     if let Some(reach) = &mut rig.shadow_reach {
         ui.add_enabled_ui(rig.casts_shadows, |ui| {

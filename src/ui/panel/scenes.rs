@@ -10,7 +10,12 @@ use crate::{
         Scene,
         presets::{self, Preset, PresetList},
     },
-    ui::{shortcuts::Command, status::zoom, theme, thumbnail, widgets::card},
+    ui::{
+        shortcuts::Command,
+        status::zoom,
+        theme, thumbnail,
+        widgets::{Help as _, card},
+    },
 };
 
 /// Zoom from which on the list of dives is shown first.
@@ -30,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         for (index, list) in lists.iter().enumerate() {
             let text = RichText::new(list.name).small();
             let button = ui.add(Button::selectable(index == chosen, text));
-            let response = button.on_hover_text(list.about);
+            let response = button.help(list.about);
             cx.rects.record(list.name, &response);
             if response.clicked() {
                 chosen = index;
@@ -39,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         }
         let text = RichText::new("Mine").small();
         let mine = ui.add(Button::selectable(chosen == lists.len(), text));
-        let mine = mine.on_hover_text("The views that you keep in this browser");
+        let mine = mine.help("The views that you keep in this browser");
         cx.rects.record("Mine", &mine);
         if mine.clicked() {
             chosen = lists.len();
@@ -55,7 +60,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if chosen == 1 {
         let drawn = ui
             .checkbox(&mut cx.settings.drawn_to_places, "Zoom finds good places")
-            .on_hover_text("The wheel and two fingers lead to a place near the pointer that stays beautiful at every depth. Off: straight to the pointer.");
+            .help("The wheel and two fingers lead to a place near the pointer that stays beautiful at every depth. Off: straight to the pointer.");
         cx.rects.record("drawn to places", &drawn);
     }
 }
@@ -85,7 +90,7 @@ fn preset_card(
         0..9 => format!("{about} ({})", index + 1),
         _ => about,
     };
-    let response = card.on_hover_text(hover);
+    let response = card.help(hover);
     if index == 0 {
         cx.rects.record("first scene", &response);
     }

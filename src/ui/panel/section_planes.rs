@@ -15,7 +15,7 @@ use crate::{
     },
     ui::{
         icon::{Icon, icon_button},
-        widgets::{caption, color, param_slider},
+        widgets::{Help as _, caption, color, param_slider},
     },
 };
 
@@ -80,7 +80,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let add = ui.add_enabled(planes.len() < MAX_SECTION_PLANES, Button::new(text));
     cx.rects.record("add section plane", &add);
     let full = format!("A fractal has at most {MAX_SECTION_PLANES} section planes.");
-    if add.on_hover_text(hover).on_disabled_hover_text(full).clicked() {
+    if add.help(hover).on_disabled_hover_text(full).clicked() {
         let new = new_plane(planes, camera);
         planes.push(new);
     }
@@ -99,15 +99,15 @@ fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
             (Axis::Z, "Z", "Across the z axis: cuts away the side of positive z, above"),
         ] {
             let is_chosen = normal.dot(axis.direction()).abs() > 1.0 - 1e-9;
-            if ui.selectable_label(is_chosen, text).on_hover_text(hover).clicked() {
+            if ui.selectable_label(is_chosen, text).help(hover).clicked() {
                 plane.direction = axis.direction().to_array();
             }
         }
         let hover = "Turns the plane toward you: cuts away what is between you and the plane";
-        if ui.button("Facing you").on_hover_text(hover).clicked() {
+        if ui.button("Facing you").help(hover).clicked() {
             plane.direction = (-camera.forward()).normalize().to_array();
         }
-        if ui.button("Other half").on_hover_text("Cuts away the other half instead").clicked() {
+        if ui.button("Other half").help("Cuts away the other half instead").clicked() {
             plane.direction = (-normal).to_array();
         }
     });

@@ -9,6 +9,7 @@ use crate::ui::{
     settings::Settings,
     sheet_height::{HEADING, SheetHeight},
     theme,
+    widgets::Help as _,
 };
 
 /// Width and height of the bar in the heading that invites to drag, in points.
@@ -73,7 +74,7 @@ pub fn handle(ui: &Ui, open: bool) -> Response {
     let color = if is_held { theme::TEXT } else { theme::RAISED_HOVER };
     let center = area.center_top() - vec2(0.0, 3.0);
     ui.painter().rect_filled(Rect::from_center_size(center, BAR.into()), BAR[1] / 2.0, color);
-    handle.on_hover_text("Drag to make the panel taller or lower")
+    handle.help("Drag to make the panel taller or lower")
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use egui::Ui;
 use super::context::Context;
 use crate::{
     scene::{StereoLayout, param},
-    ui::widgets::{choice, param_slider},
+    ui::widgets::{Help as _, choice, param_slider},
 };
 
 /// The layout of both pictures, and the viewer's three lengths.
@@ -27,6 +27,6 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         param_slider(ui, &param::EYE_DISTANCE, &mut stereo.eye_distance_cm);
         param_slider(ui, &param::EYE_SEPARATION, &mut stereo.eye_separation_cm);
         ui.checkbox(&mut stereo.swap_eyes, "Swap eyes")
-            .on_hover_text("Exchanges the pictures of both eyes, for cross-eyed viewing");
+            .help("Exchanges the pictures of both eyes, for cross-eyed viewing");
     }
 }

@@ -5,7 +5,7 @@ use egui::Ui;
 use super::context::{Context, Section};
 use crate::{
     scene::{MediumKind, Scene, Surface, SurfaceModel, param},
-    ui::widgets::{choice, color, param_slider},
+    ui::widgets::{Help as _, choice, color, param_slider},
 };
 
 /// The section of the panel.
@@ -97,7 +97,7 @@ fn of_surface(ui: &mut Ui, surface: &mut Surface, model: SurfaceModel) {
 fn of_medium(ui: &mut Ui, scene: &mut Scene, kind: MediumKind) {
     if !scene.traces_paths() {
         let hover = "Draws the light inside once the picture stops moving; until then only the surface shows";
-        if ui.button("Turn on path tracing").on_hover_text(hover).clicked() {
+        if ui.button("Turn on path tracing").help(hover).clicked() {
             scene.trace_paths();
         }
     }
@@ -133,19 +133,19 @@ fn physical(ui: &mut Ui, surface: &mut Surface) {
 fn driven_by_layer(ui: &mut Ui, surface: &mut Surface) {
     let is_physical = surface.model == SurfaceModel::Physical;
     let driven = &mut surface.driven_by_layer;
-    ui.label("Vary by the second colour layer").on_hover_text(
+    ui.label("Vary by the second colour layer").help(
         "Multiplies each value by the brightness of the second layer's gradient: white keeps the slider's value, black makes it 0. Set up the layer under Colours. Amount 0 hides its colours.",
     );
     ui.horizontal_wrapped(|ui| {
         if is_physical {
             ui.checkbox(&mut driven.roughness, "Roughness by layer")
-                .on_hover_text("Dark parts of the layer's gradient are smooth, bright ones rough");
+                .help("Dark parts of the layer's gradient are smooth, bright ones rough");
             ui.checkbox(&mut driven.metalness, "Metalness by layer")
-                .on_hover_text("Bright parts of the layer's gradient are metal, if Metalness is above 0");
+                .help("Bright parts of the layer's gradient are metal, if Metalness is above 0");
             ui.checkbox(&mut driven.coat, "Coat by layer")
-                .on_hover_text("Bright parts of the layer's gradient have the coat, if Clear coat is above 0");
+                .help("Bright parts of the layer's gradient have the coat, if Clear coat is above 0");
         }
-        ui.checkbox(&mut driven.emission, "Emission by layer").on_hover_text(
+        ui.checkbox(&mut driven.emission, "Emission by layer").help(
             "The surface glows in the colours of the layer's gradient, if Emission is above 0; black does not glow",
         );
     });

@@ -15,7 +15,7 @@ use crate::{
         shortcuts::Command,
         theme,
         timeline::Timeline,
-        widgets::number,
+        widgets::{Help as _, number},
     },
 };
 
@@ -136,7 +136,7 @@ impl Strip<'_, '_> {
             "The view is your own, not the path's. It stays until you add it as a key, update the key, or return to the path."
         };
         let color = if some && !self.on_path { theme::ACCENT } else { theme::TEXT_DIM };
-        ui.label(RichText::new(text).small().color(color)).on_hover_text(hover);
+        ui.label(RichText::new(text).small().color(color)).help(hover);
         ui.add_space(6.0);
     }
 
@@ -144,7 +144,7 @@ impl Strip<'_, '_> {
     fn own_view(&mut self, ui: &mut Ui) {
         let button = |ui: &mut Ui, name, hover| {
             let height = ui.spacing().interact_size.y;
-            ui.add(Button::new(name).min_size(vec2(0.0, height))).on_hover_text(hover).clicked()
+            ui.add(Button::new(name).min_size(vec2(0.0, height))).help(hover).clicked()
         };
         if !self.path.is_empty() && !self.on_path && !self.timeline.is_playing() {
             let hover =
@@ -177,7 +177,7 @@ impl Strip<'_, '_> {
             let height = ui.spacing().interact_size.y;
             let button = Button::new(name).min_size(vec2(0.0, height));
             let response = ui.add_enabled(enabled, button);
-            let response = response.on_hover_text(hover).on_disabled_hover_text(hover);
+            let response = response.help(hover).on_disabled_hover_text(hover);
             if command == Command::AddKey {
                 self.cx.rects.record("add key", &response);
             }
@@ -194,7 +194,7 @@ impl Strip<'_, '_> {
             label(ui, &format!("Key {}", index + 1), "The selected key");
             let mut secs = self.path.keys[index].time_secs;
             let time = short_number(ui, 58.0, &KEY_TIME, &mut secs)
-                .on_hover_text("The time of this key, in seconds; between its neighbours");
+                .help("The time of this key, in seconds; between its neighbours");
             if time.changed() {
                 self.timeline.retime(self.path, index, secs);
             }
@@ -213,7 +213,7 @@ impl Strip<'_, '_> {
                 let height = ui.spacing().interact_size.y;
                 let button =
                     Button::selectable(chosen, name).fill(fill).min_size(vec2(0.0, height));
-                let response = ui.add(button).on_hover_text(hover);
+                let response = ui.add(button).help(hover);
                 if response.accessible_name(format!("Easing: {name}")).clicked() {
                     key.easing = easing;
                 }
@@ -225,7 +225,7 @@ impl Strip<'_, '_> {
     fn rate(&mut self, ui: &mut Ui) {
         label(ui, "Frame rate", FRAME_RATE.help);
         let mut rate = f64::from(self.path.frames_per_second);
-        if short_number(ui, 40.0, &FRAME_RATE, &mut rate).on_hover_text(FRAME_RATE.help).changed() {
+        if short_number(ui, 40.0, &FRAME_RATE, &mut rate).help(FRAME_RATE.help).changed() {
             // The field only accepts whole numbers in the range.
             self.path.frames_per_second = rate as u32;
         }
@@ -234,7 +234,7 @@ impl Strip<'_, '_> {
 
     fn shutter(&mut self, ui: &mut Ui) {
         label(ui, SHUTTER.label, SHUTTER.help);
-        short_number(ui, 40.0, &SHUTTER, &mut self.path.shutter).on_hover_text(SHUTTER.help);
+        short_number(ui, 40.0, &SHUTTER, &mut self.path.shutter).help(SHUTTER.help);
         ui.add_space(8.0);
     }
 
@@ -251,7 +251,7 @@ impl Strip<'_, '_> {
             let param = Param { label: name, max: f64::from(last), ..FRAME };
             let mut value = f64::from(*frame);
             let response = short_number(ui, 54.0, &param, &mut value);
-            if response.on_hover_text(format!("{name} to render, 0 to {last}")).changed() {
+            if response.help(format!("{name} to render, 0 to {last}")).changed() {
                 *frame = value as u32;
             }
         }
@@ -277,7 +277,7 @@ impl Strip<'_, '_> {
         let text = RichText::new("Save sequence").color(theme::ON_ACCENT);
         let height_pt = ui.spacing().interact_size.y;
         let button = Button::new(text).fill(theme::ACCENT).min_size(vec2(0.0, height_pt));
-        let response = ui.add(button).on_hover_text(format!(
+        let response = ui.add(button).help(format!(
             "Renders {count} frames of {extent} as PNGs in one zip file. For other sizes, see More, Export."
         ));
         self.cx.rects.record("save sequence", &response);
@@ -298,5 +298,5 @@ fn short_number(ui: &mut Ui, width: f32, param: &Param, value: &mut f64) -> Resp
 }
 
 fn label(ui: &mut Ui, text: &str, hover: &str) -> Response {
-    ui.label(RichText::new(text).small().color(theme::TEXT_DIM)).on_hover_text(hover)
+    ui.label(RichText::new(text).small().color(theme::TEXT_DIM)).help(hover)
 }

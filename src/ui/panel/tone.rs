@@ -7,7 +7,7 @@ use crate::{
     scene::{Tone, ToneChannels, ToneCurve, ToneMean, param},
     ui::{
         theme,
-        widgets::{DisplayRange, choice, color, histogram, param_slider},
+        widgets::{DisplayRange, Help as _, choice, color, histogram, param_slider},
     },
 };
 
@@ -64,7 +64,7 @@ fn histogram_of(ui: &mut Ui, cx: &mut Context<'_>) {
 /// Auto exposure and its mean.
 fn exposure(ui: &mut Ui, tone: &mut Tone) {
     ui.checkbox(&mut tone.auto_exposure, "Auto exposure")
-        .on_hover_text("Chooses the picture's brightness by itself. The exposure is added.");
+        .help("Chooses the picture's brightness by itself. The exposure is added.");
     if tone.auto_exposure {
         choice(
             ui,

@@ -4,6 +4,7 @@
 //! light in front of the fractal, a hollow dot a light behind it. A drag past the rim moves the
 //! light to the other side.
 
+use super::hover::Help as _;
 use egui::{
     Color32, EventFilter, Key, Mesh, Pos2, Response, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
     accesskit::Role, vec2,
@@ -42,7 +43,7 @@ pub fn ball(
     if ui.is_rect_visible(rect) {
         paint(ui, &response, rect.center(), radius, linear, *toward_light);
     }
-    response.on_hover_text(
+    response.help(
         "Drag to change where the light comes from. Past the rim, it comes from behind (hollow dot). Arrow keys turn it by 5 degrees, with Shift by half a degree.",
     )
 }

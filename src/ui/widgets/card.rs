@@ -59,7 +59,7 @@ fn paint(ui: &Ui, response: &Response, name: &str, picture: Option<Image<'_>>, i
         }
     }
 
-    let font = FontId::proportional((rect.width() * 0.1).clamp(11.5, 13.5));
+    let font = FontId::proportional((rect.width() * 0.1).clamp(12.0, 13.5));
     let color = if is_chosen { CHOSEN_TEXT } else { Color32::WHITE };
     let mut job = egui::text::LayoutJob::simple_singleline(name.to_owned(), font, color);
     job.wrap.max_width = rect.width() - 14.0;

@@ -4,6 +4,7 @@
 //! Colours are linear Rec. 709. The picker uses hue, saturation and value of the sRGB encoding,
 //! because the square is perceptually more uniform in this encoding.
 
+use super::hover::Help as _;
 use egui::{
     Color32, EventFilter, Key, Mesh, Popup, PopupCloseBehavior, Rect, Response, Sense, Shape,
     Stroke, StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, accesskit::Role, lerp, pos2, vec2,
@@ -34,7 +35,7 @@ pub fn color(ui: &mut Ui, name: &str, hover: &str, linear: &mut [f32; 3]) -> Res
     if changed {
         response.mark_changed();
     }
-    response.on_hover_text(hover)
+    response.help(hover)
 }
 
 fn paint_button(ui: &Ui, rect: Rect, response: &Response, linear: [f32; 3]) {
@@ -89,7 +90,7 @@ fn square(ui: &mut Ui, hsv: &mut Hsv) {
     ui.painter().circle(at, 6.0, encoded_color(*hsv), Stroke::new(2.0, Color32::WHITE));
     ui.painter().circle_stroke(at, 7.5, Stroke::new(1.0, Color32::from_black_alpha(160)));
     focus_ring(ui, rect, &response);
-    response.on_hover_text("Drag right for a stronger colour, upward for a brighter one.");
+    response.help("Drag right for a stronger colour, upward for a brighter one.");
 }
 
 fn hue_bar(ui: &mut Ui, hsv: &mut Hsv) {
@@ -107,7 +108,7 @@ fn hue_bar(ui: &mut Ui, hsv: &mut Hsv) {
     let fill = encoded_color(Hsv { h: hsv.h, s: 1.0, v: 1.0 });
     ui.painter().rect(mark, 2.0, fill, Stroke::new(2.0, Color32::WHITE), StrokeKind::Inside);
     focus_ring(ui, rect, &response);
-    response.on_hover_text("Drag to choose the hue.");
+    response.help("Drag to choose the hue.");
 }
 
 /// The text field of the colour as `#rrggbb`; true if a new colour was typed.
@@ -120,10 +121,8 @@ fn hex_field(ui: &mut Ui, id: egui::Id, linear: &mut [f32; 3]) -> bool {
         .align(egui::Align2::LEFT_CENTER)
         .margin(egui::Margin::symmetric(8, 4))
         .desired_width(WIDTH - 20.0);
-    let response = ui
-        .add(field)
-        .accessible_name("Colour value")
-        .on_hover_text("The colour as #rrggbb in sRGB");
+    let response =
+        ui.add(field).accessible_name("Colour value").help("The colour as #rrggbb in sRGB");
     if response.has_focus() {
         ui.data_mut(|data| data.insert_temp(draft, text));
         return false;

@@ -1,5 +1,6 @@
 //! The gradient editor: a bar of colours, and a handle for each stop.
 
+use super::hover::Help as _;
 use egui::{
     Color32, Key, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetText,
     accesskit::Role, lerp, pos2, vec2,
@@ -49,7 +50,7 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
     } else {
         "Click to add a stop. Drag the handles below to move stops."
     };
-    response.on_hover_text(hover)
+    response.help(hover)
 }
 
 /// A button that shows a gradient and its name.
@@ -145,7 +146,7 @@ fn handle(
         }
     }
     paint_handle(ui, tip, stops[index].color, *selected == index, response.hovered());
-    response.on_hover_text("Drag to move this stop. Edit its colour and position below.");
+    response.help("Drag to move this stop. Edit its colour and position below.");
     stops[index].position != before
 }
 

@@ -1,5 +1,6 @@
 //! The film's luminance histogram, with the range that the display can show.
 
+use super::hover::Help as _;
 use egui::{Color32, Rect, Response, Sense, Stroke, Ui, WidgetInfo, accesskit::Role, pos2, vec2};
 
 use crate::{
@@ -38,7 +39,7 @@ pub fn histogram(ui: &mut Ui, histogram: Option<&Histogram>, range: DisplayRange
         }
         _ => String::new(),
     };
-    response.on_hover_text(format!(
+    response.help(format!(
         "How many pixels are dark (left) or bright (right). Each tick doubles the light. The lighter area is the range that the screen can show; the line is middle grey.{text}"
     ))
 }

@@ -15,5 +15,6 @@ pub use card::card;
 pub use color::color;
 pub use gradient::{gradient, gradient_card, move_stop};
 pub use histogram::{DisplayRange, histogram};
+pub use hover::{Help, set_panel_area};
 pub use param::{number, param_slider, param_slider_count, param_slider_wide};
 pub use section::{caption, choice, section};

@@ -10,7 +10,7 @@ use egui::{
     vec2,
 };
 
-use super::hover::hover_beside;
+use super::hover::Help as _;
 use super::scale::{
     at_fraction, clamp_typed, format_value, fraction, is_logarithmic, round_dragged,
 };
@@ -85,8 +85,7 @@ fn row(
         }
         let number = ui.put(number_at, |ui: &mut Ui| number(ui, param, value));
         let hover = hover_text(param);
-        let [label, rail, number] =
-            [label, rail, number].map(|part| hover_beside(part, row, &hover));
+        let [label, rail, number] = [label, rail, number].map(|part| part.help(&hover));
         rail.union(label).union(number)
     });
     let mut response = row.inner;

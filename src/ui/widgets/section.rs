@@ -1,5 +1,6 @@
 //! Collapsible sections, captions, and choices between a few options.
 
+use super::hover::Help as _;
 use egui::{
     Button, Response, RichText, Sense, Ui, WidgetInfo, accesskit::Role,
     collapsing_header::CollapsingState, pos2, vec2,
@@ -52,7 +53,7 @@ pub fn section(
         body(ui);
         ui.add_space(8.0);
     });
-    response.on_hover_text(hover)
+    response.help(hover)
 }
 
 /// A small dimmed heading.
@@ -131,7 +132,7 @@ fn choice_row<T: PartialEq + Copy>(
                 } else {
                     theme::RAISED
                 });
-            let mut response = ui.add_sized(vec2(width, height), button).on_hover_text(*hover);
+            let mut response = ui.add_sized(vec2(width, height), button).help(*hover);
             if response.clicked() && *value != *option {
                 *value = *option;
                 response.mark_changed();

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Height of the ruler, in points.
-const RULER_HEIGHT: f32 = 18.0;
+const RULER_HEIGHT: f32 = 20.0;
 /// Height of the keys' lane below the ruler, in points.
 const LANE_HEIGHT: f32 = 28.0;
 /// Margin at both ends, so that the outer keys can be grabbed, in points.
@@ -130,11 +130,11 @@ fn ruler(painter: &Painter, rect: Rect, scale: TimeScale) {
             break;
         }
         let is_numbered = i % 5 == 0;
-        let top = rect.top() + if is_numbered { 11.0 } else { 14.0 };
+        let top = rect.top() + if is_numbered { 15.0 } else { 17.0 };
         painter.vline(x, top..=rect.top() + RULER_HEIGHT, small);
         if is_numbered {
             let text = if step < 1.0 { format!("{secs:.1}") } else { clock(secs) };
-            let font = FontId::proportional(9.5);
+            let font = FontId::proportional(12.0);
             let at = pos2(x, rect.top() + 1.0);
             painter.text(at, Align2::CENTER_TOP, text, font, theme::TEXT_DIM);
         }
