@@ -9,7 +9,7 @@ use super::{FractalModel, camera_ray, pixel_cone};
 use crate::{
     formula::{DistanceField, Ray},
     scene::{
-        Camera, EnvironmentLight, LightFrame, Lights, Scene,
+        Camera, EnvironmentLight, GradientStop, LightFrame, Lights, Scene, color,
         dice::Dice,
         follow,
         presets::{self, Preset},
@@ -32,6 +32,8 @@ const MAX_STEPS: u32 = 300;
 const HITS: std::ops::RangeInclusive<f64> = 0.2..=0.98;
 /// Part of the hits that the lights must reach, not counting shadows.
 const MIN_LIT: f64 = 0.45;
+/// Mean luminance of the colours that the surface may have, linear.
+const MIN_LUMINANCE: f64 = 0.12;
 /// Length of the hits' mean normal, above which the surface is flat.
 const MAX_FLATNESS: f64 = 0.93;
 /// Distance from the eye to the surface, as a part of the bounding radius, below which something
@@ -82,6 +84,9 @@ impl Surprise {
         let scene = (self.preset()?.scene)();
         let locks = Locks { view: true, ..Locks::default() };
         let mut scene = vary(&scene, AMOUNT, locks, self.dice.bits());
+        if mean_luminance(&scene.surface.gradient) < MIN_LUMINANCE {
+            return None;
+        }
         // Half of the surprises keep the preset's view: somebody chose it.
         if self.dice.chance(0.5) {
             scene.camera = self.around(&scene);
@@ -152,6 +157,13 @@ pub fn is_worth_seeing(scene: &Scene) -> bool {
     }
     let part = hits / f64::from(columns * rows);
     HITS.contains(&part) && lit >= MIN_LIT * hits && normals.length() <= MAX_FLATNESS * hits
+}
+
+/// Mean luminance of a gradient, linear.
+fn mean_luminance(gradient: &[GradientStop]) -> f64 {
+    let table = color::gradient_lut(gradient);
+    let of = |[r, g, b, _]: [f32; 4]| color::luminance(DVec3::new(r.into(), g.into(), b.into()));
+    table.iter().map(|entry| of(*entry)).sum::<f64>() / table.len() as f64
 }
 
 /// Unit vectors toward the environment lights of a scene, in its coordinates.

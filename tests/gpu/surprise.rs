@@ -10,7 +10,7 @@ use mandelight_test_support::view::{finished_in, rgb, sampled};
 /// Width and height of the pictures, in pixels.
 const SIZE_PX: [u32; 2] = [48, 32];
 
-/// Seeds, in one test; no seed of 400 failed when the limits were set.
+/// Seeds, in one test; no seed of 400 fails.
 const SEEDS: u64 = 100;
 
 /// Brightness of a pixel, 0 to 1, as encoded.
@@ -41,7 +41,7 @@ fn no_surprise_is_blank_dark_or_flat() {
         .filter_map(|seed| {
             let scene = Surprise::new(seed).finish();
             let [surface, mean, deviation] = seen(&scene);
-            let is_fine = surface > 0.1 && mean > 0.1 && deviation > 0.03;
+            let is_fine = surface > 0.1 && mean > 0.15 && deviation > 0.03;
             let name = scene.fractal.formula().id();
             (!is_fine)
                 .then(|| format!("seed {seed}, {name}: {surface:.2} {mean:.3} {deviation:.3}"))

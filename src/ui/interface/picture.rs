@@ -44,56 +44,8 @@ impl Interface {
         let response = view::show(ui, frame, inputs.picture, inputs.kept_picture, is_stereo);
         self.rects.record("view", &response);
         // The buttons precede the pilot, which executes this frame's commands.
-        let mut buttons = ButtonRow::new(ui, rect);
-        if !self.settings.timeline_open {
-            let hover =
-                ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
-            let button = buttons.add(ui, Icon::Timeline, hover);
-            self.rects.record("timeline toggle", &button);
-            if button.clicked() {
-                commands.push(Command::ToggleTimeline);
-            }
-        }
-        let hover = ("Surprise me", "Show a random scene (R)");
-        let button = buttons.add(ui, Icon::Dice, hover);
-        self.rects.record("surprise", &button);
-        if button.clicked() {
-            commands.push(Command::Surprise);
-        }
-        let hover = ("Mutate", "Show variations of this scene, side by side (M)");
-        let button = buttons.add(ui, Icon::Grid, hover);
-        self.rects.record("mutate", &button);
-        if button.clicked() {
-            commands.push(Command::Mutate);
-        }
-        let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
-        let button = buttons.add(ui, Icon::Share, hover);
-        self.rects.record("share", &button);
-        if button.clicked() {
-            commands.push(Command::Share);
-        }
-        let button = buttons.add(ui, Icon::Pin, self.places.button());
-        self.rects.record("find places", &button);
-        if self.places.are_shown() {
-            floating::mark(ui, &button);
-        }
-        if button.clicked() {
-            commands.push(Command::FindPlaces);
-        }
-        let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
-        let button = buttons.add(ui, Icon::Dive, hover);
-        self.rects.record("dive", &button);
-        if button.clicked() {
-            commands.push(Command::Dive);
-        }
-        if let Some(target) = HomeTarget::of(&scene.camera, &self.home) {
-            let (icon, hover) = target.button();
-            let button = buttons.add(ui, icon, hover);
-            self.rects.record("home", &button);
-            if button.clicked() {
-                commands.push(Command::Home);
-            }
-        }
+        let buttons = self.buttons(ui, rect, commands);
+        let scene = self.editor.scene_mut();
         // A drag belongs to the eye's picture in which it began.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
         let frame = frame.of_eye(scene.camera.stereo.layout, pointer);
@@ -115,7 +67,10 @@ impl Interface {
         } else {
             // A phone has told of no touch before the first one.
             let has_touch = !wide || ui.input(|i| i.has_touch_screen());
-            if let Some(hint) = self.settings.hints.show(ui, rect, has_touch) {
+            let is_covered = self.mutate.is_open() || self.share.is_open();
+            let hint =
+                if is_covered { None } else { self.settings.hints.show(ui, rect, has_touch) };
+            if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
             let light = handles::point_lights(ui, frame, scene, self.selection.light);
@@ -172,5 +127,63 @@ impl Interface {
             self.editor.replace(Project { scene: chosen, path });
         }
         ui.allocate_rect(area, egui::Sense::hover());
+    }
+
+    /// The buttons in the picture's lower left corner; none over the variations.
+    fn buttons(&mut self, ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> ButtonRow {
+        let mut buttons = ButtonRow::new(ui, rect);
+        if self.mutate.is_open() {
+            return buttons;
+        }
+        if !self.settings.timeline_open {
+            let hover =
+                ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
+            let button = buttons.add(ui, Icon::Timeline, hover);
+            self.rects.record("timeline toggle", &button);
+            if button.clicked() {
+                commands.push(Command::ToggleTimeline);
+            }
+        }
+        let hover = ("Surprise me", "Show a random scene (R)");
+        let button = buttons.add(ui, Icon::Dice, hover);
+        self.rects.record("surprise", &button);
+        if button.clicked() {
+            commands.push(Command::Surprise);
+        }
+        let hover = ("Mutate", "Show variations of this scene, side by side (M)");
+        let button = buttons.add(ui, Icon::Grid, hover);
+        self.rects.record("mutate", &button);
+        if button.clicked() {
+            commands.push(Command::Mutate);
+        }
+        let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
+        let button = buttons.add(ui, Icon::Share, hover);
+        self.rects.record("share", &button);
+        if button.clicked() {
+            commands.push(Command::Share);
+        }
+        let button = buttons.add(ui, Icon::Pin, self.places.button());
+        self.rects.record("find places", &button);
+        if self.places.are_shown() {
+            floating::mark(ui, &button);
+        }
+        if button.clicked() {
+            commands.push(Command::FindPlaces);
+        }
+        let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
+        let button = buttons.add(ui, Icon::Dive, hover);
+        self.rects.record("dive", &button);
+        if button.clicked() {
+            commands.push(Command::Dive);
+        }
+        if let Some(target) = HomeTarget::of(&self.editor.scene().camera, &self.home) {
+            let (icon, hover) = target.button();
+            let button = buttons.add(ui, icon, hover);
+            self.rects.record("home", &button);
+            if button.clicked() {
+                commands.push(Command::Home);
+            }
+        }
+        buttons
     }
 }
