@@ -12,6 +12,7 @@ use super::{
     dive,
     editor::Editor,
     favourites::{Favourite, Favourites},
+    finder::{Finder, Target},
     frame::Frame,
     loaded::Loaded,
     mutate::Mutate,
@@ -54,6 +55,7 @@ pub struct Interface {
     home: Camera,
     sheet: panel::Sheet,
     share: Share,
+    finder: Finder,
     mutate: Mutate,
     surprises: Surprises,
     help_open: bool,
@@ -82,6 +84,7 @@ impl Interface {
             timeline: Timeline::default(),
             sheet: panel::Sheet::default(),
             share: Share::default(),
+            finder: Finder::default(),
             mutate: Mutate::default(),
             surprises: Surprises::default(),
             help_open: false,
@@ -222,6 +225,15 @@ impl Interface {
             commands.extend(shared);
         }
 
+        match self.finder.show(ui) {
+            Some(Target::Command(command)) => commands.push(command),
+            Some(Target::Section(section)) => panel::show_section(ui, &mut self.settings, section),
+            Some(Target::Control(section, param)) => {
+                panel::show_section(ui, &mut self.settings, section);
+                widgets::reveal(ui, param.path);
+            }
+            None => {}
+        }
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
             self.timeline.command(command, self.editor.project_mut(), now_secs);
@@ -377,6 +389,8 @@ impl Interface {
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
             Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,
+            Command::Find => self.finder.toggle(),
+            Command::Leave if self.finder.is_open() => self.finder.toggle(),
             Command::Leave if self.share.is_open() => self.share = Share::default(),
             Command::Leave if self.mutate.is_open() => self.mutate.toggle(),
             Command::Mutate => self.mutate.toggle(),

@@ -9,6 +9,7 @@
 //! | `interface` | one frame: layout, dispatch, undo |
 //! | `display_inputs`, `action` | the shell's data to display, and requests to the shell |
 //! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
+//! | `finder` | the search over commands, scenes, sections and controls |
 //! | `favourites` | the views that a person keeps |
 //! | `selection` | the selected light, colour layer and gradient stops |
 //! | `loaded` | the environment map and gradients that people opened |
@@ -36,6 +37,7 @@ mod dive;
 mod export_size;
 mod favourites;
 mod field;
+mod finder;
 mod floating;
 mod frame;
 mod handles;
@@ -77,7 +79,7 @@ pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
 pub use favourites::{Favourite, Favourites};
 pub use hints::Hints;
 pub use interface::Interface;
-pub use panel::all_sections_open;
+pub use panel::{all_sections_open, section_title_of};
 pub use settings::{Sections, Settings};
 pub use share::Sharing;
 pub use sheet_height::SheetHeight;

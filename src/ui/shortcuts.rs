@@ -30,6 +30,8 @@ pub enum Command {
     SharePicture,
     /// Open the kept view of this index.
     Favourite(usize),
+    /// Open or close the finder.
+    Find,
     /// Open a random scene.
     Surprise,
     /// Show variations of the scene, or put them away.
@@ -150,6 +152,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(NONE, Key::M, Command::Mutate, "M", "Mutate: variations of the scene, side by side"),
     row(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
     row(NONE, Key::Escape, Command::Leave, "Esc", "Close help, put pins away, leave fly mode"),
+    row(COMMAND, Key::K, Command::Find, "Ctrl K", "Find a control, a scene or a command"),
     row(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),
     row(COMMAND_SHIFT, Key::Z, Command::Redo, "Ctrl Shift Z, Ctrl Y", "Redo"),
     also(COMMAND, Key::Y, Command::Redo),

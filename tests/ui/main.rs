@@ -9,6 +9,7 @@ mod dive;
 mod editor;
 mod environment_map;
 mod favourites;
+mod finder;
 mod fit;
 mod focus;
 mod follow;

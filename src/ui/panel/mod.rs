@@ -31,15 +31,17 @@ mod surface;
 mod timeline;
 mod tone;
 
-use egui::{Frame, Margin, RichText, ScrollArea, Stroke, Ui, UiBuilder};
+use egui::{Button, Frame, Margin, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2};
+
+use crate::scene::param::Param;
 
 use super::{
     icon::{Icon, icon_button, icon_side},
     settings::{Sections, Settings},
-    sheet_height::HEADING,
+    sheet_height::{HEADING, SheetHeight},
     shortcuts::Command,
     theme,
-    widgets::section,
+    widgets::{Help as _, reveal, revealed, section},
 };
 pub(super) use context::Context;
 use context::Section;
@@ -217,11 +219,22 @@ fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
 /// All other controls, in sections.
 fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_space(8.0);
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let find = ui.add_sized(size, Button::new("Find a setting…"));
+    let find = find.help("Search all controls, scenes and commands by their names (Ctrl K)");
+    cx.rects.record("find", &find);
+    if find.clicked() {
+        cx.commands.push(Command::Find);
+    }
+    ui.add_space(4.0);
     let mut more_open = cx.settings.more_open;
     let response = section(ui, "More", "All other settings", &mut more_open, |ui| {
         for Section { name, title, hover, show } in SECTIONS {
             let mut is_open = cx.settings.sections.is_open(name);
             let heading = section(ui, title, hover, &mut is_open, |ui| show(ui, cx));
+            if revealed(ui, name) {
+                heading.scroll_to_me(Some(egui::Align::TOP));
+            }
             cx.settings.sections.set_open(name, is_open);
             cx.rects.record(title, &heading);
         }
@@ -235,6 +248,68 @@ pub(super) fn shows_section_planes(settings: &Settings) -> bool {
     settings.panel_open
         && settings.more_open
         && settings.sections.is_open(section_planes::SECTION.name)
+}
+
+/// A section of the panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SectionRef(usize);
+
+impl SectionRef {
+    /// The heading.
+    pub fn title(self) -> &'static str {
+        SECTIONS[self.0].title
+    }
+
+    /// What the section holds.
+    pub fn hover(self) -> &'static str {
+        SECTIONS[self.0].hover
+    }
+}
+
+/// All sections, from top to bottom.
+pub(super) fn sections() -> impl Iterator<Item = SectionRef> {
+    (0..SECTIONS.len()).map(SectionRef)
+}
+
+/// Beginnings of parameters' paths, the longer ones first, and the sections of their controls.
+const HOMES: &[(&str, &str)] = &[
+    ("fractal.section_planes", "section_planes"),
+    ("fractal.", "fractal"),
+    ("camera.", "camera"),
+    ("lights.", "lights"),
+    ("surface.coloring", "colors"),
+    ("surface.second_layer", "colors"),
+    ("surface.gradient", "colors"),
+    ("surface.", "surface"),
+    ("medium.", "surface"),
+    ("indirect.", "indirect"),
+    ("integrator.", "indirect"),
+    ("fog.", "fog"),
+    ("tone.", "tone"),
+    ("bloom.", "bloom"),
+    ("quality.", "quality"),
+];
+
+/// The section that has the control of a parameter; none if it is elsewhere.
+pub(super) fn section_of(param: &Param) -> Option<SectionRef> {
+    let (_, name) = HOMES.iter().find(|(start, _)| param.path.starts_with(start))?;
+    sections().find(|section| SECTIONS[section.0].name == *name)
+}
+
+/// The heading of the section that has the control of a parameter; none if it is elsewhere.
+pub fn section_title_of(param: &Param) -> Option<&'static str> {
+    section_of(param).map(SectionRef::title)
+}
+
+/// Opens a section, with whatever hides it, and scrolls to it.
+pub(super) fn show_section(ui: &Ui, settings: &mut Settings, section: SectionRef) {
+    reveal(ui, SECTIONS[section.0].name);
+    settings.panel_open = true;
+    settings.more_open = true;
+    settings.sections.set_open(SECTIONS[section.0].name, true);
+    if settings.sheet == SheetHeight::Low {
+        settings.sheet = SheetHeight::Half;
+    }
 }
 
 /// Every section open.

@@ -7,6 +7,7 @@ mod gradient;
 mod histogram;
 mod hover;
 mod param;
+mod reveal;
 mod scale;
 mod section;
 
@@ -17,4 +18,5 @@ pub use gradient::{gradient, gradient_card, move_stop};
 pub use histogram::{DisplayRange, histogram};
 pub use hover::{Help, set_panel_area};
 pub use param::{number, param_slider, param_slider_count, param_slider_wide};
+pub use reveal::{reveal, revealed};
 pub use section::{caption, choice, section};

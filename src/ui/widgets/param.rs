@@ -10,10 +10,10 @@ use egui::{
     vec2,
 };
 
-use super::hover::Help as _;
 use super::scale::{
     at_fraction, clamp_typed, format_value, fraction, is_logarithmic, round_dragged,
 };
+use super::{hover::Help as _, reveal::revealed};
 use crate::{
     scene::param::{Param, Scale, Unit},
     ui::theme,
@@ -80,6 +80,10 @@ fn row(
         let Parts { label, rail, number: number_at } = place(row);
         let label = label_ui(ui, label, param.label);
         let rail = rail_ui(ui, rail, param, value);
+        if revealed(ui, param.path) {
+            rail.request_focus();
+            rail.scroll_to_me(Some(egui::Align::Center));
+        }
         if label.double_clicked() || rail.double_clicked() {
             *value = param.default;
         }

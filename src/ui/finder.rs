@@ -1,0 +1,224 @@
+//! The finder: a search over commands, scenes, sections and controls, by Ctrl+K.
+//!
+//! In: what is typed. Out: a command to run, or the section and the control to show.
+
+use egui::{Align2, Button, Key, RichText, ScrollArea, TextEdit, Ui, vec2};
+
+use super::{
+    panel::{self, SectionRef},
+    shortcuts::{Command, SHORTCUTS},
+    theme,
+};
+use crate::scene::{
+    param::{self, Param},
+    presets,
+};
+
+/// Number of results that are listed.
+const MAX_RESULTS: usize = 9;
+/// Width of the window, in points.
+const WIDTH: f32 = 380.0;
+
+/// What a result leads to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A command.
+    Command(Command),
+    /// A section of the panel.
+    Section(SectionRef),
+    /// A control in a section of the panel.
+    Control(SectionRef, &'static Param),
+}
+
+/// Something that can be found.
+#[derive(Clone, Debug, PartialEq)]
+struct Entry {
+    name: String,
+    /// Where it is, or its key.
+    about: String,
+    /// More words by which it is found.
+    words: String,
+    target: Target,
+}
+
+/// The finder's window.
+#[derive(Debug, Default)]
+pub struct Finder {
+    is_open: bool,
+    typed: String,
+    selected: usize,
+}
+
+impl Finder {
+    /// Opens the window with an empty field, or closes it.
+    pub fn toggle(&mut self) {
+        *self = Self { is_open: !self.is_open, ..Self::default() };
+    }
+
+    /// True while the window is open.
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// Shows the open window, and returns what was chosen.
+    pub fn show(&mut self, ui: &Ui) -> Option<Target> {
+        if !self.is_open {
+            return None;
+        }
+        let screen = ui.ctx().content_rect();
+        let (down, up, enter) = ui.input(|input| {
+            let pressed = |key| input.key_pressed(key);
+            (pressed(Key::ArrowDown), pressed(Key::ArrowUp), pressed(Key::Enter))
+        });
+        let mut open = true;
+        let mut chosen = None;
+        egui::Window::new("Find")
+            .open(&mut open)
+            .fixed_pos(screen.center_top() + vec2(0.0, 24.0))
+            .pivot(Align2::CENTER_TOP)
+            .constrain_to(screen)
+            .collapsible(false)
+            .resizable(false)
+            .fixed_size(vec2(WIDTH.min(screen.width() - 40.0), screen.height() - 120.0))
+            .show(ui.ctx(), |window| {
+                window.spacing_mut().interact_size.y = ui.spacing().interact_size.y.max(30.0);
+                let field = TextEdit::singleline(&mut self.typed)
+                    .hint_text("A control, a scene, a command…")
+                    .desired_width(f32::INFINITY);
+                let field = window.add(field);
+                field.request_focus();
+                if field.changed() {
+                    self.selected = 0;
+                }
+                field.accessible_name("What to find");
+                let found = found(&self.typed);
+                let last = found.len().saturating_sub(1);
+                self.selected = (self.selected + usize::from(down)).min(last);
+                self.selected = self.selected.saturating_sub(usize::from(up));
+                if found.is_empty() && !self.typed.trim().is_empty() {
+                    window.label(RichText::new("Nothing is called that.").color(theme::TEXT_DIM));
+                }
+                ScrollArea::vertical().auto_shrink([false, true]).show(window, |ui| {
+                    for (index, entry) in found.iter().enumerate() {
+                        if row(ui, entry, index == self.selected)
+                            || (enter && index == self.selected)
+                        {
+                            chosen = Some(entry.target);
+                        }
+                    }
+                });
+            });
+        if !open || chosen.is_some() {
+            *self = Self::default();
+        }
+        chosen
+    }
+}
+
+/// A result; true if it was clicked.
+fn row(ui: &mut Ui, entry: &Entry, is_selected: bool) -> bool {
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let about = RichText::new(&entry.about).color(theme::TEXT_DIM);
+    let button = Button::selectable(is_selected, entry.name.as_str()).right_text(about);
+    let response = ui.add_sized(size, button.truncate());
+    if is_selected {
+        response.scroll_to_me(None);
+    }
+    response.clicked()
+}
+
+/// Everything that can be found: commands first, then controls, sections and scenes.
+fn entries() -> Vec<Entry> {
+    let printable = |text: &str| theme::printable(text);
+    let commands = SHORTCUTS.iter().filter_map(|shortcut| {
+        let (keys, what) = shortcut.help?;
+        // The row of all number keys stands for several scenes, which are found by their names.
+        let is_one = !matches!(shortcut.command, Command::Preset(_));
+        let target = Target::Command(shortcut.command);
+        let (name, about) = (what.to_owned(), printable(keys));
+        is_one.then_some(Entry { name, about, words: String::new(), target })
+    });
+    let controls = param::all().filter_map(|param| {
+        let section = panel::section_of(param)?;
+        Some(Entry {
+            name: param.label.to_owned(),
+            about: section.title().to_owned(),
+            words: printable(param.help),
+            target: Target::Control(section, param),
+        })
+    });
+    let sections = panel::sections().map(|section| Entry {
+        name: section.title().to_owned(),
+        about: "Section".to_owned(),
+        words: section.hover().to_owned(),
+        target: Target::Section(section),
+    });
+    let scenes = presets::lists()
+        .into_iter()
+        .flat_map(|list| list.presets.iter().map(move |preset| (list.name, preset)));
+    let scenes = scenes.enumerate().map(|(index, (list, preset))| Entry {
+        name: preset.name.to_owned(),
+        about: list.to_owned(),
+        words: printable(preset.blurb),
+        target: Target::Command(Command::Preset(index)),
+    });
+    commands.chain(controls).chain(sections).chain(scenes).collect()
+}
+
+/// What is found by all typed words, the best first: those in names before those in descriptions.
+fn found(typed: &str) -> Vec<Entry> {
+    let typed = typed.trim().to_lowercase();
+    if typed.is_empty() {
+        return Vec::new();
+    }
+    let rank = |entry: &Entry| {
+        let name = entry.name.to_lowercase();
+        let all = format!("{name} {} {}", entry.about, entry.words).to_lowercase();
+        let is_found = typed.split_whitespace().all(|word| all.contains(word));
+        let starts_word = name.split_whitespace().any(|word| word.starts_with(&typed));
+        is_found.then(|| match () {
+            () if name == typed => 0,
+            () if name.starts_with(&typed) => 1,
+            () if starts_word => 2,
+            () if name.contains(&typed) => 3,
+            () => 4,
+        })
+    };
+    let mut ranked: Vec<(u8, Entry)> =
+        entries().into_iter().filter_map(|entry| Some((rank(&entry)?, entry))).collect();
+    // A stable sort keeps the order of `entries` among equals.
+    ranked.sort_by_key(|(rank, _)| *rank);
+    ranked.truncate(MAX_RESULTS);
+    ranked.into_iter().map(|(_, entry)| entry).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn first(typed: &str) -> Option<Target> {
+        found(typed).first().map(|entry| entry.target)
+    }
+
+    #[test]
+    fn controls_scenes_and_commands_are_found_by_their_words() {
+        assert!(
+            matches!(first("exposure"), Some(Target::Control(_, param)) if *param == param::EXPOSURE)
+        );
+        assert_eq!(first("undo"), Some(Target::Command(Command::Undo)));
+        assert!(matches!(first("sea urch"), Some(Target::Command(Command::Preset(3)))));
+        assert!(matches!(first("FIELD of"), Some(Target::Control(..))));
+        // By the description too, with words in any order.
+        assert!(found("arches glowing").iter().any(|entry| entry.name == "Kiln"));
+        assert!(found("no such thing").is_empty() && found("  ").is_empty());
+    }
+
+    #[test]
+    fn every_entry_is_found_by_its_name() {
+        for entry in entries() {
+            let found = found(&entry.name);
+            let is_listed = found.iter().any(|other| other.name == entry.name);
+            assert!(is_listed, "{:?}: {found:?}", entry.name);
+        }
+    }
+}
