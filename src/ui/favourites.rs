@@ -123,7 +123,7 @@ impl Favourites {
         }
     }
 
-    /// Names a view; names are cut to [`MAX_NAME_CHARS`].
+    /// Names a view; names are cut to 60 characters.
     pub fn rename(&mut self, index: usize, name: &str) {
         if let Some(kept) = self.list.get_mut(index) {
             kept.name = name.chars().take(MAX_NAME_CHARS).collect();

@@ -45,7 +45,7 @@ mod tests {
             sheet_height::LOW,
             100.0 * sheet_height::HALF_PART
         ));
-        has(format!("--span: {};", SPAN));
+        has(format!("--span: {SPAN};"));
         let [wide, landscape] = [theme::WIDE_FROM, theme::LANDSCAPE_FROM].map(|from| from - 0.02);
         has(format!("(max-width: {landscape}px)"));
         has(format!("(max-width: {wide}px) and (orientation: portrait)"));

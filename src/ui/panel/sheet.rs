@@ -38,10 +38,10 @@ impl Sheet {
             let tallest = SheetHeight::Tall.points(window);
             *height = (*height - handle.drag_delta().y).clamp(HEADING, tallest.max(HEADING));
         }
-        if handle.drag_stopped() || !handle.dragged() {
-            if let Some(height) = self.dragged.take() {
-                rest_near(settings, height, window);
-            }
+        if (handle.drag_stopped() || !handle.dragged())
+            && let Some(height) = self.dragged.take()
+        {
+            rest_near(settings, height, window);
         }
         if handle.clicked() {
             settings.sheet = match settings.sheet {
