@@ -1,6 +1,8 @@
-//! One frame of the interface: layout, dispatch, undo. The picture's part is in `picture`.
+//! One frame of the interface: layout, dispatch, undo. The picture's part is in `picture`, the opening of
+//! other scenes in `scenes`.
 
 mod picture;
+mod scenes;
 
 use std::sync::Arc;
 
@@ -35,7 +37,7 @@ use super::{
 };
 use crate::{
     fractal::SharedModel,
-    scene::{Camera, EnvironmentMap, Project, Scene, document, gradient::NamedGradient, presets},
+    scene::{Camera, EnvironmentMap, Project, Scene, gradient::NamedGradient},
 };
 
 /// Pause within a gesture after which the view counts as still and is refined.
@@ -65,6 +67,8 @@ pub struct Interface {
     /// Where the picture was in the last frame.
     frame: Option<Frame>,
     moving: bool,
+    /// True while the view before the last change is shown.
+    is_comparing: bool,
     histogram_shown: bool,
     loaded: Loaded,
 }
@@ -93,6 +97,7 @@ impl Interface {
             view_px: [1, 1],
             frame: None,
             moving: false,
+            is_comparing: false,
             histogram_shown: false,
             loaded: Loaded::default(),
         }
@@ -106,6 +111,12 @@ impl Interface {
     /// The current scene.
     pub fn scene(&self) -> &Scene {
         self.editor.scene()
+    }
+
+    /// The scene to draw: the current one, or the one before the last change while they are compared.
+    pub fn shown_scene(&self) -> &Scene {
+        let before = self.editor.steps().next().filter(|_| self.is_comparing);
+        before.map_or(self.scene(), |project| &project.scene)
     }
 
     /// The current scene and path.
@@ -208,6 +219,7 @@ impl Interface {
         let mut actions = Vec::new();
 
         let wide = theme::has_side_panel(ui.available_size());
+        self.is_comparing = shortcuts::is_comparing(ui.ctx());
         self.pilot.set_jumps(inputs.reduced_motion);
         theme::set_motion(ui.ctx(), !inputs.reduced_motion);
         theme::set_row_sizes(ui, !wide || ui.input(|i| i.has_touch_screen()));
@@ -442,46 +454,5 @@ impl Interface {
         if !*open {
             self.timeline.stop();
         }
-    }
-
-    /// Flies to a preset's view, but keeps the quality settings and the path.
-    ///
-    /// Quality depends on the user's machine, and a preset may become a key of the path.
-    fn choose_preset(&mut self, index: usize) {
-        let Some(preset) = presets::all().nth(index) else { return };
-        let mut scene = (preset.scene)();
-        scene.quality = self.scene().quality.clone();
-        let path = self.project().path.clone();
-        self.fly_into(Project { scene, path });
-    }
-
-    /// Flies to a kept view.
-    fn open_favourite(&mut self, index: usize) {
-        let Some(kept) = self.favourites.list().get(index) else { return };
-        // What is kept was written by the program; what cannot be read is left where it is.
-        if let Ok(project) = document::project_from_json(&kept.document) {
-            self.favourites.opened = Some(index);
-            self.fly_into(project);
-        }
-    }
-
-    /// Shows a project by a flight to its view, as one undo step.
-    fn fly_into(&mut self, project: Project) {
-        let Project { mut scene, path } = project;
-        self.selection = Selection::default();
-        self.home = scene.camera.clone();
-        self.pilot.cancel();
-        self.places.put_away();
-        self.timeline.stop();
-        let current = self.scene();
-        if *current == scene && self.project().path == path {
-            return;
-        }
-        let is_same_set = current.fractal == scene.fractal;
-        let from = is_same_set.then(|| current.camera.clone());
-        if let Some(frame) = self.frame {
-            self.pilot.arrive(&mut scene, frame, from.as_ref());
-        }
-        self.editor.replace_and_move(Project { scene, path });
     }
 }

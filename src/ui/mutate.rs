@@ -17,7 +17,7 @@ use super::{
 use crate::{
     fractal::surprise::is_worth_seeing,
     scene::{
-        Quality, Scene,
+        IntegratorKind, IntegratorSettings, Quality, Scene,
         variation::{Locks, vary},
     },
 };
@@ -44,6 +44,8 @@ pub struct Mutate {
     locks: Locks,
     /// The scene, the amount and the locks that the variations are of.
     made_of: Option<(Scene, f64, Locks)>,
+    /// True if variations must show something, because the scene itself does.
+    is_judged: bool,
     variations: Vec<SmallPicture>,
     /// The number of the next variation, which no other has had.
     next: u64,
@@ -56,6 +58,7 @@ impl Default for Mutate {
             amount: 0.4,
             locks: Locks { view: true, ..Locks::default() },
             made_of: None,
+            is_judged: false,
             variations: Vec::new(),
             next: 0,
         }
@@ -90,14 +93,20 @@ impl Mutate {
         if self.made_of.as_ref() != Some(&wanted) {
             self.variations.clear();
             self.made_of = Some(wanted);
+            // Close views cannot be judged from the whole set's distance.
+            self.is_judged = is_worth_seeing(scene);
         }
         let made = self.variations.len();
         if made < COLUMNS * COLUMNS {
             let varied = if made == MIDDLE { scene.clone() } else { self.variation(scene) };
             let quality = Quality { samples: SAMPLES, ..scene.quality.clone() };
+            // A few light paths would be noise.
+            let integrator =
+                IntegratorSettings { kind: IntegratorKind::Direct, ..scene.integrator.clone() };
             let id = SmallPictureId { owner: "mutations", number: self.next };
             self.next += 1;
-            self.variations.push(SmallPicture { id, scene: Scene { quality, ..varied } });
+            self.variations
+                .push(SmallPicture { id, scene: Scene { quality, integrator, ..varied } });
         }
         self.variations.len() < COLUMNS * COLUMNS
     }
@@ -105,11 +114,9 @@ impl Mutate {
     /// A variation that shows something, if the scene itself does.
     fn variation(&mut self, scene: &Scene) -> Scene {
         let mut varied = scene.clone();
-        // Close views cannot be judged from the whole set's distance.
-        let is_judged = is_worth_seeing(scene);
         for _ in 0..MAX_TRIES {
             varied = vary(scene, self.amount, self.locks, self.next);
-            if !is_judged || is_worth_seeing(&varied) {
+            if !self.is_judged || is_worth_seeing(&varied) {
                 break;
             }
             self.next += 1;
@@ -143,8 +150,8 @@ impl Mutate {
             let response = respond(ui, rect, index);
             paint(ui, &response, rect, textures, variation, index);
             if response.clicked() && index != MIDDLE {
-                let quality = scene.quality.clone();
-                chosen = Some(Scene { quality, ..variation.scene.clone() });
+                let Scene { quality, integrator, .. } = scene.clone();
+                chosen = Some(Scene { quality, integrator, ..variation.scene.clone() });
             }
         }
         ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| self.controls(ui, rects));

@@ -228,6 +228,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Alt + click", "Focus there, with a depth of field"),
     ("Drag in fly mode", "Look around"),
     ("Double click a slider", "Reset to its default"),
+    ("Hold C", "See the view before the last change"),
 ];
 
 /// Whether this frame's keys step a value: repeated presses are one undo step.
@@ -261,6 +262,12 @@ pub fn commands(ctx: &Context, flying: bool) -> Vec<Command> {
             })
             .collect()
     })
+}
+
+/// True while the key is held that shows the view before the last change.
+pub fn is_comparing(ctx: &Context) -> bool {
+    let typing = ctx.text_edit_focused();
+    ctx.input(|input| !typing && input.modifiers.is_none() && input.key_down(Key::C))
 }
 
 /// The command of a key with exactly these modifiers.

@@ -57,7 +57,7 @@ impl App {
 
     /// The opening picture, if it is still of use; otherwise removes it.
     fn opening_picture(opening: &mut Option<Opening>, session: &Session) -> Option<KeptPicture> {
-        let scene = session.interface.scene();
+        let scene = session.interface.shown_scene();
         let is_of_use = opening.as_ref()?.is_of_use(scene, &session.status.report);
         if !is_of_use {
             *opening = None;

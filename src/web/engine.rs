@@ -102,18 +102,18 @@ impl Engine {
         self.view.kept()
     }
 
-    /// The picture on the screen with the session's project, once there is one.
+    /// The picture on the screen with its scene, once there is one.
     pub fn view_picture(&self, session: &Session) -> Option<ViewPicture> {
         self.with_document(self.view.texture()?, session)
     }
 
     /// The picture on the screen, if a still of `size_px` would be the same.
     pub fn finished_picture(&self, session: &Session, size_px: [u32; 2]) -> Option<ViewPicture> {
-        self.with_document(self.view.finished(session.interface.scene(), size_px)?, session)
+        self.with_document(self.view.finished(session.interface.shown_scene(), size_px)?, session)
     }
 
     fn with_document(&self, texture: &wgpu::Texture, session: &Session) -> Option<ViewPicture> {
-        let document = document::to_json_compact(session.interface.scene());
+        let document = document::to_json_compact(session.interface.shown_scene());
         Some(ViewPicture::new(&self.gpu, texture, document))
     }
 
@@ -129,11 +129,11 @@ impl Engine {
         self.exporter.start_requested_sequence(session);
         let scale = session.update_safe_mode().scale();
         let interface = &session.interface;
-        let scene = interface.scene();
+        let scene = interface.shown_scene();
         let settling_secs = self.view.resize(scene, interface.view_size_px(), scale, now_secs);
         self.view.note_frame();
         self.view.set_environment_map(interface.environment_map());
-        self.view.set_scene(interface.scene(), interface.is_moving());
+        self.view.set_scene(interface.shown_scene(), interface.is_moving());
         self.view.watch_histogram(interface.wants_histogram());
         self.small_pictures.want(interface.small_pictures());
         self.small_pictures.set_environment_map(interface.environment_map());

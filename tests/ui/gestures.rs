@@ -445,3 +445,26 @@ fn hints_go_when_they_are_followed() {
     harness.run();
     assert!(harness.state().interface.rects().get("hint").is_none());
 }
+
+/// While C is held, the view before the last change is drawn, and nothing changes.
+#[test]
+fn holding_a_key_shows_the_view_before_the_last_change() {
+    let mut harness = window();
+    let start = scene(&harness).clone();
+    let center = view_center(&harness);
+    drag(&mut harness, center, center + vec2(80.0, 20.0), 4);
+    let turned = scene(&harness).clone();
+    let shown = |harness: &egui_kittest::Harness<'_, Stage>| {
+        harness.state().interface.shown_scene().clone()
+    };
+    assert_eq!(shown(&harness), turned);
+    harness.key_down(Key::C);
+    harness.run_steps(3);
+    assert_eq!((shown(&harness), scene(&harness).clone()), (start.clone(), turned.clone()));
+    assert!(harness.state().interface.rects().get("comparing").is_some());
+    harness.key_up(Key::C);
+    harness.run_steps(3);
+    assert_eq!(shown(&harness), turned);
+    assert_eq!(undo_all(&mut harness), 1);
+    assert_eq!(*scene(&harness), start);
+}

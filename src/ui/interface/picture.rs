@@ -45,6 +45,7 @@ impl Interface {
         self.rects.record("view", &response);
         // The buttons precede the pilot, which executes this frame's commands.
         let buttons = self.buttons(ui, rect, commands);
+        let is_comparing = self.is_comparing && self.editor.can_undo();
         let scene = self.editor.scene_mut();
         // A drag belongs to the eye's picture in which it began.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
@@ -61,7 +62,10 @@ impl Interface {
         }
         let has_record = self.pilot.dive_record().len() > 1;
         dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
-        if self.pilot.is_flying() {
+        if is_comparing {
+            let caption = floating::caption(ui, rect, "Before the last change");
+            self.rects.record("comparing", &caption);
+        } else if self.pilot.is_flying() {
             let keys = floating::caption(ui, rect, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);
         } else {

@@ -1,0 +1,50 @@
+//! Other scenes in view: presets, kept views, surprises, each reached by a flight.
+
+use super::Interface;
+use crate::{
+    scene::{Project, document, presets},
+    ui::selection::Selection,
+};
+
+impl Interface {
+    /// Flies to a preset's view, but keeps the quality settings and the path.
+    ///
+    /// Quality depends on the user's machine, and a preset may become a key of the path.
+    pub(super) fn choose_preset(&mut self, index: usize) {
+        let Some(preset) = presets::all().nth(index) else { return };
+        let mut scene = (preset.scene)();
+        scene.quality = self.scene().quality.clone();
+        let path = self.project().path.clone();
+        self.fly_into(Project { scene, path });
+    }
+
+    /// Flies to a kept view.
+    pub(super) fn open_favourite(&mut self, index: usize) {
+        let Some(kept) = self.favourites.list().get(index) else { return };
+        // What is kept was written by the program; what cannot be read is left where it is.
+        if let Ok(project) = document::project_from_json(&kept.document) {
+            self.favourites.opened = Some(index);
+            self.fly_into(project);
+        }
+    }
+
+    /// Shows a project by a flight to its view, as one undo step.
+    pub(super) fn fly_into(&mut self, project: Project) {
+        let Project { mut scene, path } = project;
+        self.selection = Selection::default();
+        self.home = scene.camera.clone();
+        self.pilot.cancel();
+        self.places.put_away();
+        self.timeline.stop();
+        let current = self.scene();
+        if *current == scene && self.project().path == path {
+            return;
+        }
+        let is_same_set = current.fractal == scene.fractal;
+        let from = is_same_set.then(|| current.camera.clone());
+        if let Some(frame) = self.frame {
+            self.pilot.arrive(&mut scene, frame, from.as_ref());
+        }
+        self.editor.replace_and_move(Project { scene, path });
+    }
+}
