@@ -10,6 +10,7 @@
 //! | `camera`, `lens`, `stereo`, `surface`, `indirect`, `integrator`, `background`, `fog`, `medium`, `tone`, `bloom`, `quality` | the parts of a scene |
 //! | `lighting` | the part that holds all lights |
 //! | `light`, `rig` | single lights; lights generated together |
+//! | [`light_setups`] | starting points of light |
 //! | [`follow`] | the lights of close views, which follow the view |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
@@ -47,6 +48,7 @@ pub mod follow;
 pub mod gradient;
 pub mod history;
 mod indirect;
+pub mod light_setups;
 pub mod link;
 pub mod param;
 pub mod path;

@@ -412,3 +412,19 @@ fn the_help_of_buttons_and_choices_hides_no_control() {
         assert!(shown.right() <= panel.left() + 1.0, "{name}: {shown:?} over {panel:?}");
     }
 }
+
+/// A starting point of light replaces the lights as one step, and nothing else.
+#[test]
+fn light_setups_replace_the_lights_by_a_click() {
+    let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 2000.0]);
+    let mut seen = vec![Scene::default().lights];
+    for name in ["Studio", "Rim", "Sky", "Candle"] {
+        press(&mut harness, &format!("Light: {name}"));
+        let lights = scene(&harness).lights.clone();
+        assert!(!seen.contains(&lights), "{name}");
+        assert_eq!(*scene(&harness), Scene { lights: lights.clone(), ..Scene::default() });
+        seen.push(lights);
+    }
+    assert_eq!(undo_all(&mut harness), 4);
+    assert_eq!(*scene(&harness), Scene::default());
+}

@@ -8,7 +8,10 @@ use super::{
     light, rig,
 };
 use crate::{
-    scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, follow, param},
+    scene::{
+        Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, follow, light_setups::SETUPS,
+        param,
+    },
     ui::{
         selection::LightRef,
         theme,
@@ -26,8 +29,30 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     caption(ui, "Light");
     // The ball stays while the section of all lights shows its own: nothing moves under the pointer.
     edit_as_seen(ui, cx, key_ball);
+    setups(ui, cx);
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
     cx.rects.record("exposure", &response);
+}
+
+/// Buttons that replace all lights by a starting point.
+fn setups(ui: &mut Ui, cx: &mut Context<'_>) {
+    let gap = 4.0;
+    let count = SETUPS.len() as f32;
+    let width = (ui.available_width() - gap * (count - 1.0)) / count;
+    let size = vec2(width, ui.spacing().interact_size.y);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = gap;
+        ui.spacing_mut().button_padding.x = 2.0;
+        for setup in SETUPS {
+            let response = ui.add_sized(size, Button::new(setup.name).truncate()).help(setup.about);
+            cx.rects.record(setup.name, &response);
+            if response.clicked() {
+                cx.scene.lights = (setup.lights)(&cx.scene.camera);
+                cx.selection.light = None;
+            }
+            response.accessible_name(format!("Light: {}", setup.name));
+        }
+    });
 }
 
 /// The direction and colour of the selected light, or of the first.
