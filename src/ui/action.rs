@@ -39,6 +39,8 @@ pub enum Action {
     /// Keep the view with a small picture, for
     /// [`Interface::keep_favourite`](super::Interface::keep_favourite).
     KeepFavourite,
+    /// Tell that a kept view cannot be read.
+    ReportUnreadableFavourite,
     /// Copy the picture on the screen to the clipboard.
     CopyPicture,
     /// Hand the picture on the screen to the system's share sheet.

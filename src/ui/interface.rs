@@ -397,7 +397,7 @@ impl Interface {
             Command::SharePicture => actions.push(Action::SharePicture),
             Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
             Command::Preset(index) => self.choose_preset(index),
-            Command::Favourite(index) => self.open_favourite(index),
+            Command::Favourite(index) => self.open_favourite(index, actions),
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
             Command::KeepDive => self.keep_dive(wide),
             Command::Leave if self.help_open => self.help_open = false,

@@ -159,6 +159,9 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             Some(picture) => picture.share(&session.mailbox),
             None => session.show_error(NO_PICTURE),
         },
+        Action::ReportUnreadableFavourite => session.show_error(
+            "This kept view cannot be read: it is damaged, or a newer Mandelight kept it. Remove it under Mine.",
+        ),
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::DismissNotice => session.notice = None,
     }

@@ -51,4 +51,5 @@ fn a_kept_view_that_cannot_be_read_changes_nothing() {
     harness.run();
     press(&mut harness, "View 1");
     assert_eq!(*scene(&harness), presets::opening());
+    assert_eq!(harness.state().actions, [Action::ReportUnreadableFavourite]);
 }

@@ -3,7 +3,7 @@
 use super::Interface;
 use crate::{
     scene::{Project, document, presets},
-    ui::selection::Selection,
+    ui::{action::Action, selection::Selection},
 };
 
 impl Interface {
@@ -19,12 +19,14 @@ impl Interface {
     }
 
     /// Flies to a kept view.
-    pub(super) fn open_favourite(&mut self, index: usize) {
+    pub(super) fn open_favourite(&mut self, index: usize, actions: &mut Vec<Action>) {
         let Some(kept) = self.favourites.list().get(index) else { return };
-        // What is kept was written by the program; what cannot be read is left where it is.
-        if let Ok(project) = document::project_from_json(&kept.document) {
-            self.favourites.opened = Some(index);
-            self.fly_into(project);
+        let read = document::project_from_json(&kept.document);
+        // One that cannot be read is marked too, so that it can be removed.
+        self.favourites.opened = Some(index);
+        match read {
+            Ok(project) => self.fly_into(project),
+            Err(_) => actions.push(Action::ReportUnreadableFavourite),
         }
     }
 

@@ -263,6 +263,11 @@ impl Strip<'_, '_> {
     /// The button that saves the frames, or the progress of an export.
     fn save(&mut self, ui: &mut Ui) {
         if let Some(progress) = self.cx.inputs.export {
+            // The panel shows the progress of all exports, while it is open.
+            if self.cx.settings.panel_open {
+                ui.add_enabled(false, Button::new("Saving…"));
+                return;
+            }
             ui.allocate_ui(vec2(ui.available_width().clamp(120.0, 320.0), 40.0), |ui| {
                 ui.vertical(|ui| export::saving(ui, self.cx, progress));
             });
