@@ -77,8 +77,13 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   v.seen.saved_dispatches = (await page.report()).dispatches - dispatches;
 
   // A kept view has a picture, and is stored.
-  await page.click("Mine");
-  await page.click("keep view");
+  // The lists stand at the upper end of the panel.
+  const panel = await page.rect("panel");
+  await v.tab.mouse.move(panel.x + panel.width / 2, panel.y + panel.height / 2);
+  await v.tab.mouse.wheel(0, -20000);
+  await v.tab.mouse.click(...(await page.middle("Mine")));
+  await v.until("the list of kept views", () => page.rect("keep view"), 60);
+  await v.tab.mouse.click(...(await page.middle("keep view")));
   v.seen.kept = await v.until("the view to be kept", () => v.tab.evaluate(() => {
     const [kept] = JSON.parse(localStorage.getItem("mandelight.favourites") ?? "[]");
     return kept && { name: kept.name, picture: kept.picture };

@@ -428,3 +428,46 @@ fn light_setups_replace_the_lights_by_a_click() {
     assert_eq!(undo_all(&mut harness), 4);
     assert_eq!(*scene(&harness), Scene::default());
 }
+
+/// Each section's reset is one step, leaves the other sections alone, and all together make a new scene.
+#[test]
+fn sections_are_reset_one_by_one() {
+    for preset in presets::all() {
+        let start = (preset.scene)();
+        let mut harness = stage(start.clone(), unfolded(), [1280.0, 6000.0]);
+        harness.run_steps(3);
+        let names: Vec<String> = harness
+            .root()
+            .children_recursive()
+            .filter_map(|node| node.accesskit_node().label())
+            .filter(|label| label.starts_with("Reset: "))
+            .collect();
+        assert_eq!(names.len(), 11, "{names:?}");
+        for name in &names {
+            let before = scene(&harness).clone();
+            harness.get_by_label(name).click_accesskit();
+            harness.run_steps(3);
+            assert_eq!(scene(&harness).validate(), Ok(()), "{name} of {}", preset.name);
+            harness.get_by_label(name).click_accesskit();
+            harness.run_steps(3);
+            let again = scene(&harness).clone();
+            if again != before {
+                harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+                harness.run_steps(3);
+                assert_eq!(*scene(&harness), before, "{name} of {} is one step", preset.name);
+                harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+                harness.run_steps(3);
+            }
+        }
+        let reset = scene(&harness).clone();
+        let new = Scene {
+            fractal: reset.fractal.clone(),
+            camera: reset.camera.clone(),
+            ..Scene::default()
+        };
+        assert_eq!(reset, new, "{}", preset.name);
+        if preset.name == "Mandelbulb" {
+            break;
+        }
+    }
+}

@@ -93,7 +93,7 @@ pub fn stage(
 
 /// A new scene on a wide stage, everything unfolded.
 pub fn workshop() -> Harness<'static, Stage> {
-    stage(Scene::default(), unfolded(), [1280.0, 5000.0])
+    stage(Scene::default(), unfolded(), [1280.0, 6000.0])
 }
 
 /// Lets flights of this stage arrive at once.

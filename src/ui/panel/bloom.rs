@@ -4,13 +4,23 @@ use egui::Ui;
 
 use super::context::{Context, Section};
 use crate::{
-    scene::{BloomOrder, param},
+    scene::{Bloom, BloomOrder, Scene, param},
     ui::widgets::{choice, param_slider, param_slider_count},
 };
 
 /// The section of the panel.
-pub(super) const SECTION: Section =
-    Section { name: "bloom", title: "Bloom", hover: "A soft glow around bright spots", show };
+pub(super) const SECTION: Section = Section {
+    name: "bloom",
+    title: "Bloom",
+    hover: "A soft glow around bright spots",
+    show,
+    reset: Some(reset),
+};
+
+/// Restores the settings of a new scene.
+fn reset(scene: &mut Scene) {
+    scene.bloom = Bloom::default();
+}
 
 /// Strength, radius, threshold, passes, and the order relative to the tone curve.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

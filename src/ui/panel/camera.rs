@@ -7,7 +7,7 @@ use super::{
     stereo,
 };
 use crate::{
-    scene::param,
+    scene::{Camera, Scene, param},
     ui::{
         shortcuts::Command,
         status::{zoom, zoom_text},
@@ -22,7 +22,14 @@ pub(super) const SECTION: Section = Section {
     title: "Camera",
     hover: "Field of view, depth of field, stereo, fly mode",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the lens and the field of view of a new scene; the view stays where it is.
+fn reset(scene: &mut Scene) {
+    let Camera { vertical_fov_deg, lens, stereo, .. } = Camera::default();
+    scene.camera = Camera { vertical_fov_deg, lens, stereo, ..scene.camera.clone() };
+}
 
 /// Field of view, lens, stereo, home, frame all, fly mode, and the eye's position.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

@@ -5,7 +5,7 @@ use egui::{Button, Id, Popup, PopupCloseBehavior, ScrollArea, Ui};
 use super::context::{Context, Section};
 use crate::{
     scene::{
-        Axis, ColorSource, Coloring, GradientStop, MediumKind, SecondLayer,
+        Axis, ColorSource, Coloring, GradientStop, MediumKind, Scene, SecondLayer, Surface,
         gradient::{NamedGradient, library},
         param::{self, Param},
     },
@@ -24,7 +24,14 @@ pub(super) const SECTION: Section = Section {
     title: "Colours",
     hover: "What colours the surface, and with which gradient",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the colours of a new scene.
+fn reset(scene: &mut Scene) {
+    let Surface { coloring, gradient, second_layer, .. } = Surface::default();
+    scene.surface = Surface { coloring, gradient, second_layer, ..scene.surface.clone() };
+}
 
 /// Greatest height of the list of gradients, in points.
 const LIST_HEIGHT: f32 = 340.0;

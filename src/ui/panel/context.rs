@@ -21,6 +21,8 @@ pub struct Section {
     pub hover: &'static str,
     /// Draws the panel.
     pub show: fn(&mut Ui, &mut Context<'_>),
+    /// Restores what the section sets to the values of a new scene; none if that is nothing of a scene.
+    pub reset: Option<fn(&mut Scene)>,
 }
 
 /// The data that the panels show and edit.

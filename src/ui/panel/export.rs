@@ -76,6 +76,7 @@ pub(super) const SECTION: Section = Section {
     title: "Export",
     hover: "Size and format of saved pictures, scene files and links",
     show,
+    reset: None,
 };
 
 /// The picture's size and format, and the scene's file and link.

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::context::{Context, Section};
 use crate::{
-    scene::param,
+    scene::{Fog, Scene, param},
     ui::widgets::{Help as _, color, param_slider},
 };
 
@@ -14,7 +14,13 @@ pub(super) const SECTION: Section = Section {
     title: "Fog",
     hover: "Haze between you and the fractal; with path tracing also shafts of light",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the settings of a new scene.
+fn reset(scene: &mut Scene) {
+    scene.fog = Fog::default();
+}
 
 /// Density; for fog that is there, its colour, direction, height and size.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     formula::table::{Kind, Value},
     scene::{
-        Fractal,
+        Fractal, Scene,
         param::{self, Param},
     },
     ui::widgets::{param_slider, param_slider_count, param_slider_wide},
@@ -35,7 +35,19 @@ pub(super) const SECTION: Section = Section {
     title: "Fractal",
     hover: "The formula, its form and its detail",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the formula's own values; steps of a hybrid and section planes stay.
+fn reset(scene: &mut Scene) {
+    let fractal = &mut scene.fractal;
+    for (field, value) in fractal.fields_mut() {
+        *value = field.default();
+    }
+    fractal.iterations = param::ITERATIONS.default as u32;
+    fractal.bailout = param::BAILOUT.default;
+    keep_bailout_in_reach(fractal);
+}
 
 /// The formula, its other parameters, iterations and bailout.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

@@ -4,7 +4,7 @@ use egui::{RichText, Ui};
 
 use super::context::{Context, Section};
 use crate::{
-    scene::{IndirectKind, IntegratorKind, param},
+    scene::{Indirect, IndirectKind, IntegratorKind, IntegratorSettings, Scene, param},
     ui::{
         theme,
         widgets::{Help as _, choice, param_slider, param_slider_count},
@@ -17,7 +17,13 @@ pub(super) const SECTION: Section = Section {
     title: "Indirect light",
     hover: "Light that bounces from one surface to another",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the settings of a new scene.
+fn reset(scene: &mut Scene) {
+    (scene.indirect, scene.integrator) = (Indirect::default(), IntegratorSettings::default());
+}
 
 /// Path tracing: its bounces and their reach.
 fn paths(ui: &mut Ui, cx: &mut Context<'_>) {

@@ -9,8 +9,8 @@ use super::{
 };
 use crate::{
     scene::{
-        Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, follow, light_setups::SETUPS,
-        param,
+        Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, Scene, follow,
+        light_setups::SETUPS, param,
     },
     ui::{
         selection::LightRef,
@@ -99,7 +99,13 @@ pub(super) const SECTION: Section = Section {
     title: "Lights",
     hover: "All lights, their colours and shadows",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the lights of a new scene.
+fn reset(scene: &mut Scene) {
+    scene.lights = Lights::default();
+}
 
 /// The switch of lights that follow, and all lights.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

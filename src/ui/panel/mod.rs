@@ -33,7 +33,7 @@ mod tone;
 
 use egui::{Button, Frame, Margin, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2};
 
-use crate::scene::param::Param;
+use crate::scene::{Scene, param::Param};
 
 use super::{
     icon::{Icon, icon_button, icon_side},
@@ -229,9 +229,14 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_space(4.0);
     let mut more_open = cx.settings.more_open;
     let response = section(ui, "More", "All other settings", &mut more_open, |ui| {
-        for Section { name, title, hover, show } in SECTIONS {
+        for Section { name, title, hover, show, reset } in SECTIONS {
             let mut is_open = cx.settings.sections.is_open(name);
-            let heading = section(ui, title, hover, &mut is_open, |ui| show(ui, cx));
+            let heading = section(ui, title, hover, &mut is_open, |ui| {
+                show(ui, cx);
+                if let Some(reset) = reset {
+                    reset_button(ui, cx, title, *reset);
+                }
+            });
             if revealed(ui, name) {
                 heading.scroll_to_me(Some(egui::Align::TOP));
             }
@@ -241,6 +246,20 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     });
     cx.rects.record("more", &response);
     cx.settings.more_open = more_open;
+}
+
+/// A small button at the end of a section that restores its settings.
+fn reset_button(ui: &mut Ui, cx: &mut Context<'_>, title: &str, reset: fn(&mut Scene)) {
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        let text = RichText::new("Reset").small().color(theme::TEXT_DIM);
+        let response = ui.button(text).help(format!("{title}: back to the values of a new scene"));
+        if response.clicked() {
+            reset(cx.scene);
+        }
+        response.accessible_name(format!("Reset: {title}"));
+    });
 }
 
 /// Whether the section planes' section is open, so that their handles show in the view.

@@ -5,7 +5,7 @@ use egui::{RichText, Ui};
 use super::context::{Context, Section};
 use crate::{
     render::report::mebibytes,
-    scene::{Normals, param},
+    scene::{Normals, Quality, Scene, param},
     ui::{
         theme,
         widgets::{Help as _, choice, param_slider, param_slider_count},
@@ -39,8 +39,18 @@ fn memory(ui: &mut Ui, cx: &Context<'_>) {
 }
 
 /// The section of the panel.
-pub(super) const SECTION: Section =
-    Section { name: "quality", title: "Quality", hover: "Trade sharpness for speed", show };
+pub(super) const SECTION: Section = Section {
+    name: "quality",
+    title: "Quality",
+    hover: "Trade sharpness for speed",
+    show,
+    reset: Some(reset),
+};
+
+/// Restores the settings of a new scene.
+fn reset(scene: &mut Scene) {
+    scene.quality = Quality::default();
+}
 
 /// Samples, detail, motion budget, normals, shadows, memory.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {

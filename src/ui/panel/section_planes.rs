@@ -10,7 +10,7 @@ use crate::{
         section::{MAX_SECTION_PLANES, SectionPlane},
     },
     scene::{
-        Axis, Camera, PrecisePoint, SectionColors,
+        Axis, Camera, PrecisePoint, Scene, SectionColors,
         param::{self, Param},
     },
     ui::{
@@ -25,7 +25,13 @@ pub(in crate::ui) const SECTION: Section = Section {
     title: "Section planes",
     hover: "Cuts the fractal open and shows the slice",
     show,
+    reset: Some(reset),
 };
+
+/// Removes all planes.
+fn reset(scene: &mut Scene) {
+    scene.fractal.section_planes.clear();
+}
 
 /// Rounding of positions, over the unit in which they are shown.
 const GRAIN: f64 = 1e-6;

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::context::{Context, Section};
 use crate::{
-    scene::{MediumKind, Scene, Surface, SurfaceModel, param},
+    scene::{Medium, MediumKind, Scene, Surface, SurfaceModel, param},
     ui::widgets::{Help as _, choice, color, param_slider},
 };
 
@@ -14,7 +14,15 @@ pub(super) const SECTION: Section = Section {
     title: "Surface",
     hover: "How the surface looks: matte, glossy, metallic or glowing",
     show,
+    reset: Some(reset),
 };
+
+/// Restores the surface of a new scene; its colours stay.
+fn reset(scene: &mut Scene) {
+    let Surface { coloring, gradient, second_layer, .. } = scene.surface.clone();
+    scene.surface = Surface { coloring, gradient, second_layer, ..Surface::default() };
+    scene.medium = Medium::default();
+}
 
 /// What the set is made of: surface models, and media.
 #[derive(Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use egui::Ui;
 
 use super::context::{Context, Section};
 use crate::{
-    scene::{Tone, ToneChannels, ToneCurve, ToneMean, param},
+    scene::{Background, Scene, Tone, ToneChannels, ToneCurve, ToneMean, param},
     ui::{
         theme,
         widgets::{DisplayRange, Help as _, choice, color, histogram, param_slider},
@@ -17,7 +17,13 @@ pub(super) const SECTION: Section = Section {
     title: "Tone and background",
     hover: "Brightness, contrast and the background",
     show,
+    reset: Some(reset),
 };
+
+/// Restores tone and background of a new scene.
+fn reset(scene: &mut Scene) {
+    (scene.tone, scene.background) = (Tone::default(), Background::default());
+}
 
 /// The histogram, exposure, the tone curve, and the background's two colours.
 fn show(ui: &mut Ui, cx: &mut Context<'_>) {
