@@ -432,7 +432,9 @@ fn light_setups_replace_the_lights_by_a_click() {
 /// Each section's reset is one step, leaves the other sections alone, and all together make a new scene.
 #[test]
 fn sections_are_reset_one_by_one() {
-    for preset in presets::all() {
+    // A bulb, a hybrid, and a scene in path-traced light.
+    let presets = [&presets::opening_scenes()[0], &presets::mixes()[0], &presets::traced()[0]];
+    for preset in presets {
         let start = (preset.scene)();
         let mut harness = stage(start.clone(), unfolded(), [1280.0, 6000.0]);
         harness.run_steps(3);
@@ -466,8 +468,5 @@ fn sections_are_reset_one_by_one() {
             ..Scene::default()
         };
         assert_eq!(reset, new, "{}", preset.name);
-        if preset.name == "Mandelbulb" {
-            break;
-        }
     }
 }

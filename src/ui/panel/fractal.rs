@@ -44,8 +44,8 @@ fn reset(scene: &mut Scene) {
     for (field, value) in fractal.fields_mut() {
         *value = field.default();
     }
-    fractal.iterations = param::ITERATIONS.default as u32;
-    fractal.bailout = param::BAILOUT.default;
+    let new = Fractal::new(fractal.formula());
+    (fractal.iterations, fractal.bailout) = (new.iterations, new.bailout);
     keep_bailout_in_reach(fractal);
 }
 
