@@ -6,15 +6,12 @@
 use glam::{DVec2, DVec3};
 
 use super::{FractalModel, camera_ray, pixel_cone};
-use crate::{
-    formula::{DistanceField, Ray},
-    scene::{
-        Camera, EnvironmentLight, GradientStop, LightFrame, Lights, Scene, color,
-        dice::Dice,
-        follow,
-        presets::{self, Preset},
-        variation::{Locks, vary},
-    },
+use crate::scene::{
+    Camera, EnvironmentLight, GradientStop, Lights, Scene, color,
+    dice::Dice,
+    follow,
+    presets::{self, Preset},
+    variation::{Locks, vary},
 };
 
 /// Tries until a preset is shown as it is.
@@ -116,17 +113,11 @@ impl Surprise {
         const RIMS: [[f32; 3]; 4] =
             [[0.45, 0.62, 1.0], [1.0, 0.5, 0.25], [0.4, 0.9, 0.85], [0.85, 0.45, 1.0]];
         let side = if self.dice.chance(0.5) { 1.0 } else { -1.0 };
-        let key = DVec3::new(-0.55 * side, 0.45 + 0.2 * self.dice.signed(), 0.7);
-        let rim = DVec3::new(0.75 * side, 0.35, -0.5);
-        let light = |direction: DVec3, color: Option<&[f32; 3]>, intensity: f64| EnvironmentLight {
-            direction: direction.normalize().to_array(),
-            color: color.copied().unwrap_or([1.0; 3]),
-            intensity,
-            frame: LightFrame::View,
-            ..EnvironmentLight::default()
-        };
-        let key = light(key, self.dice.pick(&KEYS), 2.6);
-        let rim = light(rim, self.dice.pick(&RIMS), 1.6);
+        let key = [-0.55 * side, 0.45 + 0.2 * self.dice.signed(), 0.7];
+        let rim = [0.75 * side, 0.35, -0.5];
+        let mut color = |of: &[[f32; 3]]| self.dice.pick(of).copied().unwrap_or([1.0; 3]);
+        let key = EnvironmentLight::headlight(key, color(&KEYS), 2.6);
+        let rim = EnvironmentLight::headlight(rim, color(&RIMS), 1.6);
         Lights { environment: vec![key, rim], ..Lights::default() }
     }
 }
@@ -150,7 +141,8 @@ pub fn is_worth_seeing(scene: &Scene) -> bool {
         let ray = camera_ray(camera, &field.origin(), ndc, ASPECT);
         let traced = field.trace(ray, cone, f64::INFINITY, MAX_STEPS);
         let Some(depth) = traced.unwrap_or_else(Some) else { continue };
-        let normal = normal(field, ray, depth, cone);
+        let footprint = (cone * depth).max(1e-9);
+        let normal = field.normal(ray.at(depth - footprint), footprint);
         hits += 1.0;
         normals += normal;
         lit += f64::from(u8::from(lights.iter().any(|light| light.dot(normal) > 0.15)));
@@ -169,25 +161,16 @@ fn mean_luminance(gradient: &[GradientStop]) -> f64 {
 /// Unit vectors toward the environment lights of a scene, in its coordinates.
 fn toward_lights(scene: &Scene) -> Vec<DVec3> {
     let lights = follow::effective(&scene.lights, &scene.camera);
-    let direction = |light: &EnvironmentLight| match light.frame {
-        LightFrame::Scene => DVec3::from_array(light.direction),
-        LightFrame::View => scene.camera.rotation() * DVec3::from_array(light.direction),
+    let direction = |light: &EnvironmentLight| {
+        light.frame.to_world(DVec3::from_array(light.direction), &scene.camera)
     };
     lights.environment.iter().filter(|light| !light.muted).map(direction).collect()
-}
-
-/// The normal where a ray hits: the gradient of the distance over about a pixel's footprint.
-fn normal(field: &dyn DistanceField, ray: Ray, depth: f64, cone: f64) -> DVec3 {
-    let step = (cone * depth).max(1e-9);
-    let point = ray.at(depth) - ray.direction * step;
-    let slope =
-        |axis: DVec3| field.distance(point + axis * step) - field.distance(point - axis * step);
-    DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).normalize_or(-ray.direction)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::LightFrame;
 
     #[test]
     fn empty_close_and_dark_views_are_not_worth_seeing() {

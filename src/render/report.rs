@@ -100,3 +100,10 @@ pub struct Report {
     /// Pictures finished since the view was made (each display update counts).
     pub pictures: u64,
 }
+
+impl Report {
+    /// True once the picture is finished. A view without a picture has not started.
+    pub fn is_finished(&self) -> bool {
+        self.activity == Activity::Idle && self.pictures > 0
+    }
+}

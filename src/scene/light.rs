@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::param;
+use super::{camera::Camera, param};
 use crate::precise::PrecisePoint;
 
 /// The frame of a light's direction.
@@ -15,6 +15,16 @@ pub enum LightFrame {
     Scene,
     /// Camera space: the light moves with the camera.
     View,
+}
+
+impl LightFrame {
+    /// Converts a direction of this frame to world space.
+    pub fn to_world(self, direction: DVec3, camera: &Camera) -> DVec3 {
+        match self {
+            Self::Scene => direction,
+            Self::View => camera.rotation() * direction,
+        }
+    }
 }
 
 /// A light infinitely far away: one direction, or a disc of directions.
@@ -39,6 +49,19 @@ pub struct EnvironmentLight {
     pub muted: bool,
     /// While any light is solo, only solo lights shine.
     pub solo: bool,
+}
+
+impl EnvironmentLight {
+    /// A light of the scene from `direction`, of any length.
+    pub fn new(direction: [f64; 3], color: [f32; 3], intensity: f64) -> Self {
+        let direction = DVec3::from_array(direction).normalize_or(DVec3::Z).to_array();
+        Self { direction, color, intensity, ..Self::default() }
+    }
+
+    /// A light that stays with the camera, from `direction` in its frame: x right, y up, z backward.
+    pub fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> Self {
+        Self { frame: LightFrame::View, ..Self::new(direction, color, intensity) }
+    }
 }
 
 impl Default for EnvironmentLight {

@@ -43,17 +43,6 @@ pub const SETUPS: [LightSetup; 4] = [
     },
 ];
 
-/// A light from `direction` in the camera's frame: x right, y up, z toward the viewer.
-fn with_camera(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    EnvironmentLight {
-        direction: DVec3::from_array(direction).normalize_or(DVec3::Z).to_array(),
-        color,
-        intensity,
-        frame: LightFrame::View,
-        ..EnvironmentLight::default()
-    }
-}
-
 fn of(environment: Vec<EnvironmentLight>) -> Lights {
     Lights { environment, ..Lights::default() }
 }
@@ -61,23 +50,23 @@ fn of(environment: Vec<EnvironmentLight>) -> Lights {
 fn studio(_: &Camera) -> Lights {
     let fill = EnvironmentLight {
         casts_shadows: false,
-        ..with_camera([0.7, 0.15, 0.7], [0.72, 0.82, 1.0], 0.55)
+        ..EnvironmentLight::headlight([0.7, 0.15, 0.7], [0.72, 0.82, 1.0], 0.55)
     };
     of(vec![
-        with_camera([-0.6, 0.55, 0.65], [1.0, 0.9, 0.78], 2.4),
+        EnvironmentLight::headlight([-0.6, 0.55, 0.65], [1.0, 0.9, 0.78], 2.4),
         fill,
-        with_camera([0.6, 0.45, -0.65], [0.85, 0.92, 1.0], 2.0),
+        EnvironmentLight::headlight([0.6, 0.45, -0.65], [0.85, 0.92, 1.0], 2.0),
     ])
 }
 
 fn rim(_: &Camera) -> Lights {
     let front = EnvironmentLight {
         casts_shadows: false,
-        ..with_camera([0.0, 0.3, 1.0], [0.7, 0.78, 1.0], 0.3)
+        ..EnvironmentLight::headlight([0.0, 0.3, 1.0], [0.7, 0.78, 1.0], 0.3)
     };
     of(vec![
-        with_camera([-0.85, 0.35, -0.35], [1.0, 0.72, 0.45], 3.2),
-        with_camera([0.85, 0.25, -0.35], [0.45, 0.66, 1.0], 3.2),
+        EnvironmentLight::headlight([-0.85, 0.35, -0.35], [1.0, 0.72, 0.45], 3.2),
+        EnvironmentLight::headlight([0.85, 0.25, -0.35], [0.45, 0.66, 1.0], 3.2),
         front,
     ])
 }
@@ -102,7 +91,7 @@ fn candle(camera: &Camera) -> Lights {
     };
     let dim = EnvironmentLight {
         casts_shadows: false,
-        ..with_camera([0.3, 0.6, 0.7], [0.4, 0.55, 1.0], 0.35)
+        ..EnvironmentLight::headlight([0.3, 0.6, 0.7], [0.4, 0.55, 1.0], 0.35)
     };
     Lights { point: vec![lamp], ..of(vec![dim]) }
 }

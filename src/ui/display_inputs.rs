@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use egui::{Color32, CornerRadius, Painter, Rect, Shape, epaint::RectShape, pos2};
+
 use super::{share::Sharing, small_picture::SmallPictureId};
 use crate::render::report::Report;
 
@@ -35,6 +37,15 @@ pub struct ViewTexture {
     pub texture: egui::TextureId,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
+}
+
+impl ViewTexture {
+    /// Draws the picture over `rect`, with round corners.
+    pub(super) fn paint(&self, painter: &Painter, rect: Rect, corners: CornerRadius) {
+        let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let shape = RectShape::filled(rect, corners, Color32::WHITE);
+        painter.add(Shape::Rect(shape.with_texture(self.texture, uv)));
+    }
 }
 
 /// An older picture of the scene in view, of any size.

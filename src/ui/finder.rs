@@ -46,6 +46,8 @@ struct Entry {
 pub struct Finder {
     is_open: bool,
     typed: String,
+    /// What is found by the typed words.
+    found: Vec<Entry>,
     selected: usize,
 }
 
@@ -89,9 +91,10 @@ impl Finder {
                 field.request_focus();
                 if field.changed() {
                     self.selected = 0;
+                    self.found = found(&self.typed);
                 }
                 field.accessible_name("What to find");
-                let found = found(&self.typed);
+                let found = &self.found;
                 let last = found.len().saturating_sub(1);
                 self.selected = (self.selected + usize::from(down)).min(last);
                 self.selected = self.selected.saturating_sub(usize::from(up));

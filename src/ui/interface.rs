@@ -256,15 +256,10 @@ impl Interface {
             ui.ctx().request_repaint();
         }
         for command in commands {
-            if command == Command::Share {
-                self.share.toggle(self.editor.project(), inputs.sharing);
-            }
             self.dispatch(command, wide, &mut actions);
         }
-        if let Some(mut scene) = self.surprises.advance(ui) {
-            scene.quality = self.scene().quality.clone();
-            let path = self.project().path.clone();
-            self.fly_into(Project { scene, path });
+        if let Some(scene) = self.surprises.advance(ui) {
+            self.fly_into_scene(scene);
         }
         self.timeline.end_frame(&mut self.editor, &before, now_secs);
         self.moving |= self.timeline.is_moving();
@@ -403,7 +398,8 @@ impl Interface {
             Command::Leave if self.help_open => self.help_open = false,
             Command::Find => self.finder.toggle(),
             Command::Leave if self.finder.is_open() => self.finder.toggle(),
-            Command::Leave if self.share.is_open() => self.share = Share::default(),
+            Command::Leave if self.share.is_open() => self.share.toggle(),
+            Command::Share => self.share.toggle(),
             Command::Leave if self.mutate.is_open() => self.mutate.toggle(),
             Command::Mutate => self.mutate.toggle(),
             Command::Surprise => self.surprises.begin(),
@@ -414,9 +410,8 @@ impl Interface {
             Command::ToggleTimeline => self.toggle_timeline(wide),
             Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
             Command::ToggleHelp => self.help_open = !self.help_open,
-            // The frame, the pilot and the timeline execute these commands.
-            Command::Share
-            | Command::PlayPause
+            // The pilot and the timeline execute these commands.
+            Command::PlayPause
             | Command::AddKey
             | Command::UpdateKey
             | Command::DeleteKey

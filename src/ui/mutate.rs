@@ -3,8 +3,8 @@
 //! In: the scene, how far to go, what must stay. Out: small pictures to draw, and the chosen variation.
 
 use egui::{
-    Checkbox, Color32, CornerRadius, Margin, Rect, Response, RichText, Sense, Shape, Stroke,
-    StrokeKind, Ui, UiBuilder, WidgetInfo, accesskit::Role, epaint::RectShape, pos2, vec2,
+    Checkbox, Color32, CornerRadius, Margin, Rect, Response, RichText, Sense, Stroke, StrokeKind,
+    Ui, UiBuilder, WidgetInfo, accesskit::Role, vec2,
 };
 
 use super::{
@@ -89,10 +89,12 @@ impl Mutate {
 
     /// Makes one variation a frame, until all are there. Returns whether more are to come.
     fn make(&mut self, scene: &Scene) -> bool {
-        let wanted = (scene.clone(), self.amount, self.locks);
-        if self.made_of.as_ref() != Some(&wanted) {
+        let is_current = self.made_of.as_ref().is_some_and(|(made_of, amount, locks)| {
+            made_of == scene && (*amount, *locks) == (self.amount, self.locks)
+        });
+        if !is_current {
             self.variations.clear();
-            self.made_of = Some(wanted);
+            self.made_of = Some((scene.clone(), self.amount, self.locks));
             // Close views cannot be judged from the whole set's distance.
             self.is_judged = is_worth_seeing(scene);
         }
@@ -233,11 +235,7 @@ fn paint(
     let painter = ui.painter();
     let corners = CornerRadius::same(theme::RADIUS);
     match textures.by_id.get(&variation.id) {
-        Some(picture) => {
-            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            let shape = RectShape::filled(rect, corners, Color32::WHITE);
-            painter.add(Shape::Rect(shape.with_texture(picture.texture, uv)));
-        }
+        Some(picture) => picture.paint(painter, rect, corners),
         None => {
             painter.rect_filled(rect, corners, theme::PANEL);
         }
@@ -253,6 +251,8 @@ fn paint(
 
 #[cfg(test)]
 mod tests {
+    use egui::pos2;
+
     use super::*;
 
     #[test]

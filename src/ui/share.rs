@@ -29,6 +29,8 @@ pub struct Sharing<'a> {
 /// The share window.
 #[derive(Debug, Default)]
 pub struct Share {
+    is_open: bool,
+    /// What was shared last; made again for another view.
     shared: Option<Shared>,
 }
 
@@ -48,16 +50,13 @@ struct Code {
 
 impl Share {
     /// Opens the window, or closes it.
-    pub fn toggle(&mut self, project: &Project, sharing: Sharing<'_>) {
-        self.shared = match self.shared {
-            Some(_) => None,
-            None => Some(Shared::new(project, sharing)),
-        };
+    pub fn toggle(&mut self) {
+        *self = Self { is_open: !self.is_open, shared: None };
     }
 
     /// True while the window is open.
     pub fn is_open(&self) -> bool {
-        self.shared.is_some()
+        self.is_open
     }
 
     /// Shows the open window over the picture in `view`, and returns the commands of its buttons.
@@ -70,10 +69,11 @@ impl Share {
         rects: &mut Rects,
     ) -> Vec<Command> {
         let mut commands = Vec::new();
-        let Some(shared) = &mut self.shared else { return commands };
-        if shared.project != *project {
-            *shared = Shared::new(project, sharing);
+        if !self.is_open {
+            return commands;
         }
+        let last = self.shared.take().filter(|shared| shared.project == *project);
+        let shared = self.shared.insert(last.unwrap_or_else(|| Shared::new(project, sharing)));
         let mut open = true;
         let shown = egui::Window::new("Share this view")
             .open(&mut open)
@@ -94,7 +94,7 @@ impl Share {
             rects.record("share window", &shown.response);
         }
         if !open {
-            self.shared = None;
+            self.toggle();
         }
         commands
     }

@@ -244,8 +244,7 @@ fn scientific(number: f64) -> String {
 }
 
 fn superscript(number: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let of = |c: char| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]);
+    let of = |c: char| c.to_digit(10).map_or('⁻', |digit| theme::SUPERSCRIPTS[digit as usize]);
     number.to_string().chars().map(of).collect()
 }
 

@@ -163,13 +163,15 @@ fn spacing(style: &mut Style) {
     style.animation_time = ANIMATION_SECS;
 }
 
+/// The superscripts of the digits 0 to 9.
+pub const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
 /// `text` with characters replaced that the bundled fonts lack: `10⁻⁵` becomes `10^-5`.
 pub fn printable(text: &str) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let mut printable = String::with_capacity(text.len());
     let mut is_negative_power = false;
     for c in text.chars() {
-        let digit = DIGITS.iter().position(|&digit| digit == c);
+        let digit = SUPERSCRIPTS.iter().position(|&digit| digit == c);
         match (c, digit) {
             ('⁻', _) => printable.push_str("^-"),
             ('ⁿ', _) => printable.push_str("^n"),

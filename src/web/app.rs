@@ -14,7 +14,7 @@ use super::{
     opening::{self, Opening},
     page,
     session::Session,
-    view_picture,
+    view_picture::{self, ViewPicture},
 };
 use crate::{
     export::PictureFormat,
@@ -89,8 +89,8 @@ impl eframe::App for App {
             small_pictures: engine.small_textures(),
         };
         let actions = session.interface.show(ui, &inputs);
-        if opening.is_some() {
-            opening::remove_from_document(false);
+        if let Some(opening) = &mut self.opening {
+            opening.hand_over();
         }
         show_drop_hint(ui);
         for action in actions {
@@ -112,9 +112,6 @@ impl eframe::App for App {
     }
 }
 
-/// The error before the first picture.
-const NO_PICTURE: &str = "There is no picture yet. Wait a moment, then try again.";
-
 /// Performs an action of the interface.
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
@@ -135,7 +132,7 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
         }
         Action::SaveScene => {
             let text = document::project_to_json(session.interface.project());
-            let saved = files::download_text("mandelight.json", "application/json", &text);
+            let saved = files::download("mandelight.json", "application/json", text.as_bytes());
             if let Err(reason) = saved {
                 session.show_error(format!("The scene could not be saved: {reason}"));
             }
@@ -144,26 +141,32 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             session.picker.open()
         }
         Action::CopyLink => session.copy_link(),
-        Action::CopyPicture => match engine.view_picture(session) {
-            Some(picture) => picture.copy(&session.mailbox),
-            None => session.show_error(NO_PICTURE),
-        },
-        Action::KeepFavourite => match engine.view_picture(session) {
-            Some(picture) => {
-                let project = session.interface.project();
-                picture.keep(document::project_to_json_compact(project), &session.mailbox);
+        Action::CopyPicture | Action::KeepFavourite | Action::SharePicture => {
+            match engine.view_picture(session) {
+                Some(picture) => use_picture(action, picture, session),
+                None => session.show_error(
+                    "There is no picture yet. Wait a moment, then try again.",
+                ),
             }
-            None => session.show_error(NO_PICTURE),
-        },
-        Action::SharePicture => match engine.view_picture(session) {
-            Some(picture) => picture.share(&session.mailbox),
-            None => session.show_error(NO_PICTURE),
-        },
+        }
         Action::ReportUnreadableFavourite => session.show_error(
             "This kept view cannot be read: it is damaged, or a newer Mandelight kept it. Remove it under Mine.",
         ),
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::DismissNotice => session.notice = None,
+    }
+}
+
+/// Performs an action on the picture on the screen.
+fn use_picture(action: Action, picture: ViewPicture, session: &Session) {
+    match action {
+        Action::CopyPicture => picture.copy(&session.mailbox),
+        Action::SharePicture => picture.share(&session.mailbox),
+        Action::KeepFavourite => {
+            let document = document::project_to_json_compact(session.interface.project());
+            picture.keep(document, &session.mailbox);
+        }
+        _ => {}
     }
 }
 

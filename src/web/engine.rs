@@ -104,17 +104,18 @@ impl Engine {
 
     /// The picture on the screen with its scene, once there is one.
     pub fn view_picture(&self, session: &Session) -> Option<ViewPicture> {
-        self.with_document(self.view.texture()?, session)
+        Some(self.with_scene(self.view.texture()?, session))
     }
 
     /// The picture on the screen, if a still of `size_px` would be the same.
     pub fn finished_picture(&self, session: &Session, size_px: [u32; 2]) -> Option<ViewPicture> {
-        self.with_document(self.view.finished(session.interface.shown_scene(), size_px)?, session)
+        let texture = self.view.finished(session.interface.shown_scene(), size_px)?;
+        Some(self.with_scene(texture, session))
     }
 
-    fn with_document(&self, texture: &wgpu::Texture, session: &Session) -> Option<ViewPicture> {
+    fn with_scene(&self, texture: &wgpu::Texture, session: &Session) -> ViewPicture {
         let document = document::to_json_compact(session.interface.shown_scene());
-        Some(ViewPicture::new(&self.gpu, texture, document))
+        ViewPicture::new(&self.gpu, texture, document)
     }
 
     /// The small pictures that are finished.
@@ -166,7 +167,7 @@ impl Engine {
         } else {
             let busy = self.view.pump(now_secs) || self.small_pictures.has_work();
             let report = self.view.report();
-            if !busy && report.activity == Activity::Idle && report.pictures > 0 {
+            if !busy && report.is_finished() {
                 session.note_complete_picture();
             }
             busy

@@ -92,13 +92,13 @@ impl io::Write for Download {
     }
 }
 
-/// Downloads `text` as a file called `name`.
+/// Downloads `content` as a file called `name`.
 ///
 /// # Errors
 /// Those of [`Download::finish`].
-pub fn download_text(name: &str, mime: &str, text: &str) -> Result<(), String> {
+pub fn download(name: &str, mime: &str, content: &[u8]) -> Result<(), String> {
     let mut download = Download::default();
-    download.write_all(text.as_bytes()).map_err(|error| error.to_string())?;
+    download.write_all(content).map_err(|error| error.to_string())?;
     download.finish(name, mime)
 }
 

@@ -83,7 +83,7 @@ fn lock(pictures: &Mutex<Pictures>) -> std::sync::MutexGuard<'_, Pictures> {
 /// The pixels of a file that the browser can decode.
 ///
 /// # Errors
-/// What the browser says of a file that it cannot decode.
+/// The browser's error for a file that it cannot decode.
 pub async fn decode(file: &[u8]) -> Result<ColorImage, JsValue> {
     let blob = Blob::new_with_u8_array_sequence(&Array::of1(&Uint8Array::from(file)))?;
     let window = page::window().ok_or("no window")?;

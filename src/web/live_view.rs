@@ -83,8 +83,7 @@ impl LiveView {
     pub fn finished(&self, scene: &Scene, size_px: [u32; 2]) -> Option<&wgpu::Texture> {
         let (view, texture) = (self.view.as_ref()?, self.texture()?);
         let report = view.report();
-        let is_finished = report.activity == Activity::Idle
-            && report.pictures > 0
+        let is_finished = report.is_finished()
             && report.samples_done >= report.samples_wanted
             && !view.has_pending_scene();
         let is_plain = !scene.traces_paths() && !scene.camera.stereo.is_on();

@@ -14,7 +14,7 @@ use super::{
     page::{self, describe},
 };
 use crate::{
-    render::{Activity, Report},
+    render::Report,
     scene::Scene,
     ui::{KeptPicture, ViewTexture, opening},
 };
@@ -30,18 +30,19 @@ const BETTER_SAMPLES: u32 = 2;
 pub struct Opening {
     scene: Scene,
     texture: Rc<RefCell<Option<TextureHandle>>>,
+    /// True while the document's own picture lies over the canvas.
+    is_in_document: bool,
 }
 
 impl Opening {
     /// The opening picture of `scene`, where the document shows it.
     pub fn of_document(context: &Context, scene: &Scene) -> Option<Self> {
         let element = page::document()?.get_element_by_id(ELEMENT)?;
-        let is_shown = element.parent_element()?.get_attribute("hidden").is_none();
-        let address = element.get_attribute("src")?;
-        let file = BASE64_STANDARD.decode(address.strip_prefix(ADDRESS)?).ok()?;
-        if !is_shown {
+        if element.parent_element()?.has_attribute("hidden") {
             return None;
         }
+        let address = element.get_attribute("src")?;
+        let file = BASE64_STANDARD.decode(address.strip_prefix(ADDRESS)?).ok()?;
         let texture = Rc::new(RefCell::new(None));
         let (slot, context) = (texture.clone(), context.clone());
         spawn_local(async move {
@@ -51,7 +52,7 @@ impl Opening {
             }
             context.request_repaint();
         });
-        Some(Self { scene: scene.clone(), texture })
+        Some(Self { scene: scene.clone(), texture, is_in_document: true })
     }
 
     /// The picture for the interface, once it is decoded.
@@ -63,10 +64,17 @@ impl Opening {
         Some(KeptPicture { picture, span: opening::SPAN as f32 })
     }
 
+    /// Removes the document's own picture once the interface has drawn the same.
+    pub fn hand_over(&mut self) {
+        if self.is_in_document && self.texture.borrow().is_some() {
+            self.is_in_document = false;
+            remove_from_document(false);
+        }
+    }
+
     /// Whether the picture still shows the scene in view, better than the view does.
     pub fn is_of_use(&self, scene: &Scene, report: &Report) -> bool {
-        let is_finished = report.activity == Activity::Idle && report.pictures > 0;
-        *scene == self.scene && report.samples_done < BETTER_SAMPLES && !is_finished
+        *scene == self.scene && report.samples_done < BETTER_SAMPLES && !report.is_finished()
     }
 }
 

@@ -41,10 +41,7 @@ impl TestHook {
             Activity::Refining => "refining".to_owned(),
             Activity::Compiling(what) => format!("compiling {what}"),
         };
-        // A view without a picture has not started, so it is not idle.
-        let idle = report.activity == Activity::Idle
-            && session.status.texture.is_some()
-            && report.pictures > 0;
+        let idle = report.is_finished() && session.status.texture.is_some();
         set(&object, "activity", activity);
         set(&object, "idle", idle);
         set(&object, "samplesDone", report.samples_done);

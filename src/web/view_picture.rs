@@ -2,15 +2,13 @@
 //!
 //! In: the view's texture. Out: its pixels, or a PNG that carries the scene. Nothing is rendered again.
 
-use std::io::Write as _;
-
 use js_sys::{Array, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, future_to_promise, spawn_local};
 use web_sys::{Blob, BlobPropertyBag};
 
 use super::{
-    files::Download,
+    files,
     mailbox::{Mailbox, Message},
     page::{self, describe},
 };
@@ -106,7 +104,7 @@ impl ViewPicture {
         let name = self.file_name();
         spawn_local(async move {
             let saved = match self.png().await {
-                Ok(bytes) => download(&name, &bytes),
+                Ok(bytes) => files::download(&name, MEDIA_TYPE, &bytes),
                 Err(error) => Err(describe(&error)),
             };
             mailbox.post(match saved {
@@ -141,12 +139,6 @@ impl ViewPicture {
         });
         file.map_err(|error| JsValue::from_str(&error.to_string()))
     }
-}
-
-fn download(name: &str, bytes: &[u8]) -> Result<(), String> {
-    let mut download = Download::default();
-    download.write_all(bytes).map_err(|error| error.to_string())?;
-    download.finish(name, MEDIA_TYPE)
 }
 
 /// The texture's pixels: RGBA, the top row first.

@@ -2,7 +2,7 @@
 
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, TouchPhase, pos2, vec2};
 use mandelight::scene::{
-    EnvironmentLight, GradientStop, MAX_GRADIENT_STOPS, MAX_LIGHTS, PointLight, Scene, param,
+    EnvironmentLight, GradientStop, MAX_GRADIENT_STOPS, MAX_LIGHTS, PointLight, Scene, dice, param,
 };
 
 use crate::stage::*;
@@ -53,20 +53,12 @@ fn looking_at_every_preset_changes_nothing() {
     }
 }
 
-/// Numbers as random as a test needs, the same every time (SplitMix64).
-struct Dice(u64);
+/// Numbers as random as a test needs, the same every time.
+struct Dice(dice::Dice);
 
 impl Dice {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
     fn below(&mut self, limit: u64) -> u64 {
-        self.next() % limit
+        self.0.bits() % limit
     }
 
     fn part(&mut self) -> f32 {
@@ -137,7 +129,7 @@ fn event(dice: &mut Dice, size: [f32; 2], down: &mut bool) -> Event {
 #[test]
 fn a_restless_visitor_cannot_break_it() {
     for (seed, size) in [(1, [1280.0, 720.0]), (2, [360.0, 640.0]), (3, [900.0, 1600.0])] {
-        let mut dice = Dice(seed);
+        let mut dice = Dice(dice::Dice::new(seed));
         let start = if seed == 3 { crowded() } else { Scene::default() };
         let mut harness = stage(start, unfolded(), size);
         let mut down = false;

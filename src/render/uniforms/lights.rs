@@ -28,10 +28,7 @@ pub fn lights(scene: &Scene, space: &RenderSpace) -> [Light; MAX_LIGHTS] {
     let casts = |wanted: bool| u32::from(wanted && scene.quality.shadows);
     let view_unit = scene.camera.view_unit() / space.scale();
     let in_world = |frame: LightFrame, direction: DVec3| {
-        let direction = match frame {
-            LightFrame::Scene => direction,
-            LightFrame::View => scene.camera.rotation() * direction,
-        };
+        let direction = frame.to_world(direction, &scene.camera);
         direction.as_vec3().normalize_or(Vec3::Z).to_array()
     };
     let environment = shining.environment.iter().map(|light| {

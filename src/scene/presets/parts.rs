@@ -10,7 +10,7 @@ use crate::{
         description::Scene,
         gradient::library,
         indirect::{Indirect, IndirectKind},
-        light::{EnvironmentLight, LightFrame, PointLight},
+        light::{EnvironmentLight, PointLight},
         lighting::Lights,
         surface::{Coloring, GradientStop, Surface},
         tone::Tone,
@@ -62,13 +62,12 @@ pub(super) fn camera(eye: [f64; 3], pivot: [f64; 3], vertical_fov_deg: f64) -> C
 
 /// A light from `direction`, of any length.
 pub(super) fn light(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    let direction = DVec3::from_array(direction).normalize_or(DVec3::Z).to_array();
-    EnvironmentLight { direction, color, intensity, ..Default::default() }
+    EnvironmentLight::new(direction, color, intensity)
 }
 
 /// A light that stays with the camera, from `direction` in its frame.
 pub(super) fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> EnvironmentLight {
-    EnvironmentLight { frame: LightFrame::View, ..light(direction, color, intensity) }
+    EnvironmentLight::headlight(direction, color, intensity)
 }
 
 /// The stops of the program's gradient called `name`; a test checks the names.

@@ -69,7 +69,7 @@ impl Interface {
             let keys = floating::caption(ui, rect, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);
         } else {
-            // A phone has told of no touch before the first one.
+            // Before the first touch, egui does not know that the screen is one.
             let has_touch = !wide || ui.input(|i| i.has_touch_screen());
             let is_covered = self.mutate.is_open() || self.share.is_open();
             let hint =
@@ -139,54 +139,35 @@ impl Interface {
         if self.mutate.is_open() {
             return buttons;
         }
+        let rects = &mut self.rects;
+        let mut add = |icon, name_and_hover, name, command| {
+            let button = buttons.add(ui, icon, name_and_hover);
+            rects.record(name, &button);
+            if button.clicked() {
+                commands.push(command);
+            }
+            button
+        };
         if !self.settings.timeline_open {
             let hover =
                 ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
-            let button = buttons.add(ui, Icon::Timeline, hover);
-            self.rects.record("timeline toggle", &button);
-            if button.clicked() {
-                commands.push(Command::ToggleTimeline);
-            }
+            add(Icon::Timeline, hover, "timeline toggle", Command::ToggleTimeline);
         }
         let hover = ("Surprise me", "Show a random scene (R)");
-        let button = buttons.add(ui, Icon::Dice, hover);
-        self.rects.record("surprise", &button);
-        if button.clicked() {
-            commands.push(Command::Surprise);
-        }
+        add(Icon::Dice, hover, "surprise", Command::Surprise);
         let hover = ("Mutate", "Show variations of this scene, side by side (M)");
-        let button = buttons.add(ui, Icon::Grid, hover);
-        self.rects.record("mutate", &button);
-        if button.clicked() {
-            commands.push(Command::Mutate);
-        }
+        add(Icon::Grid, hover, "mutate", Command::Mutate);
         let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
-        let button = buttons.add(ui, Icon::Share, hover);
-        self.rects.record("share", &button);
-        if button.clicked() {
-            commands.push(Command::Share);
-        }
-        let button = buttons.add(ui, Icon::Pin, self.places.button());
-        self.rects.record("find places", &button);
-        if self.places.are_shown() {
-            floating::mark(ui, &button);
-        }
-        if button.clicked() {
-            commands.push(Command::FindPlaces);
-        }
+        add(Icon::Share, hover, "share", Command::Share);
+        let pins = add(Icon::Pin, self.places.button(), "find places", Command::FindPlaces);
         let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
-        let button = buttons.add(ui, Icon::Dive, hover);
-        self.rects.record("dive", &button);
-        if button.clicked() {
-            commands.push(Command::Dive);
-        }
+        add(Icon::Dive, hover, "dive", Command::Dive);
         if let Some(target) = HomeTarget::of(&self.editor.scene().camera, &self.home) {
             let (icon, hover) = target.button();
-            let button = buttons.add(ui, icon, hover);
-            self.rects.record("home", &button);
-            if button.clicked() {
-                commands.push(Command::Home);
-            }
+            add(icon, hover, "home", Command::Home);
+        }
+        if self.places.are_shown() {
+            floating::mark(ui, &pins);
         }
         buttons
     }

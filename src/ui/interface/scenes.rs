@@ -2,17 +2,22 @@
 
 use super::Interface;
 use crate::{
-    scene::{Project, document, presets},
+    scene::{Project, Scene, document, presets},
     ui::{action::Action, selection::Selection},
 };
 
 impl Interface {
-    /// Flies to a preset's view, but keeps the quality settings and the path.
-    ///
-    /// Quality depends on the user's machine, and a preset may become a key of the path.
+    /// Flies to a preset's view.
     pub(super) fn choose_preset(&mut self, index: usize) {
-        let Some(preset) = presets::all().nth(index) else { return };
-        let mut scene = (preset.scene)();
+        if let Some(preset) = presets::all().nth(index) {
+            self.fly_into_scene((preset.scene)());
+        }
+    }
+
+    /// Flies to a scene's view, but keeps the quality settings and the path.
+    ///
+    /// Quality depends on the user's machine, and the scene may become a key of the path.
+    pub(super) fn fly_into_scene(&mut self, mut scene: Scene) {
         scene.quality = self.scene().quality.clone();
         let path = self.project().path.clone();
         self.fly_into(Project { scene, path });
@@ -31,7 +36,7 @@ impl Interface {
     }
 
     /// Shows a project by a flight to its view, as one undo step.
-    pub(super) fn fly_into(&mut self, project: Project) {
+    fn fly_into(&mut self, project: Project) {
         let Project { mut scene, path } = project;
         self.selection = Selection::default();
         self.home = scene.camera.clone();

@@ -1,4 +1,4 @@
-//! Where cards of scenes stand: in rows in a panel, in one row in a sheet.
+//! The layout of scene cards: rows in a panel, one row that scrolls sideways in a sheet.
 
 use egui::{Rect, ScrollArea, Sense, Ui, Vec2, vec2};
 

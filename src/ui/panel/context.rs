@@ -21,7 +21,7 @@ pub struct Section {
     pub hover: &'static str,
     /// Draws the panel.
     pub show: fn(&mut Ui, &mut Context<'_>),
-    /// Restores what the section sets to the values of a new scene; none if that is nothing of a scene.
+    /// Restores the section's values to those of a new scene; none if it edits no scene.
     pub reset: Option<fn(&mut Scene)>,
 }
 

@@ -1,13 +1,13 @@
 //! Controls of a formula's own parameters.
 
-use egui::{Button, Ui, vec2};
+use egui::{Button, Ui};
 
 use crate::{
     formula::table::{Field, Kind, Value},
     scene::param::Param,
     ui::{
         theme,
-        widgets::{Help as _, choice, param_slider},
+        widgets::{Help as _, button_row, choice, param_slider},
     },
 };
 
@@ -52,23 +52,16 @@ pub(super) fn quick_values(ui: &mut Ui, param: &Param, quick: &[f64], value: &mu
     if quick.is_empty() {
         return;
     }
-    let gap = 4.0;
-    let count = quick.len() as f32;
-    let size =
-        vec2((ui.available_width() - gap * (count - 1.0)) / count, ui.spacing().interact_size.y);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = gap;
-        ui.spacing_mut().button_padding.x = 2.0;
-        for &quick in quick {
-            let chosen = *value == quick;
-            let fill = if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED };
-            let button = Button::selectable(chosen, quick.to_string()).fill(fill);
-            let name = format!("{} {quick}", param.label);
-            let response = ui.add_sized(size, button).help(&name);
-            if response.clicked() {
-                *value = quick;
-            }
-            response.accessible_name(name);
+    button_row(ui, quick.len(), |ui, index, size| {
+        let quick = quick[index];
+        let chosen = *value == quick;
+        let fill = if chosen { ui.visuals().selection.bg_fill } else { theme::RAISED };
+        let button = Button::selectable(chosen, quick.to_string()).fill(fill);
+        let name = format!("{} {quick}", param.label);
+        let response = ui.add_sized(size, button).help(&name);
+        if response.clicked() {
+            *value = quick;
         }
+        response.accessible_name(name);
     });
 }

@@ -15,7 +15,7 @@ use crate::{
     ui::{
         selection::LightRef,
         theme,
-        widgets::{Help as _, caption, color, param_slider},
+        widgets::{Help as _, button_row, caption, color, param_slider},
     },
 };
 
@@ -36,22 +36,15 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
 
 /// Buttons that replace all lights by a starting point.
 fn setups(ui: &mut Ui, cx: &mut Context<'_>) {
-    let gap = 4.0;
-    let count = SETUPS.len() as f32;
-    let width = (ui.available_width() - gap * (count - 1.0)) / count;
-    let size = vec2(width, ui.spacing().interact_size.y);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = gap;
-        ui.spacing_mut().button_padding.x = 2.0;
-        for setup in SETUPS {
-            let response = ui.add_sized(size, Button::new(setup.name).truncate()).help(setup.about);
-            cx.rects.record(setup.name, &response);
-            if response.clicked() {
-                cx.scene.lights = (setup.lights)(&cx.scene.camera);
-                cx.selection.light = None;
-            }
-            response.accessible_name(format!("Light: {}", setup.name));
+    button_row(ui, SETUPS.len(), |ui, index, size| {
+        let setup = SETUPS[index];
+        let response = ui.add_sized(size, Button::new(setup.name).truncate()).help(setup.about);
+        cx.rects.record(setup.name, &response);
+        if response.clicked() {
+            cx.scene.lights = (setup.lights)(&cx.scene.camera);
+            cx.selection.light = None;
         }
+        response.accessible_name(format!("Light: {}", setup.name));
     });
 }
 

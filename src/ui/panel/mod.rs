@@ -290,8 +290,8 @@ pub(super) fn sections() -> impl Iterator<Item = SectionRef> {
     (0..SECTIONS.len()).map(SectionRef)
 }
 
-/// Beginnings of parameters' paths, the longer ones first, and the sections of their controls.
-const HOMES: &[(&str, &str)] = &[
+/// Prefixes of parameters' paths and the sections of their controls; longer prefixes come first.
+const SECTION_BY_PREFIX: &[(&str, &str)] = &[
     ("fractal.section_planes", "section_planes"),
     ("fractal.", "fractal"),
     ("camera.", "camera"),
@@ -311,7 +311,7 @@ const HOMES: &[(&str, &str)] = &[
 
 /// The section that has the control of a parameter; none if it is elsewhere.
 pub(super) fn section_of(param: &Param) -> Option<SectionRef> {
-    let (_, name) = HOMES.iter().find(|(start, _)| param.path.starts_with(start))?;
+    let (_, name) = SECTION_BY_PREFIX.iter().find(|(prefix, _)| param.path.starts_with(prefix))?;
     sections().find(|section| SECTIONS[section.0].name == *name)
 }
 

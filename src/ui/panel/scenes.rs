@@ -84,11 +84,12 @@ fn preset_card(
 ) {
     let is_chosen = chosen == Some(index);
     let card = card(ui, rect, preset.name, thumbnail::image(preset), is_chosen);
-    // The first nine scenes have number keys.
     let about = theme::printable(preset.blurb);
-    let hover = match index {
-        0..9 => format!("{about} ({})", index + 1),
-        _ => about,
+    // The opening scenes have number keys.
+    let hover = if index < presets::opening_scenes().len() {
+        format!("{about} ({})", index + 1)
+    } else {
+        about
     };
     let response = card.help(hover);
     if index == 0 {

@@ -1,8 +1,8 @@
 //! How pins and the words of their search are drawn.
 
 use egui::{
-    Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind,
-    Ui, WidgetInfo, accesskit::Role, epaint::RectShape, pos2, vec2,
+    Color32, CornerRadius, FontId, Painter, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, accesskit::Role, pos2, vec2,
 };
 
 use super::{
@@ -97,11 +97,7 @@ fn paint(painter: &Painter, inputs: &PinInputs<'_>, pin: &Pin, at: Pos2, rect: R
     let corners = CornerRadius::same(theme::RADIUS);
     painter.rect_stroke(grown, corners, Stroke::new(3.5, dark), StrokeKind::Outside);
     match inputs.textures.by_id.get(&pin.picture.id) {
-        Some(picture) => {
-            let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            let shape = RectShape::filled(grown, corners, Color32::WHITE);
-            painter.add(Shape::Rect(shape.with_texture(picture.texture, uv)));
-        }
+        Some(picture) => picture.paint(painter, grown, corners),
         None => {
             painter.rect_filled(grown, corners, theme::PANEL);
             icon::paint(painter, Icon::Pin, grown.center(), 18.0, theme::TEXT_DIM);

@@ -19,4 +19,4 @@ pub use histogram::{DisplayRange, histogram};
 pub use hover::{Help, set_panel_area};
 pub use param::{number, param_slider, param_slider_count, param_slider_wide};
 pub use reveal::{reveal, revealed};
-pub use section::{caption, choice, section};
+pub use section::{button_row, caption, choice, section};

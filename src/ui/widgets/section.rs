@@ -2,7 +2,7 @@
 
 use super::hover::Help as _;
 use egui::{
-    Button, Response, RichText, Sense, Ui, WidgetInfo, accesskit::Role,
+    Button, Response, RichText, Sense, Ui, Vec2, WidgetInfo, accesskit::Role,
     collapsing_header::CollapsingState, pos2, vec2,
 };
 
@@ -82,7 +82,7 @@ pub fn choice<T: PartialEq + Copy>(
     let rows = options.chunks(columns).map(|row| choice_row(ui, title, value, row, columns));
     rows.flatten()
         .reduce(|all, row| all.union(row))
-        .unwrap_or_else(|| ui.allocate_response(egui::Vec2::ZERO, Sense::hover()))
+        .unwrap_or_else(|| ui.allocate_response(Vec2::ZERO, Sense::hover()))
 }
 
 /// Space beside the text of a choice's button, in points.
@@ -99,6 +99,20 @@ fn choice_widths(text_widths: &[f32], total: f32, columns: usize) -> Vec<f32> {
     } else {
         vec![equal; needed.len()]
     }
+}
+
+/// A row of `count` equal buttons over the full width; `add` adds the one of a number, of a given size.
+pub fn button_row(ui: &mut Ui, count: usize, mut add: impl FnMut(&mut Ui, usize, Vec2)) {
+    let gap = 4.0;
+    let width = (ui.available_width() - gap * (count as f32 - 1.0)) / count.max(1) as f32;
+    let size = vec2(width, ui.spacing().interact_size.y);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = gap;
+        ui.spacing_mut().button_padding.x = 2.0;
+        for index in 0..count {
+            add(ui, index, size);
+        }
+    });
 }
 
 /// One row of a choice; the buttons share the width as [`choice_widths`] says.
