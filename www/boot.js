@@ -1,6 +1,7 @@
 // Boots the page: checks for WebGPU, loads the module, starts it on the canvas.
 // Every failure becomes a notice that says what to do; the page never stays blank.
 
+import * as accessibility from "./accessibility.js";
 import * as share from "./share.js";
 
 /** The module's size in bytes, set by the build: a compressed response does not contain it. */
@@ -221,6 +222,7 @@ const reportTrap = (error) => {
 window.addEventListener("error", (event) => reportTrap(event.error));
 window.addEventListener("unhandledrejection", (event) => reportTrap(event.reason));
 
+window.mandelightAccessibility = accessibility;
 window.mandelightShare = share;
 window.mandelightNotice = (text, detail) => {
   hasModuleNotice = true;

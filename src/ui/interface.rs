@@ -33,7 +33,7 @@ use super::{
     surprises::Surprises,
     theme,
     timeline::Timeline,
-    widgets,
+    view, widgets,
 };
 use crate::{
     fractal::SharedModel,
@@ -215,7 +215,8 @@ impl Interface {
         let before = self.project().clone();
         self.timeline.begin(&before, self.settings.timeline_open);
         self.rects.clear();
-        let mut commands = shortcuts::commands(ui.ctx(), self.pilot.is_flying());
+        let mut commands =
+            shortcuts::commands(ui.ctx(), self.pilot.is_flying(), view::has_focus(ui.ctx()));
         let mut actions = Vec::new();
 
         let wide = theme::has_side_panel(ui.available_size());

@@ -27,6 +27,7 @@
 //! | `home`, `dive` | the target of the Home button; what a dive shows and keeps |
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
+//! | [`accessibility`] | the interface as a screen reader reads it |
 //! | [`editor`] | the edited scene and path, and their history |
 //! | `timeline` | the playhead: the time of the path that is in view |
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, style, icons, widget positions |
@@ -63,6 +64,7 @@ mod timeline;
 mod view;
 mod widgets;
 
+pub mod accessibility;
 pub mod editor;
 pub mod navigation;
 pub mod opening;

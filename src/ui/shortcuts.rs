@@ -241,10 +241,10 @@ pub fn step_a_value(input: &egui::InputState) -> bool {
 /// The commands of this frame's key presses.
 ///
 /// No commands while text is typed. A focused widget keeps the keys that it uses (arrows, Space,
-/// Escape, Delete), and fly mode keeps its keys.
-pub fn commands(ctx: &Context, flying: bool) -> Vec<Command> {
+/// Escape, Delete), unless that is the view, and fly mode keeps its keys.
+pub fn commands(ctx: &Context, flying: bool, is_view_focused: bool) -> Vec<Command> {
     let typing = ctx.text_edit_focused();
-    let focused = ctx.egui_wants_keyboard_input();
+    let focused = ctx.egui_wants_keyboard_input() && !is_view_focused;
     let popup = ctx.any_popup_open();
     ctx.input(|input| {
         input

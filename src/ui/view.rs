@@ -1,6 +1,6 @@
 //! The picture's area: drawing of the picture, and its size in pixels.
 
-use egui::{Color32, Rect, Sense, Ui, pos2};
+use egui::{Color32, Context, EventFilter, Id, Rect, Sense, Stroke, StrokeKind, Ui, pos2};
 
 use super::{
     display_inputs::{KeptPicture, ViewTexture},
@@ -10,6 +10,15 @@ use super::{
 
 /// Maximum width or height of the view, in pixels (WebGPU's default texture limit).
 pub const MAX_VIEW_SIDE_PX: u32 = 8192;
+
+fn id() -> Id {
+    Id::unique("view")
+}
+
+/// True if the view has the keyboard, of which it takes the arrow keys.
+pub fn has_focus(context: &Context) -> bool {
+    context.memory(|memory| memory.has_focus(id()))
+}
 
 /// The area rounded to whole pixels, and its size in pixels.
 ///
@@ -45,7 +54,15 @@ pub fn show(
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         painter.image(picture.texture, at, whole, Color32::WHITE);
     }
-    let response = ui.interact(frame.rect, ui.scope_id().with("view"), Sense::click_and_drag());
+    let response = ui.interact(frame.rect, id(), Sense::click_and_drag());
+    if response.has_focus() {
+        let ring = Stroke::new(2.0, theme::ACCENT);
+        painter.rect_stroke(frame.rect, 0.0, ring, StrokeKind::Inside);
+        // Without the filter, the arrow keys would move the focus.
+        let arrows =
+            EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id(), arrows));
+    }
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_role(egui::accesskit::Role::Canvas);
         node.set_label("View");

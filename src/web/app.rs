@@ -6,6 +6,7 @@
 use std::{cell::RefCell, rc::Rc, sync::Arc};
 
 use super::{
+    accessibility,
     address::Address,
     engine::Engine,
     files,
@@ -45,6 +46,7 @@ impl App {
         let render_state = context.wgpu_render_state.clone()?;
         theme::install(&context.egui_ctx);
         context.egui_ctx.add_image_loader(Arc::new(ImageDecoder::default()));
+        accessibility::connect(&context.egui_ctx);
         session.borrow().mailbox.set_context(&context.egui_ctx);
         let adapter_name = gpu.name();
         let engine = Engine::new(gpu, render_state, context.egui_ctx.clone(), session.clone());

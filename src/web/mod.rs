@@ -29,8 +29,10 @@
 //! | `image_decoder` | pictures in the interface, decoded by the browser |
 //! | `mailbox` | messages from callbacks to the next frame |
 //! | `opening` | the opening picture, until the view's first is as good |
+//! | `accessibility` | the interface for screen readers |
 //! | `page` | the window: clocks, timers, listeners |
 
+mod accessibility;
 mod address;
 mod app;
 mod async_compile;

@@ -182,6 +182,32 @@ fn a_phone_shows_the_picture_and_fingers_move_it() {
     assert_eq!(visit.seen["scrolled"], serde_json::json!([0, 0, 1]), "the page itself moved");
 }
 
+/// What a screen reader reads, reaches and presses, in the browser's own accessibility tree.
+#[test]
+fn a_screen_reader_opens_a_scene_changes_the_power_and_saves() {
+    let visit = Visit::run("screen_reader");
+    let tree = visit.seen["tree"].as_array().unwrap();
+    let is_used = |role: &str| ["button", "slider", "checkbox", "textbox"].contains(&role);
+    let controls: Vec<&Value> =
+        tree.iter().filter(|node| is_used(node["role"].as_str().unwrap_or_default())).collect();
+    assert!(controls.len() > 20, "{controls:#?}");
+    let nameless: Vec<_> = controls
+        .iter()
+        .filter(|node| node["name"].as_str().unwrap_or_default().is_empty())
+        .collect();
+    assert!(nameless.is_empty(), "{nameless:#?}");
+
+    only_changes(&visit, "opened", "powered", &["fractal", "camera"]);
+    assert_eq!(visit.scene("powered").fractal.number("power"), Some(5.0));
+    assert_eq!(visit.text("/after_tab"), "Power value");
+    let stepped = visit.scene("stepped").fractal.number("power");
+    assert!(stepped.is_some_and(|power| power > 5.0 && power < 6.0), "{stepped:?}");
+    let chosen = visit.scene("chosen");
+    let reef = (presets::opening_scenes()[1].scene)();
+    assert_eq!(chosen.fractal, reef.fractal);
+    assert!(visit.text("/saved").ends_with(".png"));
+}
+
 #[test]
 fn a_lost_gpu_comes_back_with_the_same_scene() {
     let visit = Visit::run("loss");

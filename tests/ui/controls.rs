@@ -380,6 +380,16 @@ fn a_colour_is_picked_in_the_square_and_typed() {
     assert_eq!(*scene(&harness), Scene::default());
 }
 
+/// Where the hover text stands that contains `text`. (Its control has the same text as a description.)
+fn hover_text(harness: &egui_kittest::Harness<'_, Stage>, text: &str) -> egui::Rect {
+    let is_shown = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
+        node.role() == egui::accesskit::Role::Label
+            && node.value().is_some_and(|value| value.contains(text))
+    };
+    let shown = egui_kittest::kittest::By::new().predicate(is_shown);
+    harness.get(shown).rect()
+}
+
 /// The help of a slider stands beside the panel, or above the row: the next control stays in sight.
 #[test]
 fn hover_texts_leave_the_next_control_in_sight() {
@@ -389,7 +399,7 @@ fn hover_texts_leave_the_next_control_in_sight() {
         let row = slider(&harness, "Power").rect();
         harness.event(egui::Event::PointerMoved(row.center()));
         harness.run_steps(90);
-        let help = harness.get_by_label_contains("Double click resets").rect();
+        let help = hover_text(&harness, "Double click resets");
         assert!(help.bottom() <= row.top() || help.right() <= row.left(), "{help:?} and {row:?}");
     }
 }
@@ -407,7 +417,7 @@ fn the_help_of_buttons_and_choices_hides_no_control() {
         let at = harness.get_by_label(name).rect().center();
         harness.event(egui::Event::PointerMoved(at));
         harness.run_steps(90);
-        let shown = harness.get_by_label_contains(help).rect();
+        let shown = hover_text(&harness, help);
         let panel = harness.state().interface.rects().get("panel").expect("the panel");
         assert!(shown.right() <= panel.left() + 1.0, "{name}: {shown:?} over {panel:?}");
     }

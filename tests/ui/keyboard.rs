@@ -69,3 +69,28 @@ fn every_control_has_a_name() {
         assert!(nameless.is_empty(), "{nameless:#?}");
     }
 }
+
+/// With the keyboard, the view turns by the arrow keys and keeps it; the Tab key goes on.
+#[test]
+fn the_arrow_keys_turn_the_view_that_has_the_keyboard() {
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
+    let is_at_view =
+        |harness: &Harness<'_, Stage>| focused(harness).is_some_and(|(name, _)| name == "View");
+    for _ in 0..80 {
+        if is_at_view(&harness) {
+            break;
+        }
+        harness.key_press(Key::Tab);
+        harness.run();
+    }
+    for key in [Key::ArrowLeft, Key::ArrowUp] {
+        let before = scene(&harness).camera.clone();
+        harness.key_press(key);
+        harness.run();
+        assert!(is_at_view(&harness), "{key:?} moved the keyboard to {:?}", focused(&harness));
+        assert_ne!(scene(&harness).camera, before, "{key:?}");
+    }
+    harness.key_press(Key::Tab);
+    harness.run();
+    assert!(!is_at_view(&harness));
+}

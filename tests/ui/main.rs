@@ -21,6 +21,7 @@ mod mutate;
 mod navigation;
 mod orbit;
 mod places;
+mod screen_reader;
 mod sections;
 mod share;
 mod stage;

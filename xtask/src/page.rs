@@ -138,7 +138,9 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     let size = format!("const WASM_BYTES = {};", module.bytes.len());
     parts.push(module);
     parts.push(read(bound, "mandelight.js")?);
-    parts.push(read(www, "share.js")?);
+    for name in ["accessibility.js", "share.js"] {
+        parts.push(read(www, name)?);
+    }
     let mut boot = read(www, "boot.js")?;
     boot.bytes = replaced(&boot.bytes, SIZE_PLACEHOLDER, &size)
         .with_context(|| format!("boot.js does not contain `{SIZE_PLACEHOLDER}`"))?;

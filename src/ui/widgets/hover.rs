@@ -19,6 +19,7 @@ pub trait Help {
 impl Help for Response {
     fn help(self, text: impl Into<String>) -> Self {
         let text = text.into();
+        self.ctx.accesskit_node_builder(self.id, |node| node.set_description(text.as_str()));
         let panel: Option<Rect> = self.ctx.data(|data| data.get_temp(Id::unique("panel area")));
         let Some(panel) = panel.filter(|panel| panel.contains(self.rect.center())) else {
             return self.on_hover_text(text);
