@@ -224,6 +224,7 @@ window.addEventListener("unhandledrejection", (event) => reportTrap(event.reason
 
 window.mandelightAccessibility = accessibility;
 window.mandelightShare = share;
+window.mandelightVideo = () => import("./video.js");
 window.mandelightNotice = (text, detail) => {
   hasModuleNotice = true;
   showNotice(text, detail);

@@ -1,7 +1,7 @@
 //! `mandelight frames`: the frames of a camera path.
 //!
 //! Existing frames are kept. So the same call continues an interrupted one, and calls with other
-//! ranges can run in parallel.
+//! ranges can run in parallel. On standard output the frames follow one another.
 
 use std::{
     ops::{ControlFlow, Range},
@@ -42,7 +42,7 @@ pub struct FramesArguments {
     /// A scene document with a camera path, or - for standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The folder for the frames; existing frames are kept
+    /// The folder for the frames; existing frames are kept. Or - for standard output, PNG after PNG
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
     /// Frames A to B, without B: 0..100, 100.., ..50, or one frame; default: all frames
@@ -107,6 +107,12 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let denoise = arguments.integrator.denoise();
     let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
     let eyes = arguments.stereo.eyes();
+    let is_stream = arguments.output.as_path() == "-";
+    if is_stream && (arguments.exr || eyes.len() > 1) {
+        return Err(Failure::usage(
+            "-o -: standard output takes one PNG for each frame; leave out --exr and --stereo pair, or name a folder",
+        ));
+    }
     let sequence = SequenceSettings {
         path: &path,
         size_px: size,
@@ -123,10 +129,14 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     }
     // The handler is set before a file exists that an interruption would leave behind.
     let interrupted = interruption()?;
-    let folder = Folder::open(&arguments.output, &sequence)?;
+    let destination = if is_stream {
+        Destination::StandardOutput
+    } else {
+        Destination::Folder(Folder::open(&arguments.output, &sequence)?)
+    };
     let files = frames.clone().flat_map(|frame| eyes.iter().map(move |&eye| (frame, eye)));
     let requested = frames.len() * eyes.len();
-    let missing: Vec<_> = files.filter(|&file| !folder.has(file)).collect();
+    let missing: Vec<_> = files.filter(|&file| !destination.has(file)).collect();
     let report = |text: String| {
         if !quiet {
             message(&format!("{}: {text}", arguments.output.display()));
@@ -140,7 +150,7 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let gpu = arguments.adapter.open()?;
     let work = Work {
         path: &path,
-        folder: &folder,
+        destination: &destination,
         options: StillOptions { environment_map, ..options },
         eyes,
         pipelines: Pipelines::for_stills(&gpu),
@@ -158,6 +168,38 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let rendered = counted(rendered, eyes);
     report(format!("{rendered}{kept}, {secs:.1} s on {}", gpu.name()));
     Ok(())
+}
+
+/// Where the frames go.
+enum Destination {
+    Folder(Folder),
+    StandardOutput,
+}
+
+impl Destination {
+    /// The path of a frame's file, for [`Output::create`].
+    fn file(&self, frame: FrameFile) -> PathBuf {
+        match self {
+            Self::Folder(folder) => folder.file(frame),
+            Self::StandardOutput => PathBuf::from("-"),
+        }
+    }
+
+    /// True if a frame is complete already.
+    fn has(&self, frame: FrameFile) -> bool {
+        match self {
+            Self::Folder(folder) => folder.has(frame),
+            Self::StandardOutput => false,
+        }
+    }
+
+    /// What an interrupted command says of going on.
+    fn how_to_go_on(&self) -> &'static str {
+        match self {
+            Self::Folder(_) => "the same command goes on from there",
+            Self::StandardOutput => "--frames renders the others",
+        }
+    }
 }
 
 /// A number of files as text: `1 frame`, `3 pictures`.
@@ -188,7 +230,7 @@ fn requested_frames(
 /// The inputs that all frames share.
 struct Work<'a> {
     path: &'a Path,
-    folder: &'a Folder,
+    destination: &'a Destination,
     options: StillOptions,
     eyes: &'static [Option<Eye>],
     pipelines: Arc<Pipelines>,
@@ -205,10 +247,10 @@ impl Work<'_> {
         let (clock, all) = (Instant::now(), missing.len() as u32);
         let mut rendered = 0;
         for (index, &frame) in missing.iter().enumerate() {
-            if self.folder.has(frame) {
+            if self.destination.has(frame) {
                 continue;
             }
-            let file = self.folder.file(frame);
+            let file = self.destination.file(frame);
             let result = self.render(frame, &file, |done| {
                 let done = index as f64 + done;
                 let remaining = remaining_secs(clock.elapsed().as_secs_f64(), done, all);
@@ -222,8 +264,9 @@ impl Work<'_> {
                         None => "interrupted".to_owned(),
                     };
                     return Err(Failure::failed(format!(
-                        "{reason}; {rendered} of {} are complete; the same command goes on from there",
-                        counted(missing.len(), self.eyes)
+                        "{reason}; {rendered} of {} are complete; {}",
+                        counted(missing.len(), self.eyes),
+                        self.destination.how_to_go_on()
                     )));
                 }
                 Err(error) => return Err(Failure::failed(format!("{}: {error}", file.display()))),

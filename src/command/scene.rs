@@ -3,7 +3,8 @@
 use mandelight::{
     fractal::Surprise,
     scene::{
-        document,
+        Path, Project, document,
+        path::KEY_TIME,
         presets::{self, Preset},
     },
 };
@@ -26,8 +27,11 @@ pub struct SceneArguments {
     #[arg(long, value_name = "SEED", conflicts_with = "preset")]
     surprise: Option<u64>,
     /// List all presets: opening scenes, dives, the formulas' scenes, mixes
-    #[arg(long, conflicts_with_all = ["preset", "set", "surprise"])]
+    #[arg(long, conflicts_with_all = ["preset", "set", "surprise", "turntable"])]
     list_presets: bool,
+    /// Add a camera path once around the scene in this time, which repeats without a seam
+    #[arg(long, value_name = "SECS", value_parser = parse_secs)]
+    turntable: Option<f64>,
     #[command(flatten)]
     other: OtherFractal,
     #[command(flatten)]
@@ -61,5 +65,16 @@ pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
     };
     let scene = arguments.gradient.in_scene(arguments.other.in_scene(scene)?)?;
     let scene = input::changed(scene, &arguments.set)?;
-    print(&document::to_json(&scene))
+    let path = match arguments.turntable {
+        Some(secs) => Path::turntable(&scene, secs, Path::default().frames_per_second),
+        None => Path::default(),
+    };
+    print(&document::project_to_json(&Project { scene, path }))
+}
+
+/// Parses a path's length.
+fn parse_secs(text: &str) -> Result<f64, String> {
+    let range = 1.0..=KEY_TIME.max;
+    let secs = text.parse().ok().filter(|secs| range.contains(secs));
+    secs.ok_or_else(|| format!("write a number of seconds from 1 to {}", KEY_TIME.max))
 }

@@ -24,6 +24,9 @@ pub enum PictureFormat {
     Png,
     /// OpenEXR: linear radiance, depth, normal and position, 32 bits per channel.
     Exr,
+    /// Rows of display values without a header: red, green and blue, sRGB, 8 bits each, for encoders of
+    /// videos.
+    Rgb,
 }
 
 impl PictureFormat {
@@ -38,6 +41,7 @@ impl PictureFormat {
         match self {
             Self::Png => "png",
             Self::Exr => "exr",
+            Self::Rgb => "rgb",
         }
     }
 
@@ -46,13 +50,14 @@ impl PictureFormat {
         match self {
             Self::Png => "image/png",
             Self::Exr => "image/x-exr",
+            Self::Rgb => "application/octet-stream",
         }
     }
 
     /// Bytes per pixel of the encoder's input.
     pub(super) fn pixel_bytes(self, has_guides: bool) -> usize {
         match self {
-            Self::Png => 3,
+            Self::Png | Self::Rgb => 3,
             Self::Exr => exr::bytes_of_pixel(has_guides),
         }
     }
@@ -62,7 +67,7 @@ impl PictureFormat {
     /// The view may be overwritten at once.
     pub(super) fn read(self, gpu: &Gpu, view: &View) -> Option<TileReadback> {
         Some(match self {
-            Self::Png => {
+            Self::Png | Self::Rgb => {
                 let size_px = view.region().size_px;
                 TileReadback::Display(Readback::texture(gpu, view.texture()?, size_px))
             }
@@ -96,10 +101,11 @@ impl TileReadback {
     }
 }
 
-/// The encoder of a file of either format.
+/// The encoder of a file.
 pub(super) enum Encoder<W: Write> {
     Png(Box<PngStream<W>>),
     Exr(ExrStream<W>),
+    Rgb(W),
 }
 
 impl<W: Write> Encoder<W> {
@@ -117,6 +123,7 @@ impl<W: Write> Encoder<W> {
                 &document::to_json_compact(scene),
             )?)),
             PictureFormat::Exr => Self::Exr(ExrStream::new(sink, size_px, scene)?),
+            PictureFormat::Rgb => Self::Rgb(sink),
         })
     }
 
@@ -125,6 +132,7 @@ impl<W: Write> Encoder<W> {
         match self {
             Self::Png(png) => png.write_rgb(pixels),
             Self::Exr(exr) => exr.write_rows(pixels),
+            Self::Rgb(sink) => Ok(sink.write_all(pixels)?),
         }
     }
 
@@ -133,6 +141,10 @@ impl<W: Write> Encoder<W> {
         match self {
             Self::Png(png) => png.finish(),
             Self::Exr(exr) => exr.finish(),
+            Self::Rgb(mut sink) => {
+                sink.flush()?;
+                Ok(sink)
+            }
         }
     }
 }

@@ -38,5 +38,5 @@ pub use exr::{exr_scene_text, is_exr};
 pub use format::PictureFormat;
 pub use options::{Eye, StillOptions};
 pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
-pub use sequence::{SequenceJob, frame_name};
+pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};

@@ -67,8 +67,8 @@ impl StillOptions {
 
     /// Whether a still of `scene` is denoised.
     pub fn denoises(&self, scene: &Scene) -> bool {
-        let is_png = self.format == PictureFormat::Png;
-        scene.traces_paths() && self.denoise.unwrap_or(is_png && scene.integrator.denoise)
+        let is_for_eyes = self.format != PictureFormat::Exr;
+        scene.traces_paths() && self.denoise.unwrap_or(is_for_eyes && scene.integrator.denoise)
     }
 
     /// The scene that a still of `scene` shows and stores in its file.

@@ -1,7 +1,7 @@
-//! The frames of a camera path: file names, and a job that writes all frames to one archive.
+//! The frames of a camera path: file names, and a job that hands all frames to one sink.
 //!
-//! In: a path, a range of frames, a size. Out: one PNG per frame. Each frame is an independent
-//! still of its scene, so every split of the range gives the same pictures.
+//! In: a path, a range of frames, a size. Out: one picture per frame, to an archive or a video. Each
+//! frame is an independent still of its scene, so every split of the range gives the same pictures.
 
 use std::{io::Write, ops::Range, sync::Arc};
 
@@ -19,6 +19,21 @@ fn file_name(frame: u32, eye: Option<Eye>) -> String {
     format!("frame_{frame:06}{suffix}.png")
 }
 
+/// What takes the pictures of a sequence, in the order of its frames.
+pub trait FrameSink {
+    /// Takes a complete picture, in the format of the job's options.
+    ///
+    /// # Errors
+    /// [`ExportError::Write`] if it cannot be stored.
+    fn add(&mut self, name: &str, picture: Vec<u8>) -> Result<(), ExportError>;
+}
+
+impl<W: Write> FrameSink for Archive<W> {
+    fn add(&mut self, name: &str, picture: Vec<u8>) -> Result<(), ExportError> {
+        self.add(name, &picture)
+    }
+}
+
 /// Estimated remaining seconds, after `done` of `all` frames in `elapsed_secs`.
 ///
 /// `done` includes fractions of frames. None until an estimate is possible.
@@ -27,8 +42,8 @@ pub fn remaining_secs(elapsed_secs: f64, done: f64, all: u32) -> Option<f64> {
     (done > 0.05 && elapsed_secs > 1.0).then(|| elapsed_secs * left / done)
 }
 
-/// A sequence in progress, as a zip of PNGs. Dropping the job cancels it.
-pub struct SequenceJob<W: Write> {
+/// A sequence in progress. Dropping the job cancels it.
+pub struct SequenceJob<S: FrameSink> {
     pipelines: Arc<Pipelines>,
     path: Path,
     options: StillOptions,
@@ -40,12 +55,12 @@ pub struct SequenceJob<W: Write> {
     /// Number of complete files of the current frame.
     files: u32,
     still: Option<StillJob<Vec<u8>>>,
-    archive: Archive<W>,
+    sink: S,
     started_secs: Option<f64>,
 }
 
-impl<W: Write> SequenceJob<W> {
-    /// Starts a sequence of `frames`, clipped to the frames of `path`, to `sink`.
+impl<S: FrameSink> SequenceJob<S> {
+    /// Starts a sequence of `frames`, clipped to the frames of `path`, for `sink`.
     ///
     /// Each frame is one file, or with `pair` one file per eye.
     ///
@@ -58,7 +73,7 @@ impl<W: Write> SequenceJob<W> {
         frames: Range<u32>,
         options: StillOptions,
         pair: bool,
-        sink: W,
+        sink: S,
     ) -> Result<Self, ExportError> {
         let frames = frames.start..frames.end.min(path.frame_count());
         if frames.is_empty() {
@@ -78,7 +93,7 @@ impl<W: Write> SequenceJob<W> {
             files: 0,
             frames,
             still: None,
-            archive: Archive::new(sink),
+            sink,
             started_secs: None,
         })
     }
@@ -104,7 +119,7 @@ impl<W: Write> SequenceJob<W> {
             }
             StillStatus::Done { .. } => {
                 let eye = self.eyes[self.files as usize];
-                self.archive.add(&file_name(self.frame, eye), &still.finish()?)?;
+                self.sink.add(&file_name(self.frame, eye), still.finish()?)?;
                 self.files += 1;
                 if self.files as usize == self.eyes.len() {
                     self.frame += 1;
@@ -124,16 +139,15 @@ impl<W: Write> SequenceJob<W> {
         StillJob::of_frame(&self.pipelines, &self.path, self.frame, options, Vec::new())
     }
 
-    /// Ends the archive and returns the sink.
+    /// The sink, which has all pictures.
     ///
     /// # Errors
-    /// [`ExportError::Encode`] before [`StillStatus::Done`], [`ExportError::Write`] from the
-    /// sink.
-    pub fn finish(self) -> Result<W, ExportError> {
+    /// [`ExportError::Encode`] before [`StillStatus::Done`].
+    pub fn finish(self) -> Result<S, ExportError> {
         if self.frame < self.frames.end {
             return Err(ExportError::Encode(format!("frame {} is not done", self.frame)));
         }
-        self.archive.finish()
+        Ok(self.sink)
     }
 }
 

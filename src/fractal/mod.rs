@@ -8,6 +8,7 @@
 //! | [`model`] | a fractal's distance fields, made once per edit |
 //! | [`camera_ray`](mod@camera_ray) | camera rays through a picture's pixels |
 //! | [`places`] | finds points of the surface that stay beautiful at every depth |
+//! | [`shine`] | where light has to come from to reach a place |
 //! | [`spiral`] | directions, and points of a disc, spread evenly |
 //! | [`search`] | finds the anchor of a view |
 //! | [`surprise`] | random scenes that are worth seeing |
@@ -16,6 +17,7 @@ pub mod camera_ray;
 pub mod model;
 pub mod places;
 pub mod search;
+pub mod shine;
 pub mod spiral;
 pub mod surprise;
 

@@ -28,6 +28,9 @@ impl From<Quaternion> for DQuat {
     }
 }
 
+/// Maximum z component of an upright camera's right vector.
+const LEVEL: f64 = 1e-3;
+
 /// A camera. In the camera's frame +X is right, +Y is up and −Z is forward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -87,6 +90,12 @@ impl Camera {
     /// The unit vector of the viewing direction, in world space.
     pub fn forward(&self) -> DVec3 {
         self.rotation() * DVec3::NEG_Z
+    }
+
+    /// True if the horizon is level: the right vector is horizontal, and up is not down.
+    pub fn is_upright(&self) -> bool {
+        let rotation = self.rotation();
+        (rotation * DVec3::X).z.abs() <= LEVEL && (rotation * DVec3::Y).z >= -LEVEL
     }
 
     /// Distance from eye to pivot, in scene units; never zero.

@@ -25,6 +25,14 @@ impl LightFrame {
             Self::View => camera.rotation() * direction,
         }
     }
+
+    /// Converts a direction of world space to this frame.
+    pub fn from_world(self, direction: DVec3, camera: &Camera) -> DVec3 {
+        match self {
+            Self::Scene => direction,
+            Self::View => camera.rotation().inverse() * direction,
+        }
+    }
 }
 
 /// A light infinitely far away: one direction, or a disc of directions.

@@ -8,12 +8,14 @@
 //! | `curve` | smooth curves through keys, in any space that has shortest lines |
 //! | `place` | positions that go with the zoom: hyperbolic space |
 //! | `rotation` | orientations and directions |
+//! | `turntable` | paths around a scene |
 //! | `blend` | every number of a scene, found by itself |
 
 mod blend;
 mod curve;
 mod place;
 mod rotation;
+mod turntable;
 
 use std::sync::Arc;
 

@@ -1,5 +1,7 @@
 //! Requests of the interface to the shell, such as saving a picture.
 
+use super::export_size::SequenceFormat;
+
 /// A request of the interface to the shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -13,12 +15,14 @@ pub enum Action {
         /// True for one file per eye.
         pair: bool,
     },
-    /// Render frames of the camera path and save a zip of PNGs.
+    /// Render frames of the camera path and save them as one file.
     SaveSequence {
         /// Width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`](super::MAX_EXPORT_SIDE_PX).
         size_px: [u32; 2],
         /// The first frame, and one past the last frame.
         frames: [u32; 2],
+        /// The kind of file.
+        format: SequenceFormat,
         /// True for one file per eye.
         pair: bool,
     },

@@ -7,6 +7,52 @@ use crate::scene::StereoLayout;
 /// Maximum width or height of a saved picture, in pixels.
 pub const MAX_EXPORT_SIDE_PX: u32 = 16384;
 
+/// The kind of file that holds the frames of a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SequenceFormat {
+    /// A video in an MP4 file, which nearly everything plays.
+    #[default]
+    Mp4,
+    /// A video in a WebM file.
+    #[serde(rename = "webm")]
+    WebM,
+    /// A PNG for each frame, in a zip.
+    Pngs,
+}
+
+impl SequenceFormat {
+    /// All formats, each with its name and what it is for.
+    pub const ALL: [(Self, &str, &str); 3] = [
+        (Self::Mp4, "MP4", "A video that nearly everything plays"),
+        (Self::WebM, "WebM", "A video for the web"),
+        (Self::Pngs, "PNGs", "A picture for each frame in a zip file, for other programs"),
+    ];
+
+    /// True for a video.
+    pub fn is_video(self) -> bool {
+        self != Self::Pngs
+    }
+
+    /// The file's extension, without the dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Mp4 => "mp4",
+            Self::WebM => "webm",
+            Self::Pngs => "zip",
+        }
+    }
+
+    /// The file's media type.
+    pub fn media_type(self) -> &'static str {
+        match self {
+            Self::Mp4 => "video/mp4",
+            Self::WebM => "video/webm",
+            Self::Pngs => "application/zip",
+        }
+    }
+}
+
 /// Size and format of saved pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -19,11 +65,19 @@ pub struct ExportSize {
     pub exr: bool,
     /// True to save a stereo picture as one file per eye.
     pub pair: bool,
+    /// The kind of file of a sequence.
+    pub sequence: SequenceFormat,
 }
 
 impl Default for ExportSize {
     fn default() -> Self {
-        Self { times: 1, typed_px: [3840, 2160], exr: false, pair: false }
+        Self {
+            times: 1,
+            typed_px: [3840, 2160],
+            exr: false,
+            pair: false,
+            sequence: SequenceFormat::Mp4,
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use egui::{Align2, Button, Key, RichText, ScrollArea, TextEdit, Ui, vec2};
 
 use super::{
     panel::{self, SectionRef},
-    shortcuts::{Command, SHORTCUTS},
+    shortcuts::{Command, KEYLESS, SHORTCUTS},
     theme,
 };
 use crate::scene::{
@@ -141,6 +141,12 @@ fn entries() -> Vec<Entry> {
         let (name, about) = (what.to_owned(), printable(keys));
         is_one.then_some(Entry { name, about, words: String::new(), target })
     });
+    let keyless = KEYLESS.iter().map(|&(command, what)| Entry {
+        name: what.to_owned(),
+        about: String::new(),
+        words: String::new(),
+        target: Target::Command(command),
+    });
     let controls = param::all().filter_map(|param| {
         let section = panel::section_of(param)?;
         Some(Entry {
@@ -165,7 +171,7 @@ fn entries() -> Vec<Entry> {
         words: printable(preset.blurb),
         target: Target::Command(Command::Preset(index)),
     });
-    commands.chain(controls).chain(sections).chain(scenes).collect()
+    commands.chain(keyless).chain(controls).chain(sections).chain(scenes).collect()
 }
 
 /// What is found by all typed words, the best first: those in names before those in descriptions.

@@ -16,6 +16,7 @@ use super::{
     favourites::{Favourite, Favourites},
     finder::{Finder, Target},
     frame::Frame,
+    light_click::LightClick,
     loaded::Loaded,
     mutate::Mutate,
     navigation::CameraStatus,
@@ -37,11 +38,14 @@ use super::{
 };
 use crate::{
     fractal::SharedModel,
-    scene::{Camera, EnvironmentMap, Project, Scene, gradient::NamedGradient},
+    scene::{Camera, EnvironmentMap, Path, Project, Scene, gradient::NamedGradient},
 };
 
 /// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
+
+/// Seconds of a turn around the scene.
+const TURNTABLE_SECS: f64 = 12.0;
 
 /// The user interface and the edited project.
 #[derive(Debug)]
@@ -57,6 +61,7 @@ pub struct Interface {
     home: Camera,
     sheet: panel::Sheet,
     share: Share,
+    light_click: LightClick,
     finder: Finder,
     mutate: Mutate,
     surprises: Surprises,
@@ -88,6 +93,7 @@ impl Interface {
             timeline: Timeline::default(),
             sheet: panel::Sheet::default(),
             share: Share::default(),
+            light_click: LightClick::default(),
             finder: Finder::default(),
             mutate: Mutate::default(),
             surprises: Surprises::default(),
@@ -396,6 +402,7 @@ impl Interface {
             Command::Favourite(index) => self.open_favourite(index, actions),
             Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
             Command::KeepDive => self.keep_dive(wide),
+            Command::Turntable => self.make_turntable(wide),
             Command::Leave if self.help_open => self.help_open = false,
             Command::Find => self.finder.toggle(),
             Command::Leave if self.finder.is_open() => self.finder.toggle(),
@@ -406,6 +413,8 @@ impl Interface {
             Command::Surprise => self.surprises.begin(),
             Command::Leave if self.places.are_shown() => self.places.put_away(),
             Command::FindPlaces => self.places.toggle(),
+            Command::Leave if self.light_click.waits() => self.light_click.toggle(),
+            Command::LightPlace => self.light_click.toggle(),
             Command::Leave => self.pilot.set_flying(false),
             Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
             Command::ToggleTimeline => self.toggle_timeline(wide),
@@ -428,12 +437,24 @@ impl Interface {
         }
     }
 
-    /// Makes the last dive the camera path, as one undo step, and shows the timeline.
+    /// Makes the last dive the camera path.
     fn keep_dive(&mut self, wide: bool) {
-        let mut project = self.project().clone();
-        project.path.keys = dive::keys(self.pilot.dive_record(), &project.scene);
+        let Project { scene, mut path } = self.project().clone();
+        path.keys = dive::keys(self.pilot.dive_record(), &scene);
         self.pilot.forget_dive();
-        self.editor.replace(project);
+        self.use_path(path, wide);
+    }
+
+    /// Makes a turn around the scene the camera path.
+    fn make_turntable(&mut self, wide: bool) {
+        let Project { scene, path } = self.project();
+        let keys = Path::turntable(scene, TURNTABLE_SECS, path.frames_per_second).keys;
+        self.use_path(Path { keys, ..path.clone() }, wide);
+    }
+
+    /// Replaces the camera path, as one undo step, and shows the timeline.
+    fn use_path(&mut self, path: Path, wide: bool) {
+        self.editor.replace(Project { path, ..self.project().clone() });
         if !self.settings.timeline_open {
             self.toggle_timeline(wide);
         }

@@ -16,6 +16,7 @@
 //! | `panel/` | the panels, one per file |
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `frame`, `pilot`, `handles` | the picture, where it is, the camera's input, handles of point lights |
+//! | `light_click` | a click that lights a place |
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
@@ -46,6 +47,7 @@ mod hints;
 mod home;
 mod icon;
 mod interface;
+mod light_click;
 mod loaded;
 mod mutate;
 mod notice;
@@ -77,7 +79,7 @@ pub use action::Action;
 pub use display_inputs::{
     DisplayInputs, ExportProgress, KeptPicture, Notice, SmallTextures, ViewTexture,
 };
-pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX};
+pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX, SequenceFormat};
 pub use favourites::{Favourite, Favourites};
 pub use hints::Hints;
 pub use interface::Interface;

@@ -3,7 +3,7 @@
 //! In: the view's response and this frame's commands. Out: a moved camera. The pilot interprets
 //! gestures; the [`Navigator`] moves the camera.
 
-use egui::{Context, PointerButton, Response, Ui};
+use egui::{Context, PointerButton, Pos2, Response, Ui};
 use glam::{DVec2, DVec3};
 use web_time::Instant;
 
@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     formula::DistanceField,
-    fractal::{FractalModel, SharedModel},
+    fractal::{FractalModel, SharedModel, pixel_cone, shine},
     scene::{Camera, Scene},
 };
 
@@ -42,6 +42,19 @@ const STEP_SECS: f64 = 0.5;
 const STEP_FRAMES: f64 = 2.5;
 /// Upper limit of the pause that [`STEP_FRAMES`] gives.
 const MAX_STEP_SECS: f64 = 3.0;
+
+/// A place of the surface, and where a light reaches it from.
+pub struct LitPlace {
+    /// The vector from the eye to the place, in scene units.
+    pub offset: DVec3,
+    /// Unit vector from the place toward the light.
+    pub toward_light: DVec3,
+}
+
+/// The direction of light that shows a surface best: from above and from the left of the eye.
+fn key_direction(camera: &Camera) -> DVec3 {
+    (camera.rotation() * DVec3::new(-0.45, 0.55, 0.7)).normalize()
+}
 
 /// The camera's input state.
 #[derive(Debug, Default)]
@@ -187,6 +200,23 @@ impl Pilot {
         self.navigator.fly_to(&mut scene.camera, world, to);
     }
 
+    /// The surface at `at`, and where a light has to be to reach it; none for the background.
+    pub fn lit_place(&self, scene: &Scene, frame: Frame, at: Pos2) -> Option<LitPlace> {
+        let viewport = viewport(scene, frame);
+        let field = field_of(&self.models.of(&scene.fractal), scene, viewport);
+        let field = &*field;
+        let camera = &scene.camera;
+        let offset = World { field, viewport }.pick(camera, frame.ndc(at))?;
+        let cone = pixel_cone(camera, viewport.aspect, viewport.height_px);
+        let place = shine::Place {
+            point: field.local(&camera.position) + offset,
+            footprint: cone * offset.length(),
+            toward_eye: -offset.normalize_or(camera.forward()),
+        };
+        let toward_light = shine::toward_light(field, &place, key_direction(camera));
+        Some(LitPlace { offset, toward_light })
+    }
+
     /// Moves the scene's camera by this frame's input.
     pub fn move_camera(
         &mut self,
@@ -227,7 +257,7 @@ impl Pilot {
             }
         }
         if let Some(at) = view.interact_pointer_pos().map(|at| frame.ndc(at)) {
-            if view.clicked() && ui.input(|i| i.modifiers.alt) {
+            if view.clicked() && ui.input(|i| i.modifiers.alt && !i.modifiers.shift) {
                 focus(&mut camera, world, Some(at));
             } else if view.double_clicked() && !self.flying {
                 self.navigator.approach(&mut camera, world, at);

@@ -48,6 +48,10 @@ pub enum Command {
     Dive,
     /// Keep the last dive as the camera path.
     KeepDive,
+    /// Make a path around the scene.
+    Turntable,
+    /// Light the place of the next click, or stop waiting for it.
+    LightPlace,
     /// Switch fly mode on or off.
     ToggleFlight,
     /// Search the view for places and show pins on them, or put the pins away.
@@ -217,6 +221,12 @@ pub fn flight_help() -> String {
     format!("{} to fly, Shift for faster, drag to look around, Esc to stop", keys.join(" · "))
 }
 
+/// Commands without a key, which the finder finds by these words.
+pub const KEYLESS: &[(Command, &str)] = &[
+    (Command::Turntable, "Make a path around the scene"),
+    (Command::LightPlace, "Light a place by a click"),
+];
+
 /// The pointer's gestures in the view, each with its effect.
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "Orbit; in close views around the point under the pointer"),
@@ -226,6 +236,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Two fingers", "Pan and zoom"),
     ("Drag a light's handle", "Move a point light; with Shift toward or away from you"),
     ("Alt + click", "Focus there, with a depth of field"),
+    ("Alt + Shift + click", "Light that place"),
     ("Drag in fly mode", "Look around"),
     ("Double click a slider", "Reset to its default"),
     ("Hold C", "See the view before the last change"),

@@ -125,8 +125,8 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             let format = if exr { PictureFormat::Exr } else { PictureFormat::Png };
             engine.exporter.start_still(size_px, format, pair, session);
         }
-        Action::SaveSequence { size_px, frames: [first, end], pair } => {
-            engine.exporter.request_sequence(size_px, first..end, pair, session);
+        Action::SaveSequence { size_px, frames: [first, end], format, pair } => {
+            engine.exporter.request_sequence(size_px, first..end, (format, pair), session);
         }
         Action::CancelExport => {
             engine.exporter.cancel();

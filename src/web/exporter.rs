@@ -6,14 +6,16 @@
 use std::{ops::Range, sync::Arc};
 
 use super::{
-    sequence_export::{SequenceExport, ZipChoice, ZipRequest},
+    sequence_export::SequenceExport,
+    sequence_file::{FileChoice, FileRequest, SequenceKind},
     session::Session,
     still_export::{ExportStatus, StillExport},
 };
 use crate::{
     export::{PictureFormat, StillOptions},
     render::Pipelines,
-    ui::ExportProgress,
+    scene::Project,
+    ui::{ExportProgress, SequenceFormat},
 };
 
 /// Runs exports on one device.
@@ -21,7 +23,7 @@ pub struct Exporter {
     pipelines: Arc<Pipelines>,
     export: Option<Export>,
     progress: Option<ExportProgress>,
-    /// The sequence whose zip the visitor has yet to choose.
+    /// The sequence whose file the visitor has yet to choose.
     requested_sequence: Option<RequestedSequence>,
 }
 
@@ -31,13 +33,13 @@ enum Export {
     Sequence(Box<SequenceExport>),
 }
 
-/// A sequence that starts once the visitor has chosen its zip.
+/// A sequence that starts once the visitor has chosen its file.
 struct RequestedSequence {
     options: StillOptions,
     frames: Range<u32>,
     /// Whether each frame is a file for each eye.
     pair: bool,
-    zip: ZipRequest,
+    file: FileRequest,
 }
 
 impl Exporter {
@@ -72,31 +74,46 @@ impl Exporter {
         }
     }
 
-    /// Requests a zip for `frames` of the path; [`Self::start_requested_sequence`] uses the answer.
+    /// Requests a file for `frames` of the path; [`Self::start_requested_sequence`] uses the answer.
     pub fn request_sequence(
         &mut self,
         size_px: [u32; 2],
         frames: Range<u32>,
-        pair: bool,
-        session: &Session,
+        (format, pair): (SequenceFormat, bool),
+        session: &mut Session,
     ) {
-        let [width, height] = size_px;
+        let Project { scene, path } = session.interface.project();
         let environment_map = session.interface.environment_map().cloned();
         let options = StillOptions { environment_map, ..StillOptions::new(size_px) };
-        let zip = ZipRequest::new(format!("mandelight-{width}x{height}.zip"), &session.mailbox);
-        self.requested_sequence = Some(RequestedSequence { options, frames, pair, zip });
+        // Both eyes' pictures of a frame may be side by side.
+        let size_px = match options.sheet_px(scene) {
+            Ok(size_px) => size_px,
+            Err(error) => {
+                return session.show_error(format!("The frames could not be saved: {error}"));
+            }
+        };
+        let frames_per_second = path.frames_per_second;
+        let kind = SequenceKind { format, size_px, frames_per_second };
+        let options = StillOptions { format: kind.picture_format(), ..options };
+        let file = FileRequest::new(kind, &session.mailbox);
+        self.requested_sequence = Some(RequestedSequence { options, frames, pair, file });
     }
 
-    /// Starts the requested sequence once its zip is chosen.
+    /// Starts the requested sequence once its file is chosen.
     pub fn start_requested_sequence(&mut self, session: &mut Session) {
         let Some(requested) = self.requested_sequence.take() else { return };
-        let zip = match requested.zip.take_choice() {
-            ZipChoice::Pending => {
+        let file = match requested.file.take_choice() {
+            FileChoice::Pending => {
                 self.requested_sequence = Some(requested);
                 return;
             }
-            ZipChoice::Cancelled => return,
-            ZipChoice::Chosen(zip) => zip,
+            FileChoice::Cancelled => return,
+            FileChoice::Failed(reason) => {
+                return session.show_error(format!(
+                    "The video could not be started: {reason}. Choose another kind of file beside Save."
+                ));
+            }
+            FileChoice::Chosen(file) => file,
         };
         let path = session.interface.project().path.clone();
         match SequenceExport::start(
@@ -104,8 +121,7 @@ impl Exporter {
             path,
             requested.frames,
             (requested.options, requested.pair),
-            zip,
-            &session.mailbox,
+            file,
         ) {
             Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
             Err(error) => session.show_error(format!("The frames could not be saved: {error}")),

@@ -40,26 +40,20 @@ pub enum ChooseError {
     Refused(String),
 }
 
-/// A file that is being written. Clones share it; dropping the last one unfinished deletes it.
-#[derive(Clone)]
-pub struct DiskFile(Rc<Inner>);
-
-struct Inner {
+/// A file that the visitor has chosen to write. Unless it is kept, dropping it deletes it.
+pub struct ChosenFile {
     /// The `FileSystemFileHandle`.
     handle: JsValue,
     /// The `FileSystemWritableFileStream`.
     stream: JsValue,
-    /// Bytes that were not handed to the stream yet.
-    chunk: RefCell<Vec<u8>>,
-    /// Bytes that the stream has not written yet.
-    pending_bytes: Cell<usize>,
-    /// The first error of a write.
-    error: RefCell<Option<String>>,
-    is_closed: Cell<bool>,
+    is_kept: Cell<bool>,
 }
 
-impl DiskFile {
+impl ChosenFile {
     /// Opens the save dialogue. Browsers allow that only shortly after a click or a key.
+    ///
+    /// # Errors
+    /// The visitor's or the browser's refusal.
     pub async fn choose(name: &str, mime: &str, extension: &str) -> Result<Self, ChooseError> {
         let choose_error = |error: JsValue| match error_name(&error).as_deref() {
             Some("AbortError") => ChooseError::Cancelled,
@@ -71,14 +65,53 @@ impl DiskFile {
         let handle = resolve(chosen).await.map_err(choose_error)?;
         let opened = call(&handle, "createWritable", &Array::new());
         let stream = resolve(opened).await.map_err(choose_error)?;
-        Ok(Self(Rc::new(Inner {
-            handle,
-            stream,
+        Ok(Self { handle, stream, is_kept: Cell::new(false) })
+    }
+
+    /// The `FileSystemWritableFileStream`, for another writer.
+    pub fn stream(&self) -> &JsValue {
+        &self.stream
+    }
+
+    /// Marks the file as complete.
+    pub fn keep(&self) {
+        self.is_kept.set(true);
+    }
+}
+
+/// The message about a file that is closed, or could not be.
+pub fn closed_message(name: &str, outcome: Result<(), String>) -> Message {
+    match outcome {
+        Ok(()) => Message::Notice(format!("Saved {name}.")),
+        Err(reason) => Message::Error(format!(
+            "{name} could not be saved ({reason}). Check the free space on the disk, then save again."
+        )),
+    }
+}
+
+/// A file that is being written. Clones share it; dropping the last one unfinished deletes it.
+#[derive(Clone)]
+pub struct DiskFile(Rc<Inner>);
+
+struct Inner {
+    file: ChosenFile,
+    /// Bytes that were not handed to the stream yet.
+    chunk: RefCell<Vec<u8>>,
+    /// Bytes that the stream has not written yet.
+    pending_bytes: Cell<usize>,
+    /// The first error of a write.
+    error: RefCell<Option<String>>,
+}
+
+impl DiskFile {
+    /// Starts to write a file.
+    pub fn new(file: ChosenFile) -> Self {
+        Self(Rc::new(Inner {
+            file,
             chunk: RefCell::default(),
             pending_bytes: Cell::new(0),
             error: RefCell::default(),
-            is_closed: Cell::new(false),
-        })))
+        }))
     }
 
     /// Whether the browser has over 16 MiB left to write.
@@ -90,17 +123,13 @@ impl DiskFile {
     pub fn finish(self, name: String, mailbox: &Mailbox) {
         let mailbox = mailbox.clone();
         self.write_chunk();
-        self.0.is_closed.set(true);
-        let closed = call(&self.0.stream, "close", &Array::new());
+        self.0.file.keep();
+        let closed = call(&self.0.file.stream, "close", &Array::new());
         spawn_local(async move {
             let outcome = resolve(closed).await.map_err(|error| describe(&error));
             let write_error = self.0.error.borrow_mut().take();
-            mailbox.post(match outcome.and(write_error.map_or(Ok(()), Err)) {
-                Ok(()) => Message::Notice(format!("Saved {name}.")),
-                Err(reason) => Message::Error(format!(
-                    "{name} could not be saved ({reason}). Check the free space on the disk, then save again."
-                )),
-            });
+            let outcome = outcome.map(drop).and(write_error.map_or(Ok(()), Err));
+            mailbox.post(closed_message(&name, outcome));
         });
     }
 
@@ -114,7 +143,7 @@ impl DiskFile {
         inner.pending_bytes.set(inner.pending_bytes.get() + chunk.len());
         // A copy in JavaScript's memory: the module's own memory can move before the write.
         let bytes = Uint8Array::from(chunk.as_slice());
-        let written = call(&inner.stream, "write", &Array::of1(&bytes));
+        let written = call(&inner.file.stream, "write", &Array::of1(&bytes));
         spawn_local(async move {
             if let Err(error) = resolve(written).await {
                 inner.error.borrow_mut().get_or_insert_with(|| describe(&error));
@@ -141,9 +170,9 @@ impl io::Write for DiskFile {
     }
 }
 
-impl Drop for Inner {
+impl Drop for ChosenFile {
     fn drop(&mut self) {
-        if self.is_closed.get() {
+        if self.is_kept.get() {
             return;
         }
         let aborted = call(&self.stream, "abort", &Array::new());

@@ -61,21 +61,28 @@ impl Download {
     fn start(self, name: &str, mime: &str) -> Result<(), JsValue> {
         let options = BlobPropertyBag::new();
         options.set_type(mime);
-        let blob = Blob::new_with_blob_sequence_and_options(&self.blobs, &options)?;
-        let url = Url::create_object_url_with_blob(&blob)?;
-        let anchor: HtmlAnchorElement = document()
-            .ok_or_else(|| JsValue::from_str("the page has no document"))?
-            .create_element("a")?
-            .unchecked_into();
-        anchor.set_href(&url);
-        anchor.set_download(name);
-        anchor.click();
-        page::after_ms(REVOKE_AFTER_MS, move || {
-            // A URL that is already revoked needs nothing more.
-            let _ = Url::revoke_object_url(&url);
-        });
-        Ok(())
+        download_blob(name, &Blob::new_with_blob_sequence_and_options(&self.blobs, &options)?)
     }
+}
+
+/// Downloads `blob` as a file called `name`.
+///
+/// # Errors
+/// The browser's exception.
+pub fn download_blob(name: &str, blob: &Blob) -> Result<(), JsValue> {
+    let url = Url::create_object_url_with_blob(blob)?;
+    let anchor: HtmlAnchorElement = document()
+        .ok_or_else(|| JsValue::from_str("the page has no document"))?
+        .create_element("a")?
+        .unchecked_into();
+    anchor.set_href(&url);
+    anchor.set_download(name);
+    anchor.click();
+    page::after_ms(REVOKE_AFTER_MS, move || {
+        // A URL that is already revoked needs nothing more.
+        let _ = Url::revoke_object_url(&url);
+    });
+    Ok(())
 }
 
 impl io::Write for Download {

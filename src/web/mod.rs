@@ -14,10 +14,12 @@
 //! | `view_picture` | the picture on the screen as a file, for clipboard, share sheet, download |
 //! | `test_hook` | the object by which browser tests drive the page |
 //! | `session` | the state that outlives the GPU: interface, scene, notice |
-//! | `sequence_export` | frames of a path into a zip |
+//! | `sequence_export` | frames of a path into a zip or a video |
+//! | `sequence_file` | that zip or video, where the visitor wants it |
 //! | `still_export` | a picture into a download |
 //! | `autosave` | writes the scene to storage and address |
 //! | `device_loss` | how often to restart, and in which safe mode |
+//! | `video` | a video, encoded by the browser |
 //! | `file_access` | a file on the disk, written while its content is made |
 //! | `files` | downloads, file dialogue, dropped files, clipboard |
 //! | `address` | the scene in the address bar |
@@ -49,10 +51,12 @@ mod mailbox;
 mod opening;
 mod page;
 mod sequence_export;
+mod sequence_file;
 mod session;
 mod small_pictures;
 pub mod start;
 mod still_export;
 mod storage;
 mod test_hook;
+mod video;
 mod view_picture;

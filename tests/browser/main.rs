@@ -4,6 +4,7 @@
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
 mod picture;
+mod video;
 mod visit;
 
 use std::{
@@ -148,7 +149,7 @@ fn short_path() -> Project {
 }
 
 #[test]
-fn a_path_is_scrubbed_played_and_saved_as_a_zip_of_its_frames() {
+fn a_path_is_scrubbed_played_and_saved_as_videos_and_as_a_zip_of_its_frames() {
     let project = short_path();
     let document = document::project_to_json(&project);
     let visit = Visit::run_with("sequence", [("MANDELIGHT_PATH", document)]);
@@ -169,6 +170,14 @@ fn a_path_is_scrubbed_played_and_saved_as_a_zip_of_its_frames() {
     }
     for name in ["/name", "/suggested"] {
         assert!(visit.text(name).ends_with(".zip"), "{}", visit.text(name));
+    }
+    let named: Vec<&str> =
+        visit.seen["video_names"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    let files = [("video.mp4", "frames"), ("video.webm", "frames"), ("streamed.mp4", "streamed")];
+    for (name, (file, prefix)) in named.iter().zip(files) {
+        assert_eq!(FilePath::new(name).extension(), FilePath::new(file).extension());
+        let pictures = names.iter().map(|name| visit.folder.join(format!("{prefix}-{name}")));
+        video::shows_frames(&visit.folder.join(file), &pictures.collect::<Vec<_>>());
     }
 }
 

@@ -1,5 +1,5 @@
-// A visit with a camera path: scrub it, play it, and save its frames, first as a download, then
-// through the browser's save dialogue, for which a mock stands here.
+// A visit with a camera path: scrub it, play it, and save its frames, as videos and as pictures; first as
+// downloads, then through the browser's save dialogue, for which a mock stands here.
 
 import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -35,6 +35,17 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await press("play");
   await page.rested("the scene after playing", () => page.scene());
 
+  // The three kinds of file, chosen from a menu.
+  const choose = async (name) => {
+    await press("kind of file");
+    const entry = v.tab.getByRole("button", { name, exact: true });
+    await entry.evaluate((button) => button.click());
+    await v.until(`the choice of ${name}`, async () => (await entry.count()) === 0, 30);
+  };
+  v.seen.video_names = [await page.keepDownload("video.mp4", "save sequence")];
+  await choose("WebM");
+  v.seen.video_names.push(await page.keepDownload("video.webm", "save sequence"));
+  await choose("PNGs");
   v.seen.name = await page.keepDownload("frames.zip", "save sequence");
   v.seen.frames = await keepFrames(v, "frames.zip", "frames");
 
@@ -47,7 +58,11 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
       window.suggested = options.suggestedName;
       return {
         createWritable: async () => ({
-          write: async (bytes) => void window.written.push(Array.from(bytes)),
+          write: async (chunk) => {
+            // Videos are written in places, zips in a row.
+            const { data = chunk, position } = chunk;
+            window.written.push([Array.from(data), position]);
+          },
           close: async () => void (window.fileIsClosed = true),
           abort: async () => {},
         }),
@@ -60,12 +75,28 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   await v.tab.goto(`${v.address}?test&dialogue`);
   await page.firstPicture();
   await page.settled();
-  await press("save sequence");
-  await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed), 240);
-  v.seen.suggested = await v.tab.evaluate(() => window.suggested);
-  const pieces = await v.tab.evaluate(() => window.written);
-  await writeFile(join(v.out, "streamed.zip"), Buffer.concat(pieces.map((piece) => Buffer.from(piece))));
+  const written = async (name) => {
+    await press("save sequence");
+    await v.until("the file to be closed", () => v.tab.evaluate(() => window.fileIsClosed), 240);
+    const pieces = await v.tab.evaluate(() => {
+      window.fileIsClosed = false;
+      return window.written.splice(0);
+    });
+    let file = Buffer.alloc(0);
+    for (const [bytes, position] of pieces) {
+      const at = position ?? file.length;
+      const grown = Buffer.alloc(Math.max(file.length, at + bytes.length));
+      file.copy(grown);
+      Buffer.from(bytes).copy(grown, at);
+      file = grown;
+    }
+    await writeFile(join(v.out, name), file);
+    return v.tab.evaluate(() => window.suggested);
+  };
+  v.seen.suggested = await written("streamed.zip");
   v.seen.streamed = await keepFrames(v, "streamed.zip", "streamed");
+  await choose("MP4");
+  v.seen.video_names.push(await written("streamed.mp4"));
 });
 
 /** Unpacks a zip into files with `prefix`, and returns their names in the zip. */

@@ -250,3 +250,64 @@ fn what_cannot_be_rendered_says_why() {
     fs::write(&bare, document::to_json(&Scene::default())).unwrap();
     assert!(said_of(&["-o", "out"]).contains("no camera path"));
 }
+
+/// The documented line: frames through a pipe, and the video that FFmpeg makes of them.
+#[cfg(unix)]
+#[test]
+fn frames_flow_into_a_video() {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/paths.md");
+    let docs = fs::read_to_string(docs).unwrap();
+    let line = docs.lines().map(str::trim).find(|line| line.contains("-o - ")).expect("the line");
+    let place = Workplace::new();
+    let folder = place.folder.path();
+    fs::rename(folder.join("path.json"), folder.join("flight.json")).unwrap();
+    let programs = Path::new(PROGRAM).parent().unwrap();
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    let line = line.replace("1920x1080", "64x48").replace("-framerate 30", "-framerate 4");
+    let made = Command::new("sh")
+        .args(["-ec", &line])
+        .current_dir(folder)
+        .env("PATH", path)
+        .output()
+        .expect("a shell");
+    assert!(made.status.success(), "{line}: {}", said(&made));
+    let probe = Command::new("ffprobe")
+        .args(["-v", "error", "-count_frames", "-of", "csv=p=0", "-show_entries"])
+        .arg("stream=width,height,r_frame_rate,nb_read_frames")
+        .arg(folder.join("flight.mp4"))
+        .output()
+        .expect("ffprobe");
+    assert_eq!(String::from_utf8_lossy(&probe.stdout).trim(), "64,48,4/1,9");
+}
+
+#[test]
+fn standard_output_takes_one_png_a_frame() {
+    let place = Workplace::new();
+    for arguments in [&["--exr"][..], &["--stereo", "pair"]] {
+        let refused = place.run(&[&["-o", "-"], arguments].concat());
+        assert_eq!(code(&refused), 2, "{arguments:?}");
+        assert!(said(&refused).contains(arguments[0]), "{}", said(&refused));
+        assert!(refused.stdout.is_empty());
+    }
+    let files = place.run(&["-o", "files", "--frames", "2..4"]);
+    let stream = place.run(&["-o", "-", "--frames", "2..4"]);
+    assert_eq!((code(&files), code(&stream)), (0, 0), "{}", said(&stream));
+    assert_eq!(stream.stdout, [place.frame("files", 2), place.frame("files", 3)].concat());
+}
+
+/// A printed turntable has the frames of its time, and is drawn as any other path.
+#[test]
+fn a_turntable_is_printed_as_a_path() {
+    let printed = program(PROGRAM, ["scene", "--preset", "sea-urchin", "--turntable", "2.5"])
+        .output()
+        .unwrap();
+    assert_eq!(code(&printed), 0, "{}", said(&printed));
+    let text = String::from_utf8(printed.stdout).unwrap();
+    let path = document::project_from_json(&text).unwrap().path;
+    assert_eq!(path.frame_count(), 75);
+    for wrong in ["0", "0.5", "3601", "nan", "soon"] {
+        let refused = program(PROGRAM, ["scene", "--turntable", wrong]).output().unwrap();
+        assert_eq!(code(&refused), 2, "{wrong}");
+        assert!(said(&refused).contains("--turntable"), "{}", said(&refused));
+    }
+}

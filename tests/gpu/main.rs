@@ -26,6 +26,7 @@ mod picture;
 mod places;
 mod post;
 mod samples;
+mod shine;
 mod soft_shadows;
 mod staleness;
 mod stereo;

@@ -17,6 +17,7 @@ mod gestures;
 mod hostile;
 mod hybrids;
 mod keyboard;
+mod light_click;
 mod mutate;
 mod navigation;
 mod orbit;

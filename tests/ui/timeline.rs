@@ -1,13 +1,13 @@
 //! The timeline: keys are made, moved, changed and deleted there, and the view follows the playhead.
 
-use egui::{Key, Rect, pos2, vec2};
+use egui::{Key, Rect, accesskit::Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
     scene::{
         Camera, Path, Project, Scene,
         path::{Easing, Key as PathKey, MAX_KEYS},
     },
-    ui::{Action, ExportProgress, Settings},
+    ui::{Action, ExportProgress, SequenceFormat, Settings},
 };
 
 use crate::stage::*;
@@ -294,7 +294,7 @@ fn another_document_brings_the_playhead_back_onto_its_path() {
 fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
     let mut harness = stage(project(), open(), [1280.0, 720.0]);
     let size_px = harness.state().interface.view_size_px();
-    press(&mut harness, "Save sequence");
+    press(&mut harness, "Save video");
     press(&mut harness, "First frame value");
     harness.get_by_label("First frame value").type_text("20");
     harness.key_press(Key::Enter);
@@ -303,15 +303,20 @@ fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
     harness.get_by_label("Last frame value").type_text("5000");
     harness.key_press(Key::Enter);
     harness.run();
-    press(&mut harness, "Save sequence");
-    let [all, some] =
-        [[0, 181], [20, 181]].map(|frames| Action::SaveSequence { size_px, frames, pair: false });
+    press(&mut harness, "Save video");
+    let saved = |frames, format| Action::SaveSequence { size_px, frames, format, pair: false };
+    let [all, some] = [[0, 181], [20, 181]].map(|frames| saved(frames, SequenceFormat::Mp4));
     assert_eq!(harness.state().actions, [all, some]);
+    harness.get_by_role_and_label(Role::ComboBox, "Kind of file").click();
+    harness.run();
+    press(&mut harness, "PNGs");
+    press(&mut harness, "Save frames");
+    assert_eq!(harness.state().actions.last(), Some(&saved([20, 181], SequenceFormat::Pngs)));
 
     harness.state_mut().actions.clear();
     harness.state_mut().export = Some(ExportProgress { done: 0.3, remaining_secs: Some(75.0) });
     harness.run();
-    assert!(harness.query_by_label("Save sequence").is_none());
+    assert!(harness.query_by_label("Save video").is_none());
     // One progress and one button, in the panel; in the timeline while the panel is hidden.
     harness.run();
     assert_eq!(harness.get_all_by_label("Cancel").count(), 1);
@@ -350,4 +355,18 @@ fn it_fits_every_window_and_every_control_says_what_it_does() {
         let rects = harness.state().interface.rects();
         assert!(rects.get("timeline").is_none(), "it stays in {size:?}");
     }
+}
+
+/// The turn replaces the path as one undo step, and begins where the view is.
+#[test]
+fn a_turntable_becomes_the_path() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    let (before, camera) =
+        (harness.state().interface.project().clone(), scene(&harness).camera.clone());
+    press(&mut harness, "Turntable");
+    let path = harness.state().interface.project().path.clone();
+    assert_eq!(path.keys.first().map(|key| key.scene.camera.pivot.clone()), Some(camera.pivot));
+    assert_eq!(path.frame_count(), 12 * path.frames_per_second);
+    harness.state_mut().interface.editor_mut().undo();
+    assert_eq!(harness.state().interface.project().path, before.path);
 }

@@ -17,7 +17,7 @@ use crate::shell;
 /// The compilation target of the page.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
-/// The oldest major version of Node.js that is tested with the browser driver and wasm-opt.
+/// The oldest major version of Node.js that is tested with the browser driver, wasm-opt and the bundler.
 const OLDEST_NODE: u32 = 20;
 
 /// The environment variable with the path of the browser for tests.
@@ -69,6 +69,11 @@ const OPENEXR: Tool = Tool {
     // Old versions of exrheader have no successful call without a file.
     is_installed: || Command::new("exrheader").output().is_ok(),
 };
+const FFMPEG: Tool = Tool {
+    name: "FFmpeg",
+    packages: &["ffmpeg"],
+    is_installed: || Command::new("ffprobe").arg("-version").output().is_ok(),
+};
 
 /// Ensures the standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
@@ -94,7 +99,7 @@ pub fn test_tools() -> Result<Tools> {
     if is_set(BROWSER_VARIABLE) && find_browser().is_none() {
         bail!("{BROWSER_VARIABLE} names a program that does not run; set it to Chromium's path");
     }
-    ensure_installed(&[VULKAN, BROWSER, NODE, OPENEXR])?;
+    ensure_installed(&[VULKAN, BROWSER, NODE, OPENEXR, FFMPEG])?;
     node_packages()?;
     Ok(Tools { chromium: find_browser().context("the browser cannot be found any more")? })
 }

@@ -56,6 +56,9 @@ const WORKER: &str = "service-worker.js";
 const VERSION_PLACEHOLDER: &str = "const VERSION = \"\";";
 const FILES_PLACEHOLDER: &str = "const FILES = [];";
 
+/// The muxer of videos.
+const MEDIABUNNY: &str = "mediabunny.js";
+
 /// The picture that `index.html` contains and shows first.
 const OPENING: &str = "opening.jpg";
 
@@ -69,13 +72,12 @@ pub fn dist() -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// Builds the page into `folder` and deletes the old content.
+/// Builds the page into `folder` and deletes the old content. Needs Node.js for the bundle of Mediabunny.
 pub fn build(folder: &Path, optimization: Optimization) -> Result<()> {
     need::wasm_target()?;
-    if optimization == Optimization::Binaryen {
-        need::node_packages()?;
-    }
+    need::node_packages()?;
     let bound = bind(&compile()?)?;
+    bundle_mediabunny(&bound)?;
     let module = bound.join("mandelight_bg.wasm");
     if optimization == Optimization::Binaryen {
         optimise(&module)?;
@@ -116,6 +118,13 @@ fn optimise(module: &Path) -> Result<()> {
     shell::run(&mut node)
 }
 
+/// Bundles what `www/video.js` uses of Mediabunny into `folder`.
+fn bundle_mediabunny(folder: &Path) -> Result<()> {
+    let mut node = Command::new("node");
+    node.current_dir(shell::root()?).arg("xtask/mediabunny.mjs").arg(folder.join(MEDIABUNNY));
+    shell::run(&mut node)
+}
+
 /// One file of the page.
 struct Part {
     /// Path with `/` between folders; other parts refer to this part as `./name`.
@@ -138,7 +147,8 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     let size = format!("const WASM_BYTES = {};", module.bytes.len());
     parts.push(module);
     parts.push(read(bound, "mandelight.js")?);
-    for name in ["accessibility.js", "share.js"] {
+    parts.push(read(bound, MEDIABUNNY)?);
+    for name in ["accessibility.js", "share.js", "video.js"] {
         parts.push(read(www, name)?);
     }
     let mut boot = read(www, "boot.js")?;

@@ -22,7 +22,7 @@ fn path(keys: Vec<Key>) -> Path {
 }
 
 /// A scene that looks at a point from `unit` away, turned by `turn_rad` about the z axis.
-fn looking(pivot: &PrecisePoint, unit: f64, turn_rad: f64) -> Scene {
+pub(super) fn looking(pivot: &PrecisePoint, unit: f64, turn_rad: f64) -> Scene {
     let tilt = DQuat::from_rotation_z(turn_rad) * DQuat::from_rotation_x(1.1);
     let camera = Camera {
         position: pivot.moved_by(tilt * DVec3::Z * unit, unit * 1e-12),
@@ -33,7 +33,7 @@ fn looking(pivot: &PrecisePoint, unit: f64, turn_rad: f64) -> Scene {
     Scene { camera, ..Scene::default() }
 }
 
-fn deep_point() -> PrecisePoint {
+pub(super) fn deep_point() -> PrecisePoint {
     PrecisePoint([
         "0.7123456789012345678901234567890123456789".parse().unwrap(),
         "-0.3123456789012345678901234567890123456789".parse().unwrap(),

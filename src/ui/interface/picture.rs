@@ -13,7 +13,7 @@ use crate::ui::{
     handles,
     home::HomeTarget,
     icon::Icon,
-    panel,
+    light_click, panel,
     places::{self, PinInputs},
     shortcuts::{self, Command},
     theme, view,
@@ -53,6 +53,11 @@ impl Interface {
         self.pilot.draw_to_places(self.settings.drawn_to_places);
         let before = scene.camera.clone();
         self.pilot.move_camera(ui, &response, frame, scene, &self.home, commands);
+        if let Some(at) = self.light_click.asked(ui, &response)
+            && let Some(place) = self.pilot.lit_place(scene, frame, at)
+        {
+            self.selection.light = Some(light_click::light(scene, self.selection.light, &place));
+        }
         let (is_zoom, is_held) = ui.input(|i| {
             let is_zoom = i.is_scrolling() || i.multi_touch().is_some();
             (is_zoom, i.pointer.any_down())
@@ -65,6 +70,9 @@ impl Interface {
         if is_comparing {
             let caption = floating::caption(ui, rect, "Before the last change");
             self.rects.record("comparing", &caption);
+        } else if self.light_click.waits() {
+            let caption = floating::caption(ui, rect, light_click::HINT);
+            self.rects.record("light click", &caption);
         } else if self.pilot.is_flying() {
             let keys = floating::caption(ui, rect, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);

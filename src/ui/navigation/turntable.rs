@@ -15,8 +15,6 @@ use crate::scene::{Camera, PrecisePoint};
 
 /// Maximum elevation of an upright camera, up or down.
 const MAX_ELEVATION_RAD: f64 = 89.5 * std::f64::consts::PI / 180.0;
-/// Maximum z component of an upright camera's right vector.
-const LEVEL: f64 = 1e-3;
 /// Longest arc that counts as one straight step.
 const ARC_STEP_RAD: f64 = std::f64::consts::PI / 90.0;
 /// Maximum number of arc steps of one call: a full circle.
@@ -34,9 +32,7 @@ pub enum Turntable {
 impl Turntable {
     /// The rotation axes for `camera`.
     pub fn of(camera: &Camera) -> Self {
-        let rotation = camera.rotation();
-        let level = (rotation * DVec3::X).z.abs() <= LEVEL && (rotation * DVec3::Y).z >= -LEVEL;
-        if level { Self::Upright } else { Self::Free }
+        if camera.is_upright() { Self::Upright } else { Self::Free }
     }
 
     /// The rotation of `camera` by `turn` radians, left and up, in world space.

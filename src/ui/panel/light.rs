@@ -147,18 +147,12 @@ pub(super) fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_vi
 /// Converts a direction from `frame` to the camera's frame.
 pub(super) fn in_view(direction: [f64; 3], frame: LightFrame, camera: &Camera) -> DVec3 {
     let direction = DVec3::from_array(direction).normalize_or(DVec3::Z);
-    match frame {
-        LightFrame::View => direction,
-        LightFrame::Scene => camera.rotation().inverse() * direction,
-    }
+    LightFrame::View.from_world(frame.to_world(direction, camera), camera)
 }
 
 /// Converts a direction from the camera's frame to `frame`.
 pub(super) fn from_view(in_view: DVec3, frame: LightFrame, camera: &Camera) -> [f64; 3] {
-    let direction = match frame {
-        LightFrame::View => in_view,
-        LightFrame::Scene => camera.rotation() * in_view,
-    };
+    let direction = frame.from_world(LightFrame::View.to_world(in_view, camera), camera);
     direction.normalize_or(DVec3::Z).to_array()
 }
 

@@ -14,6 +14,7 @@ use crate::{
     },
     ui::{
         selection::LightRef,
+        shortcuts::Command,
         theme,
         widgets::{Help as _, button_row, caption, color, param_slider},
     },
@@ -70,6 +71,12 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
                 );
                 ui.add_space(4.0);
                 color(ui, "Key light colour", "The colour of this light", &mut light.color);
+                ui.add_space(4.0);
+                let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place (Alt + Shift + click)");
+                cx.rects.record("light a place", &response);
+                if response.clicked() {
+                    cx.commands.push(Command::LightPlace);
+                }
             });
         });
     }

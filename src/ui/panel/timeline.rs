@@ -1,6 +1,6 @@
 //! The timeline panel: a ruler to scrub, keys to drag, and commands on keys.
 
-use egui::{Button, Response, RichText, Ui, vec2};
+use egui::{Button, ComboBox, Response, RichText, Ui, vec2};
 
 use super::{context::Context, export};
 use crate::{
@@ -11,6 +11,7 @@ use crate::{
     },
     ui::{
         action::Action,
+        export_size::SequenceFormat,
         icon::{Icon, icon_button},
         shortcuts::Command,
         theme,
@@ -160,7 +161,7 @@ impl Strip<'_, '_> {
         }
     }
 
-    /// Buttons to add, update and delete keys.
+    /// Buttons to add, update and delete keys, and to make all of them.
     fn keys(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 4.0;
         let here = self.path.key_at(self.timeline.secs());
@@ -168,11 +169,13 @@ impl Strip<'_, '_> {
         let add = "Add the view and all settings as a key at the playhead. If a key is there, the new key follows the last one after 3 seconds (K).";
         let update = "Replace the key at the playhead by the view (U)";
         let delete = "Delete the selected key (Del)";
+        let turntable = "Make a path once around the scene in 12 seconds, instead of the present one. It repeats without a seam.";
         let selected = self.timeline.selected(self.path).is_some();
         for (name, hover, command, enabled) in [
             ("Add key", add, Command::AddKey, !full),
             ("Update key", update, Command::UpdateKey, here.is_some() && !self.on_path),
             ("Delete key", delete, Command::DeleteKey, selected),
+            ("Turntable", turntable, Command::Turntable, true),
         ] {
             let height = ui.spacing().interact_size.y;
             let button = Button::new(name).min_size(vec2(0.0, height));
@@ -260,6 +263,28 @@ impl Strip<'_, '_> {
         ui.add_space(8.0);
     }
 
+    /// The choice between a video and pictures.
+    fn format(&mut self, ui: &mut Ui) {
+        let chosen = &mut self.cx.settings.export.sequence;
+        let name = |format| {
+            SequenceFormat::ALL.iter().find(|(of, ..)| *of == format).map_or("", |it| it.1)
+        };
+        let shown = ComboBox::from_id_salt("kind of file")
+            .width(64.0)
+            .selected_text(name(*chosen))
+            .show_ui(ui, |ui| {
+                for (format, name, hover) in SequenceFormat::ALL {
+                    // Only a pointer's click closes the menu by itself.
+                    if ui.selectable_value(chosen, format, name).help(hover).clicked() {
+                        ui.close();
+                    }
+                }
+            });
+        let response = shown.response.accessible_name("Kind of file");
+        self.cx.rects.record("kind of file", &response);
+        response.help("Whether the frames become a video or pictures");
+    }
+
     /// The button that saves the frames, or the progress of an export.
     fn save(&mut self, ui: &mut Ui) {
         if let Some(progress) = self.cx.inputs.export {
@@ -274,22 +299,31 @@ impl Strip<'_, '_> {
             return;
         }
         let Some(last) = self.path.frame_count().checked_sub(1) else { return };
+        self.format(ui);
         let [first, end] = self.timeline.frames.unwrap_or([0, last]).map(|f| f.min(last));
-        let (export, view_px) = (self.cx.settings.export, self.cx.view_px);
+        let (mut export, view_px) = (self.cx.settings.export, self.cx.view_px);
+        // A video has both eyes' pictures in each frame.
+        export.pair &= !export.sequence.is_video();
         let layout = self.cx.scene.camera.stereo.layout;
         let extent = export.text(view_px, layout);
         let count = end - first + 1;
-        let text = RichText::new("Save sequence").color(theme::ON_ACCENT);
+        let (name, kind) = match export.sequence {
+            SequenceFormat::Mp4 => ("Save video", "an MP4 video"),
+            SequenceFormat::WebM => ("Save video", "a WebM video"),
+            SequenceFormat::Pngs => ("Save frames", "PNGs in one zip file"),
+        };
+        let text = RichText::new(name).color(theme::ON_ACCENT);
         let height_pt = ui.spacing().interact_size.y;
         let button = Button::new(text).fill(theme::ACCENT).min_size(vec2(0.0, height_pt));
         let response = ui.add(button).help(format!(
-            "Renders {count} frames of {extent} as PNGs in one zip file. For other sizes, see More, Export."
+            "Renders {count} frames of {extent} as {kind}. For other sizes, see More, Export."
         ));
         self.cx.rects.record("save sequence", &response);
         if response.clicked() {
             self.cx.actions.push(Action::SaveSequence {
                 size_px: export.resolve(view_px, layout),
                 frames: [first, end + 1],
+                format: export.sequence,
                 pair: export.is_pair(layout),
             });
         }

@@ -10,7 +10,7 @@ use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::{DMat3, DVec3};
 use mandelight::{
     export::{
-        PictureFormat, StillJob, StillOptions, StillStatus, frame_name, scene_text,
+        Archive, PictureFormat, StillJob, StillOptions, StillStatus, frame_name, scene_text,
         sequence::SequenceJob,
     },
     formula::{DistanceField, mandelbulb::Mandelbulb},
@@ -130,7 +130,7 @@ fn path() -> Path {
 /// The files of a sequence's frames.
 fn sequence(frames: std::ops::Range<u32>) -> Vec<Vec<u8>> {
     let options = StillOptions::new([36, 24]);
-    let sink = Cursor::new(Vec::new());
+    let sink = Archive::new(Cursor::new(Vec::new()));
     let mut job = SequenceJob::new(pipelines(), path(), frames.clone(), options, false, sink)
         .expect("frames");
     let mut now_secs = 0.0;
@@ -138,7 +138,8 @@ fn sequence(frames: std::ops::Range<u32>) -> Vec<Vec<u8>> {
         pipelines().gpu.wait();
         now_secs += 0.01;
     }
-    let mut archive = zip::ZipArchive::new(job.finish().expect("an archive")).expect("a zip");
+    let archive = job.finish().and_then(Archive::finish);
+    let mut archive = zip::ZipArchive::new(archive.expect("a zip")).expect("a zip");
     frames
         .map(|frame| {
             let mut bytes = Vec::new();

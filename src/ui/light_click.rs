@@ -1,0 +1,89 @@
+//! Lighting of a place by a click on it.
+//!
+//! In: a click in the view. Out: the selected light, where nothing is between it and the place.
+
+use egui::{Pos2, Response, Ui};
+
+use super::{pilot::LitPlace, selection::LightRef};
+use crate::scene::{Camera, EnvironmentLight, Lights, Scene, follow, param};
+
+/// What the picture says while it waits for the click.
+pub const HINT: &str = "Click a place to light it · Esc to stop";
+
+/// Distances of a point light from the place, in view units.
+const DISTANCES: [f64; 2] = [0.1, 1.5];
+
+/// Whether the next click in the view lights a place.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LightClick {
+    waits: bool,
+}
+
+impl LightClick {
+    /// True while the next click lights a place.
+    pub fn waits(self) -> bool {
+        self.waits
+    }
+
+    /// Begins or ends the wait.
+    pub fn toggle(&mut self) {
+        self.waits = !self.waits;
+    }
+
+    /// Where in the window a click of this frame asks for light.
+    pub fn asked(&mut self, ui: &Ui, view: &Response) -> Option<Pos2> {
+        let is_asked = self.waits || ui.input(|i| i.modifiers.alt && i.modifiers.shift);
+        let at = view.interact_pointer_pos().filter(|_| view.clicked() && is_asked)?;
+        self.waits = false;
+        Some(at)
+    }
+}
+
+/// Lets the selected light, or the first, shine on `place`. A scene without lights gets one.
+pub fn light(scene: &mut Scene, selected: Option<LightRef>, place: &LitPlace) -> LightRef {
+    let Scene { camera, lights, .. } = scene;
+    let Some(seen) = follow::shown(lights, camera) else {
+        return aim(lights, camera, selected, place);
+    };
+    // Lights that have turned with the view are edited as they are seen.
+    let mut edited = seen.clone();
+    let target = aim(&mut edited, camera, selected, place);
+    *lights = follow::with_edit(std::mem::take(lights), &seen, edited, camera);
+    target
+}
+
+fn aim(
+    lights: &mut Lights,
+    camera: &Camera,
+    selected: Option<LightRef>,
+    place: &LitPlace,
+) -> LightRef {
+    if lights.environment.is_empty() && lights.point.is_empty() {
+        lights.environment.push(EnvironmentLight::default());
+    }
+    let first =
+        if lights.environment.is_empty() { LightRef::Point(0) } else { LightRef::Environment(0) };
+    let target = selected.filter(|light| light.exists(lights)).unwrap_or(first);
+    match target {
+        LightRef::Environment(index) => {
+            let light = &mut lights.environment[index];
+            light.direction = light.frame.from_world(place.toward_light, camera).to_array();
+            light.muted = false;
+        }
+        LightRef::Point(index) => {
+            let light = &mut lights.point[index];
+            let unit = camera.view_unit();
+            let before = (&light.position - &camera.position - place.offset).length();
+            // Behind the eye, something might be in the way.
+            let farthest = (DISTANCES[1] * unit).min(0.9 * place.offset.length());
+            let distance = before.clamp((DISTANCES[0] * unit).min(farthest), farthest);
+            let moved = place.offset + place.toward_light * distance;
+            light.position = camera.position.moved_by(moved, 1e-6 * unit);
+            // As bright there as from where it was.
+            let factor = (distance / before.max(1e-3 * unit)).powi(2);
+            light.intensity = param::POINT_INTENSITY.clamp(light.intensity * factor);
+            light.muted = false;
+        }
+    }
+    target
+}

@@ -1,0 +1,76 @@
+//! A click that lights a place.
+
+use egui::{Key, Modifiers, PointerButton, Pos2, pos2};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use glam::DVec3;
+use mandelight::{
+    scene::{PointLight, PrecisePoint, Scene},
+    ui::Settings,
+};
+
+use crate::stage::*;
+
+/// A place of the surface, right of the middle, and one of the background.
+const SURFACE: Pos2 = pos2(540.0, 330.0);
+const BACKGROUND: Pos2 = pos2(20.0, 60.0);
+
+fn lit(scene: Scene) -> Harness<'static, Stage> {
+    without_motion(stage(scene, Settings::default(), [1280.0, 720.0]))
+}
+
+fn click(harness: &mut Harness<'_, Stage>, at: Pos2, modifiers: Modifiers) {
+    harness.event(egui::Event::ModifiersChanged(modifiers));
+    harness.event(egui::Event::PointerMoved(at));
+    harness.step();
+    for pressed in [true, false] {
+        pointer(harness, at, PointerButton::Primary, pressed, modifiers);
+        harness.step();
+    }
+    harness.event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    harness.run();
+}
+
+#[test]
+fn the_button_waits_for_one_click() {
+    let mut harness = lit(Scene::default());
+    let before = scene(&harness).clone();
+    press(&mut harness, "Light a place");
+    assert!(harness.query_by_label_contains("Click a place to light it").is_some());
+    click(&mut harness, SURFACE, Modifiers::NONE);
+    let after = scene(&harness).clone();
+    assert_ne!(after.lights.environment[0], before.lights.environment[0]);
+    let rest = Scene { lights: before.lights.clone(), ..after.clone() };
+    assert_eq!(rest, before, "only the light moves");
+    // The next click does nothing, and the light was one step.
+    click(&mut harness, SURFACE, Modifiers::NONE);
+    assert_eq!(*scene(&harness), after);
+    assert_eq!(undo_all(&mut harness), 1);
+}
+
+#[test]
+fn escape_ends_the_wait_and_the_background_takes_no_light() {
+    let mut harness = lit(Scene::default());
+    let before = scene(&harness).clone();
+    press(&mut harness, "Light a place");
+    harness.key_press(Key::Escape);
+    harness.run();
+    click(&mut harness, SURFACE, Modifiers::NONE);
+    click(&mut harness, BACKGROUND, Modifiers::ALT | Modifiers::SHIFT);
+    assert_eq!(*scene(&harness), before);
+}
+
+/// A point light comes so near that its light arrives, and stays as bright there.
+#[test]
+fn a_point_light_comes_along() {
+    let mut far = Scene::default();
+    far.lights.environment.clear();
+    let position = PrecisePoint::from(DVec3::new(0.0, 60.0, 0.0));
+    far.lights.point = vec![PointLight { position, muted: true, ..PointLight::default() }];
+    let mut harness = lit(far);
+    click(&mut harness, SURFACE, Modifiers::ALT | Modifiers::SHIFT);
+    let after = scene(&harness);
+    let light = &after.lights.point[0];
+    let from_eye = (&light.position - &after.camera.position).length();
+    assert!(from_eye < 3.0 * after.camera.view_unit(), "{from_eye}");
+    assert!(!light.muted && light.intensity < PointLight::default().intensity, "{light:?}");
+}
