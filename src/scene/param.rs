@@ -63,12 +63,12 @@ params! {
         "Brightness of the light at a distance of one scene unit. Twice the distance gives a quarter of the light.";
     POINT_RADIUS = "lights.point[].radius", "Radius", SceneUnits, 0.0, 10.0, default 0.0, Logarithmic by 0.01,
         "Radius of the glowing ball. Larger softens the shadows while the picture refines.";
-    RIG_COUNT = "lights.rig.count", "Rig lights", Count, 3.0, 64.0, default 16.0, Integer by 1.0,
+    RIG_COUNT = "lights.rig.count", "Sky lights", Count, 3.0, 64.0, default 16.0, Integer by 1.0,
         "Number of lights that represent the sky or the 360° picture. More gives softer, more exact light and is slower.";
-    RIG_INTENSITY = "lights.rig.intensity", "Rig intensity", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
-        "Brightness of the rig's lights and of its 360° picture as the background.";
-    RIG_SHADOW_REACH = "lights.rig.shadow_reach", "Rig reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
-        "Maximum distance at which a surface casts a shadow from the rig. Shorter brightens crevices and is faster.";
+    RIG_INTENSITY = "lights.rig.intensity", "Sky brightness", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
+        "Brightness of the light of the sky or the 360° picture, and of that picture as the background.";
+    RIG_SHADOW_REACH = "lights.rig.shadow_reach", "Sky shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
+        "Maximum distance at which a surface casts a shadow from the light of the sky or the 360° picture. Shorter brightens crevices and is faster.";
     SUN_STRENGTH = "lights.rig.sky.sun_strength", "Sun strength", None, 0.0, 100.0, default 2.0, Logarithmic by 0.05,
         "Brightness of the sun. At 1, a white surface that faces the sun is white.";
     SUN_SIZE = "lights.rig.sky.sun_size_deg", "Sun size", Degrees, 0.0, 45.0, default 6.0, Linear by 0.5,
@@ -159,7 +159,7 @@ params! {
         "Only pixels brighter than this glow. At 0 all pixels glow, as in the thesis.";
     BLOOM_PASSES = "bloom.passes", "Passes", Count, 1.0, 4.0, default 3.0, Integer by 1.0,
         "Shape of the glow: 1 is square, as in the thesis; 3 and more are round.";
-    MOTION_BUDGET = "quality.motion_budget_ms", "Motion budget", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
+    MOTION_BUDGET = "quality.motion_budget_ms", "Moving frame time", Milliseconds, 4.0, 200.0, default 16.0, Logarithmic by 1.0,
         "GPU time per frame during motion. Higher is sharper and choppier.";
     SAMPLES = "quality.samples", "Samples", Count, 1.0, 65536.0, default 16.0, Integer by 1.0,
         "Number of samples per pixel at rest. More gives smoother edges and less grain, and takes longer.";

@@ -49,7 +49,7 @@ fn every_slider_in_reach_of_the_scene_moves_its_value() {
     harness.get_by_label("Auto exposure").click();
     harness.run();
     press(&mut harness, "Add point light");
-    press(&mut harness, "Rig: Sky");
+    press(&mut harness, "Sky light: Sky");
     for param in param::of(FormulaRef::default()) {
         if param == &param::SCREEN_HEIGHT {
             press(&mut harness, "Stereo: Stacked");
@@ -130,8 +130,8 @@ fn every_parameter_of_every_formula_has_a_control() {
         press(&mut harness, "Add point light");
         missing.retain(|param| rails_of(&harness, param.path).is_empty());
         let others = [
-            "Rig: Sky",
-            "Rig: Picture",
+            "Sky light: Sky",
+            "Sky light: 360° picture",
             "Stereo: Stacked",
             "Indirect light: Horizon",
             "Material: Physical",
@@ -194,8 +194,8 @@ fn lights_are_added_copied_muted_soloed_and_removed() {
     assert_eq!(lights.len(), start + 2);
     assert_eq!(lights[start], lights[start + 1]);
     let name = format!("Light {}", start + 1);
-    press(&mut harness, &format!("Mute {name}"));
-    press(&mut harness, &format!("Solo {name}"));
+    press(&mut harness, &format!("{name} off"));
+    press(&mut harness, &format!("Only {name}"));
     let light = &scene(&harness).lights.environment[start];
     assert!(light.muted && light.solo);
     press(&mut harness, "Remove");
@@ -293,8 +293,8 @@ fn every_control_has_a_hover_text() {
     press(&mut harness, "Form: Julia");
     harness.get_by_label("Auto exposure").click();
     harness.run();
-    press(&mut harness, "Picture size: Typed");
-    press(&mut harness, "Rig: Sky");
+    press(&mut harness, "Picture size: Custom");
+    press(&mut harness, "Sky light: Sky");
     press(&mut harness, "Add point light");
     // The parts of a control share its text, so one look at each name is enough.
     let controls: std::collections::BTreeMap<_, _> = harness
@@ -412,7 +412,7 @@ fn the_help_of_buttons_and_choices_hides_no_control() {
     for (name, help) in [
         ("Dives", "Views at very deep zooms"),
         ("Add light", "Add parallel light"),
-        ("Rig: Sky", "Adds the light of a sky"),
+        ("Sky light: Sky", "Adds the light of a sky"),
     ] {
         let at = harness.get_by_label(name).rect().center();
         harness.event(egui::Event::PointerMoved(at));

@@ -41,7 +41,7 @@ fn another_number_of_lights_divides_the_picture_anew() {
     harness.state_mut().interface.use_environment_map(environment_map("garden.hdr"));
     harness.run();
     for (wanted, expected) in [(5.0, 5), (30.0, 30), (64.0, MAX_LIGHTS - 3)] {
-        slider(&harness, "Rig lights").set_value_accesskit(wanted);
+        slider(&harness, "Sky lights").set_value_accesskit(wanted);
         harness.run();
         assert_eq!(scene(&harness).lights.rig.environment_map.lights.len(), expected);
         assert_eq!(scene(&harness).validate(), Ok(()));
@@ -55,7 +55,7 @@ fn without_its_picture_a_rig_keeps_its_lights() {
     let mut harness = stage(lit.clone(), unfolded(), [1280.0, 4000.0]);
     harness.run();
     harness.get_by_label_contains("garden.hdr is not loaded");
-    let rail = harness.get_by_role_and_label(Role::Slider, "Rig lights");
+    let rail = harness.get_by_role_and_label(Role::Slider, "Sky lights");
     assert!(rail.accesskit_node().is_disabled());
     assert_eq!(*scene(&harness), lit);
     press(&mut harness, "Choose picture…");
@@ -68,13 +68,13 @@ fn a_rig_never_brings_more_lights_than_a_scene_can_hold() {
     let light = crowded.lights.environment[0].clone();
     crowded.lights.environment.resize(MAX_LIGHTS - 10, light.clone());
     let mut harness = stage(crowded.clone(), unfolded(), [1280.0, 4000.0]);
-    press(&mut harness, "Rig: Sky");
+    press(&mut harness, "Sky light: Sky");
     assert_eq!(scene(&harness).validate(), Ok(()));
     assert_eq!(scene(&harness).lights.len(), MAX_LIGHTS);
     // Where there is no room at all, it stays as it was.
     crowded.lights.environment.resize(MAX_LIGHTS - 2, light);
     let mut harness = stage(crowded.clone(), unfolded(), [1280.0, 4000.0]);
-    press(&mut harness, "Rig: Sky");
+    press(&mut harness, "Sky light: Sky");
     assert_eq!(*scene(&harness), crowded);
 }
 
@@ -83,7 +83,7 @@ fn a_background_picture_can_be_taken_away_whatever_lights_the_scene() {
     let mut lit = Scene::default();
     lit.surround_by(&environment_map("garden.hdr"));
     let mut harness = stage(lit, unfolded(), [1280.0, 4000.0]);
-    for rig in ["Rig: Picture", "Rig: Sky", "Rig: None"] {
+    for rig in ["Sky light: 360° picture", "Sky light: Sky", "Sky light: None"] {
         press(&mut harness, rig);
         for expected in [BackgroundKind::Gradient, BackgroundKind::EnvironmentMap] {
             harness.get_by_label("Show it behind the fractal").click();

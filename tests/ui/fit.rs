@@ -226,7 +226,7 @@ fn help_lists_the_shortcuts_and_fits() {
 fn no_row_is_wider_than_the_panel() {
     let mut harness = workshop();
     press(&mut harness, "Form: Julia");
-    press(&mut harness, "Rig: Sky");
+    press(&mut harness, "Sky light: Sky");
     press(&mut harness, "Add point light");
     let edges = harness.root().children_recursive().filter_map(|node| {
         let node = node.accesskit_node();

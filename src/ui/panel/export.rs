@@ -90,7 +90,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             (1, "View", "The view's width and height"),
             (2, "2×", "Twice the view's width and height"),
             (4, "4×", "Four times the view's width and height"),
-            (0, "Typed", "Any width and height"),
+            (0, "Custom", "Any width and height"),
         ],
     );
     cx.rects.record("picture size", &response);

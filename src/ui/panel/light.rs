@@ -29,7 +29,7 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
                 }
                 ui.checkbox(&mut light.casts_shadows, "Shadows").help("This light casts shadows");
                 let mut limited = light.shadow_reach.is_some();
-                let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Limit reach"));
+                let reach = ui.add_enabled(light.casts_shadows, egui::Checkbox::new(&mut limited, "Near shadows only"));
                 if reach.help("Only near surfaces cast shadows, up to the shadow reach below. Brightens the picture.").changed() {
                     light.shadow_reach = limited.then_some(param::SHADOW_REACH.default);
                 }
@@ -48,11 +48,11 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
     let mut frame = light.frame;
     choice(
         ui,
-        "Fixed to",
+        "Stays with",
         &mut frame,
         &[
             (LightFrame::Scene, "Scene", "The light stays in place while the camera moves"),
-            (LightFrame::View, "View", "The light moves with the camera"),
+            (LightFrame::View, "Camera", "The light moves with the camera"),
         ],
     );
     if frame != light.frame {

@@ -188,7 +188,7 @@ fn list(ui: &mut Ui, cx: &mut Context<'_>) {
     cx.rects.record_rect("light list", shown.inner_rect);
 }
 
-/// A light's row: colour, name, mute and solo. Returns the name's response.
+/// A light's row: colour, name, and whether it is off or shines alone. Returns the name's response.
 fn row(
     ui: &mut Ui,
     this: LightRef,
@@ -203,7 +203,7 @@ fn row(
             let height = ui.spacing().interact_size.y;
             color(ui, &format!("{name} colour"), "The colour of this light", linear);
             let width = (ui.available_width()
-                - 2.0 * (height.max(30.0) + ui.spacing().item_spacing.x))
+                - 2.0 * (height.max(TOGGLE_WIDTH) + ui.spacing().item_spacing.x))
                 .max(40.0);
             let chosen = *selected == Some(this);
             let text =
@@ -215,14 +215,8 @@ fn row(
             if response.clicked() {
                 *selected = Some(this);
             }
-            toggle(ui, "M", &format!("Mute {name}"), "Mute: switch this light off", muted);
-            toggle(
-                ui,
-                "S",
-                &format!("Solo {name}"),
-                "Solo: while any light is solo, only solo lights shine",
-                solo,
-            );
+            toggle(ui, "Off", &format!("{name} off"), "Switch this light off", muted);
+            toggle(ui, "Only", &format!("Only {name}"), "Only the lights marked so shine", solo);
             response
         })
         .inner
@@ -230,13 +224,16 @@ fn row(
     .inner
 }
 
-fn toggle(ui: &mut Ui, letter: &str, name: &str, hover: &str, on: &mut bool) {
+/// Width of a row's switches, in points.
+const TOGGLE_WIDTH: f32 = 46.0;
+
+fn toggle(ui: &mut Ui, word: &str, name: &str, hover: &str, on: &mut bool) {
     let side = ui.spacing().interact_size.y;
     let fill = if *on { theme::ACCENT } else { theme::RAISED };
     let text =
-        RichText::new(letter).small().color(if *on { theme::ON_ACCENT } else { theme::TEXT_DIM });
+        RichText::new(word).small().color(if *on { theme::ON_ACCENT } else { theme::TEXT_DIM });
     let response =
-        ui.add_sized(vec2(side.max(30.0), side), Button::new(text).fill(fill)).help(hover);
+        ui.add_sized(vec2(side.max(TOGGLE_WIDTH), side), Button::new(text).fill(fill)).help(hover);
     if response.clicked() {
         *on = !*on;
     }

@@ -60,14 +60,14 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     param_slider(ui, &param::MOTION_BUDGET, &mut quality.motion_budget_ms);
     choice(
         ui,
-        "Normals",
+        "Surface shading",
         &mut quality.normals,
         &[
-            (Normals::None, "None", "No shading: lit points are equally bright"),
-            (Normals::Three, "3", "From 3 neighbours: fast, and wrong on most sides"),
-            (Normals::Six, "6", "From 6 neighbours: two along each axis"),
-            (Normals::Eighteen, "18", "From 18 neighbours: slow, soft"),
-            (Normals::TwentySix, "26", "From 26 neighbours: slowest, softest"),
+            (Normals::None, "Flat", "No shading: lit points are equally bright"),
+            (Normals::Three, "Coarse", "From 3 neighbours: fast, and wrong on most sides"),
+            (Normals::Six, "Standard", "From 6 neighbours: two along each axis"),
+            (Normals::Eighteen, "Soft", "From 18 neighbours: slow, soft"),
+            (Normals::TwentySix, "Softest", "From 26 neighbours: slowest, softest"),
             (Normals::Analytic, "Exact", "From the formula: sharpest, and fast"),
         ],
     );

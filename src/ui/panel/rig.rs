@@ -20,14 +20,14 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let before = cx.scene.lights.rig.kind;
     let chosen = choice(
         ui,
-        "Rig",
+        "Sky light",
         &mut cx.scene.lights.rig.kind,
         &[
             (RigKind::None, "None", "Only the lights of the list above"),
             (RigKind::Sky, "Sky", "Adds the light of a sky with a sun"),
             (
                 RigKind::EnvironmentMap,
-                "Picture",
+                "360° picture",
                 "Adds the light of a 360° picture (environment map)",
             ),
         ],
@@ -208,18 +208,18 @@ fn background(ui: &mut Ui, background: &mut Background) {
 fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
     param_slider(ui, &param::RIG_INTENSITY, &mut rig.intensity);
     ui.horizontal_wrapped(|ui| {
-        ui.checkbox(&mut rig.casts_shadows, "Rig shadows").help("The rig's lights cast shadows");
+        ui.checkbox(&mut rig.casts_shadows, "Sky shadows")
+            .help("The light of the sky casts shadows");
         let mut limited = rig.shadow_reach.is_some();
-        let reach = egui::Checkbox::new(&mut limited, "Limit rig reach");
+        let reach = egui::Checkbox::new(&mut limited, "Near sky shadows only");
         let reach = ui
             .add_enabled(rig.casts_shadows, reach)
-            .help("Only near surfaces cast shadows from the rig. Brightens the picture.");
+            .help("Only near surfaces cast shadows from the sky. Brightens the picture.");
         if reach.changed() {
             rig.shadow_reach = limited.then_some(param::RIG_SHADOW_REACH.default);
         }
-        ui.checkbox(&mut rig.muted, "Mute rig").help("Switch all lights of the rig off");
-        ui.checkbox(&mut rig.solo, "Solo rig")
-            .help("While any light is solo, only solo lights shine");
+        ui.checkbox(&mut rig.muted, "Sky off").help("Switch the light of the sky off");
+        ui.checkbox(&mut rig.solo, "Only the sky").help("Only the lights marked so shine");
     });
     if let Some(reach) = &mut rig.shadow_reach {
         ui.add_enabled_ui(rig.casts_shadows, |ui| {
@@ -229,11 +229,11 @@ fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
     let before = rig.frame;
     choice(
         ui,
-        "Rig fixed to",
+        "Sky stays with",
         &mut rig.frame,
         &[
-            (LightFrame::Scene, "Scene", "The rig stays in place while the camera moves"),
-            (LightFrame::View, "View", "The rig moves with the camera"),
+            (LightFrame::Scene, "Scene", "The sky stays in place while the camera moves"),
+            (LightFrame::View, "Camera", "The sky moves with the camera"),
         ],
     );
     if rig.frame != before {

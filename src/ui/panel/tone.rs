@@ -74,15 +74,15 @@ fn exposure(ui: &mut Ui, tone: &mut Tone) {
     if tone.auto_exposure {
         choice(
             ui,
-            "Mean",
+            "Measured by",
             &mut tone.mean,
             &[
                 (
                     ToneMean::Logarithmic,
-                    "Logarithmic",
+                    "Most of the picture",
                     "Small bright spots hardly change the brightness",
                 ),
-                (ToneMean::Arithmetic, "Arithmetic", "Small bright spots darken the picture"),
+                (ToneMean::Arithmetic, "All light", "Small bright spots darken the picture"),
             ],
         );
         param_slider(ui, &param::KEY, &mut tone.key);
@@ -106,10 +106,10 @@ fn curve(ui: &mut Ui, tone: &mut Tone) {
     if tone.curve == ToneCurve::Reinhard {
         choice(
             ui,
-            "Reinhard on",
+            "Curve works on",
             &mut tone.channels,
             &[
-                (ToneChannels::Luminance, "Luminance", "Colours keep their saturation"),
+                (ToneChannels::Luminance, "Brightness", "Colours keep their saturation"),
                 (ToneChannels::PerChannel, "Each channel", "Bright colours become white"),
             ],
         );
