@@ -31,6 +31,7 @@ mod gradient;
 mod info;
 mod input;
 mod integrator;
+mod look;
 mod output;
 mod places;
 mod render;

@@ -14,6 +14,7 @@ use super::{
     fractals::OtherFractal,
     gradient::GradientArguments,
     input::{self, Change},
+    look::{self, LookArguments},
     print,
 };
 
@@ -29,11 +30,16 @@ pub struct SceneArguments {
     /// List all presets: opening scenes, dives, the formulas' scenes, mixes
     #[arg(long, conflicts_with_all = ["preset", "set", "surprise", "turntable"])]
     list_presets: bool,
+    /// List all looks and their parts: colours, lights, backgrounds, tones
+    #[arg(long, conflicts_with_all = ["list_presets", "look", "preset", "set", "surprise", "turntable"])]
+    list_looks: bool,
     /// Add a camera path once around the scene in this time, which repeats without a seam
     #[arg(long, value_name = "SECS", value_parser = parse_secs)]
     turntable: Option<f64>,
     #[command(flatten)]
     other: OtherFractal,
+    #[command(flatten)]
+    look: LookArguments,
     #[command(flatten)]
     gradient: GradientArguments,
     /// Change a field, such as fractal.power=3 or lights.environment[0].intensity=2
@@ -41,8 +47,11 @@ pub struct SceneArguments {
     set: Vec<Change>,
 }
 
-/// Prints the scene document, or the list of presets.
+/// Prints the scene document, or the list of presets or looks.
 pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
+    if arguments.list_looks {
+        return print(&look::list());
+    }
     if arguments.list_presets {
         let names: Vec<String> = presets::all().map(Preset::id).collect();
         let width = names.iter().map(String::len).max().unwrap_or(0);
@@ -63,7 +72,8 @@ pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
         Some(seed) => Surprise::new(seed).finish(),
         None => (preset.scene)(),
     };
-    let scene = arguments.gradient.in_scene(arguments.other.in_scene(scene)?)?;
+    let scene = arguments.look.in_scene(arguments.other.in_scene(scene)?)?;
+    let scene = arguments.gradient.in_scene(scene)?;
     let scene = input::changed(scene, &arguments.set)?;
     let path = match arguments.turntable {
         Some(secs) => Path::turntable(&scene, secs, Path::default().frames_per_second),

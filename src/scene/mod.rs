@@ -11,6 +11,7 @@
 //! | `lighting` | the part that holds all lights |
 //! | `light`, `rig` | single lights; lights generated together |
 //! | [`light_setups`] | starting points of light |
+//! | [`looks`] | appearances for any scene |
 //! | [`follow`] | the lights of close views, which follow the view |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
@@ -39,6 +40,7 @@ mod quality;
 mod rig;
 mod surface;
 mod tone;
+mod tone_curve;
 
 pub mod color;
 pub mod dice;
@@ -50,6 +52,7 @@ pub mod history;
 mod indirect;
 pub mod light_setups;
 pub mod link;
+pub mod looks;
 pub mod param;
 pub mod path;
 pub mod presets;
