@@ -18,6 +18,7 @@ use super::{
     frame::Frame,
     light_click::LightClick,
     loaded::Loaded,
+    look_preview::LookPreview,
     mutate::Mutate,
     navigation::CameraStatus,
     notice,
@@ -65,6 +66,7 @@ pub struct Interface {
     finder: Finder,
     mutate: Mutate,
     surprises: Surprises,
+    look_preview: LookPreview,
     help_open: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
@@ -97,6 +99,7 @@ impl Interface {
             finder: Finder::default(),
             mutate: Mutate::default(),
             surprises: Surprises::default(),
+            look_preview: LookPreview::default(),
             help_open: false,
             camera_status: None,
             rects: Rects::default(),
@@ -119,10 +122,12 @@ impl Interface {
         self.editor.scene()
     }
 
-    /// The scene to draw: the current one, or the one before the last change while they are compared.
+    /// The scene to draw: the current one, the one before the last change while they are compared, or the current
+    /// one in the look that is pointed at.
     pub fn shown_scene(&self) -> &Scene {
         let before = self.editor.steps().next().filter(|_| self.is_comparing);
-        before.map_or(self.scene(), |project| &project.scene)
+        let shown = before.map(|project| &project.scene).or(self.look_preview.scene());
+        shown.unwrap_or(self.scene())
     }
 
     /// The current scene and path.
@@ -273,6 +278,14 @@ impl Interface {
         if self.timeline.is_playing() {
             ui.ctx().request_repaint();
         }
+        let is_busy = self.timeline.is_playing()
+            || self.pilot.is_moving(now_secs)
+            || self.mutate.is_open()
+            || self.finder.is_open();
+        if self.look_preview.update(self.editor.scene(), is_busy) {
+            // The view's caption names the look.
+            ui.ctx().request_repaint();
+        }
         actions
     }
 
@@ -296,6 +309,7 @@ impl Interface {
             selection: &mut self.selection,
             favourites: &mut self.favourites,
             rects: &mut self.rects,
+            pointed_look: &mut self.look_preview.pointed,
             histogram_shown: &mut self.histogram_shown,
             commands,
             actions,

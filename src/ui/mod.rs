@@ -22,6 +22,7 @@
 //! | `slice` | slices of a frame for searches |
 //! | `mutate`, `surprises` | variations of the scene, of which one is chosen; random scenes |
 //! | `share` | the share window: link, QR code, picture |
+//! | `look_preview`, `sphere` | a look in the view while it is pointed at; what its swatch shows |
 //! | `small_picture` | small pictures that the shell draws when idle |
 //! | `floating`, `hints`, `notice` | buttons and captions over the picture, first hints, the shell's message |
 //! | [`thumbnail`], [`opening`] | pictures on the buttons of scenes and dives; the picture that the page shows first |
@@ -49,6 +50,7 @@ mod icon;
 mod interface;
 mod light_click;
 mod loaded;
+mod look_preview;
 mod mutate;
 mod notice;
 mod panel;
@@ -60,6 +62,7 @@ mod share;
 mod sheet_height;
 mod slice;
 mod small_picture;
+mod sphere;
 mod status;
 mod surprises;
 mod timeline;

@@ -186,18 +186,18 @@ fn ember() -> Look {
             ..Coloring::default()
         },
         gradient: vec![
-            stop(0.0, 0xFFD27A),
-            stop(0.14, 0xFF7A1E),
-            stop(0.3, 0xB01E04),
-            stop(0.48, 0x000000),
-            stop(0.96, 0x000000),
+            stop(0.0, 0xFFB040),
+            stop(0.07, 0xF05A10),
+            stop(0.2, 0x8C1402),
+            stop(0.34, 0x000000),
+            stop(0.97, 0x000000),
         ],
         ..SecondLayer::default()
     };
     let parts = Parts {
         gradient: gradient(&[0x3A302C, 0x54463F, 0x2A2422, 0x463A36]),
         material: Surface {
-            emission: 1.6,
+            emission: 1.1,
             driven_by_layer: DrivenByLayer { emission: true, ..DrivenByLayer::default() },
             second_layer: glow,
             ..matte(0.02)
@@ -219,14 +219,14 @@ fn ember() -> Look {
 
 fn neon() -> Look {
     let parts = Parts {
-        gradient: gradient(&[0x150B30, 0x3D1B8C, 0x22104F, 0x123C7A]),
+        gradient: gradient(&[0x2A1550, 0x5A2BB0, 0x38207A, 0x1F5AA8]),
         material: Surface { specular: 0.7, shininess: 50.0, ..Surface::default() },
         lights: |_| {
             headlights([
                 ([-0.9, 0.25, -0.1], 0xFF1E9A, 9.0),
                 ([0.9, 0.3, -0.15], 0x14E0FF, 8.0),
-                ([0.0, 0.9, 0.2], 0x7A4DFF, 2.2),
-                ([0.0, 0.1, 1.0], 0x6A5CFF, 0.35),
+                ([0.0, 0.9, 0.3], 0x8A4DFF, 3.2),
+                ([0.1, 0.1, 1.0], 0xC02AD0, 0.9),
             ])
         },
         background: [0x05030F, 0x1C0A33],
@@ -324,19 +324,19 @@ fn candy() -> Look {
 
 fn moonlight() -> Look {
     let parts = Parts {
-        gradient: gradient(&[0x3A4556, 0x7688A0, 0xB8C6D8, 0x566579]),
+        gradient: gradient(&[0x4A5058, 0x8A9098, 0xC8CCD2, 0x666C74]),
         material: Surface { specular: 0.3, shininess: 30.0, ..matte(0.03) },
         lights: |_| {
             headlights([
                 ([0.75, 0.65, -0.05], 0xBFD4FF, 3.2),
-                ([-0.8, 0.2, -0.5], 0x3F62B0, 1.6),
+                ([-0.8, 0.2, -0.5], 0x6A82B8, 1.2),
                 ([0.0, 0.2, 1.0], 0x5A76B8, 0.22),
             ])
         },
-        background: [0x060A16, 0x1B2945],
-        fog: Fog { density: 0.12, color: srgb(0x9DB4E0), ..Fog::default() },
-        tone: tone(ToneCurve::Agx, 0.6),
-        bloom: bloom(0.3, 0.08, 0.4),
+        background: [0x04070F, 0x26324A],
+        tone: tone(ToneCurve::Aces, 0.1),
+        bloom: bloom(0.3, 0.08, 0.5),
+        ..Parts::default()
     };
     look("Moonlight", "Cold light from one side in a blue night", parts)
 }
@@ -360,7 +360,7 @@ fn desert() -> Look {
             )
         },
         background: [0x5B8CC8, 0xF0D9B0],
-        fog: Fog { density: 0.08, color: srgb(0xF4DDB8), ..Fog::default() },
+        fog: Fog { density: 0.03, color: srgb(0xF4DDB8), ..Fog::default() },
         tone: tone(ToneCurve::Aces, -0.3),
         ..Parts::default()
     };
@@ -397,14 +397,14 @@ fn abyss() -> Look {
         gradient: vec![
             stop(0.0, 0x000000),
             stop(0.62, 0x000000),
-            stop(0.76, 0x0A7A8C),
-            stop(0.9, 0x7CFFE0),
-            stop(0.98, 0x083A50),
+            stop(0.78, 0x06705A),
+            stop(0.9, 0x5CFFB0),
+            stop(0.97, 0x043A38),
         ],
         ..SecondLayer::default()
     };
     let parts = Parts {
-        gradient: gradient(&[0x06202E, 0x0E4A66, 0x1F7A8C, 0x0A3048]),
+        gradient: gradient(&[0x06282E, 0x0E4E58, 0x1F7A7C, 0x0A383E]),
         material: Surface {
             emission: 1.2,
             driven_by_layer: DrivenByLayer { emission: true, ..DrivenByLayer::default() },
@@ -419,8 +419,8 @@ fn abyss() -> Look {
                 ([-0.3, 0.0, 0.95], 0x2A80A0, 0.3),
             ])
         },
-        background: [0x0C4A5E, 0x01080F],
-        fog: Fog { density: 0.15, color: srgb(0x5FC4D0), ..Fog::default() },
+        background: [0x0C4A50, 0x010A0C],
+        fog: Fog { density: 0.025, color: srgb(0x3FA090), ..Fog::default() },
         tone: tone(ToneCurve::Aces, 0.3),
         bloom: bloom(0.5, 0.06, 0.5),
     };
@@ -443,25 +443,25 @@ fn ink() -> Look {
 
 fn clay() -> Look {
     let parts = Parts {
-        gradient: gradient(&[0xC8B8A8, 0xD8CABC, 0xC0AE9E]),
-        material: matte(0.06),
+        gradient: gradient(&[0xC09078, 0xD0A48C, 0xB4846C]),
+        material: matte(0.02),
         lights: |_| {
             sky(
-                1.1,
+                0.55,
                 Sky {
                     zenith: srgb(0xE0E4EA),
                     horizon: srgb(0xB8B4B0),
                     ground: srgb(0x6A5F58),
                     sun_direction: sun([-0.55, 0.65, 0.5]),
                     sun_color: srgb(0xFFF0E0),
-                    sun_strength: 1.6,
+                    sun_strength: 3.6,
                     sun_size_deg: 12.0,
                     ..Sky::default()
                 },
             )
         },
-        background: [0x9A9188, 0x5F5852],
-        tone: tone(ToneCurve::Agx, 0.2),
+        background: [0x8A8078, 0x544A44],
+        tone: tone(ToneCurve::Aces, -0.5),
         ..Parts::default()
     };
     look("Clay", "One pale colour: nothing but the shape", parts)

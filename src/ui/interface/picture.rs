@@ -70,6 +70,9 @@ impl Interface {
         if is_comparing {
             let caption = floating::caption(ui, rect, "Before the last change");
             self.rects.record("comparing", &caption);
+        } else if let Some(name) = self.look_preview.name() {
+            let caption = floating::caption(ui, rect, &format!("Preview: {name}"));
+            self.rects.record("look preview", &caption);
         } else if self.light_click.waits() {
             let caption = floating::caption(ui, rect, light_click::HINT);
             self.rects.record("light click", &caption);

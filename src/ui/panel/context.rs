@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use crate::{
-    scene::{EnvironmentMap, Scene, gradient::NamedGradient},
+    scene::{EnvironmentMap, Scene, gradient::NamedGradient, looks::Look},
     ui::{
         action::Action, display_inputs::DisplayInputs, favourites::Favourites,
         navigation::CameraStatus, rects::Rects, selection::Selection, settings::Settings,
@@ -37,6 +37,8 @@ pub struct Context<'a> {
     pub favourites: &'a mut Favourites,
     /// Output: rectangles of named widgets.
     pub rects: &'a mut Rects,
+    /// Output: the look whose swatch is under the pointer or has the keyboard.
+    pub pointed_look: &'a mut Option<&'static Look>,
     /// Output: commands, as from a key.
     pub commands: &'a mut Vec<Command>,
     /// Output: requests to the program around the interface.

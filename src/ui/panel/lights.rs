@@ -8,15 +8,12 @@ use super::{
     light, rig,
 };
 use crate::{
-    scene::{
-        Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, Scene, follow,
-        light_setups::SETUPS, param,
-    },
+    scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, Scene, follow, param},
     ui::{
         selection::LightRef,
         shortcuts::Command,
         theme,
-        widgets::{Help as _, button_row, caption, color, param_slider},
+        widgets::{Help as _, caption, color, param_slider},
     },
 };
 
@@ -30,23 +27,8 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
     caption(ui, "Light");
     // The ball stays while the section of all lights shows its own: nothing moves under the pointer.
     edit_as_seen(ui, cx, key_ball);
-    setups(ui, cx);
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
     cx.rects.record("exposure", &response);
-}
-
-/// Buttons that replace all lights by a starting point.
-fn setups(ui: &mut Ui, cx: &mut Context<'_>) {
-    button_row(ui, SETUPS.len(), |ui, index, size| {
-        let setup = SETUPS[index];
-        let response = ui.add_sized(size, Button::new(setup.name).truncate()).help(setup.about);
-        cx.rects.record(setup.name, &response);
-        if response.clicked() {
-            cx.scene.lights = (setup.lights)(&cx.scene.camera);
-            cx.selection.light = None;
-        }
-        response.accessible_name(format!("Light: {}", setup.name));
-    });
 }
 
 /// The direction and colour of the selected light, or of the first.

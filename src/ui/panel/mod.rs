@@ -20,6 +20,7 @@ mod hybrid;
 mod indirect;
 mod light;
 mod lights;
+mod looks;
 mod mine;
 mod quality;
 mod rig;
@@ -207,11 +208,13 @@ fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
     });
 }
 
-/// The controls for first-time users: scenes, power, light.
+/// The controls for first-time users: scenes, power, looks, light.
 fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
     scenes::show(ui, cx);
     ui.add_space(8.0);
     fractal::headline(ui, cx);
+    ui.add_space(8.0);
+    looks::show(ui, cx);
     ui.add_space(8.0);
     lights::key_light(ui, cx);
 }

@@ -2,8 +2,8 @@
 
 use super::hover::Help as _;
 use egui::{
-    Color32, Key, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, WidgetText,
-    accesskit::Role, lerp, pos2, vec2,
+    Color32, Key, Mesh, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
+    WidgetText, accesskit::Role, lerp, pos2, vec2,
 };
 
 use crate::{
@@ -38,7 +38,7 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
         *selected = index;
         response.mark_changed();
     }
-    paint_bar(ui, bar, stops);
+    paint_bar(ui.painter(), bar, stops);
     for index in 0..stops.len() {
         if handle(ui, bar, stops, selected, index) {
             response.mark_changed();
@@ -76,7 +76,7 @@ pub fn gradient_card(ui: &mut Ui, name: &str, stops: &[GradientStop], is_chosen:
         );
         let at = pos2(label.left() + 2.0, label.center().y - galley.size().y / 2.0);
         ui.painter().galley_with_override_text_color(at, galley, color);
-        paint_bar(ui, bar.shrink2(vec2(0.0, 2.0)), stops);
+        paint_bar(ui.painter(), bar.shrink2(vec2(0.0, 2.0)), stops);
     }
     response
 }
@@ -170,7 +170,8 @@ fn paint_handle(ui: &Ui, tip: Pos2, linear: [f32; 3], selected: bool, hovered: b
     ui.painter().add(Shape::convex_polygon(outline_points, theme::display_color(linear), stroke));
 }
 
-fn paint_bar(ui: &Ui, bar: Rect, stops: &[GradientStop]) {
+/// Paints a gradient from left to right.
+pub fn paint_bar(painter: &Painter, bar: Rect, stops: &[GradientStop]) {
     let mut mesh = Mesh::default();
     for i in 0..=SAMPLES {
         let t = i as f32 / SAMPLES as f32;
@@ -185,8 +186,8 @@ fn paint_bar(ui: &Ui, bar: Rect, stops: &[GradientStop]) {
             mesh.add_triangle(k - 1, k + 1, k);
         }
     }
-    ui.painter().add(Shape::mesh(mesh));
-    ui.painter().rect_stroke(bar, 3.0, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Outside);
+    painter.add(Shape::mesh(mesh));
+    painter.rect_stroke(bar, 3.0, Stroke::new(1.0, theme::LINE), egui::StrokeKind::Outside);
 }
 
 #[cfg(test)]

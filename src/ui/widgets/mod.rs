@@ -10,13 +10,15 @@ mod param;
 mod reveal;
 mod scale;
 mod section;
+mod swatch;
 
 pub use ball::ball;
 pub use card::card;
 pub use color::color;
-pub use gradient::{gradient, gradient_card, move_stop};
+pub use gradient::{gradient, gradient_card, move_stop, paint_bar};
 pub use histogram::{DisplayRange, histogram};
 pub use hover::{Help, set_panel_area};
 pub use param::{number, param_slider, param_slider_count, param_slider_wide};
 pub use reveal::{reveal, revealed};
 pub use section::{button_row, caption, choice, section};
+pub use swatch::{NAME_HEIGHT, swatch};
