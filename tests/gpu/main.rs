@@ -15,6 +15,7 @@ mod indirect;
 mod integrator;
 mod language;
 mod lens;
+mod looks;
 mod memory;
 mod mitsuba;
 mod motion_blur;

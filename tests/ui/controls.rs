@@ -118,7 +118,7 @@ fn every_parameter_of_every_formula_has_a_control() {
         scene.surface.coloring.source = ColorSource::SphereTrap;
         scene.surface.second_layer.amount = 0.5;
         (scene.fog.density, scene.fog.height) = (0.5, Some(0.5));
-        let mut harness = stage(scene, unfolded(), [1280.0, 5000.0]);
+        let mut harness = stage(scene, unfolded(), [1280.0, 6000.0]);
         for switch in ["Auto exposure", "Depth of field", "Path tracing", "Limit fireflies"] {
             harness.get_by_label(switch).click();
             harness.run();
@@ -427,6 +427,7 @@ fn the_help_of_buttons_and_choices_hides_no_control() {
 #[test]
 fn light_setups_replace_the_lights_by_a_click() {
     let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 2000.0]);
+    press(&mut harness, "Looks: Lights");
     let mut seen = vec![Scene::default().lights];
     for name in ["Studio", "Rim", "Sky", "Candle"] {
         press(&mut harness, &format!("Light: {name}"));

@@ -27,10 +27,10 @@ fn misfits(harness: &egui_kittest::Harness<'_, Stage>, window: Rect) -> Vec<Stri
         .children_recursive()
         .filter(|node| egui::accessibility::is_input(node.accesskit_node().role()))
         .filter(|node| node.accesskit_node().bounding_box().is_some())
-        // The scenes of a sheet scroll sideways.
+        // The scenes and looks of a sheet scroll sideways.
         .filter(|node| {
-            let label = node.accesskit_node().label();
-            !presets::all().any(|preset| label.as_deref() == Some(preset.name))
+            let label = node.accesskit_node().label().unwrap_or_default();
+            !presets::all().any(|preset| label == preset.name) && !label.starts_with("Look: ")
         })
         .filter(|node| {
             let rect = node.rect();

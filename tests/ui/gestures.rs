@@ -286,7 +286,7 @@ fn a_drag_goes_all_the_way_where_its_end_comes_in_the_same_frame() {
 
 #[test]
 fn the_light_ball_turns_the_light_as_one_step() {
-    let mut harness = window();
+    let mut harness = stage(Scene::default(), Settings::default(), [1280.0, 1200.0]);
     let ball = harness.state().interface.rects().get("key light ball").expect("the ball is there");
     let before = scene(&harness).lights.environment[0].direction;
     drag(&mut harness, ball.center() + vec2(20.0, -10.0), ball.center() + vec2(-20.0, 15.0), 8);

@@ -18,6 +18,13 @@ fn lit(scene: Scene) -> Harness<'static, Stage> {
     without_motion(stage(scene, Settings::default(), [1280.0, 720.0]))
 }
 
+/// Presses the button, which the window is too low to show at once.
+fn press_light_a_place(harness: &mut Harness<'_, Stage>) {
+    button(harness, "Light a place").focus();
+    harness.run();
+    press(harness, "Light a place");
+}
+
 fn click(harness: &mut Harness<'_, Stage>, at: Pos2, modifiers: Modifiers) {
     harness.event(egui::Event::ModifiersChanged(modifiers));
     harness.event(egui::Event::PointerMoved(at));
@@ -34,7 +41,7 @@ fn click(harness: &mut Harness<'_, Stage>, at: Pos2, modifiers: Modifiers) {
 fn the_button_waits_for_one_click() {
     let mut harness = lit(Scene::default());
     let before = scene(&harness).clone();
-    press(&mut harness, "Light a place");
+    press_light_a_place(&mut harness);
     assert!(harness.query_by_label_contains("Click a place to light it").is_some());
     click(&mut harness, SURFACE, Modifiers::NONE);
     let after = scene(&harness).clone();
@@ -51,7 +58,7 @@ fn the_button_waits_for_one_click() {
 fn escape_ends_the_wait_and_the_background_takes_no_light() {
     let mut harness = lit(Scene::default());
     let before = scene(&harness).clone();
-    press(&mut harness, "Light a place");
+    press_light_a_place(&mut harness);
     harness.key_press(Key::Escape);
     harness.run();
     click(&mut harness, SURFACE, Modifiers::NONE);

@@ -18,6 +18,7 @@ mod hostile;
 mod hybrids;
 mod keyboard;
 mod light_click;
+mod looks;
 mod mutate;
 mod navigation;
 mod orbit;

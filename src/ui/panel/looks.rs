@@ -30,7 +30,7 @@ const BAR_HEIGHTS: [f32; 2] = [20.0, 28.0];
 
 /// The headings of all lists, and a swatch for each look of the chosen list.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
-    caption(ui, "Look");
+    caption(ui, "Appearance");
     let id = Id::unique("list of looks");
     let mut chosen: usize = ui.data(|data| data.get_temp(id)).unwrap_or(0);
     ui.horizontal_wrapped(|ui| {

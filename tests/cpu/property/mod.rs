@@ -3,5 +3,6 @@
 mod document;
 mod history;
 mod link;
+mod looks;
 mod path;
 mod scenes;

@@ -1,4 +1,4 @@
-//! Documents: every parameter's range, paths, the opening scenes and the dives.
+//! Documents: every parameter's range, paths, the opening scenes and the dives; tone curves.
 
 mod dives;
 mod document;
@@ -6,4 +6,5 @@ mod follow;
 mod gallery;
 mod path_document;
 mod presets;
+mod tone;
 mod versions;
