@@ -262,7 +262,7 @@ fn copper() -> Look {
     let parts = Parts {
         gradient: gradient(&[0x6E2F1A, 0xC4643A, 0xF0A878, 0x9C4A2A]),
         material: Surface {
-            second_layer: by_direction(0.55, &[0xB8623A, 0x8A5A44, 0x4FA391, 0x7CC9B4]),
+            second_layer: by_direction(0.75, &[0xC4622C, 0xB05A30, 0x7A7A58, 0x3FA890, 0x6FD8BC]),
             ..metal(0.5, 0.35)
         },
         lights: |_| {
@@ -330,11 +330,11 @@ fn moonlight() -> Look {
             headlights([
                 ([0.75, 0.65, -0.05], 0xBFD4FF, 3.2),
                 ([-0.8, 0.2, -0.5], 0x6A82B8, 1.2),
-                ([0.0, 0.2, 1.0], 0x5A76B8, 0.22),
+                ([-0.1, 0.3, 1.0], 0x6A86C8, 0.5),
             ])
         },
         background: [0x04070F, 0x26324A],
-        tone: tone(ToneCurve::Aces, 0.1),
+        tone: tone(ToneCurve::Aces, 0.3),
         bloom: bloom(0.3, 0.08, 0.5),
         ..Parts::default()
     };

@@ -14,7 +14,7 @@ fn previews_have_the_tone_curves_of_pictures() {
         (ToneCurve::Agx, ToneChannels::Luminance),
         (ToneCurve::KhronosNeutral, ToneChannels::Luminance),
     ];
-    let mut random = Random::new(7);
+    let mut random = Random(7);
     for (curve_kind, channels) in curves {
         let tone = Tone { curve: curve_kind, channels, white_point: 2.5, ..Tone::default() };
         for _ in 0..500 {

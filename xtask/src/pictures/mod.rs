@@ -137,8 +137,11 @@ impl Painter {
             self.docs.join(panel.scene)
         } else {
             let mut printer = Command::new(&self.renderer);
-            let text = shell::output(printer.args(["scene", "--preset", panel.scene]))
-                .with_context(|| format!("no preset is named {:?}", panel.scene))?;
+            printer.args(["scene", "--preset", panel.scene]);
+            printer.args(panel.look.iter().flat_map(|look| ["--look", look]));
+            let text = shell::output(&mut printer).with_context(|| {
+                format!("no preset or look is named {:?}, {:?}", panel.scene, panel.look)
+            })?;
             let file = self.parts.join("scene.json");
             fs::write(&file, text)?;
             file

@@ -35,6 +35,8 @@ impl Picture {
 pub struct Panel {
     /// The name of a preset, or a document's path in docs/.
     pub scene: &'static str,
+    /// A look of the scene, in the format of `--look`.
+    pub look: Option<&'static str>,
     /// Changes of the scene, in the format of `--set`.
     pub changes: Vec<&'static str>,
     /// Samples per pixel.
@@ -113,6 +115,17 @@ pub fn pictures() -> Vec<Picture> {
             "section",
             "A bulb of power 2 cut at z = 0: the Mandelbrot set with its bands of equal iterations",
             of("Mandelbrot slice"),
+        )
+        .sized(README_PX),
+        picture(
+            "looks",
+            4,
+            "One scene in sixteen looks",
+            [
+                "porcelain", "gold", "ember", "neon", "glacier", "copper", "beetle", "candy",
+                "moonlight", "desert", "jade", "abyss", "ink", "clay", "sunset", "orchid",
+            ]
+            .map(in_look),
         )
         .sized(README_PX),
         single("lantern", "Two point lights in a crevice", of("Lantern")).sized(README_PX),
@@ -274,6 +287,12 @@ fn cave(change: &'static str) -> Panel {
     reef().with(&["camera.vertical_fov_deg=30", "indirect.radius=0.12", change])
 }
 
+/// The bulb from nearby, in a look.
+fn in_look(look: &'static str) -> Panel {
+    let near = of("Mandelbulb").with(&["camera.vertical_fov_deg=32"]);
+    Panel { look: Some(look), ..near }
+}
+
 fn gold(change: &'static str) -> Panel {
     of("In between").with(&["camera.vertical_fov_deg=48", change])
 }
@@ -319,6 +338,7 @@ fn fall(frame: u32) -> Panel {
 fn of(scene: &'static str) -> Panel {
     Panel {
         scene,
+        look: None,
         changes: Vec::new(),
         samples: 16,
         frame: None,
