@@ -309,7 +309,7 @@ impl Interface {
             selection: &mut self.selection,
             favourites: &mut self.favourites,
             rects: &mut self.rects,
-            pointed_look: &mut self.look_preview.pointed,
+            look_preview: &mut self.look_preview,
             histogram_shown: &mut self.histogram_shown,
             commands,
             actions,

@@ -9,7 +9,9 @@ use crate::scene::{
 #[derive(Debug, Default)]
 pub struct LookPreview {
     /// The look of the swatch that this frame's panels found under the pointer or with the keyboard.
-    pub pointed: Option<&'static Look>,
+    pointed: Option<&'static Look>,
+    /// The same of the last frame.
+    last: Option<&'static Look>,
     shown: Option<Shown>,
     /// A look that is shown no more until its swatch is left: the scene has changed since.
     ended: Option<&'static Look>,
@@ -25,6 +27,20 @@ struct Shown {
 }
 
 impl LookPreview {
+    /// Points at a look by the keyboard, unless the pointer does.
+    pub fn focus(&mut self, look: &'static Look) {
+        self.pointed.get_or_insert(look);
+    }
+
+    /// Points at a look by the pointer, which `has_moved` in this frame.
+    ///
+    /// A swatch that scrolls under a resting pointer is not pointed at.
+    pub fn hover(&mut self, look: &'static Look, has_moved: bool) {
+        if has_moved || self.last.is_some_and(|last| std::ptr::eq(last, look)) {
+            self.pointed = Some(look);
+        }
+    }
+
     /// The scene to show instead of the document's.
     pub fn scene(&self) -> Option<&Scene> {
         self.shown.as_ref().map(|shown| &shown.scene)
@@ -41,6 +57,7 @@ impl LookPreview {
     /// an undo step, ends the preview: the change itself is to be seen.
     pub fn update(&mut self, scene: &Scene, is_busy: bool) -> bool {
         let pointed = self.pointed.take();
+        self.last = pointed;
         let is_same = |a: Option<&Look>| a.zip(pointed).is_some_and(|(a, b)| std::ptr::eq(a, b));
         if !is_same(self.ended) {
             self.ended = None;

@@ -1,7 +1,8 @@
 //! Looks: shown under the pointer and with the keyboard, kept by a click, and where their swatches are.
 
 use egui::{
-    Event, Key, Modifiers, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId, TouchPhase,
+    Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, Shape, TouchDeviceId,
+    TouchId, TouchPhase,
     accesskit::{Role, Toggled},
     pos2, vec2,
 };
@@ -90,6 +91,7 @@ fn a_click_keeps_the_look_as_one_step_and_another_changes_nothing() {
     assert_eq!((scene(&harness).clone(), shown(&harness)), (start.clone(), start.clone()));
     assert!(!can_undo(&harness), "one step");
     hover(&mut harness, VIEW);
+    assert_eq!(shown(&harness), start);
     hover_look(&mut harness, "Look: Jade");
     assert_eq!(shown(&harness), looked("jade"), "after leaving, it is shown again");
 }
@@ -129,7 +131,9 @@ fn no_look_is_shown_during_a_gesture() {
     harness.run();
     let turned = scene(&harness).clone();
     assert_ne!(turned.camera, presets::opening().camera);
-    // Afterwards the pointer is over the swatch.
+    // Afterwards the pointer is over the swatch, and shows its look as soon as it moves there.
+    assert!(shown(&harness) == turned);
+    hover(&mut harness, target + vec2(3.0, 1.0));
     let gold = looks::find("gold").expect("a look");
     assert_eq!(shown(&harness), looks::applied(gold, &turned));
 }
@@ -137,6 +141,27 @@ fn no_look_is_shown_during_a_gesture() {
 fn touch(harness: &Harness<'_, Stage>, phase: TouchPhase, pos: Pos2) {
     let (device_id, id) = (TouchDeviceId(1), TouchId(1));
     harness.event(Event::Touch { device_id, id, phase, pos, force: None });
+}
+
+#[test]
+fn a_swatch_that_scrolls_under_the_pointer_shows_nothing() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
+    let swatch = button(&harness, "Look: Gold").rect().center();
+    hover(&mut harness, swatch - vec2(0.0, 200.0));
+    harness.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        delta: vec2(0.0, -200.0),
+        modifiers: Modifiers::NONE,
+        phase: TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+    });
+    harness.run_steps(60);
+    let moved = button(&harness, "Look: Gold").rect();
+    assert!(moved.contains(swatch - vec2(0.0, 200.0)), "{moved:?}");
+    assert!(shown(&harness) == presets::opening());
+    hover(&mut harness, moved.center() + vec2(2.0, 0.0));
+    assert!(shown(&harness) == looked("gold"));
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! Complete looks. Their lights stay with the camera, so that every view of every shape is lit.
 
-use glam::DVec3;
-
-use super::{Look, LookList, background, gradient, srgb};
+use super::{
+    Look, LookList, background,
+    elements::{bloom, by_direction, glazed, headlights, matte, metal, sky, sun, tone},
+    gradient, srgb,
+};
 use crate::scene::{
-    Axis, Bloom, BloomOrder, Camera, ColorSource, Coloring, DrivenByLayer, EnvironmentLight, Fog,
-    GradientStop, LightFrame, Lights, Rig, RigKind, SecondLayer, Sky, Surface, SurfaceModel, Tone,
-    ToneCurve,
+    Bloom, Camera, ColorSource, Coloring, DrivenByLayer, Fog, GradientStop, Lights, SecondLayer,
+    Sky, Surface, Tone, ToneCurve,
 };
 
 /// What a complete look is called before its name.
@@ -77,66 +78,6 @@ pub(super) fn looks() -> LookList {
             orchid(),
         ],
     }
-}
-
-/// Lights that stay with the camera: directions (x right, y up, z backward), sRGB colours, strengths.
-fn headlights<const N: usize>(lights: [([f64; 3], u32, f64); N]) -> Lights {
-    let light = |(direction, rgb, intensity)| EnvironmentLight {
-        // A light from the front would show its shadows nowhere, and would darken crevices.
-        casts_shadows: !is_frontal(direction),
-        ..EnvironmentLight::headlight(direction, srgb(rgb), intensity)
-    };
-    Lights { environment: lights.map(light).into(), ..Lights::default() }
-}
-
-/// Whether a direction is within 37 degrees of the viewer's.
-fn is_frontal(direction: [f64; 3]) -> bool {
-    DVec3::from_array(direction).normalize_or(DVec3::Z).z > 0.8
-}
-
-/// A sky that turns with the camera.
-fn sky(intensity: f64, sky: Sky) -> Lights {
-    let rig = Rig { kind: RigKind::Sky, frame: LightFrame::View, intensity, sky, ..Rig::default() };
-    Lights { rig, environment: Vec::new(), ..Lights::default() }
-}
-
-fn sun(direction: [f64; 3]) -> [f64; 3] {
-    DVec3::from_array(direction).normalize_or(DVec3::Z).to_array()
-}
-
-/// A second layer by the direction of the surface: the gradient's start below, its middle at the sides, its end above.
-fn by_direction(amount: f64, colors: &[u32]) -> SecondLayer {
-    // Near the ends, so that straight up does not wrap to straight down.
-    let coloring = Coloring {
-        source: ColorSource::Normal,
-        axis: Axis::Z,
-        repeats: 0.98,
-        offset: 0.01,
-        ..Coloring::default()
-    };
-    let last = colors.len().saturating_sub(1).max(1) as f64;
-    let stop = |(i, &color)| GradientStop { position: f64::from(i) / last, color: srgb(color) };
-    SecondLayer { amount, coloring, gradient: (0..).zip(colors).map(stop).collect() }
-}
-
-fn metal(roughness: f64, metalness: f64) -> Surface {
-    Surface { model: SurfaceModel::Physical, roughness, metalness, ..Surface::default() }
-}
-
-fn glazed(roughness: f64, coat: f64) -> Surface {
-    Surface { coat, coat_roughness: 0.12, ..metal(roughness, 0.0) }
-}
-
-fn matte(ambient: f64) -> Surface {
-    Surface { ambient, specular: 0.05, shininess: 12.0, ..Surface::default() }
-}
-
-fn tone(curve: ToneCurve, exposure: f64) -> Tone {
-    Tone { curve, exposure, ..Tone::default() }
-}
-
-fn bloom(strength: f64, radius: f64, threshold: f64) -> Bloom {
-    Bloom { strength, radius, threshold, order: BloomOrder::Before, ..Bloom::default() }
 }
 
 fn porcelain() -> Look {

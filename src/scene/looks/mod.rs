@@ -5,9 +5,11 @@
 //! | file | contents |
 //! |---|---|
 //! | `complete` | looks of every part |
+//! | `elements` | lights, materials and tones that those are made of |
 //! | `parts` | colours, light setups, backgrounds and tones on their own |
 
 mod complete;
+mod elements;
 mod parts;
 
 use std::sync::LazyLock;

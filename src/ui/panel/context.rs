@@ -3,11 +3,11 @@
 use egui::Ui;
 
 use crate::{
-    scene::{EnvironmentMap, Scene, gradient::NamedGradient, looks::Look},
+    scene::{EnvironmentMap, Scene, gradient::NamedGradient},
     ui::{
         action::Action, display_inputs::DisplayInputs, favourites::Favourites,
-        navigation::CameraStatus, rects::Rects, selection::Selection, settings::Settings,
-        shortcuts::Command,
+        look_preview::LookPreview, navigation::CameraStatus, rects::Rects, selection::Selection,
+        settings::Settings, shortcuts::Command,
     },
 };
 
@@ -38,7 +38,7 @@ pub struct Context<'a> {
     /// Output: rectangles of named widgets.
     pub rects: &'a mut Rects,
     /// Output: the look whose swatch is under the pointer or has the keyboard.
-    pub pointed_look: &'a mut Option<&'static Look>,
+    pub look_preview: &'a mut LookPreview,
     /// Output: commands, as from a key.
     pub commands: &'a mut Vec<Command>,
     /// Output: requests to the program around the interface.

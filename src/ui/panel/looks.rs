@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Button, Id, Painter, Rect, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Button, Event, Id, Painter, Rect, RichText, ScrollArea, Sense, Ui, vec2};
 
 use super::context::Context;
 use crate::{
@@ -81,13 +81,15 @@ fn look_swatch(
     let title = format!("{}: {}", list.kind, look.name);
     let paint = |painter: &Painter, rect| painting.paint(painter, rect, look);
     let response = swatch(ui, rect, [&look.name, &title], is_chosen, paint).help(look.about);
-    let (has_fingers, is_pressed) =
-        ui.input(|input| (input.any_touches(), input.pointer.any_down()));
+    let (has_fingers, has_moved, is_pressed) = ui.input(|input| {
+        let has_moved = input.events.iter().any(|event| matches!(event, Event::PointerMoved(_)));
+        (input.any_touches(), has_moved, input.pointer.any_down())
+    });
     // Fingers hover nowhere. A drag that began elsewhere leaves the focus without a preview.
     if response.hovered() && !has_fingers {
-        *cx.pointed_look = Some(look);
+        cx.look_preview.hover(look, has_moved);
     } else if response.has_focus() && !is_pressed {
-        cx.pointed_look.get_or_insert(look);
+        cx.look_preview.focus(look);
     }
     if response.clicked() && !is_chosen {
         if look.lights.is_some() {

@@ -289,7 +289,7 @@ fn cave(change: &'static str) -> Panel {
 
 /// The bulb from nearby, in a look.
 fn in_look(look: &'static str) -> Panel {
-    let near = of("Mandelbulb").with(&["camera.vertical_fov_deg=32"]);
+    let near = of("Mandelbulb").with(&["camera.vertical_fov_deg=38"]);
     Panel { look: Some(look), ..near }
 }
 
