@@ -92,7 +92,7 @@ fn porcelain() -> Look {
             ])
         },
         background: [0xC9D3DC, 0x8C99A6],
-        tone: tone(ToneCurve::KhronosNeutral, -0.6),
+        tone: tone(ToneCurve::KhronosNeutral, -0.8),
         ..Parts::default()
     };
     look("Porcelain", "White glaze with cobalt blue, in a bright studio", parts)

@@ -43,7 +43,7 @@ const BACKGROUNDS: &[(&str, &str, u32, u32)] = &[
     ("Night", "Deep blue, a little lighter below", 0x05070D, 0x1A2233),
     ("Slate", "Dark grey-blue", 0x20262E, 0x4A5562),
     ("Studio", "Neutral grey, as a paper roll in a studio", 0x8C8F93, 0x4B4E52),
-    ("Paper", "White", 0xFFFFFF, 0xF3EEE4),
+    ("Paper", "As white as the tone allows", 0xFFFFFF, 0xF3EEE4),
     ("Dawn", "Blue above, peach below", 0x5D7FA8, 0xF6C7A0),
     ("Dusk", "Violet above, orange below", 0x1E1A45, 0xD9784A),
     ("Sky", "A clear day", 0x3F7FC4, 0xD6E8F5),
@@ -102,13 +102,13 @@ pub(super) fn tones() -> LookList {
             "Dream",
             "A wide glow around everything that is light",
             curve(ToneCurve::Agx, 0.5),
-            Bloom { order: BloomOrder::Before, ..glow(0.55, 0.08, 0.2) },
+            Bloom { order: BloomOrder::Before, ..glow(0.35, 0.06, 0.25) },
         ),
         (
             "Sparkle",
             "A small glow around highlights",
             curve(ToneCurve::Reinhard, 0.0),
-            glow(0.6, 0.025, 0.8),
+            Bloom { order: BloomOrder::Before, ..glow(0.9, 0.02, 0.7) },
         ),
     ];
     let looks = tones.into_iter().map(|(name, about, tone, bloom)| Look {
