@@ -30,7 +30,7 @@ use ::exr::{
 };
 use glam::DVec3;
 
-use super::{ExportError, MAX_TEXT_BYTES, png::SCENE_KEYWORD};
+use super::{ExportError, MAX_TEXT_BYTES, metadata::SCENE_KEYWORD};
 use crate::{
     render::{Eyes, Region, samples::PixelSample},
     scene::{Camera, Scene, document},

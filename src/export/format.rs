@@ -1,11 +1,13 @@
 //! The file formats of pictures, and the readback and encoder of each.
 
-use std::{io::Write, path::Path};
+use std::{ffi::OsStr, io::Write, path::Path};
 
 use super::{
     ExportError,
     exr::{self, ExrStream},
+    jpeg::JpegStream,
     png::PngStream,
+    webp::WebPStream,
 };
 use crate::{
     gpu::{
@@ -22,6 +24,10 @@ pub enum PictureFormat {
     /// PNG: display values, sRGB, 8 bits per channel.
     #[default]
     Png,
+    /// JPEG: display values, sRGB, 8 bits per channel, with some loss.
+    Jpeg,
+    /// Lossless WebP: display values, sRGB, 8 bits per channel.
+    WebP,
     /// OpenEXR: linear radiance, depth, normal and position, 32 bits per channel.
     Exr,
     /// Rows of display values without a header: red, green and blue, sRGB, 8 bits each, for encoders of
@@ -30,16 +36,23 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    /// The format of a file name: OpenEXR for the extension `.exr`, else PNG.
+    /// The format of a file name, by its extension: `.jpg`, `.jpeg`, `.webp` or `.exr`; else PNG.
     pub fn of(path: &Path) -> Self {
-        let is_exr = path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("exr"));
-        if is_exr { Self::Exr } else { Self::Png }
+        let extension = path.extension().and_then(OsStr::to_str).unwrap_or_default();
+        match extension.to_ascii_lowercase().as_str() {
+            "jpg" | "jpeg" => Self::Jpeg,
+            "webp" => Self::WebP,
+            "exr" => Self::Exr,
+            _ => Self::Png,
+        }
     }
 
     /// The format's file extension, without the dot.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
+            Self::Jpeg => "jpg",
+            Self::WebP => "webp",
             Self::Exr => "exr",
             Self::Rgb => "rgb",
         }
@@ -49,6 +62,8 @@ impl PictureFormat {
     pub fn media_type(self) -> &'static str {
         match self {
             Self::Png => "image/png",
+            Self::Jpeg => "image/jpeg",
+            Self::WebP => "image/webp",
             Self::Exr => "image/x-exr",
             Self::Rgb => "application/octet-stream",
         }
@@ -57,7 +72,7 @@ impl PictureFormat {
     /// Bytes per pixel of the encoder's input.
     pub(super) fn pixel_bytes(self, has_guides: bool) -> usize {
         match self {
-            Self::Png | Self::Rgb => 3,
+            Self::Png | Self::Jpeg | Self::WebP | Self::Rgb => 3,
             Self::Exr => exr::bytes_of_pixel(has_guides),
         }
     }
@@ -67,7 +82,7 @@ impl PictureFormat {
     /// The view may be overwritten at once.
     pub(super) fn read(self, gpu: &Gpu, view: &View) -> Option<TileReadback> {
         Some(match self {
-            Self::Png | Self::Rgb => {
+            Self::Png | Self::Jpeg | Self::WebP | Self::Rgb => {
                 let size_px = view.region().size_px;
                 TileReadback::Display(Readback::texture(gpu, view.texture()?, size_px))
             }
@@ -101,27 +116,49 @@ impl TileReadback {
     }
 }
 
+/// A file of display values that are there already, such as those of a view.
+///
+/// `rgb`: rows from the top; red, green and blue, sRGB, 8 bits each. `quality` is a JPEG's, 1 to 100.
+///
+/// # Errors
+/// [`ExportError::Encode`] if `rgb` has another size, or the format stores more than these values;
+/// [`ExportError::WebPSize`].
+pub fn encode_rgb(
+    format: PictureFormat,
+    quality: u8,
+    size_px: [u32; 2],
+    scene: &Scene,
+    rgb: &[u8],
+) -> Result<Vec<u8>, ExportError> {
+    let mut encoder = Encoder::new((format, quality), Vec::new(), size_px, scene)?;
+    encoder.write_rows(rgb)?;
+    encoder.finish()
+}
+
 /// The encoder of a file.
 pub(super) enum Encoder<W: Write> {
     Png(Box<PngStream<W>>),
+    Jpeg(JpegStream<W>),
+    WebP(WebPStream<W>),
     Exr(ExrStream<W>),
     Rgb(W),
 }
 
 impl<W: Write> Encoder<W> {
-    /// Starts a file and writes its header with `scene`.
+    /// Starts a file of `format`, a JPEG of `quality`, and writes its header with `scene`.
     pub fn new(
-        format: PictureFormat,
+        (format, quality): (PictureFormat, u8),
         sink: W,
         size_px: [u32; 2],
         scene: &Scene,
     ) -> Result<Self, ExportError> {
+        let document = || document::to_json_compact(scene);
         Ok(match format {
-            PictureFormat::Png => Self::Png(Box::new(PngStream::new(
-                sink,
-                size_px,
-                &document::to_json_compact(scene),
-            )?)),
+            PictureFormat::Png => Self::Png(Box::new(PngStream::new(sink, size_px, &document())?)),
+            PictureFormat::Jpeg => {
+                Self::Jpeg(JpegStream::new(sink, size_px, &document(), quality)?)
+            }
+            PictureFormat::WebP => Self::WebP(WebPStream::new(sink, size_px, &document())?),
             PictureFormat::Exr => Self::Exr(ExrStream::new(sink, size_px, scene)?),
             PictureFormat::Rgb => Self::Rgb(sink),
         })
@@ -131,6 +168,8 @@ impl<W: Write> Encoder<W> {
     pub fn write_rows(&mut self, pixels: &[u8]) -> Result<(), ExportError> {
         match self {
             Self::Png(png) => png.write_rgb(pixels),
+            Self::Jpeg(jpeg) => jpeg.write_rgb(pixels),
+            Self::WebP(webp) => webp.write_rgb(pixels),
             Self::Exr(exr) => exr.write_rows(pixels),
             Self::Rgb(sink) => Ok(sink.write_all(pixels)?),
         }
@@ -140,6 +179,8 @@ impl<W: Write> Encoder<W> {
     pub fn finish(self) -> Result<W, ExportError> {
         match self {
             Self::Png(png) => png.finish(),
+            Self::Jpeg(jpeg) => jpeg.finish(),
+            Self::WebP(webp) => webp.finish(),
             Self::Exr(exr) => exr.finish(),
             Self::Rgb(mut sink) => {
                 sink.flush()?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::format::PictureFormat;
+use super::{format::PictureFormat, jpeg::DEFAULT_QUALITY};
 use crate::scene::{EnvironmentMap, Scene, StereoLayout};
 
 /// Default maximum size of a tile, in pixels: wide, so that bands are thin.
@@ -47,7 +47,9 @@ pub struct StillOptions {
     pub environment_map: Option<Arc<EnvironmentMap>>,
     /// The file format.
     pub format: PictureFormat,
-    /// Whether path-traced light is denoised. None: PNG as the scene says, OpenEXR not.
+    /// Quality of a JPEG, 1 to 100.
+    pub quality: u8,
+    /// Whether path-traced light is denoised. None: as the scene says, but OpenEXR not.
     pub denoise: Option<bool>,
 }
 
@@ -61,6 +63,7 @@ impl StillOptions {
             tile_px: TILE_PX,
             environment_map: None,
             format: PictureFormat::default(),
+            quality: DEFAULT_QUALITY,
             denoise: None,
         }
     }

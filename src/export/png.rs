@@ -8,13 +8,10 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-use super::ExportError;
-
-/// The keyword of the text chunk that holds the scene document.
-pub const SCENE_KEYWORD: &str = "mandelight";
-
-/// Maximum size of a scene document in a PNG, in bytes after inflating.
-pub const MAX_TEXT_BYTES: usize = 1 << 20;
+use super::{
+    ExportError, MAX_TEXT_BYTES, SceneTextError,
+    metadata::{SCENE_KEYWORD, capped},
+};
 
 /// The decoder's memory limit for chunks before the first pixels, in bytes.
 const MAX_METADATA_BYTES: usize = 8 * MAX_TEXT_BYTES;
@@ -111,17 +108,6 @@ fn encode(error: png::EncodingError) -> ExportError {
     ExportError::Encode(error.to_string())
 }
 
-/// Why the scene document of a PNG could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum PngError {
-    /// The file is not a PNG, or is damaged.
-    #[error("not a readable PNG: {0}")]
-    Unreadable(String),
-    /// The text chunks are larger than [`MAX_TEXT_BYTES`] or the decoder's limit.
-    #[error("its text is larger than {MAX_TEXT_BYTES} bytes")]
-    TooLarge,
-}
-
 /// True if `bytes` begin with the PNG signature.
 pub fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(&SIGNATURE)
@@ -132,8 +118,8 @@ pub fn is_png(bytes: &[u8]) -> bool {
 /// The pixels are neither read nor decoded.
 ///
 /// # Errors
-/// See [`PngError`]; the content of `reader` is untrusted.
-pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, PngError> {
+/// See [`SceneTextError`]; the content of `reader` is untrusted.
+pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, SceneTextError> {
     let limits = png::Limits { bytes: MAX_METADATA_BYTES };
     let reader = png::Decoder::new_with_limits(reader, limits).read_info().map_err(decode)?;
     let info = reader.info();
@@ -159,14 +145,10 @@ pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, PngErro
     Ok(None)
 }
 
-fn capped(text: String) -> Result<String, PngError> {
-    if text.len() > MAX_TEXT_BYTES { Err(PngError::TooLarge) } else { Ok(text) }
-}
-
-fn decode(error: png::DecodingError) -> PngError {
+fn decode(error: png::DecodingError) -> SceneTextError {
     match error {
-        png::DecodingError::LimitsExceeded => PngError::TooLarge,
-        other => PngError::Unreadable(other.to_string()),
+        png::DecodingError::LimitsExceeded => SceneTextError::TooLarge,
+        other => SceneTextError::Unreadable { format: "PNG", reason: other.to_string() },
     }
 }
 

@@ -3,7 +3,9 @@
 //! In: a scene's stereo layout and a size. Out: the sheet's pictures and size. This module does
 //! not render.
 
-use super::{ExportError, Eye, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size};
+use super::{
+    ExportError, Eye, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size, checked_webp_size,
+};
 use crate::{
     render::Eyes,
     scene::{Scene, StereoLayout},
@@ -31,7 +33,7 @@ impl Sheet {
     ///
     /// # Errors
     /// [`ExportError::Size`] and [`ExportError::Sheet`] if a side is out of range,
-    /// [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR.
+    /// [`ExportError::WebPSize`] if it is for a WebP, [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR.
     pub fn new(scene: &Scene, options: &StillOptions) -> Result<Self, ExportError> {
         let picture_px = checked_size(options.size_px)?;
         let layout = scene.camera.stereo.layout;
@@ -51,6 +53,9 @@ impl Sheet {
         let sheet_px = sheet.size_px();
         if sheet_px.iter().any(|&side| side > MAX_PICTURE_PX) {
             return Err(ExportError::Sheet { picture_px, sheet_px });
+        }
+        if options.format == PictureFormat::WebP {
+            checked_webp_size(sheet_px)?;
         }
         Ok(sheet)
     }

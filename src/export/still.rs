@@ -36,7 +36,7 @@ impl StillOptions {
     /// Width and height of the file, with both eyes' pictures, in pixels.
     ///
     /// # Errors
-    /// [`ExportError::Size`], [`ExportError::Sheet`] and [`ExportError::RedCyanExr`].
+    /// [`ExportError::Size`], [`ExportError::Sheet`], [`ExportError::WebPSize`] and [`ExportError::RedCyanExr`].
     pub fn sheet_px(&self, scene: &Scene) -> Result<[u32; 2], ExportError> {
         Ok(Sheet::new(scene, self)?.size_px())
     }
@@ -194,7 +194,7 @@ impl<W: Write> StillJob<W> {
             encoding: Band::default(),
             format: options.format,
             pixel_bytes,
-            encoder: Encoder::new(options.format, sink, sheet_px, scene)?,
+            encoder: Encoder::new((options.format, options.quality), sink, sheet_px, scene)?,
             samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera.clone(),
             rows_left: sheet_px[1],

@@ -124,7 +124,7 @@ fn a_text_that_inflates_beyond_the_limit_is_rejected() {
     let plain = [b"mandelight\0".as_slice(), &vec![b' '; MAX_TEXT_BYTES + 1]].concat();
     assert!(matches!(
         scene_text(Cursor::new(file_with(&chunk(b"tEXt", &plain)))),
-        Err(PngError::TooLarge)
+        Err(SceneTextError::TooLarge)
     ));
 }
 

@@ -1,0 +1,61 @@
+//! Options of the files that hold pictures.
+//!
+//! In: arguments. Out: a format and its settings in [`StillOptions`], or a failure where they do not fit.
+
+use clap::ValueEnum;
+use mandelight::export::{PictureFormat, StillOptions};
+
+use super::Failure;
+
+/// The arguments that say how pictures are stored.
+#[derive(clap::Args)]
+pub struct EncodingArguments {
+    /// Quality of JPEGs, 1 to 100: higher values lose less; 92 unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=100))]
+    quality: Option<u8>,
+}
+
+impl EncodingArguments {
+    /// Sets the format and what these arguments say of it.
+    ///
+    /// # Errors
+    /// An argument that the format does not have.
+    pub fn apply(&self, format: PictureFormat, options: &mut StillOptions) -> Result<(), Failure> {
+        options.format = format;
+        if let Some(quality) = self.quality {
+            if format != PictureFormat::Jpeg {
+                return Err(Failure::usage(
+                    "--quality: only JPEGs have a quality (out.jpg, or --format jpeg for frames)",
+                ));
+            }
+            options.quality = quality;
+        }
+        Ok(())
+    }
+}
+
+/// The file formats of frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FrameFormat {
+    /// PNG
+    Png,
+    /// JPEG
+    #[value(alias = "jpg")]
+    Jpeg,
+    /// Lossless WebP
+    Webp,
+    /// OpenEXR
+    Exr,
+}
+
+impl FrameFormat {
+    /// The format of the frames' files.
+    pub fn picture_format(self) -> PictureFormat {
+        match self {
+            Self::Png => PictureFormat::Png,
+            Self::Jpeg => PictureFormat::Jpeg,
+            Self::Webp => PictureFormat::WebP,
+            Self::Exr => PictureFormat::Exr,
+        }
+    }
+}
