@@ -203,6 +203,8 @@ struct Tone {
     logarithmic: u32,
     // Luminance that auto exposure brings the mean to.
     key: f32,
+    // 1: the display has 16 bits per channel, in two texels of each pixel.
+    is_deep: u32,
 }
 
 struct Bloom {

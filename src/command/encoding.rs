@@ -13,6 +13,9 @@ pub struct EncodingArguments {
     /// Quality of JPEGs, 1 to 100: higher values lose less; 92 unless given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=100))]
     quality: Option<u8>,
+    /// Bits per channel of PNGs: 8, or 16 for later edits
+    #[arg(long, value_name = "N", default_value = "8", value_parser = ["8", "16"])]
+    bits: String,
 }
 
 impl EncodingArguments {
@@ -30,6 +33,7 @@ impl EncodingArguments {
             }
             options.quality = quality;
         }
+        options.is_deep = self.bits == "16";
         Ok(())
     }
 }

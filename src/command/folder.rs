@@ -38,6 +38,8 @@ pub struct SequenceSettings<'a> {
     pub format: PictureFormat,
     /// Quality of JPEGs, 1 to 100.
     pub quality: u8,
+    /// True for 16 bits per channel.
+    pub is_deep: bool,
     /// The eye of each file of a frame.
     pub eyes: &'static [Option<Eye>],
     /// As [`StillOptions::denoise`](mandelight::export::StillOptions::denoise).
@@ -58,6 +60,9 @@ impl SequenceSettings<'_> {
         line(&mut hash, format!("{version} {format:?} {eyes:?} {:?}", self.denoise));
         if format == PictureFormat::Jpeg {
             line(&mut hash, format!("quality {}", self.quality));
+        }
+        if self.is_deep {
+            line(&mut hash, "16 bits".to_owned());
         }
         line(
             &mut hash,

@@ -132,6 +132,7 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
         environment_map: environment_map.as_deref(),
         format,
         quality: options.quality,
+        is_deep: options.is_deep,
         eyes,
         denoise,
     };

@@ -28,6 +28,11 @@ pub enum ExportError {
     /// A WebP with a side above [`MAX_WEBP_PX`], or more than [`MAX_WEBP_PIXELS`] pixels.
     #[error("a WebP of {}x{} pixels: both sides must be from 1 to {MAX_WEBP_PX}, and their product at most {MAX_WEBP_PIXELS}; choose a smaller size, PNG or JPEG", .0[0], .0[1])]
     WebPSize([u32; 2]),
+    /// 16 bits per channel of another format than PNG.
+    #[error(
+        "only a PNG can have 16 bits per channel: choose PNG, or 8 bits (an OpenEXR file always has 32)"
+    )]
+    Deep,
     /// An OpenEXR file's channels cannot store the radiance of both eyes.
     #[error(
         "a red-cyan anaglyph mixes both eyes' pictures, so it cannot be an OpenEXR file: choose another format, side by side, top-bottom or a pair"

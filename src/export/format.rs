@@ -6,7 +6,7 @@ use super::{
     ExportError,
     exr::{self, ExrStream},
     jpeg::JpegStream,
-    png::PngStream,
+    png::{BitDepth, PngStream},
     webp::WebPStream,
 };
 use crate::{
@@ -14,14 +14,17 @@ use crate::{
         Gpu,
         readback::{Readback, ReadbackError},
     },
-    render::{Region, View, samples::SamplesReadback},
+    render::{Region, View, display_values::DisplayValues, samples::SamplesReadback},
     scene::{Camera, Scene, document},
 };
+
+/// Channels of a pixel: red, green, blue.
+const CHANNELS: usize = 3;
 
 /// The file format of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureFormat {
-    /// PNG: display values, sRGB, 8 bits per channel.
+    /// PNG: display values, sRGB, 8 or 16 bits per channel.
     #[default]
     Png,
     /// JPEG: display values, sRGB, 8 bits per channel, with some loss.
@@ -68,26 +71,55 @@ impl PictureFormat {
             Self::Rgb => "application/octet-stream",
         }
     }
+}
 
+/// How a file stores pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FileEncoding {
+    /// The file format.
+    pub format: PictureFormat,
+    /// Quality of a JPEG, 1 to 100.
+    pub quality: u8,
+    /// What a display holds, for formats of display values.
+    pub values: DisplayValues,
+}
+
+impl FileEncoding {
     /// Bytes per pixel of the encoder's input.
-    pub(super) fn pixel_bytes(self, has_guides: bool) -> usize {
-        match self {
-            Self::Png | Self::Jpeg | Self::WebP | Self::Rgb => 3,
-            Self::Exr => exr::bytes_of_pixel(has_guides),
+    pub fn pixel_bytes(self, has_guides: bool) -> usize {
+        match self.format {
+            PictureFormat::Exr => exr::bytes_of_pixel(has_guides),
+            _ => CHANNELS * self.channel_bytes(),
         }
+    }
+
+    fn channel_bytes(self) -> usize {
+        if self.values.is_deep { 2 } else { 1 }
     }
 
     /// Starts the readback of a complete tile; none if the view has no picture yet.
     ///
     /// The view may be overwritten at once.
-    pub(super) fn read(self, gpu: &Gpu, view: &View) -> Option<TileReadback> {
-        Some(match self {
-            Self::Png | Self::Jpeg | Self::WebP | Self::Rgb => {
-                let size_px = view.region().size_px;
+    pub fn read(self, gpu: &Gpu, view: &View) -> Option<TileReadback> {
+        Some(match self.format {
+            PictureFormat::Exr => TileReadback::Samples(view.read_samples()),
+            _ => {
+                let [width, height] = view.region().size_px;
+                let size_px = [width * self.values.texels_per_pixel(), height];
                 TileReadback::Display(Readback::texture(gpu, view.texture()?, size_px))
             }
-            Self::Exr => TileReadback::Samples(view.read_samples()),
         })
+    }
+
+    /// The pixels of a display in the encoder's format.
+    fn pixels(self, texels: &[u8]) -> Vec<u8> {
+        if !self.values.is_deep {
+            let texels = texels.as_chunks::<4>().0.iter();
+            return texels.flat_map(|texel| &texel[..CHANNELS]).copied().collect();
+        }
+        let pixels = texels.as_chunks::<8>().0.iter();
+        // High bytes, then low bytes; a PNG has them by turns.
+        pixels.flat_map(|texels| (0..CHANNELS).flat_map(|i| [texels[i], texels[4 + i]])).collect()
     }
 }
 
@@ -104,11 +136,10 @@ impl TileReadback {
         gpu: &Gpu,
         camera: &Camera,
         tile: Region,
+        file: FileEncoding,
     ) -> Result<Option<Vec<u8>>, ReadbackError> {
         Ok(match self {
-            Self::Display(readback) => readback.take(gpu)?.map(|rgba| {
-                rgba.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect()
-            }),
+            Self::Display(readback) => readback.take(gpu)?.map(|texels| file.pixels(&texels)),
             Self::Samples(readback) => {
                 readback.take(gpu)?.map(|pixels| exr::pixel_bytes(camera, tile, &pixels))
             }
@@ -130,7 +161,8 @@ pub fn encode_rgb(
     scene: &Scene,
     rgb: &[u8],
 ) -> Result<Vec<u8>, ExportError> {
-    let mut encoder = Encoder::new((format, quality), Vec::new(), size_px, scene)?;
+    let file = FileEncoding { format, quality, values: DisplayValues::default() };
+    let mut encoder = Encoder::new(file, Vec::new(), size_px, scene)?;
     encoder.write_rows(rgb)?;
     encoder.finish()
 }
@@ -145,16 +177,20 @@ pub(super) enum Encoder<W: Write> {
 }
 
 impl<W: Write> Encoder<W> {
-    /// Starts a file of `format`, a JPEG of `quality`, and writes its header with `scene`.
+    /// Starts a file and writes its header with `scene`.
     pub fn new(
-        (format, quality): (PictureFormat, u8),
+        FileEncoding { format, quality, values }: FileEncoding,
         sink: W,
         size_px: [u32; 2],
         scene: &Scene,
     ) -> Result<Self, ExportError> {
         let document = || document::to_json_compact(scene);
         Ok(match format {
-            PictureFormat::Png => Self::Png(Box::new(PngStream::new(sink, size_px, &document())?)),
+            PictureFormat::Png => {
+                let depth = if values.is_deep { BitDepth::Sixteen } else { BitDepth::Eight };
+                let png = PngStream::with_depth(sink, size_px, &document(), depth)?;
+                Self::Png(Box::new(png))
+            }
             PictureFormat::Jpeg => {
                 Self::Jpeg(JpegStream::new(sink, size_px, &document(), quality)?)
             }
@@ -167,7 +203,7 @@ impl<W: Write> Encoder<W> {
     /// Appends whole rows of pixels.
     pub fn write_rows(&mut self, pixels: &[u8]) -> Result<(), ExportError> {
         match self {
-            Self::Png(png) => png.write_rgb(pixels),
+            Self::Png(png) => png.write_pixels(pixels),
             Self::Jpeg(jpeg) => jpeg.write_rgb(pixels),
             Self::WebP(webp) => webp.write_rgb(pixels),
             Self::Exr(exr) => exr.write_rows(pixels),

@@ -1,12 +1,14 @@
 //! Streaming PNG writer with the scene document, and reader of the scene document.
 //!
-//! The writer gets 8-bit sRGB rows from the top and the scene document, and writes a file's
+//! The writer gets sRGB rows, 8 or 16 bits per channel, from the top and the scene document, and writes a file's
 //! bytes. The reader accepts untrusted files; its memory is bounded.
 
 use std::{
     io::{self, BufRead, Seek, Write},
     sync::{Arc, Mutex, PoisonError},
 };
+
+pub use png::BitDepth;
 
 use super::{
     ExportError, MAX_TEXT_BYTES, SceneTextError,
@@ -53,15 +55,28 @@ pub struct PngStream<W: Write> {
 }
 
 impl<W: Write> PngStream<W> {
-    /// Starts a picture of `size_px` and writes its header with the scene `document`.
+    /// Starts a picture of `size_px`, 8 bits per channel, and writes its header with the scene `document`.
     ///
     /// # Errors
     /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] if a side is zero.
     pub fn new(sink: W, size_px: [u32; 2], document: &str) -> Result<Self, ExportError> {
+        Self::with_depth(sink, size_px, document, BitDepth::Eight)
+    }
+
+    /// The same with as many bits per channel as `depth` says.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_depth(
+        sink: W,
+        size_px: [u32; 2],
+        document: &str,
+        depth: BitDepth,
+    ) -> Result<Self, ExportError> {
         let outbox = Outbox::default();
         let mut header = png::Encoder::new(outbox.clone(), size_px[0], size_px[1]);
         header.set_color(png::ColorType::Rgb);
-        header.set_depth(png::BitDepth::Eight);
+        header.set_depth(depth);
         header.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         header.set_compression(png::Compression::Balanced);
         let software = concat!("Mandelight ", env!("CARGO_PKG_VERSION"));
@@ -77,11 +92,11 @@ impl<W: Write> PngStream<W> {
         Ok(stream)
     }
 
-    /// Appends any number of RGB bytes.
+    /// Appends any number of bytes of RGB pixels; a channel of 16 bits begins with its high byte.
     ///
     /// # Errors
     /// [`ExportError::Write`] from the sink; [`ExportError::Encode`] past the last row.
-    pub fn write_rgb(&mut self, rgb: &[u8]) -> Result<(), ExportError> {
+    pub fn write_pixels(&mut self, rgb: &[u8]) -> Result<(), ExportError> {
         self.encoder.write_all(rgb).map_err(|error| ExportError::Encode(error.to_string()))?;
         self.drain()
     }

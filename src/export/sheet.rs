@@ -33,7 +33,8 @@ impl Sheet {
     ///
     /// # Errors
     /// [`ExportError::Size`] and [`ExportError::Sheet`] if a side is out of range,
-    /// [`ExportError::WebPSize`] if it is for a WebP, [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR.
+    /// [`ExportError::WebPSize`] if it is for a WebP, [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR,
+    /// [`ExportError::Deep`] for 16 bits of another format than PNG.
     pub fn new(scene: &Scene, options: &StillOptions) -> Result<Self, ExportError> {
         let picture_px = checked_size(options.size_px)?;
         let layout = scene.camera.stereo.layout;
@@ -53,6 +54,9 @@ impl Sheet {
         let sheet_px = sheet.size_px();
         if sheet_px.iter().any(|&side| side > MAX_PICTURE_PX) {
             return Err(ExportError::Sheet { picture_px, sheet_px });
+        }
+        if options.is_deep && options.format != PictureFormat::Png {
+            return Err(ExportError::Deep);
         }
         if options.format == PictureFormat::WebP {
             checked_webp_size(sheet_px)?;

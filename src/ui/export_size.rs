@@ -58,11 +58,20 @@ pub struct StillFile {
     pub format: StillFormat,
     /// Quality of a JPEG, 1 to 100.
     pub quality: u8,
+    /// True for 16 bits per channel of a PNG.
+    pub deep_png: bool,
+}
+
+impl StillFile {
+    /// True for 16 bits per channel.
+    pub fn is_deep(&self) -> bool {
+        self.deep_png && self.format == StillFormat::Png
+    }
 }
 
 impl Default for StillFile {
     fn default() -> Self {
-        Self { format: StillFormat::Png, quality: DEFAULT_QUALITY }
+        Self { format: StillFormat::Png, quality: DEFAULT_QUALITY, deep_png: false }
     }
 }
 

@@ -71,6 +71,7 @@ impl Exporter {
             environment_map,
             format: picture_format(file),
             quality: file.quality,
+            is_deep: file.is_deep(),
             ..StillOptions::new(size_px)
         };
         match StillExport::start(&self.pipelines, session.interface.scene(), options, pair) {

@@ -95,6 +95,31 @@ fn the_quality_of_a_jpeg_is_chosen() {
     }
 }
 
+/// FFmpeg reads 16 bits per channel, which round to the picture of 8 bits.
+#[test]
+fn a_png_may_have_sixteen_bits_per_channel() {
+    let place = Workplace::new();
+    let eight = Picture::of(&place.rendered("scene.json", "a.png", &["--bits", "8"])).bytes;
+    let deep = place.rendered("scene.json", "deep.png", &["--bits", "16"]);
+    let decoded = place.decoded("deep.png", "rgb48be");
+    assert_eq!(Picture::of(&deep).bytes, decoded);
+    let channels = decoded.as_chunks::<2>().0.iter().map(|&bytes| u16::from_be_bytes(bytes));
+    for (deep, eight) in channels.zip(&eight) {
+        assert!((f64::from(deep) / 257.0 - f64::from(*eight)).abs() < 1.01, "{deep} {eight}");
+    }
+    assert_eq!(place.rendered("deep.png", "again.png", &["--bits", "16"]), deep);
+    for (out, bits, message) in [
+        ("a.jpg", "16", "only a PNG can have 16 bits"),
+        ("a.webp", "16", "only a PNG can have 16 bits"),
+        ("a.exr", "16", "only a PNG can have 16 bits"),
+        ("a.png", "12", "8, 16"),
+    ] {
+        let output = place.render("scene.json", out, &["--bits", bits]);
+        assert_eq!(code(&output), 2, "{out}");
+        assert!(said(&output).contains(message), "{out}: {}", said(&output));
+    }
+}
+
 #[test]
 fn a_picture_too_large_for_webp_is_refused_at_once() {
     let place = Workplace::new();

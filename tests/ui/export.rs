@@ -49,8 +49,14 @@ fn pictures_are_saved_in_the_chosen_format() {
         assert_eq!(file, StillFile { format, ..StillFile::default() });
         let has_quality = harness.query_by_label("Quality value").is_some();
         assert_eq!(has_quality, format == StillFormat::Jpeg, "{name}");
+        let has_bits = harness.query_by_label("Bits per channel: 16").is_some();
+        assert_eq!(has_bits, format == StillFormat::Png, "{name}");
     }
+    press(&mut harness, "File: PNG");
+    press(&mut harness, "Bits per channel: 16");
+    assert!(saved(&mut harness).is_deep());
     press(&mut harness, "File: JPEG");
+    assert!(!saved(&mut harness).is_deep(), "only PNGs have 16 bits");
     press(&mut harness, "Quality value");
     harness.get_by_label("Quality value").type_text("70");
     harness.key_press(Key::Enter);

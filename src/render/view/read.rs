@@ -15,6 +15,7 @@ use crate::{
 impl View {
     /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; none before the first picture.
     ///
+    /// With 16 bits per channel it has [two texels](super::super::display_values::DisplayValues::is_deep) a pixel.
     /// Usages TEXTURE_BINDING and COPY_SRC. The picture is always complete, never a half-filled lattice.
     /// After a change of size it is the old picture, in its own size, until there is a new one.
     pub fn texture(&self) -> Option<&wgpu::Texture> {

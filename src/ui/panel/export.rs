@@ -112,6 +112,22 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     let response = choice(ui, "File", &mut export.file.format, &StillFormat::ALL);
     cx.rects.record("picture format", &response);
+    if export.file.format == StillFormat::Png {
+        let response = choice(
+            ui,
+            "Bits per channel",
+            &mut export.file.deep_png,
+            &[
+                (false, "8", "As many shades as screens show"),
+                (
+                    true,
+                    "16",
+                    "Fine shades for other programs, so that gradients stay smooth in later edits; a larger file",
+                ),
+            ],
+        );
+        cx.rects.record("picture bits", &response);
+    }
     if export.file.format == StillFormat::Jpeg {
         ui.horizontal(|ui| {
             ui.label(RichText::new(QUALITY.label).color(theme::TEXT_DIM));
