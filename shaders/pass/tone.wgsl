@@ -81,14 +81,24 @@ fn shown(pixel: vec2u) -> vec3f {
     return srgb_from_linear(color);
 }
 
+// Alpha: the part of a pixel's samples that is not transparent.
+fn alpha(pixel: vec2u) -> f32 {
+    let samples = frame.background.transparent_samples;
+    if (samples == 0.0) { return 1.0; }
+    return saturate(film_bw[pixel_index(pixel)].y / samples);
+}
+
 // Stores display values of 0 to 1: of 8 bits, dithered, or of 16 bits, as high and low bytes in two texels.
 fn show(pixel: vec2u, encoded: vec3f) {
+    let part = alpha(pixel);
+    // The film has no colour where all is transparent.
+    let color = select(encoded, vec3f(0.0), part == 0.0);
     if (frame.tone.is_deep == 0u) {
-        let dithered = encoded + dither(frame.origin_px + eye_pixel(pixel)) / 255.0;
-        textureStore(display, pixel, vec4f(dithered, 1.0));
+        let dithered = color + dither(frame.origin_px + eye_pixel(pixel)) / 255.0;
+        textureStore(display, pixel, vec4f(dithered, part));
         return;
     }
-    let steps = vec4u(round(vec4f(saturate(encoded), 1.0) * 65535.0));
+    let steps = vec4u(round(vec4f(saturate(color), part) * 65535.0));
     let first = vec2u(2u * pixel.x, pixel.y);
     // A quarter more than the byte, for devices that round down.
     textureStore(display, first, (vec4f(steps >> vec4u(8u)) + 0.25) / 255.0);

@@ -16,6 +16,9 @@ pub struct EncodingArguments {
     /// Bits per channel of PNGs: 8, or 16 for later edits
     #[arg(long, value_name = "N", default_value = "8", value_parser = ["8", "16"])]
     bits: String,
+    /// Make the background transparent, with smooth edges: PNG and WebP
+    #[arg(long)]
+    transparent: bool,
 }
 
 impl EncodingArguments {
@@ -34,6 +37,7 @@ impl EncodingArguments {
             options.quality = quality;
         }
         options.is_deep = self.bits == "16";
+        options.is_transparent = self.transparent;
         Ok(())
     }
 }

@@ -40,6 +40,8 @@ pub struct SequenceSettings<'a> {
     pub quality: u8,
     /// True for 16 bits per channel.
     pub is_deep: bool,
+    /// True for a transparent background.
+    pub is_transparent: bool,
     /// The eye of each file of a frame.
     pub eyes: &'static [Option<Eye>],
     /// As [`StillOptions::denoise`](mandelight::export::StillOptions::denoise).
@@ -63,6 +65,9 @@ impl SequenceSettings<'_> {
         }
         if self.is_deep {
             line(&mut hash, "16 bits".to_owned());
+        }
+        if self.is_transparent {
+            line(&mut hash, "transparent".to_owned());
         }
         line(
             &mut hash,

@@ -133,6 +133,7 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
         format,
         quality: options.quality,
         is_deep: options.is_deep,
+        is_transparent: options.is_transparent,
         eyes,
         denoise,
     };

@@ -33,6 +33,16 @@ pub enum ExportError {
         "only a PNG can have 16 bits per channel: choose PNG, or 8 bits (an OpenEXR file always has 32)"
     )]
     Deep,
+    /// A transparent background of a format without alpha.
+    #[error(
+        "only a PNG or a WebP can have a transparent background: choose one of them, or keep the background"
+    )]
+    Transparent,
+    /// A transparent background of an anaglyph, whose colours are of two eyes.
+    #[error(
+        "a red-cyan anaglyph mixes both eyes' pictures, so its background cannot be transparent: choose side by side, top-bottom or a pair"
+    )]
+    TransparentRedCyan,
     /// An OpenEXR file's channels cannot store the radiance of both eyes.
     #[error(
         "a red-cyan anaglyph mixes both eyes' pictures, so it cannot be an OpenEXR file: choose another format, side by side, top-bottom or a pair"

@@ -18,9 +18,6 @@ use crate::{
     scene::{Camera, Scene, document},
 };
 
-/// Channels of a pixel: red, green, blue.
-const CHANNELS: usize = 3;
-
 /// The file format of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureFormat {
@@ -48,6 +45,11 @@ impl PictureFormat {
             "exr" => Self::Exr,
             _ => Self::Png,
         }
+    }
+
+    /// Whether the format can have an alpha channel.
+    pub fn has_alpha(self) -> bool {
+        matches!(self, Self::Png | Self::WebP)
     }
 
     /// The format's file extension, without the dot.
@@ -89,8 +91,13 @@ impl FileEncoding {
     pub fn pixel_bytes(self, has_guides: bool) -> usize {
         match self.format {
             PictureFormat::Exr => exr::bytes_of_pixel(has_guides),
-            _ => CHANNELS * self.channel_bytes(),
+            _ => self.channels() * self.channel_bytes(),
         }
+    }
+
+    /// Channels of a pixel of display values: red, green, blue, and alpha if the background is transparent.
+    fn channels(self) -> usize {
+        if self.values.is_transparent { 4 } else { 3 }
     }
 
     fn channel_bytes(self) -> usize {
@@ -113,13 +120,14 @@ impl FileEncoding {
 
     /// The pixels of a display in the encoder's format.
     fn pixels(self, texels: &[u8]) -> Vec<u8> {
+        let channels = self.channels();
         if !self.values.is_deep {
             let texels = texels.as_chunks::<4>().0.iter();
-            return texels.flat_map(|texel| &texel[..CHANNELS]).copied().collect();
+            return texels.flat_map(|texel| &texel[..channels]).copied().collect();
         }
         let pixels = texels.as_chunks::<8>().0.iter();
         // High bytes, then low bytes; a PNG has them by turns.
-        pixels.flat_map(|texels| (0..CHANNELS).flat_map(|i| [texels[i], texels[4 + i]])).collect()
+        pixels.flat_map(|texels| (0..channels).flat_map(|i| [texels[i], texels[4 + i]])).collect()
     }
 }
 
@@ -188,13 +196,16 @@ impl<W: Write> Encoder<W> {
         Ok(match format {
             PictureFormat::Png => {
                 let depth = if values.is_deep { BitDepth::Sixteen } else { BitDepth::Eight };
-                let png = PngStream::with_depth(sink, size_px, &document(), depth)?;
+                let has_alpha = values.is_transparent;
+                let png = PngStream::with_layout(sink, size_px, &document(), depth, has_alpha)?;
                 Self::Png(Box::new(png))
             }
             PictureFormat::Jpeg => {
                 Self::Jpeg(JpegStream::new(sink, size_px, &document(), quality)?)
             }
-            PictureFormat::WebP => Self::WebP(WebPStream::new(sink, size_px, &document())?),
+            PictureFormat::WebP => {
+                Self::WebP(WebPStream::new(sink, size_px, &document(), values.is_transparent)?)
+            }
             PictureFormat::Exr => Self::Exr(ExrStream::new(sink, size_px, scene)?),
             PictureFormat::Rgb => Self::Rgb(sink),
         })
@@ -205,7 +216,7 @@ impl<W: Write> Encoder<W> {
         match self {
             Self::Png(png) => png.write_pixels(pixels),
             Self::Jpeg(jpeg) => jpeg.write_rgb(pixels),
-            Self::WebP(webp) => webp.write_rgb(pixels),
+            Self::WebP(webp) => webp.write_pixels(pixels),
             Self::Exr(exr) => exr.write_rows(pixels),
             Self::Rgb(sink) => Ok(sink.write_all(pixels)?),
         }

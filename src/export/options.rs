@@ -57,6 +57,8 @@ pub struct StillOptions {
     pub quality: u8,
     /// True for 16 bits per channel of a PNG, instead of 8.
     pub is_deep: bool,
+    /// True for a transparent background, of PNG and WebP. Each pixel then gets all samples: a noise target is ignored.
+    pub is_transparent: bool,
     /// Whether path-traced light is denoised. None: as the scene says, but OpenEXR not.
     pub denoise: Option<bool>,
 }
@@ -73,6 +75,7 @@ impl StillOptions {
             format: PictureFormat::default(),
             quality: DEFAULT_QUALITY,
             is_deep: false,
+            is_transparent: false,
             denoise: None,
         }
     }
@@ -82,7 +85,7 @@ impl StillOptions {
         FileEncoding {
             format: self.format,
             quality: self.quality,
-            values: DisplayValues { is_deep: self.is_deep },
+            values: DisplayValues { is_deep: self.is_deep, is_transparent: self.is_transparent },
         }
     }
 

@@ -60,22 +60,23 @@ impl<W: Write> PngStream<W> {
     /// # Errors
     /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] if a side is zero.
     pub fn new(sink: W, size_px: [u32; 2], document: &str) -> Result<Self, ExportError> {
-        Self::with_depth(sink, size_px, document, BitDepth::Eight)
+        Self::with_layout(sink, size_px, document, BitDepth::Eight, false)
     }
 
-    /// The same with as many bits per channel as `depth` says.
+    /// The same with as many bits per channel as `depth` says, and with alpha, straight, if `has_alpha`.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn with_depth(
+    pub fn with_layout(
         sink: W,
         size_px: [u32; 2],
         document: &str,
         depth: BitDepth,
+        has_alpha: bool,
     ) -> Result<Self, ExportError> {
         let outbox = Outbox::default();
         let mut header = png::Encoder::new(outbox.clone(), size_px[0], size_px[1]);
-        header.set_color(png::ColorType::Rgb);
+        header.set_color(if has_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
         header.set_depth(depth);
         header.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         header.set_compression(png::Compression::Balanced);
@@ -92,7 +93,7 @@ impl<W: Write> PngStream<W> {
         Ok(stream)
     }
 
-    /// Appends any number of bytes of RGB pixels; a channel of 16 bits begins with its high byte.
+    /// Appends any number of bytes of pixels; a channel of 16 bits begins with its high byte.
     ///
     /// # Errors
     /// [`ExportError::Write`] from the sink; [`ExportError::Encode`] past the last row.

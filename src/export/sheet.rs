@@ -34,7 +34,8 @@ impl Sheet {
     /// # Errors
     /// [`ExportError::Size`] and [`ExportError::Sheet`] if a side is out of range,
     /// [`ExportError::WebPSize`] if it is for a WebP, [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR,
-    /// [`ExportError::Deep`] for 16 bits of another format than PNG.
+    /// [`ExportError::Deep`] for 16 bits of another format than PNG, [`ExportError::Transparent`] and
+    /// [`ExportError::TransparentRedCyan`] for a background that cannot be transparent.
     pub fn new(scene: &Scene, options: &StillOptions) -> Result<Self, ExportError> {
         let picture_px = checked_size(options.size_px)?;
         let layout = scene.camera.stereo.layout;
@@ -57,6 +58,14 @@ impl Sheet {
         }
         if options.is_deep && options.format != PictureFormat::Png {
             return Err(ExportError::Deep);
+        }
+        if options.is_transparent {
+            if !options.format.has_alpha() {
+                return Err(ExportError::Transparent);
+            }
+            if pictures == [Eyes::Anaglyph] {
+                return Err(ExportError::TransparentRedCyan);
+            }
         }
         if options.format == PictureFormat::WebP {
             checked_webp_size(sheet_px)?;

@@ -39,8 +39,8 @@ impl StillOptions {
     /// Width and height of the file, with both eyes' pictures, in pixels.
     ///
     /// # Errors
-    /// [`ExportError::Size`], [`ExportError::Sheet`], [`ExportError::WebPSize`], [`ExportError::RedCyanExr`] and
-    /// [`ExportError::Deep`].
+    /// [`ExportError::Size`], [`ExportError::Sheet`], [`ExportError::WebPSize`], [`ExportError::RedCyanExr`],
+    /// [`ExportError::Deep`], [`ExportError::Transparent`] and [`ExportError::TransparentRedCyan`].
     pub fn sheet_px(&self, scene: &Scene) -> Result<[u32; 2], ExportError> {
         Ok(Sheet::new(scene, self)?.size_px())
     }
@@ -187,7 +187,13 @@ impl<W: Write> StillJob<W> {
         let overview =
             Overview::new(pipelines, scene, &sub_frames, environment_map, &sheet, options.format);
         let mut drawn = sub_frames;
-        drawn.change(|scene| scene.integrator.denoise = denoises);
+        drawn.change(|scene| {
+            scene.integrator.denoise = denoises;
+            // Opacity is a share of all samples, so every pixel gets all.
+            if options.is_transparent {
+                scene.integrator.noise = 0.0;
+            }
+        });
         let first_px = tiling.tile(0).rendered;
         let view = SubFrameView::new(pipelines, first_px, environment_map, drawn, file.values);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();

@@ -20,45 +20,55 @@ const RIFF_HEADER_BYTES: usize = 12;
 /// Bytes of a chunk's header: its name and its size.
 const CHUNK_HEADER_BYTES: usize = 8;
 
-/// The bit of the `VP8X` chunk that announces an XMP chunk.
+/// Bits of the `VP8X` chunk: that the file has an XMP chunk, and that its pixels have alpha.
 const HAS_XMP: u8 = 1 << 2;
+const HAS_ALPHA: u8 = 1 << 4;
 
 /// A WebP being collected. Dropping it before [`Self::finish`] writes nothing.
 pub struct WebPStream<W: Write> {
     sink: W,
     size_px: [u32; 2],
     document: String,
-    rgb: Vec<u8>,
+    has_alpha: bool,
+    pixels: Vec<u8>,
 }
 
 impl<W: Write> WebPStream<W> {
-    /// Starts a picture of `size_px` with the scene `document`.
+    /// Starts a picture of `size_px` with the scene `document`, and with alpha, straight, if `has_alpha`.
     ///
     /// # Errors
     /// [`ExportError::WebPSize`] for a size out of range, [`ExportError::Encode`] if memory is short.
-    pub fn new(sink: W, size_px: [u32; 2], document: &str) -> Result<Self, ExportError> {
-        let [width, height] = checked_webp_size(size_px)?.map(|side| side as usize);
-        let mut rgb = Vec::new();
-        rgb.try_reserve_exact(3 * width * height)
-            .map_err(|_| encode("memory is too short for a WebP of this size"))?;
-        Ok(Self { sink, size_px, document: document.to_owned(), rgb })
+    pub fn new(
+        sink: W,
+        size_px: [u32; 2],
+        document: &str,
+        has_alpha: bool,
+    ) -> Result<Self, ExportError> {
+        let document = document.to_owned();
+        let size_px = checked_webp_size(size_px)?;
+        let mut stream = Self { sink, size_px, document, has_alpha, pixels: Vec::new() };
+        let bytes = stream.missing_bytes();
+        let room = stream.pixels.try_reserve_exact(bytes);
+        room.map_err(|_| encode("memory is too short for a WebP of this size"))?;
+        Ok(stream)
     }
 
-    /// Appends any number of RGB bytes.
+    /// Appends any number of bytes of pixels.
     ///
     /// # Errors
     /// [`ExportError::Encode`] past the last row.
-    pub fn write_rgb(&mut self, rgb: &[u8]) -> Result<(), ExportError> {
-        if rgb.len() > self.missing_bytes() {
+    pub fn write_pixels(&mut self, pixels: &[u8]) -> Result<(), ExportError> {
+        if pixels.len() > self.missing_bytes() {
             return Err(encode("more rows than the picture has"));
         }
-        self.rgb.extend_from_slice(rgb);
+        self.pixels.extend_from_slice(pixels);
         Ok(())
     }
 
     fn missing_bytes(&self) -> usize {
         let [width, height] = self.size_px.map(|side| side as usize);
-        3 * width * height - self.rgb.len()
+        let channels = if self.has_alpha { 4 } else { 3 };
+        channels * width * height - self.pixels.len()
     }
 
     /// Encodes the picture, writes the file and returns the flushed sink.
@@ -70,14 +80,16 @@ impl<W: Write> WebPStream<W> {
             return Err(encode("rows are missing"));
         }
         let [width, height] = self.size_px;
+        let color = if self.has_alpha { ColorType::Rgba8 } else { ColorType::Rgb8 };
         let mut file = Vec::new();
         WebPEncoder::new(&mut file)
-            .encode(&self.rgb, width, height, ColorType::Rgb8)
+            .encode(&self.pixels, width, height, color)
             .map_err(|error| ExportError::Encode(error.to_string()))?;
         let pixels = file.get(RIFF_HEADER_BYTES..).unwrap_or_default();
 
         // Flags, three reserved bytes, width and height less one in 24 bits each.
-        let mut features = vec![HAS_XMP, 0, 0, 0];
+        let flags = if self.has_alpha { HAS_XMP | HAS_ALPHA } else { HAS_XMP };
+        let mut features = vec![flags, 0, 0, 0];
         for side in self.size_px {
             features.extend(&(side - 1).to_le_bytes()[..3]);
         }

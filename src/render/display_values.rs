@@ -1,4 +1,4 @@
-//! What a view's display picture holds: 8 or 16 bits per channel.
+//! What a view's display picture holds: 8 or 16 bits per channel, the background or none.
 
 /// What a view's display picture holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -7,6 +7,8 @@ pub struct DisplayValues {
     ///
     /// So a picture of 16 bits needs no other texture format, layout or pipeline than one of 8 bits.
     pub is_deep: bool,
+    /// True for a transparent background: the display has an alpha channel, straight, not premultiplied.
+    pub is_transparent: bool,
 }
 
 impl DisplayValues {

@@ -350,7 +350,7 @@ impl View {
             .with_sky(scene, space, self.sky.as_ref())
             .with_preview(self.preview_samples(scene))
             .with_sub_frame(self.sub_frame)
-            .with_display_values(self.display_values)
+            .with_display_values(scene, self.display_values)
             .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
             .with_color_curves(self.colors.curves())

@@ -39,6 +39,11 @@ impl StillFormat {
         ),
     ];
 
+    /// Whether the background can be transparent.
+    pub fn has_alpha(self) -> bool {
+        matches!(self, Self::Png | Self::WebP)
+    }
+
     /// The format's name with its article.
     pub fn article_and_name(self) -> &'static str {
         match self {
@@ -60,6 +65,8 @@ pub struct StillFile {
     pub quality: u8,
     /// True for 16 bits per channel of a PNG.
     pub deep_png: bool,
+    /// True for a transparent background, if the format can have one.
+    pub no_background: bool,
 }
 
 impl StillFile {
@@ -67,11 +74,21 @@ impl StillFile {
     pub fn is_deep(&self) -> bool {
         self.deep_png && self.format == StillFormat::Png
     }
+
+    /// True for a transparent background.
+    pub fn is_transparent(&self) -> bool {
+        self.no_background && self.format.has_alpha()
+    }
 }
 
 impl Default for StillFile {
     fn default() -> Self {
-        Self { format: StillFormat::Png, quality: DEFAULT_QUALITY, deep_png: false }
+        Self {
+            format: StillFormat::Png,
+            quality: DEFAULT_QUALITY,
+            deep_png: false,
+            no_background: false,
+        }
     }
 }
 

@@ -117,7 +117,10 @@ impl eframe::App for App {
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
         Action::SavePicture { size_px, file, pair } => {
-            let is_new = file.format == StillFormat::Exr || file.is_deep() || pair;
+            let is_new = file.format == StillFormat::Exr
+                || file.is_deep()
+                || file.is_transparent()
+                || pair;
             let same = if is_new { None } else { engine.finished_picture(session, size_px) };
             match same {
                 Some(picture) => picture.save(file, &session.mailbox),

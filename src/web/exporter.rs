@@ -72,6 +72,7 @@ impl Exporter {
             format: picture_format(file),
             quality: file.quality,
             is_deep: file.is_deep(),
+            is_transparent: file.is_transparent(),
             ..StillOptions::new(size_px)
         };
         match StillExport::start(&self.pipelines, session.interface.scene(), options, pair) {

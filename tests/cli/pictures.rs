@@ -120,6 +120,30 @@ fn a_png_may_have_sixteen_bits_per_channel() {
     }
 }
 
+/// FFmpeg reads the same alpha of a PNG and of a WebP: of the background, of the set, and between.
+#[test]
+fn the_background_may_be_transparent() {
+    let place = Workplace::new();
+    let png = place.rendered("scene.json", "a.png", &["--transparent"]);
+    let pixels = Picture::of(&png).bytes;
+    let alpha = |value: fn(u8) -> bool| pixels.iter().skip(3).step_by(4).any(|&a| value(a));
+    assert!(alpha(|a| a == 0) && alpha(|a| a == 255) && alpha(|a| a == 127 || a == 128));
+    place.rendered("scene.json", "a.webp", &["--transparent"]);
+    for name in ["a.png", "a.webp"] {
+        assert!(place.decoded(name, "rgba") == pixels, "{name}");
+        assert_eq!(place.rendered(name, "again.png", &["--transparent"]), png, "{name}");
+    }
+    for (out, more, message) in [
+        ("a.jpg", &[][..], "choose one of them"),
+        ("a.exr", &[], "choose one of them"),
+        ("a.png", &["--stereo", "anaglyph"], "anaglyph"),
+    ] {
+        let output = place.render("scene.json", out, &[&["--transparent"], more].concat());
+        assert_eq!(code(&output), 2, "{out}");
+        assert!(said(&output).contains(message), "{out}: {}", said(&output));
+    }
+}
+
 #[test]
 fn a_picture_too_large_for_webp_is_refused_at_once() {
     let place = Workplace::new();

@@ -55,8 +55,12 @@ fn pictures_are_saved_in_the_chosen_format() {
     press(&mut harness, "File: PNG");
     press(&mut harness, "Bits per channel: 16");
     assert!(saved(&mut harness).is_deep());
+    press(&mut harness, "Background: Transparent");
+    assert!(saved(&mut harness).is_transparent());
     press(&mut harness, "File: JPEG");
-    assert!(!saved(&mut harness).is_deep(), "only PNGs have 16 bits");
+    let jpeg = saved(&mut harness);
+    assert!(!jpeg.is_deep() && !jpeg.is_transparent(), "JPEGs have neither");
+    assert!(harness.query_by_label("Background: Transparent").is_none());
     press(&mut harness, "Quality value");
     harness.get_by_label("Quality value").type_text("70");
     harness.key_press(Key::Enter);

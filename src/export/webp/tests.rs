@@ -11,9 +11,9 @@ use crate::export::{MAX_TEXT_BYTES, MAX_WEBP_PIXELS, MAX_WEBP_PX};
 const DOCUMENT: &str = r#"{"name":"Zürich → 雪 <&amp;> \"'"}"#;
 
 fn written(size_px: [u32; 2], rgb: &[u8], bytes_at_once: usize, document: &str) -> Vec<u8> {
-    let mut stream = WebPStream::new(Vec::new(), size_px, document).unwrap();
+    let mut stream = WebPStream::new(Vec::new(), size_px, document, false).unwrap();
     for bytes in rgb.chunks(bytes_at_once) {
-        stream.write_rgb(bytes).unwrap();
+        stream.write_pixels(bytes).unwrap();
     }
     stream.finish().unwrap()
 }
@@ -48,7 +48,8 @@ fn the_scene_round_trips_in_xmp() {
 #[test]
 fn sizes_beyond_the_format_are_refused_before_the_first_row() {
     for size_px in [[0, 5], [MAX_WEBP_PX + 1, 1], [1, MAX_WEBP_PX + 1], [8193, 8192]] {
-        let refused = WebPStream::new(Vec::new(), size_px, DOCUMENT).err().expect("an error");
+        let refused =
+            WebPStream::new(Vec::new(), size_px, DOCUMENT, false).err().expect("an error");
         assert!(matches!(refused, ExportError::WebPSize(_)), "{size_px:?}: {refused}");
         assert!(refused.to_string().contains("16383"), "{refused}");
     }
@@ -62,16 +63,27 @@ fn sizes_beyond_the_format_are_refused_before_the_first_row() {
 
 #[test]
 fn missing_rows_further_rows_and_a_full_disk_are_errors() {
-    let start = || WebPStream::new(Vec::new(), [4, 4], DOCUMENT).unwrap();
+    let start = || WebPStream::new(Vec::new(), [4, 4], DOCUMENT, false).unwrap();
     let mut stream = start();
-    stream.write_rgb(&[0; 4 * 3 * 3]).unwrap();
+    stream.write_pixels(&[0; 4 * 3 * 3]).unwrap();
     assert!(matches!(stream.finish(), Err(ExportError::Encode(_))));
-    assert!(matches!(start().write_rgb(&[0; 49]), Err(ExportError::Encode(_))));
+    assert!(matches!(start().write_pixels(&[0; 49]), Err(ExportError::Encode(_))));
 
     let mut short = vec![0; written([4, 4], &[7; 48], 48, DOCUMENT).len() - 1];
-    let mut stream = WebPStream::new(short.as_mut_slice(), [4, 4], DOCUMENT).unwrap();
-    stream.write_rgb(&[7; 48]).unwrap();
+    let mut stream = WebPStream::new(short.as_mut_slice(), [4, 4], DOCUMENT, false).unwrap();
+    stream.write_pixels(&[7; 48]).unwrap();
     assert!(matches!(stream.finish(), Err(ExportError::Write(_))));
+}
+
+#[test]
+fn alpha_round_trips_and_is_announced() {
+    let rgba: Vec<u8> = (0..4 * 35).map(|i| (i * 13 % 256) as u8).collect();
+    let mut stream = WebPStream::new(Vec::new(), [7, 5], DOCUMENT, true).unwrap();
+    stream.write_pixels(&rgba).unwrap();
+    let file = stream.finish().unwrap();
+    assert!(decoder(&file).has_alpha());
+    assert_eq!(decoded(&file), rgba);
+    assert!(!decoder(&written([1, 1], &[1, 2, 3], 3, DOCUMENT)).has_alpha());
 }
 
 /// A file with this XMP packet and no pixels.

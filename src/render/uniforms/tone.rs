@@ -38,9 +38,14 @@ pub fn bloom(bloom: &scene::Bloom) -> Bloom {
 }
 
 impl Inputs {
-    /// The inputs of a display picture that holds `values`.
-    pub fn with_display_values(mut self, values: DisplayValues) -> Self {
+    /// The inputs of a display picture of `scene` that holds `values`.
+    pub fn with_display_values(mut self, scene: &scene::Scene, values: DisplayValues) -> Self {
         self.frame.tone.is_deep = u32::from(values.is_deep);
+        if values.is_transparent {
+            let sub_frames = self.sub_frame.map_or(1, |sub_frame| sub_frame.count);
+            let samples = u64::from(scene.quality.samples) * u64::from(sub_frames);
+            self.frame.background.transparent_samples = samples as f32;
+        }
         self
     }
 }

@@ -128,6 +128,18 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         );
         cx.rects.record("picture bits", &response);
     }
+    if export.file.format.has_alpha() {
+        let response = choice(
+            ui,
+            "Background",
+            &mut export.file.no_background,
+            &[
+                (false, "As shown", "The background is part of the picture"),
+                (true, "Transparent", "No background: the picture can be laid over others"),
+            ],
+        );
+        cx.rects.record("picture background", &response);
+    }
     if export.file.format == StillFormat::Jpeg {
         ui.horizontal(|ui| {
             ui.label(RichText::new(QUALITY.label).color(theme::TEXT_DIM));
