@@ -36,7 +36,7 @@ fn clear_radiance(site: Site, ray: Ray) -> vec3f {
 
 // The part of a sample that a transparent background leaves to fog and surface.
 fn opacity(site: Site, ray: Ray) -> f32 {
-    if (frame.background.transparent_samples == 0.0 || surface[site.index].x != 0u) { return 1.0; }
+    if (!is_transparent() || surface[site.index].x != 0u) { return 1.0; }
     return 1.0 - fog_transmittance(ray.origin, ray.direction, NO_COLLISION);
 }
 

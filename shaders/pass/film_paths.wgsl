@@ -47,7 +47,7 @@ fn film(first: Site) -> vec2f {
             sum += limited(path.radiance, &count);
             continue;
         }
-        if (frame.background.transparent_samples > 0.0) { weight -= 1.0; }
+        if (is_transparent()) { weight -= 1.0; }
         let height = eye_position(site.pixel, place_in_pixel(site.sample)).y;
         sum += background(camera_ray(site).direction, height);
     }
