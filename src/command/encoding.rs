@@ -16,7 +16,7 @@ pub struct EncodingArguments {
     /// Bits per channel of PNGs: 8, or 16 for later edits
     #[arg(long, value_name = "N", default_value = "8", value_parser = ["8", "16"])]
     bits: String,
-    /// Make the background transparent, with smooth edges: PNG and WebP
+    /// Make the background transparent, with smooth edges: PNG, WebP and OpenEXR
     #[arg(long)]
     transparent: bool,
 }

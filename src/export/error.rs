@@ -35,7 +35,7 @@ pub enum ExportError {
     Deep,
     /// A transparent background of a format without alpha.
     #[error(
-        "only a PNG or a WebP can have a transparent background: choose one of them, or keep the background"
+        "a JPEG cannot have a transparent background: choose PNG, WebP or OpenEXR, or keep the background"
     )]
     Transparent,
     /// A transparent background of an anaglyph, whose colours are of two eyes.

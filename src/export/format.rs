@@ -49,7 +49,7 @@ impl PictureFormat {
 
     /// Whether the format can have an alpha channel.
     pub fn has_alpha(self) -> bool {
-        matches!(self, Self::Png | Self::WebP)
+        matches!(self, Self::Png | Self::WebP | Self::Exr)
     }
 
     /// The format's file extension, without the dot.
@@ -90,7 +90,7 @@ impl FileEncoding {
     /// Bytes per pixel of the encoder's input.
     pub fn pixel_bytes(self, has_guides: bool) -> usize {
         match self.format {
-            PictureFormat::Exr => exr::bytes_of_pixel(has_guides),
+            PictureFormat::Exr => exr::bytes_of_pixel(self.values.is_transparent, has_guides),
             _ => self.channels() * self.channel_bytes(),
         }
     }
@@ -109,7 +109,7 @@ impl FileEncoding {
     /// The view may be overwritten at once.
     pub fn read(self, gpu: &Gpu, view: &View) -> Option<TileReadback> {
         Some(match self.format {
-            PictureFormat::Exr => TileReadback::Samples(view.read_samples()),
+            PictureFormat::Exr => TileReadback::Samples(Box::new(view.read_samples())),
             _ => {
                 let [width, height] = view.region().size_px;
                 let size_px = [width * self.values.texels_per_pixel(), height];
@@ -134,7 +134,7 @@ impl FileEncoding {
 /// A pending readback of a tile from the GPU.
 pub(super) enum TileReadback {
     Display(Readback),
-    Samples(SamplesReadback),
+    Samples(Box<SamplesReadback>),
 }
 
 impl TileReadback {
@@ -206,7 +206,10 @@ impl<W: Write> Encoder<W> {
             PictureFormat::WebP => {
                 Self::WebP(WebPStream::new(sink, size_px, &document(), values.is_transparent)?)
             }
-            PictureFormat::Exr => Self::Exr(ExrStream::new(sink, size_px, scene)?),
+            PictureFormat::Exr => {
+                let has_alpha = values.is_transparent;
+                Self::Exr(ExrStream::with_alpha(sink, size_px, scene, has_alpha)?)
+            }
             PictureFormat::Rgb => Self::Rgb(sink),
         })
     }

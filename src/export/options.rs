@@ -57,7 +57,7 @@ pub struct StillOptions {
     pub quality: u8,
     /// True for 16 bits per channel of a PNG, instead of 8.
     pub is_deep: bool,
-    /// True for a transparent background, of PNG and WebP. Each pixel then gets all samples: a noise target is ignored.
+    /// True for a transparent background, of PNG, WebP and OpenEXR. Each pixel then gets all samples: a noise target is ignored.
     pub is_transparent: bool,
     /// Whether path-traced light is denoised. None: as the scene says, but OpenEXR not.
     pub denoise: Option<bool>,

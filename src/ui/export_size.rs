@@ -41,7 +41,7 @@ impl StillFormat {
 
     /// Whether the background can be transparent.
     pub fn has_alpha(self) -> bool {
-        matches!(self, Self::Png | Self::WebP)
+        matches!(self, Self::Png | Self::WebP | Self::Exr)
     }
 
     /// The format's name with its article.
