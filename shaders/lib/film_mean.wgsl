@@ -4,7 +4,7 @@
 // The mean of a pixel's samples.
 fn sample_mean(index: u32) -> vec3f {
     let bw = film_bw[index];
-    return vec3f(film_rg[index], bw.x) / max(bw.y, 1.0);
+    return vec3f(film_rg[index], bw.x) / select(bw.y, 1.0, bw.y == 0.0);
 }
 
 fn film_mean(index: u32) -> vec3f {

@@ -34,6 +34,12 @@ fn clear_radiance(site: Site, ray: Ray) -> vec3f {
     return reflected(site, ray.origin, octahedral_unpack(seen.y), -ray.direction, m, visibility[site.index]);
 }
 
+// The part of a sample that a transparent background leaves to fog and surface.
+fn opacity(site: Site, ray: Ray) -> f32 {
+    if (!is_transparent() || surface[site.index].x != 0u) { return 1.0; }
+    return 1.0 - fog_transmittance(ray.origin, ray.direction, NO_COLLISION);
+}
+
 // The same through fog.
 fn direct_radiance(site: Site, ray: Ray) -> vec3f {
     let radiance = clear_radiance(site, ray);

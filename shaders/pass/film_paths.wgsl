@@ -35,6 +35,7 @@ fn film(first: Site) -> vec2f {
     var count = vec2f(0.0);
     if (!first.is_there || paths[first.ray].end == PATH_SKIPPED) { return count; }
     var sum = vec3f(0.0);
+    var weight = f32(dispatch.samples);
     var seen = Guides(vec3f(0.0), vec3f(0.0), 0.0);
     for (var i = 0u; i < dispatch.samples; i++) {
         let site = sample_site(first, i);
@@ -46,6 +47,7 @@ fn film(first: Site) -> vec2f {
             sum += limited(path.radiance, &count);
             continue;
         }
+        if (is_transparent()) { weight -= 1.0; }
         let height = eye_position(site.pixel, place_in_pixel(site.sample)).y;
         sum += background(camera_ray(site).direction, height);
     }
@@ -64,7 +66,7 @@ fn film(first: Site) -> vec2f {
     let part = added / (before + added);
     let albedo = mix(known.albedo, seen.albedo / added, part);
     guides[index] = pack_guides(Guides(albedo, mix(known.normal, seen.normal / added, part), 0.0));
-    put_on_film(first.pixel, sum);
+    put_on_film(first.pixel, sum, weight);
     return count;
 }
 

@@ -135,6 +135,11 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    for (var i = 0u; i < dispatch.samples; i++) { sum += radiance_of(sample_site(first, i)); }
-    put_on_film(first.pixel, sum);
+    var weight = 0.0;
+    for (var i = 0u; i < dispatch.samples; i++) {
+        let site = sample_site(first, i);
+        sum += radiance_of(site);
+        weight += opacity(site, camera_ray(site));
+    }
+    put_on_film(first.pixel, sum, weight);
 }

@@ -17,10 +17,18 @@ fn main(@builtin(global_invocation_id) thread: vec3u) {
     let first = pixel_site(thread.x);
     if (!first.is_there) { return; }
     var sum = vec3f(0.0);
-    if (SINGLE) { sum = shaded(first); }
-    for (var i = 0u; !SINGLE && i < dispatch.samples; i++) { sum += shaded(sample_site(first, i)); }
+    var weight = 0.0;
+    if (SINGLE) {
+        sum = shaded(first);
+        weight = opacity(first, rays[first.ray]);
+    }
+    for (var i = 0u; !SINGLE && i < dispatch.samples; i++) {
+        let site = sample_site(first, i);
+        sum += shaded(site);
+        weight += opacity(site, rays[site.ray]);
+    }
     if (frame.indirect.kind == INDIRECT_OFF) {
-        put_on_film(first.pixel, sum);
+        put_on_film(first.pixel, sum, weight);
     } else {
         // Centre samples only.
         direct[pixel_index(first.pixel)] = shared_exponent_pack(sum);

@@ -10,9 +10,12 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
     let index = pixel_index(pixel);
     var all = ShutterPixel(vec3f(0.0), 0.0, vec2u(0u), 0.0);
     if (dispatch.iteration > 0u) { all = shutter[index]; }
-    // Every moment of the shutter time counts alike, however many samples it needed.
-    all.light += sample_mean(index);
-    all.samples += film_bw[index].y;
+    let samples = film_bw[index].y;
+    // Before a transparent background a moment counts by its opacity; else all moments of the shutter time count
+    // alike, however many samples they needed.
+    let is_transparent = frame.background.transparent_samples > 0.0;
+    all.light += sample_mean(index) * select(1.0, samples, is_transparent);
+    all.samples += samples;
     let share = 1.0 / f32(dispatch.iteration + 1u);
     if (frame.paths.ray_reach > 0.0) {
         all.moment += abs(moments[index]);
@@ -24,7 +27,7 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         guides[index] = all.guides;
     }
     shutter[index] = all;
-    let sum = all.light * (share * all.samples);
+    let sum = all.light * select(share * all.samples, 1.0, is_transparent);
     film_rg[index] = sum.rg;
     film_bw[index] = vec2f(sum.b, all.samples);
 }

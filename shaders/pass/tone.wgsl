@@ -1,4 +1,4 @@
-// Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither.
+// Film to display: mean of the samples, exposure, tone curve, bloom, sRGB, dither or 16 bits.
 // uses: lib/curve, lib/exposure, lib/eye, lib/film_mean, lib/lattice, lib/mip, lib/srgb
 // uses: types/dispatch_params, types/frame_uniforms, types/post
 
@@ -81,6 +81,30 @@ fn shown(pixel: vec2u) -> vec3f {
     return srgb_from_linear(color);
 }
 
+// Alpha: the part of a pixel's samples that is not transparent.
+fn alpha(pixel: vec2u) -> f32 {
+    let samples = frame.background.transparent_samples;
+    if (samples == 0.0) { return 1.0; }
+    return saturate(film_bw[pixel_index(pixel)].y / samples);
+}
+
+// Stores display values of 0 to 1: of 8 bits, dithered, or of 16 bits, as high and low bytes in two texels.
+fn show(pixel: vec2u, encoded: vec3f) {
+    let part = alpha(pixel);
+    // The film has no colour where all is transparent.
+    let color = select(encoded, vec3f(0.0), part == 0.0);
+    if (frame.tone.is_deep == 0u) {
+        let dithered = color + dither(frame.origin_px + eye_pixel(pixel)) / 255.0;
+        textureStore(display, pixel, vec4f(dithered, part));
+        return;
+    }
+    let steps = vec4u(round(vec4f(saturate(color), part) * 65535.0));
+    let first = vec2u(2u * pixel.x, pixel.y);
+    // A quarter more than the byte, for devices that round down.
+    textureStore(display, first, (vec4f(steps >> vec4u(8u)) + 0.25) / 255.0);
+    textureStore(display, first + vec2u(1u, 0u), (vec4f(steps & vec4u(255u)) + 0.25) / 255.0);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) local_index: u32) {
     frame = frame_uniforms;
@@ -92,6 +116,5 @@ fn main(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index
         // The left glass is red and passes the left eye's red; the right glass passes green and blue.
         encoded = vec3f(encoded.r, shown(pixel + frame.eyes.second_at).gb);
     }
-    let dithered = encoded + dither(frame.origin_px + eye_pixel(pixel)) / 255.0;
-    textureStore(display, pixel, vec4f(dithered, 1.0));
+    show(pixel, encoded);
 }

@@ -146,6 +146,9 @@ struct Background {
     map_gain: f32,
     map_y: vec3f,
     map_z: vec3f,
+    // Samples of a finished pixel if the background is transparent: it is black then, and samples that see it have no
+    // weight on the film. 0: the background is shown.
+    transparent_samples: f32,
 }
 
 // The set has a surface.
@@ -203,6 +206,8 @@ struct Tone {
     logarithmic: u32,
     // Luminance that auto exposure brings the mean to.
     key: f32,
+    // 1: the display has 16 bits per channel, in two texels of each pixel.
+    is_deep: u32,
 }
 
 struct Bloom {

@@ -36,6 +36,12 @@ pub struct SequenceSettings<'a> {
     pub environment_map: Option<&'a EnvironmentMap>,
     /// The file format.
     pub format: PictureFormat,
+    /// Quality of JPEGs, 1 to 100.
+    pub quality: u8,
+    /// True for 16 bits per channel.
+    pub is_deep: bool,
+    /// True for a transparent background.
+    pub is_transparent: bool,
     /// The eye of each file of a frame.
     pub eyes: &'static [Option<Eye>],
     /// As [`StillOptions::denoise`](mandelight::export::StillOptions::denoise).
@@ -54,6 +60,15 @@ impl SequenceSettings<'_> {
         let line = |hash: &mut Sha256, text: String| hash.update(text + "\n");
         let (version, format, eyes) = (env!("CARGO_PKG_VERSION"), self.format, self.eyes);
         line(&mut hash, format!("{version} {format:?} {eyes:?} {:?}", self.denoise));
+        if format == PictureFormat::Jpeg {
+            line(&mut hash, format!("quality {}", self.quality));
+        }
+        if self.is_deep {
+            line(&mut hash, "16 bits".to_owned());
+        }
+        if self.is_transparent {
+            line(&mut hash, "transparent".to_owned());
+        }
         line(
             &mut hash,
             format!(
@@ -165,5 +180,6 @@ fn is_binding_name(name: &str) -> bool {
 }
 
 fn is_frame(name: &str) -> bool {
-    name.starts_with("frame_") && (name.ends_with(".png") || name.ends_with(".exr"))
+    let extension = name.strip_prefix("frame_").and_then(|rest| rest.rsplit_once('.'));
+    extension.is_some_and(|(_, extension)| ["png", "jpg", "webp", "exr"].contains(&extension))
 }

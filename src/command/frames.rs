@@ -26,6 +26,7 @@ use mandelight::{
 use super::{
     Failure,
     adapter::{AdapterArguments, Health},
+    encoding::{EncodingArguments, FrameFormat},
     environment::{EnvironmentArguments, warn_of_missing_map},
     folder::{Folder, FrameFile, SequenceSettings},
     input::{self, Change},
@@ -54,9 +55,14 @@ pub struct FramesArguments {
     /// Samples per pixel, instead of the scenes' number
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
-    /// Write OpenEXR files, with linear radiance, depth, normal and position, instead of PNGs
-    #[arg(long)]
+    /// The files' format; PNG unless given
+    #[arg(long, value_name = "FORMAT", value_enum)]
+    format: Option<FrameFormat>,
+    /// The same as --format exr: linear radiance, depth, normal and position
+    #[arg(long, conflicts_with = "format")]
     exr: bool,
+    #[command(flatten)]
+    encoding: EncodingArguments,
     /// Change a field in every key, such as quality.detail=0.5, or of the path, such as path.frames_per_second=60
     #[arg(long, value_name = "PATH=VALUE", value_parser = input::parse_change)]
     set: Vec<Change>,
@@ -105,12 +111,18 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let environment_map = environment.map(|environment| environment.environment_map);
     let FramesArguments { size, samples, quiet, .. } = arguments;
     let denoise = arguments.integrator.denoise();
-    let format = if arguments.exr { PictureFormat::Exr } else { PictureFormat::Png };
+    let format = match arguments.format {
+        Some(format) => format.picture_format(),
+        None if arguments.exr => PictureFormat::Exr,
+        None => PictureFormat::Png,
+    };
+    let mut options = StillOptions { samples, denoise, ..StillOptions::new(size) };
+    arguments.encoding.apply(format, &mut options)?;
     let eyes = arguments.stereo.eyes();
     let is_stream = arguments.output.as_path() == "-";
-    if is_stream && (arguments.exr || eyes.len() > 1) {
+    if is_stream && (format != PictureFormat::Png || eyes.len() > 1) {
         return Err(Failure::usage(
-            "-o -: standard output takes one PNG for each frame; leave out --exr and --stereo pair, or name a folder",
+            "-o -: standard output takes one PNG for each frame; leave out --format, --exr and --stereo pair, or name a folder",
         ));
     }
     let sequence = SequenceSettings {
@@ -119,10 +131,12 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
         samples,
         environment_map: environment_map.as_deref(),
         format,
+        quality: options.quality,
+        is_deep: options.is_deep,
+        is_transparent: options.is_transparent,
         eyes,
         denoise,
     };
-    let options = StillOptions { samples, format, denoise, ..StillOptions::new(size) };
     for (key, &eye) in path.keys.iter().flat_map(|key| eyes.iter().map(move |eye| (key, eye))) {
         let of_eye = StillOptions { eye, ..options.clone() };
         of_eye.sheet_px(&key.scene).map_err(Failure::usage)?;

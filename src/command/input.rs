@@ -5,7 +5,7 @@
 
 use std::{
     fs::File,
-    io::{self, Cursor, Read},
+    io::{self, Read},
     path::Path,
     sync::Arc,
 };
@@ -43,17 +43,12 @@ pub fn read_project(source: &Path) -> Result<Project, Failure> {
     };
     read.map_err(|error| failure(&error))?;
 
-    let text = if export::is_exr(&bytes) {
-        export::exr_scene_text(Cursor::new(bytes))
+    let text = match export::picture_scene_text(&bytes) {
+        Some(text) => text
             .map_err(|error| failure(&error))?
-            .ok_or_else(|| failure(&"this picture carries no Mandelight scene"))?
-    } else if export::is_png(&bytes) {
-        export::scene_text(Cursor::new(bytes))
-            .map_err(|error| failure(&error))?
-            .ok_or_else(|| failure(&"this picture carries no Mandelight scene"))?
-    } else {
-        String::from_utf8(bytes)
-            .map_err(|_| failure(&"neither a scene document nor a PNG or EXR"))?
+            .ok_or_else(|| failure(&"this picture carries no Mandelight scene"))?,
+        None => String::from_utf8(bytes)
+            .map_err(|_| failure(&"neither a scene document nor a PNG, JPEG, WebP or EXR"))?,
     };
     document::project_from_json(&text).map_err(|error| failure(&error))
 }

@@ -8,6 +8,7 @@
 //! | [`render`] | `mandelight render`: a picture of a scene |
 //! | [`frames`] | `mandelight frames`: the frames of a camera path |
 //! | [`scene`] | `mandelight scene`: a document to start from |
+//! | [`encoding`] | `--quality`, `--bits`, `--transparent`; `--format` |
 //! | [`fractals`] | `--formula`, `--hybrid` and `--cut` |
 //! | [`gradient`] | `--gradient`, `--second-gradient` |
 //! | [`integrator`] | `--integrator`, `--bounces`, `--noise` |
@@ -22,6 +23,7 @@
 //! | [`adapter`] | `--adapter`: the choice of a GPU |
 
 mod adapter;
+mod encoding;
 mod environment;
 mod folder;
 mod formulas;

@@ -25,6 +25,7 @@ use mandelight::{
 use super::{
     Failure,
     adapter::{AdapterArguments, Health},
+    encoding::EncodingArguments,
     environment::{EnvironmentArguments, warn_of_missing_map},
     fractals::OtherFractal,
     gradient::GradientArguments,
@@ -44,8 +45,8 @@ pub struct RenderArguments {
     /// A scene document, a picture that contains one, or - for standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The file to write: OpenEXR if the name ends in .exr, else PNG; - for a PNG on standard
-    /// output
+    /// The file to write: JPEG if the name ends in .jpg, WebP if in .webp, OpenEXR if in .exr, else
+    /// PNG; - for a PNG on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Width and height in pixels, each 1 to 16384; in stereo, of one eye's picture
@@ -54,6 +55,8 @@ pub struct RenderArguments {
     /// Samples per pixel, instead of the scene's number
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     samples: Option<u32>,
+    #[command(flatten)]
+    encoding: EncodingArguments,
     #[command(flatten)]
     other: OtherFractal,
     #[command(flatten)]
@@ -92,13 +95,13 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     if arguments.output.as_path() == "-" && eyes.len() > 1 {
         return Err(Failure::usage("--stereo pair: standard output cannot take two files"));
     }
-    let options = StillOptions {
+    let mut options = StillOptions {
         samples: arguments.samples,
         environment_map: environment.map(|environment| environment.environment_map),
-        format: PictureFormat::of(&arguments.output),
         denoise: arguments.integrator.denoise(),
         ..StillOptions::new(arguments.size)
     };
+    arguments.encoding.apply(PictureFormat::of(&arguments.output), &mut options)?;
     let files: Vec<File> = eyes
         .iter()
         .map(|&eye| {

@@ -6,6 +6,7 @@
 //!
 //! | channel | content |
 //! |---|---|
+//! | `A` | with a transparent background: opacity, 0 to 1; `R`, `G` and `B` are premultiplied by it |
 //! | `R`, `G`, `B` | mean radiance, linear Rec. 709, before exposure and tone |
 //! | `Z` | distance from the eye along the view's axis, scene units; infinite for the background |
 //! | `N.X`, `N.Y`, `N.Z` | unit normal of the surface in scene axes; 0 for the background |
@@ -30,15 +31,15 @@ use ::exr::{
 };
 use glam::DVec3;
 
-use super::{ExportError, MAX_TEXT_BYTES, png::SCENE_KEYWORD};
+use super::{ExportError, MAX_TEXT_BYTES, metadata::SCENE_KEYWORD};
 use crate::{
     render::{Eyes, Region, samples::PixelSample},
     scene::{Camera, Scene, document},
 };
 
 /// All channels in alphabetical order, which the format requires; the last ones are guides for denoisers.
-const CHANNELS: [&str; 16] = [
-    "B", "G", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "R", "Z", "albedo.B", "albedo.G",
+const CHANNELS: [&str; 17] = [
+    "A", "B", "G", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "R", "Z", "albedo.B", "albedo.G",
     "albedo.R", "normal.X", "normal.Y", "normal.Z",
 ];
 
@@ -46,13 +47,14 @@ const CHANNELS: [&str; 16] = [
 const GUIDES: usize = 6;
 
 /// The channels of a picture.
-fn channels(has_guides: bool) -> &'static [&'static str] {
-    &CHANNELS[..if has_guides { CHANNELS.len() } else { CHANNELS.len() - GUIDES }]
+fn channels(has_alpha: bool, has_guides: bool) -> &'static [&'static str] {
+    let end = if has_guides { CHANNELS.len() } else { CHANNELS.len() - GUIDES };
+    &CHANNELS[usize::from(!has_alpha)..end]
 }
 
 /// Bytes per pixel, all channels together.
-pub(super) fn bytes_of_pixel(has_guides: bool) -> usize {
-    channels(has_guides).len() * size_of::<f32>()
+pub(super) fn bytes_of_pixel(has_alpha: bool, has_guides: bool) -> usize {
+    channels(has_alpha, has_guides).len() * size_of::<f32>()
 }
 
 /// The first bytes of every OpenEXR file.
@@ -77,10 +79,24 @@ impl<W: Write> ExrStream<W> {
     ///
     /// # Errors
     /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] if a side is zero.
-    pub fn new(mut sink: W, size_px: [u32; 2], scene: &Scene) -> Result<Self, ExportError> {
-        let mut start = header(size_px, scene)?;
+    pub fn new(sink: W, size_px: [u32; 2], scene: &Scene) -> Result<Self, ExportError> {
+        Self::with_alpha(sink, size_px, scene, false)
+    }
+
+    /// The same with a channel of opacity if `has_alpha`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_alpha(
+        mut sink: W,
+        size_px: [u32; 2],
+        scene: &Scene,
+        has_alpha: bool,
+    ) -> Result<Self, ExportError> {
+        let channels = channels(has_alpha, scene.traces_paths());
+        let mut start = header(size_px, scene, channels)?;
         let width = size_px[0] as usize;
-        let channels = channels(scene.traces_paths()).len();
+        let channels = channels.len();
         let row_bytes = (ROW_HEADER_BYTES + width * channels * size_of::<f32>()) as u64;
         let rows_offset = (start.len() + 8 * size_px[1] as usize) as u64;
         for y in 0..u64::from(size_px[1]) {
@@ -131,7 +147,8 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
     let eye_from_anchor = (&camera.position - &camera.pivot) + rays.eye_from_camera;
     let forward = camera.forward();
     let has_guides = pixels.first().is_some_and(|pixel| pixel.guides.is_some());
-    let mut bytes = Vec::with_capacity(pixels.len() * bytes_of_pixel(has_guides));
+    let has_alpha = pixels.first().is_some_and(|pixel| pixel.opacity.is_some());
+    let mut bytes = Vec::with_capacity(pixels.len() * bytes_of_pixel(has_alpha, has_guides));
     for (i, pixel) in (0..).zip(pixels) {
         let at = [i % tile.size_px[0], i / tile.size_px[0]];
         let ray = rays.through(std::array::from_fn(|k| tile.origin_px[k] + at[k]));
@@ -147,7 +164,7 @@ pub(super) fn pixel_bytes(camera: &Camera, tile: Region, pixels: &[PixelSample])
             let ([r, g, b], normal) = (guides.albedo, guides.normal);
             [b, g, r, normal.x, normal.y, normal.z]
         });
-        let values = plain.into_iter().chain(guides.into_iter().flatten());
+        let values = pixel.opacity.into_iter().chain(plain).chain(guides.into_iter().flatten());
         bytes.extend(values.flat_map(f32::to_le_bytes));
     }
     bytes
@@ -194,10 +211,10 @@ impl Rays {
 }
 
 /// The file's bytes before the offset table.
-fn header(size_px: [u32; 2], scene: &Scene) -> Result<Vec<u8>, ExportError> {
+fn header(size_px: [u32; 2], scene: &Scene, channels: &[&str]) -> Result<Vec<u8>, ExportError> {
     let channel =
         |name: &&str| exr::ChannelDescription::new(text(name), exr::SampleType::F32, false);
-    let channels: exr::SmallVec<_> = channels(scene.traces_paths()).iter().map(channel).collect();
+    let channels: exr::SmallVec<_> = channels.iter().map(channel).collect();
     let size = (size_px[0] as usize, size_px[1] as usize);
     let mut header = Header::new(text(""), size, channels).with_encoding(
         exr::Compression::Uncompressed,

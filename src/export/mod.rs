@@ -1,8 +1,8 @@
-//! Export of pictures: stills of any size, rendered tile by tile to PNG or OpenEXR.
+//! Export of pictures: stills of any size, rendered tile by tile to PNG, JPEG, WebP or OpenEXR.
 //!
 //! In: [`crate::render::Pipelines`], a scene, a size in pixels and a sink. Out: the file's bytes,
-//! written in order during the rendering. No job holds a whole picture, opens a file, or waits
-//! for the GPU (except [`still::StillJob::run`]), so the same job runs in a page and in a terminal.
+//! written in order during the rendering. No job holds a whole picture (except of a WebP), opens a
+//! file, or waits for the GPU (except [`still::StillJob::run`]), so the same job runs in a page and in a terminal.
 //!
 //! | file | contents |
 //! |---|---|
@@ -14,29 +14,41 @@
 //! | `motion` | motion blur: a picture as the mean of sub-frames |
 //! | `overview` | a small whole picture: exposure, bloom and indirect light for all tiles |
 //! | `tiles` | the division of a sheet into tiles |
-//! | `error` | why an export failed, and the largest picture |
+//! | `error` | why an export failed, and the largest pictures |
 //! | `format` | the file formats, and the readback and encoder of each |
 //! | [`mod@exr`] | OpenEXR writer: radiance, depth, normal and position; scene reader |
 //! | [`png`] | PNG writer with the scene document; scene reader |
+//! | [`jpeg`] | JPEG writer with the scene document; scene reader |
+//! | [`webp`] | WebP writer with the scene document; scene reader |
+//! | `picture_scene` | scene reader of all formats |
+//! | `metadata` | what the scene readers share |
 
 pub mod archive;
 mod error;
 pub mod exr;
 mod format;
+pub mod jpeg;
+mod metadata;
 mod motion;
 mod options;
 mod overview;
+mod picture_scene;
 pub mod png;
 pub mod sequence;
 mod sheet;
 pub mod still;
 mod tiles;
+pub mod webp;
 
 pub use archive::Archive;
-pub use error::{ExportError, MAX_PICTURE_PX, checked_size};
+pub use error::{
+    ExportError, MAX_PICTURE_PX, MAX_WEBP_PIXELS, MAX_WEBP_PX, checked_size, checked_webp_size,
+};
 pub use exr::{exr_scene_text, is_exr};
-pub use format::PictureFormat;
+pub use format::{PictureFormat, encode_rgb};
+pub use metadata::{MAX_TEXT_BYTES, SCENE_KEYWORD, SceneTextError};
 pub use options::{Eye, StillOptions};
-pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
+pub use picture_scene::picture_scene_text;
+pub use png::{is_png, scene_text};
 pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::StillOptions;
 use crate::{
     render::{
-        Pace, Pipelines, Region, View, pass::assess_noise::SAMPLES_PER_ROUND, report::ClampedLight,
-        sub_frame::SubFrame,
+        Pace, Pipelines, Region, View, display_values::DisplayValues,
+        pass::assess_noise::SAMPLES_PER_ROUND, report::ClampedLight, sub_frame::SubFrame,
     },
     scene::{EnvironmentMap, Path, Scene, param::NOISE},
 };
@@ -89,14 +89,16 @@ pub(super) struct SubFrameView {
 }
 
 impl SubFrameView {
-    /// A view of `region`.
+    /// A view of `region`, whose display holds `display_values`.
     pub fn new(
         pipelines: &Arc<Pipelines>,
         region: Region,
         environment_map: Option<&Arc<EnvironmentMap>>,
         sub_frames: SubFrames,
+        display_values: DisplayValues,
     ) -> Self {
         let mut view = View::new(pipelines, region, Pace::Still);
+        view.set_display_values(display_values);
         view.set_environment_map(environment_map);
         let mut this = Self { view, sub_frames, index: 0, clamped_light: None, is_finished: false };
         this.begin(0);

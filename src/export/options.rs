@@ -2,8 +2,14 @@
 
 use std::sync::Arc;
 
-use super::format::PictureFormat;
-use crate::scene::{EnvironmentMap, Scene, StereoLayout};
+use super::{
+    format::{FileEncoding, PictureFormat},
+    jpeg::DEFAULT_QUALITY,
+};
+use crate::{
+    render::display_values::DisplayValues,
+    scene::{EnvironmentMap, Scene, StereoLayout},
+};
 
 /// Default maximum size of a tile, in pixels: wide, so that bands are thin.
 const TILE_PX: [u32; 2] = [2048, 256];
@@ -47,7 +53,13 @@ pub struct StillOptions {
     pub environment_map: Option<Arc<EnvironmentMap>>,
     /// The file format.
     pub format: PictureFormat,
-    /// Whether path-traced light is denoised. None: PNG as the scene says, OpenEXR not.
+    /// Quality of a JPEG, 1 to 100.
+    pub quality: u8,
+    /// True for 16 bits per channel of a PNG, instead of 8.
+    pub is_deep: bool,
+    /// True for a transparent background, of PNG, WebP and OpenEXR. Each pixel then gets all samples: a noise target is ignored.
+    pub is_transparent: bool,
+    /// Whether path-traced light is denoised. None: as the scene says, but OpenEXR not.
     pub denoise: Option<bool>,
 }
 
@@ -61,7 +73,19 @@ impl StillOptions {
             tile_px: TILE_PX,
             environment_map: None,
             format: PictureFormat::default(),
+            quality: DEFAULT_QUALITY,
+            is_deep: false,
+            is_transparent: false,
             denoise: None,
+        }
+    }
+
+    /// How the file stores pixels.
+    pub(super) fn file(&self) -> FileEncoding {
+        FileEncoding {
+            format: self.format,
+            quality: self.quality,
+            values: DisplayValues { is_deep: self.is_deep, is_transparent: self.is_transparent },
         }
     }
 

@@ -11,7 +11,9 @@ use super::{
     sheet::Sheet,
 };
 use crate::{
-    render::{Eyes, MAX_REGION_PX, Pipelines, Region, View, post::Need},
+    render::{
+        Eyes, MAX_REGION_PX, Pipelines, Region, View, display_values::DisplayValues, post::Need,
+    },
     scene::{EnvironmentMap, Scene},
 };
 
@@ -64,7 +66,8 @@ impl Overview {
         let samples = scene.quality.samples.min(enough_samples);
         // Nobody sees the overview itself.
         let sub_frames = sub_frames.reduced(samples, |scene| scene.integrator.denoise = false);
-        let view = SubFrameView::new(pipelines, region, environment_map, sub_frames);
+        let values = DisplayValues::default();
+        let view = SubFrameView::new(pipelines, region, environment_map, sub_frames, values);
         Some(Self { view, samples, has_post, has_indirect, has_colors })
     }
 

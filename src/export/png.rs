@@ -1,6 +1,6 @@
 //! Streaming PNG writer with the scene document, and reader of the scene document.
 //!
-//! The writer gets 8-bit sRGB rows from the top and the scene document, and writes a file's
+//! The writer gets sRGB rows, 8 or 16 bits per channel, from the top and the scene document, and writes a file's
 //! bytes. The reader accepts untrusted files; its memory is bounded.
 
 use std::{
@@ -8,13 +8,12 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-use super::ExportError;
+pub use png::BitDepth;
 
-/// The keyword of the text chunk that holds the scene document.
-pub const SCENE_KEYWORD: &str = "mandelight";
-
-/// Maximum size of a scene document in a PNG, in bytes after inflating.
-pub const MAX_TEXT_BYTES: usize = 1 << 20;
+use super::{
+    ExportError, MAX_TEXT_BYTES, SceneTextError,
+    metadata::{SCENE_KEYWORD, capped},
+};
 
 /// The decoder's memory limit for chunks before the first pixels, in bytes.
 const MAX_METADATA_BYTES: usize = 8 * MAX_TEXT_BYTES;
@@ -56,15 +55,29 @@ pub struct PngStream<W: Write> {
 }
 
 impl<W: Write> PngStream<W> {
-    /// Starts a picture of `size_px` and writes its header with the scene `document`.
+    /// Starts a picture of `size_px`, 8 bits per channel, and writes its header with the scene `document`.
     ///
     /// # Errors
     /// [`ExportError::Write`] from `sink`, [`ExportError::Encode`] if a side is zero.
     pub fn new(sink: W, size_px: [u32; 2], document: &str) -> Result<Self, ExportError> {
+        Self::with_layout(sink, size_px, document, BitDepth::Eight, false)
+    }
+
+    /// The same with as many bits per channel as `depth` says, and with alpha, straight, if `has_alpha`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_layout(
+        sink: W,
+        size_px: [u32; 2],
+        document: &str,
+        depth: BitDepth,
+        has_alpha: bool,
+    ) -> Result<Self, ExportError> {
         let outbox = Outbox::default();
         let mut header = png::Encoder::new(outbox.clone(), size_px[0], size_px[1]);
-        header.set_color(png::ColorType::Rgb);
-        header.set_depth(png::BitDepth::Eight);
+        header.set_color(if has_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
+        header.set_depth(depth);
         header.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         header.set_compression(png::Compression::Balanced);
         let software = concat!("Mandelight ", env!("CARGO_PKG_VERSION"));
@@ -80,11 +93,11 @@ impl<W: Write> PngStream<W> {
         Ok(stream)
     }
 
-    /// Appends any number of RGB bytes.
+    /// Appends any number of bytes of pixels; a channel of 16 bits begins with its high byte.
     ///
     /// # Errors
     /// [`ExportError::Write`] from the sink; [`ExportError::Encode`] past the last row.
-    pub fn write_rgb(&mut self, rgb: &[u8]) -> Result<(), ExportError> {
+    pub fn write_pixels(&mut self, rgb: &[u8]) -> Result<(), ExportError> {
         self.encoder.write_all(rgb).map_err(|error| ExportError::Encode(error.to_string()))?;
         self.drain()
     }
@@ -111,17 +124,6 @@ fn encode(error: png::EncodingError) -> ExportError {
     ExportError::Encode(error.to_string())
 }
 
-/// Why the scene document of a PNG could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum PngError {
-    /// The file is not a PNG, or is damaged.
-    #[error("not a readable PNG: {0}")]
-    Unreadable(String),
-    /// The text chunks are larger than [`MAX_TEXT_BYTES`] or the decoder's limit.
-    #[error("its text is larger than {MAX_TEXT_BYTES} bytes")]
-    TooLarge,
-}
-
 /// True if `bytes` begin with the PNG signature.
 pub fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(&SIGNATURE)
@@ -132,8 +134,8 @@ pub fn is_png(bytes: &[u8]) -> bool {
 /// The pixels are neither read nor decoded.
 ///
 /// # Errors
-/// See [`PngError`]; the content of `reader` is untrusted.
-pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, PngError> {
+/// See [`SceneTextError`]; the content of `reader` is untrusted.
+pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, SceneTextError> {
     let limits = png::Limits { bytes: MAX_METADATA_BYTES };
     let reader = png::Decoder::new_with_limits(reader, limits).read_info().map_err(decode)?;
     let info = reader.info();
@@ -159,14 +161,10 @@ pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, PngErro
     Ok(None)
 }
 
-fn capped(text: String) -> Result<String, PngError> {
-    if text.len() > MAX_TEXT_BYTES { Err(PngError::TooLarge) } else { Ok(text) }
-}
-
-fn decode(error: png::DecodingError) -> PngError {
+fn decode(error: png::DecodingError) -> SceneTextError {
     match error {
-        png::DecodingError::LimitsExceeded => PngError::TooLarge,
-        other => PngError::Unreadable(other.to_string()),
+        png::DecodingError::LimitsExceeded => SceneTextError::TooLarge,
+        other => SceneTextError::Unreadable { format: "PNG", reason: other.to_string() },
     }
 }
 

@@ -3,7 +3,9 @@
 //! In: a scene's stereo layout and a size. Out: the sheet's pictures and size. This module does
 //! not render.
 
-use super::{ExportError, Eye, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size};
+use super::{
+    ExportError, Eye, MAX_PICTURE_PX, PictureFormat, StillOptions, checked_size, checked_webp_size,
+};
 use crate::{
     render::Eyes,
     scene::{Scene, StereoLayout},
@@ -31,7 +33,9 @@ impl Sheet {
     ///
     /// # Errors
     /// [`ExportError::Size`] and [`ExportError::Sheet`] if a side is out of range,
-    /// [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR.
+    /// [`ExportError::WebPSize`] if it is for a WebP, [`ExportError::RedCyanExr`] for an anaglyph as OpenEXR,
+    /// [`ExportError::Deep`] for 16 bits of another format than PNG, [`ExportError::Transparent`] and
+    /// [`ExportError::TransparentRedCyan`] for a background that cannot be transparent.
     pub fn new(scene: &Scene, options: &StillOptions) -> Result<Self, ExportError> {
         let picture_px = checked_size(options.size_px)?;
         let layout = scene.camera.stereo.layout;
@@ -51,6 +55,20 @@ impl Sheet {
         let sheet_px = sheet.size_px();
         if sheet_px.iter().any(|&side| side > MAX_PICTURE_PX) {
             return Err(ExportError::Sheet { picture_px, sheet_px });
+        }
+        if options.is_deep && options.format != PictureFormat::Png {
+            return Err(ExportError::Deep);
+        }
+        if options.is_transparent {
+            if !options.format.has_alpha() {
+                return Err(ExportError::Transparent);
+            }
+            if pictures == [Eyes::Anaglyph] {
+                return Err(ExportError::TransparentRedCyan);
+            }
+        }
+        if options.format == PictureFormat::WebP {
+            checked_webp_size(sheet_px)?;
         }
         Ok(sheet)
     }

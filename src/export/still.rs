@@ -9,8 +9,8 @@ use std::{io::Write, ops::ControlFlow, sync::Arc};
 use web_time::Instant;
 
 use super::{
-    ExportError, PictureFormat, StillOptions,
-    format::{Encoder, TileReadback},
+    ExportError, StillOptions,
+    format::{Encoder, FileEncoding, TileReadback},
     motion::{SubFrameView, SubFrames},
     overview::Overview,
     sheet::Sheet,
@@ -24,6 +24,9 @@ use crate::{
 /// Maximum size of a band of rows, in bytes; reduces the tile's height if pixels are large.
 const MAX_BAND_BYTES: usize = 32 << 20;
 
+/// Maximum width of a tile whose display has two texels a pixel.
+const MAX_DEEP_TILE_PX: u32 = 2048;
+
 /// Maximum number of row bytes that one step encodes: a few hundredths of a second of work,
 /// because a page must stay fluid.
 const BYTES_PER_STEP: usize = 1 << 19;
@@ -36,7 +39,8 @@ impl StillOptions {
     /// Width and height of the file, with both eyes' pictures, in pixels.
     ///
     /// # Errors
-    /// [`ExportError::Size`], [`ExportError::Sheet`] and [`ExportError::RedCyanExr`].
+    /// [`ExportError::Size`], [`ExportError::Sheet`], [`ExportError::WebPSize`], [`ExportError::RedCyanExr`],
+    /// [`ExportError::Deep`], [`ExportError::Transparent`] and [`ExportError::TransparentRedCyan`].
     pub fn sheet_px(&self, scene: &Scene) -> Result<[u32; 2], ExportError> {
         Ok(Sheet::new(scene, self)?.size_px())
     }
@@ -73,7 +77,7 @@ pub struct StillJob<W: Write> {
     filling: Band,
     /// The band that is being encoded.
     encoding: Band,
-    format: PictureFormat,
+    file: FileEncoding,
     /// Bytes per pixel of the encoder's input.
     pixel_bytes: usize,
     camera: Camera,
@@ -167,9 +171,12 @@ impl<W: Write> StillJob<W> {
     ) -> Result<Self, ExportError> {
         let sheet = Sheet::new(scene, &options)?;
         let sheet_px = sheet.size_px();
-        let pixel_bytes = options.format.pixel_bytes(scene.traces_paths());
+        let file = options.file();
+        let pixel_bytes = file.pixel_bytes(scene.traces_paths());
         let row_bytes = sheet_px[0] as usize * pixel_bytes;
         let [tile_width, tile_height] = options.tile_px;
+        let tile_width =
+            if options.is_deep { tile_width.min(MAX_DEEP_TILE_PX) } else { tile_width };
         let max_rows = (MAX_BAND_BYTES / row_bytes).max(1) as u32;
         let denoises = options.denoises(scene);
         // Tall tiles render fewer pixels twice.
@@ -180,8 +187,15 @@ impl<W: Write> StillJob<W> {
         let overview =
             Overview::new(pipelines, scene, &sub_frames, environment_map, &sheet, options.format);
         let mut drawn = sub_frames;
-        drawn.change(|scene| scene.integrator.denoise = denoises);
-        let view = SubFrameView::new(pipelines, tiling.tile(0).rendered, environment_map, drawn);
+        drawn.change(|scene| {
+            scene.integrator.denoise = denoises;
+            // Opacity is a share of all samples, so every pixel gets all.
+            if options.is_transparent {
+                scene.integrator.noise = 0.0;
+            }
+        });
+        let first_px = tiling.tile(0).rendered;
+        let view = SubFrameView::new(pipelines, first_px, environment_map, drawn, file.values);
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             pipelines: pipelines.clone(),
@@ -192,9 +206,9 @@ impl<W: Write> StillJob<W> {
             readback: None,
             filling: Band::default(),
             encoding: Band::default(),
-            format: options.format,
+            file,
             pixel_bytes,
-            encoder: Encoder::new(options.format, sink, sheet_px, scene)?,
+            encoder: Encoder::new(file, sink, sheet_px, scene)?,
             samples: pixels * f64::from(scene.quality.samples),
             camera: scene.camera.clone(),
             rows_left: sheet_px[1],
@@ -251,7 +265,7 @@ impl<W: Write> StillJob<W> {
         {
             return;
         }
-        let Some(readback) = self.format.read(&self.pipelines.gpu, self.view.view()) else {
+        let Some(readback) = self.file.read(&self.pipelines.gpu, self.view.view()) else {
             return;
         };
         self.readback = Some((self.tiling.tile(self.tile_index), readback));
@@ -280,7 +294,7 @@ impl<W: Write> StillJob<W> {
             && let Some((tile, readback)) = &mut self.readback
         {
             let pixels = readback
-                .take(&self.pipelines.gpu, &self.camera, tile.rendered)
+                .take(&self.pipelines.gpu, &self.camera, tile.rendered, self.file)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
             if let Some(pixels) = pixels {
                 let [sheet_width, _] = self.tiling.sheet_px();

@@ -26,6 +26,7 @@
 //! | `gbuffer` | readback of the G-buffer |
 //! | `layouts` | bind group layouts |
 //! | `region` | the part of a picture that a view draws |
+//! | [`display_values`] | what a display picture holds |
 //! | [`targets`] | buffers and the display texture |
 //! | `path_targets` | buffers and textures of light paths |
 //! | [`uniforms`] | structs shared with the shaders |
@@ -42,6 +43,7 @@ mod anchors;
 mod buffers;
 pub mod color_curve;
 pub mod denoiser;
+pub mod display_values;
 pub mod environment_texture;
 pub mod frame;
 pub mod gbuffer;

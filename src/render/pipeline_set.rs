@@ -66,7 +66,7 @@ fn light_constants(inputs: &Inputs) -> Constants {
     vec![("HAS_FOG", u32::from(frame.fog.density > 0.0)), ("SURFACE_MODEL", frame.surface.model)]
 }
 
-/// Shading, specialised for the surface's model, and for fog and an environment map or none.
+/// Shading, specialised for the surface's model, and for fog, an environment map and a transparent background or none.
 pub static SHADE: PipelineSet = PipelineSet {
     name: "shade",
     subject: Some("light"),
@@ -74,7 +74,9 @@ pub static SHADE: PipelineSet = PipelineSet {
     is_always_needed: true,
     constants: Some(|inputs| {
         let map = ("HAS_ENVIRONMENT_MAP", u32::from(inputs.frame.background.map_gain > 0.0));
-        light_constants(inputs).into_iter().chain([map]).collect()
+        let is_transparent = inputs.frame.background.transparent_samples > 0.0;
+        let transparent = ("TRANSPARENT", u32::from(is_transparent));
+        light_constants(inputs).into_iter().chain([map, transparent]).collect()
     }),
     // One trace of single samples, and one of several samples per pixel.
     rehearsal: || {

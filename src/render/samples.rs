@@ -14,8 +14,10 @@ use crate::gpu::{
 /// One pixel of a finished picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelSample {
-    /// Mean radiance of its samples, linear Rec. 709.
+    /// Mean radiance of its samples, linear Rec. 709; before a transparent background, times the opacity.
     pub radiance: [f32; 3],
+    /// Part of its samples that a transparent background leaves, 0 to 1; none before another background.
+    pub opacity: Option<f32>,
     /// Depth of the centre sample along its unit ray, in scene units; 0 on a miss.
     pub depth: f32,
     /// The centre sample's unit normal in world space; undefined where the depth is 0.
@@ -57,6 +59,8 @@ pub struct SamplesReadback {
     light: Light<Arrival>,
     surface: Arrival,
     guides: Option<Arrival>,
+    /// The film's half with the weights, and a finished pixel's samples, before a transparent background.
+    weights: Option<(Arrival, f32)>,
     scale: f64,
 }
 
@@ -84,12 +88,14 @@ impl Arrival {
 impl SamplesReadback {
     /// Starts to read back the light, the centre samples' depths and normals, and guides for denoisers.
     ///
-    /// Depths are in units of `scale` scene units.
+    /// `weights` are, before a transparent background, the film's half with the weights and a finished pixel's
+    /// samples. Depths are in units of `scale` scene units.
     pub fn new(
         gpu: &Gpu,
         light: Light<&wgpu::Buffer>,
         surface: &wgpu::Buffer,
         guides: Option<&wgpu::Buffer>,
+        weights: Option<(&wgpu::Buffer, f32)>,
         scale: f64,
     ) -> Self {
         let read = |buffer| Arrival::Awaited(Readback::buffer(gpu, buffer));
@@ -97,7 +103,8 @@ impl SamplesReadback {
             Light::Film(halves) => Light::Film(halves.map(read)),
             Light::Denoised(buffer) => Light::Denoised(read(buffer)),
         };
-        Self { light, surface: read(surface), guides: guides.map(read), scale }
+        let weights = weights.map(|(buffer, samples)| (read(buffer), samples));
+        Self { light, surface: read(surface), guides: guides.map(read), weights, scale }
     }
 
     /// Every pixel, rows from the top, once all buffers have arrived; none before.
@@ -115,12 +122,24 @@ impl SamplesReadback {
                 Guides::decode(bytes).collect()
             }
         };
+        let opacities: Vec<f32> = match &mut self.weights {
+            None => Vec::new(),
+            Some((arrival, samples)) => {
+                let Some(bytes) = arrival.look(gpu)? else { return Ok(None) };
+                let halves = bytes.as_chunks::<8>().0.iter();
+                halves.map(|half| bytemuck::cast::<_, [f32; 2]>(*half)[1] / *samples).collect()
+            }
+        };
         let points = surface.depth.into_iter().zip(surface.normal).enumerate();
-        let pixel = |(radiance, (i, (depth, normal)))| PixelSample {
-            radiance,
-            depth,
-            normal,
-            guides: guides.get(i).copied(),
+        let pixel = |(radiance, (i, (depth, normal))): ([f32; 3], (usize, _))| {
+            let opacity = opacities.get(i).map(|opacity| opacity.clamp(0.0, 1.0));
+            PixelSample {
+                radiance: radiance.map(|channel| channel * opacity.unwrap_or(1.0)),
+                opacity,
+                depth,
+                normal,
+                guides: guides.get(i).copied(),
+            }
         };
         Ok(match &mut self.light {
             Light::Film([rg, bw]) => match [rg.look(gpu)?, bw.look(gpu)?] {
@@ -146,6 +165,6 @@ pub fn denoised(packed: &[u8]) -> impl Iterator<Item = [f32; 3]> + '_ {
 pub fn means<'a>(rg: &'a [u8], bw: &'a [u8]) -> impl Iterator<Item = [f32; 3]> + 'a {
     let pairs = |bytes: &'a [u8]| bytes.as_chunks::<8>().0.iter().map(|p| bytemuck::cast(*p));
     pairs(rg).zip(pairs(bw)).map(|([r, g], [b, samples]): ([f32; 2], [f32; 2])| {
-        [r, g, b].map(|sum| sum / samples.max(1.0))
+        [r, g, b].map(|sum| sum / if samples == 0.0 { 1.0 } else { samples })
     })
 }

@@ -219,6 +219,15 @@ impl Targets {
         }
     }
 
+    /// Allocates the display picture of `region` anew if it has not `texels` per pixel along x.
+    pub fn fit_display(&mut self, layouts: &Layouts, region: Region, texels: u32) {
+        let [width, height] = region.display_px();
+        if self.texture.width() != width * texels {
+            self.texture = display_texture(&layouts.gpu.device, [width * texels, height]);
+            self.film_group = self.film_with(layouts, &self.direct);
+        }
+    }
+
     /// Allocates light for the denoiser if needed, else frees it.
     pub fn fit_denoiser(&mut self, layouts: &Layouts, needed: bool) {
         let sources = denoiser_sources(&self.center, &self.paths);

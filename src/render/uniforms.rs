@@ -10,6 +10,7 @@ mod media;
 mod paths;
 mod shared;
 mod surface;
+mod tone;
 
 use std::sync::Arc;
 
@@ -30,8 +31,7 @@ use crate::{
     formula::{Packed, PackedFor, contract::MAX_UNIFORM_BYTES, trap::MAX_TRAP},
     gpu::host_shared::{Array, HostShared},
     scene::{
-        self, BloomOrder, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals,
-        Scene, ToneChannels, ToneCurve, ToneMean,
+        self, ColorSource, Coloring, EnvironmentMap, IndirectKind, MAX_LIGHTS, Normals, Scene,
     },
 };
 
@@ -83,8 +83,8 @@ impl FrameUniforms {
             background: background::background(scene),
             medium: media::medium(scene, space),
             fog: media::fog(scene, space),
-            tone: tone(&scene.tone),
-            bloom: bloom(&scene.bloom),
+            tone: tone::tone(&scene.tone),
+            bloom: tone::bloom(&scene.bloom),
             paths: paths::paths(scene, space),
             picture_px: region.picture_px,
             origin_px: region.origin_px,
@@ -99,34 +99,6 @@ impl FrameUniforms {
             },
             color_curves: Array::default(),
         }
-    }
-}
-
-fn tone(tone: &scene::Tone) -> Tone {
-    Tone {
-        exposure: tone.exposure.exp2() as f32,
-        inverse_white_squared: tone.white_point.powi(-2) as f32,
-        curve: match tone.curve {
-            ToneCurve::Linear => 0,
-            ToneCurve::Reinhard => 1,
-            ToneCurve::Aces => 2,
-            ToneCurve::Agx => 3,
-            ToneCurve::KhronosNeutral => 4,
-        },
-        per_channel: u32::from(tone.channels == ToneChannels::PerChannel),
-        auto_exposure: u32::from(tone.auto_exposure),
-        logarithmic: u32::from(tone.mean == ToneMean::Logarithmic),
-        key: tone.key as f32,
-    }
-}
-
-fn bloom(bloom: &scene::Bloom) -> Bloom {
-    Bloom {
-        strength: bloom.strength as f32,
-        radius: bloom.radius as f32,
-        threshold: bloom.threshold as f32,
-        after: u32::from(bloom.order == BloomOrder::After),
-        passes: bloom.passes,
     }
 }
 

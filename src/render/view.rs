@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{
     anchors::Anchors,
+    display_values::DisplayValues,
     environment_texture::EnvironmentTexture,
     frame,
     histogram_readback::HistogramReadback,
@@ -31,6 +32,7 @@ use crate::{
 
 mod color_following;
 mod colors;
+mod display;
 mod parts;
 mod paths;
 mod prepare;
@@ -44,6 +46,7 @@ use parts::{Lent, Shown, StatsValidity, Times};
 pub struct View {
     pipelines: Arc<Pipelines>,
     region: Region,
+    display_values: DisplayValues,
     pace: Pace,
     anchors: Anchors,
     /// Models of the edited fractal, shared with navigation and interface.
@@ -91,6 +94,7 @@ impl View {
         Self {
             pipelines: pipelines.clone(),
             region,
+            display_values: DisplayValues::default(),
             pace,
             anchors: Anchors::default(),
             models: SharedModel::default(),
@@ -144,6 +148,7 @@ impl View {
         }
         self.stats_validity = StatsValidity::default();
         self.region = region;
+        self.fit_display();
         self.schedule.resize(region.film_px());
         let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
         if space::wants_anchor(space.model(), scene, region) == space.reference().is_some() {
@@ -345,6 +350,7 @@ impl View {
             .with_sky(scene, space, self.sky.as_ref())
             .with_preview(self.preview_samples(scene))
             .with_sub_frame(self.sub_frame)
+            .with_display_values(scene, self.display_values)
             .with_indirect_source(self.lent.indirect_source.as_ref().map(|lent| lent.eye_px))
             .with_bits_of(self.inputs.as_ref())
             .with_color_curves(self.colors.curves())

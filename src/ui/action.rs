@@ -1,17 +1,17 @@
 //! Requests of the interface to the shell, such as saving a picture.
 
-use super::export_size::SequenceFormat;
+use super::export_size::{SequenceFormat, StillFile};
 
 /// A request of the interface to the shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Render the view at this size and save it as PNG or OpenEXR.
+    /// Render the view at this size and save it.
     SavePicture {
         /// Width and height in pixels, each 1 to
         /// [`MAX_EXPORT_SIDE_PX`](super::MAX_EXPORT_SIDE_PX); in stereo, of one eye's picture.
         size_px: [u32; 2],
-        /// True for OpenEXR, false for PNG.
-        exr: bool,
+        /// How the picture is stored.
+        file: StillFile,
         /// True for one file per eye.
         pair: bool,
     },

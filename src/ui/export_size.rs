@@ -7,6 +7,91 @@ use crate::scene::StereoLayout;
 /// Maximum width or height of a saved picture, in pixels.
 pub const MAX_EXPORT_SIDE_PX: u32 = 16384;
 
+/// Default quality of a JPEG, 1 to 100.
+pub const DEFAULT_QUALITY: u8 = 92;
+
+/// The file format of a saved picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StillFormat {
+    /// PNG.
+    #[default]
+    Png,
+    /// JPEG.
+    Jpeg,
+    /// Lossless WebP.
+    #[serde(rename = "webp")]
+    WebP,
+    /// OpenEXR.
+    Exr,
+}
+
+impl StillFormat {
+    /// All formats, each with its name and what it is for.
+    pub const ALL: [(Self, &str, &str); 4] = [
+        (Self::Png, "PNG", "The picture as you see it, without loss"),
+        (Self::Jpeg, "JPEG", "The picture as you see it, in a small file"),
+        (Self::WebP, "WebP", "The picture as you see it, without loss, for the web"),
+        (
+            Self::Exr,
+            "EXR",
+            "For other programs: light before exposure and tone, depth, normals and positions, 32 bits per channel",
+        ),
+    ];
+
+    /// Whether the background can be transparent.
+    pub fn has_alpha(self) -> bool {
+        matches!(self, Self::Png | Self::WebP | Self::Exr)
+    }
+
+    /// The format's name with its article.
+    pub fn article_and_name(self) -> &'static str {
+        match self {
+            Self::Png => "a PNG",
+            Self::Jpeg => "a JPEG",
+            Self::WebP => "a WebP",
+            Self::Exr => "an OpenEXR file",
+        }
+    }
+}
+
+/// How a saved picture is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct StillFile {
+    /// The file format.
+    pub format: StillFormat,
+    /// Quality of a JPEG, 1 to 100.
+    pub quality: u8,
+    /// True for 16 bits per channel of a PNG.
+    pub deep_png: bool,
+    /// True for a transparent background, if the format can have one.
+    pub no_background: bool,
+}
+
+impl StillFile {
+    /// True for 16 bits per channel.
+    pub fn is_deep(&self) -> bool {
+        self.deep_png && self.format == StillFormat::Png
+    }
+
+    /// True for a transparent background.
+    pub fn is_transparent(&self) -> bool {
+        self.no_background && self.format.has_alpha()
+    }
+}
+
+impl Default for StillFile {
+    fn default() -> Self {
+        Self {
+            format: StillFormat::Png,
+            quality: DEFAULT_QUALITY,
+            deep_png: false,
+            no_background: false,
+        }
+    }
+}
+
 /// The kind of file that holds the frames of a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -61,8 +146,8 @@ pub struct ExportSize {
     pub times: u32,
     /// The typed width and height in pixels, each 1 to [`MAX_EXPORT_SIDE_PX`].
     pub typed_px: [u32; 2],
-    /// True for OpenEXR, false for PNG.
-    pub exr: bool,
+    /// How a picture is stored.
+    pub file: StillFile,
     /// True to save a stereo picture as one file per eye.
     pub pair: bool,
     /// The kind of file of a sequence.
@@ -74,7 +159,7 @@ impl Default for ExportSize {
         Self {
             times: 1,
             typed_px: [3840, 2160],
-            exr: false,
+            file: StillFile::default(),
             pair: false,
             sequence: SequenceFormat::Mp4,
         }

@@ -402,7 +402,7 @@ impl Interface {
                     (self.settings.export, self.editor.scene().camera.stereo.layout);
                 actions.push(Action::SavePicture {
                     size_px: export.resolve(self.view_px, layout),
-                    exr: export.exr,
+                    file: export.file,
                     pair: export.is_pair(layout),
                 });
             }

@@ -82,7 +82,9 @@ pub use action::Action;
 pub use display_inputs::{
     DisplayInputs, ExportProgress, KeptPicture, Notice, SmallTextures, ViewTexture,
 };
-pub use export_size::{ExportSize, MAX_EXPORT_SIDE_PX, SequenceFormat};
+pub use export_size::{
+    DEFAULT_QUALITY, ExportSize, MAX_EXPORT_SIDE_PX, SequenceFormat, StillFile, StillFormat,
+};
 pub use favourites::{Favourite, Favourites};
 pub use hints::Hints;
 pub use interface::Interface;

@@ -14,7 +14,7 @@ pub enum Command {
     Undo,
     /// Redo one step.
     Redo,
-    /// Save the picture as PNG or OpenEXR.
+    /// Save the picture.
     SavePicture,
     /// Save the scene document.
     SaveScene,
@@ -160,7 +160,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(COMMAND, Key::Z, Command::Undo, "Ctrl Z", "Undo"),
     row(COMMAND_SHIFT, Key::Z, Command::Redo, "Ctrl Shift Z, Ctrl Y", "Redo"),
     also(COMMAND, Key::Y, Command::Redo),
-    row(COMMAND, Key::S, Command::SavePicture, "Ctrl S", "Save the picture (PNG)"),
+    row(COMMAND, Key::S, Command::SavePicture, "Ctrl S", "Save the picture"),
     row(COMMAND_SHIFT, Key::S, Command::SaveScene, "Ctrl Shift S", "Save the scene (JSON)"),
     row(COMMAND, Key::O, Command::LoadScene, "Ctrl O", "Open a scene or a picture's scene"),
     row(NONE, Key::L, Command::CopyLink, "L", "Copy a link to this view"),

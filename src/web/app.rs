@@ -18,10 +18,9 @@ use super::{
     view_picture::{self, ViewPicture},
 };
 use crate::{
-    export::PictureFormat,
     gpu::Gpu,
     scene::document,
-    ui::{Action, DisplayInputs, KeptPicture, Sharing, theme},
+    ui::{Action, DisplayInputs, KeptPicture, Sharing, StillFormat, theme},
 };
 
 /// The app on one device.
@@ -117,13 +116,16 @@ impl eframe::App for App {
 /// Performs an action of the interface.
 fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
     match action {
-        Action::SavePicture { size_px, exr, pair } => {
-            let same = if exr || pair { None } else { engine.finished_picture(session, size_px) };
-            if let Some(picture) = same {
-                return picture.save(&session.mailbox);
+        Action::SavePicture { size_px, file, pair } => {
+            let is_new = file.format == StillFormat::Exr
+                || file.is_deep()
+                || file.is_transparent()
+                || pair;
+            let same = if is_new { None } else { engine.finished_picture(session, size_px) };
+            match same {
+                Some(picture) => picture.save(file, &session.mailbox),
+                None => engine.exporter.start_still(size_px, file, pair, session),
             }
-            let format = if exr { PictureFormat::Exr } else { PictureFormat::Png };
-            engine.exporter.start_still(size_px, format, pair, session);
         }
         Action::SaveSequence { size_px, frames: [first, end], format, pair } => {
             engine.exporter.request_sequence(size_px, first..end, (format, pair), session);

@@ -24,7 +24,6 @@ use super::{
 use crate::{
     gpu::Gpu,
     render::{Activity, Pipelines, Report},
-    scene::document,
     ui::{self, SmallTextures},
 };
 
@@ -114,8 +113,7 @@ impl Engine {
     }
 
     fn with_scene(&self, texture: &wgpu::Texture, session: &Session) -> ViewPicture {
-        let document = document::to_json_compact(session.interface.shown_scene());
-        ViewPicture::new(&self.gpu, texture, document)
+        ViewPicture::new(&self.gpu, texture, session.interface.shown_scene().clone())
     }
 
     /// The small pictures that are finished.

@@ -15,7 +15,7 @@ use crate::{
     export::{PictureFormat, StillOptions},
     render::Pipelines,
     scene::Project,
-    ui::{ExportProgress, SequenceFormat},
+    ui::{ExportProgress, SequenceFormat, StillFile, StillFormat},
 };
 
 /// Runs exports on one device.
@@ -62,12 +62,19 @@ impl Exporter {
     pub fn start_still(
         &mut self,
         size_px: [u32; 2],
-        format: PictureFormat,
+        file: StillFile,
         pair: bool,
         session: &mut Session,
     ) {
         let environment_map = session.interface.environment_map().cloned();
-        let options = StillOptions { environment_map, format, ..StillOptions::new(size_px) };
+        let options = StillOptions {
+            environment_map,
+            format: picture_format(file),
+            quality: file.quality,
+            is_deep: file.is_deep(),
+            is_transparent: file.is_transparent(),
+            ..StillOptions::new(size_px)
+        };
         match StillExport::start(&self.pipelines, session.interface.scene(), options, pair) {
             Ok(still) => self.begin(Export::Still(Box::new(still))),
             Err(error) => session.show_error(format!("The picture could not be saved: {error}")),
@@ -158,6 +165,16 @@ impl Exporter {
                 None
             }
         };
+    }
+}
+
+/// The format of a saved picture.
+pub fn picture_format(file: StillFile) -> PictureFormat {
+    match file.format {
+        StillFormat::Png => PictureFormat::Png,
+        StillFormat::Jpeg => PictureFormat::Jpeg,
+        StillFormat::WebP => PictureFormat::WebP,
+        StillFormat::Exr => PictureFormat::Exr,
     }
 }
 

@@ -22,6 +22,9 @@ const MAX_READ_BYTES: f64 = (MAX_BYTES + 1) as f64;
 /// larger file.
 const MAX_ENVIRONMENT_MAP_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
 
+/// Files in the dialogue, by extension and media type.
+const ACCEPTED: &str = ".json,.png,.jpg,.jpeg,.webp,.hdr,.pic,.exr,.ggr,.gpl,.map,.ugr,application/json,image/png,image/jpeg,image/webp";
+
 /// Extensions of environment maps.
 const ENVIRONMENT_MAP_EXTENSIONS: [&str; 3] = [".hdr", ".pic", ".exr"];
 
@@ -146,7 +149,7 @@ fn create_input() -> Result<HtmlInputElement, JsValue> {
     let document = document().ok_or_else(|| JsValue::from_str("the page has no document"))?;
     let input: HtmlInputElement = document.create_element("input")?.unchecked_into();
     input.set_type("file");
-    input.set_accept(".json,.png,.hdr,.pic,.exr,.ggr,.gpl,.map,.ugr,application/json,image/png");
+    input.set_accept(ACCEPTED);
     input.set_hidden(true);
     // Some browsers open the dialogue only for an element in the document.
     if let Some(body) = document.body() {

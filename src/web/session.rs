@@ -346,16 +346,13 @@ fn stored_settings() -> Option<Settings> {
 
 /// The project in a file: a document, or a picture that contains one.
 fn read_project(bytes: &[u8]) -> Result<Project, String> {
-    let text = if let Some(text) = exr_scene(bytes) {
-        text
-    } else if export::is_png(bytes) {
-        export::scene_text(Cursor::new(bytes))
-            .map_err(|error| error.to_string())?
-            .ok_or("the picture contains no scene; only pictures saved by Mandelight do")?
-    } else {
-        String::from_utf8(bytes.to_vec()).map_err(|_| {
+    let text = match export::picture_scene_text(bytes) {
+        Some(text) => {
+            text?.ok_or("the picture contains no scene; only pictures saved by Mandelight do")?
+        }
+        None => String::from_utf8(bytes.to_vec()).map_err(|_| {
             "the file is neither a scene nor a picture that Mandelight can read".to_owned()
-        })?
+        })?,
     };
     document::project_from_json(&text).map_err(|error| error.to_string())
 }

@@ -1,6 +1,6 @@
 //! The picture on the screen as a file: for the clipboard, the share sheet and downloads.
 //!
-//! In: the view's texture. Out: its pixels, or a PNG that carries the scene. Nothing is rendered again.
+//! In: the view's texture. Out: its pixels, or a file that carries the scene. Nothing is rendered again.
 
 use js_sys::{Array, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
@@ -8,14 +8,16 @@ use wasm_bindgen_futures::{JsFuture, future_to_promise, spawn_local};
 use web_sys::{Blob, BlobPropertyBag};
 
 use super::{
+    exporter::picture_format,
     files,
     mailbox::{Mailbox, Message},
     page::{self, describe},
 };
 use crate::{
-    export::png::PngStream,
+    export::{PictureFormat, encode_rgb},
     gpu::{Gpu, readback::Readback},
-    ui::thumbnail,
+    scene::Scene,
+    ui::{DEFAULT_QUALITY, StillFile, thumbnail},
 };
 
 // The functions of `www/share.js`, which `boot.js` puts there.
@@ -34,8 +36,6 @@ extern "C" {
 /// Milliseconds between two polls of a readback.
 const POLL_MS: i32 = 4;
 
-const MEDIA_TYPE: &str = "image/png";
-
 /// True if the system has a share sheet that takes pictures.
 pub fn has_share_sheet() -> bool {
     js_has_share_sheet()
@@ -45,13 +45,13 @@ pub fn has_share_sheet() -> bool {
 pub struct ViewPicture {
     gpu: Gpu,
     texture: wgpu::Texture,
-    document: String,
+    scene: Scene,
 }
 
 impl ViewPicture {
-    /// The picture in `texture`, of the scene in `document`.
-    pub fn new(gpu: &Gpu, texture: &wgpu::Texture, document: String) -> Self {
-        Self { gpu: gpu.clone(), texture: texture.clone(), document }
+    /// The picture in `texture`, of `scene`.
+    pub fn new(gpu: &Gpu, texture: &wgpu::Texture, scene: Scene) -> Self {
+        Self { gpu: gpu.clone(), texture: texture.clone(), scene }
     }
 
     /// Copies the picture to the clipboard. Browsers allow that only within a click or a key.
@@ -72,7 +72,7 @@ impl ViewPicture {
     /// Hands the picture to the system's share sheet, which asks where it goes.
     pub fn share(self, mailbox: &Mailbox) {
         let mailbox = mailbox.clone();
-        let (name, picture) = (self.file_name(), self.blob());
+        let (name, picture) = (self.file_name(PictureFormat::Png), self.blob());
         spawn_local(async move {
             if let Err(error) = share_picture(picture, &name).await {
                 let reason = describe(&error);
@@ -98,13 +98,14 @@ impl ViewPicture {
         });
     }
 
-    /// Downloads the picture.
-    pub fn save(self, mailbox: &Mailbox) {
+    /// Downloads the picture as a PNG, a JPEG or a WebP.
+    pub fn save(self, file: StillFile, mailbox: &Mailbox) {
         let mailbox = mailbox.clone();
-        let name = self.file_name();
+        let format = picture_format(file);
+        let name = self.file_name(format);
         spawn_local(async move {
-            let saved = match self.png().await {
-                Ok(bytes) => files::download(&name, MEDIA_TYPE, &bytes),
+            let saved = match self.encoded(format, file.quality).await {
+                Ok(bytes) => files::download(&name, format.media_type(), &bytes),
                 Err(error) => Err(describe(&error)),
             };
             mailbox.post(match saved {
@@ -114,30 +115,30 @@ impl ViewPicture {
         });
     }
 
-    fn file_name(&self) -> String {
-        format!("mandelight-{}x{}.png", self.texture.width(), self.texture.height())
+    fn file_name(&self, format: PictureFormat) -> String {
+        let extension = format.extension();
+        format!("mandelight-{}x{}.{extension}", self.texture.width(), self.texture.height())
     }
 
+    /// The picture as a PNG.
     fn blob(self) -> Promise {
         future_to_promise(async move {
-            let bytes = Uint8Array::from(self.png().await?.as_slice());
+            let format = PictureFormat::Png;
+            let bytes = Uint8Array::from(self.encoded(format, DEFAULT_QUALITY).await?.as_slice());
             let options = BlobPropertyBag::new();
-            options.set_type(MEDIA_TYPE);
+            options.set_type(format.media_type());
             let parts = Array::of1(&bytes);
             Ok(Blob::new_with_u8_array_sequence_and_options(&parts, &options)?.into())
         })
     }
 
-    async fn png(&self) -> Result<Vec<u8>, JsValue> {
+    async fn encoded(&self, format: PictureFormat, quality: u8) -> Result<Vec<u8>, JsValue> {
         let rgba = read_pixels(&self.gpu, &self.texture).await?;
         let rgb: Vec<u8> =
             rgba.chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         let size_px = [self.texture.width(), self.texture.height()];
-        let file = PngStream::new(Vec::new(), size_px, &self.document).and_then(|mut file| {
-            file.write_rgb(&rgb)?;
-            file.finish()
-        });
-        file.map_err(|error| JsValue::from_str(&error.to_string()))
+        encode_rgb(format, quality, size_px, &self.scene, &rgb)
+            .map_err(|error| JsValue::from_str(&error.to_string()))
     }
 }
 

@@ -170,6 +170,29 @@ fn frames_come_as_openexr_too_in_a_folder_of_their_own() {
 }
 
 #[test]
+fn frames_come_as_jpeg_and_webp_too() {
+    let place = Workplace::new();
+    for (format, name, start) in
+        [("jpeg", "frame_000003.jpg", &b"\xff\xd8\xff"[..]), ("webp", "frame_000003.webp", b"RIFF")]
+    {
+        let output = place.run(&["-o", format, "--frames", "3", "--format", format]);
+        assert_eq!(code(&output), 0, "{}", said(&output));
+        assert_eq!(place.names(format)[0], name);
+        let file = fs::read(place.folder.path().join(format).join(name)).unwrap();
+        assert!(file.starts_with(start), "{name}");
+        assert_eq!(code(&place.run(&["-o", format])), 2, "PNGs do not go between them");
+    }
+    let other = ["-o", "jpeg", "--frames", "3", "--format", "jpeg", "--quality", "50"];
+    assert_eq!(code(&place.run(&other)), 2, "another quality is another sequence");
+    let both = place.run(&["-o", "exr", "--format", "jpeg", "--exr"]);
+    assert!(code(&both) == 2 && said(&both).contains("cannot be used with"), "{}", said(&both));
+    let stray = place.folder.path().join("stray");
+    fs::create_dir(&stray).unwrap();
+    fs::write(stray.join("frame_000003.webp"), "").unwrap();
+    assert_eq!(code(&place.run(&["-o", "stray"])), 2);
+}
+
+#[test]
 fn two_processes_fill_one_folder() {
     let place = Workplace::new();
     let children: Vec<_> = ["0..5", "4..9"]
@@ -283,7 +306,7 @@ fn frames_flow_into_a_video() {
 #[test]
 fn standard_output_takes_one_png_a_frame() {
     let place = Workplace::new();
-    for arguments in [&["--exr"][..], &["--stereo", "pair"]] {
+    for arguments in [&["--exr"][..], &["--format", "jpeg"], &["--stereo", "pair"]] {
         let refused = place.run(&[&["-o", "-"], arguments].concat());
         assert_eq!(code(&refused), 2, "{arguments:?}");
         assert!(said(&refused).contains(arguments[0]), "{}", said(&refused));

@@ -5,6 +5,7 @@ mod formulas;
 mod frames;
 mod gradients;
 mod looks;
+mod pictures;
 mod render;
 mod stereo;
 

@@ -178,7 +178,7 @@ fn nothing_is_compiled_unannounced() {
     }
     for (fog, model) in [(0, 0), (0, 1), (1, 1), (1, 0)] {
         let light = format!("HAS_FOG {fog}, SURFACE_MODEL {model}");
-        let shade = format!("shade, {light}, HAS_ENVIRONMENT_MAP 0");
+        let shade = format!("shade, {light}, HAS_ENVIRONMENT_MAP 0, TRANSPARENT 0");
         all.extend([0, 1].map(|single| format!("{shade}, SINGLE {single}")));
         if model == 1 {
             all.insert(format!("scatter, {light}, HAS_MEDIUM 0"));

@@ -8,10 +8,11 @@ use glam::{DVec3, Vec3};
 use mandelight::{
     export::{self, PictureFormat, StillJob, StillOptions, exr::ExrStream},
     render::{Pace, View},
-    scene::{Camera, Precise, PrecisePoint, Scene, document},
+    scene::{Background, Camera, IntegratorKind, Precise, PrecisePoint, Scene, document},
 };
 use mandelight_test_support::{
     device::pipelines,
+    picture::Picture,
     view::{finished, sampled},
 };
 
@@ -53,6 +54,41 @@ fn file_of(scene: &Scene, tile_px: [u32; 2]) -> Vec<u8> {
 /// The same picture as one view, which a file in tiles must not differ from.
 fn view_of(scene: &Scene) -> View {
     finished(scene, SIZE, Pace::Still)
+}
+
+/// Before a transparent background the colours are those of the picture before black, and alpha is that of a PNG.
+#[test]
+fn a_transparent_background_adds_an_alpha_channel() {
+    let mut scene = sampled(Scene::default(), 16);
+    scene.background = Background::gradient([0.0; 3], [0.0; 3]);
+    for kind in [IntegratorKind::Direct, IntegratorKind::Path] {
+        scene.integrator.kind = kind;
+        scene.integrator.noise = 0.0;
+        let black = decoded(&file_of(&scene, [64, 64])).channels;
+        let options = |format| StillOptions {
+            format,
+            is_transparent: true,
+            tile_px: [64, 64],
+            ..StillOptions::new(SIZE)
+        };
+        let still = |format| {
+            let job = StillJob::new(pipelines(), &scene, options(format), Vec::new()).unwrap();
+            job.run(|_| ControlFlow::Continue(())).unwrap()
+        };
+        let channels = decoded(&still(PictureFormat::Exr)).channels;
+        assert_eq!(channels.len(), black.len() + 1);
+        let alpha = &channels["A"];
+        let png = Picture::of(&still(PictureFormat::Png)).bytes;
+        for (i, (alpha, pixel)) in alpha.iter().zip(png.as_chunks::<4>().0).enumerate() {
+            assert!((alpha * 255.0 - f32::from(pixel[3])).abs() < 0.51, "{kind:?}: {alpha}");
+            for name in ["R", "G", "B"] {
+                let (over, opaque) = (channels[name][i], black[name][i]);
+                let error = (over - opaque).abs();
+                assert!(error <= 1e-4 * opaque.abs().max(0.1), "{kind:?}: {over} {opaque}");
+            }
+        }
+        assert!(alpha.contains(&0.0) && alpha.contains(&1.0) && alpha.contains(&0.5));
+    }
 }
 
 #[test]

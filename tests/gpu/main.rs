@@ -32,5 +32,6 @@ mod soft_shadows;
 mod staleness;
 mod stereo;
 mod still;
+mod still_values;
 mod surprise;
 mod thumbnails;

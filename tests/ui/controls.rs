@@ -6,7 +6,7 @@ use mandelight::{
     formula::{self, FormulaRef, Fractal, mandelbulb},
     render::report::Histogram,
     scene::{ColorSource, Scene, param, presets},
-    ui::{Action, Settings, SheetHeight},
+    ui::{Settings, SheetHeight},
 };
 
 use crate::stage::*;
@@ -250,41 +250,6 @@ fn presets_open_and_keep_the_quality_that_was_chosen() {
             assert_eq!(scene(&harness).validate(), Ok(()), "{}", preset.name);
         }
     }
-}
-
-#[test]
-fn saving_asks_for_the_chosen_size() {
-    let mut harness = workshop();
-    let [width, height] = harness.state().interface.view_size_px();
-    press(&mut harness, "Save picture");
-    press(&mut harness, "Picture size: 2×");
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    harness.run();
-    let expected = [[width, height], [2 * width, 2 * height]].map(|size_px| Action::SavePicture {
-        size_px,
-        exr: false,
-        pair: false,
-    });
-    assert_eq!(harness.state().actions, expected);
-    press(&mut harness, "File: EXR");
-    press(&mut harness, "Save picture");
-    let last = harness.state().actions.last().copied();
-    assert_eq!(
-        last,
-        Some(Action::SavePicture { size_px: [2 * width, 2 * height], exr: true, pair: false })
-    );
-}
-
-#[test]
-fn an_export_shows_its_progress_and_can_be_cancelled() {
-    let mut harness = workshop();
-    harness.state_mut().export =
-        Some(mandelight::ui::ExportProgress { done: 0.4, remaining_secs: Some(75.0) });
-    harness.run();
-    assert!(harness.query_by_label("Save picture").is_none());
-    harness.get_by_label_contains("1 min 15 s left");
-    press(&mut harness, "Cancel");
-    assert_eq!(harness.state().actions, [Action::CancelExport]);
 }
 
 #[test]

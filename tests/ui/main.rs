@@ -8,6 +8,7 @@ mod descent;
 mod dive;
 mod editor;
 mod environment_map;
+mod export;
 mod favourites;
 mod finder;
 mod fit;

@@ -24,7 +24,7 @@ fn noise(length: usize) -> Vec<u8> {
 fn encoded(size_px: [u32; 2], rgb: &[u8], rows_at_once: usize) -> Vec<u8> {
     let mut stream = PngStream::new(Vec::new(), size_px, DOCUMENT).unwrap();
     for rows in rgb.chunks(size_px[0] as usize * 3 * rows_at_once) {
-        stream.write_rgb(rows).unwrap();
+        stream.write_pixels(rows).unwrap();
     }
     stream.finish().unwrap()
 }
@@ -72,7 +72,7 @@ fn the_stream_writes_to_the_sink_without_buffering() {
     let mut stream = PngStream::new(Vec::new(), size_px, DOCUMENT).unwrap();
     let mut max_waiting = 0;
     for _ in 0..4096 / 64 {
-        stream.write_rgb(&rgb).unwrap();
+        stream.write_pixels(&rgb).unwrap();
         max_waiting = max_waiting.max(stream.outbox.0.lock().unwrap().capacity());
     }
     assert_eq!(max_waiting, 0, "all of the encoder's output is in the sink");
@@ -82,14 +82,14 @@ fn the_stream_writes_to_the_sink_without_buffering() {
 #[test]
 fn a_missing_row_and_a_full_disk_are_errors() {
     let mut stream = PngStream::new(Vec::new(), [4, 4], DOCUMENT).unwrap();
-    stream.write_rgb(&[0; 4 * 3 * 3]).unwrap();
+    stream.write_pixels(&[0; 4 * 3 * 3]).unwrap();
     assert!(matches!(stream.finish(), Err(ExportError::Encode(_))));
 
     // The sink fails within the last chunk, whose errors the encoder's destructor would ignore.
     let whole = encoded([4, 4], &[7; 48], 4);
     let mut short = vec![0; whole.len() - 6];
     let mut stream = PngStream::new(short.as_mut_slice(), [4, 4], DOCUMENT).unwrap();
-    stream.write_rgb(&[7; 48]).unwrap();
+    stream.write_pixels(&[7; 48]).unwrap();
     assert!(matches!(stream.finish(), Err(ExportError::Write(_))));
 }
 
@@ -124,7 +124,7 @@ fn a_text_that_inflates_beyond_the_limit_is_rejected() {
     let plain = [b"mandelight\0".as_slice(), &vec![b' '; MAX_TEXT_BYTES + 1]].concat();
     assert!(matches!(
         scene_text(Cursor::new(file_with(&chunk(b"tEXt", &plain)))),
-        Err(PngError::TooLarge)
+        Err(SceneTextError::TooLarge)
     ));
 }
 

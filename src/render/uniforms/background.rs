@@ -21,6 +21,7 @@ pub fn background(scene: &Scene) -> Background {
         map_gain: 0.0,
         map_y: axis(DVec3::Y),
         map_z: axis(DVec3::Z),
+        transparent_samples: 0.0,
     }
 }
 

@@ -182,6 +182,8 @@ host_shared! {
         map_y: [f32; 3],
         /// The map's upward axis, in world space.
         map_z: [f32; 3],
+        /// Samples of a finished pixel if the background is transparent; 0 if it is shown.
+        transparent_samples: f32,
     }
     /// Tone settings.
     Tone {
@@ -199,6 +201,8 @@ host_shared! {
         logarithmic: u32,
         /// Luminance that auto exposure brings the mean to.
         key: f32,
+        /// 1: the display has 16 bits per channel, in two texels of each pixel.
+        is_deep: u32,
     }
     /// Bloom settings.
     Bloom {

@@ -15,6 +15,7 @@ use crate::{
 impl View {
     /// The newest picture: `Rgba8Unorm`, sRGB-encoded, opaque; none before the first picture.
     ///
+    /// With 16 bits per channel it has [two texels](super::super::display_values::DisplayValues::is_deep) a pixel.
     /// Usages TEXTURE_BINDING and COPY_SRC. The picture is always complete, never a half-filled lattice.
     /// After a change of size it is the old picture, in its own size, until there is a new one.
     pub fn texture(&self) -> Option<&wgpu::Texture> {
@@ -75,7 +76,11 @@ impl View {
         };
         let has_guides = self.inputs.as_ref().is_some_and(Inputs::traces_paths);
         let guides = has_guides.then_some(&center.visibility);
-        SamplesReadback::new(&self.pipelines.gpu, light, &center.surface, guides, self.scale())
+        let samples =
+            self.inputs.as_ref().map(|inputs| inputs.frame.background.transparent_samples);
+        let weights = samples.filter(|&samples| samples > 0.0).map(|samples| (film_bw, samples));
+        let gpu = &self.pipelines.gpu;
+        SamplesReadback::new(gpu, light, &center.surface, guides, weights, self.scale())
     }
 
     /// Reads back the centre samples' G-buffer, and waits for it; native only, for tests and tools.

@@ -11,7 +11,7 @@ use crate::{
     ui::{
         action::Action,
         display_inputs::ExportProgress,
-        export_size::{ExportSize, MAX_EXPORT_SIDE_PX},
+        export_size::{DEFAULT_QUALITY, ExportSize, MAX_EXPORT_SIDE_PX, StillFormat},
         shortcuts::Command,
         status::duration_text,
         theme,
@@ -32,13 +32,26 @@ const SIDE: Param = Param {
     help: "One side of the saved picture, in pixels.",
 };
 
+/// The quality of a JPEG.
+const QUALITY: Param = Param {
+    path: "export.quality",
+    label: "Quality",
+    unit: Unit::Count,
+    min: 1.0,
+    max: 100.0,
+    default: DEFAULT_QUALITY as f64,
+    scale: Scale::Integer,
+    step: 1.0,
+    help: "Quality of the JPEG, 1 to 100: higher values lose less and make larger files.",
+};
+
 /// The button that saves the picture, or the progress of saving it.
 pub(super) fn save(ui: &mut Ui, cx: &mut Context<'_>) {
     if let Some(progress) = cx.inputs.export {
         return saving(ui, cx, progress);
     }
     let extent = cx.settings.export.text(cx.view_px, cx.scene.camera.stereo.layout);
-    let kind = if cx.settings.export.exr { "an OpenEXR file" } else { "a PNG" };
+    let kind = cx.settings.export.file.format.article_and_name();
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y.max(36.0));
     let text = RichText::new("Save picture").size(15.0).color(theme::ON_ACCENT);
     let response = ui
@@ -97,20 +110,45 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if export.times == 0 {
         typed(ui, export);
     }
-    let response = choice(
-        ui,
-        "File",
-        &mut export.exr,
-        &[
-            (false, "PNG", "The picture as you see it"),
-            (
-                true,
-                "EXR",
-                "For other programs: light before exposure and tone, depth, normals and positions, 32 bits per channel",
-            ),
-        ],
-    );
+    let response = choice(ui, "File", &mut export.file.format, &StillFormat::ALL);
     cx.rects.record("picture format", &response);
+    if export.file.format == StillFormat::Png {
+        let response = choice(
+            ui,
+            "Bits per channel",
+            &mut export.file.deep_png,
+            &[
+                (false, "8", "As many shades as screens show"),
+                (
+                    true,
+                    "16",
+                    "Fine shades for other programs, so that gradients stay smooth in later edits; a larger file",
+                ),
+            ],
+        );
+        cx.rects.record("picture bits", &response);
+    }
+    if export.file.format.has_alpha() {
+        let response = choice(
+            ui,
+            "Background",
+            &mut export.file.no_background,
+            &[
+                (false, "As shown", "The background is part of the picture"),
+                (true, "Transparent", "No background: the picture can be laid over others"),
+            ],
+        );
+        cx.rects.record("picture background", &response);
+    }
+    if export.file.format == StillFormat::Jpeg {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(QUALITY.label).color(theme::TEXT_DIM));
+            let mut quality = f64::from(export.file.quality);
+            let response = number(ui, &QUALITY, &mut quality).help(QUALITY.help);
+            cx.rects.record("picture quality", &response);
+            export.file.quality = quality as u8;
+        });
+    }
     let layout = cx.scene.camera.stereo.layout;
     if layout != StereoLayout::Off {
         let response = choice(

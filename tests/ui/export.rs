@@ -1,0 +1,80 @@
+//! Saving of pictures: their size, their format, and the progress.
+
+use egui::{Key, Modifiers};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use mandelight::{
+    export::jpeg,
+    ui::{Action, DEFAULT_QUALITY, ExportProgress, StillFile, StillFormat},
+};
+
+use crate::stage::*;
+
+#[test]
+fn saving_asks_for_the_chosen_size() {
+    let mut harness = workshop();
+    let [width, height] = harness.state().interface.view_size_px();
+    press(&mut harness, "Save picture");
+    press(&mut harness, "Picture size: 2×");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    harness.run();
+    let expected = [[width, height], [2 * width, 2 * height]].map(|size_px| Action::SavePicture {
+        size_px,
+        file: StillFile::default(),
+        pair: false,
+    });
+    assert_eq!(harness.state().actions, expected);
+    press(&mut harness, "File: EXR");
+    press(&mut harness, "Save picture");
+    let last = harness.state().actions.last().copied();
+    let file = StillFile { format: StillFormat::Exr, ..StillFile::default() };
+    let size_px = [2 * width, 2 * height];
+    assert_eq!(last, Some(Action::SavePicture { size_px, file, pair: false }));
+}
+
+/// Each format is saved as such, says what it is, and has the settings that belong to it.
+#[test]
+fn pictures_are_saved_in_the_chosen_format() {
+    assert_eq!(DEFAULT_QUALITY, jpeg::DEFAULT_QUALITY);
+    let mut harness = workshop();
+    let saved = |harness: &mut Harness<'_, Stage>| {
+        press(harness, "Save picture");
+        match harness.state().actions.last().copied() {
+            Some(Action::SavePicture { file, .. }) => file,
+            other => panic!("{other:?}"),
+        }
+    };
+    for (format, name, _) in StillFormat::ALL {
+        press(&mut harness, &format!("File: {name}"));
+        let file = saved(&mut harness);
+        assert_eq!(file, StillFile { format, ..StillFile::default() });
+        let has_quality = harness.query_by_label("Quality value").is_some();
+        assert_eq!(has_quality, format == StillFormat::Jpeg, "{name}");
+        let has_bits = harness.query_by_label("Bits per channel: 16").is_some();
+        assert_eq!(has_bits, format == StillFormat::Png, "{name}");
+    }
+    press(&mut harness, "File: PNG");
+    press(&mut harness, "Bits per channel: 16");
+    assert!(saved(&mut harness).is_deep());
+    press(&mut harness, "Background: Transparent");
+    assert!(saved(&mut harness).is_transparent());
+    press(&mut harness, "File: JPEG");
+    let jpeg = saved(&mut harness);
+    assert!(!jpeg.is_deep() && !jpeg.is_transparent(), "JPEGs have neither");
+    assert!(harness.query_by_label("Background: Transparent").is_none());
+    press(&mut harness, "Quality value");
+    harness.get_by_label("Quality value").type_text("70");
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(saved(&mut harness).quality, 70);
+}
+
+#[test]
+fn an_export_shows_its_progress_and_can_be_cancelled() {
+    let mut harness = workshop();
+    harness.state_mut().export = Some(ExportProgress { done: 0.4, remaining_secs: Some(75.0) });
+    harness.run();
+    assert!(harness.query_by_label("Save picture").is_none());
+    harness.get_by_label_contains("1 min 15 s left");
+    press(&mut harness, "Cancel");
+    assert_eq!(harness.state().actions, [Action::CancelExport]);
+}
