@@ -44,13 +44,25 @@ export async function sharePicture(picture, name) {
  * @returns {Promise<Uint8Array>}
  */
 export async function smallCopy(picture, width, height) {
-  const whole = await createImageBitmap(await picture);
+  const context = await smallContext(await picture, width, height);
+  const file = await context.canvas.convertToBlob({ type: "image/jpeg", quality: 0.75 });
+  return new Uint8Array(await file.arrayBuffer());
+}
+
+/**
+ * A canvas with the middle of a picture, made small.
+ * @param {Blob} picture in any format that the browser can decode
+ * @param {number} width
+ * @param {number} height
+ * @returns {Promise<OffscreenCanvasRenderingContext2D>}
+ */
+export async function smallContext(picture, width, height) {
+  const whole = await createImageBitmap(picture);
   const scale = Math.max(width / whole.width, height / whole.height);
   const [w, h] = [whole.width * scale, whole.height * scale];
-  const canvas = new OffscreenCanvas(width, height);
-  const context = canvas.getContext("2d");
+  const context = new OffscreenCanvas(width, height).getContext("2d");
   context.imageSmoothingQuality = "high";
   context.drawImage(whole, (width - w) / 2, (height - h) / 2, w, h);
-  const file = await canvas.convertToBlob({ type: "image/jpeg", quality: 0.75 });
-  return new Uint8Array(await file.arrayBuffer());
+  whole.close();
+  return context;
 }

@@ -14,6 +14,7 @@
 //! | [`integrator`] | `--integrator`, `--bounces`, `--noise` |
 //! | [`formulas`] | `mandelight formulas`, `mandelight formula check`: formulas and their texts |
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
+//! | [`gallery`] | `mandelight gallery`: the list of a folder's pictures |
 //! | [`info`] | `mandelight info`: the GPU |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | atomic writing of a file |
@@ -29,6 +30,7 @@ mod folder;
 mod formulas;
 mod fractals;
 mod frames;
+mod gallery;
 mod gradient;
 mod info;
 mod input;
@@ -70,6 +72,8 @@ enum Command {
     Formula(formulas::FormulaArguments),
     /// Prints scenes at the places of a view that stay beautiful at every depth
     Places(places::PlacesArguments),
+    /// Lists the pictures of a folder, so that a page shows the folder as a gallery
+    Gallery(gallery::GalleryArguments),
     /// Prints the GPU that would be used, its limits, and the other GPUs
     Info(info::InfoArguments),
 }
@@ -112,6 +116,7 @@ pub fn run() -> ExitCode {
         Command::Formulas(arguments) => formulas::list(arguments),
         Command::Formula(arguments) => formulas::run(arguments),
         Command::Places(arguments) => places::run(arguments),
+        Command::Gallery(arguments) => gallery::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
     match outcome {

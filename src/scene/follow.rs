@@ -97,6 +97,15 @@ pub fn with_edit(document: Lights, before: &Lights, edited: Lights, camera: &Cam
     lights
 }
 
+/// Edits a document's lights as they are [`shown`] in the view of `camera`.
+pub fn edit<R>(lights: &mut Lights, camera: &Camera, edit: impl FnOnce(&mut Lights) -> R) -> R {
+    let Some(seen) = shown(lights, camera) else { return edit(lights) };
+    let mut edited = seen.clone();
+    let result = edit(&mut edited);
+    *lights = with_edit(std::mem::take(lights), &seen, edited, camera);
+    result
+}
+
 /// The document's lights with an edit that leaves all of them where they are; none for other edits.
 fn followed_edit(document: &Lights, before: &Lights, edited: &Lights) -> Option<Lights> {
     if edited.environment.len() != before.environment.len() {

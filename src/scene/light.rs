@@ -33,6 +33,18 @@ impl LightFrame {
             Self::View => camera.rotation().inverse() * direction,
         }
     }
+
+    /// Converts a direction of this frame, of any length, to a unit vector of the camera's frame.
+    pub fn to_view(self, direction: [f64; 3], camera: &Camera) -> DVec3 {
+        let direction = DVec3::from_array(direction).normalize_or(DVec3::Z);
+        Self::View.from_world(self.to_world(direction, camera), camera)
+    }
+
+    /// Converts a direction of the camera's frame, of any length, to a unit vector of this frame.
+    pub fn from_view(self, in_view: DVec3, camera: &Camera) -> [f64; 3] {
+        let direction = self.from_world(Self::View.to_world(in_view, camera), camera);
+        direction.normalize_or(DVec3::Z).to_array()
+    }
 }
 
 /// A light infinitely far away: one direction, or a disc of directions.
@@ -69,6 +81,16 @@ impl EnvironmentLight {
     /// A light that stays with the camera, from `direction` in its frame: x right, y up, z backward.
     pub fn headlight(direction: [f64; 3], color: [f32; 3], intensity: f64) -> Self {
         Self { frame: LightFrame::View, ..Self::new(direction, color, intensity) }
+    }
+
+    /// The unit vector toward the light, in the camera's frame.
+    pub fn toward_light_in_view(&self, camera: &Camera) -> DVec3 {
+        self.frame.to_view(self.direction, camera)
+    }
+
+    /// Sets the direction from a vector toward the light in the camera's frame, of any length.
+    pub fn set_toward_light_in_view(&mut self, in_view: DVec3, camera: &Camera) {
+        self.direction = self.frame.from_view(in_view, camera);
     }
 }
 

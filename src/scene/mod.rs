@@ -23,6 +23,7 @@
 //! | `validate` | the check that every loaded scene has passed |
 //! | [`color`] | sRGB, and the gradient as a table |
 //! | [`gradient`] | gradients with names, and those of files |
+//! | [`gallery`] | the list of a folder's pictures on a web host |
 //! | [`variation`], [`dice`] | scenes near to a scene; random numbers for them |
 
 mod background;
@@ -47,6 +48,7 @@ pub mod dice;
 pub mod document;
 pub mod environment_map;
 pub mod follow;
+pub mod gallery;
 pub mod gradient;
 pub mod history;
 mod indirect;

@@ -45,6 +45,9 @@ pub enum Action {
     KeepFavourite,
     /// Tell that a kept view cannot be read.
     ReportUnreadableFavourite,
+    /// Open the scene of the gallery's picture of this number, for
+    /// [`Interface::fly_into`](super::Interface::fly_into).
+    OpenGalleryPicture(usize),
     /// Copy the picture on the screen to the clipboard.
     CopyPicture,
     /// Hand the picture on the screen to the system's share sheet.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use egui::{Color32, CornerRadius, Painter, Rect, Shape, epaint::RectShape, pos2};
 
-use super::{share::Sharing, small_picture::SmallPictureId};
+use super::{gallery::GalleryState, share::Sharing, small_picture::SmallPictureId};
 use crate::render::report::Report;
 
 /// The data of one frame that the interface displays.
@@ -24,6 +24,8 @@ pub struct DisplayInputs<'a> {
     pub adapter: &'a str,
     /// What the shell can share.
     pub sharing: Sharing<'a>,
+    /// The gallery that the page's address names, if it names one.
+    pub gallery: Option<&'a GalleryState>,
     /// True if the user asks for as little motion on the screen as possible.
     pub reduced_motion: bool,
     /// Those of [`Interface::small_pictures`](super::Interface::small_pictures) that are drawn.

@@ -1,13 +1,19 @@
-//! Handles of point lights and section planes in the view.
+//! Handles of lights and section planes in the view.
 //!
-//! A drag moves a light parallel to the screen. A drag with Shift moves the light along its ray;
-//! upward is away from the eye. A section plane moves along its normal. What is behind the eye has no handle.
+//! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
+//! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
+//! is on the panel's ball. A section plane moves along its normal. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
 
-use super::{frame::Frame, selection::LightRef, theme};
-use crate::scene::{Camera, MIN_VIEW_UNIT, Scene};
+use super::{
+    frame::Frame,
+    selection::LightRef,
+    theme,
+    widgets::{Help as _, ball},
+};
+use crate::scene::{Camera, MIN_VIEW_UNIT, Scene, follow};
 
 /// Side of a handle's sensitive square, in points.
 const GRIP: f32 = 30.0;
@@ -58,12 +64,62 @@ pub fn point_lights(
         }
         let shines = !light.muted && (!any_solo || light.solo);
         let lit = response.hovered() || response.dragged() || selected == Some(this);
-        paint(ui, at, theme::display_color(light.color), shines, lit);
+        paint(ui, at, theme::display_color(light.color), shines, false, lit);
         response.on_hover_text(
             "Drag to move this light. With Shift, it moves toward or away from you.",
         );
     }
     touched
+}
+
+/// Radius of the ball around the picture's middle on which directional lights are, as a part of the
+/// picture's shorter side.
+const BALL_PART: f32 = 0.42;
+
+/// Draws the handles of all directional lights and turns a dragged light.
+///
+/// Returns the clicked or dragged light.
+pub fn environment_lights(
+    ui: &Ui,
+    frame: Frame,
+    scene: &mut Scene,
+    selected: Option<LightRef>,
+) -> Option<LightRef> {
+    let Scene { camera, lights, .. } = scene;
+    let center = frame.rect.center();
+    let radius = BALL_PART * frame.rect.size().min_elem();
+    follow::edit(lights, camera, |lights| {
+        let any_solo = lights.any_solo();
+        let mut touched = None;
+        for (index, light) in lights.environment.iter_mut().enumerate() {
+            let mut toward_light = light.toward_light_in_view(camera);
+            let at = ball::dot_place(center, radius, toward_light);
+            let id = ui.scope_id().with(("light", index));
+            let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+            let response = ui.interact(area, id, Sense::click_and_drag());
+            let this = LightRef::Environment(index);
+            let name = format!("{} in the view", this.name());
+            response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, name.clone()));
+            if ball::turn(ui, &response, center, radius, &mut toward_light) {
+                light.set_toward_light_in_view(toward_light, camera);
+            }
+            if response.clicked() || response.drag_started() || response.gained_focus() {
+                touched = Some(this);
+            }
+            let shines = !light.muted && (!any_solo || light.solo);
+            let is_held = response.hovered() || response.dragged() || response.has_focus();
+            if is_held {
+                let spoke = Stroke::new(1.0, Color32::from_white_alpha(70));
+                ui.painter().circle_stroke(center, radius, spoke);
+                ui.painter().line_segment([center, at], spoke);
+            }
+            let is_lit = is_held || selected == Some(this);
+            let color = theme::display_color(light.color);
+            paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
+            response.help(ball::HELP);
+        }
+        touched
+    })
 }
 
 /// Length of the arrow that shows a section plane's normal, in points, where it is across the line of sight.
@@ -160,7 +216,8 @@ fn scene_per_point(camera: &Camera, frame: Frame, offset: DVec3) -> f64 {
     2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0))
 }
 
-fn paint(ui: &Ui, at: Pos2, color: Color32, shines: bool, lit: bool) {
+/// A light's sign: a sun, hollow for a light from behind; a ring where the light is off.
+fn paint(ui: &Ui, at: Pos2, color: Color32, shines: bool, is_behind: bool, lit: bool) {
     let painter = ui.painter();
     let opacity = if lit { 1.0 } else { 0.7 };
     painter.circle_filled(at, 8.0, Color32::from_black_alpha(110));
@@ -172,7 +229,11 @@ fn paint(ui: &Ui, at: Pos2, color: Color32, shines: bool, lit: bool) {
                 Stroke::new(1.5, color.gamma_multiply(opacity)),
             );
         }
-        painter.circle_filled(at, 4.5, color.gamma_multiply(opacity));
+        if is_behind {
+            painter.circle_stroke(at, 4.0, Stroke::new(1.5, color.gamma_multiply(opacity)));
+        } else {
+            painter.circle_filled(at, 4.5, color.gamma_multiply(opacity));
+        }
     } else {
         painter.circle_stroke(at, 4.5, Stroke::new(1.5, color.gamma_multiply(0.5)));
     }

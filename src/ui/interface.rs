@@ -10,6 +10,7 @@ use egui::{Margin, Panel, Ui};
 
 use super::{
     action::Action,
+    compare::Compare,
     display_inputs::DisplayInputs,
     dive,
     editor::Editor,
@@ -63,6 +64,7 @@ pub struct Interface {
     sheet: panel::Sheet,
     share: Share,
     light_click: LightClick,
+    compare: Compare,
     finder: Finder,
     mutate: Mutate,
     surprises: Surprises,
@@ -96,6 +98,7 @@ impl Interface {
             sheet: panel::Sheet::default(),
             share: Share::default(),
             light_click: LightClick::default(),
+            compare: Compare::default(),
             finder: Finder::default(),
             mutate: Mutate::default(),
             surprises: Surprises::default(),
@@ -249,6 +252,8 @@ impl Interface {
             commands.extend(shared);
         }
 
+        let view = self.rects.get("view");
+        let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
         match self.finder.show(ui) {
             Some(Target::Command(command)) => commands.push(command),
             Some(Target::Section(section)) => panel::show_section(ui, &mut self.settings, section),
@@ -270,10 +275,12 @@ impl Interface {
         for command in commands {
             self.dispatch(command, wide, &mut actions);
         }
+        self.show_state(other_state);
         if let Some(scene) = self.surprises.advance(ui) {
             self.fly_into_scene(scene);
         }
         self.timeline.end_frame(&mut self.editor, &before, now_secs);
+        self.compare.note(self.editor.project());
         self.moving |= self.timeline.is_moving();
         if self.timeline.is_playing() {
             ui.ctx().request_repaint();
@@ -425,10 +432,15 @@ impl Interface {
             Command::Leave if self.mutate.is_open() => self.mutate.toggle(),
             Command::Mutate => self.mutate.toggle(),
             Command::Surprise => self.surprises.begin(),
+            Command::Compare => {
+                let other = self.compare.toggle(self.editor.project());
+                self.show_state(other);
+            }
             Command::Leave if self.places.are_shown() => self.places.put_away(),
             Command::FindPlaces => self.places.toggle(),
             Command::Leave if self.light_click.waits() => self.light_click.toggle(),
             Command::LightPlace => self.light_click.toggle(),
+            Command::Leave if self.compare.is_on() && !self.pilot.is_flying() => self.compare.end(),
             Command::Leave => self.pilot.set_flying(false),
             Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
             Command::ToggleTimeline => self.toggle_timeline(wide),

@@ -42,14 +42,7 @@ impl LightClick {
 /// Lets the selected light, or the first, shine on `place`. A scene without lights gets one.
 pub fn light(scene: &mut Scene, selected: Option<LightRef>, place: &LitPlace) -> LightRef {
     let Scene { camera, lights, .. } = scene;
-    let Some(seen) = follow::shown(lights, camera) else {
-        return aim(lights, camera, selected, place);
-    };
-    // Lights that have turned with the view are edited as they are seen.
-    let mut edited = seen.clone();
-    let target = aim(&mut edited, camera, selected, place);
-    *lights = follow::with_edit(std::mem::take(lights), &seen, edited, camera);
-    target
+    follow::edit(lights, camera, |lights| aim(lights, camera, selected, place))
 }
 
 fn aim(

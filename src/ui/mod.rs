@@ -11,11 +11,13 @@
 //! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
 //! | `finder` | the search over commands, scenes, sections and controls |
 //! | `favourites` | the views that a person keeps |
+//! | `gallery` | the gallery that the page's address names |
 //! | `selection` | the selected light, colour layer and gradient stops |
 //! | `loaded` | the environment map and gradients that people opened |
 //! | `panel/` | the panels, one per file |
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
-//! | `view`, `frame`, `pilot`, `handles` | the picture, where it is, the camera's input, handles of point lights |
+//! | `view`, `frame`, `pilot`, `handles` | the picture, where it is, the camera's input, handles of lights and section planes |
+//! | `compare` | two states of the project, of which one is in view |
 //! | `light_click` | a click that lights a place |
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
@@ -35,6 +37,7 @@
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, style, icons, widget positions |
 
 mod action;
+mod compare;
 mod display_inputs;
 mod dive;
 mod export_size;
@@ -43,6 +46,7 @@ mod field;
 mod finder;
 mod floating;
 mod frame;
+mod gallery;
 mod handles;
 mod hints;
 mod home;
@@ -86,6 +90,7 @@ pub use export_size::{
     DEFAULT_QUALITY, ExportSize, MAX_EXPORT_SIDE_PX, SequenceFormat, StillFile, StillFormat,
 };
 pub use favourites::{Favourite, Favourites};
+pub use gallery::GalleryState;
 pub use hints::Hints;
 pub use interface::Interface;
 pub use panel::{all_sections_open, section_title_of};

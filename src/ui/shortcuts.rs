@@ -32,6 +32,8 @@ pub enum Command {
     Favourite(usize),
     /// Open or close the finder.
     Find,
+    /// Set this state aside, or change to the other one.
+    Compare,
     /// Open a random scene.
     Surprise,
     /// Show variations of the scene, or put them away.
@@ -152,6 +154,13 @@ pub const SHORTCUTS: &[Shortcut] = &[
     row(NONE, Key::A, Command::FrameAll, "A", "Show the whole fractal"),
     row(NONE, Key::D, Command::Dive, "D", "Dive: go down by itself, or stop"),
     row(NONE, Key::N, Command::FindPlaces, "N", "Find places to dive to, or put the pins away"),
+    row(
+        SHIFT,
+        Key::C,
+        Command::Compare,
+        "Shift C",
+        "Compare two states: set this one aside as A; then change between A and B",
+    ),
     row(NONE, Key::R, Command::Surprise, "R", "Surprise me: a random scene"),
     row(NONE, Key::M, Command::Mutate, "M", "Mutate: variations of the scene, side by side"),
     row(NONE, Key::F, Command::ToggleFlight, "F", "Fly mode on or off"),
@@ -234,7 +243,10 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Wheel, pinch", "Move closer, drawn to good places near the pointer, or farther"),
     ("Double click, double tap", "Fly to that point"),
     ("Two fingers", "Pan and zoom"),
-    ("Drag a light's handle", "Move a point light; with Shift toward or away from you"),
+    (
+        "Drag a light's handle",
+        "Turn a light, or move a point light; with Shift toward or away from you",
+    ),
     ("Alt + click", "Focus there, with a depth of field"),
     ("Alt + Shift + click", "Light that place"),
     ("Drag in fly mode", "Look around"),

@@ -51,6 +51,8 @@ pub fn panel_width(window: f32) -> f32 {
 }
 /// Duration of a widget's animations, in seconds.
 const ANIMATION_SECS: f32 = 0.08;
+/// Opacity of disabled widgets.
+const DISABLED_ALPHA: f32 = 0.56;
 /// Corner radius of buttons, rails and fields, in points.
 pub const RADIUS: u8 = 6;
 
@@ -113,6 +115,8 @@ fn colors(style: &mut Style) {
     visuals.hyperlink_color = ACCENT;
     visuals.warn_fg_color = ACCENT;
     visuals.error_fg_color = ERROR;
+    // The least at which disabled buttons can be read as well as all other text.
+    visuals.disabled_alpha = DISABLED_ALPHA;
     visuals.selection.bg_fill = Color32::from_rgb(0x5a, 0x42, 0x1c);
     visuals.selection.stroke = Stroke::new(1.0, Color32::from_rgb(0xff, 0xdc, 0xa6));
     visuals.slider_trailing_fill = true;

@@ -9,7 +9,7 @@ use super::{
     accessibility,
     address::Address,
     engine::Engine,
-    files,
+    files, gallery,
     image_decoder::ImageDecoder,
     mailbox::{Mailbox, Message},
     opening::{self, Opening},
@@ -20,7 +20,7 @@ use super::{
 use crate::{
     gpu::Gpu,
     scene::document,
-    ui::{Action, DisplayInputs, KeptPicture, Sharing, StillFormat, theme},
+    ui::{Action, DisplayInputs, GalleryState, KeptPicture, Sharing, StillFormat, theme},
 };
 
 /// The app on one device.
@@ -86,6 +86,7 @@ impl eframe::App for App {
             notice: session.notice.as_ref(),
             adapter: &self.adapter_name,
             sharing: Sharing { address: &self.address, has_share_sheet: self.has_share_sheet },
+            gallery: session.gallery.as_ref(),
             reduced_motion: page::prefers_reduced_motion(),
             small_pictures: engine.small_textures(),
         };
@@ -156,6 +157,13 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
         Action::ReportUnreadableFavourite => session.show_error(
             "This kept view cannot be read: it is damaged, or a newer Mandelight kept it. Remove it under Mine.",
         ),
+        Action::OpenGalleryPicture(index) => {
+            if let Some(GalleryState::Ready { address, gallery }) = &session.gallery
+                && let Some(picture) = gallery.pictures.get(index)
+            {
+                gallery::open_picture(address, picture, &session.mailbox);
+            }
+        }
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::DismissNotice => session.notice = None,
     }

@@ -1,6 +1,7 @@
 //! Pictures in the interface, decoded by the browser: no decoder adds to the module's size.
 //!
-//! In: bytes of a file such as a JPEG, by egui's URI of them. Out: the pixels, some frames later.
+//! In: bytes of a file such as a JPEG by egui's URI of them, or the address of a picture of the gallery.
+//! Out: the pixels, some frames later.
 
 use std::{
     collections::BTreeMap,
@@ -16,10 +17,16 @@ use wasm_bindgen::{JsCast as _, JsValue};
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, ImageBitmap, OffscreenCanvas, OffscreenCanvasRenderingContext2d};
 
-use super::page::{self, describe};
+use super::{
+    gallery,
+    page::{self, describe},
+};
 
 /// A picture's pixels, or why the browser could not decode it; `None` while it decodes.
 type Decoded = Option<Result<Arc<ColorImage>, String>>;
+
+/// Most pictures of a host that are read at a time.
+const MAX_WAITING: usize = 4;
 
 /// Pictures by URI.
 type Pictures = BTreeMap<String, Decoded>;
@@ -28,6 +35,27 @@ type Pictures = BTreeMap<String, Decoded>;
 #[derive(Default)]
 pub struct ImageDecoder {
     pictures: Arc<Mutex<Pictures>>,
+}
+
+impl ImageDecoder {
+    /// Keeps the picture of `uri` as soon as `decoding` has it.
+    fn begin(
+        &self,
+        ctx: &Context,
+        uri: &str,
+        decoding: impl Future<Output = Result<ColorImage, String>> + 'static,
+    ) {
+        lock(&self.pictures).insert(uri.to_owned(), None);
+        let (pictures, uri, ctx) = (self.pictures.clone(), uri.to_owned(), ctx.clone());
+        spawn_local(async move {
+            let decoded = decoding.await;
+            if let Err(reason) = &decoded {
+                log::warn!("{uri} could not be decoded: {reason}");
+            }
+            lock(&pictures).insert(uri, Some(decoded.map(Arc::new)));
+            ctx.request_repaint();
+        });
+    }
 }
 
 impl ImageLoader for ImageDecoder {
@@ -42,17 +70,18 @@ impl ImageLoader for ImageDecoder {
             Some(Some(Err(reason))) => return Err(LoadError::Loading(reason.clone())),
             None => {}
         }
-        if let BytesPoll::Ready { bytes, .. } = ctx.try_load_bytes(uri)? {
-            lock(&self.pictures).insert(uri.to_owned(), None);
-            let (pictures, uri, ctx) = (self.pictures.clone(), uri.to_owned(), ctx.clone());
-            spawn_local(async move {
-                let decoded = decode(&bytes).await.map_err(|error| describe(&error));
-                if let Err(reason) = &decoded {
-                    log::warn!("{uri} could not be decoded: {reason}");
-                }
-                lock(&pictures).insert(uri, Some(decoded.map(Arc::new)));
-                ctx.request_repaint();
-            });
+        if uri.starts_with("http") {
+            let waiting = lock(&self.pictures).values().filter(|picture| picture.is_none()).count();
+            if waiting < MAX_WAITING {
+                let address = uri.to_owned();
+                self.begin(ctx, uri, async move { gallery::thumbnail(&address).await });
+            }
+        } else if let BytesPoll::Ready { bytes, .. } = ctx.try_load_bytes(uri)? {
+            self.begin(
+                ctx,
+                uri,
+                async move { decode(&bytes).await.map_err(|error| describe(&error)) },
+            );
         }
         Ok(ImagePoll::Pending { size: None })
     }

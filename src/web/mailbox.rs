@@ -5,6 +5,8 @@
 
 use std::{cell::RefCell, rc::Rc};
 
+use crate::ui::GalleryState;
+
 /// An event from outside a frame.
 pub enum Message {
     /// The visitor picked or dropped a file.
@@ -22,6 +24,15 @@ pub enum Message {
         document: String,
         /// The picture's file.
         jpeg: Vec<u8>,
+    },
+    /// The gallery of the address has been read, or can't be.
+    Gallery(GalleryState),
+    /// A picture of the gallery was chosen.
+    GalleryPicture {
+        /// Its name, for notices.
+        name: String,
+        /// The file's start, which holds the scene, or why it could not be read.
+        content: Result<Vec<u8>, String>,
     },
     /// A success to show to the visitor.
     Notice(String),

@@ -29,6 +29,7 @@
 //! | `small_pictures` | small pictures of the interface, drawn when the view rests |
 //! | `async_compile` | pipelines compiled while the page goes on |
 //! | `image_decoder` | pictures in the interface, decoded by the browser |
+//! | `gallery` | the gallery of the page's address |
 //! | `mailbox` | messages from callbacks to the next frame |
 //! | `opening` | the opening picture, until the view's first is as good |
 //! | `accessibility` | the interface for screen readers |
@@ -45,6 +46,7 @@ mod error_log;
 mod exporter;
 mod file_access;
 mod files;
+mod gallery;
 mod image_decoder;
 mod live_view;
 mod mailbox;

@@ -10,6 +10,7 @@ use super::{
     autosave::{self, Autosave},
     device_loss::{self, SafeMode},
     files::{self, FilePicker},
+    gallery,
     mailbox::{Mailbox, Message},
     page, storage,
 };
@@ -18,7 +19,7 @@ use crate::{
     gpu::Gpu,
     render::Report,
     scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
-    ui::{Favourites, Interface, Notice, Settings, theme},
+    ui::{Favourites, GalleryState, Interface, Notice, Settings, theme},
 };
 
 /// Seconds that a notice of a success stays.
@@ -38,6 +39,8 @@ pub struct Session {
     pub picker: FilePicker,
     /// The device; `None` after a loss, until the restart.
     pub gpu: Option<Gpu>,
+    /// The gallery that the address names, if it names one.
+    pub gallery: Option<GalleryState>,
     /// The notice to the visitor, until it is dismissed or expires.
     pub notice: Option<Notice>,
     /// When the notice expires, on the page's clock.
@@ -81,7 +84,8 @@ impl Session {
             autosave: Autosave::new(address),
             picker: FilePicker::new(&mailbox),
             interface,
-            mailbox,
+            mailbox: mailbox.clone(),
+            gallery: gallery::open(&mailbox),
             gpu: None,
             notice: None,
             notice_until_secs: 0.0,
@@ -216,6 +220,18 @@ impl Session {
                 },
                 Message::Favourite { document, jpeg } => {
                     self.interface.keep_favourite(document, jpeg);
+                }
+                Message::Gallery(state) => self.gallery = Some(state),
+                Message::GalleryPicture { name, content } => {
+                    match content.and_then(|bytes| read_project(&bytes)) {
+                        Ok(project) => {
+                            self.interface.fly_into(project);
+                            self.report_missing_environment_map();
+                        }
+                        Err(reason) => {
+                            self.show_error(format!("{name} could not be opened: {reason}"));
+                        }
+                    }
                 }
                 Message::Notice(text) => self.show_notice(text),
                 Message::Error(text) => self.show_error(text),

@@ -16,14 +16,18 @@ const MIME = {
 /** A folder below the root: the page's own URLs must be relative. */
 const BASE = "/shared/page/";
 
+/** A folder of pictures on the same host. */
+const PICTURES = "/pictures/";
+
 /**
- * Serves `folder`.
+ * Serves `folder`, and `pictures` beside it.
  * @param {string} folder
+ * @param {string} [pictures]
  * @returns {Promise<{address: string, requests: string[], isDown: boolean, appended: object, close: () => Promise<void>}>}
  *   the page's address; the files requested so far; whether it refuses connections; texts to append
  *   to files, by their names; a function that stops the host
  */
-export async function host(folder) {
+export async function host(folder, pictures) {
   const requests = [];
   const state = { isDown: false, appended: {} };
   const server = createServer(async (request, response) => {
@@ -31,9 +35,12 @@ export async function host(folder) {
     const { pathname } = new URL(request.url, "http://127.0.0.1");
     const name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) || "index.html" : undefined;
     requests.push(name ?? pathname);
-    const file = name && normalize(join(folder, name));
+    const isPicture = pictures && pathname.startsWith(PICTURES);
+    const root = isPicture ? pictures : folder;
+    const below = isPicture ? decodeURIComponent(pathname.slice(PICTURES.length)) : name;
+    const file = below && normalize(join(root, below));
     try {
-      if (!file?.startsWith(folder + sep)) throw new Error("outside the page");
+      if (!file?.startsWith(root + sep)) throw new Error("outside the folder");
       const body = await readFile(file);
       response.writeHead(200, { "Content-Type": MIME[extname(file)] ?? "application/octet-stream" });
       response.end(Buffer.concat([body, Buffer.from(state.appended[name] ?? "")]));

@@ -16,11 +16,13 @@ use std::{
 
 use base64::Engine as _;
 use mandelight::{
-    export,
+    export::{self, png::PngStream},
     formula::{self, Fractal},
     render::{Region, shaders, uniforms::Inputs},
     scene::{
-        Path, Project, Scene, document, link,
+        Path, Project, Scene, document,
+        gallery::Gallery,
+        link,
         path::{Easing, Key},
         presets,
     },
@@ -132,6 +134,39 @@ fn a_page_that_was_open_once_works_without_a_connection() {
     assert_eq!(visit.seen["offered"], true);
     assert_eq!(visit.seen["reloaded"], true);
     assert_eq!(visit.seen["purged"]["names"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn a_gallery_of_the_address_is_shown_and_opened() {
+    let folder = folder_of("gallery-pictures");
+    fs::create_dir_all(&folder).unwrap();
+    let [first, second] = [2, 4].map(|index| (presets::opening_scenes()[index].scene)());
+    for (name, scene, rgb) in
+        [("first one.png", &first, [200, 40, 30]), ("b.png", &second, [30, 60, 200])]
+    {
+        let mut png = PngStream::new(Vec::new(), [48, 30], &document::to_json(scene)).unwrap();
+        png.write_rgb(&rgb.repeat(48 * 30)).unwrap();
+        fs::write(folder.join(name), png.finish().unwrap()).unwrap();
+    }
+    let files = ["first one.png", "b.png", "missing.png"].map(str::to_owned);
+    let list = Gallery::new("Two of a host", files).unwrap().to_json();
+    fs::write(folder.join("gallery.json"), list).unwrap();
+    fs::write(folder.join("broken.json"), "[1, 2").unwrap();
+
+    let visit = Visit::run_with("gallery", [("MANDELIGHT_PICTURES", &folder)]);
+    let shown = Picture::read_png(&visit.folder.join("gallery-720x420.png"));
+    let card = |index: usize| {
+        let side = |name: &str| visit.number(&format!("/cards/{index}/{name}"));
+        let middle = [side("x") + side("width") / 2.0, side("y") + side("height") / 3.0];
+        shown.crop(middle.map(|at| at as u32 - 4), [8, 8]).mean_color()
+    };
+    let [red, blue] = [card(0), card(1)];
+    assert!(red[0] > 2.0 * red[2] && blue[2] > 2.0 * blue[0], "{red:?}, {blue:?}");
+    let opened = visit.scene("opened");
+    assert_eq!(Scene { quality: first.quality.clone(), ..opened }, first);
+    for name in ["missing", "broken", "nowhere"] {
+        assert_eq!(visit.seen[name], true, "{name}");
+    }
 }
 
 /// A path of two keys and three frames.

@@ -77,6 +77,14 @@ impl Picture {
         Beauty::of(&rgb, self.size_px[0] as usize)
     }
 
+    /// The mean of each channel, 0 to 255.
+    pub fn mean_color(&self) -> [f64; 3] {
+        let pixels = self.rgba.chunks_exact(4);
+        let count = pixels.len() as f64;
+        let sum = |i: usize| pixels.clone().map(|pixel| f64::from(pixel[i])).sum::<f64>();
+        [0, 1, 2].map(|i| sum(i) / count)
+    }
+
     /// Standard deviation of brightness (0 to 255); near zero for an empty picture.
     pub fn contrast(&self) -> f64 {
         let greys = || {

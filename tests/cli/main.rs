@@ -3,6 +3,7 @@
 mod cuts;
 mod formulas;
 mod frames;
+mod gallery;
 mod gradients;
 mod looks;
 mod pictures;

@@ -2,6 +2,8 @@
 //! movements of its camera.
 
 mod cards;
+mod compare;
+mod contrast;
 mod controls;
 mod depth;
 mod descent;
@@ -14,11 +16,13 @@ mod finder;
 mod fit;
 mod focus;
 mod follow;
+mod gallery;
 mod gestures;
 mod hostile;
 mod hybrids;
 mod keyboard;
 mod light_click;
+mod light_handles;
 mod looks;
 mod mutate;
 mod navigation;

@@ -6,8 +6,8 @@ use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
     ui::{
-        Action, DisplayInputs, ExportProgress, Interface, Notice, Settings, Sharing, SmallTextures,
-        all_sections_open, theme,
+        Action, DisplayInputs, ExportProgress, GalleryState, Interface, Notice, Settings, Sharing,
+        SmallTextures, all_sections_open, theme,
     },
 };
 
@@ -20,6 +20,7 @@ pub struct Stage {
     pub notice: Option<Notice>,
     pub small_pictures: SmallTextures,
     pub reduced_motion: bool,
+    pub gallery: Option<GalleryState>,
     pub has_share_sheet: bool,
 }
 
@@ -59,6 +60,7 @@ pub fn stage(
         notice: None,
         small_pictures: SmallTextures::default(),
         reduced_motion: false,
+        gallery: None,
         has_share_sheet: false,
     };
     Harness::builder()
@@ -79,6 +81,7 @@ pub fn stage(
                         address: "https://example.org/",
                         has_share_sheet: stage.has_share_sheet,
                     },
+                    gallery: stage.gallery.as_ref(),
                     reduced_motion: stage.reduced_motion,
                     small_pictures: &stage.small_pictures,
                 };

@@ -148,7 +148,7 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     parts.push(module);
     parts.push(read(bound, "mandelight.js")?);
     parts.push(read(bound, MEDIABUNNY)?);
-    for name in ["accessibility.js", "share.js", "video.js"] {
+    for name in ["accessibility.js", "share.js", "gallery.js", "video.js"] {
         parts.push(read(www, name)?);
     }
     let mut boot = read(www, "boot.js")?;

@@ -90,6 +90,10 @@ impl Interface {
             }
             let light = handles::point_lights(ui, frame, scene, self.selection.light);
             self.selection.light = light.or(self.selection.light);
+            if panel::shows_lights(&self.settings) {
+                let light = handles::environment_lights(ui, frame, scene, self.selection.light);
+                self.selection.light = light.or(self.selection.light);
+            }
             if panel::shows_section_planes(&self.settings) {
                 handles::section_planes(ui, frame, scene);
             }

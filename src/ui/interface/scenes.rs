@@ -35,8 +35,17 @@ impl Interface {
         }
     }
 
+    /// Shows the chosen one of two compared states, without a flight, as one undo step.
+    pub(super) fn show_state(&mut self, state: Option<Project>) {
+        if let Some(project) = state {
+            self.pilot.cancel();
+            self.timeline.stop();
+            self.editor.replace(project);
+        }
+    }
+
     /// Shows a project by a flight to its view, as one undo step.
-    fn fly_into(&mut self, project: Project) {
+    pub fn fly_into(&mut self, project: Project) {
         let Project { mut scene, path } = project;
         self.selection = Selection::default();
         self.home = scene.camera.clone();

@@ -1,7 +1,6 @@
 //! Properties of one light, and conversion of its direction to and from the camera's frame.
 
 use egui::{Response, RichText, Ui};
-use glam::DVec3;
 
 use crate::{
     scene::{
@@ -21,11 +20,11 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
             let ball = direction_ball(ui, "Light direction", 112.0, light, camera);
             ui.vertical(|ui| {
                 ui.add_space(6.0);
-                let mut behind = toward_light_in_view(light, camera).z < 0.0;
+                let mut behind = light.toward_light_in_view(camera).z < 0.0;
                 if ui.checkbox(&mut behind, "From behind").help("Lights the fractal from behind, as you see it").changed() {
-                    let mut direction = toward_light_in_view(light, camera);
+                    let mut direction = light.toward_light_in_view(camera);
                     direction.z = -direction.z;
-                    set_direction(light, camera, direction);
+                    light.set_toward_light_in_view(direction, camera);
                 }
                 ui.checkbox(&mut light.casts_shadows, "Shadows").help("This light casts shadows");
                 let mut limited = light.shadow_reach.is_some();
@@ -57,9 +56,9 @@ pub(super) fn environment(ui: &mut Ui, light: &mut EnvironmentLight, camera: &Ca
     );
     if frame != light.frame {
         // The light keeps its current direction in the new frame.
-        let direction = toward_light_in_view(light, camera);
+        let direction = light.toward_light_in_view(camera);
         light.frame = frame;
-        set_direction(light, camera, direction);
+        light.set_toward_light_in_view(direction, camera);
     }
     ball
 }
@@ -126,38 +125,18 @@ pub(super) fn direction_ball(
     light: &mut EnvironmentLight,
     camera: &Camera,
 ) -> Response {
-    let mut direction = toward_light_in_view(light, camera);
+    let mut direction = light.toward_light_in_view(camera);
     let response = ball(ui, name, diameter, light.color, &mut direction);
     if response.changed() {
-        set_direction(light, camera, direction);
+        light.set_toward_light_in_view(direction, camera);
     }
     response
 }
 
-/// The unit vector toward the light, in the camera's frame.
-fn toward_light_in_view(light: &EnvironmentLight, camera: &Camera) -> DVec3 {
-    in_view(light.direction, light.frame, camera)
-}
-
-/// Sets the light's direction from a vector in the camera's frame.
-pub(super) fn set_direction(light: &mut EnvironmentLight, camera: &Camera, in_view: DVec3) {
-    light.direction = from_view(in_view, light.frame, camera);
-}
-
-/// Converts a direction from `frame` to the camera's frame.
-pub(super) fn in_view(direction: [f64; 3], frame: LightFrame, camera: &Camera) -> DVec3 {
-    let direction = DVec3::from_array(direction).normalize_or(DVec3::Z);
-    LightFrame::View.from_world(frame.to_world(direction, camera), camera)
-}
-
-/// Converts a direction from the camera's frame to `frame`.
-pub(super) fn from_view(in_view: DVec3, frame: LightFrame, camera: &Camera) -> [f64; 3] {
-    let direction = frame.from_world(LightFrame::View.to_world(in_view, camera), camera);
-    direction.normalize_or(DVec3::Z).to_array()
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]
@@ -176,8 +155,8 @@ mod tests {
         let wanted = DVec3::new(0.2, -0.7, 0.4).normalize();
         for frame in [LightFrame::Scene, LightFrame::View] {
             let mut light = EnvironmentLight { frame, ..Default::default() };
-            set_direction(&mut light, &camera, wanted);
-            assert!((toward_light_in_view(&light, &camera) - wanted).length() < 1e-12);
+            light.set_toward_light_in_view(wanted, &camera);
+            assert!((light.toward_light_in_view(&camera) - wanted).length() < 1e-12);
         }
     }
 }

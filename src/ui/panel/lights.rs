@@ -313,7 +313,7 @@ fn removed(lights: &mut Lights, light: LightRef) -> Option<LightRef> {
 
 fn new_environment(camera: &Camera) -> EnvironmentLight {
     let mut light = EnvironmentLight::default();
-    light::set_direction(&mut light, camera, DVec3::new(-0.55, 0.5, 0.67));
+    light.set_toward_light_in_view(DVec3::new(-0.55, 0.5, 0.67), camera);
     light
 }
 

@@ -15,6 +15,7 @@ mod fog;
 mod formula;
 mod formula_text;
 mod fractal;
+mod gallery;
 mod help;
 mod hybrid;
 mod indirect;
@@ -267,9 +268,16 @@ fn reset_button(ui: &mut Ui, cx: &mut Context<'_>, title: &str, reset: fn(&mut S
 
 /// Whether the section planes' section is open, so that their handles show in the view.
 pub(super) fn shows_section_planes(settings: &Settings) -> bool {
-    settings.panel_open
-        && settings.more_open
-        && settings.sections.is_open(section_planes::SECTION.name)
+    is_shown(settings, &section_planes::SECTION)
+}
+
+/// Whether the lights' section is open, so that all lights have handles in the view.
+pub(super) fn shows_lights(settings: &Settings) -> bool {
+    is_shown(settings, &lights::SECTION)
+}
+
+fn is_shown(settings: &Settings, section: &Section) -> bool {
+    settings.panel_open && settings.more_open && settings.sections.is_open(section.name)
 }
 
 /// A section of the panel.

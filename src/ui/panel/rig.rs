@@ -3,7 +3,7 @@
 use egui::{Button, Response, RichText, Ui, vec2};
 use glam::DVec3;
 
-use super::{context::Context, light};
+use super::context::Context;
 use crate::{
     scene::{
         Background, BackgroundKind, Camera, EnvironmentMap, LightFrame, Lights, Rig, RigKind, param,
@@ -125,10 +125,10 @@ fn sky(ui: &mut Ui, cx: &mut Context<'_>) {
     let rig = &mut cx.scene.lights.rig;
     ui.horizontal(|ui| {
         let sky = &mut rig.sky;
-        let mut toward = light::in_view(sky.sun_direction, rig.frame, camera);
+        let mut toward = rig.frame.to_view(sky.sun_direction, camera);
         let response = ball(ui, "Sun direction", 112.0, sky.sun_color, &mut toward);
         if response.changed() {
-            sky.sun_direction = light::from_view(toward, rig.frame, camera);
+            sky.sun_direction = rig.frame.from_view(toward, camera);
         }
         cx.rects.record("sun ball", &response);
         ui.vertical(|ui| {
@@ -238,7 +238,7 @@ fn common(ui: &mut Ui, rig: &mut Rig, camera: &Camera) {
     );
     if rig.frame != before {
         // The sun keeps its current direction in the new frame.
-        let sun = light::in_view(rig.sky.sun_direction, before, camera);
-        rig.sky.sun_direction = light::from_view(sun, rig.frame, camera);
+        let sun = before.to_view(rig.sky.sun_direction, camera);
+        rig.sky.sun_direction = rig.frame.from_view(sun, camera);
     }
 }

@@ -1,10 +1,10 @@
-//! The scenes panel: opening scenes, dives, a scene for each formula, mixes, light, one's own.
+//! The scenes panel: opening scenes, dives, a scene for each formula, mixes, light, one's own, a gallery.
 
 use std::sync::LazyLock;
 
 use egui::{Button, Id, Rect, RichText, Ui};
 
-use super::{card_grid::arrange, context::Context};
+use super::{card_grid::arrange, context::Context, gallery, mine};
 use crate::{
     scene::{
         Scene,
@@ -26,7 +26,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let lists = presets::lists();
     let id = Id::unique("list of scenes");
     // A user who opens a link to a dive sees the list of dives.
-    let opening = usize::from(zoom(&cx.scene.camera) >= DIVE_ZOOM);
+    let dive = usize::from(zoom(&cx.scene.camera) >= DIVE_ZOOM);
+    let (mine_list, gallery_list) = (lists.len(), lists.len() + 1);
+    // A gallery is what its link is for.
+    let opening = if cx.inputs.gallery.is_some() { gallery_list } else { dive };
     let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
     ui.horizontal_wrapped(|ui| {
         // All lists fit in one row of the panel.
@@ -42,20 +45,27 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
                 ui.data_mut(|data| data.insert_temp(id, chosen));
             }
         }
-        let text = RichText::new("Mine").small();
-        let mine = ui.add(Button::selectable(chosen == lists.len(), text));
-        let mine = mine.help("The views that you keep in this browser");
-        cx.rects.record("Mine", &mine);
-        if mine.clicked() {
-            chosen = lists.len();
-            ui.data_mut(|data| data.insert_temp(id, chosen));
+        let mut other = |name, about, index| {
+            let text = RichText::new(name).small();
+            let button = ui.add(Button::selectable(chosen == index, text)).help(about);
+            cx.rects.record(name, &button);
+            if button.clicked() {
+                chosen = index;
+                ui.data_mut(|data| data.insert_temp(id, chosen));
+            }
+        };
+        other("Mine", "The views that you keep in this browser", mine_list);
+        if cx.inputs.gallery.is_some() {
+            other("Gallery", "The gallery that this page's address names", gallery_list);
         }
     });
     if let Some(list) = lists.get(chosen) {
         let first = lists.iter().take(chosen).map(|list| list.presets.len()).sum();
         cards(ui, cx, list, first);
+    } else if let Some(state) = cx.inputs.gallery.filter(|_| chosen == gallery_list) {
+        gallery::show(ui, cx, state);
     } else {
-        super::mine::show(ui, cx);
+        mine::show(ui, cx);
     }
     if chosen == 1 {
         let drawn = ui

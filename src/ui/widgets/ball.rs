@@ -33,19 +33,38 @@ pub fn ball(
     let (rect, mut response) =
         ui.allocate_exact_size(Vec2::splat(diameter), Sense::click_and_drag());
     let radius = diameter / 2.0 - 6.0;
-    let before = *toward_light;
-    drag(ui, &response, rect.center(), radius, toward_light);
-    turn_by_keys(ui, &response, toward_light);
-    if before != *toward_light {
+    if turn(ui, &response, rect.center(), radius, toward_light) {
         response.mark_changed();
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, ui.is_enabled(), name));
     if ui.is_rect_visible(rect) {
         paint(ui, &response, rect.center(), radius, linear, *toward_light);
     }
-    response.help(
-        "Drag to change where the light comes from. Past the rim, it comes from behind (hollow dot). Arrow keys turn it by 5 degrees, with Shift by half a degree.",
-    )
+    response.help(HELP)
+}
+
+/// What a direction's dot does.
+pub const HELP: &str = "Drag to change where the light comes from. Past the rim, it comes from behind (hollow dot). Arrow keys turn it by 5 degrees, with Shift by half a degree.";
+
+/// Turns a direction by a drag of its dot or by the arrow keys. Returns whether it changed.
+///
+/// `response` is that of the dot or of the whole ball around `center`, with `radius` in points.
+pub fn turn(
+    ui: &Ui,
+    response: &Response,
+    center: Pos2,
+    radius: f32,
+    toward_light: &mut DVec3,
+) -> bool {
+    let before = *toward_light;
+    drag(ui, response, center, radius, toward_light);
+    turn_by_keys(ui, response, toward_light);
+    before != *toward_light
+}
+
+/// The place of a direction's dot on the ball.
+pub fn dot_place(center: Pos2, radius: f32, toward_light: DVec3) -> Pos2 {
+    center + vec2(toward_light.x as f32, -toward_light.y as f32) * radius
 }
 
 /// The light's direction for a point of the ball.
@@ -169,7 +188,7 @@ fn paint(
     };
     painter.circle_stroke(center, radius + 0.5, Stroke::new(1.5, rim));
 
-    let dot = center + vec2(toward_light.x as f32, -toward_light.y as f32) * radius;
+    let dot = dot_place(center, radius, toward_light);
     let color = theme::display_color(linear);
     let dark = Stroke::new(2.0, Color32::from_black_alpha(190));
     if toward_light.z >= 0.0 {

@@ -1,6 +1,6 @@
 //! Widgets that egui does not have. Each takes a plain value and returns a `Response`.
 
-mod ball;
+pub mod ball;
 mod card;
 mod color;
 mod gradient;

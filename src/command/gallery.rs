@@ -1,0 +1,72 @@
+//! `mandelight gallery`: the list of a folder's pictures, for a page that shows them.
+
+use std::{
+    fs, io,
+    io::Write as _,
+    path::{Path, PathBuf},
+};
+
+use mandelight::scene::gallery::{Gallery, LIST_FILE};
+
+use super::{Failure, input, message, output::Output};
+
+/// The arguments of `mandelight gallery`.
+#[derive(clap::Args)]
+pub struct GalleryArguments {
+    /// The folder whose pictures to list; the list is its gallery.json
+    folder: PathBuf,
+    /// The gallery's name, which the page shows
+    #[arg(long, default_value = "")]
+    name: String,
+}
+
+/// Writes the list of the pictures in a folder that contain their scene, by name.
+pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Failure> {
+    let failed = |path: &Path, error: &dyn std::fmt::Display| {
+        Failure::failed(format!("{}: {error}", path.display()))
+    };
+    let list = folder.join(LIST_FILE);
+    check_replaceable(&list).map_err(|error| failed(&list, &error))?;
+    let mut names = Vec::new();
+    for entry in fs::read_dir(&folder).map_err(|error| failed(&folder, &error))? {
+        let path = entry.map_err(|error| failed(&folder, &error))?.path();
+        if !is_picture(&path) {
+            continue;
+        }
+        let Some(file) = path.file_name().and_then(|name| name.to_str()) else { continue };
+        match input::read_project(&path) {
+            Ok(_) => names.push(file.to_owned()),
+            Err(Failure::Usage(reason) | Failure::Failed(reason)) => {
+                message(&format!("left out: {reason}"));
+            }
+        }
+    }
+    names.sort();
+    let count = names.len();
+    let gallery = Gallery::new(&name, names).map_err(Failure::usage)?;
+    let write = || -> io::Result<()> {
+        let mut output = Output::create(&list)?;
+        output.write_all(gallery.to_json().as_bytes())?;
+        output.commit()
+    };
+    write().map_err(|error| failed(&list, &error))?;
+    message(&format!("{}: {count} pictures", list.display()));
+    Ok(())
+}
+
+/// A file of the list's name that is none is not replaced.
+fn check_replaceable(list: &Path) -> io::Result<()> {
+    match fs::read_to_string(list) {
+        Ok(text) if Gallery::from_json(&text).is_err() => {
+            Err(io::Error::other("this file is not a gallery's list; it was not changed"))
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// True for the files that browsers show as pictures.
+fn is_picture(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    matches!(ending.to_ascii_lowercase().as_str(), "png" | "jpg" | "jpeg" | "webp")
+}

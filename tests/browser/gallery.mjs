@@ -1,0 +1,38 @@
+// A gallery beside the page: shown at the start, opened by a card, and told of where it fails.
+
+import { Mandelight } from "./mandelight.mjs";
+import { visit } from "./visit.mjs";
+
+await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
+  const page = new Mandelight(v);
+  v.provoked = /404/;
+  const open = async (gallery) => {
+    await v.tab.goto("about:blank");
+    await v.tab.goto(`${v.address}?test&gallery=${encodeURIComponent(gallery)}`);
+    await page.firstPicture();
+  };
+  const isSaid = (text) => v.tab.evaluate(
+    (part) => document.getElementById("accessible-page").textContent.includes(part), text);
+  const told = (name, text) => v.until(`${name} to be told`, () => isSaid(text), 60);
+
+  await open("../../pictures/");
+  const card = (index) => page.rested(`card ${index}`, () => page.rect(`gallery ${index}`));
+  v.seen.cards = [await card(0), await card(1)];
+  const bounds = { x: 0, y: 0, width: 1, height: 1 };
+  await v.until("the pictures of the cards", async () => {
+    const colors = await Promise.all(v.seen.cards.map(({ x, y, width, height }) =>
+      v.tab.screenshot({ clip: { ...bounds, x: x + width / 2, y: y + height / 3 } })));
+    return !colors[0].equals(colors[1]);
+  }, 60);
+  await v.screenshot("gallery-720x420");
+
+  v.seen.scenes = {};
+  v.seen.scenes.opened = await page.changed("a card", async () => v.tab.mouse.click(...(await page.middle("gallery 0"))));
+  await v.tab.mouse.click(...(await page.middle("gallery 2")));
+  v.seen.missing = await told("the missing picture", "missing could not be opened: its host answers 404");
+
+  await open("../../pictures/broken.json");
+  v.seen.broken = await told("the broken list", "the list cannot be read");
+  await open("../../pictures/none/");
+  v.seen.nowhere = await told("the missing list", "its host answers 404");
+});

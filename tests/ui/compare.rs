@@ -1,0 +1,52 @@
+//! Two states that are compared: each keeps its edits, and the change between them is a step.
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use mandelight::{scene::presets, ui::Settings};
+
+use crate::stage::*;
+
+#[test]
+fn two_states_are_compared_and_each_keeps_its_edits() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
+    let swap = |harness: &mut egui_kittest::Harness<'_, Stage>| {
+        harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
+        harness.run();
+    };
+    let first = scene(&harness).clone();
+    assert!(harness.query_by_label("State A").is_none());
+    swap(&mut harness);
+    harness.get_by_label("State A");
+    assert_eq!(*scene(&harness), first, "setting a state aside changes nothing");
+
+    press(&mut harness, "Light: Candle");
+    let second = scene(&harness).clone();
+    assert_ne!(second, first);
+    press(&mut harness, "State A");
+    assert_eq!(*scene(&harness), first);
+    swap(&mut harness);
+    assert_eq!(*scene(&harness), second);
+    // Going to A and back were two steps, the candle was one.
+    assert_eq!(undo_all(&mut harness), 3);
+    assert_eq!(*scene(&harness), first);
+}
+
+#[test]
+fn the_comparison_ends_and_what_is_in_view_stays() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
+    harness.run();
+    press(&mut harness, "Light: Rim");
+    let kept = scene(&harness).clone();
+    press(&mut harness, "End the comparison");
+    assert!(harness.query_by_label("State A").is_none());
+    assert_eq!(*scene(&harness), kept);
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::C);
+    harness.run();
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("State A").is_none());
+    assert_eq!(*scene(&harness), kept);
+}

@@ -1,0 +1,76 @@
+//! Handles of directional lights in the view: they follow the pointer, and show while lights are edited.
+
+use egui::{Key, vec2};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use mandelight::{
+    scene::{Scene, follow, presets},
+    ui::Settings,
+};
+
+use crate::stage::*;
+
+/// A stage with the lights' section open, and a square view.
+fn opened(scene: Scene) -> Harness<'static, Stage> {
+    let mut settings = Settings { more_open: true, ..Settings::default() };
+    settings.sections.set_open("lights", true);
+    without_motion(stage(scene, settings, [1280.0, 720.0]))
+}
+
+#[test]
+fn a_handle_turns_its_light_and_stays_under_the_pointer() {
+    let mut harness = opened(Scene::default());
+    let before = scene(&harness).clone();
+    let place =
+        |harness: &Harness<'_, Stage>| harness.get_by_label("Light 1 in the view").rect().center();
+    let from = place(&harness);
+    let by = vec2(-60.0, 45.0);
+    drag(&mut harness, from, from + by, 6);
+    let moved = place(&harness) - from;
+    assert!((moved - by).length() < 2.0, "{moved}");
+    let after = scene(&harness).clone();
+    assert_ne!(after.lights.environment[0].direction, before.lights.environment[0].direction);
+    let mut lights = after.lights.clone();
+    lights.environment[0].direction = before.lights.environment[0].direction;
+    assert_eq!(Scene { lights, ..after }, before, "only the direction changes");
+    assert_eq!(undo_all(&mut harness), 1, "a drag is one step");
+}
+
+#[test]
+fn a_handle_past_the_rim_is_behind_and_arrows_turn_it() {
+    let mut harness = opened(Scene::default());
+    let view = harness.get_by_label("View").rect();
+    let from = harness.get_by_label("Light 1 in the view").rect().center();
+    let out = view.center() + (from - view.center()).normalized() * 0.55 * view.size().min_elem();
+    drag(&mut harness, from, out, 8);
+    let z = |harness: &Harness<'_, Stage>| {
+        let Scene { camera, lights, .. } = scene(harness);
+        lights.environment[0].toward_light_in_view(camera).z
+    };
+    assert!(z(&harness) < 0.0, "{}", z(&harness));
+    let before = scene(&harness).lights.clone();
+    harness.get_by_label("Light 1 in the view").focus();
+    harness.run();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    assert_ne!(scene(&harness).lights, before);
+}
+
+#[test]
+fn lights_that_follow_the_view_turn_as_they_are_seen() {
+    let mut close = presets::opening();
+    close.camera.position = close.camera.pivot.moved_by(close.camera.forward() * -1e-6, 0.0);
+    assert!(follow::shown(&close.lights, &close.camera).is_some(), "its lights have turned");
+    let mut harness = opened(close);
+    let name = "Light 1 in the view";
+    let from = harness.get_by_label(name).rect().center();
+    drag(&mut harness, from, from + vec2(30.0, 20.0), 4);
+    let moved = harness.get_by_label(name).rect().center() - from;
+    assert!((moved - vec2(30.0, 20.0)).length() < 2.0, "{moved}");
+    assert!(!scene(&harness).lights.follow_view, "turning a light ends the following");
+}
+
+#[test]
+fn directional_lights_have_handles_only_while_their_section_is_open() {
+    let harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
+    assert!(harness.query_by_label("Light 1 in the view").is_none());
+}
