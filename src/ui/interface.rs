@@ -1,6 +1,7 @@
 //! One frame of the interface: layout, dispatch, undo. The picture's part is in `picture`, the opening of
-//! other scenes in `scenes`.
+//! other scenes in `scenes`, the camera path in `paths`.
 
+mod paths;
 mod picture;
 mod scenes;
 
@@ -12,7 +13,6 @@ use super::{
     action::Action,
     compare::Compare,
     display_inputs::DisplayInputs,
-    dive,
     editor::Editor,
     favourites::{Favourite, Favourites},
     finder::{Finder, Target},
@@ -40,14 +40,11 @@ use super::{
 };
 use crate::{
     fractal::SharedModel,
-    scene::{Camera, EnvironmentMap, Path, Project, Scene, gradient::NamedGradient},
+    scene::{Camera, EnvironmentMap, Project, Scene, gradient::NamedGradient},
 };
 
 /// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
-
-/// Seconds of a turn around the scene.
-const TURNTABLE_SECS: f64 = 12.0;
 
 /// The user interface and the edited project.
 #[derive(Debug)]
@@ -460,42 +457,6 @@ impl Interface {
             | Command::Orbit(..)
             | Command::Pan(..)
             | Command::Dolly(_) => {}
-        }
-    }
-
-    /// Makes the last dive the camera path.
-    fn keep_dive(&mut self, wide: bool) {
-        let Project { scene, mut path } = self.project().clone();
-        path.keys = dive::keys(self.pilot.dive_record(), &scene);
-        self.pilot.forget_dive();
-        self.use_path(path, wide);
-    }
-
-    /// Makes a turn around the scene the camera path.
-    fn make_turntable(&mut self, wide: bool) {
-        let Project { scene, path } = self.project();
-        let keys = Path::turntable(scene, TURNTABLE_SECS, path.frames_per_second).keys;
-        self.use_path(Path { keys, ..path.clone() }, wide);
-    }
-
-    /// Replaces the camera path, as one undo step, and shows the timeline.
-    fn use_path(&mut self, path: Path, wide: bool) {
-        self.editor.replace(Project { path, ..self.project().clone() });
-        if !self.settings.timeline_open {
-            self.toggle_timeline(wide);
-        }
-    }
-
-    /// Shows or hides the timeline. A narrow window has room for either timeline or open sheet.
-    fn toggle_timeline(&mut self, wide: bool) {
-        let open = &mut self.settings.timeline_open;
-        let hidden_by_sheet = !wide && self.settings.panel_open;
-        *open = !*open || hidden_by_sheet;
-        if *open && !wide {
-            self.settings.panel_open = false;
-        }
-        if !*open {
-            self.timeline.stop();
         }
     }
 }

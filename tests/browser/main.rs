@@ -145,7 +145,7 @@ fn a_gallery_of_the_address_is_shown_and_opened() {
         [("first one.png", &first, [200, 40, 30]), ("b.png", &second, [30, 60, 200])]
     {
         let mut png = PngStream::new(Vec::new(), [48, 30], &document::to_json(scene)).unwrap();
-        png.write_rgb(&rgb.repeat(48 * 30)).unwrap();
+        png.write_pixels(&rgb.repeat(48 * 30)).unwrap();
         fs::write(folder.join(name), png.finish().unwrap()).unwrap();
     }
     let files = ["first one.png", "b.png", "missing.png"].map(str::to_owned);

@@ -16,7 +16,7 @@ fn the_pictures_of_a_folder_that_contain_their_scene_are_listed() {
     let text = document::to_json(&presets::opening());
     for name in ["the reef.png", "a.PNG"] {
         let mut png = PngStream::new(Vec::new(), [2, 1], &text).unwrap();
-        png.write_rgb(&[0; 6]).unwrap();
+        png.write_pixels(&[0; 6]).unwrap();
         fs::write(folder.path().join(name), png.finish().unwrap()).unwrap();
     }
     fs::write(folder.path().join("other.png"), "no picture").unwrap();
