@@ -4,6 +4,7 @@ mod dives;
 mod document;
 mod follow;
 mod gallery;
+mod limits;
 mod path_document;
 mod presets;
 mod versions;
