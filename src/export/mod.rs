@@ -34,7 +34,7 @@ mod tiles;
 
 pub use archive::Archive;
 pub use error::{ExportError, MAX_PICTURE_PX, checked_size};
-pub use exr::{exr_scene_text, is_exr};
+pub use exr::{exr_complete_size, exr_scene_text, is_exr};
 pub use format::PictureFormat;
 pub use options::{Eye, StillOptions};
 pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};

@@ -7,12 +7,16 @@
 //! |---|---|
 //! | [`list`] | lists with a largest length |
 //! | [`objects`] | structs from objects with named fields only |
+//! | [`source`] | parts of a file, within its length |
+//! | [`openexr`] | the headers of an OpenEXR file |
 //! | [`visible`] | texts without control characters, for messages |
 
 pub mod list;
 pub mod objects;
+pub mod openexr;
+pub mod source;
 pub mod visible;
 
 pub use list::at_most;
 pub use objects::Objects;
-pub use visible::visible;
+pub use visible::{visible, visible_lines};

@@ -3,6 +3,7 @@
 //! The files under attack are generated here: each is as long as its limits allow, or longer.
 
 mod documents;
+mod pictures;
 
 use std::{
     alloc::System,

@@ -47,7 +47,7 @@ const LAYERS: &[Layer] = &[
     Layer { name: "render", own_crate: &["formula", "scene", "fractal", "gpu"], crates: &["wgpu"] },
     Layer {
         name: "export",
-        own_crate: &["formula", "scene", "fractal", "gpu", "render"],
+        own_crate: &["reading", "formula", "scene", "fractal", "gpu", "render"],
         crates: &["wgpu"],
     },
     Layer {
