@@ -12,7 +12,7 @@ use mandelight::scene::{
     param::{self, Param},
 };
 
-use super::{Failure, message};
+use super::{Failure, message, shown};
 
 /// The arguments of an environment map.
 #[derive(clap::Args)]
@@ -72,7 +72,7 @@ pub fn warn_of_missing_map(scene: &Scene) {
 
 fn read(path: &Path) -> Result<EnvironmentMap, Failure> {
     let failure =
-        |error: &dyn std::fmt::Display| Failure::usage(format!("{}: {error}", path.display()));
+        |error: &dyn std::fmt::Display| Failure::usage(format!("{}: {error}", shown(path)));
     let file = File::open(path).map_err(|error| failure(&error))?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let environment_map = if file.metadata().is_ok_and(|metadata| metadata.is_file()) {

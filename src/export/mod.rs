@@ -37,6 +37,6 @@ pub use error::{ExportError, MAX_PICTURE_PX, checked_size};
 pub use exr::{exr_complete_size, exr_scene_text, is_exr};
 pub use format::PictureFormat;
 pub use options::{Eye, StillOptions};
-pub use png::{MAX_TEXT_BYTES, PngError, is_png, scene_text};
+pub use png::{MAX_TEXT_BYTES, PngError, is_png, png_complete_size, scene_text};
 pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};

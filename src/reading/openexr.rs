@@ -48,6 +48,9 @@ pub struct Headers {
 
 impl Headers {
     /// Reads the signature and the version.
+    ///
+    /// # Errors
+    /// Another format, or a version that is not known.
     pub fn new(file: &mut Source<impl Read + Seek>) -> Result<Self, Unreadable> {
         if file.array::<4>("the signature")? != SIGNATURE {
             return Err(Unreadable::new("this is no OpenEXR file"));
@@ -70,6 +73,9 @@ impl Headers {
     /// The next attribute, whose value is at the position of `file`. `None` after the last header.
     ///
     /// The position may be anywhere when the next attribute is asked for.
+    ///
+    /// # Errors
+    /// A truncated header, or one beyond a limit, by name.
     pub fn next(
         &mut self,
         file: &mut Source<impl Read + Seek>,

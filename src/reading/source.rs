@@ -31,6 +31,9 @@ pub struct Source<R> {
 
 impl<R: Read + Seek> Source<R> {
     /// The source of `file`, whose position becomes 0.
+    ///
+    /// # Errors
+    /// Those of a file that has no positions, such as a pipe.
     pub fn new(mut file: R) -> io::Result<Self> {
         let length = file.seek(SeekFrom::End(0))?;
         file.rewind()?;
@@ -47,7 +50,10 @@ impl<R: Read + Seek> Source<R> {
         self.position
     }
 
-    /// Moves to `position`, which an error calls that of `what`.
+    /// Moves to `position`, which an error calls `what`.
+    ///
+    /// # Errors
+    /// A position behind the end of the file.
     pub fn go_to(&mut self, position: u64, what: &str) -> Result<(), Unreadable> {
         if position > self.length {
             return Err(Unreadable::new(format!("{what} lies behind the end of the file")));
@@ -60,6 +66,9 @@ impl<R: Read + Seek> Source<R> {
     }
 
     /// Reads `count` bytes. Nothing is allocated for bytes that the file does not have.
+    ///
+    /// # Errors
+    /// A shorter file; the error calls the bytes `what`.
     pub fn bytes(&mut self, count: usize, what: &str) -> Result<Vec<u8>, Unreadable> {
         if count as u64 > self.length - self.position {
             return Err(Unreadable::new(format!("the file ends within {what}")));
@@ -69,6 +78,9 @@ impl<R: Read + Seek> Source<R> {
     }
 
     /// Reads as many bytes as `buffer` has.
+    ///
+    /// # Errors
+    /// As [`Self::bytes`].
     pub fn fill(&mut self, buffer: &mut [u8], what: &str) -> Result<(), Unreadable> {
         let count = buffer.len() as u64;
         if count > self.length - self.position {
@@ -80,17 +92,26 @@ impl<R: Read + Seek> Source<R> {
     }
 
     /// Reads an array of bytes.
+    ///
+    /// # Errors
+    /// As [`Self::bytes`].
     pub fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], Unreadable> {
         let mut bytes = [0; N];
         self.fill(&mut bytes, what).map(|()| bytes)
     }
 
     /// Reads a little-endian i32.
+    ///
+    /// # Errors
+    /// As [`Self::bytes`].
     pub fn i32(&mut self, what: &str) -> Result<i32, Unreadable> {
         self.array(what).map(i32::from_le_bytes)
     }
 
     /// Reads the bytes up to `end`, which is read but not returned; at most `most` of them.
+    ///
+    /// # Errors
+    /// As [`Self::bytes`]; and more than `most` bytes.
     pub fn until(&mut self, end: u8, most: usize, what: &str) -> Result<Vec<u8>, Unreadable> {
         let mut bytes = Vec::new();
         loop {

@@ -4,6 +4,7 @@ mod cuts;
 mod formulas;
 mod frames;
 mod gradients;
+mod messages;
 mod render;
 mod stereo;
 
