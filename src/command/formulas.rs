@@ -1,6 +1,6 @@
 //! `mandelight formulas` and `mandelight formula check`: the formulas, and texts of one's own.
 
-use std::{fs, path::PathBuf};
+use std::{fs::File, io::Read as _, path::PathBuf};
 
 use clap::{Args, Subcommand};
 use mandelight::{
@@ -56,12 +56,16 @@ pub fn read(
     parse: fn(&str) -> Result<FormulaRef, TextError>,
 ) -> Result<FormulaRef, String> {
     let name = shown(file);
-    let length = fs::metadata(file).map_err(|error| format!("{name}: {error}"))?.len();
-    let most = formula::language::syntax::MAX_TEXT_BYTES as u64;
-    if length > most {
-        return Err(format!("{name}: the text has {length} bytes, and a formula may have {most}"));
+    let most = formula::language::syntax::MAX_TEXT_BYTES;
+    let mut bytes = Vec::new();
+    // One byte more than the limit shows that there is more.
+    File::open(file)
+        .and_then(|file| file.take(most as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| format!("{name}: {error}"))?;
+    if bytes.len() > most {
+        return Err(format!("{name}: the text has more than {most} bytes, the most that are read"));
     }
-    let text = fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{name}: this is no text in UTF-8"))?;
     parse(&text).map_err(|error| located(&name, &text, &error))
 }
 

@@ -38,6 +38,25 @@ fn messages_show_control_characters_as_escapes() {
     }
 }
 
+/// Files without an end are read up to their limits.
+#[test]
+fn endless_files_are_refused() {
+    let endless = "/dev/zero";
+    if !std::path::Path::new(endless).exists() {
+        return;
+    }
+    for (arguments, said_of_it) in [
+        (&["formula", "check", endless][..], "more than 8192 bytes, the most that are read"),
+        (&["scene", "--formula", endless], "more than 8192 bytes, the most that are read"),
+        (&["scene", "--gradient", endless], "/dev/zero"),
+        (&["render", endless, "-o", "out.png"], "at most 16777216 are read"),
+    ] {
+        let output = program(PROGRAM, arguments).output().unwrap();
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(said(&output).contains(said_of_it), "{arguments:?}: {}", said(&output));
+    }
+}
+
 /// A pipe without a reader: the command waits until somebody reads, and a signal ends it.
 #[test]
 fn a_pipe_that_nobody_reads_does_not_outlive_a_signal() {
