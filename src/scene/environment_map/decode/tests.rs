@@ -199,6 +199,30 @@ fn openexr_files_are_read_as_the_crate_reads_them() {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// A panic of the crate is an error here; on the web it would end the page.
+    #[test]
+    fn damaged_blocks_are_unpacked_or_refused_without_a_panic(
+        compression in 0..COMPRESSIONS.len(),
+        is_tiled in any::<bool>(),
+        changes in proptest::collection::vec((0.0..1.0_f64, any::<u8>()), 1..8),
+    ) {
+        let blocks = if is_tiled { Blocks::Tiles(Vec2(32, 33)) } else { Blocks::ScanLines };
+        let mut bytes = exr_file([45, 37], COMPRESSIONS[compression], blocks, 1);
+        // The headers take a few hundred bytes.
+        let start = bytes.len().min(400);
+        for (at, value) in changes {
+            let at = start + (at * (bytes.len() - start) as f64) as usize;
+            bytes[at] = value;
+        }
+        if let Err(error) = decode("damaged", &bytes) {
+            prop_assert!(!error.to_string().contains("cannot be unpacked"), "{error}");
+        }
+    }
+}
+
 /// Sets the bytes at `at`.
 fn patched(bytes: &[u8], at: usize, new: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
