@@ -39,7 +39,7 @@
 //! # Layers
 //!
 //! ```text
-//! precise ◀── formula ◀── scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
+//! precise, reading ◀── formula ◀── scene ◀── fractal ◀── render ──▶ gpu      export ──▶ render
 //! ui ──▶ formula, scene, fractal, render::report      web, the binary ──▶ all
 //! ```
 //!
@@ -60,6 +60,7 @@ pub mod formula;
 pub mod fractal;
 pub mod gpu;
 pub mod precise;
+pub mod reading;
 pub mod render;
 pub mod scene;
 pub mod ui;

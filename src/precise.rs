@@ -113,7 +113,7 @@ impl FromStr for Precise {
         }
         if let Some((_, exponent)) = text.split_once(['e', 'E']) {
             let exponent: i32 = exponent.parse().map_err(|_| ParsePreciseError::NotANumber)?;
-            if exponent.abs() > -LAST_PLACE as i32 {
+            if exponent.unsigned_abs() > LAST_PLACE.unsigned_abs() as u32 {
                 return Err(if exponent > 0 {
                     ParsePreciseError::TooFar
                 } else {
@@ -239,6 +239,9 @@ mod tests {
             "inf",
             "1e999999999",
             "1e-999999999",
+            "1e2147483647",
+            "1e-2147483648",
+            "1e-2147483649",
             "101",
             "0x10",
             "1_0",

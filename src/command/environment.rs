@@ -2,7 +2,7 @@
 
 use std::{
     fs::File,
-    io::Read as _,
+    io::{BufReader, Read as _},
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -12,7 +12,7 @@ use mandelight::scene::{
     param::{self, Param},
 };
 
-use super::{Failure, message};
+use super::{Failure, message, shown};
 
 /// The arguments of an environment map.
 #[derive(clap::Args)]
@@ -71,16 +71,21 @@ pub fn warn_of_missing_map(scene: &Scene) {
 }
 
 fn read(path: &Path) -> Result<EnvironmentMap, Failure> {
-    let shown = path.display();
-    let mut bytes = Vec::new();
-    // One byte more than the limit, so that the decoder reports a file that is too large.
-    let limit = environment_map::decode::MAX_FILE_BYTES as u64 + 1;
-    File::open(path)
-        .and_then(|file| file.take(limit).read_to_end(&mut bytes))
-        .map_err(|error| Failure::usage(format!("{shown}: {error}")))?;
+    let failure =
+        |error: &dyn std::fmt::Display| Failure::usage(format!("{}: {error}", shown(path)));
+    let file = File::open(path).map_err(|error| failure(&error))?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    environment_map::decode(&name, &bytes)
-        .map_err(|error| Failure::usage(format!("{shown}: {error}")))
+    let environment_map = if file.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        environment_map::decode::decode_file(&name, BufReader::new(file))
+    } else {
+        // A pipe cannot be read from any position.
+        let mut bytes = Vec::new();
+        // One byte more than the limit, so that the decoder reports a file that is too large.
+        let limit = environment_map::decode::MAX_FILE_BYTES as u64 + 1;
+        file.take(limit).read_to_end(&mut bytes).map_err(|error| failure(&error))?;
+        environment_map::decode(&name, &bytes)
+    };
+    environment_map.map_err(|error| failure(&error))
 }
 
 fn parse_count(text: &str) -> Result<u32, String> {

@@ -2,22 +2,24 @@
 //!
 //! In: a folder and the settings of a sequence. Out: the paths of frames, and whether they exist.
 //! A binding file, whose name contains the sequence's fingerprint, binds the folder to its
-//! sequence. A folder bound to another sequence is rejected. No file is overwritten and no lock
-//! exists, so any number of processes, on any machines, may fill one folder.
+//! sequence. A folder bound to another sequence is rejected. Only damaged frames are overwritten, and no frame
+//! is locked, so any number of processes, on any machines, may fill one folder.
 
 use std::{
     fs, io,
     io::Write as _,
     path::{Path, PathBuf},
+    sync::{Arc, atomic::AtomicBool},
 };
 
 use mandelight::{
     export::{Eye, PictureFormat, frame_name},
+    reading::visible,
     scene::{EnvironmentMap, document},
 };
 use sha2::{Digest as _, Sha256};
 
-use super::{Failure, output::Output, stereo::file_of};
+use super::{Failure, output::Output, shown, stereo::file_of};
 
 /// Prefix and suffix of the binding file's name.
 const BINDING_NAME: (&str, &str) = ("sequence-", ".json");
@@ -117,8 +119,12 @@ impl Folder {
     /// # Errors
     /// A folder of another sequence, frames without a binding file, or a folder that cannot be
     /// read or written.
-    pub fn open(path: &Path, sequence: &SequenceSettings<'_>) -> Result<Self, Failure> {
-        let shown = path.display();
+    pub fn open(
+        path: &Path,
+        sequence: &SequenceSettings<'_>,
+        interrupted: &Arc<AtomicBool>,
+    ) -> Result<Self, Failure> {
+        let shown = shown(path);
         let failed = |error: io::Error| Failure::failed(format!("{shown}: {error}"));
         fs::create_dir_all(path).map_err(failed)?;
         let binding = format!("{}{}{}", BINDING_NAME.0, sequence.fingerprint(), BINDING_NAME.1);
@@ -129,10 +135,11 @@ impl Folder {
         if !names.contains(&binding) {
             if let Some(frame) = names.iter().find(|name| is_frame(name)) {
                 return Err(Failure::usage(format!(
-                    "{shown} contains {frame}, but no file that names its sequence; choose an empty folder"
+                    "{shown} contains {}, but no file that names its sequence; choose an empty folder",
+                    visible(frame)
                 )));
             }
-            let mut output = Output::create(&path.join(&binding)).map_err(failed)?;
+            let mut output = Output::create(&path.join(&binding), interrupted).map_err(failed)?;
             output
                 .write_all(sequence.text().as_bytes())
                 .and_then(|()| output.commit())
@@ -154,15 +161,10 @@ impl Folder {
         let name = Path::new(&frame_name(frame)).with_extension(self.extension);
         self.path.join(file_of(&name, eye))
     }
-
-    /// True if a frame's file exists; an existing file is complete.
-    pub fn has(&self, file: FrameFile) -> bool {
-        self.file(file).exists()
-    }
 }
 
 fn other_sequence(path: &Path, binding: &str) -> Failure {
-    let shown = path.display();
+    let shown = shown(path);
     Failure::usage(format!(
         "{shown} contains frames of another scene, size, number of samples, file format or stereo layout ({binding}); choose another folder, or empty this one"
     ))

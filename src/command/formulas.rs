@@ -1,11 +1,14 @@
 //! `mandelight formulas` and `mandelight formula check`: the formulas, and texts of one's own.
 
-use std::{fs, path::PathBuf};
+use std::{fs::File, io::Read as _, path::PathBuf};
 
 use clap::{Args, Subcommand};
-use mandelight::formula::{self, FormulaRef, TextError, hybrid, own};
+use mandelight::{
+    formula::{self, FormulaRef, TextError, hybrid, own},
+    reading::visible,
+};
 
-use super::{Failure, print};
+use super::{Failure, print, shown};
 
 /// The arguments of `mandelight formulas`.
 #[derive(Args)]
@@ -44,7 +47,7 @@ pub fn run(arguments: FormulaArguments) -> Result<(), Failure> {
     let FormulaCommand::Check { file } = arguments.command;
     let formula = read(&file, own::of_text).map_err(Failure::usage)?;
     let fields = formula.fields().iter().map(|field| format!(" {}", field.name));
-    print(&format!("{}: valid; fields:{}\n", formula.name(), fields.collect::<String>()))
+    print(&format!("{}: valid; fields:{}\n", visible(formula.name()), fields.collect::<String>()))
 }
 
 /// Reads the formula of a text in a file by `parse`: [`own::of_text`], or [`own::alone`] if it is to draw alone.
@@ -52,19 +55,25 @@ pub fn read(
     file: &std::path::Path,
     parse: fn(&str) -> Result<FormulaRef, TextError>,
 ) -> Result<FormulaRef, String> {
-    let name = file.display();
-    let length = fs::metadata(file).map_err(|error| format!("{name}: {error}"))?.len();
-    let most = formula::language::syntax::MAX_TEXT_BYTES as u64;
-    if length > most {
-        return Err(format!("{name}: the text has {length} bytes, and a formula may have {most}"));
+    let name = shown(file);
+    let most = formula::language::syntax::MAX_TEXT_BYTES;
+    let mut bytes = Vec::new();
+    // One byte more than the limit shows that there is more.
+    File::open(file)
+        .and_then(|file| file.take(most as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| format!("{name}: {error}"))?;
+    if bytes.len() > most {
+        return Err(format!("{name}: the text has more than {most} bytes, the most that are read"));
     }
-    let text = fs::read_to_string(file).map_err(|error| format!("{name}: {error}"))?;
-    parse(&text).map_err(|error| located(&name.to_string(), &text, &error))
+    let text = String::from_utf8(bytes).map_err(|_| format!("{name}: this is no text in UTF-8"))?;
+    parse(&text).map_err(|error| located(&name, &text, &error))
 }
 
 /// The error as compilers show one: the place, the message, the line and a mark below it.
 fn located(name: &str, text: &str, error: &TextError) -> String {
-    let line = text.lines().nth(error.line - 1).unwrap_or_default();
-    let mark = " ".repeat(error.column - 1);
+    let line = text.lines().nth(error.line - 1).unwrap_or_default().replace('\t', " ");
+    let before: String = line.chars().take(error.column - 1).collect();
+    let mark = " ".repeat(visible(&before).chars().count());
+    let line = visible(&line);
     format!("{name}:{}:{}: {}\n  {line}\n  {mark}^", error.line, error.column, error.message)
 }

@@ -31,9 +31,11 @@ use super::{
     folder::{Folder, FrameFile, SequenceSettings},
     input::{self, Change},
     integrator::IntegratorArguments,
+    kept::{self, Kept},
     message,
     output::Output,
     render::{interruption, parse_samples, parse_size, progress_bar, show},
+    shown,
     stereo::StereoArguments,
 };
 
@@ -146,19 +148,30 @@ pub fn run(arguments: FramesArguments) -> Result<(), Failure> {
     let destination = if is_stream {
         Destination::StandardOutput
     } else {
-        Destination::Folder(Folder::open(&arguments.output, &sequence)?)
+        Destination::Folder(Folder::open(&arguments.output, &sequence, &interrupted)?)
     };
     let files = frames.clone().flat_map(|frame| eyes.iter().map(move |&eye| (frame, eye)));
     let requested = frames.len() * eyes.len();
-    let missing: Vec<_> = files.filter(|&file| !destination.has(file)).collect();
+    let (mut missing, mut damaged) = (Vec::new(), 0);
+    for file in files {
+        match destination.check(file, &path, &options)? {
+            Kept::Complete => continue,
+            Kept::Damaged => damaged += 1,
+            _ => {}
+        }
+        missing.push(file);
+    }
     let report = |text: String| {
         if !quiet {
-            message(&format!("{}: {text}", arguments.output.display()));
+            message(&format!("{}: {text}", shown(&arguments.output)));
         }
     };
     if missing.is_empty() {
         report(format!("all {} exist already", counted(requested, eyes)));
         return Ok(());
+    }
+    if damaged > 0 {
+        report(format!("{} not complete, rendered again", counted(damaged, eyes)));
     }
 
     let gpu = arguments.adapter.open()?;
@@ -199,11 +212,22 @@ impl Destination {
         }
     }
 
-    /// True if a frame is complete already.
-    fn has(&self, frame: FrameFile) -> bool {
-        match self {
-            Self::Folder(folder) => folder.has(frame),
-            Self::StandardOutput => false,
+    /// What is there of a frame. A file of another picture is a failure.
+    fn check(
+        &self,
+        frame: FrameFile,
+        path: &Path,
+        options: &StillOptions,
+    ) -> Result<Kept, Failure> {
+        let Self::Folder(folder) = self else { return Ok(Kept::Missing) };
+        let file = folder.file(frame);
+        match kept::check(&file, frame, path, options) {
+            Ok(Kept::Foreign) => Err(Failure::usage(format!(
+                "{}: this is no frame of this sequence, by its size or scene; move it away, or choose another folder",
+                shown(&file)
+            ))),
+            Ok(kept) => Ok(kept),
+            Err(error) => Err(Failure::failed(format!("{}: {error}", shown(&file)))),
         }
     }
 
@@ -231,7 +255,7 @@ fn requested_frames(
     let Some(last) = path.frame_count().checked_sub(1) else {
         return Err(Failure::usage(format!(
             "{}: this scene has no camera path; create one with the timeline of the page",
-            scene.display()
+            shown(scene)
         )));
     };
     let FrameRange { first, end } = range.unwrap_or(FrameRange { first: 0, end: None });
@@ -261,7 +285,7 @@ impl Work<'_> {
         let (clock, all) = (Instant::now(), missing.len() as u32);
         let mut rendered = 0;
         for (index, &frame) in missing.iter().enumerate() {
-            if self.destination.has(frame) {
+            if self.destination.check(frame, self.path, &self.options)? == Kept::Complete {
                 continue;
             }
             let file = self.destination.file(frame);
@@ -283,7 +307,7 @@ impl Work<'_> {
                         self.destination.how_to_go_on()
                     )));
                 }
-                Err(error) => return Err(Failure::failed(format!("{}: {error}", file.display()))),
+                Err(error) => return Err(Failure::failed(format!("{}: {error}", shown(&file)))),
             }
         }
         Ok(rendered)
@@ -296,7 +320,7 @@ impl Work<'_> {
         file: &FilePath,
         on_progress: impl Fn(f64),
     ) -> Result<(), ExportError> {
-        let output = Output::create(file)?;
+        let output = Output::create(file, &self.interrupted)?;
         let options = StillOptions { eye, ..self.options.clone() };
         let job = StillJob::of_frame(&self.pipelines, self.path, frame, options, output)?;
         let result = job.run(|status| {

@@ -4,6 +4,7 @@ use std::{
     fs, io,
     io::Write as _,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 use mandelight::scene::gallery::{Gallery, LIST_FILE};
@@ -44,8 +45,10 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
     names.sort();
     let count = names.len();
     let gallery = Gallery::new(&name, names).map_err(Failure::usage)?;
+    // The list is a file, whose opening never waits.
+    let interrupted = Arc::default();
     let write = || -> io::Result<()> {
-        let mut output = Output::create(&list)?;
+        let mut output = Output::create(&list, &interrupted)?;
         output.write_all(gallery.to_json().as_bytes())?;
         output.commit()
     };

@@ -7,7 +7,7 @@ use mandelight::scene::{
     gradient::{self, NamedGradient},
 };
 
-use super::Failure;
+use super::{Failure, shown};
 
 /// The gradients of the two colour layers.
 #[derive(clap::Args)]
@@ -55,7 +55,7 @@ fn stops(flag: &str, asked: &str) -> Result<Vec<GradientStop>, Failure> {
             names.join(", ")
         )));
     }
-    let shown = path.display();
+    let shown = shown(path);
     let mut bytes = Vec::new();
     // One byte more than the limit, so that the reader reports a file that is too large.
     File::open(path)

@@ -19,7 +19,7 @@ use mandelight::{
 };
 use serde_json::Value;
 
-use super::Failure;
+use super::{Failure, shown};
 
 /// How much of a source is looked at, in bytes: one more than of a document, so that what is too
 /// large is known as such. A picture's text stands at its start.
@@ -32,7 +32,7 @@ pub fn read_scene(source: &Path) -> Result<Scene, Failure> {
 
 /// Reads the scene at `source` with its camera path; `-` is standard input.
 pub fn read_project(source: &Path) -> Result<Project, Failure> {
-    let name = if source == "-" { "standard input".into() } else { source.display().to_string() };
+    let name = if source == "-" { "standard input".into() } else { shown(source) };
     let failure = |error: &dyn std::fmt::Display| Failure::usage(format!("{name}: {error}"));
 
     let mut bytes = Vec::new();

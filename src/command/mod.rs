@@ -18,7 +18,9 @@
 //! | [`info`] | `mandelight info`: the GPU |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | atomic writing of a file |
+//! | [`stream`] | writing to a pipe that may wait |
 //! | [`folder`] | a folder that is bound to one sequence of frames |
+//! | [`kept`] | the check of a frame that is there |
 //! | [`environment`] | `--environment`: an environment map |
 //! | [`stereo`] | `--stereo`: the layout of both eyes' pictures |
 //! | [`adapter`] | `--adapter`: the choice of a GPU |
@@ -35,20 +37,27 @@ mod gradient;
 mod info;
 mod input;
 mod integrator;
+mod kept;
 mod look;
 mod output;
 mod places;
 mod render;
 mod scene;
 mod stereo;
+mod stream;
 
 use std::{
+    borrow::Cow,
+    env,
+    ffi::OsString,
     fmt,
     io::{self, Write},
-    process::ExitCode,
+    path::Path,
+    process::{self, ExitCode},
 };
 
 use clap::{Parser, Subcommand};
+use mandelight::reading::{visible, visible_lines};
 
 /// Draws 3D fractals without a window.
 #[derive(Parser)]
@@ -109,7 +118,8 @@ impl Failure {
 /// Runs the command that the arguments name. Wrong arguments end the process with code 2.
 pub fn run() -> ExitCode {
     log_errors();
-    let outcome = match CommandLine::parse().command {
+    let command_line = CommandLine::try_parse().unwrap_or_else(|error| explain(&error));
+    let outcome = match command_line.command {
         Command::Render(arguments) => render::run(arguments),
         Command::Frames(arguments) => frames::run(arguments),
         Command::Scene(arguments) => scene::run(arguments),
@@ -125,10 +135,27 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// Writes a message for the user to standard error.
+/// Ends the process with the help that the arguments ask for, or with what is wrong with them.
+fn explain(error: &clap::Error) -> ! {
+    let is_plain =
+        |argument: OsString| matches!(visible(&argument.to_string_lossy()), Cow::Borrowed(_));
+    if env::args_os().all(is_plain) {
+        error.exit();
+    }
+    // The message quotes arguments, and colours are control characters themselves.
+    let _ = write!(io::stderr(), "{}", visible_lines(&error.render().to_string()));
+    process::exit(error.exit_code());
+}
+
+/// Writes a message for the user to standard error, without control characters: it may quote files and names.
 fn message(text: &str) {
     // If standard error is closed, no user can read the message.
-    let _ = writeln!(io::stderr(), "mandelight: {text}");
+    let _ = writeln!(io::stderr(), "mandelight: {}", visible_lines(text));
+}
+
+/// A path as it is shown, on one line.
+fn shown(path: &Path) -> String {
+    visible(&path.to_string_lossy()).into_owned()
 }
 
 /// Writes a command's result to standard output. A closed pipe is not a failure.

@@ -33,6 +33,7 @@ use super::{
     integrator::IntegratorArguments,
     message,
     output::Output,
+    shown,
     stereo::{StereoArguments, file_of},
 };
 
@@ -113,7 +114,8 @@ pub fn run(arguments: RenderArguments) -> Result<(), Failure> {
     let sizes: Vec<_> = sizes.collect::<Result<_, _>>().map_err(Failure::usage)?;
     // The handler is set before a file exists that an interruption would leave behind.
     let interrupted = interruption()?;
-    let outputs = files.iter().map(File::create).collect::<Result<Vec<_>, _>>()?;
+    let outputs =
+        files.iter().map(|file| file.create(&interrupted)).collect::<Result<Vec<_>, _>>()?;
 
     let gpu = arguments.adapter.open()?;
     let pipelines = Pipelines::for_stills(&gpu);
@@ -187,19 +189,15 @@ struct File {
 
 impl File {
     fn name(&self) -> String {
-        if self.path.as_path() == "-" {
-            "standard output".into()
-        } else {
-            self.path.display().to_string()
-        }
+        if self.path.as_path() == "-" { "standard output".into() } else { shown(&self.path) }
     }
 
     fn failed(&self, error: impl fmt::Display) -> Failure {
         Failure::failed(format!("{}: {error}", self.name()))
     }
 
-    fn create(&self) -> Result<Output, Failure> {
-        Output::create(&self.path).map_err(|error| self.failed(error))
+    fn create(&self, interrupted: &Arc<AtomicBool>) -> Result<Output, Failure> {
+        Output::create(&self.path, interrupted).map_err(|error| self.failed(error))
     }
 }
 

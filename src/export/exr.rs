@@ -19,7 +19,7 @@
 //! camera's pivot, stored exactly as decimal numbers in the attributes `mandelight.anchor.x`,
 //! `.y` and `.z`.
 
-use std::io::{BufRead, Write};
+use std::io::{Read, Seek, Write};
 
 use ::exr::{
     meta::{
@@ -33,6 +33,10 @@ use glam::DVec3;
 
 use super::{ExportError, MAX_TEXT_BYTES, metadata::SCENE_KEYWORD};
 use crate::{
+    reading::{
+        openexr::Headers,
+        source::{Source, Unreadable},
+    },
     render::{Eyes, Region, samples::PixelSample},
     scene::{Camera, Scene, document},
 };
@@ -279,22 +283,55 @@ pub fn is_exr(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// A message for the user; the content of `reader` is untrusted.
-pub fn exr_scene_text(reader: impl BufRead) -> Result<Option<String>, String> {
-    let unreadable = |error: exr::Error| format!("not a readable OpenEXR file: {error}");
-    let meta = exr::MetaData::read_from_buffered(reader, false).map_err(unreadable)?;
-    let scene = meta.headers.iter().find_map(|header| {
-        let attributes = header.own_attributes.other.iter();
-        let (_, value) = attributes
-            .chain(&header.shared_attributes.other)
-            .find(|(name, _)| name.as_slice() == SCENE_KEYWORD.as_bytes())?;
-        value.to_text().ok().map(ToString::to_string)
-    });
-    match scene {
-        Some(text) if text.len() > MAX_TEXT_BYTES => {
-            Err(format!("its text is larger than {MAX_TEXT_BYTES} bytes"))
+pub fn exr_scene_text(reader: impl Read + Seek) -> Result<Option<String>, String> {
+    let unreadable = |error: Unreadable| format!("not a readable OpenEXR file: {error}");
+    let mut file = Source::new(reader).map_err(|error| unreadable(Unreadable::new(error)))?;
+    let mut headers = Headers::new(&mut file).map_err(unreadable)?;
+    let mut scene = None;
+    while let Some(attribute) = headers.next(&mut file).map_err(unreadable)? {
+        if attribute.name == SCENE_KEYWORD.as_bytes() {
+            if attribute.size > MAX_TEXT_BYTES as u64 {
+                return Err(format!("its text is larger than {MAX_TEXT_BYTES} bytes"));
+            }
+            scene = Some(file.bytes(attribute.size as usize, "the scene").map_err(unreadable)?);
         }
-        scene => Ok(scene),
     }
+    let text = scene.map(String::from_utf8).transpose();
+    text.map_err(|_| unreadable(Unreadable::new("the scene is no text")))
+}
+
+/// Width and height in pixels of a complete OpenEXR file in rows; `None` where its last row is not there.
+///
+/// # Errors
+/// As [`exr_scene_text`].
+pub fn exr_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, String> {
+    let size = || -> Result<Option<[u32; 2]>, Unreadable> {
+        let mut file = Source::new(reader).map_err(Unreadable::new)?;
+        let mut headers = Headers::new(&mut file)?;
+        let mut window = [0; 4];
+        while let Some(attribute) = headers.next(&mut file)? {
+            if attribute.name == b"dataWindow" {
+                for side in &mut window {
+                    *side = i64::from(file.i32("dataWindow")?);
+                }
+            }
+        }
+        let [left, top, right, bottom] = window;
+        let [width, height] = [right - left + 1, bottom - top + 1];
+        let (Ok(width), Ok(height @ 1..)) = (u32::try_from(width), u32::try_from(height)) else {
+            return Ok(None);
+        };
+        let last = file.position() + 8 * (u64::from(height) - 1);
+        file.go_to(last, "the table of rows")?;
+        let last = u64::from_le_bytes(file.array("the table of rows")?);
+        file.go_to(last, "the last row")?;
+        let row = i64::from(file.i32("the last row")?);
+        let bytes = u64::try_from(file.i32("the last row")?).unwrap_or(u64::MAX);
+        let is_complete =
+            row == bottom && Some(file.length()) == file.position().checked_add(bytes);
+        Ok(is_complete.then_some([width, height]))
+    };
+    size().map_err(|error| format!("not a readable OpenEXR file: {error}"))
 }
 
 #[cfg(test)]

@@ -290,6 +290,29 @@ pub fn jpeg_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
     text.ok_or_else(|| unreadable("a part of its scene is missing")).and_then(capped).map(Some)
 }
 
+/// Width and height in pixels of a complete JPEG; `None` where its end is not there.
+///
+/// # Errors
+/// [`SceneTextError::Unreadable`] for a file that is no JPEG; the content of `bytes` is untrusted.
+pub fn jpeg_complete_size(bytes: &[u8]) -> Result<Option<[u32; 2]>, SceneTextError> {
+    let unreadable =
+        |reason: &str| SceneTextError::Unreadable { format: "JPEG", reason: reason.to_owned() };
+    if !is_jpeg(bytes) {
+        return Err(unreadable("it begins as another file"));
+    }
+    for segment in Segments::of(bytes) {
+        let Segment { kind, content } = segment.map_err(unreadable)?;
+        // A frame's header: bits of a channel, height, width.
+        if kind == marker::SOF0
+            && let [_, y0, y1, x0, x1, ..] = *content
+        {
+            let size = [[x0, x1], [y0, y1]].map(|side| u32::from(u16::from_be_bytes(side)));
+            return Ok(bytes.ends_with(&[0xFF, marker::EOI]).then_some(size));
+        }
+    }
+    Err(unreadable("its header has no size"))
+}
+
 /// The number of a document's part, the number of parts, and the part; none for other segments.
 fn part<'a>(segment: &Segment<'a>) -> Option<(usize, usize, &'a str)> {
     if segment.kind != marker::COM {

@@ -44,11 +44,11 @@ pub use archive::Archive;
 pub use error::{
     ExportError, MAX_PICTURE_PX, MAX_WEBP_PIXELS, MAX_WEBP_PX, checked_size, checked_webp_size,
 };
-pub use exr::{exr_scene_text, is_exr};
+pub use exr::{exr_complete_size, exr_scene_text, is_exr};
 pub use format::{PictureFormat, encode_rgb};
 pub use metadata::{MAX_TEXT_BYTES, SCENE_KEYWORD, SceneTextError};
 pub use options::{Eye, StillOptions};
 pub use picture_scene::picture_scene_text;
-pub use png::{is_png, scene_text};
+pub use png::{is_png, png_complete_size, scene_text};
 pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};

@@ -4,7 +4,7 @@
 //! bytes. The reader accepts untrusted files; its memory is bounded.
 
 use std::{
-    io::{self, BufRead, Seek, Write},
+    io::{self, BufRead, Read, Seek, Write},
     sync::{Arc, Mutex, PoisonError},
 };
 
@@ -14,6 +14,7 @@ use super::{
     ExportError, MAX_TEXT_BYTES, SceneTextError,
     metadata::{SCENE_KEYWORD, capped},
 };
+use crate::reading::source::{Source, Unreadable};
 
 /// The decoder's memory limit for chunks before the first pixels, in bytes.
 const MAX_METADATA_BYTES: usize = 8 * MAX_TEXT_BYTES;
@@ -23,6 +24,9 @@ const IDAT_BYTES: usize = 1 << 16;
 
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// The last chunk of every PNG: its length, name and checksum.
+const END: [u8; 12] = *b"\0\0\0\0IEND\xae\x42\x60\x82";
 
 /// A shared buffer of the encoder's output.
 #[derive(Clone, Default)]
@@ -127,6 +131,25 @@ fn encode(error: png::EncodingError) -> ExportError {
 /// True if `bytes` begin with the PNG signature.
 pub fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(&SIGNATURE)
+}
+
+/// Width and height in pixels of a complete PNG; `None` where its last chunk is not there.
+///
+/// # Errors
+/// [`SceneTextError::Unreadable`] for a file that is no PNG; the content of `reader` is untrusted.
+pub fn png_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, SceneTextError> {
+    let size = || -> Result<Option<[u32; 2]>, Unreadable> {
+        let mut file = Source::new(reader).map_err(Unreadable::new)?;
+        if file.array::<8>("the signature")? != SIGNATURE {
+            return Err(Unreadable::new("it has no signature"));
+        }
+        let header = file.array::<8>("the header")?;
+        let sides = [file.array("the header")?, file.array("the header")?];
+        file.go_to(file.length().saturating_sub(END.len() as u64), "the last chunk")?;
+        let is_complete = header[4..] == *b"IHDR" && file.array("the last chunk")? == END;
+        Ok(is_complete.then(|| sides.map(u32::from_be_bytes)))
+    };
+    size().map_err(|error| SceneTextError::Unreadable { format: "PNG", reason: error.to_string() })
 }
 
 /// The scene document of a PNG, if it has one before its pixels.

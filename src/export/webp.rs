@@ -229,5 +229,27 @@ pub fn webp_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
     Ok(None)
 }
 
+/// Width and height in pixels of a complete WebP with metadata; `None` where its end is not there.
+///
+/// # Errors
+/// [`SceneTextError::Unreadable`] for a file that is no such WebP; the content of `bytes` is untrusted.
+pub fn webp_complete_size(bytes: &[u8]) -> Result<Option<[u32; 2]>, SceneTextError> {
+    let unreadable =
+        |reason: &str| SceneTextError::Unreadable { format: "WebP", reason: reason.to_owned() };
+    if !is_webp(bytes) {
+        return Err(unreadable("it begins as another file"));
+    }
+    // The first chunk: its header, flags and three reserved bytes, width and height less one in 24 bits each.
+    let features = bytes.get(RIFF_HEADER_BYTES..).and_then(|rest| rest.first_chunk());
+    let Some(&[b'V', b'P', b'8', b'X', _, _, _, _, _, _, _, _, w0, w1, w2, h0, h1, h2]) = features
+    else {
+        return Err(unreadable("its header has no size"));
+    };
+    let size = [[w0, w1, w2, 0], [h0, h1, h2, 0]].map(|side| u32::from_le_bytes(side) + 1);
+    let length = bytes.get(4..8).and_then(|length| length.first_chunk()).copied();
+    let length = u32::from_le_bytes(length.unwrap_or_default()) as usize;
+    Ok((length.checked_add(8) == Some(bytes.len())).then_some(size))
+}
+
 #[cfg(test)]
 mod tests;

@@ -15,10 +15,12 @@ use serde::{
 
 use super::{
     FormulaRef, Fractal, HybridStep, HybridSteps, all, hybrid,
-    language::TextError,
+    language::{TextError, check::MAX_PARAM_NUMBERS, sequence::MAX_STEPS},
     own,
+    section::MAX_SECTION_PLANES,
     table::{Choice, Field, Kind, Value},
 };
+use crate::reading::list::AtMost;
 
 /// Fields of every formula.
 const SHARED: [&str; 4] = ["formula", "iterations", "bailout", "section_planes"];
@@ -99,10 +101,14 @@ impl<'de> Visitor<'de> for FractalVisitor {
                 Name::Iterations => once("iterations", &mut iterations, map.next_value()?)?,
                 Name::Bailout => once("bailout", &mut bailout, map.next_value()?)?,
                 Name::SectionPlanes => {
-                    once("section_planes", &mut section_planes, map.next_value()?)?;
+                    let planes = map.next_value_seed(AtMost::new(MAX_SECTION_PLANES))?;
+                    once("section_planes", &mut section_planes, planes)?;
                 }
                 Name::LoopStart => once("loop_start", &mut loop_start, map.next_value()?)?,
-                Name::Steps => once("steps", &mut steps, map.next_value::<Vec<HybridStep>>()?)?,
+                Name::Steps => {
+                    let list = map.next_value_seed(AtMost::<HybridStep>::new(MAX_STEPS))?;
+                    once("steps", &mut steps, list)?;
+                }
                 Name::Own(field) => {
                     if values.iter().any(|(known, _)| known.name == field.name) {
                         return Err(A::Error::duplicate_field(field.name));
@@ -363,7 +369,8 @@ impl<'de> DeserializeSeed<'de> for ValueSeed {
                 Value::Choice(word_of(options, &String::deserialize(deserializer)?)?)
             }
             Kind::Vector { default, .. } => {
-                let numbers = Vec::<f64>::deserialize(deserializer)?;
+                // Before the formula is known, a vector of any formula may stand here.
+                let numbers = AtMost::<f64>::new(MAX_PARAM_NUMBERS).deserialize(deserializer)?;
                 if self.is_certain && numbers.len() != default.len() {
                     return Err(wrong_length(numbers.len(), default.len()));
                 }

@@ -18,7 +18,7 @@ use super::{
 /// Most nodes of formulas that one run of the program keeps: some hundred megabytes.
 const MAX_NODES: usize = 1_000_000;
 /// Most new texts that one document may bring.
-const MAX_IN_DOCUMENT: usize = 64;
+pub const MAX_IN_DOCUMENT: usize = 64;
 
 /// The formulas of texts, which stay as long as the program.
 #[derive(Default)]

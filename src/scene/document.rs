@@ -12,6 +12,8 @@
 //! | `parse` | values from JSON text |
 //! | `check` | the check of a scene that was read |
 //! | `keys` | the form of a path |
+//! | [`limits`] | every limit of what is read |
+//! | `parts` | the parts of a scene that a key or a link names |
 
 use std::io;
 
@@ -24,11 +26,14 @@ mod check;
 mod envelope;
 mod error;
 mod keys;
+pub mod limits;
 mod parse;
+mod parts;
 
 use check::checked;
-use envelope::{Document, Header, KIND, READ};
-use parse::{clipped, parse};
+use envelope::{Document, Header, KIND, READ, Scalar};
+use parse::{check_syntax, clipped, parse};
+use parts::LinkDocument;
 
 pub use envelope::{MAX_BYTES, VERSION};
 pub use error::DocumentError;
@@ -97,24 +102,32 @@ pub fn project_from_json(text: &str) -> Result<Project, DocumentError> {
         return Err(DocumentError::NotAScene);
     }
     // The version first: another version's fields would only be called unknown.
+    check_syntax(text)?;
     let header: Header = parse(text)?;
-    if header.mandelight.as_ref().and_then(|kind| kind.as_str()) != Some(KIND) {
+    if !matches!(&header.mandelight, Some(Scalar::Text(kind)) if kind == KIND) {
         return Err(DocumentError::NotAScene);
     }
-    let version = header.version.as_ref().and_then(|version| version.as_u64());
-    if !version.is_some_and(|version| READ.contains(&version)) {
+    if !matches!(&header.version, Some(Scalar::Whole(version)) if READ.contains(version)) {
         let found = header.version.map_or("none".into(), |version| clipped(&version.to_string()));
         return Err(DocumentError::Version { found });
     }
     own::in_document(|| {
         let Document { scene, path, .. } = parse::<Document<Scene, keys::PathDraft>>(text)?;
-        Ok(Project { scene: checked(scene)?, path: path.finish(text)? })
+        let scene = checked(scene)?;
+        let path = path.finish(&scene)?;
+        Ok(Project { scene, path })
     })
 }
 
-/// Reads a scene without its envelope, in the words of this [`VERSION`].
-pub(super) fn scene_from_json(text: &str) -> Result<Scene, DocumentError> {
-    checked(parse(text)?)
+/// Reads a scene and its path without an envelope, as a link holds them, in the words of this [`VERSION`].
+pub(super) fn project_from_link(text: &str) -> Result<Project, DocumentError> {
+    check_syntax(text)?;
+    own::in_document(|| {
+        let (parts, path) = parse::<LinkDocument<keys::PathDraft>>(text)?.split();
+        let scene = checked(parts.over(&Scene::default()))?;
+        let path = path.finish(&scene)?;
+        Ok(Project { scene, path })
+    })
 }
 
 /// Indented JSON that keeps a row of numbers on its line.

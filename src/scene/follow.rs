@@ -24,8 +24,8 @@ use glam::{DMat3, DQuat, DVec3};
 use super::{
     camera::Camera,
     color::luminance,
-    light::{EnvironmentLight, LightFrame},
-    lighting::{Lights, MAX_LIGHTS},
+    light::{EnvironmentLight, LightFrame, MAX_LIGHTS},
+    lighting::Lights,
 };
 
 /// View unit, in scene units, down to which lights shine as the document has them.

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{camera::Camera, param};
 use crate::precise::PrecisePoint;
 
+/// Maximum number of lights in a scene, all kinds together: one visibility bit each.
+pub const MAX_LIGHTS: usize = 64;
+
 /// The frame of a light's direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -4,20 +4,20 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    light::{EnvironmentLight, LightFrame, PointLight},
+    light::{EnvironmentLight, LightFrame, MAX_LIGHTS, PointLight},
     rig::Rig,
 };
-
-/// Maximum number of lights in a scene, all kinds together: one visibility bit each.
-pub const MAX_LIGHTS: usize = 64;
+use crate::reading::at_most;
 
 /// All lights of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Lights {
     /// Directional lights.
+    #[serde(deserialize_with = "at_most::<MAX_LIGHTS, _, _>")]
     pub environment: Vec<EnvironmentLight>,
     /// Point lights.
+    #[serde(deserialize_with = "at_most::<MAX_LIGHTS, _, _>")]
     pub point: Vec<PointLight>,
     /// Directional lights generated from a sky or an environment map.
     pub rig: Rig,

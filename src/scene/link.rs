@@ -11,7 +11,7 @@ use miniz_oxide::{
     inflate::{TINFLStatus, decompress_to_vec_with_limit},
 };
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use super::{
     description::Scene,
@@ -141,16 +141,7 @@ pub fn project_from_fragment(fragment: &str) -> Result<Project, LinkError> {
             _ => LinkError::Damaged,
         })?;
     let text = String::from_utf8(inflated).map_err(|_| LinkError::Damaged)?;
-    let path = match serde_json::from_str::<Value>(&text) {
-        Ok(Value::Object(mut fields)) => fields.remove("path").map(|path| (path, fields)),
-        _ => None,
-    };
-    let Some((path, scene)) = path else {
-        return Ok(document::scene_from_json(&text)?.into());
-    };
-    // A fragment stores the path among the scene's fields, to save bytes.
-    let document = json!({ "mandelight": "scene", "version": document::VERSION, "scene": scene, "path": path });
-    Ok(document::project_from_json(&document.to_string())?)
+    Ok(document::project_from_link(&text)?)
 }
 
 /// The text after the prefix of a version that is read.

@@ -12,7 +12,12 @@ mod sky;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::{environment_map::EnvironmentMap, light::LightFrame, param};
+use super::{
+    environment_map::EnvironmentMap,
+    light::{LightFrame, MAX_LIGHTS},
+    param,
+};
+use crate::reading::at_most;
 pub use sky::Sky;
 
 /// The source of a rig's lights.
@@ -85,6 +90,7 @@ pub struct EnvironmentMapRig {
     /// Rotation about z, counterclockwise from above, range [`param::RIG_ROTATION`], degrees.
     pub rotation_deg: f64,
     /// The map's lights before the rotation.
+    #[serde(deserialize_with = "at_most::<MAX_LIGHTS, _, _>")]
     pub lights: Vec<RigLight>,
 }
 

@@ -4,7 +4,10 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::param;
-use crate::formula::trap::{Trap, TrapShape};
+use crate::{
+    formula::trap::{Trap, TrapShape},
+    reading::at_most,
+};
 
 /// Maximum number of stops in a gradient.
 pub const MAX_GRADIENT_STOPS: usize = 64;
@@ -202,6 +205,7 @@ pub struct Surface {
     pub coloring: Coloring,
     /// 1 to [`MAX_GRADIENT_STOPS`] stops with non-decreasing positions. The gradient wraps: the
     /// last stop blends to the first.
+    #[serde(deserialize_with = "at_most::<MAX_GRADIENT_STOPS, _, _>")]
     pub gradient: Vec<GradientStop>,
     /// A second layer of colours over the first.
     pub second_layer: SecondLayer,
@@ -235,6 +239,7 @@ pub struct SecondLayer {
     /// The mapping from a value to the layer's gradient.
     pub coloring: Coloring,
     /// The layer's gradient, as [`Surface::gradient`].
+    #[serde(deserialize_with = "at_most::<MAX_GRADIENT_STOPS, _, _>")]
     pub gradient: Vec<GradientStop>,
 }
 

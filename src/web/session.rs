@@ -17,6 +17,7 @@ use super::{
 use crate::{
     export,
     gpu::Gpu,
+    reading::visible_lines,
     render::Report,
     scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
     ui::{Favourites, GalleryState, Interface, Notice, Settings, theme},
@@ -165,7 +166,9 @@ impl Session {
     }
 
     fn show(&mut self, notice: Notice, secs: f64) {
-        self.notice = Some(notice);
+        // A notice may quote files and names.
+        let text = visible_lines(&notice.text).into_owned();
+        self.notice = Some(Notice { text, ..notice });
         self.notice_until_secs = page::now_secs() + secs;
     }
 

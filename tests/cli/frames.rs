@@ -110,15 +110,63 @@ fn a_frame_is_the_same_alone_and_among_others() {
 fn what_is_there_is_kept_and_the_rest_is_made() {
     let place = Workplace::new();
     assert_eq!(code(&place.run(&["-o", "out", "--frames", "2..4"])), 0);
-    // Not a picture at all: if it were made again, it would be one.
-    fs::write(place.folder.path().join("out").join(export::frame_name(2)), "kept").unwrap();
+    let written = |frame| {
+        let path = place.folder.path().join("out").join(export::frame_name(frame));
+        fs::metadata(path).unwrap().modified().unwrap()
+    };
+    let before = [2, 3].map(written);
     let again = place.run(&["-o", "out", "--frames", "..5"]);
     assert_eq!(code(&again), 0);
     assert!(said(&again).contains("3 frames, 2 kept"), "{}", said(&again));
-    assert_eq!(place.frame("out", 2), b"kept");
+    assert_eq!([2, 3].map(written), before);
     assert_eq!(place.names("out")[..5], frames(0..5));
     let third = place.run(&["-o", "out", "--frames", "0..5"]);
     assert!(said(&third).contains("all 5 frames exist already"), "{}", said(&third));
+}
+
+/// What a crash of the machine or a full disk leaves in place of a frame is no frame.
+#[test]
+fn damaged_frames_are_made_again_and_other_pictures_are_left_alone() {
+    for (kind, name) in [(None, "frame_000001.png"), (Some("--exr"), "frame_000001.exr")] {
+        let place = Workplace::new();
+        let arguments: Vec<&str> =
+            ["-o", "out", "--frames", "1..3"].into_iter().chain(kind).collect();
+        assert_eq!(code(&place.run(&arguments)), 0);
+        let path = place.folder.path().join("out").join(name);
+        let whole = fs::read(&path).unwrap();
+        let of_other_size = {
+            let mut file = whole.clone();
+            // The width in the header of a PNG; the data window of an OpenEXR file.
+            let at = match kind {
+                None => 19,
+                Some(_) => {
+                    let name = b"dataWindow\0box2i\0";
+                    file.windows(name.len()).position(|w| w == name).unwrap() + name.len() + 12
+                }
+            };
+            file[at] = 20;
+            file
+        };
+        for damaged in [&b""[..], b"kept", &whole[..whole.len() - 1], &vec![0; whole.len()]] {
+            fs::write(&path, damaged).unwrap();
+            let output = place.run(&arguments);
+            assert_eq!(code(&output), 0, "{}", said(&output));
+            let text = said(&output);
+            assert!(text.contains("1 frame not complete, rendered again"), "{text}");
+            assert!(text.contains("1 frame, 1 kept"), "{text}");
+            let again = fs::read(&path).unwrap();
+            // The attributes of an OpenEXR file may come in another order.
+            assert!(again.len() == whole.len() && (kind.is_some() || again == whole));
+        }
+        let other = path.with_file_name(name.replace('1', "2"));
+        for foreign in [of_other_size, fs::read(other).unwrap()] {
+            fs::write(&path, &foreign).unwrap();
+            let output = place.run(&arguments);
+            assert_eq!(code(&output), 2, "{}", said(&output));
+            assert!(said(&output).contains("move it away"), "{}", said(&output));
+            assert!(fs::read(&path).unwrap() == foreign);
+        }
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod frames;
 mod gallery;
 mod gradients;
 mod looks;
+mod messages;
 mod pictures;
 mod render;
 mod stereo;

@@ -34,19 +34,20 @@ const GUARDED_CRATES: &[&str] = &[
 /// `render` stands above `fractal` and `gpu`, `fractal` above `scene`, `scene` above `formula`.
 const LAYERS: &[Layer] = &[
     Layer { name: "precise", own_crate: &[], crates: &[] },
+    Layer { name: "reading", own_crate: &[], crates: &[] },
     Layer { name: "gpu", own_crate: &[], crates: &["wgpu"] },
     // A formula has its shader files, and the layout of what they read, from `gpu`: no device.
     Layer {
         name: "formula",
-        own_crate: &["precise", "gpu::shader", "gpu::host_shared"],
+        own_crate: &["precise", "reading", "gpu::shader", "gpu::host_shared"],
         crates: &[],
     },
-    Layer { name: "scene", own_crate: &["precise", "formula"], crates: &[] },
+    Layer { name: "scene", own_crate: &["precise", "reading", "formula"], crates: &[] },
     Layer { name: "fractal", own_crate: &["formula", "scene"], crates: &[] },
     Layer { name: "render", own_crate: &["formula", "scene", "fractal", "gpu"], crates: &["wgpu"] },
     Layer {
         name: "export",
-        own_crate: &["formula", "scene", "fractal", "gpu", "render"],
+        own_crate: &["reading", "formula", "scene", "fractal", "gpu", "render"],
         crates: &["wgpu"],
     },
     Layer {
@@ -61,7 +62,7 @@ const TOP: &[&str] = &["web", "main", "command", "lib"];
 
 /// Everything at the library's root.
 const PARTS: &[&str] =
-    &["precise", "formula", "scene", "fractal", "gpu", "render", "export", "ui", "web"];
+    &["precise", "reading", "formula", "scene", "fractal", "gpu", "render", "export", "ui", "web"];
 
 /// Where code may ask what it is compiled for.
 const CFG_PLACES: &[&str] = &["web/", "web.rs", "main.rs", "lib.rs", "gpu/device.rs"];

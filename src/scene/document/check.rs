@@ -10,7 +10,14 @@ use crate::scene::{description::Scene, validate::UNIT_TOLERANCE};
 const UNIT_TOLERANCE_READ: f64 = 1e-3;
 
 /// The scene, valid, its directions of length 1.
-pub fn checked(mut scene: Scene) -> Result<Scene, DocumentError> {
+pub fn checked(scene: Scene) -> Result<Scene, DocumentError> {
+    let scene = normalized(scene);
+    scene.validate()?;
+    Ok(scene)
+}
+
+/// The scene with its directions and orientation brought to length 1 where they nearly have it.
+pub fn normalized(mut scene: Scene) -> Scene {
     let directions = scene.lights.environment.iter_mut().map(|light| &mut light.direction);
     let planes = scene.fractal.section_planes.iter_mut().map(|plane| &mut plane.direction);
     for direction in directions.chain([&mut scene.lights.rig.sky.sun_direction]).chain(planes) {
@@ -23,8 +30,7 @@ pub fn checked(mut scene: Scene) -> Result<Scene, DocumentError> {
     if is_nearly_unit(orientation.length()) {
         scene.camera.orientation = orientation.normalize().into();
     }
-    scene.validate()?;
-    Ok(scene)
+    scene
 }
 
 /// True where normalizing is called for and harmless: what is already right keeps its bits.

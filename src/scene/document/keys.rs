@@ -8,15 +8,14 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::{
-    check::checked,
-    error::DocumentError,
-    parse::{field_error, parse},
-};
-use crate::scene::{
-    description::Scene,
-    path::{Easing, Key, Path},
-    project::Project,
+use super::{check::normalized, error::DocumentError, parts::SceneParts};
+use crate::{
+    reading::at_most,
+    scene::{
+        description::Scene,
+        path::{Easing, Key, MAX_KEYS, Path},
+        project::Project,
+    },
 };
 
 /// A path to write.
@@ -88,13 +87,13 @@ pub(in crate::scene) fn value_of(part: &impl Serialize) -> Value {
     serde_json::from_str(&text).expect("serde_json reads what it writes")
 }
 
-/// A path as it was read: every field is of the right kind, but a key's scene still has
-/// defaults where it left parts out.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// A path as it was read: a key still has only the parts that it names.
+#[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PathDraft {
     frames_per_second: u32,
     shutter: f64,
+    #[serde(deserialize_with = "at_most::<MAX_KEYS, _, _>")]
     keys: Vec<KeyDraft>,
 }
 
@@ -105,50 +104,31 @@ impl Default for PathDraft {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct KeyDraft {
     time_secs: f64,
     #[serde(default)]
     easing: Easing,
     #[serde(default)]
-    scene: Scene,
+    scene: SceneParts,
 }
 
 impl PathDraft {
-    /// The path, valid, where `text` is the whole document that it was read from.
-    pub fn finish(self, text: &str) -> Result<Path, DocumentError> {
+    /// The path, valid, where `base` is the document's scene. Keys that name no part share one scene.
+    pub fn finish(self, base: &Scene) -> Result<Path, DocumentError> {
         let Self { frames_per_second, shutter, keys } = self;
-        if keys.is_empty() {
-            let path = Path { frames_per_second, shutter, keys: Vec::new() };
-            return path.validate().map(|()| path).map_err(DocumentError::from);
-        }
-        let document: Value = parse(text)?;
-        let keys = keys.into_iter().enumerate().map(|(i, key)| {
-            let scene = match whole_scene(&document, i) {
-                // The same fields have been read as part of this document already.
-                Some(whole) => serde_json::from_value(whole)
-                    .map_err(|error| field_error(&format!("path.keys[{i}].scene"), &error))?,
-                None => key.scene,
+        let mut shared = None;
+        let keys = keys.into_iter().map(|KeyDraft { time_secs, easing, scene }| {
+            let scene = if scene.is_empty() {
+                shared.get_or_insert_with(|| Arc::new(base.clone())).clone()
+            } else {
+                Arc::new(normalized(scene.over(base)))
             };
-            // Out of range is told by the path's own check, with the key's place.
-            let scene = checked(scene.clone()).unwrap_or(scene);
-            Ok(Key { time_secs: key.time_secs, easing: key.easing, scene: Arc::new(scene) })
+            Key { time_secs, easing, scene }
         });
-        let keys = keys.collect::<Result<Vec<_>, DocumentError>>()?;
-        let path = Path { frames_per_second, shutter, keys };
+        let path = Path { frames_per_second, shutter, keys: keys.collect() };
         path.validate()?;
         Ok(path)
     }
-}
-
-/// The document's scene with the parts of key `index` in place of its own.
-fn whole_scene(document: &Value, index: usize) -> Option<Value> {
-    let mut whole = document.get("scene")?.clone();
-    let key = document.get("path")?.get("keys")?.get(index)?;
-    if let Some(parts) = key.get("scene").and_then(Value::as_object) {
-        let fields = whole.as_object_mut()?;
-        fields.extend(parts.iter().map(|(name, part)| (name.clone(), part.clone())));
-    }
-    Some(whole)
 }

@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 use super::map::{EnvironmentMap, MAX_SIZE_PX, clamp_radiance};
 
@@ -14,8 +14,8 @@ use super::map::{EnvironmentMap, MAX_SIZE_PX, clamp_radiance};
 pub struct Downsampler {
     source_px: [u32; 2],
     size_px: [u32; 2],
-    /// Sums of pixels times their solid angle, up to one common factor.
-    sums: Vec<DVec3>,
+    /// Sums of pixels times their share of the target pixel's solid angle.
+    means: Vec<Vec3>,
 }
 
 impl Downsampler {
@@ -23,46 +23,45 @@ impl Downsampler {
     pub fn new(source_px: [u32; 2]) -> Self {
         let source_px = source_px.map(|side| side.max(1));
         let size_px = std::array::from_fn(|i| source_px[i].min(MAX_SIZE_PX[i]));
-        let sums = vec![DVec3::ZERO; (size_px[0] * size_px[1]) as usize];
-        Self { source_px, size_px, sums }
+        let means = vec![Vec3::ZERO; (size_px[0] * size_px[1]) as usize];
+        Self { source_px, size_px, means }
     }
 
-    /// Adds a source pixel; ignores positions outside the source.
+    /// Adds source pixels of a row, from `x` on; ignores positions outside the source.
     ///
     /// Channels are clamped to 0 to [`super::MAX_RADIANCE`]; NaN counts as 0.
-    pub fn add(&mut self, [x, y]: [u32; 2], pixel: Vec3) {
-        if x >= self.source_px[0] || y >= self.source_px[1] {
+    pub fn add_row(&mut self, [x, y]: [u32; 2], pixels: impl IntoIterator<Item = Vec3>) {
+        if y >= self.source_px[1] {
             return;
         }
-        let pixel = clamp_radiance(pixel).as_dvec3();
-        let width = self.size_px[0];
-        let height = f64::from(self.source_px[1]);
-        let columns = Overlaps::of(x, self.source_px[0], width);
-        for (row, top, bottom) in Overlaps::of(y, self.source_px[1], self.size_px[1]) {
-            let polar = |part: f64| ((f64::from(y) + part) / height * PI).cos();
-            let weight = polar(top) - polar(bottom);
-            for (column, left, right) in columns.clone() {
-                self.sums[(row * width + column) as usize] += pixel * (weight * (right - left));
+        let [width, height] = self.size_px;
+        let source_height = f64::from(self.source_px[1]);
+        // The source row's share of each target row's solid angle: exactly 1 where the two are the same row.
+        let rows = Overlaps::of(y, self.source_px[1], height).map(|(row, top, bottom)| {
+            let polar = |part: f64| ((f64::from(y) + part) / source_height * PI).cos();
+            let target = |row: u32| (f64::from(row) / f64::from(height) * PI).cos();
+            (row, (polar(top) - polar(bottom)) / (target(row) - target(row + 1)))
+        });
+        let rows: Vec<(u32, f64)> = rows.collect();
+        // The width of a target pixel in source pixels.
+        let pixel_width = f64::from(self.source_px[0]) / f64::from(width);
+        for (x, pixel) in (x..self.source_px[0]).zip(pixels) {
+            let pixel = clamp_radiance(pixel);
+            for (column, left, right) in Overlaps::of(x, self.source_px[0], width) {
+                let share = (right - left) / pixel_width;
+                for (row, weight) in &rows {
+                    self.means[(row * width + column) as usize] += pixel * (weight * share) as f32;
+                }
             }
         }
     }
 
     /// The map of the added pixels; pixels that were not added are black.
     pub fn finish(self, name: &str) -> EnvironmentMap {
-        let [width, height] = self.size_px;
-        // The width of a target pixel in source pixels, the unit of the sums.
-        let pixel_width = f64::from(self.source_px[0]) / f64::from(width);
-        let polar = |y: usize| (y as f64 / f64::from(height) * PI).cos();
-        let pixels = self
-            .sums
-            .chunks_exact(width as usize)
-            .enumerate()
-            .flat_map(|(y, row)| {
-                let weight = pixel_width * (polar(y) - polar(y + 1));
-                row.iter().map(move |sum| clamp_radiance((*sum / weight).as_vec3()))
-            })
-            .collect();
-        EnvironmentMap::new(name, self.size_px, pixels)
+        let Self { size_px, means: mut pixels, .. } = self;
+        // Rounding may exceed the range.
+        pixels.iter_mut().for_each(|pixel| *pixel = clamp_radiance(*pixel));
+        EnvironmentMap::new(name, size_px, pixels)
     }
 }
 
@@ -70,7 +69,6 @@ impl Downsampler {
 ///
 /// Each item is the target's index and the overlap's start and end, as fractions of the source
 /// pixel.
-#[derive(Clone)]
 struct Overlaps {
     index: u32,
     source: u64,

@@ -24,7 +24,7 @@ use crate::{
     scene::{
         camera::{CLOSE_VIEW_UNIT, Camera},
         description::Scene,
-        lighting::MAX_LIGHTS,
+        light::MAX_LIGHTS,
         param::{self, Param, Scale},
     },
 };

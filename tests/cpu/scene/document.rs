@@ -233,7 +233,10 @@ fn errors_name_the_field_and_say_what_is_wrong() {
         // The three environment lights of the default, and these.
         (lights(62), "lights: 65 lights are too many; a scene has at most 64"),
         (gradient(vec![]), "surface.gradient: has 0 stops"),
-        (gradient(vec![stop(0.5); 65]), "surface.gradient: has 65 stops"),
+        (
+            gradient(vec![stop(0.5); 65]),
+            "surface.gradient: has more than 64 entries, and at most 64 are read",
+        ),
         (gradient(vec![stop(0.5), stop(0.2)]), "surface.gradient[1].position: 0.2 lies before"),
         (gradient(vec![json!({ "position": 0 })]), "surface.gradient[0]: missing field `color`"),
     ] {

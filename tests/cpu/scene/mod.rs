@@ -4,6 +4,7 @@ mod dives;
 mod document;
 mod follow;
 mod gallery;
+mod limits;
 mod looks;
 mod path_document;
 mod presets;

@@ -101,7 +101,7 @@ fn errors_in_a_path_name_the_key() {
         ),
         (
             (0..300).map(|i| json!({ "time_secs": i })).collect(),
-            "path.keys: has 300 keys; a path has at most 256",
+            "path.keys: has more than 256 entries, and at most 256 are read: remove the others",
         ),
     ] {
         let error = document::project_from_json(&with_keys(keys)).expect_err("refused").to_string();

@@ -1,0 +1,78 @@
+//! Whether a frame's file that is there is complete, and of its sequence.
+
+use std::{
+    fs::{self, File},
+    io::{self, BufReader},
+    path::Path,
+};
+
+use mandelight::{
+    export::{self, PictureFormat, StillOptions, jpeg, webp},
+    scene::{Path as CameraPath, document},
+};
+use serde_json::Value;
+
+use super::folder::FrameFile;
+
+/// What is known of a frame's file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// There is none.
+    Missing,
+    /// The frame.
+    Complete,
+    /// No complete picture: what a crash of the machine or a full disk leaves.
+    Damaged,
+    /// A complete picture of another size or scene, or no file at all.
+    Foreign,
+}
+
+/// Checks the file of a frame: its format, that it has its last bytes, its size in pixels and its scene. The pixels
+/// are not read.
+///
+/// # Errors
+/// Those of reading the file.
+pub fn check(
+    file: &Path,
+    (frame, eye): FrameFile,
+    path: &CameraPath,
+    options: &StillOptions,
+) -> io::Result<Kept> {
+    match fs::metadata(file) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kept::Missing),
+        // Opening anything but a file might wait.
+        Ok(metadata) if !metadata.is_file() => return Ok(Kept::Foreign),
+        metadata => metadata?,
+    };
+    let options = StillOptions { eye, ..options.clone() };
+    let open = || File::open(file).map(BufReader::new);
+    let (size, text) = match options.format {
+        PictureFormat::Exr => (
+            export::exr_complete_size(open()?).ok(),
+            export::exr_scene_text(open()?).ok().flatten(),
+        ),
+        PictureFormat::Jpeg => {
+            let bytes = fs::read(file)?;
+            let text = jpeg::jpeg_scene_text(&bytes).ok().flatten();
+            (jpeg::jpeg_complete_size(&bytes).ok(), text)
+        }
+        PictureFormat::WebP => {
+            let bytes = fs::read(file)?;
+            let text = webp::webp_scene_text(&bytes).ok().flatten();
+            (webp::webp_complete_size(&bytes).ok(), text)
+        }
+        PictureFormat::Png | PictureFormat::Rgb => {
+            (export::png_complete_size(open()?).ok(), export::scene_text(open()?).ok().flatten())
+        }
+    };
+    let (Some(Some(size)), Some(scene)) = (size, path.frame(frame)) else {
+        return Ok(Kept::Damaged);
+    };
+    let shown = options.shown(&scene);
+    // Values, because one character may be written in several ways.
+    let value = |text: &str| serde_json::from_str::<Value>(text).ok();
+    let is_scene =
+        text.is_some_and(|text| value(&text) == value(&document::to_json_compact(&shown)));
+    let is_size = options.sheet_px(&shown).is_ok_and(|expected| expected == size);
+    Ok(if is_scene && is_size { Kept::Complete } else { Kept::Foreign })
+}

@@ -1,0 +1,88 @@
+//! Messages that quote files and names, and signals while the command waits.
+
+use mandelight_test_support::program::{code, program, said};
+
+use super::PROGRAM;
+
+/// A terminal obeys control characters, so none reaches it from a file, a name or an argument.
+#[test]
+fn messages_show_control_characters_as_escapes() {
+    let folder = tempfile::tempdir().unwrap();
+    let escape = "a\u{1b}[2J\u{9b}31m\nmandelight: all is well";
+    let file = folder.path().join(format!("{escape}.json"));
+    let named = |field: &str| {
+        format!("{{\"mandelight\":\"scene\",\"version\":2,\"scene\":{{{field:?}:1}}}}")
+    };
+    std::fs::write(&file, named("x").replace("\"x\"", "\"\\u001b[2J\"")).unwrap();
+    let text = folder.path().join("own.formula");
+    std::fs::write(&text, format!("name \"x\";\t{escape}")).unwrap();
+    let (file, text) = (file.to_str().unwrap(), text.to_str().unwrap());
+    for arguments in [
+        &["render", file, "-o", "out.png"][..],
+        &["render", escape, "-o", "out.png"],
+        &["scene", "--set", &format!("{escape}=1")],
+        &["scene", "--preset", escape],
+        &["scene", "--gradient", escape],
+        &["scene", "--gradient", file],
+        &["scene", "--formula", escape],
+        &["render", "-", "-o", "out.png", "--environment", escape],
+        &["formula", "check", text],
+        &["scene", "--turntable", escape],
+        &[escape],
+    ] {
+        let output = program(PROGRAM, arguments).current_dir(folder.path()).output().unwrap();
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", said(&output));
+        let text = said(&output);
+        let hidden = text.chars().find(|letter| letter.is_control() && *letter != '\n');
+        assert_eq!(hidden, None, "{arguments:?}: {text:?}");
+    }
+}
+
+/// Files without an end are read up to their limits.
+#[test]
+fn endless_files_are_refused() {
+    let endless = "/dev/zero";
+    if !std::path::Path::new(endless).exists() {
+        return;
+    }
+    for (arguments, said_of_it) in [
+        (&["formula", "check", endless][..], "more than 8192 bytes, the most that are read"),
+        (&["scene", "--formula", endless], "more than 8192 bytes, the most that are read"),
+        (&["scene", "--gradient", endless], "/dev/zero"),
+        (&["render", endless, "-o", "out.png"], "at most 16777216 are read"),
+    ] {
+        let output = program(PROGRAM, arguments).output().unwrap();
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(said(&output).contains(said_of_it), "{arguments:?}: {}", said(&output));
+    }
+}
+
+/// A pipe without a reader: the command waits until somebody reads, and a signal ends it.
+#[test]
+fn a_pipe_that_nobody_reads_does_not_outlive_a_signal() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    if !made.is_ok_and(|status| status.success()) {
+        return;
+    }
+    let mut child = program(PROGRAM, ["render", "-", "-o", "pipe", "--size", "4x4"])
+        .current_dir(folder.path())
+        .stdin(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let document = mandelight::scene::document::to_json(&mandelight::scene::Scene::default());
+    std::io::Write::write_all(&mut child.stdin.take().unwrap(), document.as_bytes()).unwrap();
+    let start = std::time::Instant::now();
+    // Signals before the command waits for its reader end it too.
+    let status = loop {
+        let pid = child.id().to_string();
+        let _ = std::process::Command::new("kill").args(["-TERM", &pid]).status();
+        std::thread::sleep(std::time::Duration::from_millis(500));
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        assert!(start.elapsed().as_secs() < 60, "it waits for a reader");
+    };
+    assert!(!status.success());
+}
