@@ -7,6 +7,10 @@ const MIN_STEP = 0.25;
 // Least step, in hit distances, if hits are checked.
 const MIN_STEP_WITH_HIT_CHECK = 0.4;
 
+// Longest step, in hit distances, on which the crossing of the hit distance is interpolated. On longer ones it is
+// sought by bisection: they may have ended deep inside the set.
+const WIDEST_CROSSING = 4.0;
+
 // A ray stays with a surface until it is so many colour distances away: gaps that only a fine picture
 // resolves keep the colours of their rim. A larger factor paints wider rims on what lies behind.
 const LEAVING = 8.0;
@@ -64,11 +68,13 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     let checks_hits = needs_hit_check();
     let min_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
+    // Depth of a point within the hit distance, while the crossing before it is sought; 0 before.
+    var within_hit = 0.0;
     var i = 0u;
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < frame.march.march_steps; i++) {
-            let is_looking = checks_hits && crossing.looks > 0u;
+            let is_looking = (checks_hits && crossing.looks > 0u) || within_hit > 0.0;
             let is_inside = t <= interval.y || is_looking;
             var ahead = Estimate(0.0, 0.0);
             if (is_inside) {
@@ -93,18 +99,28 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
             if (!is_looking && within > hit) {
                 colors = next_color_point(colors, before, t, ahead.distance, within);
             }
-            if (checks_hits && (is_looking || ahead.distance < hit)) {
+            if (checks_hits && within_hit == 0.0 && (is_looking || ahead.distance < hit)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
                 if (crossing.looks > LOOKS) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
             }
-            if (ahead.distance < hit) {
+            let is_near = ahead.distance < hit;
+            if (is_near && t - before <= WIDEST_CROSSING * hit) {
                 // Interpolates the crossing of the hit distance on the last step.
                 let past = hit - ahead.distance;
                 return ray_end(max(mix(before, t, left / max(left + past, 1e-30)), 1e-30), colors);
             }
-            before = t;
-            left = ahead.distance - hit;
+            if (is_near) {
+                within_hit = t;
+            } else {
+                before = t;
+                left = ahead.distance - hit;
+            }
+            if (within_hit > 0.0) {
+                // After a step that was too long the crossing is anywhere on it.
+                t = 0.5 * (before + within_hit);
+                continue;
+            }
             t += next_step(&over, max(ahead.step, min_step * hit));
         }
         if (!pending.is_needed) { break; }

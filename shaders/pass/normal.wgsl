@@ -9,11 +9,11 @@ fn normals_kind() -> u32 {
     return frame.normals;
 }
 
-// True for the sampled grid points, among the 3x3x3 grid about the point.
-fn is_sampled(offset: vec3f) -> bool {
+// True for the grid points that a kind of normals samples, among the 3x3x3 grid about the point.
+fn is_sampled(kind: u32, offset: vec3f) -> bool {
     // 0: the point itself; 1: on the axes; 2: on the faces' diagonals; 3: at the corners.
     let axes = dot(abs(offset), vec3f(1.0));
-    switch normals_kind() {
+    switch kind {
         case NORMALS_THREE: { return axes <= 1.0 && all(offset >= vec3f(0.0)); }
         case NORMALS_SIX: { return axes == 1.0; }
         case NORMALS_EIGHTEEN: { return axes == 1.0 || axes == 2.0; }
@@ -23,11 +23,11 @@ fn is_sampled(offset: vec3f) -> bool {
 
 // The gradient, not normalised, of the linear function that fits the samples best (least squares):
 // by symmetry the sum of each value times its offset. Three samples use differences to the point itself.
-fn sampled_gradient(fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
+fn sampled_gradient(kind: u32, fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
     var gradient = vec3f(0.0);
     for (var k = 0u; k < 27u; k++) {
         let offset = vec3f(vec3u(k % 3u, k / 3u % 3u, k / 9u)) - 1.0;
-        if (!is_sampled(offset)) { continue; }
+        if (!is_sampled(kind, offset)) { continue; }
         let weight = select(offset, vec3f(-1.0), all(offset == vec3f(0.0)));
         gradient += weight * distance_estimate(fractal, point + spacing * offset);
     }
@@ -36,12 +36,15 @@ fn sampled_gradient(fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
 
 // Points toward the eye if the gradient is zero, as inside the set, or if normals are off.
 fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
+    var kind = normals_kind();
     var gradient = vec3f(0.0);
-    if (normals_kind() == NORMALS_ANALYTIC) {
+    if (kind == NORMALS_ANALYTIC) {
         gradient = distance_gradient(fractal, point);
-    } else if (normals_kind() != NORMALS_NONE) {
-        gradient = sampled_gradient(fractal, point, spacing);
+        // The ray came from outside. Where the estimate ripples finer than a pixel, the gradient at a point may face
+        // away; over the pixel's width it does not.
+        kind = select(NORMALS_NONE, NORMALS_TWENTY_SIX, dot(gradient, toward_eye) < 0.0);
     }
+    if (kind != NORMALS_NONE) { gradient = sampled_gradient(kind, fractal, point, spacing); }
     // The square of the gradient's length may overflow an f32.
     let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
     if (largest <= 0.0) { return toward_eye; }

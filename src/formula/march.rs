@@ -53,6 +53,8 @@ pub struct MarchPolicy {
     pub relaxation: f32,
     /// Radius of the ball that a cone treats as empty, over the safe step.
     pub ball_part: f32,
+    /// The same in views that are drawn about an anchor.
+    pub deep_ball_part: f32,
     /// True if the estimate has false minima thinner than a pixel.
     ///
     /// Hits are then checked over half a hit distance.
@@ -72,6 +74,7 @@ impl Default for MarchPolicy {
         Self {
             relaxation: 1.4,
             ball_part: 1.0,
+            deep_ball_part: 1.0,
             checks_hits: false,
             shadow_cone: 0.004,
             shadow_margin: 0.5,

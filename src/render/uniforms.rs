@@ -135,7 +135,7 @@ fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
         shadow_steps: shadow_steps(iterations, reference.is_some()),
         finest_hit: FINEST_HIT,
         relaxation: policy.relaxation,
-        ball_part: policy.ball_part,
+        ball_part: if reference.is_some() { policy.deep_ball_part } else { policy.ball_part },
         checks_hits: policy.checks_hits.into(),
         shadow_cone: policy.shadow_cone,
         shadow_margin: policy.shadow_margin,

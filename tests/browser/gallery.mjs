@@ -11,9 +11,6 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await v.tab.goto(`${v.address}?test&gallery=${encodeURIComponent(gallery)}`);
     await page.firstPicture();
   };
-  const isSaid = (text) => v.tab.evaluate(
-    (part) => document.getElementById("accessible-page").textContent.includes(part), text);
-  const told = (name, text) => v.until(`${name} to be told`, () => isSaid(text), 60);
 
   await open("../../pictures/");
   const card = (index) => page.rested(`card ${index}`, () => page.rect(`gallery ${index}`));
@@ -29,10 +26,10 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.scenes = {};
   v.seen.scenes.opened = await page.changed("a card", async () => v.tab.mouse.click(...(await page.middle("gallery 0"))));
   await v.tab.mouse.click(...(await page.middle("gallery 2")));
-  v.seen.missing = await told("the missing picture", "missing could not be opened: its host answers 404");
+  v.seen.missing = await page.says("missing could not be opened: its host answers 404");
 
   await open("../../pictures/broken.json");
-  v.seen.broken = await told("the broken list", "the list cannot be read");
+  v.seen.broken = await page.says("the list cannot be read");
   await open("../../pictures/none/");
-  v.seen.nowhere = await told("the missing list", "its host answers 404");
+  v.seen.nowhere = await page.says("its host answers 404");
 });

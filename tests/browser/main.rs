@@ -129,11 +129,40 @@ fn a_page_that_was_open_once_works_without_a_connection() {
     let visit = Visit::run("offline");
     assert!(visit.number("/offline/pictures") > 0.0);
     let files = fs::read_dir(std::env::var_os("MANDELIGHT_DIST").unwrap()).unwrap().count();
-    // The worker itself is no file of the page, and a folder of scripts counts as one.
-    assert!(visit.number("/kept/files") as usize >= files - 1, "{}", visit.seen["kept"]);
+    // The worker and the list of headers are no files of the page, and a folder of scripts counts as one.
+    assert!(visit.number("/kept/files") as usize >= files - 2, "{}", visit.seen["kept"]);
     assert_eq!(visit.seen["offered"], true);
     assert_eq!(visit.seen["reloaded"], true);
     assert_eq!(visit.seen["purged"]["names"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn each_state_of_the_interface_fits_the_window() {
+    let visit = Visit::run("states");
+    let states = visit.seen["states"].as_array().unwrap();
+    assert_eq!(states.len(), 24);
+    for state in states {
+        let name = state["name"].as_str().unwrap();
+        let size_px = [0, 1].map(|i| state["size"][i].as_u64().unwrap() as u32);
+        let picture = Picture::read_png(&visit.folder.join(format!("{name}.png")));
+        assert_eq!(picture.size_px, size_px, "{name}");
+        assert!(picture.contrast() > 8.0, "{name} is blank: {}", picture.contrast());
+        // What floats over the view is whole, and the view is large.
+        let side = |part: &str, side: &str| state["rects"][part][side].as_f64();
+        for part in ["share window", "compare", "panel", "timeline", "variations", "view"] {
+            let bounds = ["x", "y", "width", "height"].map(|name| side(part, name));
+            let [Some(x), Some(y), Some(width), Some(height)] = bounds else { continue };
+            let [right, bottom] = [x + width, y + height];
+            let is_inside = x >= -0.5
+                && y >= -0.5
+                && right <= f64::from(size_px[0]) + 0.5
+                && bottom <= f64::from(size_px[1]) + 0.5;
+            assert!(is_inside, "{name}: {part} is at {bounds:?}");
+        }
+        let view = side("view", "width").unwrap() * side("view", "height").unwrap();
+        let part = view / f64::from(size_px[0] * size_px[1]);
+        assert!(part > 0.3, "{name}: the view is {part} of the window");
+    }
 }
 
 #[test]

@@ -109,6 +109,13 @@ export class Mandelight {
     }, 60);
   }
 
+  /** Waits until the interface shows `text`, as a screen reader reads it. */
+  says(text) {
+    const isSaid = () => this.tab.evaluate(
+      (part) => document.getElementById("accessible-page").textContent.includes(part), text);
+    return this.visit.until(`the text ${text}`, isSaid, 60);
+  }
+
   /** A widget's rectangle in CSS pixels, or null while the widget is not shown. */
   rect(name) {
     return this.tab.evaluate((widget) => window.mandelight.uiRects()[widget] ?? null, name);

@@ -26,6 +26,7 @@ mod paths_oracle;
 mod picture;
 mod places;
 mod post;
+mod random_views;
 mod samples;
 mod shine;
 mod soft_shadows;

@@ -5,6 +5,7 @@
 
 mod bench;
 mod check;
+mod headers;
 mod need;
 mod page;
 mod pictures;

@@ -2,7 +2,8 @@
 //!
 //! In: the crate and `www/`. Out: a folder of `index.html` and files whose names contain a hash of
 //! their content, so that browsers may cache these files forever; and a service worker that keeps all
-//! of them for visits without a connection. All URLs are relative.
+//! of them for visits without a connection; and the headers with which a host should send them. All URLs are
+//! relative.
 
 use std::{
     fs,
@@ -17,7 +18,7 @@ use flate2::{Compression, write::GzEncoder};
 use sha2::{Digest as _, Sha256};
 use wasm_bindgen_cli_support::Bindgen;
 
-use crate::{need, shell};
+use crate::{headers, need, shell};
 
 /// The optimisation of the module after its compilation.
 #[derive(Clone, Copy, PartialEq)]
@@ -86,6 +87,8 @@ pub fn build(folder: &Path, optimization: Optimization) -> Result<()> {
     let mut page = link(parts(&bound, &www)?)?;
     let worker = fs::read(www.join(WORKER)).with_context(|| format!("www/{WORKER}"))?;
     page.push(keeping(&worker, &page)?);
+    let headers = headers::text(page.iter().map(|part| part.name.as_str()));
+    page.push(Part { name: headers::FILE.to_owned(), bytes: headers.into_bytes() });
     write(folder, &page)?;
     print_sizes(folder, &page)
 }

@@ -16,7 +16,7 @@ use std::{
 use anyhow::{Context as _, Result, anyhow};
 use tiny_http::{Header, Method, Response, Server};
 
-use crate::{page, shell};
+use crate::{headers, page, shell};
 
 /// The first port that `serve` tries by default.
 pub const FIRST_PORT: u16 = 8080;
@@ -68,12 +68,8 @@ fn answer_all(server: &Server, site: &Site) {
     for request in server.incoming_requests() {
         let answer = site.answer(request.method(), request.url());
         let mut response = Response::from_data(answer.body).with_status_code(answer.status);
-        let headers = [
-            ("Content-Type", answer.mime),
-            ("Cache-Control", "no-store"),
-            ("X-Content-Type-Options", "nosniff"),
-        ];
-        for (name, value) in headers {
+        let headers = [("Content-Type", answer.mime), ("Cache-Control", answer.cache_control)];
+        for (name, value) in headers.into_iter().chain(headers::ALL) {
             // Names and values are constant ASCII texts, which are valid headers.
             response.add_header(Header::from_bytes(name, value).expect("a header"));
         }
@@ -91,6 +87,7 @@ struct Site {
 struct Answer {
     status: u16,
     mime: &'static str,
+    cache_control: &'static str,
     body: Vec<u8>,
 }
 
@@ -119,6 +116,7 @@ impl Site {
         let plain = |status, text: &str| Answer {
             status,
             mime: "text/plain; charset=utf-8",
+            cache_control: "no-store",
             body: text.as_bytes().to_vec(),
         };
         // tiny_http omits the body of a response to HEAD.
@@ -128,7 +126,12 @@ impl Site {
         let path = url.split(['?', '#']).next().unwrap_or_default();
         let path = if path == "/" { "/index.html" } else { path };
         match self.files.get(path) {
-            Some(body) => Answer { status: 200, mime: mime_of(path), body: body.clone() },
+            Some(body) => Answer {
+                status: 200,
+                mime: mime_of(path),
+                cache_control: headers::cache_control(path),
+                body: body.clone(),
+            },
             None => plain(404, "no such file\n"),
         }
     }
@@ -168,6 +171,8 @@ mod tests {
         ] {
             let answer = site().answer(&Method::Get, url);
             assert_eq!((answer.status, answer.mime), (200, mime), "{url}");
+            let is_document = mime.starts_with("text/html");
+            assert_eq!(answer.cache_control == "no-cache", is_document, "{url}");
         }
     }
 

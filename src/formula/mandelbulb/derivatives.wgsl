@@ -9,11 +9,13 @@ fn step_factor(fractal: Fractal) -> f32 {
 struct Derivatives {
     dr: f32,
     // Product of bounds on the stretch, over the step factor: a ray's step is the height over the
-    // larger of dr and dg. Over the many steps of a deep orbit dg grows far past the Jacobian's norm; with
-    // `FOLLOWS_DIRECTION` it bounds the stretch of other directions since the series approximation.
+    // larger of dr and dg. Over the many steps of a deep orbit dg grows far past the Jacobian's norm, so that
+    // `FOLLOWS_DIRECTION` has two stretched directions instead.
     dg: f32,
     // Jacobian times the ray's own direction, with `FOLLOWS_DIRECTION`.
     stretched: vec3f,
+    // Jacobian times the direction that the series approximation stretches most, with `FOLLOWS_DIRECTION`.
+    widest: vec3f,
     // Stretch of the series approximation across its widest direction, over dr. At a scale of 1e-20 it is
     // 1/3 to 1/100 of the widest stretch.
     rest: f32,
@@ -22,7 +24,8 @@ struct Derivatives {
 fn initial_derivatives(fractal: Fractal, orbit: Orbit, along: vec3f) -> Derivatives {
     let one = orbit.start_derivative;
     let dg = select(one / step_factor(fractal), 0.0, FOLLOWS_DIRECTION);
-    return Derivatives(one, dg, one * along, 1.0);
+    // Without a series, steps turn any direction across the ray toward the most stretched one.
+    return Derivatives(one, dg, one * along, one * along.yzx, 1.0);
 }
 
 // Derivatives after a step. `along`: the ray's direction, a unit vector.
@@ -31,27 +34,31 @@ fn next_derivatives(
 ) -> Derivatives {
     // Clamped before the step: the last step of an orbit may multiply by 1e19.
     let dr = step.stretch * min(before.dr, fractal.derivative_max) + orbit.constant_derivative;
-    let widest = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
-    let dg = widest * min(before.dg, fractal.derivative_max);
     if (!FOLLOWS_DIRECTION) {
+        let bound = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
+        let dg = bound * min(before.dg, fractal.derivative_max);
         let added = orbit.constant_derivative / step_factor(fractal);
-        return Derivatives(dr, dg + added, before.stretched, 0.0);
+        return Derivatives(dr, dg + added, before.stretched, before.widest, 0.0);
     }
     let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.constant_derivative * along;
-    return Derivatives(dr, dg, stretched, before.rest);
+    // The constant's own derivative is nothing beside the stretch of a series.
+    let widest = pushed(fractal, step, z, q, before.widest);
+    return Derivatives(dr, before.dg, stretched, widest, before.rest);
 }
 
 // A ray's safe step. `height`: see `height_of`. The scalar dr ignores the stretch along parallels, so the
 // step is the step factor times the estimate by dg, which bounds that stretch, and at most the distance.
-// With `FOLLOWS_DIRECTION` the step is the distance over the stretch of the ray's direction.
+// With `FOLLOWS_DIRECTION` the step is the distance over the stretch of the ray's direction. Along the ray the
+// stretched direction changes, the sooner the greater the stretch of other directions is: with w for the widest
+// stretch over dr, the ray's counts as at least sqrt(3 w - 2). Where all directions are stretched alike, w is 1.
 fn safe_step(derivatives: Derivatives, height: f32) -> f32 {
     if (!FOLLOWS_DIRECTION) { return height / max(max(derivatives.dg, derivatives.dr), 1e-37); }
     // The square of `stretched` can overflow with a large bailout.
     let inverse = 1.0 / max(derivatives.dr, 1e-37);
-    let followed = inverse * derivatives.stretched;
-    let rest = max(derivatives.rest, inverse * derivatives.dg);
-    let norm = max(max(length(followed), rest), 1.0);
-    return inverse * height / norm;
+    let followed = length(inverse * derivatives.stretched);
+    let widest = length(inverse * derivatives.widest);
+    let turning = sqrt(max(3.0 * widest - 2.0, 1.0));
+    return inverse * height / max(max(followed, derivatives.rest), turning);
 }
 
 // Derivatives of an orbit and of dr by the point.

@@ -37,7 +37,7 @@ pub const SIDEWAYS_MAX: f64 = 10.0;
 /// With one half, a ray reaches the surface from 10³² times as far in about a hundred steps.
 const JACOBIAN_STEP_FACTOR: f64 = 0.5;
 /// [`SIDEWAYS_MAX`] for the Jacobian that sets the steps of deep rays.
-pub const DEEP_SIDEWAYS_MAX: f64 = 30.0;
+pub const DEEP_SIDEWAYS_MAX: f64 = 300.0;
 /// Keeps the estimate finite if a Julia orbit passes the origin and dr vanishes.
 const MIN_DERIVATIVE: f64 = 1e-30;
 

@@ -18,6 +18,12 @@ params! {
 /// The estimate of lower powers has false minima: see [`super::estimator`].
 pub const HIT_CHECK_BELOW: f64 = 4.0;
 
+/// Part of a deep ray's safe step that a cone treats as empty around a point.
+///
+/// The step holds along one direction, and where the stretch of directions changes fast, a cone of the whole
+/// step passes surfaces.
+const DEEP_BALL_PART: f32 = 0.4;
+
 /// In document order, which [`Mandelbulb::of`] and the conversion back follow.
 pub const FIELDS: &[Field] = &[
     Field {
@@ -193,6 +199,7 @@ impl Mandelbulb {
         MarchPolicy {
             relaxation: (1.0 - relaxed) + usual.relaxation * relaxed,
             ball_part: (0.25 * power - 0.5).clamp(0.7, 1.0),
+            deep_ball_part: DEEP_BALL_PART,
             checks_hits: self.power < HIT_CHECK_BELOW,
             shadow_cone: mix(usual.shadow_cone, 0.5 * usual.shadow_cone),
             shadow_margin: mix(usual.shadow_margin, 0.15),
@@ -240,8 +247,12 @@ mod tests {
         for power in [4.0, 8.0, 16.0] {
             let policy = Mandelbulb { power, ..Default::default() }.march_policy();
             assert_eq!(
-                MarchPolicy { ball_part: policy.ball_part, ..policy },
-                MarchPolicy { ball_part: policy.ball_part, ..Default::default() }
+                policy,
+                MarchPolicy {
+                    ball_part: policy.ball_part,
+                    deep_ball_part: DEEP_BALL_PART,
+                    ..Default::default()
+                }
             );
         }
     }

@@ -46,12 +46,10 @@ fn series_derivatives(
 ) -> Derivatives {
     let jacobian = series_jacobian(series, point);
     let stretched = jacobian * along;
-    // Bounds the stretch across the widest direction. The series of larger radii replace fewer steps, so
-    // too many steps would multiply the bound.
-    var bound = select(0.0, series.rest, which < 2u);
-    if (!FOLLOWS_DIRECTION) { bound = length(jacobian * series.widest); }
-    let dg = bound / step_factor(fractal);
-    return Derivatives(series_derivative(series, point), dg, stretched, series.rest / series.derivative);
+    let widest = jacobian * series.widest;
+    let dg = length(widest) / step_factor(fractal);
+    let rest = series.rest / series.derivative;
+    return Derivatives(series_derivative(series, point), dg, stretched, widest, rest);
 }
 
 // The tangent after the steps of a series approximation.

@@ -101,7 +101,8 @@ fn view_agrees(scene: &Scene, size: Size, is_rough: bool, view: &str) {
     assert!(hit >= 0.3, "{view}: {hit} of the pixels are hit");
     assert!(differ <= 0.005, "{view}: {differ} of the pixels are hit by one alone");
     assert!(apart <= 0.01, "{view}: {apart} of the depths are two footprints apart");
-    let are_right = is_rough || normal_deg < 0.5;
+    // Normals at grazing angles that face away for one of the two only are those of the footprint there.
+    let are_right = is_rough || normal_deg < 0.75;
     assert!(are_right, "{view}: normals differ by {normal_deg} degrees");
 }
 

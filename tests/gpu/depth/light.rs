@@ -61,8 +61,15 @@ fn grid(kind: Normals) -> Vec<(DVec3, DVec3)> {
     (0..27).map(offset).filter(is_in).map(|offset| (offset, weight(offset))).collect()
 }
 
-/// The normal of that kind in f64; for the analytic one, of very small differences.
+/// The normal of that kind in f64; for the analytic one, of very small differences, or of all neighbours where these
+/// face away.
 fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
+    let normal = fitted(field, kind, seen);
+    let is_away = kind == Normals::Analytic && normal.dot(seen.toward_eye) < 0.0;
+    if is_away { fitted(field, Normals::TwentySix, seen) } else { normal }
+}
+
+fn fitted(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
     let (kind, spacing) = match kind {
         Normals::None => return seen.toward_eye,
         Normals::Analytic => (Normals::Six, 1e-4 * seen.hit),

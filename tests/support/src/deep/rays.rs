@@ -6,7 +6,7 @@
 use glam::{DVec2, DVec3};
 use mandelight::{
     formula::mandelbulb::Mandelbulb,
-    scene::{Camera, Precise, Scene},
+    scene::{Camera, Fractal, Precise, Scene},
 };
 
 use super::{
@@ -77,6 +77,35 @@ impl<'a> SetView<'a> {
         moved(&self.eye, direction * depth)
     }
 
+    /// The set's description.
+    pub fn fractal(&self) -> &Fractal {
+        &self.scene.fractal
+    }
+
+    /// Marches a ray in `part` of safe steps until `look` at a depth and its estimate answers.
+    pub fn first_along<T>(
+        &self,
+        direction: DVec3,
+        part: f64,
+        mut look: impl FnMut(f64, &Estimate) -> Option<T>,
+    ) -> Option<T> {
+        let (near, far) = crossing(rounded(&self.eye), direction)?;
+        let far = far.min(FARTHEST * self.unit);
+        let mut t = near.max(0.0);
+        for _ in 0..MAX_STEPS {
+            if t > far {
+                return None;
+            }
+            let hit = self.hit_distance(t);
+            let here = self.set.estimate(&self.at(direction, t), MIN_STEP * hit);
+            if let Some(answer) = look(t, &here) {
+                return Some(answer);
+            }
+            t += (part * here.step).clamp(MIN_STEP * hit, LONGEST_STEP);
+        }
+        None
+    }
+
     /// Depth of the surface along a ray whose steps `step` makes of estimates.
     pub fn march(&self, direction: DVec3, step: impl Fn(Estimate) -> f64) -> Option<f64> {
         let (near, far) = crossing(rounded(&self.eye), direction)?;
@@ -112,10 +141,23 @@ impl<'a> SetView<'a> {
         self.march(self.direction(centre(pixel)), |estimate| estimate.step)
     }
 
-    /// The normal at `depth` of a pixel's ray.
+    /// The normal at `depth` of a pixel's ray; that of the pixel's footprint where the point's own faces away.
     pub fn normal(&self, pixel: [u32; 2], depth: f64) -> DVec3 {
-        let point = self.at(self.direction(centre(pixel)), depth);
-        self.set.normal(&point, 1e-6 * self.hit_distance(depth))
+        let direction = self.direction(centre(pixel));
+        let point = self.at(direction, depth);
+        let hit = self.hit_distance(depth);
+        let normal = self.set.normal(&point, 1e-6 * hit);
+        if normal.dot(direction) <= 0.0 {
+            return normal;
+        }
+        // Of the linear function that fits the 26 neighbours in a grid best.
+        let steps = [-1.0, 0.0, 1.0];
+        let grid = steps.iter().flat_map(|&x| steps.map(|y| (x, y)));
+        let grid = grid.flat_map(|(x, y)| steps.map(|z| DVec3::new(x, y, z)));
+        let slope = |offset: DVec3| {
+            offset * self.set.estimate(&moved(&point, offset * hit), 1e-3 * hit).distance
+        };
+        grid.map(slope).sum::<DVec3>().normalize_or(-direction)
     }
 }
 

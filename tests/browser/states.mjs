@@ -1,0 +1,50 @@
+// Each main state of the interface at three window sizes: pictures to look at.
+
+import { Mandelight } from "./mandelight.mjs";
+import { visit } from "./visit.mjs";
+
+const SIZES = [[1280, 720], [390, 844], [844, 390]];
+
+/** The states: a name, the key that opens it, what is there then, and whether Escape ends it. */
+const STATES = [
+  { name: "timeline", key: "t", rect: "timeline", isToggle: true },
+  { name: "share", key: "j", rect: "share window" },
+  { name: "mutate", key: "m", rect: "variations" },
+  { name: "find", key: "Control+k", text: "What to find", words: "light" },
+  { name: "help", key: "Shift+?", text: "Keys and gestures" },
+  { name: "compare", key: "Shift+C", rect: "compare" },
+  { name: "panel", key: "p", isToggle: true },
+];
+
+await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) => {
+  const page = new Mandelight(v);
+  await page.open();
+  await v.tab.evaluate(() => {
+    const document = JSON.parse(window.mandelight.scene());
+    document.scene.quality.samples = 1;
+    window.mandelight.setScene(JSON.stringify(document));
+  });
+  v.seen.states = [];
+  for (const [width, height] of SIZES) {
+    const shoot = async (state) => {
+      const name = `${state}-${width}x${height}`;
+      await page.settled();
+      await v.screenshot(name);
+      const rects = await v.tab.evaluate(() => window.mandelight.uiRects());
+      v.seen.states.push({ name, state, size: [width, height], rects });
+    };
+    await v.tab.setViewportSize({ width, height });
+    const fits = async () => (await page.rect("status"))?.y > height - 60;
+    await v.until("the new size", fits, 60);
+    await shoot("opening");
+    for (const { name, key, rect, text, words, isToggle } of STATES) {
+      await v.tab.keyboard.press(key);
+      if (rect) await page.rested(name, () => page.rect(rect));
+      if (text) await page.says(text);
+      if (words) await v.tab.keyboard.type(words);
+      await shoot(name);
+      await v.tab.keyboard.press(isToggle ? key : "Escape");
+      if (rect) await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
+    }
+  }
+});

@@ -1,0 +1,168 @@
+//! Pictures of random views against brackets from a fine march with numbers of 256 bits.
+//!
+//! `cargo test --release --test gpu random_views -- --ignored --nocapture` draws 200 other views each run and prints its
+//! seed; `MANDELIGHT_SEED` draws those of a run again, and `MANDELIGHT_VIEWS` sets their number.
+
+use std::{
+    fs,
+    path::Path,
+    time::{SystemTime, UNIX_EPOCH},
+};
+
+use mandelight::{
+    gpu::device::in_parallel,
+    render::{Pace, gbuffer::Samples},
+    scene::{Scene, document},
+};
+use mandelight_test_support::{
+    deep::{
+        brackets::Verdict,
+        random_views::random_view,
+        rays::{FARTHEST, SetView, Size, centre},
+        views,
+    },
+    device::gpu,
+    random::Random,
+    view::{finished, sampled},
+};
+
+/// Width and height of the pictures.
+const SIZE: Size = [36, 24];
+/// The closest views.
+const NEAREST: f64 = 1e-26;
+
+/// Views that are hard to march, or whose estimates ripple below a pixel: their documents, the parts of pixels that may
+/// be out of their brackets, and of hits whose normals may face away.
+const HARD: [(&str, [f64; 2]); 6] = [
+    // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
+    (include_str!("hard_views/stretched.json"), [0.01, 0.015]),
+    (include_str!("hard_views/stretched_beside.json"), [0.005, 0.015]),
+    (include_str!("hard_views/stretched_zoomed.json"), [0.03, 0.015]),
+    (include_str!("hard_views/rippled.json"), [0.06, 0.07]),
+    (include_str!("hard_views/rippled_below.json"), [0.05, 0.01]),
+    // Power 2, whose hits must last half a footprint.
+    (include_str!("hard_views/power_2.json"), [0.005, 0.04]),
+];
+/// Width and height of their pictures.
+const HARD_SIZE: Size = [48, 32];
+
+/// One sample a pixel of a finished picture.
+fn draw(scene: &Scene, size: Size) -> Samples {
+    let mut scene = sampled(scene.clone(), 1);
+    scene.quality.shadows = false;
+    let view = finished(&scene, size, Pace::Still);
+    assert_eq!(gpu().faults(), 0);
+    view.gbuffer().expect("the G-buffer's bytes")
+}
+
+/// How many pixels of a picture are wrong.
+#[derive(Clone, Copy, Debug, Default)]
+struct Judged {
+    pixels: usize,
+    hits: usize,
+    too_near: usize,
+    too_far: usize,
+    /// Normals that face away from the eye.
+    away: usize,
+}
+
+fn judge(scene: &Scene, size: Size) -> Judged {
+    let samples = draw(scene, size);
+    let looking = SetView::new(scene, size, views::plenty(scene));
+    let pixels: Vec<_> =
+        (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])).zip(0..).collect();
+    let verdicts = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
+        let depth = f64::from(samples.depth[index]);
+        let found = (depth > 0.0 && depth < FARTHEST * scene.camera.view_unit()).then_some(depth);
+        let direction = looking.direction(centre(pixel));
+        let is_away = found.is_some() && samples.normal[index].as_dvec3().dot(direction) > 0.0;
+        (looking.judge(direction, found), found.is_some(), is_away)
+    });
+    let count =
+        |is: &dyn Fn(&(Verdict, bool, bool)) -> bool| verdicts.iter().filter(|v| is(v)).count();
+    Judged {
+        pixels: pixels.len(),
+        hits: count(&|v| v.1),
+        too_near: count(&|v| v.0 == Verdict::TooNear),
+        too_far: count(&|v| v.0 == Verdict::TooFar),
+        away: count(&|v| v.2),
+    }
+}
+
+impl Judged {
+    fn wrong(&self) -> usize {
+        self.too_near + self.too_far
+    }
+}
+
+/// Part of a picture's pixels that may be out of their brackets.
+const MOST_WRONG: f64 = 0.005;
+/// Part of all pictures' pixels.
+const MOST_WRONG_OF_ALL: f64 = 0.001;
+/// Part of the hits whose normals may face away.
+const MOST_AWAY: f64 = 0.02;
+
+/// Judges random views until `wanted` of them show something. Views that break a limit are stored, to look at.
+fn judge_views(seed: u64, wanted: usize) -> Vec<String> {
+    println!("MANDELIGHT_SEED={seed}");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("random-views");
+    fs::create_dir_all(&folder).expect("a folder");
+    let mut random = Random(seed);
+    let (mut found, mut all, mut broken) = (0, Judged::default(), Vec::new());
+    while found < wanted {
+        let Some(view) = random_view(&mut random, NEAREST) else { continue };
+        let judged = judge(&view.scene, SIZE);
+        if judged.hits * 10 < judged.pixels * 3 {
+            continue;
+        }
+        found += 1;
+        println!("{}: {judged:?}", view.name);
+        all.pixels += judged.pixels;
+        all.hits += judged.hits;
+        all.too_near += judged.too_near;
+        all.too_far += judged.too_far;
+        all.away += judged.away;
+        if judged.wrong() as f64 > MOST_WRONG * judged.pixels as f64 {
+            let file = folder.join(format!("{seed}-{found}.json"));
+            fs::write(&file, document::to_json(&view.scene)).expect("a file");
+            broken.push(format!("{}: {judged:?}, {}", view.name, file.display()));
+        }
+    }
+    println!("all: {all:?}");
+    if all.wrong() as f64 > MOST_WRONG_OF_ALL * all.pixels as f64 {
+        broken.push(format!("all: {all:?}"));
+    }
+    if all.away as f64 > MOST_AWAY * all.hits as f64 {
+        broken.push(format!("normals: {all:?}"));
+    }
+    broken
+}
+
+#[test]
+fn hard_views_are_as_true_as_they_were() {
+    for (index, (text, [wrong, away])) in HARD.into_iter().enumerate() {
+        let judged = judge(&document::from_json(text).expect("a scene"), HARD_SIZE);
+        println!("{index}: {judged:?}");
+        assert!(judged.wrong() as f64 <= wrong * judged.pixels as f64, "{index}: {judged:?}");
+        assert!(judged.away as f64 <= away * judged.hits as f64, "{index}: {judged:?}");
+    }
+}
+
+/// Of views that hold the limits.
+const SEED: u64 = 11;
+
+#[test]
+fn twenty_views_are_true() {
+    let broken = judge_views(SEED, 20);
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+#[test]
+#[ignore = "minutes, and other views each run: see CONTRIBUTING.md"]
+fn random_views_are_true() {
+    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse().ok());
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let seed = number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64));
+    let broken = judge_views(seed | 1, number("MANDELIGHT_VIEWS").unwrap_or(200) as usize);
+    assert!(broken.is_empty(), "{broken:#?}");
+}
