@@ -76,7 +76,7 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     assert!(shown.contrast() > 20.0, "{}", shown.contrast());
     for name in ["no-panel", "no-panel-finished"] {
         let difference = shown.difference(&part(&shot(name), 1));
-        assert!(difference.mean < 1.0, "{name}: {difference:?}");
+        assert!(difference.mean < 1.25, "{name}: {difference:?}");
     }
 
     only_changes(&visit, "quick", "turned", &["camera"]);

@@ -111,8 +111,11 @@ export class Mandelight {
 
   /** Waits until the interface shows `text`, as a screen reader reads it. */
   says(text) {
-    const isSaid = () => this.tab.evaluate(
-      (part) => document.getElementById("accessible-page").textContent.includes(part), text);
+    const isSaid = () => this.tab.evaluate((part) => {
+      const page = document.getElementById("accessible-page");
+      const labels = [...page.querySelectorAll("[aria-label]")].map((it) => it.getAttribute("aria-label"));
+      return [page.textContent, ...labels].some((said) => said.includes(part));
+    }, text);
     return this.visit.until(`the text ${text}`, isSaid, 60);
   }
 

@@ -34,7 +34,14 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
       v.seen.states.push({ name, state, size: [width, height], rects });
     };
     await v.tab.setViewportSize({ width, height });
-    const fits = async () => (await page.rect("status"))?.y > height - 60;
+    const fits = async () => {
+      const rects = [await page.rect("status"), await page.rect("panel")].filter(Boolean);
+      const [right, bottom] = [
+        Math.max(...rects.map((it) => it.x + it.width)),
+        Math.max(...rects.map((it) => it.y + it.height)),
+      ];
+      return Math.abs(right - width) < 2 && Math.abs(bottom - height) < 2;
+    };
     await v.until("the new size", fits, 60);
     await shoot("opening");
     for (const { name, key, rect, text, words, isToggle } of STATES) {
