@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use mandelight::scene::gallery::{Gallery, LIST_FILE};
+use mandelight::scene::gallery::{Gallery, LIST_FILE, is_in_folder};
 
 use super::{Failure, input, message, output::Output};
 
@@ -35,6 +35,10 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
             continue;
         }
         let Some(file) = path.file_name().and_then(|name| name.to_str()) else { continue };
+        if !is_in_folder(file) {
+            message(&format!("left out: {file}: its name is too long, or has one of \\ : ? # %"));
+            continue;
+        }
         match input::read_project(&path) {
             Ok(_) => names.push(file.to_owned()),
             Err(Failure::Usage(reason) | Failure::Failed(reason)) => {

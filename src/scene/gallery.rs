@@ -45,14 +45,16 @@ pub enum GalleryError {
     Syntax(String),
     /// Another kind of document, or another version.
     #[error(
-        "this is not a gallery's list: it begins with \"mandelight\": \"{KIND}\", \"version\": {VERSION}"
+        "this is not a gallery's list, which has \"mandelight\": \"{KIND}\" and \"version\": {VERSION}"
     )]
     NotAList,
     /// No picture, or over [`MAX_PICTURES`].
     #[error("the list has {0} pictures; a gallery has 1 to {MAX_PICTURES}")]
     Count(usize),
     /// A file that is not in the list's folder, or a text that is too long.
-    #[error("pictures[{index}].file: \"{file}\" is not the name of a file in the list's folder")]
+    #[error(
+        "pictures[{index}].file: \"{file}\" cannot be used: a name has at most {MAX_NAME_CHARS} characters, none of \\ : ? # %, and leads nowhere but into the list's folder"
+    )]
     File {
         /// The picture's place in the list.
         index: usize,
@@ -139,7 +141,7 @@ fn checked(stored: Stored) -> Result<Gallery, GalleryError> {
 }
 
 /// True for a path that leads nowhere but into the folder, on every host and in every browser.
-fn is_in_folder(file: &str) -> bool {
+pub fn is_in_folder(file: &str) -> bool {
     let is_foreign = |c: char| c.is_control() || matches!(c, '\\' | ':' | '?' | '#' | '%');
     file.chars().count() <= MAX_NAME_CHARS
         && !file.contains(is_foreign)

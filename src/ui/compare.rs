@@ -91,14 +91,21 @@ impl Compare {
                         let is_shown = index == shown;
                         let button = Button::selectable(is_shown, RichText::new(name).strong());
                         let button = ui.add_sized(vec2(1.4 * side, side), button);
-                        let button = button.help(format!("Show state {name}; changes go to the state that is shown (Shift C changes)"));
+                        let button = button.help(format!(
+                            "Show state {name}. Edits change the state in view (Shift C switches)"
+                        ));
                         rects.record(["state A", "state B"][index], &button);
                         if button.clicked() && !is_shown {
                             chosen = Some(index);
                         }
                         button.accessible_name(format!("State {name}"));
                     }
-                    let end = icon_button(ui, Icon::Cross, "End the comparison", "End the comparison: what you see stays");
+                    let end = icon_button(
+                        ui,
+                        Icon::Cross,
+                        "End the comparison",
+                        "End the comparison: the state in view stays, the other is discarded (Esc)",
+                    );
                     rects.record("end comparison", &end);
                     ends = end.clicked();
                 });

@@ -85,6 +85,7 @@ impl Finder {
             .show(ui.ctx(), |window| {
                 window.spacing_mut().interact_size.y = ui.spacing().interact_size.y.max(30.0);
                 let field = TextEdit::singleline(&mut self.typed)
+                    .align(Align2::LEFT_CENTER)
                     .hint_text("A control, a scene, a command…")
                     .desired_width(f32::INFINITY);
                 let field = window.add(field);

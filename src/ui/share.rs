@@ -14,6 +14,8 @@ const MAX_QR_BYTES: usize = 1200;
 const QUIET_ZONE: i32 = 4;
 /// Width and height of the QR code, in points.
 const QR_SIDE: f32 = 232.0;
+/// Least width and height of the QR code, in points: scanners still resolve its modules.
+const QR_SIDE_LEAST: f32 = 170.0;
 /// Width of the window, in points.
 const WIDTH: f32 = 288.0;
 
@@ -119,14 +121,16 @@ impl Shared {
             return;
         };
         ui.vertical_centered(|ui| {
-            let (rect, response) = ui.allocate_exact_size(Vec2::splat(QR_SIDE), Sense::hover());
+            // In a low window the code is smaller, so that it is whole.
+            let side = QR_SIDE.min((ui.ctx().content_rect().height() - 220.0).max(QR_SIDE_LEAST));
+            let (rect, response) = ui.allocate_exact_size(Vec2::splat(side), Sense::hover());
             ui.ctx().accesskit_node_builder(response.id, |node| {
                 node.set_role(egui::accesskit::Role::Image);
                 node.set_label("QR code of the link to this view");
             });
             ui.painter().add(code.mesh(rect));
             ui.add_space(4.0);
-            let text = "Scan it to open this view on a phone.";
+            let text = "Scan it to open this view on another device.";
             ui.add(Label::new(RichText::new(text).color(theme::TEXT_DIM)).wrap());
             ui.add_space(6.0);
         });

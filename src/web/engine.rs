@@ -106,9 +106,13 @@ impl Engine {
         Some(self.with_scene(self.view.texture()?, session))
     }
 
-    /// The picture on the screen, if a still of `size_px` would be the same.
+    /// The picture on the screen, if a still of `size_px` of the edited scene would be the same.
     pub fn finished_picture(&self, session: &Session, size_px: [u32; 2]) -> Option<ViewPicture> {
-        let texture = self.view.finished(session.interface.shown_scene(), size_px)?;
+        let scene = session.interface.scene();
+        if session.interface.shown_scene() != scene {
+            return None;
+        }
+        let texture = self.view.finished(scene, size_px)?;
         Some(self.with_scene(texture, session))
     }
 

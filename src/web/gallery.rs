@@ -78,7 +78,7 @@ fn folder_of(list: &str) -> &str {
 async fn read_list(address: &str) -> Result<Gallery, String> {
     // One byte more than a list may have, so that a longer one is refused as such.
     let bytes = bytes_of(read(address, (MAX_LIST_BYTES + 1) as f64, false).await)?;
-    let text = String::from_utf8(bytes).map_err(|_| "its list is not a text".to_owned())?;
+    let text = String::from_utf8(bytes).map_err(|_| "its list is not UTF-8 text".to_owned())?;
     Gallery::from_json(&text).map_err(|error| error.to_string())
 }
 

@@ -31,7 +31,7 @@ pub(super) fn lights() -> LookList {
     });
     LookList {
         name: "Lights",
-        about: "Lights that stay with the camera",
+        about: "Lights placed for the present view. They turn with the camera, but Candle's lamp stays in place",
         kind: "Light",
         looks: looks.collect(),
     }
@@ -86,8 +86,18 @@ pub(super) fn tones() -> LookList {
         ),
         ("Soft", "Little contrast, pale highlights", curve(ToneCurve::Agx, 0.4), plain.clone()),
         ("Vivid", "Full, saturated colours", curve(ToneCurve::KhronosNeutral, -0.4), plain.clone()),
-        ("Bright", "One stop brighter", curve(ToneCurve::Reinhard, 1.0), plain.clone()),
-        ("Dark", "One stop darker, deep shadows", curve(ToneCurve::Aces, -1.3), plain.clone()),
+        (
+            "Bright",
+            "Contrast of the Reinhard curve, exposure +1 stop",
+            curve(ToneCurve::Reinhard, 1.0),
+            plain.clone(),
+        ),
+        (
+            "Dark",
+            "Deep shadows: Film, one stop darker",
+            curve(ToneCurve::Aces, -1.3),
+            plain.clone(),
+        ),
         (
             "Faded",
             "Bright colours go white, as in an old print",

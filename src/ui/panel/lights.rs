@@ -57,6 +57,7 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
                 let response = ui.button("Light a place").help("Then click the surface: this light moves to where it reaches that place (Alt + Shift + click)");
                 cx.rects.record("light a place", &response);
                 if response.clicked() {
+                    cx.selection.light = Some(LightRef::Environment(key));
                     cx.commands.push(Command::LightPlace);
                 }
             });
@@ -123,8 +124,10 @@ fn list_and_selected(ui: &mut Ui, cx: &mut Context<'_>) {
         }
         None if cx.scene.lights.is_empty() => {
             ui.label(
-                RichText::new("There is no light: only the ambient light is visible.")
-                    .color(theme::TEXT_DIM),
+                RichText::new(
+                    "There is no light: only ambient light and glowing surfaces are visible.",
+                )
+                .color(theme::TEXT_DIM),
             );
         }
         None => {}

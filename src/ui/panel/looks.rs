@@ -51,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let Some(list) = looks::lists().get(chosen) else { return };
     let has_gradients = list.looks.iter().any(is_gradient);
     if has_gradients && cx.scene.medium.kind != MediumKind::None {
-        ui.label("This material has one inner colour: see Surface.");
+        ui.label("Translucent sets and clouds have no gradient. Choose their Inner colour under Surface.");
         return;
     }
     let paintings = paintings(ui, list, cx.scene);

@@ -16,7 +16,7 @@ view; a click or the Enter key keeps the look, as one undo step.
 
 A complete look replaces the gradient, the material with the second layer of colours, the lights, the background, the fog,
 the tone and the bloom. It keeps the value that selects from the gradient (`surface.coloring`), the colours of section
-planes, indirect light, path tracing, and the name and the lights of an environment map; a [medium](scene.md#media)
+planes, indirect light and path tracing. An environment map no longer lights the scene, but stays to be chosen again; a [medium](scene.md#media)
 becomes a surface. The lights of complete looks stay with the camera, so that every view is lit.
 
 The other lists replace one part each, to mix: the gradient; the lights; the background; the tone with the bloom. On
