@@ -9,7 +9,7 @@
 //! | [`objects`] | structs from objects with named fields only |
 //! | [`source`] | parts of a file, within its length |
 //! | [`openexr`] | the headers of an OpenEXR file |
-//! | [`visible`] | texts without control characters, for messages |
+//! | `visible` | texts without control characters, for messages |
 
 pub mod list;
 pub mod objects;
