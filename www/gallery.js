@@ -5,7 +5,7 @@ import { smallContext } from "./share.js";
 /** Milliseconds until a host that does not answer is given up. */
 const TIMEOUT_MS = 60_000;
 
-const SHARING = "its host can't be reached, or lets no other page read it (CORS)";
+const UNREACHABLE = "its host can't be reached, or lets no other page read it (CORS)";
 
 /**
  * Reads a file's beginning, without cookies.
@@ -18,7 +18,7 @@ export async function read(address, maxBytes, isWhole) {
   const signal = AbortSignal.timeout(TIMEOUT_MS);
   const options = { credentials: "omit", referrerPolicy: "no-referrer", signal };
   const response = await fetch(address, options).catch(() => {
-    throw new Error(SHARING);
+    throw new Error(UNREACHABLE);
   });
   if (!response.ok) throw new Error(`its host answers ${response.status}`);
   const parts = [];

@@ -41,7 +41,7 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
     if (kind == NORMALS_ANALYTIC) {
         gradient = distance_gradient(fractal, point);
         // The ray came from outside. Where the estimate ripples finer than a pixel, the gradient at a point may face
-        // away; over the pixel's width it does not.
+        // away; over the pixel's width it seldom does.
         kind = select(NORMALS_NONE, NORMALS_TWENTY_SIX, dot(gradient, toward_eye) < 0.0);
     }
     if (kind != NORMALS_NONE) { gradient = sampled_gradient(kind, fractal, point, spacing); }

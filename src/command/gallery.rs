@@ -9,7 +9,7 @@ use std::{
 
 use mandelight::scene::gallery::{Gallery, LIST_FILE, is_in_folder};
 
-use super::{Failure, input, message, output::Output};
+use super::{Failure, input, message, output::Output, shown};
 
 /// The arguments of `mandelight gallery`.
 #[derive(clap::Args)]
@@ -24,7 +24,7 @@ pub struct GalleryArguments {
 /// Writes the list of the pictures in a folder that contain their scene, by name.
 pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Failure> {
     let failed = |path: &Path, error: &dyn std::fmt::Display| {
-        Failure::failed(format!("{}: {error}", path.display()))
+        Failure::failed(format!("{}: {error}", shown(path)))
     };
     let list = folder.join(LIST_FILE);
     check_replaceable(&list).map_err(|error| failed(&list, &error))?;
@@ -57,7 +57,7 @@ pub fn run(GalleryArguments { folder, name }: GalleryArguments) -> Result<(), Fa
         output.commit()
     };
     write().map_err(|error| failed(&list, &error))?;
-    message(&format!("{}: {count} pictures", list.display()));
+    message(&format!("{}: {count} pictures", shown(&list)));
     Ok(())
 }
 

@@ -30,7 +30,7 @@ pub struct SceneArguments {
     /// List all presets: opening scenes, dives, the formulas' scenes, mixes
     #[arg(long, conflicts_with_all = ["preset", "set", "surprise", "turntable"])]
     list_presets: bool,
-    /// List all looks and their parts: colours, lights, backgrounds, tones
+    /// List all looks: complete ones, colours, lights, backgrounds, tones
     #[arg(long, conflicts_with_all = ["list_presets", "look", "preset", "set", "surprise", "turntable"])]
     list_looks: bool,
     /// Add a camera path once around the scene in this time, which repeats without a seam

@@ -259,6 +259,10 @@ pub fn is_jpeg(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0xFF, marker::SOI, 0xFF])
 }
 
+fn unreadable(reason: &str) -> SceneTextError {
+    SceneTextError::unreadable("JPEG", reason)
+}
+
 /// The scene document of a JPEG, if it has one before its pixels.
 ///
 /// `bytes` may end after the header: the pixels are neither read nor decoded.
@@ -266,8 +270,6 @@ pub fn is_jpeg(bytes: &[u8]) -> bool {
 /// # Errors
 /// See [`SceneTextError`]; the content of `bytes` is untrusted.
 pub fn jpeg_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
-    let unreadable =
-        |reason: &str| SceneTextError::Unreadable { format: "JPEG", reason: reason.to_owned() };
     if !is_jpeg(bytes) {
         return Err(unreadable("it begins as another file"));
     }
@@ -295,8 +297,6 @@ pub fn jpeg_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
 /// # Errors
 /// [`SceneTextError::Unreadable`] for a file that is no JPEG; the content of `bytes` is untrusted.
 pub fn jpeg_complete_size(bytes: &[u8]) -> Result<Option<[u32; 2]>, SceneTextError> {
-    let unreadable =
-        |reason: &str| SceneTextError::Unreadable { format: "JPEG", reason: reason.to_owned() };
     if !is_jpeg(bytes) {
         return Err(unreadable("it begins as another file"));
     }

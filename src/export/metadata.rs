@@ -22,6 +22,13 @@ pub enum SceneTextError {
     TooLarge,
 }
 
+impl SceneTextError {
+    /// The error of a file that is not of a format, or is damaged.
+    pub(super) fn unreadable(format: &'static str, reason: impl ToString) -> Self {
+        Self::Unreadable { format, reason: reason.to_string() }
+    }
+}
+
 /// `text`, if it is within [`MAX_TEXT_BYTES`].
 ///
 /// # Errors

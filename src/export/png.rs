@@ -149,7 +149,7 @@ pub fn png_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, S
         let is_complete = header[4..] == *b"IHDR" && file.array("the last chunk")? == END;
         Ok(is_complete.then(|| sides.map(u32::from_be_bytes)))
     };
-    size().map_err(|error| SceneTextError::Unreadable { format: "PNG", reason: error.to_string() })
+    size().map_err(|error| SceneTextError::unreadable("PNG", error))
 }
 
 /// The scene document of a PNG, if it has one before its pixels.
@@ -187,7 +187,7 @@ pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, SceneTe
 fn decode(error: png::DecodingError) -> SceneTextError {
     match error {
         png::DecodingError::LimitsExceeded => SceneTextError::TooLarge,
-        other => SceneTextError::Unreadable { format: "PNG", reason: other.to_string() },
+        other => SceneTextError::unreadable("PNG", other),
     }
 }
 

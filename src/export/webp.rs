@@ -201,6 +201,10 @@ pub fn is_webp(bytes: &[u8]) -> bool {
     bytes.starts_with(b"RIFF") && bytes.get(8..RIFF_HEADER_BYTES) == Some(b"WEBP".as_slice())
 }
 
+fn unreadable(reason: &str) -> SceneTextError {
+    SceneTextError::unreadable("WebP", reason)
+}
+
 /// The scene document of a WebP, if it has one within `bytes`.
 ///
 /// `bytes` may end within the pixels, which are neither read nor decoded.
@@ -208,8 +212,6 @@ pub fn is_webp(bytes: &[u8]) -> bool {
 /// # Errors
 /// See [`SceneTextError`]; the content of `bytes` is untrusted.
 pub fn webp_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
-    let unreadable =
-        |reason: &str| SceneTextError::Unreadable { format: "WebP", reason: reason.to_owned() };
     if !is_webp(bytes) {
         return Err(unreadable("it begins as another file"));
     }
@@ -234,8 +236,6 @@ pub fn webp_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
 /// # Errors
 /// [`SceneTextError::Unreadable`] for a file that is no such WebP; the content of `bytes` is untrusted.
 pub fn webp_complete_size(bytes: &[u8]) -> Result<Option<[u32; 2]>, SceneTextError> {
-    let unreadable =
-        |reason: &str| SceneTextError::Unreadable { format: "WebP", reason: reason.to_owned() };
     if !is_webp(bytes) {
         return Err(unreadable("it begins as another file"));
     }

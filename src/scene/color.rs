@@ -15,6 +15,13 @@ pub fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
+/// The same, rounded so that documents and links stay short.
+pub fn short_linear_from_srgb(encoded: f32) -> f32 {
+    // A fifth of the darkest sRGB level of 255.
+    const DECIMALS: f32 = 1e4;
+    (linear_from_srgb(encoded) * DECIMALS).round() / DECIMALS
+}
+
 /// The sRGB encoding of a linear channel (IEC 61966-2-1); both clamped to 0 to 1.
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);

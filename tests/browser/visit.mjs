@@ -80,8 +80,8 @@ export class Visit {
   async open() {
     this.tab = await this.context.newPage();
     const record = (kind, text) => {
-      // A host that is down makes requests fail, on purpose.
       if (this.provoked?.test(text)) return;
+      // A host that is down makes requests fail, on purpose.
       if (this.server.isDown && text.includes("net::ERR")) return;
       this.seen.errors.push(`${kind}: ${text}`);
     };

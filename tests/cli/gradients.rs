@@ -1,21 +1,10 @@
 //! `--gradient`: by name, by file, and what is said of bad ones.
 
-use std::{fs, process::Output};
+use std::fs;
 
-use mandelight::scene::{Scene, document};
-use mandelight_test_support::program::{code, program, said};
+use mandelight_test_support::program::{code, said};
 
-use super::PROGRAM;
-
-fn asked(arguments: &[&str]) -> Output {
-    program(PROGRAM, ["scene"].iter().chain(arguments)).output().unwrap()
-}
-
-fn scene_with(arguments: &[&str]) -> Scene {
-    let output = asked(arguments);
-    assert_eq!(code(&output), 0, "{}", said(&output));
-    document::from_json(&String::from_utf8(output.stdout).unwrap()).unwrap()
-}
+use super::{asked, scene_with};
 
 #[test]
 fn gradients_are_chosen_by_name() {

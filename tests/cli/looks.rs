@@ -1,21 +1,9 @@
 //! `--look`: by name, in parts, in order, and what is said of unknown ones.
 
-use std::process::Output;
+use mandelight::scene::looks;
+use mandelight_test_support::program::{code, said};
 
-use mandelight::scene::{Scene, document, looks};
-use mandelight_test_support::program::{code, program, said};
-
-use super::PROGRAM;
-
-fn asked(arguments: &[&str]) -> Output {
-    program(PROGRAM, ["scene"].iter().chain(arguments)).output().unwrap()
-}
-
-fn scene_with(arguments: &[&str]) -> Scene {
-    let output = asked(arguments);
-    assert_eq!(code(&output), 0, "{}", said(&output));
-    document::from_json(&String::from_utf8(output.stdout).unwrap()).unwrap()
-}
+use super::{asked, scene_with};
 
 #[test]
 fn looks_change_a_scene_in_order_and_edits_come_last() {

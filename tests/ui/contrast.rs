@@ -6,16 +6,13 @@ use egui::{Color32, Pos2, Rgba, Shape, epaint::TextShape};
 use egui_kittest::Harness;
 use mandelight::{
     scene::{Scene, presets},
-    ui::{GalleryState, Notice, Settings},
+    ui::{GalleryState, Notice, Settings, theme},
 };
 
 use crate::stage::*;
 
 /// Least contrast of text (WCAG 2.2, success criterion 1.4.3, level AA).
 const LEAST: f32 = 4.5;
-/// What lies under the first shape.
-const GROUND: Color32 = Color32::from_rgb(0x0b, 0x0d, 0x12);
-
 /// Relative luminance (WCAG 2.2).
 fn luminance(color: Color32) -> f32 {
     let linear = Rgba::from(color);
@@ -29,7 +26,8 @@ fn contrast(a: Color32, b: Color32) -> f32 {
 
 /// The colour at `at` after `shapes`; none where a picture or a gradient lies there.
 fn behind(shapes: &[&Shape], at: Pos2) -> Option<Color32> {
-    let mut color = Some(GROUND);
+    // Under the first shape lies the page's background.
+    let mut color = Some(theme::BACKGROUND);
     for shape in shapes {
         match shape {
             Shape::Rect(rect) if rect.rect.contains(at) => {

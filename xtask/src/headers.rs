@@ -21,7 +21,7 @@ const ASK: &str = "no-cache";
 
 /// The value of `Cache-Control` for a file of the page, by its path.
 pub fn cache_control(path: &str) -> &'static str {
-    let is_named = ["index.html", "service-worker.js", "LICENSES.txt"];
+    let is_named = ["index.html", "service-worker.js"];
     let name = path.rsplit('/').next().unwrap_or(path);
     if is_named.contains(&name) { ASK } else { FOREVER }
 }

@@ -24,7 +24,7 @@ struct Derivatives {
 fn initial_derivatives(fractal: Fractal, orbit: Orbit, along: vec3f) -> Derivatives {
     let one = orbit.start_derivative;
     let dg = select(one / step_factor(fractal), 0.0, FOLLOWS_DIRECTION);
-    // Without a series, steps turn any direction across the ray toward the most stretched one.
+    // Without a series, the most stretched direction is unknown: steps turn any other than the ray's toward it.
     return Derivatives(one, dg, one * along, one * along.yzx, 1.0);
 }
 

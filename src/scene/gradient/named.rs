@@ -1,6 +1,6 @@
 //! A gradient with its name.
 
-use crate::scene::{GradientStop, color::linear_from_srgb};
+use crate::scene::{GradientStop, color::short_linear_from_srgb};
 
 /// A gradient with its name.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,11 +11,7 @@ pub struct NamedGradient {
     pub stops: Vec<GradientStop>,
 }
 
-/// Decimals of a channel: a fifth of the darkest sRGB level of 255.
-const DECIMALS: f32 = 1e4;
-
 /// A stop with an sRGB colour, rounded so that documents and links stay short.
 pub fn srgb_stop(position: f64, encoded: [f32; 3]) -> GradientStop {
-    let rounded = |channel: f32| (linear_from_srgb(channel) * DECIMALS).round() / DECIMALS;
-    GradientStop { position, color: encoded.map(rounded) }
+    GradientStop { position, color: encoded.map(short_linear_from_srgb) }
 }

@@ -3,7 +3,7 @@
 use super::{
     Look, LookList, background,
     elements::{bloom, by_direction, glazed, headlights, matte, metal, sky, sun, tone},
-    gradient, srgb,
+    gradient, srgb, stop,
 };
 use crate::scene::{
     Bloom, Camera, ColorSource, Coloring, DrivenByLayer, Fog, GradientStop, Lights, SecondLayer,
@@ -119,7 +119,6 @@ fn gold() -> Look {
 }
 
 fn ember() -> Look {
-    let stop = |position, rgb| GradientStop { position, color: srgb(rgb) };
     let glow = SecondLayer {
         coloring: Coloring {
             source: ColorSource::PointTrap,
@@ -328,7 +327,6 @@ fn jade() -> Look {
 }
 
 fn abyss() -> Look {
-    let stop = |position, rgb| GradientStop { position, color: srgb(rgb) };
     let glow = SecondLayer {
         coloring: Coloring {
             source: ColorSource::PointTrap,

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::srgb;
+use super::{srgb, stop};
 use crate::scene::{
-    Axis, Bloom, BloomOrder, ColorSource, Coloring, EnvironmentLight, GradientStop, LightFrame,
-    Lights, Rig, RigKind, SecondLayer, Sky, Surface, SurfaceModel, Tone, ToneCurve,
+    Axis, Bloom, BloomOrder, ColorSource, Coloring, EnvironmentLight, LightFrame, Lights, Rig,
+    RigKind, SecondLayer, Sky, Surface, SurfaceModel, Tone, ToneCurve,
 };
 
 /// Lights that stay with the camera: directions (x right, y up, z backward), sRGB colours, strengths.
@@ -45,8 +45,8 @@ pub(super) fn by_direction(amount: f64, colors: &[u32]) -> SecondLayer {
         ..Coloring::default()
     };
     let last = colors.len().saturating_sub(1).max(1) as f64;
-    let stop = |(i, &color)| GradientStop { position: f64::from(i) / last, color: srgb(color) };
-    SecondLayer { amount, coloring, gradient: (0..).zip(colors).map(stop).collect() }
+    let gradient = (0..).zip(colors).map(|(i, &rgb)| stop(f64::from(i) / last, rgb)).collect();
+    SecondLayer { amount, coloring, gradient }
 }
 
 /// A physical surface without a coat.

@@ -16,7 +16,7 @@ use std::sync::LazyLock;
 
 use super::{
     Background, Bloom, Camera, Fog, GradientStop, Lights, MediumKind, Scene, Surface, Tone,
-    color::linear_from_srgb, presets::Preset,
+    color::short_linear_from_srgb, presets::Preset,
 };
 
 /// An appearance: each part replaces that of a scene, and missing parts leave the scene's.
@@ -121,18 +121,22 @@ pub fn applied(look: &Look, scene: &Scene) -> Scene {
     scene
 }
 
-/// The linear colour of sRGB `0xRRGGBB`, rounded so that documents and links stay short.
+/// The linear colour of sRGB `0xRRGGBB`.
 fn srgb(rgb: u32) -> [f32; 3] {
     let [_, rgb @ ..] = rgb.to_be_bytes();
-    rgb.map(|channel| (linear_from_srgb(f32::from(channel) / 255.0) * 1e4).round() / 1e4)
+    rgb.map(|channel| short_linear_from_srgb(f32::from(channel) / 255.0))
+}
+
+/// A stop with the sRGB colour `0xRRGGBB`.
+fn stop(position: f64, rgb: u32) -> GradientStop {
+    GradientStop { position, color: srgb(rgb) }
 }
 
 /// A gradient of sRGB colours, `0xRRGGBB`, at equal distances.
 fn gradient(colors: &[u32]) -> Vec<GradientStop> {
     let count = colors.len() as f64;
     let position = |i: u32| (f64::from(i) / count * 1e4).round() / 1e4;
-    let stop = |(i, &color)| GradientStop { position: position(i), color: srgb(color) };
-    (0..).zip(colors).map(stop).collect()
+    (0..).zip(colors).map(|(i, &rgb)| stop(position(i), rgb)).collect()
 }
 
 /// A background from the sRGB colours `top` to `bottom`, `0xRRGGBB`.

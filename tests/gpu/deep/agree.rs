@@ -3,16 +3,15 @@
 use mandelight::{
     formula::mandelbulb::deep,
     gpu::device::in_parallel,
-    render::{Pace, Region, gbuffer::Samples, space::RenderSpace},
+    render::{Region, gbuffer::Samples, space::RenderSpace},
     scene::Scene,
 };
 use mandelight_test_support::{
     deep::{
-        rays::{FARTHEST, SetView, Size, centre},
+        rays::{SetView, Size, centre},
         views::{self, ANCHORS, Anchor, size},
     },
-    device::gpu,
-    view::{finished, sampled},
+    view::single_samples,
 };
 
 /// One of so many pixels is compared; of pictures 24 high, still 173. Where these do not agree well
@@ -27,15 +26,6 @@ const SHALLOW: f64 = 3e-5;
 
 /// How much shorter the march's steps are where it and a picture are apart.
 const FINER: f64 = 0.25;
-
-/// One sample a pixel of a finished picture.
-fn draw(scene: &Scene, size: Size) -> Samples {
-    let mut scene = sampled(scene.clone(), 1);
-    scene.quality.shadows = false;
-    let view = finished(&scene, size, Pace::Still);
-    assert_eq!(gpu().faults(), 0);
-    view.gbuffer().expect("the G-buffer's bytes")
-}
 
 /// What a picture and the march say of the same pixels.
 #[derive(Default)]
@@ -57,8 +47,7 @@ fn compare(scene: &Scene, size: Size, samples: &Samples, every: usize) -> Compar
         .step_by(every)
         .collect();
     let both = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
-        let depth = f64::from(samples.depth[index]);
-        let found = (depth > 0.0 && depth < FARTHEST * scene.camera.view_unit()).then_some(depth);
+        let found = looking.hit_at(samples.depth[index]);
         let mut expected = looking.depth(pixel);
         // Where the two are apart, sheets thinner than its own steps are what the march may have passed.
         let is_apart = |(a, b): (f64, f64)| (a - b).abs() > 2.0 * looking.footprint(b);
@@ -91,7 +80,7 @@ fn compare(scene: &Scene, size: Size, samples: &Samples, every: usize) -> Compar
 
 /// Holds a view to the march; on a rough surface depths alone.
 fn view_agrees(scene: &Scene, size: Size, is_rough: bool, view: &str) {
-    let samples = draw(scene, size);
+    let samples = single_samples(scene, size);
     let mut comparison = compare(scene, size, &samples, EVERY);
     if comparison.differ > 0.005 || comparison.apart > 0.01 {
         comparison = compare(scene, size, &samples, 1);

@@ -2,7 +2,7 @@
 
 use mandelight::{
     gpu::readback::Readback,
-    render::{Pace, Region, View},
+    render::{Pace, Region, View, gbuffer::Samples},
     scene::Scene,
 };
 
@@ -29,6 +29,15 @@ pub fn finished_in(scene: &Scene, region: Region, pace: Pace) -> View {
     view.set_scene(scene, false);
     settle(&mut view);
     view
+}
+
+/// One sample a pixel of a finished picture without shadows.
+pub fn single_samples(scene: &Scene, size_px: [u32; 2]) -> Samples {
+    let mut scene = sampled(scene.clone(), 1);
+    scene.quality.shadows = false;
+    let view = finished(&scene, size_px, Pace::Still);
+    assert_eq!(gpu().faults(), 0);
+    view.gbuffer().expect("the G-buffer's bytes")
 }
 
 /// The bytes of a view's picture, RGBA.

@@ -6,7 +6,7 @@
 use glam::DVec3;
 use mandelight::formula::mandelbulb::Mandelbulb;
 
-use super::rays::SetView;
+use super::rays::{SetView, Way};
 
 /// Part of the hit distance within which a ray ends for certain.
 const CERTAIN: f64 = 0.5;
@@ -47,8 +47,7 @@ impl SetView<'_> {
 
     /// The distance estimate over the hit distance, at a depth.
     pub fn nearness(&self, direction: DVec3, depth: f64) -> f64 {
-        let hit = self.hit_distance(depth);
-        self.set.estimate(&self.at(direction, depth), 0.1 * hit).distance / hit
+        self.estimate(direction, depth).distance / self.hit_distance(depth)
     }
 
     /// The first depth below `end` at which no ray is still on its way.
@@ -56,17 +55,23 @@ impl SetView<'_> {
         let is_low = Mandelbulb::of(self.fractal()).power < 4.0;
         let is_certain = |depth: f64| {
             let thick = THICK * self.hit_distance(depth);
-            let asked = (1..=ASKED).map(|i| depth + thick * f64::from(i) / f64::from(ASKED));
-            !is_low || asked.into_iter().all(|depth| self.nearness(direction, depth) < CERTAIN)
+            let mut asked = (1..=ASKED).map(|i| depth + thick * f64::from(i) / f64::from(ASKED));
+            !is_low || asked.all(|depth| self.nearness(direction, depth) < CERTAIN)
         };
-        self.first_along(direction, FINE, |depth, estimate| {
-            let is_near = estimate.distance < CERTAIN * self.hit_distance(depth);
-            if depth >= end {
-                Some(None)
-            } else {
+        let way = self.look_along(
+            direction,
+            |estimate| FINE * estimate.step,
+            |depth, estimate| {
+                if depth >= end {
+                    return Some(None);
+                }
+                let is_near = estimate.distance < CERTAIN * self.hit_distance(depth);
                 (is_near && is_certain(depth)).then_some(Some(depth))
-            }
-        })
-        .flatten()
+            },
+        );
+        match way {
+            Way::Answered(depth) => depth,
+            Way::Past | Way::Creeping(_) => None,
+        }
     }
 }

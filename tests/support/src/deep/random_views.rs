@@ -21,8 +21,9 @@ const POWERS: [f64; 9] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 9.0, 12.0, 16.0];
 const JULIA_PART: f64 = 0.25;
 /// Constants of the Julia sets: around that of a new scene.
 const JULIA_SPREAD: f64 = 0.1;
-/// Farthest from the surface, scene units, and how far the first eye is from the origin.
-const FARTHEST: f64 = 1.0;
+/// Greatest distance of a view from the surface, scene units.
+const WIDEST_VIEW: f64 = 1.0;
+/// Distance of the first eye from the origin, scene units.
 const FIRST_EYE: f64 = 2.4;
 /// Hit distances within which a ray has met the surface.
 const MET: f64 = 1.5;
@@ -43,7 +44,7 @@ pub struct RandomView {
 ///
 /// None where the descent's rays meet no surface.
 pub fn random_view(random: &mut Random, nearest: f64) -> Option<RandomView> {
-    let scale = nearest.powf(random.unit()) * FARTHEST;
+    let scale = nearest.powf(random.unit()) * WIDEST_VIEW;
     let fractal = random_set(random);
     let toward = random.in_ball(1.0).normalize();
     let mut eye = PrecisePoint::from(toward * -FIRST_EYE);
@@ -51,13 +52,12 @@ pub fn random_view(random: &mut Random, nearest: f64) -> Option<RandomView> {
     let mut distance = FIRST_EYE;
     loop {
         let scene = scene_of(&fractal, &eye, direction, distance, random);
-        let looking = SetView::new(&scene, SIZE, plenty(&scene));
-        let is_last = distance <= scale;
-        if is_last {
+        if distance <= scale {
             let Mandelbulb { power, julia, sine, .. } = fractal;
             let name = format!("power {power}, {sine:?}, julia {julia}, from {distance:.1e}");
             return Some(RandomView { name, scene });
         }
+        let looking = SetView::new(&scene, SIZE, plenty(&scene));
         // A ray near to the middle of the picture, of some that meet the surface.
         let depth = (0..8).find_map(|_| {
             let at = random.ndc() * 0.25 + 0.5;

@@ -30,6 +30,16 @@ const STILL: [f64; 6] = [0.5 / 6.0, 1.0 / 6.0, 0.25, 2.0 / 6.0, 2.5 / 6.0, 0.5];
 /// A picture's width and height in pixels.
 pub type Size = [u32; 2];
 
+/// Where a march ends.
+pub enum Way<T> {
+    /// At an answer.
+    Answered(T),
+    /// Past everything that counts.
+    Past,
+    /// On its way still, at this depth, after all its steps.
+    Creeping(f64),
+}
+
 /// A set and the camera that looks at it.
 pub struct SetView<'a> {
     pub set: Set,
@@ -82,58 +92,62 @@ impl<'a> SetView<'a> {
         &self.scene.fractal
     }
 
-    /// Marches a ray in `part` of safe steps until `look` at a depth and its estimate answers.
-    pub fn first_along<T>(
+    /// A picture's depth as a hit; none for a miss, and beyond what counts as background.
+    pub fn hit_at(&self, depth: f32) -> Option<f64> {
+        let depth = f64::from(depth);
+        (depth > 0.0 && depth < FARTHEST * self.unit).then_some(depth)
+    }
+
+    /// Marches a ray until `look` at a depth and its estimate answers; `step` makes steps of estimates.
+    pub fn look_along<T>(
         &self,
         direction: DVec3,
-        part: f64,
-        mut look: impl FnMut(f64, &Estimate) -> Option<T>,
-    ) -> Option<T> {
-        let (near, far) = crossing(rounded(&self.eye), direction)?;
+        step: impl Fn(Estimate) -> f64,
+        mut look: impl FnMut(f64, Estimate) -> Option<T>,
+    ) -> Way<T> {
+        let Some((near, far)) = crossing(rounded(&self.eye), direction) else { return Way::Past };
         let far = far.min(FARTHEST * self.unit);
         let mut t = near.max(0.0);
         for _ in 0..MAX_STEPS {
             if t > far {
-                return None;
+                return Way::Past;
             }
-            let hit = self.hit_distance(t);
-            let here = self.set.estimate(&self.at(direction, t), MIN_STEP * hit);
-            if let Some(answer) = look(t, &here) {
-                return Some(answer);
+            let here = self.estimate(direction, t);
+            if let Some(answer) = look(t, here) {
+                return Way::Answered(answer);
             }
-            t += (part * here.step).clamp(MIN_STEP * hit, LONGEST_STEP);
+            t += step(here).clamp(MIN_STEP * self.hit_distance(t), LONGEST_STEP);
         }
-        None
+        Way::Creeping(t)
+    }
+
+    /// The estimate at a depth along a direction.
+    pub fn estimate(&self, direction: DVec3, depth: f64) -> Estimate {
+        let grain = MIN_STEP * self.hit_distance(depth);
+        self.set.estimate(&self.at(direction, depth), grain)
     }
 
     /// Depth of the surface along a ray whose steps `step` makes of estimates.
     pub fn march(&self, direction: DVec3, step: impl Fn(Estimate) -> f64) -> Option<f64> {
-        let (near, far) = crossing(rounded(&self.eye), direction)?;
-        let far = far.min(FARTHEST * self.unit);
-        let estimate =
-            |t: f64| self.set.estimate(&self.at(direction, t), MIN_STEP * self.hit_distance(t));
-        let is_near = |t: f64| estimate(t).distance < self.hit_distance(t);
-        let mut t = near.max(0.0);
-        let (mut before, mut was_near) = (t, false);
-        for _ in 0..MAX_STEPS {
-            if t > far {
+        let is_near = |t: f64| self.estimate(direction, t).distance < self.hit_distance(t);
+        let mut last = None;
+        let way = self.look_along(direction, step, |t, here| {
+            let hit = self.hit_distance(t);
+            let is_here = here.distance < hit;
+            let (before, was_near) = last.replace((t, is_here)).unwrap_or((t, false));
+            if !is_here || was_near {
                 return None;
             }
-            let here = estimate(t);
-            let hit = self.hit_distance(t);
-            if here.distance < hit && !was_near {
-                if Mandelbulb::of(&self.scene.fractal).power >= 4.0 {
-                    return Some(t);
-                }
-                let entry = entry(before, t, is_near);
-                if STILL.iter().all(|share| is_near(entry + share * hit)) {
-                    return Some(entry);
-                }
+            if Mandelbulb::of(&self.scene.fractal).power >= 4.0 {
+                return Some(t);
             }
-            (before, was_near) = (t, here.distance < hit);
-            t += step(here).clamp(MIN_STEP * hit, LONGEST_STEP);
+            let entry = entry(before, t, is_near);
+            STILL.iter().all(|share| is_near(entry + share * hit)).then_some(entry)
+        });
+        match way {
+            Way::Answered(depth) | Way::Creeping(depth) => Some(depth),
+            Way::Past => None,
         }
-        Some(t)
     }
 
     /// Depth at the centre of a pixel, counted from the upper left.
