@@ -34,21 +34,37 @@ fn sampled_gradient(kind: u32, fractal: Fractal, point: vec3f, spacing: f32) -> 
     return gradient;
 }
 
+// How far a normal that faced away is turned toward the eye beyond a right angle, radians: more than packing rounds.
+const FACING = 0.01;
+
+// The direction nearest to `normal` that faces the eye: the ray came from outside.
+fn facing(normal: vec3f, toward_eye: vec3f) -> vec3f {
+    let toward = dot(normal, toward_eye);
+    if (toward >= 0.0) { return normal; }
+    let across = normal - toward * toward_eye;
+    let length = length(across);
+    if (length < 1e-4) { return toward_eye; }
+    return normalize(across / length + FACING * toward_eye);
+}
+
 // Points toward the eye if the gradient is zero, as inside the set, or if normals are off.
 fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
     var kind = normals_kind();
     var gradient = vec3f(0.0);
-    if (kind == NORMALS_ANALYTIC) {
+    let is_analytic = kind == NORMALS_ANALYTIC;
+    if (is_analytic) {
         gradient = distance_gradient(fractal, point);
-        // The ray came from outside. Where the estimate ripples finer than a pixel, the gradient at a point may face
-        // away; over the pixel's width it seldom does.
+        // Where the estimate ripples finer than a pixel, the gradient at a point may face away; over the pixel's
+        // width it seldom does.
         kind = select(NORMALS_NONE, NORMALS_TWENTY_SIX, dot(gradient, toward_eye) < 0.0);
     }
     if (kind != NORMALS_NONE) { gradient = sampled_gradient(kind, fractal, point, spacing); }
     // The square of the gradient's length may overflow an f32.
     let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
     if (largest <= 0.0) { return toward_eye; }
-    return normalize(gradient / largest);
+    let normal = normalize(gradient / largest);
+    if (is_analytic) { return facing(normal, toward_eye); }
+    return normal;
 }
 
 @compute @workgroup_size(64)

@@ -29,17 +29,19 @@ const SIZE: Size = [36, 24];
 /// The closest views.
 const NEAREST: f64 = 1e-26;
 
-/// Views that are hard to march, or whose estimates ripple below a pixel: their documents, the parts of pixels that may
-/// be out of their brackets, and of hits whose normals may face away.
-const HARD: [(&str, [f64; 2]); 6] = [
+/// Views that are hard to march, or whose estimates ripple below a pixel: their documents, and the parts of pixels that
+/// may be out of their brackets.
+const HARD: [(&str, f64); 7] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
-    (include_str!("hard_views/stretched.json"), [0.01, 0.015]),
-    (include_str!("hard_views/stretched_beside.json"), [0.005, 0.015]),
-    (include_str!("hard_views/stretched_zoomed.json"), [0.03, 0.015]),
-    (include_str!("hard_views/rippled.json"), [0.06, 0.07]),
-    (include_str!("hard_views/rippled_below.json"), [0.05, 0.01]),
+    (include_str!("hard_views/stretched.json"), 0.01),
+    (include_str!("hard_views/stretched_beside.json"), 0.005),
+    (include_str!("hard_views/stretched_zoomed.json"), 0.015),
+    (include_str!("hard_views/rippled.json"), 0.005),
+    (include_str!("hard_views/rippled_below.json"), 0.01),
     // Power 2, whose hits must last half a footprint.
-    (include_str!("hard_views/power_2.json"), [0.005, 0.04]),
+    (include_str!("hard_views/power_2.json"), 0.005),
+    // A power that is not whole: the set has a seam.
+    (include_str!("hard_views/real_power.json"), 0.005),
 ];
 /// Width and height of their pictures.
 const HARD_SIZE: Size = [48, 32];
@@ -87,8 +89,6 @@ impl Judged {
 const MOST_WRONG: f64 = 0.005;
 /// Part of all pictures' pixels.
 const MOST_WRONG_OF_ALL: f64 = 0.001;
-/// Part of the hits whose normals may face away.
-const MOST_AWAY: f64 = 0.02;
 
 /// Judges random views until `wanted` of them show something. Views that break a limit are stored, to look at.
 fn judge_views(seed: u64, wanted: usize) -> Vec<String> {
@@ -110,7 +110,7 @@ fn judge_views(seed: u64, wanted: usize) -> Vec<String> {
         all.too_near += judged.too_near;
         all.too_far += judged.too_far;
         all.away += judged.away;
-        if judged.wrong() as f64 > MOST_WRONG * judged.pixels as f64 {
+        if judged.away > 0 || judged.wrong() as f64 > MOST_WRONG * judged.pixels as f64 {
             let file = folder.join(format!("{seed}-{found}.json"));
             fs::write(&file, document::to_json(&view.scene)).expect("a file");
             broken.push(format!("{}: {judged:?}, {}", view.name, file.display()));
@@ -120,19 +120,16 @@ fn judge_views(seed: u64, wanted: usize) -> Vec<String> {
     if all.wrong() as f64 > MOST_WRONG_OF_ALL * all.pixels as f64 {
         broken.push(format!("all: {all:?}"));
     }
-    if all.away as f64 > MOST_AWAY * all.hits as f64 {
-        broken.push(format!("normals: {all:?}"));
-    }
     broken
 }
 
 #[test]
 fn hard_views_hold_their_limits() {
-    for (index, (text, [wrong, away])) in HARD.into_iter().enumerate() {
+    for (index, (text, wrong)) in HARD.into_iter().enumerate() {
         let judged = judge(&document::from_json(text).expect("a scene"), HARD_SIZE);
         println!("{index}: {judged:?}");
         assert!(judged.wrong() as f64 <= wrong * judged.pixels as f64, "{index}: {judged:?}");
-        assert!(judged.away as f64 <= away * judged.hits as f64, "{index}: {judged:?}");
+        assert_eq!(judged.away, 0, "{index}: {judged:?}");
     }
 }
 

@@ -282,6 +282,17 @@ impl Complex {
         }
     }
 
+    /// A power: exact to the last bits where it is whole, else of the principal angle, in f64.
+    pub fn real_power(&self, exponent: f64) -> Self {
+        if exponent.fract() == 0.0 {
+            return self.power(exponent as u32);
+        }
+        let (re, im) = (self.re.to_f64(), self.im.to_f64());
+        let (sine, cosine) = (exponent * im.atan2(re)).sin_cos();
+        let radius = re.hypot(im).powf(exponent);
+        Self { re: Real::from_f64(radius * cosine), im: Real::from_f64(radius * sine) }
+    }
+
     /// A whole power of at least 1.
     pub fn power(&self, exponent: u32) -> Self {
         let mut bits = (0..exponent.ilog2()).rev();

@@ -6,7 +6,10 @@
 use glam::DVec3;
 use mandelight::formula::mandelbulb::Mandelbulb;
 
-use super::rays::{SetView, Way};
+use super::{
+    orbit::Estimate,
+    rays::{SetView, Way},
+};
 
 /// Part of the hit distance within which a ray ends for certain.
 const CERTAIN: f64 = 0.5;
@@ -14,8 +17,13 @@ const CERTAIN: f64 = 0.5;
 const POSSIBLE: f64 = 2.0;
 /// Part of the safe step that a step of the bracket's march covers.
 const FINE: f64 = 0.25;
-/// At powers below 4, the hit distances for which a ray must be near for its end to be certain.
-const THICK: f64 = 1.0;
+/// Part of the hit distance that such a step covers at least.
+const FINEST: f64 = 0.01;
+/// The hit distances for which a ray must be near for its end to be certain: rays may pass what is thinner than their
+/// least step.
+const THICK: f64 = 0.25;
+/// The same at powers below 4, whose hits must last.
+const LASTING: f64 = 1.0;
 /// Points at which that is asked.
 const ASKED: u32 = 8;
 
@@ -33,9 +41,7 @@ pub enum Verdict {
 impl SetView<'_> {
     /// Judges the depth that a picture has along a direction; none is a miss.
     pub fn judge(&self, direction: DVec3, found: Option<f64>) -> Verdict {
-        if let Some(depth) = found
-            && self.nearness(direction, depth) > POSSIBLE
-        {
+        if found.is_some_and(|depth| !self.is_near(direction, depth)) {
             return Verdict::TooNear;
         }
         let end = found.map_or(f64::INFINITY, |depth| depth - 2.0 * self.footprint(depth));
@@ -43,6 +49,18 @@ impl SetView<'_> {
             Some(_) => Verdict::TooFar,
             None => Verdict::Right,
         }
+    }
+
+    /// Whether a ray may end within a footprint of a depth. Where directions are stretched far more than the estimate
+    /// knows, it falls from many hit distances to none on a small part of that.
+    fn is_near(&self, direction: DVec3, depth: f64) -> bool {
+        let (footprint, hit) = (self.footprint(depth), self.hit_distance(depth));
+        let range = [depth - footprint, depth + footprint];
+        let fine = |_, estimate: Estimate| (FINE * estimate.step).max(FINEST * hit);
+        let is_near = |estimate: Estimate| estimate.distance < POSSIBLE * hit;
+        let ask = |_, estimate| is_near(estimate).then_some(());
+        is_near(self.estimate(direction, depth))
+            || matches!(self.look_between(direction, range, fine, ask), Way::Answered(()))
     }
 
     /// The distance estimate over the hit distance, at a depth.
@@ -54,9 +72,9 @@ impl SetView<'_> {
     fn certain_depth(&self, direction: DVec3, end: f64) -> Option<f64> {
         let is_low = Mandelbulb::of(self.fractal()).power < 4.0;
         let is_certain = |depth: f64| {
-            let thick = THICK * self.hit_distance(depth);
+            let thick = if is_low { LASTING } else { THICK } * self.hit_distance(depth);
             let mut asked = (1..=ASKED).map(|i| depth + thick * f64::from(i) / f64::from(ASKED));
-            !is_low || asked.all(|depth| self.nearness(direction, depth) < CERTAIN)
+            asked.all(|depth| self.nearness(direction, depth) < CERTAIN)
         };
         let way = self.look_along(
             direction,

@@ -1,8 +1,9 @@
-//! Orbits and distance estimates of whole powers (thesis Algorithm 1), at any depth.
+//! Orbits and distance estimates (thesis Algorithm 1): of whole powers at any depth, of others as deep as f64 is.
 //!
 //! A latitude's and a longitude's multiples are powers of unit complex numbers, so that no
 //! trigonometry is needed: with ρ = √(x² + y²) and u = (x + i y)/ρ, `cos nφ + i sin nφ` is
-//! `(ρ + i z)ⁿ/rⁿ` and `cos nθ + i sin nθ` is `uⁿ`. On the polar axis the longitude is that of +x.
+//! `(ρ + i z)ⁿ/rⁿ` and `cos nθ + i sin nθ` is `uⁿ`. On the polar axis the longitude is that of +x. Powers that are not
+//! whole are of the angles from −π to π, in f64.
 
 use glam::{DMat3, DVec3};
 use mandelight::formula::mandelbulb::{Mandelbulb, Sine};
@@ -18,9 +19,9 @@ const STRETCH_MAX: f64 = 1e6;
 /// Stands in for a distance of zero from the axis, so that its reciprocal is finite.
 const MIN_RADIUS: f64 = 1e-90;
 
-/// A Mandelbulb or Julia set of a whole power.
+/// A Mandelbulb or Julia set.
 pub struct Set {
-    power: u32,
+    power: f64,
     iterations: u32,
     bailout: f64,
     is_mirrored: bool,
@@ -44,11 +45,10 @@ pub struct Estimate {
 }
 
 impl Set {
-    /// `fractal`, whose power must be whole, with orbits of up to `iterations` steps.
+    /// `fractal`, with orbits of up to `iterations` steps.
     pub fn new(fractal: &Mandelbulb, iterations: u32) -> Self {
-        assert_eq!(fractal.power.fract(), 0.0);
         Self {
-            power: fractal.power as u32,
+            power: fractal.power,
             iterations,
             bailout: fractal.bailout,
             is_mirrored: fractal.sine == Sine::Negative,
@@ -63,7 +63,7 @@ impl Set {
         let mut smooth_iterations = f64::from(steps);
         if r > self.bailout {
             let past = (r.ln() / self.bailout.ln()).ln();
-            smooth_iterations -= past / f64::from(self.power).ln();
+            smooth_iterations -= past / self.power.ln();
         }
         if r <= 1.0 {
             return Estimate { distance: 0.0, step: 0.0, steps, smooth_iterations, traps };
@@ -77,7 +77,7 @@ impl Set {
 
     /// Follows the orbit of `point`.
     pub fn follow(&self, point: &Point, grain: f64) -> End {
-        let n = f64::from(self.power);
+        let n = self.power;
         let (added, one) = self.julia_constant.as_ref().map_or((point, 1.0), |c| (c, 0.0));
         let mut z = *point;
         let mut end = End {
@@ -112,14 +112,14 @@ impl Set {
             (&square * &inverse, Complex { re: x * &inverse, im: y * &inverse })
         };
         let w = Complex { re: rho, im: *z };
-        let (mut meridian, parallel) = (w.power(self.power), u.power(self.power));
+        let (mut meridian, parallel) = (w.real_power(self.power), u.real_power(self.power));
         let before = Frame::new(&w, &u);
         if self.is_mirrored {
             meridian.im = -&meridian.im;
         }
         let after = Frame::new(&meridian, &parallel);
         // All lengths grow by n r^(n−1), but parallels by as much as their radius has grown.
-        let (n, radius) = (f64::from(self.power), before.radius);
+        let (n, radius) = (self.power, before.radius);
         let growth = if radius > 0.0 { n * after.radius / radius } else { 0.0 };
         let mirror = if self.is_mirrored { -growth } else { growth };
         let along = n * after.from_axis / before.from_axis.max(f64::MIN_POSITIVE);

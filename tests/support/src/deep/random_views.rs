@@ -17,6 +17,12 @@ use crate::random::Random;
 
 /// Whole powers of the sets.
 const POWERS: [f64; 9] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 9.0, 12.0, 16.0];
+/// Part of the sets whose power is any number.
+const REAL_PART: f64 = 0.25;
+/// The least and the greatest of those powers.
+const REAL: [f64; 2] = [2.0, 16.0];
+/// The nearest views of those, scene units: they have no depth.
+const NEAREST_REAL: f64 = 1e-4;
 /// Part of the sets that are Julia sets.
 const JULIA_PART: f64 = 0.25;
 /// Constants of the Julia sets: around that of a new scene.
@@ -44,8 +50,9 @@ pub struct RandomView {
 ///
 /// None where the descent's rays meet no surface.
 pub fn random_view(random: &mut Random, nearest: f64) -> Option<RandomView> {
-    let scale = nearest.powf(random.unit()) * WIDEST_VIEW;
     let fractal = random_set(random);
+    let nearest = if fractal.power.fract() == 0.0 { nearest } else { nearest.max(NEAREST_REAL) };
+    let scale = nearest.powf(random.unit()) * WIDEST_VIEW;
     let toward = random.in_ball(1.0).normalize();
     let mut eye = PrecisePoint::from(toward * -FIRST_EYE);
     let mut direction = toward;
@@ -73,7 +80,11 @@ pub fn random_view(random: &mut Random, nearest: f64) -> Option<RandomView> {
 }
 
 fn random_set(random: &mut Random) -> Mandelbulb {
-    let power = POWERS[(random.unit() * POWERS.len() as f64) as usize];
+    let power = if random.unit() < REAL_PART {
+        REAL[0] + (REAL[1] - REAL[0]) * random.unit()
+    } else {
+        POWERS[(random.unit() * POWERS.len() as f64) as usize]
+    };
     let sine = if random.unit() < 0.3 { Sine::Negative } else { Sine::Positive };
     let julia = random.unit() < JULIA_PART;
     let mut fractal = Mandelbulb { power, sine, julia, ..Mandelbulb::default() };

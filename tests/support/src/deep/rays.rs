@@ -103,11 +103,25 @@ impl<'a> SetView<'a> {
         &self,
         direction: DVec3,
         step: impl Fn(Estimate) -> f64,
-        mut look: impl FnMut(f64, Estimate) -> Option<T>,
+        look: impl FnMut(f64, Estimate) -> Option<T>,
     ) -> Way<T> {
         let Some((near, far)) = crossing(rounded(&self.eye), direction) else { return Way::Past };
-        let far = far.min(FARTHEST * self.unit);
-        let mut t = near.max(0.0);
+        let range = [near.max(0.0), far.min(FARTHEST * self.unit)];
+        let step = |depth, estimate| {
+            step(estimate).clamp(MIN_STEP * self.hit_distance(depth), LONGEST_STEP)
+        };
+        self.look_between(direction, range, step, look)
+    }
+
+    /// The same between two depths, by steps of any length.
+    pub fn look_between<T>(
+        &self,
+        direction: DVec3,
+        [near, far]: [f64; 2],
+        step: impl Fn(f64, Estimate) -> f64,
+        mut look: impl FnMut(f64, Estimate) -> Option<T>,
+    ) -> Way<T> {
+        let mut t = near;
         for _ in 0..MAX_STEPS {
             if t > far {
                 return Way::Past;
@@ -116,7 +130,7 @@ impl<'a> SetView<'a> {
             if let Some(answer) = look(t, here) {
                 return Way::Answered(answer);
             }
-            t += step(here).clamp(MIN_STEP * self.hit_distance(t), LONGEST_STEP);
+            t += step(t, here);
         }
         Way::Creeping(t)
     }
@@ -155,7 +169,8 @@ impl<'a> SetView<'a> {
         self.march(self.direction(centre(pixel)), |estimate| estimate.step)
     }
 
-    /// The normal at `depth` of a pixel's ray; that of the pixel's footprint where the point's own faces away.
+    /// The normal at `depth` of a pixel's ray; that of the pixel's footprint where the point's own faces away, or the
+    /// nearest that does not.
     pub fn normal(&self, pixel: [u32; 2], depth: f64) -> DVec3 {
         let direction = self.direction(centre(pixel));
         let point = self.at(direction, depth);
@@ -171,7 +186,9 @@ impl<'a> SetView<'a> {
         let slope = |offset: DVec3| {
             offset * self.set.estimate(&moved(&point, offset * hit), 1e-3 * hit).distance
         };
-        grid.map(slope).sum::<DVec3>().normalize_or(-direction)
+        let normal = grid.map(slope).sum::<DVec3>().normalize_or(-direction);
+        let away = normal.dot(direction).max(0.0);
+        (normal - away * direction).normalize_or(-direction)
     }
 }
 
