@@ -7,6 +7,7 @@ mod bench;
 mod check;
 mod deny;
 mod headers;
+mod icons;
 mod need;
 mod notices;
 mod page;
