@@ -4,6 +4,7 @@
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
 mod picture;
+mod size;
 mod video;
 mod visit;
 
