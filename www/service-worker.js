@@ -41,7 +41,9 @@ self.addEventListener("fetch", (event) => {
   const isDocument = request.mode === "navigate" && url.pathname.startsWith(scope);
   const kept = async () => {
     const cache = await caches.open(CACHE);
-    return (await cache.match(isDocument ? DOCUMENT : request)) ?? fetch(request);
+    const found = await cache.match(request);
+    // Any other address of the folder is the document's, whatever its query.
+    return found || (isDocument && (await cache.match(DOCUMENT))) || fetch(request);
   };
   event.respondWith(kept());
 });

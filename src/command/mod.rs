@@ -16,6 +16,7 @@
 //! | [`places`] | `mandelight places`: scenes at good places of a view |
 //! | [`gallery`] | `mandelight gallery`: the list of a folder's pictures |
 //! | [`info`] | `mandelight info`: the GPU |
+//! | [`licenses`] | `mandelight --licenses`: the licences of what the program contains |
 //! | [`input`] | a scene from a file, a pipe or a picture; `--set` |
 //! | [`output`] | atomic writing of a file |
 //! | [`stream`] | writing to a pipe that may wait |
@@ -38,6 +39,7 @@ mod info;
 mod input;
 mod integrator;
 mod kept;
+mod licenses;
 mod look;
 mod output;
 mod places;
@@ -61,10 +63,14 @@ use mandelight::reading::{visible, visible_lines};
 
 /// Draws 3D fractals without a window.
 #[derive(Parser)]
-#[command(name = "mandelight", version, about, long_about = None)]
+#[command(name = "mandelight", version, about, long_about = None, arg_required_else_help = true)]
+#[command(args_conflicts_with_subcommands = true)]
 struct CommandLine {
+    /// Prints the licences of the software and fonts that this program contains
+    #[arg(long)]
+    licenses: bool,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
@@ -119,7 +125,14 @@ impl Failure {
 pub fn run() -> ExitCode {
     log_errors();
     let command_line = CommandLine::try_parse().unwrap_or_else(|error| explain(&error));
-    let outcome = match command_line.command {
+    let Some(command) = command_line.command else {
+        let outcome = match command_line.licenses {
+            true => licenses::run(),
+            false => Err(Failure::usage("no command is given; `mandelight --help` lists them")),
+        };
+        return code_of(outcome);
+    };
+    let outcome = match command {
         Command::Render(arguments) => render::run(arguments),
         Command::Frames(arguments) => frames::run(arguments),
         Command::Scene(arguments) => scene::run(arguments),
@@ -129,6 +142,11 @@ pub fn run() -> ExitCode {
         Command::Gallery(arguments) => gallery::run(arguments),
         Command::Info(arguments) => info::run(arguments),
     };
+    code_of(outcome)
+}
+
+/// The exit code of an outcome; says why a command failed.
+fn code_of(outcome: Result<(), Failure>) -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),

@@ -4,6 +4,7 @@
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
 mod picture;
+mod size;
 mod video;
 mod visit;
 
@@ -131,6 +132,8 @@ fn a_page_that_was_open_once_works_without_a_connection() {
     let files = fs::read_dir(std::env::var_os("MANDELIGHT_DIST").unwrap()).unwrap().count();
     // The worker and the list of headers are no files of the page, and a folder of scripts counts as one.
     assert!(visit.number("/kept/files") as usize >= files - 2, "{}", visit.seen["kept"]);
+    assert!(visit.text("/licenses").starts_with("Third-party licences of Mandelight"));
+    assert_eq!(visit.text("/other"), "Mandelight");
     assert_eq!(visit.seen["offered"], true);
     assert_eq!(visit.seen["reloaded"], true);
     assert_eq!(visit.seen["purged"]["names"].as_array().unwrap().len(), 1);

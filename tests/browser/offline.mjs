@@ -25,6 +25,14 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   await page.sampled(1);
   v.seen.offline = { pictures: (await page.report()).pictures, scene: await page.scene() };
   await v.screenshot("offline-480x320");
+
+  // The licences are a page of their own; any other address shows the program.
+  const other = await v.tab.context().newPage();
+  await other.goto(new URL("licenses.txt", v.address).href);
+  v.seen.licenses = await other.evaluate(() => document.body.innerText.slice(0, 100));
+  await other.goto(`${v.address}?gallery=elsewhere`);
+  v.seen.other = await other.evaluate(() => document.title);
+  await other.close();
   v.server.isDown = false;
 
   // Another version waits until the visitor takes it.

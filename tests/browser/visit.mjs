@@ -86,6 +86,11 @@ export class Visit {
       this.seen.errors.push(`${kind}: ${text}`);
     };
     this.tab.on("pageerror", (error) => record("page", error.stack ?? String(error)));
+    this.context.on("request", (request) => {
+      const { protocol, origin } = new URL(request.url());
+      const isElsewhere = protocol.startsWith("http") && origin !== new URL(this.address).origin;
+      if (isElsewhere) record("request", `${origin} is another host`);
+    });
     this.tab.on("crash", () => record("page", "the tab crashed"));
     this.tab.on("requestfailed", (request) => {
       // A navigation aborts requests (for an icon, say); those are no errors.

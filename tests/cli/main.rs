@@ -5,6 +5,7 @@ mod formulas;
 mod frames;
 mod gallery;
 mod gradients;
+mod licenses;
 mod looks;
 mod messages;
 mod pictures;

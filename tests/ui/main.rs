@@ -18,6 +18,7 @@ mod focus;
 mod follow;
 mod gallery;
 mod gestures;
+mod help;
 mod hostile;
 mod hybrids;
 mod keyboard;

@@ -1,11 +1,11 @@
-//! `cargo xtask check`: formatting, lints and documentation, warnings denied.
+//! `cargo xtask check`: formatting, lints, documentation and packages, warnings denied.
 
 use anyhow::{Result, bail};
 
-use crate::{need, shell};
+use crate::{deny, need, shell};
 
-/// Checks the formatting of every crate, runs clippy natively and for wasm32, and builds the
-/// documentation.
+/// Checks the formatting of every crate, runs clippy natively and for wasm32, builds the
+/// documentation, and checks the packages by `deny.toml`.
 ///
 /// All checks run even after a failure, so that one call shows every problem.
 pub fn check() -> Result<()> {
@@ -24,6 +24,9 @@ pub fn check() -> Result<()> {
         if let Err(error) = shell::run(&mut cargo) {
             failures.push(error.to_string());
         }
+    }
+    if let Err(error) = deny::packages() {
+        failures.push(error.to_string());
     }
     if !failures.is_empty() {
         bail!("{}", failures.join("; "));

@@ -1,9 +1,11 @@
 //! The HTTP headers of the page's files, for `serve` and for hosts that read a `_headers` file.
 //!
-//! A file whose name contains a hash of its content stays in a browser's cache forever; the document and the
-//! service worker are asked for again at each visit, so that a new version is found.
+//! A file whose name contains a hash of its content stays in a browser's cache forever; the document, the
+//! service worker and the licences are asked for again at each visit, so that a new version is found.
 
 use std::fmt::Write as _;
+
+use crate::page;
 
 /// The file that static hosts such as Netlify and Cloudflare Pages read.
 pub const FILE: &str = "_headers";
@@ -21,7 +23,7 @@ const ASK: &str = "no-cache";
 
 /// The value of `Cache-Control` for a file of the page, by its path.
 pub fn cache_control(path: &str) -> &'static str {
-    let is_named = ["index.html", "service-worker.js"];
+    let is_named = ["index.html", "service-worker.js", page::LICENSES];
     let name = path.rsplit('/').next().unwrap_or(path);
     if is_named.contains(&name) { ASK } else { FOREVER }
 }
@@ -45,12 +47,14 @@ mod tests {
 
     #[test]
     fn named_files_are_asked_for_and_hashed_files_stay() {
-        let text = text(["index.html", "boot-0123456789ab.js", "service-worker.js"].into_iter());
+        let text = text(
+            ["index.html", "boot-0123456789ab.js", "service-worker.js", "licenses.txt"].into_iter(),
+        );
         let of = |path: &str| {
             let mut lines = text.lines().skip_while(|line| *line != path);
             lines.nth(1).unwrap_or_default().trim().to_owned()
         };
-        for path in ["/", "/index.html", "/service-worker.js"] {
+        for path in ["/", "/index.html", "/service-worker.js", "/licenses.txt"] {
             assert_eq!(of(path), format!("Cache-Control: {ASK}"), "{path}");
         }
         assert_eq!(of("/boot-0123456789ab.js"), format!("Cache-Control: {FOREVER}"));

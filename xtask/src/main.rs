@@ -5,8 +5,11 @@
 
 mod bench;
 mod check;
+mod deny;
 mod headers;
+mod icons;
 mod need;
+mod notices;
 mod page;
 mod pictures;
 mod serve;
@@ -22,9 +25,13 @@ Usage: cargo xtask <command>
   serve [--port N]  build the page and serve it on 127.0.0.1 (first free port from 8080)
   test              run everything: check, the page, unit, GPU and browser tests
   dist              write dist/, a folder that any static host can serve
-  check             check formatting, lints (native and wasm32) and documentation, warnings denied
+  check             check formatting, lints (native and wasm32), documentation and packages,
+                    warnings denied
+  advisories        check the packages for published flaws; needs the network
+  nightly           run the tests that take long: 200 random views against fine marches
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
+  notices           write THIRD-PARTY-LICENSES.txt anew, after a change of packages
   pictures [NAME…]  render the pictures of the README and the docs again
   thumbnails [NAME…]
                     render the small pictures on the buttons of scenes and dives again,
@@ -39,6 +46,9 @@ enum Command {
     Test,
     Dist,
     Check,
+    Advisories,
+    Nightly,
+    Notices,
     Bless,
     Bench { options: Vec<String> },
     Pictures { names: Vec<String> },
@@ -60,6 +70,9 @@ fn main() -> ExitCode {
         Command::Test => test::test(),
         Command::Dist => page::dist().map(drop),
         Command::Check => check::check(),
+        Command::Advisories => deny::advisories(),
+        Command::Nightly => test::nightly(),
+        Command::Notices => notices::write(),
         Command::Bless => test::bless(),
         Command::Bench { options } => bench::bench(&options),
         Command::Pictures { names } => pictures::pictures(&names),
@@ -91,6 +104,9 @@ fn parse(words: &[String]) -> Result<Command, String> {
         ["test"] => Ok(Command::Test),
         ["dist"] => Ok(Command::Dist),
         ["check"] => Ok(Command::Check),
+        ["advisories"] => Ok(Command::Advisories),
+        ["nightly"] => Ok(Command::Nightly),
+        ["notices"] => Ok(Command::Notices),
         ["bless"] => Ok(Command::Bless),
         ["bench", options @ ..] => Ok(Command::Bench {
             options: options.iter().map(|&option| option.to_owned()).collect(),
@@ -118,6 +134,7 @@ mod tests {
         assert_eq!(parsed("serve"), Ok(Command::Serve { port: 8080 }));
         assert_eq!(parsed("serve --port 9000"), Ok(Command::Serve { port: 9000 }));
         assert_eq!(parsed("test"), Ok(Command::Test));
+        assert_eq!(parsed("advisories"), Ok(Command::Advisories));
         let options = vec!["--views".into(), "whole,filled".into()];
         assert_eq!(parsed("bench --views whole,filled"), Ok(Command::Bench { options }));
         assert_eq!(parsed("pictures bloom"), Ok(Command::Pictures { names: vec!["bloom".into()] }));

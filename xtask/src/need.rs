@@ -75,6 +75,12 @@ const FFMPEG: Tool = Tool {
     is_installed: || Command::new("ffprobe").arg("-version").output().is_ok(),
 };
 
+const PIP: Tool = Tool {
+    name: "Python's pip",
+    packages: &["python3-pip"],
+    is_installed: || shell::output(python().args(["-m", "pip", "--version"])).is_some(),
+};
+
 /// Ensures the standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
     let has_it = || {
@@ -107,6 +113,16 @@ pub fn test_tools() -> Result<Tools> {
 /// Ensures a Vulkan driver that needs no graphics card.
 pub fn vulkan_driver() -> Result<()> {
     ensure_installed(&[VULKAN])
+}
+
+/// Ensures Python with pip.
+pub fn pip() -> Result<()> {
+    ensure_installed(&[PIP])
+}
+
+/// A command of Python 3.
+pub fn python() -> Command {
+    Command::new(if cfg!(windows) { "python" } else { "python3" })
 }
 
 /// Ensures the packages of package-lock.json, in node_modules/.

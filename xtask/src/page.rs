@@ -18,7 +18,7 @@ use flate2::{Compression, write::GzEncoder};
 use sha2::{Digest as _, Sha256};
 use wasm_bindgen_cli_support::Bindgen;
 
-use crate::{headers, need, shell};
+use crate::{headers, icons, need, notices, shell};
 
 /// The optimisation of the module after its compilation.
 #[derive(Clone, Copy, PartialEq)]
@@ -62,6 +62,9 @@ const MEDIABUNNY: &str = "mediabunny.js";
 
 /// The picture that `index.html` contains and shows first.
 const OPENING: &str = "opening.jpg";
+
+/// The licences of what the page contains, whose name stays: the module, which links them, is hashed itself.
+pub const LICENSES: &str = "licenses.txt";
 
 /// Hexadecimal digits of the hash in a file name: 48 bits.
 const HASH_DIGITS: usize = 12;
@@ -158,9 +161,13 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     boot.bytes = replaced(&boot.bytes, SIZE_PLACEHOLDER, &size)
         .with_context(|| format!("boot.js does not contain `{SIZE_PLACEHOLDER}`"))?;
     parts.push(boot);
-    for name in ["favicon.svg", "manifest.webmanifest", "style.css"] {
+    for name in
+        icons::FILES.iter().copied().chain(["favicon.svg", "manifest.webmanifest", "style.css"])
+    {
         parts.push(read(www, name)?);
     }
+    let licenses = read(&shell::root()?, notices::FILE)?;
+    parts.push(Part { name: LICENSES.to_owned(), ..licenses });
     let mut index = read(www, "index.html")?;
     let picture = BASE64_STANDARD.encode(read(www, OPENING)?.bytes);
     let address = format!("data:image/jpeg;base64,{picture}");
@@ -187,7 +194,7 @@ fn snippets(bound: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Adds a hash to the name of each part except `index.html`, and updates all references.
+/// Adds a hash to the name of each part except `index.html` and [`LICENSES`], and updates all references.
 fn link(parts: Vec<Part>) -> Result<Vec<Part>> {
     let mut linked: Vec<Part> = Vec::new();
     let mut names: Vec<(String, String, bool)> = Vec::new();
@@ -199,7 +206,7 @@ fn link(parts: Vec<Part>) -> Result<Vec<Part>> {
             }
         }
         if name != "index.html" {
-            let hashed = hashed_name(&name, &bytes);
+            let hashed = if name == LICENSES { name.clone() } else { hashed_name(&name, &bytes) };
             names.push((name, hashed.clone(), false));
             linked.push(Part { name: hashed, bytes });
         } else {
@@ -325,6 +332,17 @@ mod tests {
             linked[1].name.clone()
         };
         assert_ne!(names("1"), names("2"));
+    }
+
+    #[test]
+    fn the_licences_keep_their_name() {
+        let page = part("index.html", &format!("./{LICENSES}"));
+        let linked = link(vec![part(LICENSES, "text"), page]).unwrap();
+        assert_eq!(linked[0].name, LICENSES);
+        let index = include_str!("../../www/index.html");
+        assert!(index.contains(&format!("<link rel=\"license\" href=\"./{LICENSES}\">")));
+        let help = include_str!("../../src/ui/panel/help.rs");
+        assert!(help.contains(&format!("\"./{LICENSES}\"")));
     }
 
     #[test]

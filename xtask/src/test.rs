@@ -1,8 +1,8 @@
-//! `cargo xtask test` and `cargo xtask bless`.
+//! `cargo xtask test`, `cargo xtask nightly` and `cargo xtask bless`.
 
 use anyhow::{Result, bail};
 
-use crate::{check, need, page, shell};
+use crate::{check, deny, need, page, shell};
 
 /// Runs all checks and tests to the end, and fails if any failed.
 ///
@@ -20,6 +20,7 @@ pub fn test() -> Result<()> {
     };
 
     note(check::check());
+    note(deny::advisories_if_reachable());
     // If the build fails, the browser test must not run with an old page.
     let dist = page::dist();
     let folder = dist.as_ref().ok().cloned();
@@ -44,6 +45,14 @@ pub fn test() -> Result<()> {
         bail!("failed:\n  {}", failures.join("\n  "));
     }
     Ok(())
+}
+
+/// Runs the tests that take too long for each change. They print the seeds of their random numbers.
+pub fn nightly() -> Result<()> {
+    need::vulkan_driver()?;
+    let mut cargo = shell::cargo()?;
+    cargo.args(["test", "--release", "--test", "gpu", "random_views", "--"]);
+    shell::run(cargo.args(["--ignored", "--nocapture"]))
 }
 
 /// Replaces the golden pictures by current renders. A person must review the new pictures.

@@ -1,7 +1,7 @@
 //! `cargo xtask thumbnails`: renders the pictures on the buttons of the opening scenes and dives.
 //!
 //! In: the presets, by the command line program. Out: a JPEG file per preset in
-//! `src/ui/thumbnails/`, which the interface embeds; and the picture that the page shows first.
+//! `src/ui/thumbnails/`, which the interface embeds; the picture that the page shows first; and its icons.
 
 use std::{
     collections::BTreeSet,
@@ -14,7 +14,11 @@ use std::{
 use anyhow::{Context as _, Result, bail};
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 
-use crate::{need, pictures::compose::Image, shell};
+use crate::{
+    icons, need,
+    pictures::{compose::Image, framing::fov_deg},
+    shell,
+};
 
 /// The pictures' folder, relative to the repository's top folder.
 const FOLDER: &str = "src/ui/thumbnails";
@@ -30,6 +34,9 @@ const OPENING: &str = "www/opening.jpg";
 
 /// Name of the opening picture on the command line, beside the presets' names.
 const OPENING_NAME: &str = "opening";
+
+/// Name of the page's icons on the command line.
+const ICONS_NAME: &str = "icons";
 
 /// Width and height of the opening picture in pixels, equal to `SIDE_PX` of `src/ui/opening.rs`.
 const OPENING_SIDE_PX: u32 = 1024;
@@ -49,14 +56,18 @@ const TRACED: &str = "\"kind\": \"path\"";
 /// Quality of the JPEG files, 1 to 100; `tests/gpu/thumbnails.rs` limits the bytes of all.
 const QUALITY: u8 = 52;
 
-/// Renders the pictures of these presets, or the one named "opening"; without names, all.
+/// Renders the pictures of these presets, or those named "opening" and "icons"; without names, all.
 pub fn thumbnails(names: &[String]) -> Result<()> {
     need::vulkan_driver()?;
     let renderer = shell::renderer()?;
     if names.is_empty() || names.iter().any(|name| name == OPENING_NAME) {
         opening(&renderer)?;
     }
-    let others: Vec<String> = names.iter().filter(|name| *name != OPENING_NAME).cloned().collect();
+    if names.is_empty() || names.iter().any(|name| name == ICONS_NAME) {
+        icons::icons(&renderer)?;
+    }
+    let is_preset = |name: &&String| ![OPENING_NAME, ICONS_NAME].contains(&name.as_str());
+    let others: Vec<String> = names.iter().filter(is_preset).cloned().collect();
     if others.is_empty() && !names.is_empty() {
         return Ok(());
     }
@@ -67,9 +78,7 @@ pub fn thumbnails(names: &[String]) -> Result<()> {
 fn opening(renderer: &Path) -> Result<()> {
     let scene =
         shell::output(Command::new(renderer).arg("scene")).context("`mandelight scene` failed")?;
-    let fov = number_of(&scene, "vertical_fov_deg").context("the scene has no field of view")?;
-    let half_height = (fov.to_radians() / 2.0).tan() / OPENING_SPAN;
-    let wide = 2.0 * half_height.atan().to_degrees();
+    let wide = fov_deg(&scene, OPENING_SPAN)?;
     let parts = shell::target()?.join("thumbnails");
     fs::create_dir_all(&parts)?;
     let (document, picture) = (parts.join("opening.json"), parts.join("opening.png"));
@@ -82,12 +91,6 @@ fn opening(renderer: &Path) -> Result<()> {
     let bytes = write(&Image::read_png(&picture)?, &shell::root()?.join(OPENING), OPENING_QUALITY)?;
     eprintln!("{OPENING}: {:.1} kB", bytes as f64 / 1e3);
     Ok(())
-}
-
-/// The number of a field in the text of a document.
-fn number_of(document: &str, field: &str) -> Option<f64> {
-    let value = document.split_once(&format!("\"{field}\":"))?.1;
-    value.split([',', '}', '\n']).next()?.trim().parse().ok()
 }
 
 /// Renders the pictures of these presets; without names, all, and deletes pictures of no preset.
@@ -165,14 +168,6 @@ fn write(picture: &Image, file: &Path, quality: u8) -> Result<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_found_in_documents() {
-        let document = "{\n  \"a\": 4,\n  \"vertical_fov_deg\": 41.5,\n  \"b\": 1\n}";
-        assert_eq!(number_of(document, "vertical_fov_deg"), Some(41.5));
-        assert_eq!(number_of(document, "b"), Some(1.0));
-        assert_eq!(number_of(document, "c"), None);
-    }
 
     const LIST: &str = "coral-reef  Close to the bulb.\nvine        Bunches.\n";
 

@@ -1,12 +1,15 @@
-//! The help window: keys and gestures, from the tables of [`crate::ui::shortcuts`].
+//! The help window: keys and gestures, from the tables of [`crate::ui::shortcuts`], and licences.
 
-use egui::{Align2, Grid, RichText, ScrollArea, Ui, vec2};
+use egui::{Align2, Grid, Hyperlink, RichText, ScrollArea, Ui, vec2};
 
 use crate::ui::{
     shortcuts::{FLIGHT, GESTURES, SHORTCUTS},
     theme,
     widgets::caption,
 };
+
+/// The licences of what the page contains, beside the page.
+const LICENSES: &str = "./licenses.txt";
 
 /// Shows the help window in the centre of the screen if `open`.
 pub fn help_window(ctx: &egui::Context, open: &mut bool) {
@@ -32,6 +35,9 @@ pub fn help_window(ctx: &egui::Context, open: &mut bool) {
                     width,
                     FLIGHT.iter().filter_map(|flight| flight.help).chain(faster),
                 );
+                caption(ui, "About");
+                let licenses = "Licences of the software and fonts in this page";
+                ui.add(Hyperlink::from_label_and_url(licenses, LICENSES).open_in_new_tab(true));
             });
         });
 }

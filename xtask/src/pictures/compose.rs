@@ -21,22 +21,32 @@ impl Image {
         Self { size_px, pixels: vec![[0; 4]; (size_px[0] * size_px[1]) as usize] }
     }
 
-    /// Reads a PNG of the renderer: RGB, 8 bits per channel.
+    /// Reads a PNG of the renderer: RGB or RGBA, 8 bits per channel.
     pub fn read_png(file: &Path) -> Result<Self> {
         let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
         let mut bytes = vec![0; reader.output_buffer_size().context("it is too large")?];
         let info = reader.next_frame(&mut bytes)?;
-        if (info.color_type, info.bit_depth) != (png::ColorType::Rgb, png::BitDepth::Eight) {
-            bail!("{} is not 8-bit RGB", file.display());
-        }
-        let (triples, _) = bytes.as_chunks::<3>();
-        let pixels = triples.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
+        let pixels = match (info.color_type, info.bit_depth) {
+            (png::ColorType::Rgb, png::BitDepth::Eight) => {
+                bytes.as_chunks::<3>().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect()
+            }
+            (png::ColorType::Rgba, png::BitDepth::Eight) => bytes.as_chunks::<4>().0.to_vec(),
+            _ => bail!("{} is not 8-bit RGB or RGBA", file.display()),
+        };
         Ok(Self { size_px: [info.width, info.height], pixels })
     }
 
     /// Width and height in pixels, and RGBA bytes.
     pub fn as_rgba(&self) -> ([u32; 2], &[u8]) {
         (self.size_px, self.pixels.as_flattened())
+    }
+
+    /// Replaces each pixel by a function of its place and value.
+    pub fn map(&mut self, change: impl Fn([u32; 2], [u8; 4]) -> [u8; 4]) {
+        let width = self.size_px[0];
+        for (index, pixel) in (0..).zip(&mut self.pixels) {
+            *pixel = change([index % width, index / width], *pixel);
+        }
     }
 
     /// Reads the depth or the normals of an OpenEXR file of the renderer.

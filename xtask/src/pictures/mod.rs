@@ -6,6 +6,7 @@
 
 pub mod compose;
 mod dusk;
+pub mod framing;
 mod table;
 
 use std::{
