@@ -4,8 +4,10 @@
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
 mod picture;
+mod storage;
 mod video;
 mod visit;
+mod walk;
 
 use std::{
     fs::{self, File},
