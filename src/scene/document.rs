@@ -119,6 +119,16 @@ pub fn project_from_json(text: &str) -> Result<Project, DocumentError> {
     })
 }
 
+/// Whether `text` is a scene's document of a version after [`VERSION`], which a newer program can read.
+pub fn is_newer(text: &str) -> bool {
+    let is_text = text.len() <= MAX_BYTES && check_syntax(text).is_ok();
+    let header = is_text.then(|| parse::<Header>(text).ok()).flatten();
+    header.is_some_and(|Header { mandelight, version }| {
+        matches!(mandelight, Some(Scalar::Text(kind)) if kind == KIND)
+            && matches!(version, Some(Scalar::Whole(version)) if version > u64::from(VERSION))
+    })
+}
+
 /// Reads a scene and its path without an envelope, as a link holds them, in the words of this [`VERSION`].
 pub(super) fn project_from_link(text: &str) -> Result<Project, DocumentError> {
     check_syntax(text)?;

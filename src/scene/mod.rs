@@ -15,6 +15,7 @@
 //! | [`follow`] | the lights of close views, which follow the view |
 //! | [`document`] | the versioned JSON form, and what is said of a bad one |
 //! | [`link`] | the same document as an address's fragment |
+//! | [`last_visit`] | which scene a visit opens with: the address's, the tab's, or the last one |
 //! | [`environment_map`] | an environment map, decoded, and cut into lights |
 //! | [`history`] | undo and redo, grouped by gesture |
 //! | [`path`] | key frames of whole scenes, and the scene at any time between them |
@@ -52,6 +53,7 @@ pub mod gallery;
 pub mod gradient;
 pub mod history;
 mod indirect;
+pub mod last_visit;
 pub mod light_setups;
 pub mod link;
 pub mod looks;

@@ -55,9 +55,10 @@ pub fn show(
         .show(ui.ctx(), |ui| {
             let frame = egui::Frame::new().fill(theme::PANEL.gamma_multiply(0.9)).corner_radius(8);
             frame.inner_margin(Margin::symmetric(12, 6)).show(ui, |ui| {
-                ui.horizontal(|ui| {
+                ui.set_max_width((view.width() - 48.0).max(80.0));
+                ui.horizontal_wrapped(|ui| {
                     if !text.is_empty() {
-                        ui.add(Label::new(RichText::new(text)).selectable(false));
+                        ui.add(Label::new(RichText::new(text)).selectable(false).wrap());
                     }
                     if is_over && has_record {
                         let hover = "Make this dive the camera path, instead of the present one, to play, edit and save it";

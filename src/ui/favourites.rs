@@ -1,6 +1,7 @@
 //! Views that a person keeps: their scenes with small pictures, stored between visits.
 //!
-//! In: a scene's document and a small picture. Out: the list to show, and the document of the opened one.
+//! In: a scene's document and a small picture; the list that another tab stored. Out: the list to show and to
+//! store, and the document of the opened view. What cannot be read of a stored list is stored again as it is.
 
 use std::{
     hash::{DefaultHasher, Hash as _, Hasher as _},
@@ -8,8 +9,11 @@ use std::{
 };
 
 use base64::{Engine as _, prelude::BASE64_STANDARD};
-use egui::Image;
+use egui::{Context, Image};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::merge::merged;
 
 /// Maximum number of kept views: with their pictures they fill a part of a browser's storage.
 pub const MAX_FAVOURITES: usize = 100;
@@ -27,6 +31,10 @@ pub struct Favourite {
     jpeg: Arc<[u8]>,
     /// egui's address of the picture, which differs for different pictures.
     uri: String,
+    /// Differs for different views, whatever their names.
+    id: u64,
+    /// What a newer version stored besides.
+    other: Map<String, Value>,
 }
 
 /// A kept view as it is stored.
@@ -36,6 +44,8 @@ struct Stored {
     document: String,
     /// The picture's JPEG file in Base64.
     picture: String,
+    #[serde(flatten)]
+    other: Map<String, Value>,
 }
 
 impl Favourite {
@@ -45,7 +55,8 @@ impl Favourite {
         let mut hasher = DefaultHasher::new();
         jpeg.hash(&mut hasher);
         let uri = format!("bytes://favourite-{:016x}.jpg", hasher.finish());
-        Self { name, document, jpeg, uri }
+        document.hash(&mut hasher);
+        Self { name, document, jpeg, uri, id: hasher.finish(), other: Map::new() }
     }
 
     /// The picture for display.
@@ -55,15 +66,16 @@ impl Favourite {
 }
 
 impl From<Stored> for Favourite {
-    fn from(Stored { name, document, picture }: Stored) -> Self {
+    fn from(Stored { name, document, picture, other }: Stored) -> Self {
         // Without its picture, the view itself is still there.
-        Self::new(name, document, BASE64_STANDARD.decode(picture).unwrap_or_default())
+        let jpeg = BASE64_STANDARD.decode(picture).unwrap_or_default();
+        Self { other, ..Self::new(name, document, jpeg) }
     }
 }
 
 impl From<Favourite> for Stored {
-    fn from(Favourite { name, document, jpeg, .. }: Favourite) -> Self {
-        Self { name, document, picture: BASE64_STANDARD.encode(jpeg) }
+    fn from(Favourite { name, document, jpeg, other, .. }: Favourite) -> Self {
+        Self { name, document, picture: BASE64_STANDARD.encode(jpeg), other }
     }
 }
 
@@ -74,22 +86,72 @@ pub struct Favourites {
     /// The opened one, whose name can be edited.
     pub opened: Option<usize>,
     is_changed: bool,
+    /// The list as it was last read or stored, without this tab's edits.
+    known: Vec<Favourite>,
+    /// Entries of the stored list that cannot be read.
+    unread: Vec<Value>,
+    /// Addresses of pictures that are shown no more.
+    dropped: Vec<String>,
 }
 
 impl Favourites {
-    /// The views of an earlier visit.
+    /// The views of an earlier visit; those that cannot be read are kept for the program that can.
     ///
     /// # Errors
-    /// A text that [`Self::to_json`] did not write.
+    /// A text that is no list at all.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
-        let mut list: Vec<Favourite> = serde_json::from_str(text)?;
-        list.truncate(MAX_FAVOURITES);
-        Ok(Self { list, ..Self::default() })
+        let stored: Vec<Value> = serde_json::from_str(text)?;
+        let (mut list, mut unread) = (Vec::<Favourite>::new(), Vec::new());
+        for entry in stored {
+            match serde_json::from_value::<Favourite>(entry.clone()) {
+                Ok(favourite) if list.iter().any(|other| other.id == favourite.id) => {}
+                Ok(favourite) => list.push(favourite),
+                Err(_) => unread.push(entry),
+            }
+        }
+        Ok(Self { known: list.clone(), list, unread, ..Self::default() })
     }
 
     /// The views as a text to store.
     pub fn to_json(&self) -> String {
-        serde_json::to_string(&self.list).unwrap_or_default()
+        let readable = self.list.iter().filter_map(|kept| serde_json::to_value(kept).ok());
+        let all: Vec<Value> = readable.chain(self.unread.iter().cloned()).collect();
+        serde_json::to_string(&all).unwrap_or_default()
+    }
+
+    /// Takes in the list that is stored now, which another tab may have changed, and keeps this tab's edits.
+    ///
+    /// # Errors
+    /// A text that is no list at all; then nothing changes.
+    pub fn merge(&mut self, stored: &str) -> Result<(), serde_json::Error> {
+        let stored = Self::from_json(stored)?;
+        let opened = self.opened.and_then(|index| self.list.get(index)).map(|kept| kept.id);
+        let list = merged(&self.known, &self.list, &stored.list, |kept| kept.id);
+        let before = std::mem::replace(&mut self.list, list);
+        self.opened = opened.and_then(|id| self.list.iter().position(|kept| kept.id == id));
+        (self.known, self.unread) = (stored.list, stored.unread);
+        for gone in before {
+            self.drop_picture(gone);
+        }
+        Ok(())
+    }
+
+    /// Notes that the list is stored as it is.
+    pub fn note_stored(&mut self) {
+        self.known.clone_from(&self.list);
+    }
+
+    /// Frees the pictures of views that are gone.
+    pub(super) fn forget_pictures(&mut self, ctx: &Context) {
+        for uri in self.dropped.drain(..) {
+            ctx.forget_image(&uri);
+        }
+    }
+
+    fn drop_picture(&mut self, gone: Favourite) {
+        if !self.list.iter().any(|kept| kept.uri == gone.uri) {
+            self.dropped.push(gone.uri);
+        }
     }
 
     /// True once after each change.
@@ -114,9 +176,11 @@ impl Favourites {
         names.find(|name| !is_taken(name)).unwrap_or_default()
     }
 
-    /// Adds a view at the front, if there is room, and opens it.
+    /// Adds a view at the front, if there is room, and opens it. A view that is there already is opened.
     pub fn keep(&mut self, favourite: Favourite) {
-        if self.has_room() {
+        if let Some(index) = self.list.iter().position(|kept| kept.id == favourite.id) {
+            self.opened = Some(index);
+        } else if self.has_room() {
             self.list.insert(0, favourite);
             self.opened = Some(0);
             self.is_changed = true;
@@ -134,7 +198,8 @@ impl Favourites {
     /// Removes a view.
     pub fn remove(&mut self, index: usize) {
         if index < self.list.len() {
-            self.list.remove(index);
+            let gone = self.list.remove(index);
+            self.drop_picture(gone);
             self.opened = None;
             self.is_changed = true;
         }
@@ -165,6 +230,46 @@ mod tests {
         assert_eq!(favourites.list(), [favourite("a")]);
         favourites.remove(7);
         assert!(Favourites::from_json("[{]").is_err());
+    }
+
+    #[test]
+    fn two_tabs_keep_views_and_neither_loses_one() {
+        let names = |favourites: &Favourites| {
+            favourites.list().iter().map(|kept| kept.name.clone()).collect::<Vec<_>>()
+        };
+        let first = serde_json::to_string(&[favourite("a"), favourite("b")]).unwrap();
+        let [mut mine, mut theirs] = [(); 2].map(|()| Favourites::from_json(&first).unwrap());
+        theirs.keep(favourite("theirs"));
+        theirs.remove(2);
+        theirs.rename(1, "renamed");
+        mine.opened = Some(0);
+        mine.keep(favourite("mine"));
+        mine.merge(&theirs.to_json()).unwrap();
+        assert_eq!(names(&mine), ["mine", "theirs", "renamed"]);
+        assert_eq!(mine.opened, Some(0), "the view that was kept stays open");
+        assert_eq!(mine.dropped.len(), 1, "the removed view's picture");
+        mine.note_stored();
+        theirs.note_stored();
+        theirs.merge(&mine.to_json()).unwrap();
+        assert_eq!(names(&theirs), names(&mine));
+        // Storage that was damaged meanwhile changes nothing.
+        assert!(theirs.merge("{]").is_err());
+        assert_eq!(names(&theirs), names(&mine));
+        mine.keep(favourite("theirs"));
+        assert_eq!((names(&mine).len(), mine.opened), (3, Some(1)), "kept twice");
+    }
+
+    #[test]
+    fn what_cannot_be_read_of_a_list_is_stored_again() {
+        let stored = r#"[{"name": "a", "document": "{}", "picture": "!", "stars": 5}, 7,
+            {"name": 3}, {"title": "of another version"}]"#;
+        let mut favourites = Favourites::from_json(stored).unwrap();
+        assert_eq!(favourites.list().len(), 1);
+        favourites.keep(favourite("b"));
+        let again: Value = serde_json::from_str(&favourites.to_json()).unwrap();
+        assert_eq!(again.as_array().map(Vec::len), Some(5));
+        assert_eq!(again[1]["stars"], 5);
+        assert_eq!(again[4]["title"], "of another version");
     }
 
     #[test]

@@ -31,6 +31,7 @@ use super::{
     settings::Settings,
     share::Share,
     shortcuts::{self, Command},
+    slice::Clock,
     small_picture::SmallPicture,
     status,
     surprises::Surprises,
@@ -77,6 +78,8 @@ pub struct Interface {
     is_comparing: bool,
     histogram_shown: bool,
     loaded: Loaded,
+    /// Ends the slices of searches.
+    clock: Clock,
 }
 
 impl Interface {
@@ -109,7 +112,14 @@ impl Interface {
             is_comparing: false,
             histogram_shown: false,
             loaded: Loaded::default(),
+            clock: Clock::default(),
         }
+    }
+
+    /// Replaces the clock that ends slices of searches, in milliseconds, so that a test repeats exactly.
+    pub fn set_clock(&mut self, clock_ms: fn() -> f64) {
+        self.clock = Clock(clock_ms);
+        self.pilot.set_clock(self.clock);
     }
 
     /// The fractal by which movements are measured, to share with the view that draws it.
@@ -201,6 +211,11 @@ impl Interface {
     /// The settings to store until the next visit.
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// The settings, to take in what another tab has stored.
+    pub fn settings_mut(&mut self) -> &mut Settings {
+        &mut self.settings
     }
 
     /// The editor, for its project and history.

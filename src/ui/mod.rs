@@ -11,6 +11,7 @@
 //! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
 //! | `finder` | the search over commands, scenes, sections and controls |
 //! | `favourites` | the views that a person keeps |
+//! | `merge` | lists that two tabs edit at once |
 //! | `gallery` | the gallery that the page's address names |
 //! | `selection` | the selected light, colour layer and gradient stops |
 //! | `loaded` | the environment map and gradients that people opened |
@@ -55,6 +56,7 @@ mod interface;
 mod light_click;
 mod loaded;
 mod look_preview;
+mod merge;
 mod mutate;
 mod notice;
 mod panel;

@@ -1,6 +1,6 @@
 //! The shell's message over the picture.
 
-use egui::{Align2, Color32, Margin, Rect, Ui, vec2};
+use egui::{Align2, Color32, Margin, Rect, Ui, text::LayoutJob, vec2};
 
 use super::{
     action::Action,
@@ -9,7 +9,10 @@ use super::{
     theme,
 };
 
-/// Shows `notice` at the upper edge of `view`.
+/// Height of the view that is no text of the notice: margins and the edge, in points.
+const AROUND: f32 = 40.0;
+
+/// Shows `notice` at the upper edge of `view`, as much of its text as has room.
 pub fn show(ui: &Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut Vec<Action>) {
     let (Some(notice), Some(view)) = (notice, view) else {
         return;
@@ -30,8 +33,12 @@ pub fn show(ui: &Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut 
                     ui.horizontal(|ui| {
                         let color = if notice.is_error { theme::ERROR } else { Color32::WHITE };
                         let font = egui::FontId::proportional(13.5);
+                        let row_height = ui.fonts_mut(|fonts| fonts.row_height(&font));
                         let text = notice.text.clone();
-                        let text = ui.painter().layout(text, font, color, width - 52.0);
+                        let mut job = LayoutJob::simple(text, font, color, width - 52.0);
+                        let rows = (view.height() - AROUND) / row_height;
+                        job.wrap.max_rows = (rows as usize).max(1);
+                        let text = ui.painter().layout_job(job);
                         let size = vec2(text.size().x, text.size().y.max(28.0));
                         let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
                         ui.ctx().accesskit_node_builder(shown.id, |node| {

@@ -5,7 +5,6 @@
 
 use egui::{Context, PointerButton, Pos2, Response, Ui};
 use glam::{DVec2, DVec3};
-use web_time::Instant;
 
 use super::{
     field::field_of,
@@ -18,7 +17,7 @@ use super::{
         guide::{Guide, GuideStatus},
     },
     shortcuts::{Command, HeldKeys},
-    slice,
+    slice::{self, Clock},
 };
 use crate::{
     formula::DistanceField,
@@ -72,12 +71,19 @@ pub struct Pilot {
     /// Time until which further notches join the undo step, on egui's clock.
     step_until_secs: f64,
     models: SharedModel,
+    /// Ends the slices of the guide's searches.
+    clock: Clock,
 }
 
 impl Pilot {
     /// True in fly mode.
     pub fn is_flying(&self) -> bool {
         self.flying
+    }
+
+    /// Replaces the clock that ends slices of searches.
+    pub fn set_clock(&mut self, clock: Clock) {
+        self.clock = clock;
     }
 
     /// The flying speed, in scene units per second; 0 at rest.
@@ -292,8 +298,7 @@ impl Pilot {
 
     /// Runs searches and plans of the guide for a slice of the frame.
     fn guide_work(&mut self, ctx: &Context, camera: &Camera, world: World<'_>) {
-        let clock = Instant::now();
-        let mut now_ms = || clock.elapsed().as_secs_f64() * 1e3;
+        let mut now_ms = self.clock.0;
         if slice::run(&mut now_ms, || self.guide.work(camera, world)) {
             ctx.request_repaint();
         }

@@ -258,7 +258,8 @@ pub fn duration_text(secs: f64) -> String {
         0..10 => format!("{secs:.1} s"),
         10..60 => format!("{whole} s"),
         60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
-        _ => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
+        3600..3_600_000 => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
+        _ => "over 1000 h".to_owned(),
     }
 }
 
@@ -294,6 +295,7 @@ mod tests {
         assert_eq!(duration_text(42.4), "42 s");
         assert_eq!(duration_text(65.0), "1 min 05 s");
         assert_eq!(duration_text(7860.0), "2 h 11 min");
+        assert_eq!(duration_text(4e6), "over 1000 h");
         assert_eq!(duration_text(f64::INFINITY), "–");
     }
 

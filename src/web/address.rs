@@ -21,13 +21,18 @@ pub struct Address {
 impl Address {
     /// The fragment without `#`; `None` if it is empty or this page wrote it.
     pub fn read_foreign(&self) -> Option<String> {
+        let is_own = |fragment: &String| self.written.borrow().as_ref() == Some(fragment);
+        Self::read().filter(|fragment| !is_own(fragment))
+    }
+
+    /// The fragment without `#`; `None` if it is empty.
+    pub fn read() -> Option<String> {
         let hash = window()?.location().hash().ok()?;
         let fragment = hash.strip_prefix('#').unwrap_or(&hash);
         // Some programs percent-encode the fragment when they pass an address on.
         let decoded = js_sys::decode_uri_component(fragment).ok().map(String::from);
         let fragment = decoded.as_deref().unwrap_or(fragment);
-        let is_own = self.written.borrow().as_deref() == Some(fragment);
-        (!is_own && !fragment.is_empty()).then(|| fragment.to_owned())
+        (!fragment.is_empty()).then(|| fragment.to_owned())
     }
 
     /// Writes `fragment` (without `#`) to the address, without an entry in the tab's history.

@@ -1,14 +1,22 @@
 //! Autosave: writes the scene and its path to the browser's storage and the address bar.
 //!
 //! In: the edited project of each frame. Out: one write, half a second after the last change. The undo
-//! steps are written too, so that a reload does not end them.
+//! steps are written too, so that a reload does not end them. Each tab has a copy of its own for reloads, since
+//! all tabs share the scene that the next visit opens with.
 
 use crate::{
-    scene::{Project, document, link},
+    scene::{
+        Project, document,
+        last_visit::{self, Opened, StoredTexts},
+        link,
+    },
     ui::editor::Editor,
 };
 
-use super::{address::Address, storage};
+use super::{
+    address::Address,
+    storage::{self, StorageKey},
+};
 
 /// Seconds without a change before a write.
 const REST_SECS: f64 = 0.5;
@@ -24,12 +32,16 @@ pub struct Autosave {
     last: Option<Project>,
     /// When the last unsaved change was seen, on the page's clock.
     changed_at_secs: Option<f64>,
+    /// The document that was written last.
+    written: Option<String>,
+    has_failed: bool,
 }
 
 impl Autosave {
     /// An autosave that skips the first project: that one is stored already, or the default.
     pub fn new(address: Address) -> Self {
-        Self { address, last: None, changed_at_secs: None }
+        let (written, has_failed) = (None, false);
+        Self { address, last: None, changed_at_secs: None, written, has_failed }
     }
 
     /// Compares this frame's project with the last one, and writes it when due. Returns the seconds
@@ -56,7 +68,8 @@ impl Autosave {
             return;
         };
         self.changed_at_secs = None;
-        storage::SCENE.write(&document::project_to_json_compact(project));
+        let document = document::project_to_json_compact(project);
+        self.has_failed |= !key_for_scene(self.written.as_deref()).write(&document);
         storage::STEPS.write(&steps_to_text(editor.steps()));
         // An address is too short for a long path: then it holds the scene alone.
         let fragment = link::project_to_fragment(project);
@@ -64,7 +77,37 @@ impl Autosave {
             Ok(fragment) => self.address.write(&fragment),
             Err(error) => log::warn!("the address bar cannot hold this scene: {error}"),
         }
+        let fragment = Address::read().unwrap_or_default();
+        self.has_failed |= !storage::TAB_SCENE.write(&last_visit::tab_text(&fragment, &document));
+        self.written = Some(document);
     }
+
+    /// True once after a write that the storage refused.
+    pub fn take_failure(&mut self) -> bool {
+        std::mem::take(&mut self.has_failed)
+    }
+}
+
+/// The scene to open, and what is said of stored scenes that cannot be opened.
+pub fn stored_scene() -> Opened {
+    let fragment = Address::read();
+    let [tab, last, beside] =
+        [storage::TAB_SCENE, storage::SCENE, storage::SCENE_BESIDE].map(StorageKey::read);
+    last_visit::open(&StoredTexts {
+        fragment: fragment.as_deref(),
+        tab: tab.as_deref(),
+        last: last.as_deref(),
+        beside: beside.as_deref(),
+    })
+}
+
+/// Where the scene is stored: a newer version's document stays where it is.
+///
+/// `written` is what this tab wrote last, which needs no look at its version.
+fn key_for_scene(written: Option<&str>) -> StorageKey {
+    let stored = storage::SCENE.read().filter(|stored| Some(stored.as_str()) != written);
+    let is_newer = stored.is_some_and(|stored| document::is_newer(&stored));
+    if is_newer { storage::SCENE_BESIDE } else { storage::SCENE }
 }
 
 /// The undo steps of the last visit in this tab, the most recent last.

@@ -68,7 +68,9 @@ impl Losses {
 
     fn write(&self) {
         match serde_json::to_string(self) {
-            Ok(text) => storage::LOSSES.write(&text),
+            Ok(text) => {
+                storage::LOSSES.write(&text);
+            }
             Err(error) => log::warn!("cannot store the GPU loss: {error}"),
         }
     }

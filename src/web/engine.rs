@@ -181,6 +181,8 @@ impl Engine {
             dispatches: self.view.dispatches(),
             frames: session.status.frames,
             is_exporting: self.exporter.is_busy(),
+            small_pictures: self.small_pictures.textures().by_id.len(),
+            ui_textures: self.context.tex_manager().read().num_allocated(),
         };
         busy
     }

@@ -25,6 +25,8 @@ pub enum Message {
         /// The picture's file.
         jpeg: Vec<u8>,
     },
+    /// Another tab has changed the browser's storage.
+    Storage,
     /// The gallery of the address has been read, or can't be.
     Gallery(GalleryState),
     /// A picture of the gallery was chosen.

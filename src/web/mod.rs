@@ -17,6 +17,7 @@
 //! | `sequence_export` | frames of a path into a zip or a video |
 //! | `sequence_file` | that zip or video, where the visitor wants it |
 //! | `still_export` | a picture into a download |
+//! | `stored` | settings and kept views in the storage |
 //! | `autosave` | writes the scene to storage and address |
 //! | `device_loss` | how often to restart, and in which safe mode |
 //! | `video` | a video, encoded by the browser |
@@ -59,6 +60,7 @@ mod small_pictures;
 pub mod start;
 mod still_export;
 mod storage;
+mod stored;
 mod test_hook;
 mod video;
 mod view_picture;

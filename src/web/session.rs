@@ -12,7 +12,7 @@ use super::{
     files::{self, FilePicker},
     gallery,
     mailbox::{Mailbox, Message},
-    page, storage,
+    page, stored,
 };
 use crate::{
     export,
@@ -20,7 +20,7 @@ use crate::{
     reading::visible_lines,
     render::Report,
     scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
-    ui::{Favourites, GalleryState, Interface, Notice, Settings, theme},
+    ui::{GalleryState, Interface, Notice, Settings, theme},
 };
 
 /// Seconds that a notice of a success stays.
@@ -48,6 +48,10 @@ pub struct Session {
     notice_until_secs: f64,
     /// The app's status after the last step.
     pub status: AppStatus,
+    /// The kept formulas as they were last read or stored.
+    known_formulas: Vec<String>,
+    /// Whether the visitor knows that the storage keeps nothing.
+    has_told_of_storage: bool,
     safe_mode: SafeMode,
     /// The scene in which drawing is paused.
     paused_scene: Option<Scene>,
@@ -66,21 +70,27 @@ pub struct AppStatus {
     pub frames: u64,
     /// Whether an export is in progress.
     pub is_exporting: bool,
+    /// The small pictures on the GPU.
+    pub small_pictures: usize,
+    /// egui's own textures.
+    pub ui_textures: usize,
 }
 
 impl Session {
     /// Opens the scene of the address, of the last visit, or the first opening scene.
     pub fn open() -> Self {
         let address = Address::default();
-        let (project, error) = initial_project(&address);
-        let has_link = project.is_some() && address.read_foreign().is_some();
-        let settings = stored_settings().unwrap_or_else(|| first_settings(has_link));
-        let mut interface =
-            Interface::new(project.unwrap_or_else(|| presets::opening().into()), settings);
+        let opened = autosave::stored_scene();
+        let settings = stored::settings().unwrap_or_else(|| first_settings(opened.is_link));
+        let known_formulas = settings.formulas.clone();
+        let project = opened.project.unwrap_or_else(|| presets::opening().into());
+        let mut interface = Interface::new(project, settings);
         interface.editor_mut().restore_steps(autosave::stored_steps());
-        *interface.favourites_mut() = stored_favourites();
+        let (favourites, list_problem) = stored::favourites();
+        *interface.favourites_mut() = favourites;
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
+        watch_storage(&mailbox);
         let mut session = Self {
             autosave: Autosave::new(address),
             picker: FilePicker::new(&mailbox),
@@ -91,13 +101,16 @@ impl Session {
             notice: None,
             notice_until_secs: 0.0,
             status: AppStatus::default(),
+            known_formulas,
+            has_told_of_storage: false,
             safe_mode: SafeMode::Off,
             paused_scene: None,
         };
         session.enter_safe_mode(device_loss::safe_mode_at_start(session.fragment().as_deref()));
         session.report_missing_environment_map();
-        if let Some(error) = error {
-            session.show_error(error);
+        let problems: Vec<String> = opened.problem.into_iter().chain(list_problem).collect();
+        if !problems.is_empty() {
+            session.show_error(problems.join("\n"));
         }
         session
     }
@@ -224,6 +237,7 @@ impl Session {
                 Message::Favourite { document, jpeg } => {
                     self.interface.keep_favourite(document, jpeg);
                 }
+                Message::Storage => stored::update_favourites(self.interface.favourites_mut()),
                 Message::Gallery(state) => self.gallery = Some(state),
                 Message::GalleryPicture { name, content } => {
                     match content.and_then(|bytes| read_project(&bytes)) {
@@ -297,9 +311,18 @@ impl Session {
     /// Writes the kept views, if they changed.
     pub fn save_favourites(&mut self) {
         let favourites = self.interface.favourites_mut();
-        if favourites.take_changed() && !storage::FAVOURITES.try_write(&favourites.to_json()) {
+        if favourites.take_changed() && !stored::save_favourites(favourites) {
             self.show_error(
                 "The browser could not store the view: its storage is full or blocked. Save the scene as a file instead.",
+            );
+        }
+    }
+
+    /// Tells once that the storage refuses the scene.
+    pub fn tell_of_storage(&mut self) {
+        if self.autosave.take_failure() && !std::mem::replace(&mut self.has_told_of_storage, true) {
+            self.show_error(
+                "The browser does not store your scene: its storage is full or blocked. The address keeps what fits into a link. Save the scene as a file before you leave.",
             );
         }
     }
@@ -307,28 +330,15 @@ impl Session {
     /// Writes the project and the interface's settings now.
     pub fn save(&mut self) {
         self.autosave.flush(self.interface.editor());
-        match serde_json::to_string(self.interface.settings()) {
-            Ok(text) => storage::SETTINGS.write(&text),
-            Err(error) => log::warn!("cannot store the settings: {error}"),
-        }
+        stored::save_settings(self.interface.settings_mut(), &mut self.known_formulas);
     }
 }
 
-/// The project of the address or of the last visit, and any error.
-fn initial_project(address: &Address) -> (Option<Project>, Option<String>) {
-    let mut link_error = None;
-    if let Some(fragment) = address.read_foreign() {
-        match link::project_from_fragment(&fragment) {
-            Ok(project) => return (Some(project), None),
-            Err(error) => link_error = Some(error.to_string()),
-        }
-    }
-    let stored = storage::SCENE.read().and_then(|text| {
-        document::project_from_json(&text)
-            .inspect_err(|error| log::warn!("cannot read the scene of the last visit: {error}"))
-            .ok()
-    });
-    (stored, link_error)
+/// Posts a message whenever another tab has changed the storage.
+fn watch_storage(mailbox: &Mailbox) {
+    let Some(window) = page::window() else { return };
+    let mailbox = mailbox.clone();
+    page::listen(&window, "storage", move || mailbox.post(Message::Storage));
 }
 
 /// The settings of a first visit. Where the panel is a sheet over the picture, a linked picture has
@@ -339,28 +349,6 @@ fn first_settings(has_link: bool) -> Settings {
         !theme::has_side_panel(egui::vec2(width, height))
     });
     Settings { panel_open: !(has_link && has_sheet), ..Settings::default() }
-}
-
-/// The views that were kept at earlier visits.
-fn stored_favourites() -> Favourites {
-    let text = storage::FAVOURITES.read().unwrap_or_default();
-    if text.is_empty() {
-        return Favourites::default();
-    }
-    Favourites::from_json(&text).unwrap_or_else(|error| {
-        log::warn!("cannot read the kept views: {error}");
-        Favourites::default()
-    })
-}
-
-/// The settings of the last visit.
-fn stored_settings() -> Option<Settings> {
-    let text = storage::SETTINGS.read();
-    text.and_then(|text| {
-        serde_json::from_str(&text)
-            .inspect_err(|error| log::warn!("cannot read the settings of the last visit: {error}"))
-            .ok()
-    })
 }
 
 /// The project in a file: a document, or a picture that contains one.

@@ -10,12 +10,20 @@ use super::page::{describe, window};
 /// The scene in view, as a document.
 pub const SCENE: StorageKey =
     StorageKey { name: "mandelight.scene", lifetime: Lifetime::Permanent };
+/// The same, while [`SCENE`] is a newer version's document.
+pub const SCENE_BESIDE: StorageKey =
+    StorageKey { name: "mandelight.scene.older", lifetime: Lifetime::Permanent };
+/// This tab's address and document, as `last_visit` writes them.
+pub const TAB_SCENE: StorageKey = StorageKey { name: "mandelight.tab", lifetime: Lifetime::Tab };
 /// The interface's settings, as JSON.
 pub const SETTINGS: StorageKey =
     StorageKey { name: "mandelight.settings", lifetime: Lifetime::Permanent };
 /// The views that the visitor keeps, as JSON.
 pub const FAVOURITES: StorageKey =
     StorageKey { name: "mandelight.favourites", lifetime: Lifetime::Permanent };
+/// A list of views that could not be read.
+pub const FAVOURITES_DAMAGED: StorageKey =
+    StorageKey { name: "mandelight.favourites.damaged", lifetime: Lifetime::Permanent };
 /// The undo steps, as documents, one a line.
 pub const STEPS: StorageKey = StorageKey { name: "mandelight.steps", lifetime: Lifetime::Tab };
 /// The times of GPU losses and the scene of the last one, as JSON.
@@ -47,13 +55,8 @@ impl StorageKey {
         self.open()?.get_item(self.name).ok()?
     }
 
-    /// Stores `text`; a full or blocked storage keeps the old text.
-    pub fn write(self, text: &str) {
-        self.try_write(text);
-    }
-
-    /// As [`Self::write`], and returns whether the text is stored.
-    pub fn try_write(self, text: &str) -> bool {
+    /// Stores `text`, and returns whether it is stored: a full or blocked storage keeps the old text.
+    pub fn write(self, text: &str) -> bool {
         let outcome = self.open().map(|storage| storage.set_item(self.name, text));
         let reason = match outcome {
             Some(Ok(())) => return true,

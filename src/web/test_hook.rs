@@ -57,6 +57,9 @@ impl TestHook {
         set(&object, "dispatches", status.dispatches as f64);
         set(&object, "frames", status.frames as f64);
         set(&object, "exporting", status.is_exporting);
+        set(&object, "smallPictures", status.small_pictures as f64);
+        set(&object, "uiTextures", status.ui_textures as f64);
+        set(&object, "wasmBytes", wasm_bytes());
         object
     }
 
@@ -123,6 +126,12 @@ impl TestHook {
         );
         object
     }
+}
+
+/// The size of the module's memory, which never shrinks.
+fn wasm_bytes() -> f64 {
+    let memory = wasm_bindgen::memory().unchecked_into::<js_sys::WebAssembly::Memory>();
+    f64::from(memory.buffer().unchecked_into::<js_sys::ArrayBuffer>().byte_length())
 }
 
 /// Reads the texture's pixels: `{width, height, data}`.

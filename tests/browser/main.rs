@@ -5,8 +5,10 @@
 
 mod picture;
 mod size;
+mod storage;
 mod video;
 mod visit;
+mod walk;
 
 use std::{
     fs::{self, File},

@@ -1,13 +1,13 @@
 //! An interface on a stage: a harness around it, and shorthands for what tests do with it.
 
 use egui::{Event, Modifiers, PointerButton, Pos2, Vec2, accesskit::Role};
-use egui_kittest::{Harness, Node, kittest::Queryable as _};
+use egui_kittest::{Harness, HarnessBuilder, Node, kittest::Queryable as _};
 use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
     ui::{
-        Action, DisplayInputs, ExportProgress, GalleryState, Interface, Notice, Settings, Sharing,
-        SmallTextures, all_sections_open, theme,
+        Action, DisplayInputs, ExportProgress, GalleryState, Interface, KeptPicture, Notice,
+        Settings, Sharing, SmallTextures, ViewTexture, all_sections_open, theme,
     },
 };
 
@@ -16,6 +16,8 @@ pub struct Stage {
     pub interface: Interface,
     pub actions: Vec<Action>,
     pub report: Report,
+    pub picture: Option<ViewTexture>,
+    pub kept_picture: Option<KeptPicture>,
     pub export: Option<ExportProgress>,
     pub notice: Option<Notice>,
     pub small_pictures: SmallTextures,
@@ -31,6 +33,16 @@ pub fn unfolded() -> Settings {
 
 /// An interface to a scene, or one with its path, in a window of `size` points.
 pub fn stage(
+    project: impl Into<Project>,
+    settings: Settings,
+    size: [f32; 2],
+) -> Harness<'static, Stage> {
+    stage_with(Harness::builder(), project, settings, size)
+}
+
+/// As [`stage`], with a harness of one's own kind.
+pub fn stage_with(
+    builder: HarnessBuilder<Stage>,
     project: impl Into<Project>,
     settings: Settings,
     size: [f32; 2],
@@ -56,6 +68,8 @@ pub fn stage(
         interface: Interface::new(project, settings),
         actions: Vec::new(),
         report,
+        picture: None,
+        kept_picture: None,
         export: None,
         notice: None,
         small_pictures: SmallTextures::default(),
@@ -63,7 +77,7 @@ pub fn stage(
         gallery: None,
         has_share_sheet: false,
     };
-    Harness::builder()
+    builder
         .with_size(Vec2::from(size))
         .with_step_dt(1.0 / 60.0)
         .with_max_steps(150)
@@ -71,8 +85,8 @@ pub fn stage(
         .build_ui_state(
             |ui, stage: &mut Stage| {
                 let inputs = DisplayInputs {
-                    picture: None,
-                    kept_picture: None,
+                    picture: stage.picture,
+                    kept_picture: stage.kept_picture,
                     report: &stage.report,
                     export: stage.export,
                     notice: stage.notice.as_ref(),

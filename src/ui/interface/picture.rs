@@ -1,7 +1,6 @@
 //! The picture's part of a frame: its camera's input, and what lies over it.
 
 use egui::{Align2, Rect, Ui, vec2};
-use web_time::Instant;
 
 use super::Interface;
 use crate::scene::Project;
@@ -103,8 +102,7 @@ impl Interface {
             || self.pilot.is_moving(ui.input(|i| i.time))
             || self.pilot.speed() > 0.0;
         let model = self.pilot.models().of(&scene.fractal);
-        let clock = Instant::now();
-        let mut now_ms = || clock.elapsed().as_secs_f64() * 1e3;
+        let mut now_ms = self.clock.0;
         self.places.advance(scene, &model, frame, is_moving, &mut now_ms);
         self.places.request_repaint(ui);
         let mut toggle = Rect::NOTHING;

@@ -13,6 +13,7 @@ use crate::ui::{
 
 /// The button that keeps the view, and a card for each kept one.
 pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
+    cx.favourites.forget_pictures(ui.ctx());
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
     let button = Button::new("Keep this view");
     let keep = ui

@@ -24,6 +24,8 @@ mod track;
 
 /// Minimum width of a strip with all buttons in one row, in points.
 const ONE_ROW_FROM: f32 = 740.0;
+/// The same with the larger buttons of touch screens.
+const ONE_TOUCH_ROW_FROM: f32 = 920.0;
 
 /// A frame's number, at most that of the longest path at the highest frame rate.
 const FRAME: Param = Param {
@@ -41,7 +43,9 @@ const FRAME: Param = Param {
 /// Draws the strip over the width of `ui`.
 pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut Timeline) {
     let on_path = timeline.was_on_path();
-    let wide = ui.available_width() >= ONE_ROW_FROM;
+    let has_large_rows = ui.spacing().interact_size.y > 34.0;
+    let wide =
+        ui.available_width() >= if has_large_rows { ONE_TOUCH_ROW_FROM } else { ONE_ROW_FROM };
     let mut strip = Strip { cx, path, timeline, on_path };
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.horizontal(|ui| {

@@ -4,8 +4,8 @@
 //! `Response`.
 
 use egui::{
-    Button, DragValue, EventFilter, Key, NumExt as _, Rect, Response, Sense, TextEdit, Ui, Vec2,
-    WidgetInfo, WidgetText, accesskit, lerp, pos2,
+    Atom, AtomExt as _, Button, DragValue, EventFilter, Key, NumExt as _, Rect, Response, Sense,
+    TextEdit, Ui, Vec2, WidgetInfo, WidgetText, accesskit, lerp, pos2,
     text::{CCursor, CCursorRange},
     vec2,
 };
@@ -135,7 +135,8 @@ pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     ui.spacing_mut().button_padding.x = VALUE_PADDING;
     // The button must be the next widget, so that the field that replaces it has the same id.
     let text = egui::RichText::new(shown).color(theme::TEXT);
-    let button = Button::new("").right_text(text).frame_when_inactive(false);
+    // Of a button's parts only one is cut off where room is short: here the text, after the gap.
+    let button = Button::new((Atom::grow(), text.atom_shrink(true))).frame_when_inactive(false);
     let response = ui.add(button.min_size(size).truncate());
     if response.clicked() {
         let text = format_value(param, *value);

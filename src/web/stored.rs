@@ -1,0 +1,73 @@
+//! What visits keep besides scenes: the interface's settings, and the views that the visitor keeps.
+//!
+//! In: the storage's texts, which may be damaged, another version's, or changed by another tab. Out: settings
+//! and views; what this version cannot read is stored again as it is.
+
+use crate::ui::{Favourites, Settings};
+
+use super::storage;
+
+/// What is said of kept views that cannot be read.
+const DAMAGED: &str = "The list of kept views is damaged. It is put aside in the browser's storage, as mandelight.favourites.damaged, and a new list begins.";
+
+/// The settings of the last visit.
+pub fn settings() -> Option<Settings> {
+    let text = storage::SETTINGS.read()?;
+    let settings = Settings::from_json(&text);
+    if settings.is_none() {
+        log::warn!("cannot read the settings of the last visit");
+    }
+    settings
+}
+
+/// Stores the settings, with the formulas that other tabs have kept since they were `known`.
+pub fn save_settings(settings: &mut Settings, known: &mut Vec<String>) {
+    if let Some(stored) = self::settings() {
+        settings.merge_formulas(known, &stored.formulas);
+    }
+    match serde_json::to_string(settings) {
+        Ok(text) if storage::SETTINGS.write(&text) => known.clone_from(&settings.formulas),
+        Ok(_) => {}
+        Err(error) => log::warn!("cannot store the settings: {error}"),
+    }
+}
+
+/// The views that were kept at earlier visits, and what is wrong with the stored list.
+pub fn favourites() -> (Favourites, Option<String>) {
+    let Some(text) = storage::FAVOURITES.read().filter(|text| !text.is_empty()) else {
+        return (Favourites::default(), None);
+    };
+    match Favourites::from_json(&text) {
+        Ok(favourites) => (favourites, None),
+        Err(error) => {
+            log::warn!("cannot read the kept views: {error}");
+            put_aside(&text);
+            (Favourites::default(), Some(DAMAGED.to_owned()))
+        }
+    }
+}
+
+/// Takes in the views that another tab has stored.
+pub fn update_favourites(favourites: &mut Favourites) {
+    let Some(text) = storage::FAVOURITES.read() else { return };
+    if let Err(error) = favourites.merge(&text) {
+        log::warn!("cannot read the kept views: {error}");
+        put_aside(&text);
+    }
+}
+
+/// Stores the views with those of other tabs. Returns whether they are stored.
+pub fn save_favourites(favourites: &mut Favourites) -> bool {
+    update_favourites(favourites);
+    let is_stored = storage::FAVOURITES.write(&favourites.to_json());
+    if is_stored {
+        favourites.note_stored();
+    }
+    is_stored
+}
+
+fn put_aside(text: &str) {
+    if !text.is_empty() {
+        storage::FAVOURITES_DAMAGED.write(text);
+    }
+}

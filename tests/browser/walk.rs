@@ -1,0 +1,26 @@
+//! A random walk over the page, after which it holds no more than before.
+
+use crate::visit::Visit;
+
+/// Memory of the module and of the GPU by which rounds may differ: a few pictures and galleys.
+const MAX_GROWTH_BYTES: f64 = (8 << 20) as f64;
+
+#[test]
+fn a_walk_over_the_page_breaks_nothing_and_leaves_nothing_behind() {
+    let visit = Visit::run("walk");
+    let rounds = visit.seen["rounds"].as_array().unwrap();
+    let number = |round: usize, pointer: &str| visit.number(&format!("/rounds/{round}{pointer}"));
+    for round in rounds {
+        assert_eq!(round["errors"]["count"], 0, "{round}");
+        println!("{round}");
+    }
+    let last = rounds.len() - 1;
+    for pointer in ["/textures/bytes", "/buffers/bytes", "/wasmBytes"] {
+        let [before, after] = [last - 1, last].map(|round| number(round, pointer));
+        assert!(after - before <= MAX_GROWTH_BYTES, "{pointer}: {before} became {after}");
+    }
+    for pointer in ["/smallPictures", "/uiTextures"] {
+        let [before, after] = [last - 1, last].map(|round| number(round, pointer));
+        assert!(after <= before, "{pointer}: {before} became {after}");
+    }
+}
