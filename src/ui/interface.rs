@@ -241,7 +241,7 @@ impl Interface {
         let Scene { fractal, camera, .. } = self.scene();
         let is_reshaped = *fractal != before.scene.fractal && *camera == before.scene.camera;
         self.view(ui, inputs, wide, is_reshaped, &mut commands);
-        notice::show(ui, inputs.notice, self.rects.get("view"), &mut actions);
+        notice::show(ui, inputs, self.rects.get("view"), &mut actions, &mut self.rects);
         panel::help_window(ui.ctx(), &mut self.help_open);
         if let Some(view) = self.rects.get("view") {
             let project = self.editor.project();

@@ -202,6 +202,25 @@ fn a_long_notice_stays_in_the_window() {
 }
 
 #[test]
+fn a_file_that_is_read_is_named_below_the_notice_and_can_be_cancelled() {
+    for size in WINDOWS {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        let text = "Link copied.".to_owned();
+        harness.state_mut().notice = Some(Notice { text: text.clone(), is_error: false });
+        harness.state_mut().reading = Some("garden.hdr".to_owned());
+        harness.run();
+        harness.get_by_role_and_label(egui::accesskit::Role::Status, "Reading garden.hdr…");
+        let rects = harness.state().interface.rects();
+        let [notice, reading] = ["notice", "reading"].map(|name| rects.get(name).expect(name));
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        assert!(window.contains_rect(reading), "{reading:?} in {size:?}");
+        assert!(reading.top() > notice.bottom(), "{reading:?} and {notice:?} in {size:?}");
+        press(&mut harness, "Cancel");
+        assert_eq!(harness.state().actions, [mandelight::ui::Action::CancelReading]);
+    }
+}
+
+#[test]
 fn help_lists_the_shortcuts_and_fits() {
     for size in WINDOWS {
         let mut harness = stage(Scene::default(), Settings::default(), size);

@@ -18,6 +18,7 @@ pub struct Stage {
     pub report: Report,
     pub export: Option<ExportProgress>,
     pub notice: Option<Notice>,
+    pub reading: Option<String>,
     pub small_pictures: SmallTextures,
     pub reduced_motion: bool,
     pub gallery: Option<GalleryState>,
@@ -58,6 +59,7 @@ pub fn stage(
         report,
         export: None,
         notice: None,
+        reading: None,
         small_pictures: SmallTextures::default(),
         reduced_motion: false,
         gallery: None,
@@ -76,6 +78,7 @@ pub fn stage(
                     report: &stage.report,
                     export: stage.export,
                     notice: stage.notice.as_ref(),
+                    reading: stage.reading.as_deref(),
                     adapter: "a test",
                     sharing: Sharing {
                         address: "https://example.org/",
