@@ -1,6 +1,9 @@
 //! An interface on a stage: a harness around it, and shorthands for what tests do with it.
 
-use egui::{Event, Modifiers, PointerButton, Pos2, Vec2, accesskit::Role};
+use egui::{
+    Event, Modifiers, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId, TouchPhase, Vec2,
+    accesskit::Role,
+};
 use egui_kittest::{Harness, Node, kittest::Queryable as _};
 use mandelight::{
     render::report::{Activity, Report},
@@ -148,6 +151,48 @@ pub fn drag(harness: &mut Harness<'_, Stage>, from: Pos2, to: Pos2, steps: u32) 
     }
     pointer(harness, to, PointerButton::Primary, false, Modifiers::NONE);
     harness.run();
+}
+
+fn flatten<'a>(shape: &'a Shape, into: &mut Vec<&'a Shape>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| flatten(shape, into)),
+        shape => into.push(shape),
+    }
+}
+
+/// Presses a tool over the picture, also where it is in the menu of further tools.
+pub fn press_tool(harness: &mut Harness<'_, Stage>, name: &str) {
+    if harness.query_by_label(name).is_none() {
+        press(harness, "More tools");
+    }
+    press(harness, name);
+}
+
+/// Touches the middle of the window: from now on, the screen is known to be used with fingers.
+pub fn touch(harness: &mut Harness<'_, Stage>) {
+    let pos = harness.ctx.content_rect().center();
+    for phase in [TouchPhase::Start, TouchPhase::End] {
+        let (device_id, id) = (TouchDeviceId(0), TouchId(0));
+        harness.event(Event::Touch { device_id, id, phase, pos, force: None });
+        harness.step();
+    }
+    harness.run();
+}
+
+/// What the last frame painted, the lowest first.
+pub fn shapes<'h>(harness: &'h Harness<'_, Stage>) -> Vec<&'h Shape> {
+    let mut shapes = Vec::new();
+    harness.output().shapes.iter().for_each(|clipped| flatten(&clipped.shape, &mut shapes));
+    shapes
+}
+
+/// Where the last frame painted this text.
+pub fn painted(harness: &Harness<'_, Stage>, words: &str) -> Vec<Rect> {
+    let texts = shapes(harness).into_iter().filter_map(|shape| match shape {
+        Shape::Text(text) if text.galley.text() == words => Some(text.visual_bounding_rect()),
+        _ => None,
+    });
+    texts.collect()
 }
 
 /// Steps back in the history until there is none, and counts them.
