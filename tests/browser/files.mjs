@@ -10,7 +10,7 @@ const GOOD = process.env.MANDELIGHT_FILES;
 const DAMAGED = new URL("./damaged/", import.meta.url).pathname;
 
 /** Seconds that a decoder without end has. */
-const LOOP_SECS = 3;
+const LOOP_SECS = 10;
 
 await visit({ context: { viewport: { width: 640, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
