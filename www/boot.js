@@ -2,6 +2,7 @@
 // Every failure becomes a notice that says what to do; the page never stays blank.
 
 import * as accessibility from "./accessibility.js";
+import * as decoder from "./decoder.js";
 import * as gallery from "./gallery.js";
 import * as share from "./share.js";
 
@@ -224,6 +225,7 @@ window.addEventListener("error", (event) => reportTrap(event.error));
 window.addEventListener("unhandledrejection", (event) => reportTrap(event.reason));
 
 window.mandelightAccessibility = accessibility;
+window.mandelightDecoder = decoder;
 window.mandelightGallery = gallery;
 window.mandelightShare = share;
 window.mandelightVideo = () => import("./video.js");

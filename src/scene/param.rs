@@ -64,11 +64,11 @@ params! {
     POINT_RADIUS = "lights.point[].radius", "Radius", SceneUnits, 0.0, 10.0, default 0.0, Logarithmic by 0.01,
         "Radius of the glowing ball. Larger softens the shadows while the picture refines.";
     RIG_COUNT = "lights.rig.count", "Sky lights", Count, 3.0, 64.0, default 16.0, Integer by 1.0,
-        "Number of lights that represent the sky or the 360° picture. More gives softer, more exact light and is slower.";
+        "Number of lights that represent the sky or the environment map. More gives softer, more exact light and is slower.";
     RIG_INTENSITY = "lights.rig.intensity", "Sky brightness", None, 0.0, 100.0, default 1.0, Logarithmic by 0.05,
-        "Brightness of the light of the sky or the 360° picture, and of that picture as the background.";
+        "Brightness of the light of the sky or the environment map, and of that map as the background.";
     RIG_SHADOW_REACH = "lights.rig.shadow_reach", "Sky shadow reach", ViewUnits, 0.001, 1000.0, default 1.0, Logarithmic by 0.1,
-        "Maximum distance at which a surface casts a shadow from the light of the sky or the 360° picture. Shorter brightens crevices and is faster.";
+        "Maximum distance at which a surface casts a shadow from the light of the sky or the environment map. Shorter brightens crevices and is faster.";
     SUN_STRENGTH = "lights.rig.sky.sun_strength", "Sun strength", None, 0.0, 100.0, default 2.0, Logarithmic by 0.05,
         "Brightness of the sun. At 1, a white surface that faces the sun is white.";
     SUN_SIZE = "lights.rig.sky.sun_size_deg", "Sun size", Degrees, 0.0, 45.0, default 6.0, Linear by 0.5,
@@ -76,7 +76,7 @@ params! {
     SUN_LIGHTS = "lights.rig.sky.sun_lights", "Sun lights", Count, 1.0, 32.0, default 1.0, Integer by 1.0,
         "Number of the rig's lights that form the sun. More gives softer shadows for a wide sun.";
     RIG_ROTATION = "lights.rig.picture.rotation_deg", "Rotation", Degrees, -180.0, 180.0, default 0.0, Linear by 1.0,
-        "Rotates the 360° picture and its lights around the vertical axis, counterclockwise from above.";
+        "Rotates the environment map and its lights around the vertical axis, counterclockwise from above.";
     AMBIENT = "surface.ambient", "Ambient", None, 0.0, 1.0, default 0.04, Linear by 0.01,
         "Brightens shadows: a constant part of the surface's colour, without any light. Path tracing leaves it out.";
     DIFFUSE = "surface.diffuse", "Diffuse", None, 0.0, 1.0, default 0.9, Linear by 0.01,

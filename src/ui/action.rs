@@ -28,6 +28,8 @@ pub enum Action {
     },
     /// Cancel the export in progress.
     CancelExport,
+    /// Cancel the reading of a file.
+    CancelReading,
     /// Save the scene document.
     SaveScene,
     /// Open a file dialog for a scene document or a picture with its scene.

@@ -2,7 +2,7 @@
 //!
 //! In: the project of each frame. Out: the project to show. Either state can be edited while it is shown.
 
-use egui::{Button, Frame, Margin, Rect, RichText, Ui, vec2};
+use egui::{Button, Frame, Label, Margin, Rect, RichText, Ui, vec2};
 
 use super::{
     floating,
@@ -14,6 +14,13 @@ use super::{
 use crate::scene::Project;
 
 const NAMES: [&str; 2] = ["A", "B"];
+/// Which state is in view, and what it is.
+const CAPTIONS: [&str; 2] = [
+    "A is in view: the state you began with. Edits change A.",
+    "B is in view: the copy of A. Edits change B.",
+];
+/// Width of the caption, in points.
+const CAPTION_WIDTH: f32 = 320.0;
 
 /// The comparison of two states, while it is on.
 #[derive(Debug, Default)]
@@ -109,6 +116,10 @@ impl Compare {
                     rects.record("end comparison", &end);
                     ends = end.clicked();
                 });
+                ui.set_max_width(CAPTION_WIDTH.min(view.width() - 24.0));
+                let caption = RichText::new(CAPTIONS[shown]).size(12.0).color(theme::TEXT_DIM);
+                let caption = ui.add(Label::new(caption).selectable(false).wrap());
+                rects.record("compare caption", &caption);
             });
         });
         rects.record("compare", &area.response);

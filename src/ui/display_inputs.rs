@@ -20,6 +20,8 @@ pub struct DisplayInputs<'a> {
     pub export: Option<ExportProgress>,
     /// The shell's message, if any.
     pub notice: Option<&'a Notice>,
+    /// The name of the file that is being read, if that takes long.
+    pub reading: Option<&'a str>,
     /// The name of the GPU adapter.
     pub adapter: &'a str,
     /// What the shell can share.

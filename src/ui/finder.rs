@@ -1,6 +1,6 @@
-//! The finder: a search over commands, scenes, sections and controls, by Ctrl+K.
+//! The finder: a search over commands, scenes, looks, sections and controls, by Ctrl+K.
 //!
-//! In: what is typed. Out: a command to run, or the section and the control to show.
+//! In: what is typed. Out: a command to run, a look to apply, or the section and the control to show.
 
 use egui::{Align2, Button, Key, RichText, ScrollArea, TextEdit, Ui, vec2};
 
@@ -10,6 +10,7 @@ use super::{
     theme,
 };
 use crate::scene::{
+    looks,
     param::{self, Param},
     presets,
 };
@@ -28,6 +29,8 @@ pub enum Target {
     Section(SectionRef),
     /// A control in a section of the panel.
     Control(SectionRef, &'static Param),
+    /// A look, or a part of one: the number of its list, and its number there.
+    Look([usize; 2]),
 }
 
 /// Something that can be found.
@@ -86,7 +89,7 @@ impl Finder {
                 window.spacing_mut().interact_size.y = ui.spacing().interact_size.y.max(30.0);
                 let field = TextEdit::singleline(&mut self.typed)
                     .align(Align2::LEFT_CENTER)
-                    .hint_text("A control, a scene, a command…")
+                    .hint_text("A control, a scene, a look, a command…")
                     .desired_width(f32::INFINITY);
                 let field = window.add(field);
                 field.request_focus();
@@ -131,7 +134,7 @@ fn row(ui: &mut Ui, entry: &Entry, is_selected: bool) -> bool {
     response.clicked()
 }
 
-/// Everything that can be found: commands first, then controls, sections and scenes.
+/// Everything that can be found: commands first, then controls, sections, scenes and looks.
 fn entries() -> Vec<Entry> {
     let printable = |text: &str| theme::printable(text);
     let commands = SHORTCUTS.iter().filter_map(|shortcut| {
@@ -172,7 +175,15 @@ fn entries() -> Vec<Entry> {
         words: printable(preset.blurb),
         target: Target::Command(Command::Preset(index)),
     });
-    commands.chain(keyless).chain(controls).chain(sections).chain(scenes).collect()
+    let looks = looks::lists().iter().enumerate().flat_map(|(at, list)| {
+        list.looks.iter().enumerate().map(move |(index, look)| Entry {
+            name: look.name.clone(),
+            about: list.kind.to_owned(),
+            words: theme::printable(look.about),
+            target: Target::Look([at, index]),
+        })
+    });
+    commands.chain(keyless).chain(controls).chain(sections).chain(scenes).chain(looks).collect()
 }
 
 /// What is found by all typed words, the best first: those in names before those in descriptions.

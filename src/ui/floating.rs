@@ -1,6 +1,6 @@
 //! Buttons and captions over the picture.
 
-use egui::{Align2, Label, Margin, Pos2, Rect, Response, Stroke, StrokeKind, Ui, vec2};
+use egui::{Align2, FontId, Label, Margin, Pos2, Rect, Response, Stroke, StrokeKind, Ui, vec2};
 
 use super::{
     icon::{Icon, icon_button},
@@ -25,10 +25,19 @@ pub fn button(ui: &mut Ui, at: Pos2, icon: Icon, (name, hover): (&str, &str)) ->
 /// A line of text at the lower edge of the picture in `view`, which does not take the pointer.
 pub fn caption(ui: &Ui, view: Rect, text: &str) -> Response {
     // In a narrow picture the buttons of the lower left corner would lie under the text.
-    let above = if view.width() < 800.0 { button_side(ui) + 2.0 * GAP } else { 14.0 };
+    let above = if view.width() < 800.0 { row_height(ui) + 2.0 * GAP } else { 14.0 };
+    text_at(ui, view, view.center_bottom() - vec2(0.0, above), Align2::CENTER_BOTTOM, text)
+}
+
+/// The same at the upper edge, where nothing of the set is in a low picture.
+pub fn top_caption(ui: &Ui, view: Rect, text: &str) -> Response {
+    text_at(ui, view, view.center_top() + vec2(0.0, 0.5 * GAP), Align2::CENTER_TOP, text)
+}
+
+fn text_at(ui: &Ui, view: Rect, at: Pos2, pivot: Align2, text: &str) -> Response {
     let shown = egui::Area::new(egui::Id::unique("caption"))
-        .fixed_pos(view.center_bottom() - vec2(0.0, above))
-        .pivot(Align2::CENTER_BOTTOM)
+        .fixed_pos(at)
+        .pivot(pivot)
         .constrain_to(view)
         .interactable(false)
         .show(ui.ctx(), |ui| {
@@ -47,22 +56,65 @@ pub fn mark(ui: &Ui, button: &Response) {
     ui.painter().rect_stroke(button.rect, theme::RADIUS, edge, StrokeKind::Inside);
 }
 
-/// A row of buttons in the picture's lower left corner.
+/// A button of the row in the picture's lower left corner.
+#[derive(Clone, Copy)]
+pub struct RowButton {
+    /// Its icon.
+    pub icon: Icon,
+    /// Its name for screen readers, and its explanation.
+    pub name_and_hover: (&'static str, &'static str),
+    /// The word below the icon on touch screens, where nothing explains it.
+    pub word: &'static str,
+}
+
+/// Width of a button with a word, with the gap to the next, in points.
+const WORD_STEP: f32 = 54.0;
+/// Height of a word, in points.
+const WORD_HEIGHT: f32 = 16.0;
+
+/// Height of the row of buttons over the picture, in points.
+pub fn row_height(ui: &Ui) -> f32 {
+    let has_words = ui.spacing().interact_size.y >= theme::TOUCH_ROW;
+    button_side(ui) + if has_words { WORD_HEIGHT } else { 0.0 }
+}
+
+/// A row of buttons in the picture's lower left corner; on touch screens with words.
 pub struct ButtonRow {
     next: Pos2,
+    has_words: bool,
 }
 
 impl ButtonRow {
     /// An empty row over the picture in `rect`.
-    pub fn new(ui: &Ui, rect: Rect) -> Self {
-        Self { next: rect.left_bottom() + vec2(GAP, -GAP - button_side(ui)) }
+    pub fn new(ui: &Ui, rect: Rect, has_words: bool) -> Self {
+        let corner = if has_words { vec2(2.0, -2.0) } else { vec2(GAP, -GAP) };
+        let height = button_side(ui) + if has_words { WORD_HEIGHT } else { 0.0 };
+        Self { next: rect.left_bottom() + corner - vec2(0.0, height), has_words }
+    }
+
+    /// Number of buttons with words that fit the picture in `rect`.
+    pub fn capacity(rect: Rect) -> usize {
+        ((rect.width() - 4.0) / WORD_STEP).floor().max(1.0) as usize
     }
 
     /// Adds a button on the right of the others.
-    pub fn add(&mut self, ui: &mut Ui, icon: Icon, name_and_hover: (&str, &str)) -> Response {
-        let button = button(ui, self.next, icon, name_and_hover);
-        self.next.x += button_side(ui) + GAP;
-        button
+    pub fn add(&mut self, ui: &mut Ui, row_button: RowButton) -> Response {
+        let RowButton { icon, name_and_hover, word } = row_button;
+        if !self.has_words {
+            let added = button(ui, self.next, icon, name_and_hover);
+            self.next.x += button_side(ui) + GAP;
+            return added;
+        }
+        let side = button_side(ui);
+        let area = Rect::from_min_size(self.next, vec2(WORD_STEP - 2.0, side + WORD_HEIGHT));
+        ui.painter().rect_filled(area, theme::RADIUS, theme::PANEL.gamma_multiply(0.8));
+        let at = Rect::from_min_size(area.min, vec2(area.width(), side));
+        let (name, hover) = name_and_hover;
+        let added = ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover));
+        let (font, below) = (FontId::proportional(12.0), area.center_bottom() - vec2(0.0, 4.0));
+        ui.painter().text(below, Align2::CENTER_BOTTOM, word, font, theme::TEXT);
+        self.next.x += WORD_STEP;
+        added
     }
 
     /// The area of the row's buttons, with the gap around them.

@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::floating;
 use crate::scene::Camera;
 
+/// Height of a view, in points, below which hints are at its upper edge.
+const LOW: f32 = 420.0;
+
 /// The hints that a visitor has followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -43,7 +46,9 @@ impl Hints {
     /// Shows the hints that are left over the picture in `view`, worded for fingers or a mouse.
     pub fn show(self, ui: &Ui, view: Rect, has_touch: bool) -> Option<Response> {
         let text = self.text(has_touch)?;
-        Some(floating::caption(ui, view, &text))
+        // Above the buttons of a low view, the text would cover the set.
+        let show = if view.height() < LOW { floating::top_caption } else { floating::caption };
+        Some(show(ui, view, &text))
     }
 }
 

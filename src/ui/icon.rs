@@ -47,6 +47,12 @@ pub enum Icon {
     Dice,
     /// Nine squares.
     Grid,
+    /// Two halves of a frame, one of them filled.
+    Halves,
+    /// A clock whose hands turn back.
+    Before,
+    /// Three dots.
+    More,
 }
 
 /// Width and height of a button with an icon, in points.
@@ -182,6 +188,24 @@ pub fn paint(painter: &Painter, icon: Icon, center: Pos2, size: f32, color: Colo
                     (x + 1.7, y + 1.7),
                     (x - 1.7, y + 1.7),
                 ]);
+            }
+        }
+        Icon::Halves => {
+            line(&[(-7.0, -5.5), (7.0, -5.5), (7.0, 5.5), (-7.0, 5.5), (-7.0, -5.5)]);
+            fill(&[(-7.0, -5.5), (0.0, -5.5), (0.0, 5.5), (-7.0, 5.5)]);
+        }
+        Icon::Before => {
+            let circle = (0..=20).map(|i| {
+                let a = (-160.0 + 16.0 * i as f32).to_radians();
+                (6.5 * a.cos(), 6.5 * a.sin())
+            });
+            line(&circle.collect::<Vec<_>>());
+            line(&[(-9.0, -4.5), (-6.1, -2.2), (-3.8, -5.2)]);
+            line(&[(0.0, -3.5), (0.0, 0.5), (2.8, 2.0)]);
+        }
+        Icon::More => {
+            for x in [-5.0, 0.0, 5.0] {
+                painter.circle_filled(at(x, 0.0), 1.7 * size / 16.0, color);
             }
         }
         Icon::Share => {

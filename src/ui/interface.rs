@@ -68,6 +68,8 @@ pub struct Interface {
     surprises: Surprises,
     look_preview: LookPreview,
     help_open: bool,
+    /// True if the screen is used with fingers.
+    has_touch: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
     view_px: [u32; 2],
@@ -104,6 +106,7 @@ impl Interface {
             surprises: Surprises::default(),
             look_preview: LookPreview::default(),
             help_open: false,
+            has_touch: false,
             camera_status: None,
             rects: Rects::default(),
             view_px: [1, 1],
@@ -246,18 +249,20 @@ impl Interface {
         let mut actions = Vec::new();
 
         let wide = theme::has_side_panel(ui.available_size());
+        // Before the first touch, egui does not know that the screen is one.
+        self.has_touch = !wide || ui.input(|input| input.has_touch_screen());
         self.is_comparing = shortcuts::is_comparing(ui.ctx());
         self.pilot.set_jumps(inputs.reduced_motion);
         theme::set_motion(ui.ctx(), !inputs.reduced_motion);
-        theme::set_row_sizes(ui, !wide || ui.input(|i| i.has_touch_screen()));
+        theme::set_row_sizes(ui, self.has_touch);
         self.panels(ui, inputs, wide, &mut commands, &mut actions);
         self.status(ui, inputs);
         // A panel that changes the camera as well has framed the fractal itself.
         let Scene { fractal, camera, .. } = self.scene();
         let is_reshaped = *fractal != before.scene.fractal && *camera == before.scene.camera;
         self.view(ui, inputs, wide, is_reshaped, &mut commands);
-        notice::show(ui, inputs.notice, self.rects.get("view"), &mut actions);
-        panel::help_window(ui.ctx(), &mut self.help_open);
+        notice::show(ui, inputs, self.rects.get("view"), &mut actions, &mut self.rects);
+        panel::help_window(ui.ctx(), &mut self.help_open, self.has_touch);
         if let Some(view) = self.rects.get("view") {
             let project = self.editor.project();
             let shared = self.share.show(ui, view, project, inputs.sharing, &mut self.rects);
@@ -269,6 +274,7 @@ impl Interface {
         match self.finder.show(ui) {
             Some(Target::Command(command)) => commands.push(command),
             Some(Target::Section(section)) => panel::show_section(ui, &mut self.settings, section),
+            Some(Target::Look(at)) => self.apply_look(at),
             Some(Target::Control(section, param)) => {
                 panel::show_section(ui, &mut self.settings, section);
                 widgets::reveal(ui, param.path);

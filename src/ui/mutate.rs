@@ -30,6 +30,8 @@ const MIDDLE: usize = COLUMNS * COLUMNS / 2;
 const GAP: f32 = 8.0;
 /// Height of the controls below the pictures, in points.
 const CONTROLS: f32 = 92.0;
+/// What stands in the place of a picture that is not drawn yet.
+const DRAWING: &str = "Drawing…";
 /// Samples of a pixel of the small pictures.
 const SAMPLES: u32 = 2;
 /// Variations that are looked at for one that shows something, until any will do.
@@ -238,6 +240,9 @@ fn paint(
         Some(picture) => picture.paint(painter, rect, corners),
         None => {
             painter.rect_filled(rect, corners, theme::PANEL);
+            let font = egui::FontId::proportional(12.0);
+            let center = egui::Align2::CENTER_CENTER;
+            painter.text(rect.center(), center, DRAWING, font, theme::TEXT_DIM);
         }
     }
     let is_lit = response.hovered() || response.has_focus();

@@ -1,57 +1,101 @@
-//! The shell's message over the picture.
+//! The shell's message over the picture, and the file that is being read.
 
-use egui::{Align2, Color32, Margin, Rect, Ui, text::LayoutJob, vec2};
+use egui::{
+    Align2, Color32, Margin, Rect, Response, Ui, accesskit::Role, pos2, text::LayoutJob, vec2,
+};
 
 use super::{
     action::Action,
-    display_inputs::Notice,
+    display_inputs::{DisplayInputs, Notice},
     icon::{Icon, icon_button},
+    rects::Rects,
     theme,
 };
 
-/// Height of the view that is no text of the notice: margins and the edge, in points.
+/// Height of the view that is no text of the message: margins and the edge, in points.
 const AROUND: f32 = 40.0;
+/// Distance from the picture's upper edge, and between messages, in points.
+const GAP: f32 = 12.0;
 
-/// Shows `notice` at the upper edge of `view`, as much of its text as has room.
-pub fn show(ui: &Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut Vec<Action>) {
-    let (Some(notice), Some(view)) = (notice, view) else {
-        return;
-    };
-    let width = (view.width() - 24.0).clamp(120.0, 460.0);
-    egui::Area::new(egui::Id::unique("notice"))
-        .fixed_pos(view.center_top() + vec2(0.0, 12.0))
-        .pivot(Align2::CENTER_TOP)
-        .constrain_to(view)
-        .show(ui.ctx(), |ui| {
-            let edge = if notice.is_error { theme::ERROR } else { theme::ACCENT };
-            egui::Frame::new()
-                .fill(theme::PANEL)
-                .stroke(egui::Stroke::new(1.0, edge))
-                .corner_radius(8)
-                .inner_margin(Margin { left: 12, right: 6, top: 6, bottom: 6 })
-                .show(ui, |ui| {
-                    ui.horizontal(|ui| {
-                        let color = if notice.is_error { theme::ERROR } else { Color32::WHITE };
-                        let font = egui::FontId::proportional(13.5);
-                        let row_height = ui.fonts_mut(|fonts| fonts.row_height(&font));
-                        let text = notice.text.clone();
-                        let mut job = LayoutJob::simple(text, font, color, width - 52.0);
-                        let rows = (view.height() - AROUND) / row_height;
-                        job.wrap.max_rows = (rows as usize).max(1);
-                        let text = ui.painter().layout_job(job);
-                        let size = vec2(text.size().x, text.size().y.max(28.0));
-                        let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
-                        ui.ctx().accesskit_node_builder(shown.id, |node| {
-                            node.set_role(egui::accesskit::Role::Alert);
-                            node.set_label(notice.text.as_str());
-                        });
-                        let at = rect.left_center() - vec2(0.0, text.size().y / 2.0);
-                        ui.painter().galley(at, text, color);
-                        let dismiss = icon_button(ui, Icon::Cross, "Dismiss", "Close this message");
-                        if dismiss.clicked() {
-                            actions.push(Action::DismissNotice);
-                        }
-                    });
-                });
+/// Shows the messages of `inputs` at the upper edge of `view`.
+pub fn show(
+    ui: &Ui,
+    inputs: &DisplayInputs<'_>,
+    view: Option<Rect>,
+    actions: &mut Vec<Action>,
+    rects: &mut Rects,
+) {
+    let Some(view) = view else { return };
+    let mut top = view.top() + GAP;
+    if let Some(Notice { text, is_error }) = inputs.notice {
+        let (text_color, edge) =
+            if *is_error { (theme::ERROR, theme::ERROR) } else { (Color32::WHITE, theme::ACCENT) };
+        let message = Message { id: "notice", role: Role::Alert, text, text_color, edge, top };
+        let shown = message.show(ui, view, |ui| {
+            if icon_button(ui, Icon::Cross, "Dismiss", "Close this message").clicked() {
+                actions.push(Action::DismissNotice);
+            }
         });
+        rects.record("notice", &shown);
+        top = shown.rect.bottom() + GAP;
+    }
+    if let Some(name) = inputs.reading {
+        let text = format!("Reading {name}…");
+        let (text_color, edge) = (Color32::WHITE, theme::LINE);
+        let message =
+            Message { id: "reading", role: Role::Status, text: &text, text_color, edge, top };
+        let shown = message.show(ui, view, |ui| {
+            if icon_button(ui, Icon::Cross, "Cancel", "Stop reading this file").clicked() {
+                actions.push(Action::CancelReading);
+            }
+        });
+        rects.record("reading", &shown);
+    }
+}
+
+/// A framed text with a button.
+struct Message<'a> {
+    id: &'static str,
+    role: Role,
+    text: &'a str,
+    text_color: Color32,
+    edge: Color32,
+    /// Its upper edge.
+    top: f32,
+}
+
+impl Message<'_> {
+    /// Shows the message at the middle of `view`, with `button` on its right: as much of its text as has room.
+    fn show(&self, ui: &Ui, view: Rect, button: impl FnOnce(&mut Ui)) -> Response {
+        let width = (view.width() - 24.0).clamp(120.0, 460.0);
+        let area = egui::Area::new(egui::Id::unique(self.id))
+            .fixed_pos(pos2(view.center().x, self.top))
+            .pivot(Align2::CENTER_TOP)
+            .constrain_to(view);
+        let shown = area.show(ui.ctx(), |ui| {
+            let margin = Margin { left: 12, right: 6, top: 6, bottom: 6 };
+            let frame = egui::Frame::new().fill(theme::PANEL).corner_radius(8).inner_margin(margin);
+            frame.stroke(egui::Stroke::new(1.0, self.edge)).show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    let font = egui::FontId::proportional(13.5);
+                    let row_height = ui.fonts_mut(|fonts| fonts.row_height(&font));
+                    let text = self.text.to_owned();
+                    let mut job = LayoutJob::simple(text, font, self.text_color, width - 52.0);
+                    let rows = (view.bottom() - self.top - AROUND + GAP) / row_height;
+                    job.wrap.max_rows = (rows as usize).max(1);
+                    let text = ui.painter().layout_job(job);
+                    let size = vec2(text.size().x, text.size().y.max(28.0));
+                    let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
+                    ui.ctx().accesskit_node_builder(shown.id, |node| {
+                        node.set_role(self.role);
+                        node.set_label(self.text);
+                    });
+                    let at = rect.left_center() - vec2(0.0, text.size().y / 2.0);
+                    ui.painter().galley(at, text, self.text_color);
+                    button(ui);
+                });
+            });
+        });
+        shown.response
+    }
 }

@@ -16,6 +16,8 @@ const QUIET_ZONE: i32 = 4;
 const QR_SIDE: f32 = 232.0;
 /// Least width and height of the QR code, in points: scanners still resolve its modules.
 const QR_SIDE_LEAST: f32 = 170.0;
+/// Height of the screen, in points, below which the window is wide instead of high.
+const LOW: f32 = 560.0;
 /// Width of the window, in points.
 const WIDTH: f32 = 288.0;
 
@@ -77,19 +79,31 @@ impl Share {
         let last = self.shared.take().filter(|shared| shared.project == *project);
         let shared = self.shared.insert(last.unwrap_or_else(|| Shared::new(project, sharing)));
         let mut open = true;
+        let screen = ui.ctx().content_rect();
+        // In a low window the buttons are beside the code, so that all of them are seen.
+        let width = (2.0 * WIDTH).min(screen.width() - 40.0);
+        let is_low = screen.height() < LOW && width > 1.5 * WIDTH;
+        let width = if is_low { width } else { WIDTH };
         let shown = egui::Window::new("Share this view")
             .open(&mut open)
             .fixed_pos(view.center())
             .pivot(Align2::CENTER_CENTER)
-            .constrain_to(ui.ctx().content_rect())
+            .constrain_to(screen)
             .collapsible(false)
             .resizable(false)
-            .fixed_size(vec2(WIDTH, (ui.ctx().content_rect().height() - 80.0).max(120.0)))
+            .fixed_size(vec2(width, (screen.height() - 80.0).max(120.0)))
             .show(ui.ctx(), |window| {
                 window.spacing_mut().interact_size.y = ui.spacing().interact_size.y.max(34.0);
                 egui::ScrollArea::vertical().auto_shrink([false, true]).show(window, |ui| {
-                    shared.show_code(ui);
-                    buttons(ui, sharing, rects, &mut commands);
+                    if is_low {
+                        ui.columns_const(|[code, others]| {
+                            shared.show_code(code, rects);
+                            buttons(others, sharing, rects, &mut commands);
+                        });
+                    } else {
+                        shared.show_code(ui, rects);
+                        buttons(ui, sharing, rects, &mut commands);
+                    }
                 });
             });
         if let Some(shown) = shown {
@@ -113,7 +127,7 @@ impl Shared {
         Self { project: project.clone(), code: code.and_then(|link| Code::of(&link)) }
     }
 
-    fn show_code(&self, ui: &mut Ui) {
+    fn show_code(&self, ui: &mut Ui, rects: &mut Rects) {
         let Some(code) = &self.code else {
             let text = "This view's link is too long for a QR code. Copy the link instead.";
             ui.add(Label::new(RichText::new(text).color(theme::TEXT_DIM)).wrap());
@@ -128,6 +142,7 @@ impl Shared {
                 node.set_role(egui::accesskit::Role::Image);
                 node.set_label("QR code of the link to this view");
             });
+            rects.record("QR code", &response);
             ui.painter().add(code.mesh(rect));
             ui.add_space(4.0);
             let text = "Scan it to open this view on another device.";

@@ -242,13 +242,23 @@ pub const KEYLESS: &[(Command, &str)] = &[
     (Command::LightPlace, "Light a place by a click"),
 ];
 
-/// The pointer's gestures in the view, each with its effect.
+/// What fingers do in the view, each with its effect.
+pub const TOUCH_GESTURES: &[(&str, &str)] = &[
+    ("Drag with a finger", "Orbit; in close views around the point under the finger"),
+    ("Pinch", "Move closer, drawn to good places, or farther"),
+    ("Drag with two fingers", "Pan"),
+    ("Double tap", "Fly to that point"),
+    ("Drag a handle", "Turn a light, or move a point light"),
+    ("Double tap a slider", "Reset to its default"),
+    ("Hold Before", "See the view before the last change"),
+];
+
+/// What a mouse does in the view, each with its effect.
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "Orbit; in close views around the point under the pointer"),
     ("Right drag, Shift + drag", "Pan"),
-    ("Wheel, pinch", "Move closer, drawn to good places near the pointer, or farther"),
-    ("Double click, double tap", "Fly to that point"),
-    ("Two fingers", "Pan and zoom"),
+    ("Wheel", "Move closer, drawn to good places near the pointer, or farther"),
+    ("Double click", "Fly to that point"),
     (
         "Drag a light's handle",
         "Turn a light, or move a point light; with Shift toward or away from you",

@@ -76,11 +76,14 @@ pub fn set_motion(ctx: &Context, moves: bool) {
     }
 }
 
+/// Height of a row for fingers, in points.
+pub const TOUCH_ROW: f32 = 44.0;
+
 /// Sets the row sizes of this `Ui`: larger for touch screens.
 pub fn set_row_sizes(ui: &mut Ui, touch: bool) {
     let spacing = ui.spacing_mut();
     if touch {
-        spacing.interact_size.y = 44.0;
+        spacing.interact_size.y = TOUCH_ROW;
         spacing.item_spacing = vec2(8.0, 6.0);
         spacing.icon_width = 22.0;
         spacing.icon_width_inner = 14.0;

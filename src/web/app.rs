@@ -86,6 +86,7 @@ impl eframe::App for App {
             notice: session.notice.as_ref(),
             adapter: &self.adapter_name,
             sharing: Sharing { address: &self.address, has_share_sheet: self.has_share_sheet },
+            reading: session.decoder.slow_file(now_secs),
             gallery: session.gallery.as_ref(),
             reduced_motion: page::prefers_reduced_motion(),
             small_pictures: engine.small_textures(),
@@ -135,6 +136,11 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
         Action::CancelExport => {
             engine.exporter.cancel();
             session.show_notice("Saving was cancelled.");
+        }
+        Action::CancelReading => {
+            if session.decoder.cancel() {
+                session.show_notice("Reading the file was cancelled.");
+            }
         }
         Action::SaveScene => {
             let text = document::project_to_json(session.interface.project());
@@ -208,7 +214,7 @@ fn read_dropped_files(context: &egui::Context, mailbox: &Mailbox) {
         [] => {}
         [file] => {
             if let Some(file) = file.web_file() {
-                files::read(file, mailbox);
+                mailbox.post(Message::File(file.clone()));
             }
         }
         _ => mailbox.post(Message::Error("Drop one file at a time.".to_owned())),

@@ -1,6 +1,7 @@
 //! Downloads, the file dialogue, dropped files and the clipboard.
 //!
-//! In: bytes and names. Out: bytes and names, through the mailbox. Does not know what a file means.
+//! In: bytes and names; files of the visitor. Out: downloads; the same files, through the mailbox. Does not
+//! know what a file means.
 
 use std::io::{self, Write};
 
@@ -12,21 +13,9 @@ use super::{
     mailbox::{Mailbox, Message},
     page::{self, describe, document, window},
 };
-use crate::scene::{document::MAX_BYTES, environment_map::decode::MAX_FILE_BYTES};
-
-/// Bytes read of a file that may hold a scene. One over a document's limit, so that the decoder
-/// refuses a larger document. A picture's scene precedes its pixels.
-const MAX_READ_BYTES: f64 = (MAX_BYTES + 1) as f64;
-
-/// Bytes read of an environment map. One over the decoder's limit, so that the decoder refuses a
-/// larger file.
-const MAX_ENVIRONMENT_MAP_BYTES: f64 = (MAX_FILE_BYTES + 1) as f64;
 
 /// Files in the dialogue, by extension and media type.
 const ACCEPTED: &str = ".json,.png,.jpg,.jpeg,.webp,.hdr,.pic,.exr,.ggr,.gpl,.map,.ugr,application/json,image/png,image/jpeg,image/webp";
-
-/// Extensions of environment maps.
-const ENVIRONMENT_MAP_EXTENSIONS: [&str; 3] = [".hdr", ".pic", ".exr"];
 
 /// Approximate bytes of one blob of a download.
 const CHUNK_BYTES: usize = 1 << 20;
@@ -126,7 +115,7 @@ impl FilePicker {
                 let (source, mailbox) = (input.clone(), mailbox.clone());
                 page::listen(input, "change", move || {
                     if let Some(file) = source.files().and_then(|files| files.get(0)) {
-                        read(&file, &mailbox);
+                        mailbox.post(Message::File(file));
                     }
                 });
             }
@@ -156,26 +145,6 @@ fn create_input() -> Result<HtmlInputElement, JsValue> {
         body.append_child(&input)?;
     }
     Ok(input)
-}
-
-/// Reads `file` and posts its content.
-pub fn read(file: &web_sys::File, mailbox: &Mailbox) {
-    let (file, mailbox) = (file.clone(), mailbox.clone());
-    spawn_local(async move {
-        let name = file.name();
-        let content = read_start(&file).await.map_err(|error| describe(&error));
-        mailbox.post(Message::File { name, content });
-    });
-}
-
-/// The first bytes of `file`, as many as its kind needs.
-async fn read_start(file: &web_sys::File) -> Result<Vec<u8>, JsValue> {
-    let name = file.name().to_lowercase();
-    let is_environment_map = ENVIRONMENT_MAP_EXTENSIONS.iter().any(|end| name.ends_with(end));
-    let max_bytes = if is_environment_map { MAX_ENVIRONMENT_MAP_BYTES } else { MAX_READ_BYTES };
-    let start = file.slice_with_f64_and_f64(0.0, file.size().min(max_bytes))?;
-    let buffer = JsFuture::from(start.array_buffer()).await?;
-    Ok(js_sys::Uint8Array::new(&buffer).to_vec())
 }
 
 /// Copies `link` to the clipboard, and posts `notice` on success.

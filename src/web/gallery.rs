@@ -3,10 +3,10 @@
 //! In: files of the gallery's host. Out: its list and its scenes as messages, its pictures as textures of
 //! egui. Files are read as data, without cookies, where their host lets other pages read them.
 
-use js_sys::{Uint8Array, Uint8ClampedArray};
+use js_sys::{Array, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::{JsCast as _, prelude::*};
 use wasm_bindgen_futures::spawn_local;
-use web_sys::{Url, UrlSearchParams};
+use web_sys::{Blob, Url, UrlSearchParams};
 
 use super::{
     mailbox::{Mailbox, Message},
@@ -88,7 +88,11 @@ pub fn open_picture(address: &str, picture: &Picture, mailbox: &Mailbox) {
     let address = format!("{address}{}", picture.file);
     spawn_local(async move {
         // A picture's scene precedes its pixels.
-        let content = bytes_of(read(&address, (MAX_BYTES + 1) as f64, false).await);
+        let content = match read(&address, (MAX_BYTES + 1) as f64, false).await {
+            Ok(bytes) => Blob::new_with_u8_array_sequence(&Array::of1(&bytes)),
+            Err(error) => Err(error),
+        };
+        let content = content.map_err(|error| describe(&error));
         mailbox.post(Message::GalleryPicture { name, content });
     });
 }

@@ -5,16 +5,19 @@
 
 use std::{cell::RefCell, rc::Rc};
 
+use super::file_content::FileContent;
 use crate::ui::GalleryState;
 
 /// An event from outside a frame.
 pub enum Message {
     /// The visitor picked or dropped a file.
-    File {
-        /// The file's name, for notices.
-        name: String,
-        /// The file's bytes, or why the browser could not read them.
-        content: Result<Vec<u8>, String>,
+    File(web_sys::File),
+    /// A file has been decoded.
+    Decoded {
+        /// The ticket of its decoder.
+        ticket: u32,
+        /// What it holds, or why it could not be read.
+        content: Result<FileContent, String>,
     },
     /// The visitor changed the address's fragment, given without `#`.
     Fragment(String),
@@ -34,7 +37,7 @@ pub enum Message {
         /// Its name, for notices.
         name: String,
         /// The file's start, which holds the scene, or why it could not be read.
-        content: Result<Vec<u8>, String>,
+        content: Result<web_sys::Blob, String>,
     },
     /// A success to show to the visitor.
     Notice(String),

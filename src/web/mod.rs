@@ -22,6 +22,8 @@
 //! | `device_loss` | how often to restart, and in which safe mode |
 //! | `video` | a video, encoded by the browser |
 //! | `file_access` | a file on the disk, written while its content is made |
+//! | `decoder` | the file that is being decoded, in a worker |
+//! | `decode_worker` | the decoding, within that worker |
 //! | `files` | downloads, file dialogue, dropped files, clipboard |
 //! | `address` | the scene in the address bar |
 //! | `storage` | texts in the browser's storage |
@@ -32,6 +34,7 @@
 //! | `image_decoder` | pictures in the interface, decoded by the browser |
 //! | `gallery` | the gallery of the page's address |
 //! | `mailbox` | messages from callbacks to the next frame |
+//! | `file_content` | what a file holds, and its way from the worker |
 //! | `opening` | the opening picture, until the view's first is as good |
 //! | `accessibility` | the interface for screen readers |
 //! | `page` | the window: clocks, timers, listeners |
@@ -41,11 +44,14 @@ mod address;
 mod app;
 mod async_compile;
 mod autosave;
+mod decode_worker;
+mod decoder;
 mod device_loss;
 mod engine;
 mod error_log;
 mod exporter;
 mod file_access;
+mod file_content;
 mod files;
 mod gallery;
 mod image_decoder;

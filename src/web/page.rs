@@ -14,7 +14,7 @@ extern "C" {
     fn mandelight_notice(text: &str, detail: &str) -> Result<(), JsValue>;
 }
 
-/// The browser's window; `None` only in a worker, where Mandelight never runs.
+/// The browser's window; `None` only in a worker, where nothing but decoding runs.
 pub fn window() -> Option<Window> {
     web_sys::window()
 }

@@ -3,23 +3,24 @@
 //! In: the address and the storage at start-up; messages later. Out: the scene to draw, saved to the
 //! storage and the address.
 
-use std::{cell::RefCell, io::Cursor, rc::Rc, sync::Arc};
+use std::{cell::RefCell, rc::Rc, sync::Arc};
 
 use super::{
     address::Address,
     autosave::{self, Autosave},
+    decoder::{Decoder, Purpose, Reading},
     device_loss::{self, SafeMode},
+    file_content::FileContent,
     files::{self, FilePicker},
     gallery,
     mailbox::{Mailbox, Message},
     page, stored,
 };
 use crate::{
-    export,
     gpu::Gpu,
     reading::visible_lines,
     render::Report,
-    scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
+    scene::{BackgroundKind, Scene, link, presets},
     ui::{GalleryState, Interface, Notice, Settings, theme},
 };
 
@@ -36,6 +37,8 @@ pub struct Session {
     pub mailbox: Mailbox,
     /// Writes the scene to the storage and the address.
     pub autosave: Autosave,
+    /// Decodes files, in a worker.
+    pub decoder: Decoder,
     /// The file dialogue.
     pub picker: FilePicker,
     /// The device; `None` after a loss, until the restart.
@@ -93,6 +96,7 @@ impl Session {
         watch_storage(&mailbox);
         let mut session = Self {
             autosave: Autosave::new(address),
+            decoder: Decoder::default(),
             picker: FilePicker::new(&mailbox),
             interface,
             gallery: gallery::open(&mailbox),
@@ -178,6 +182,10 @@ impl Session {
         self.show(Notice { text: text.into(), is_error: true }, FAILURE_SECS);
     }
 
+    fn show_unopened(&mut self, name: &str, reason: &str) {
+        self.show_error(format!("{name} could not be opened: {reason}"));
+    }
+
     fn show(&mut self, notice: Notice, secs: f64) {
         // A notice may quote files and names.
         let text = visible_lines(&notice.text).into_owned();
@@ -221,11 +229,17 @@ impl Session {
     pub fn read_messages(&mut self) {
         for message in self.mailbox.take() {
             match message {
-                Message::File { name, content } => {
-                    let opened = content.and_then(|bytes| self.open_file(&name, &bytes));
-                    opened.unwrap_or_else(|reason| {
-                        self.show_error(format!("{name} could not be opened: {reason}"));
-                    });
+                Message::File(file) => {
+                    let name = file.name();
+                    self.decoder.start(name, file.into(), Purpose::Open, &self.mailbox);
+                }
+                Message::Decoded { ticket, content } => {
+                    // A newer file, or a cancellation, leaves the result of an older one unused.
+                    let Some(reading) = self.decoder.finish(ticket) else { continue };
+                    match content {
+                        Ok(content) => self.use_content(&reading, content),
+                        Err(reason) => self.show_unopened(&reading.name, &reason),
+                    }
                 }
                 Message::Fragment(fragment) => match link::project_from_fragment(&fragment) {
                     Ok(project) => {
@@ -239,52 +253,44 @@ impl Session {
                 }
                 Message::Storage => stored::update_favourites(self.interface.favourites_mut()),
                 Message::Gallery(state) => self.gallery = Some(state),
-                Message::GalleryPicture { name, content } => {
-                    match content.and_then(|bytes| read_project(&bytes)) {
-                        Ok(project) => {
-                            self.interface.fly_into(project);
-                            self.report_missing_environment_map();
-                        }
-                        Err(reason) => {
-                            self.show_error(format!("{name} could not be opened: {reason}"));
-                        }
-                    }
-                }
+                Message::GalleryPicture { name, content } => match content {
+                    Ok(file) => self.decoder.start(name, file, Purpose::FlyInto, &self.mailbox),
+                    Err(reason) => self.show_unopened(&name, &reason),
+                },
                 Message::Notice(text) => self.show_notice(text),
                 Message::Error(text) => self.show_error(text),
             }
         }
     }
 
-    /// Opens a scene, a picture that contains one, an environment map, or gradients.
-    fn open_file(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
-        // An OpenEXR picture saved by Mandelight is also a valid environment map: its scene wins.
-        if environment_map::is_environment_map(bytes) && exr_scene(bytes).is_none() {
-            let environment_map =
-                environment_map::decode(name, bytes).map_err(|error| error.to_string())?;
-            self.interface.use_environment_map(Arc::new(environment_map));
-            let lights = self.interface.scene().lights.rig.len();
-            self.show_notice(format!(
-                "{name} now lights the scene: {lights} lights in addition to those of the list."
-            ));
-            return Ok(());
+    /// Uses what a file holds.
+    fn use_content(&mut self, Reading { name, purpose, .. }: &Reading, content: FileContent) {
+        match content {
+            FileContent::Project(project) if *purpose == Purpose::FlyInto => {
+                self.interface.fly_into(*project);
+                self.report_missing_environment_map();
+            }
+            FileContent::Project(project) => {
+                self.interface.replace_project(*project);
+                self.show_notice(format!("Opened {name}."));
+                self.report_missing_environment_map();
+            }
+            FileContent::EnvironmentMap(environment_map) => {
+                self.interface.use_environment_map(Arc::new(environment_map));
+                let lights = self.interface.scene().lights.rig.len();
+                self.show_notice(format!(
+                    "{name} now lights the scene: {lights} lights in addition to those of the list."
+                ));
+            }
+            FileContent::Gradients(found) => {
+                let count = found.len();
+                self.interface.use_gradients(found);
+                self.show_notice(match count {
+                    1 => format!("{name} now colours the surface."),
+                    _ => format!("The first of {count} gradients in {name} now colours the surface. Choose another under Colours."),
+                });
+            }
         }
-        if let Some((stem, ending)) = name.rsplit_once('.')
-            && gradient::ENDINGS.contains(&ending.to_ascii_lowercase().as_str())
-        {
-            let found = gradient::read(bytes, stem).map_err(|error| error.to_string())?;
-            let count = found.len();
-            self.interface.use_gradients(found);
-            self.show_notice(match count {
-                1 => format!("{name} now colours the surface."),
-                _ => format!("The first of {count} gradients in {name} now colours the surface. Choose another under Colours."),
-            });
-            return Ok(());
-        }
-        self.interface.replace_project(read_project(bytes)?);
-        self.show_notice(format!("Opened {name}."));
-        self.report_missing_environment_map();
-        Ok(())
     }
 
     /// Shows a notice where the background's environment map is not loaded.
@@ -349,22 +355,4 @@ fn first_settings(has_link: bool) -> Settings {
         !theme::has_side_panel(egui::vec2(width, height))
     });
     Settings { panel_open: !(has_link && has_sheet), ..Settings::default() }
-}
-
-/// The project in a file: a document, or a picture that contains one.
-fn read_project(bytes: &[u8]) -> Result<Project, String> {
-    let text = match export::picture_scene_text(bytes) {
-        Some(text) => {
-            text?.ok_or("the picture contains no scene; only pictures saved by Mandelight do")?
-        }
-        None => String::from_utf8(bytes.to_vec()).map_err(|_| {
-            "the file is neither a scene nor a picture that Mandelight can read".to_owned()
-        })?,
-    };
-    document::project_from_json(&text).map_err(|error| error.to_string())
-}
-
-/// The document in an OpenEXR file.
-fn exr_scene(bytes: &[u8]) -> Option<String> {
-    export::is_exr(bytes).then(|| export::exr_scene_text(Cursor::new(bytes)).ok()?)?
 }

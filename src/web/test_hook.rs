@@ -1,15 +1,15 @@
 //! `window.mandelight`: the object by which browser tests drive the page, with `?test` only.
 //!
-//! In: calls from JavaScript. Out: plain objects. Except for losing the device, a visitor can do all
-//! that the hook does. egui has no accessibility tree on the web, so the hook locates the widgets.
+//! In: calls from JavaScript. Out: plain objects. Except for losing the device and failing decoders,
+//! a visitor can do all that the hook does. egui has no accessibility tree on the web, so the hook locates the widgets.
 
 use std::{cell::RefCell, rc::Rc};
 
-use js_sys::{Array, Object, Promise, Reflect, Uint8Array};
+use js_sys::{Array, Float32Array, Object, Promise, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::future_to_promise;
 
-use super::{error_log, page, session::Session, view_picture::read_pixels};
+use super::{decoder::Fault, error_log, page, session::Session, view_picture::read_pixels};
 use crate::{gpu::Gpu, render::Activity, scene::document, ui::zoom};
 
 /// The page's test hook.
@@ -59,7 +59,8 @@ impl TestHook {
         set(&object, "exporting", status.is_exporting);
         set(&object, "smallPictures", status.small_pictures as f64);
         set(&object, "uiTextures", status.ui_textures as f64);
-        set(&object, "wasmBytes", wasm_bytes());
+        set(&object, "reading", session.decoder.is_busy());
+        set(&object, "memoryBytes", memory_bytes());
         object
     }
 
@@ -88,6 +89,26 @@ impl TestHook {
                 source.ok_or_else(|| JsValue::from_str("there is no picture yet"))?;
             read_back(&gpu, &texture).await.map(JsValue::from)
         })
+    }
+
+    /// The loaded environment map: `{name, width, height, pixels}`; null without one.
+    #[wasm_bindgen(js_name = environmentMap)]
+    pub fn environment_map(&self) -> JsValue {
+        let session = self.session.borrow();
+        let Some(map) = session.interface.environment_map() else { return JsValue::NULL };
+        let object = Object::new();
+        let channels: Vec<f32> = map.pixels().iter().flat_map(|it| it.to_array()).collect();
+        set(&object, "name", map.name());
+        set(&object, "width", map.size_px()[0]);
+        set(&object, "height", map.size_px()[1]);
+        set(&object, "pixels", Float32Array::from(channels.as_slice()));
+        object.into()
+    }
+
+    /// Makes the decoder of the next file fail: `panic`, `loop` or `memory`. After `max_secs` it is given up.
+    #[wasm_bindgen(js_name = breakDecoder)]
+    pub fn break_decoder(&self, kind: String, max_secs: f64) {
+        self.session.borrow_mut().decoder.fault = Some(Fault { kind, max_secs });
     }
 
     /// Destroys the device, as a driver's reset would.
@@ -128,10 +149,11 @@ impl TestHook {
     }
 }
 
-/// The size of the module's memory, which never shrinks.
-fn wasm_bytes() -> f64 {
-    let memory = wasm_bindgen::memory().unchecked_into::<js_sys::WebAssembly::Memory>();
-    f64::from(memory.buffer().unchecked_into::<js_sys::ArrayBuffer>().byte_length())
+/// Size of the module's memory, which only grows.
+fn memory_bytes() -> f64 {
+    let memory = wasm_bindgen::memory().dyn_into::<js_sys::WebAssembly::Memory>();
+    let buffer = memory.map(|memory| memory.buffer().unchecked_into::<js_sys::ArrayBuffer>());
+    buffer.map_or(0.0, |buffer| f64::from(buffer.byte_length()))
 }
 
 /// Reads the texture's pixels: `{width, height, data}`.

@@ -63,7 +63,7 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   await v.screenshot("another-power-720x420");
 
   await page.click("more");
-  await page.click("Lights");
+  await page.click("All lights");
   scenes.lit = await page.changed("a new light", () => page.click("add point light"));
   await page.settled();
   await v.screenshot("added-light-720x420");

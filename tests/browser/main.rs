@@ -3,6 +3,7 @@
 //! `cargo xtask test` builds the page, makes sure of the browser and says where both are. What each
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
+mod files;
 mod picture;
 mod size;
 mod storage;
@@ -23,7 +24,7 @@ use mandelight::{
     formula::{self, Fractal},
     render::{Region, shaders, uniforms::Inputs},
     scene::{
-        Path, Project, Scene, document,
+        Path, Project, Scene, document, environment_map,
         gallery::Gallery,
         link,
         path::{Easing, Key},
@@ -201,6 +202,47 @@ fn a_gallery_of_the_address_is_shown_and_opened() {
     for name in ["missing", "broken", "nowhere"] {
         assert_eq!(visit.seen[name], true, "{name}");
     }
+}
+
+/// Bytes by which the page's memory may grow beside a decoder that takes 256 MiB: texts and glyphs.
+const MAX_GROWTH_BYTES: f64 = (8 << 20) as f64;
+
+#[test]
+fn a_bad_file_costs_that_file_only() {
+    let folder = folder_of("dropped-files");
+    fs::create_dir_all(&folder).unwrap();
+    for (name, bytes) in files::environment_maps() {
+        fs::write(folder.join(name), bytes).unwrap();
+    }
+    let scene = (presets::opening_scenes()[2].scene)();
+    let mut png = PngStream::new(Vec::new(), [8, 8], &document::to_json(&scene)).unwrap();
+    png.write_pixels(&[0; 8 * 8 * 3]).unwrap();
+    fs::write(folder.join("scene.png"), png.finish().unwrap()).unwrap();
+    fs::write(folder.join("colors.map"), "255 0 0\n0 0 255\n").unwrap();
+
+    let visit = Visit::run_with("files", [("MANDELIGHT_FILES", &folder)]);
+    for (name, bytes) in files::environment_maps() {
+        let native = environment_map::decode(name, &bytes).unwrap();
+        let seen = &visit.seen["maps"][name];
+        let size_px = ["width", "height"].map(|side| seen[side].as_u64().unwrap() as u32);
+        assert_eq!(size_px, native.size_px(), "{name}");
+        let pixels = seen["pixels"].as_array().unwrap();
+        let pixels: Vec<f32> = pixels.iter().map(|it| it.as_f64().unwrap() as f32).collect();
+        let natively: Vec<f32> = native.pixels().iter().flat_map(|it| it.to_array()).collect();
+        assert!(pixels == natively, "{name} is another map in the page");
+        assert!(native.energy().min_element() > 0.0, "{name} is black");
+    }
+    assert_eq!(visit.scene("dropped"), scene);
+
+    let failures = visit.seen["failures"].as_array().unwrap();
+    assert_eq!(failures.len(), 3 + fs::read_dir("tests/browser/damaged").unwrap().count());
+    for failure in failures {
+        assert_eq!(failure["isSame"], true, "{failure}");
+        assert!(failure["grown"].as_f64().unwrap() < MAX_GROWTH_BYTES, "{failure}");
+    }
+    assert_eq!(visit.seen["reading"], false);
+    assert_eq!(visit.seen["newest"], "newer.hdr");
+    assert_eq!(visit.seen["workers"], 0, "a worker outlives its file");
 }
 
 /// A path of two keys and three frames.

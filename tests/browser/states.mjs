@@ -13,7 +13,6 @@ const STATES = [
   { name: "find", key: "Control+k", text: "What to find", words: "light" },
   { name: "help", key: "Shift+?", text: "Keys and gestures" },
   { name: "compare", key: "Shift+C", rect: "compare" },
-  { name: "panel", key: "p", isToggle: true },
 ];
 
 await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) => {
@@ -33,6 +32,17 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
       const rects = await v.tab.evaluate(() => window.mandelight.uiRects());
       v.seen.states.push({ name, state, size: [width, height], rects });
     };
+    const more = async () => v.tab.mouse.click(...(await page.scrollTo("more")));
+    // Where the panel is a sheet, it is shown at half its height.
+    const openMore = async () => {
+      const sheet = await page.rect("sheet handle");
+      if (sheet) await page.drag("sheet handle", [0, -0.4 * height]);
+      await more();
+    };
+    const closeMore = async () => {
+      await more();
+      if (await page.rect("sheet handle")) await page.drag("sheet handle", [0, 0.4 * height]);
+    };
     await v.tab.setViewportSize({ width, height });
     const fits = async () => {
       const rects = [await page.rect("status"), await page.rect("panel")].filter(Boolean);
@@ -44,6 +54,9 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
     };
     await v.until("the new size", fits, 60);
     await shoot("opening");
+    await openMore();
+    await shoot("panel");
+    await closeMore();
     for (const { name, key, rect, text, words, isToggle } of STATES) {
       await v.tab.keyboard.press(key);
       if (rect) await page.rested(name, () => page.rect(rect));

@@ -15,7 +15,7 @@ fn a_walk_over_the_page_breaks_nothing_and_leaves_nothing_behind() {
         println!("{round}");
     }
     let last = rounds.len() - 1;
-    for pointer in ["/textures/bytes", "/buffers/bytes", "/wasmBytes"] {
+    for pointer in ["/textures/bytes", "/buffers/bytes", "/memoryBytes"] {
         let [before, after] = [last - 1, last].map(|round| number(round, pointer));
         assert!(after - before <= MAX_GROWTH_BYTES, "{pointer}: {before} became {after}");
     }

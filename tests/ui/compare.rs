@@ -1,6 +1,6 @@
 //! Two states that are compared: each keeps its edits, and the change between them is a step.
 
-use egui::{Key, Modifiers};
+use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{scene::presets, ui::Settings};
 
@@ -54,4 +54,38 @@ fn the_comparison_ends_and_what_is_in_view_stays() {
     harness.run();
     assert!(harness.query_by_label("State A").is_none());
     assert_eq!(*scene(&harness), kept);
+}
+
+/// On a touch screen there are no keys: buttons compare, and words say which state is in view.
+#[test]
+fn fingers_compare_two_states_and_hold_the_one_before() {
+    for size in [[390.0, 844.0], [844.0, 390.0]] {
+        let mut harness = without_motion(stage(presets::opening(), Settings::default(), size));
+        let first = scene(&harness).clone();
+        touch(&mut harness);
+        press_tool(&mut harness, "Compare");
+        harness.get_by_label("B is in view: the copy of A. Edits change B.");
+        press(&mut harness, "State A");
+        harness.get_by_label("A is in view: the state you began with. Edits change A.");
+        press(&mut harness, "End the comparison");
+
+        let mut changed = first.clone();
+        changed.tone.exposure = 3.0;
+        harness.state_mut().interface.replace_project(changed);
+        harness.run();
+        if harness.query_by_label("Before").is_none() {
+            press(&mut harness, "More tools");
+        }
+        assert_ne!(*harness.state().interface.shown_scene(), first);
+        let at = harness.get_by_label("Before").rect().center();
+        harness.event(egui::Event::PointerMoved(at));
+        harness.step();
+        pointer(&harness, at, PointerButton::Primary, true, Modifiers::NONE);
+        harness.run_steps(3);
+        assert_eq!(*harness.state().interface.shown_scene(), first, "held, in {size:?}");
+        pointer(&harness, at, PointerButton::Primary, false, Modifiers::NONE);
+        harness.run_steps(3);
+        assert_ne!(*harness.state().interface.shown_scene(), first, "let go, in {size:?}");
+        assert_ne!(*scene(&harness), first, "nothing was undone");
+    }
 }

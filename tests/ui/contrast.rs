@@ -47,13 +47,6 @@ fn behind(shapes: &[&Shape], at: Pos2) -> Option<Color32> {
     color
 }
 
-fn flatten<'a>(shape: &'a Shape, into: &mut Vec<&'a Shape>) {
-    match shape {
-        Shape::Vec(shapes) => shapes.iter().for_each(|shape| flatten(shape, into)),
-        shape => into.push(shape),
-    }
-}
-
 fn color_of(text: &TextShape) -> Color32 {
     let section = text.galley.job.sections.first().map(|section| section.format.color);
     let color =
@@ -63,8 +56,7 @@ fn color_of(text: &TextShape) -> Color32 {
 
 /// Texts that do not stand out, with their contrast; and the number of texts that were looked at.
 fn weak_texts(harness: &Harness<'_, Stage>) -> (BTreeMap<String, f32>, usize) {
-    let mut shapes = Vec::new();
-    harness.output().shapes.iter().for_each(|clipped| flatten(&clipped.shape, &mut shapes));
+    let shapes = shapes(harness);
     let (mut weak, mut count) = (BTreeMap::new(), 0);
     for (index, shape) in shapes.iter().enumerate() {
         let Shape::Text(text) = shape else { continue };

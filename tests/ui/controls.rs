@@ -131,7 +131,7 @@ fn every_parameter_of_every_formula_has_a_control() {
         missing.retain(|param| rails_of(&harness, param.path).is_empty());
         let others = [
             "Sky light: Sky",
-            "Sky light: 360° picture",
+            "Sky light: Environment map",
             "Stereo: Stacked",
             "Indirect light: Horizon",
             "Material: Physical",

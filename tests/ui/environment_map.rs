@@ -58,7 +58,7 @@ fn without_its_picture_a_rig_keeps_its_lights() {
     let rail = harness.get_by_role_and_label(Role::Slider, "Sky lights");
     assert!(rail.accesskit_node().is_disabled());
     assert_eq!(*scene(&harness), lit);
-    press(&mut harness, "Choose picture…");
+    press(&mut harness, "Choose environment map…");
     assert_eq!(harness.state().actions, [Action::ChooseEnvironmentMap]);
 }
 
@@ -83,10 +83,10 @@ fn a_background_picture_can_be_taken_away_whatever_lights_the_scene() {
     let mut lit = Scene::default();
     lit.surround_by(&environment_map("garden.hdr"));
     let mut harness = stage(lit, unfolded(), [1280.0, 4000.0]);
-    for rig in ["Sky light: 360° picture", "Sky light: Sky", "Sky light: None"] {
+    for rig in ["Sky light: Environment map", "Sky light: Sky", "Sky light: None"] {
         press(&mut harness, rig);
         for expected in [BackgroundKind::Gradient, BackgroundKind::EnvironmentMap] {
-            harness.get_by_label("Show it behind the fractal").click();
+            harness.get_by_label("Show the map behind the fractal").click();
             harness.run();
             assert_eq!(scene(&harness).background.kind, expected, "{rig}");
         }

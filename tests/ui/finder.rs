@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
-    scene::{Scene, param, presets},
+    scene::{Scene, looks, param, presets},
     ui::{Settings, SheetHeight, section_title_of},
 };
 
@@ -52,6 +52,17 @@ fn scenes_and_commands_are_found_too() {
     harness.key_press(Key::Escape);
     harness.run();
     assert!(harness.query_by_label("What to find").is_none(), "Escape closes it");
+}
+
+#[test]
+fn a_look_is_found_and_applied_as_one_step() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
+    let look = looks::find("porcelain").expect("a look");
+    find(&mut harness, "porcelain");
+    assert_eq!(*scene(&harness), looks::applied(look, &presets::opening()));
+    assert_ne!(*scene(&harness), presets::opening());
+    assert_eq!(undo_all(&mut harness), 1);
 }
 
 /// The finder opens the section in which a control really is.

@@ -202,6 +202,83 @@ fn a_long_notice_stays_in_the_window() {
 }
 
 #[test]
+fn a_file_that_is_read_is_named_below_the_notice_and_can_be_cancelled() {
+    for size in WINDOWS {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        let text = "Link copied.".to_owned();
+        harness.state_mut().notice = Some(Notice { text: text.clone(), is_error: false });
+        harness.state_mut().reading = Some("garden.hdr".to_owned());
+        harness.run();
+        harness.get_by_role_and_label(egui::accesskit::Role::Status, "Reading garden.hdr…");
+        let rects = harness.state().interface.rects();
+        let [notice, reading] = ["notice", "reading"].map(|name| rects.get(name).expect(name));
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        assert!(window.contains_rect(reading), "{reading:?} in {size:?}");
+        assert!(reading.top() > notice.bottom(), "{reading:?} and {notice:?} in {size:?}");
+        press(&mut harness, "Cancel");
+        assert_eq!(harness.state().actions, [mandelight::ui::Action::CancelReading]);
+    }
+}
+
+/// The opening set spans most of a low view's height; hints leave it free.
+#[test]
+fn hints_in_low_views_leave_the_middle_free() {
+    for size in [[844.0, 390.0], [640.0, 420.0], [1280.0, 720.0]] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        harness.run();
+        let rects = harness.state().interface.rects();
+        let (view, hint) = (rects.get("view").expect("the view"), rects.get("hint"));
+        let hint = hint.expect("a hint");
+        let set = Rect::from_center_size(view.center(), egui::Vec2::splat(0.76 * view.height()));
+        assert!(!hint.intersects(set), "{hint:?} covers the middle of {view:?}");
+        assert!(view.contains_rect(hint), "{hint:?} in {view:?}");
+    }
+}
+
+#[test]
+fn help_begins_with_what_the_screen_is_used_by() {
+    for (size, is_touch) in [([390.0, 844.0], true), ([1280.0, 720.0], false)] {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        harness.key_press(egui::Key::F1);
+        harness.run();
+        let top = |text: &str| harness.get_by_label(text).rect().top();
+        assert_eq!(top("With fingers") < top("With a mouse"), is_touch, "{size:?}");
+        assert_eq!(top("With fingers") < top("Keys"), is_touch, "{size:?}");
+    }
+}
+
+/// What each tool is, fingers are told by a word below its icon; each can be reached.
+#[test]
+fn tools_have_words_on_touch_screens() {
+    for size in [[360.0, 640.0], [390.0, 844.0], [844.0, 390.0]] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        touch(&mut harness);
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        if harness.query_by_label("Before").is_none() {
+            press(&mut harness, "More tools");
+        }
+        for (name, word) in [
+            ("Surprise me", "Surprise"),
+            ("Mutate", "Mutate"),
+            ("Share", "Share"),
+            ("Find places", "Places"),
+            ("Dive", "Dive"),
+            ("Animate", "Animate"),
+            ("Compare", "Compare"),
+            ("Before", "Before"),
+        ] {
+            let tool = button(&harness, name).rect();
+            assert!(tool.height() >= 44.0 && tool.width() >= 44.0, "{name}: {tool:?}");
+            let words = painted(&harness, word);
+            let is_near = words.iter().any(|at| {
+                window.contains_rect(*at) && at.intersects(tool.expand2(egui::vec2(0.0, 18.0)))
+            });
+            assert!(is_near, "{name} in {size:?}: {tool:?}, {words:?}");
+        }
+    }
+}
+
+#[test]
 fn help_lists_the_shortcuts_and_fits() {
     for size in WINDOWS {
         let mut harness = stage(Scene::default(), Settings::default(), size);

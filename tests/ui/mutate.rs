@@ -4,7 +4,7 @@ use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::Queryable as _;
 use mandelight::{
     scene::{Scene, presets},
-    ui::Settings,
+    ui::{Settings, ViewTexture},
 };
 
 use crate::stage::*;
@@ -38,6 +38,19 @@ fn a_variation_becomes_the_scene_by_a_click_and_locks_hold() {
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     assert_eq!(harness.state().interface.small_pictures().count(), 0);
+}
+
+#[test]
+fn cells_without_a_picture_say_that_it_is_being_drawn() {
+    let mut harness = stage(presets::opening(), Settings::default(), [390.0, 844.0]);
+    harness.get_by_label("Mutate").click();
+    harness.run_steps(20);
+    assert_eq!(painted(&harness, "Drawing…").len(), 9);
+    let first = harness.state().interface.small_pictures().next().expect("a variation").id;
+    let picture = ViewTexture { texture: egui::TextureId::User(7), size_px: [96, 64] };
+    harness.state_mut().small_pictures.by_id.insert(first, picture);
+    harness.run_steps(2);
+    assert_eq!(painted(&harness, "Drawing…").len(), 8);
 }
 
 #[test]

@@ -50,3 +50,18 @@ fn the_share_window_fits_every_window() {
         assert!(window.contains_rect(shown), "{shown:?} in {size:?}");
     }
 }
+
+#[test]
+fn nothing_of_the_share_window_is_cut_off() {
+    for size in [[390.0, 844.0], [844.0, 390.0], [640.0, 420.0], [1280.0, 720.0]] {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        harness.state_mut().has_share_sheet = true;
+        press(&mut harness, "Share");
+        let rects = harness.state().interface.rects();
+        let window = rects.get("share window").expect("the window");
+        for name in ["QR code", "Send picture…", "Copy link", "Copy picture", "Save picture"] {
+            let rect = rects.get(name).unwrap_or(Rect::NOTHING);
+            assert!(window.contains_rect(rect), "{name}: {rect:?} in {window:?} of {size:?}");
+        }
+    }
+}

@@ -1,6 +1,9 @@
 //! An interface on a stage: a harness around it, and shorthands for what tests do with it.
 
-use egui::{Event, Modifiers, PointerButton, Pos2, Vec2, accesskit::Role};
+use egui::{
+    Event, Modifiers, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId, TouchPhase, Vec2,
+    accesskit::Role,
+};
 use egui_kittest::{Harness, HarnessBuilder, Node, kittest::Queryable as _};
 use mandelight::{
     render::report::{Activity, Report},
@@ -20,6 +23,7 @@ pub struct Stage {
     pub kept_picture: Option<KeptPicture>,
     pub export: Option<ExportProgress>,
     pub notice: Option<Notice>,
+    pub reading: Option<String>,
     pub small_pictures: SmallTextures,
     pub reduced_motion: bool,
     pub gallery: Option<GalleryState>,
@@ -72,6 +76,7 @@ pub fn stage_with(
         kept_picture: None,
         export: None,
         notice: None,
+        reading: None,
         small_pictures: SmallTextures::default(),
         reduced_motion: false,
         gallery: None,
@@ -90,6 +95,7 @@ pub fn stage_with(
                     report: &stage.report,
                     export: stage.export,
                     notice: stage.notice.as_ref(),
+                    reading: stage.reading.as_deref(),
                     adapter: "a test",
                     sharing: Sharing {
                         address: "https://example.org/",
@@ -159,6 +165,48 @@ pub fn drag(harness: &mut Harness<'_, Stage>, from: Pos2, to: Pos2, steps: u32) 
     }
     pointer(harness, to, PointerButton::Primary, false, Modifiers::NONE);
     harness.run();
+}
+
+fn flatten<'a>(shape: &'a Shape, into: &mut Vec<&'a Shape>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| flatten(shape, into)),
+        shape => into.push(shape),
+    }
+}
+
+/// Presses a tool over the picture, also where it is in the menu of further tools.
+pub fn press_tool(harness: &mut Harness<'_, Stage>, name: &str) {
+    if harness.query_by_label(name).is_none() {
+        press(harness, "More tools");
+    }
+    press(harness, name);
+}
+
+/// Touches the middle of the window: from now on, the screen is known to be used with fingers.
+pub fn touch(harness: &mut Harness<'_, Stage>) {
+    let pos = harness.ctx.content_rect().center();
+    for phase in [TouchPhase::Start, TouchPhase::End] {
+        let (device_id, id) = (TouchDeviceId(0), TouchId(0));
+        harness.event(Event::Touch { device_id, id, phase, pos, force: None });
+        harness.step();
+    }
+    harness.run();
+}
+
+/// What the last frame painted, the lowest first.
+pub fn shapes<'h>(harness: &'h Harness<'_, Stage>) -> Vec<&'h Shape> {
+    let mut shapes = Vec::new();
+    harness.output().shapes.iter().for_each(|clipped| flatten(&clipped.shape, &mut shapes));
+    shapes
+}
+
+/// Where the last frame painted this text.
+pub fn painted(harness: &Harness<'_, Stage>, words: &str) -> Vec<Rect> {
+    let texts = shapes(harness).into_iter().filter_map(|shape| match shape {
+        Shape::Text(text) if text.galley.text() == words => Some(text.visual_bounding_rect()),
+        _ => None,
+    });
+    texts.collect()
 }
 
 /// Steps back in the history until there is none, and counts them.

@@ -20,11 +20,13 @@ fn opening_the_lights_moves_nothing_above_or_under_the_pointer() {
     let settings = Settings { more_open: true, ..Settings::default() };
     let mut harness = stage(Scene::default(), settings, [1280.0, 2400.0]);
     harness.run();
-    let before = ["key light ball", "exposure", "more", "Lights"].map(|name| rect(&harness, name));
-    harness.get_by_label("Lights").click();
+    let before =
+        ["key light ball", "exposure", "more", "All lights"].map(|name| rect(&harness, name));
+    harness.get_by_label("All lights").click();
     harness.run();
     assert!(harness.query_by_label("Add light").is_some(), "the section is open");
-    let after = ["key light ball", "exposure", "more", "Lights"].map(|name| rect(&harness, name));
+    let after =
+        ["key light ball", "exposure", "more", "All lights"].map(|name| rect(&harness, name));
     assert_eq!(before, after);
 }
 

@@ -331,7 +331,7 @@ fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
 fn it_fits_every_window_and_every_control_says_what_it_does() {
     for size in [[360.0, 640.0], [390.0, 844.0], [844.0, 390.0], [700.0, 500.0], [1280.0, 720.0]] {
         let mut harness = stage(project(), Settings::default(), size);
-        press(&mut harness, "Animate");
+        press_tool(&mut harness, "Animate");
         harness.get_by_label("Key 2 at 3.00 s").click();
         harness.run();
         harness.run();
@@ -369,4 +369,23 @@ fn a_turntable_becomes_the_path() {
     assert_eq!(path.frame_count(), 12 * path.frames_per_second);
     harness.state_mut().interface.editor_mut().undo();
     assert_eq!(harness.state().interface.project().path, before.path);
+}
+
+/// The playhead's grip stands beside the number of its time, not over it.
+#[test]
+fn the_playhead_covers_no_number_at_its_own_time() {
+    let mut harness = stage(project(), open(), [1280.0, 720.0]);
+    harness.run();
+    let [zero] = painted(&harness, "0.0")[..] else { panic!("one number 0") };
+    let grips = shapes(&harness).into_iter().filter(
+        |shape| matches!(shape, egui::Shape::Path(path) if path.closed && path.points.len() == 5),
+    );
+    let grips: Vec<_> = grips.map(egui::Shape::visual_bounding_rect).collect();
+    let grip = grips.iter().find(|grip| (grip.top() - zero.top()).abs() < 12.0);
+    let grip = grip.expect("a grip at the numbers");
+    assert!(
+        grip.center().x < zero.left() && zero.left() - grip.center().x < 20.0,
+        "{grip:?} {zero:?}"
+    );
+    assert!(!grip.intersects(zero), "{grip:?} covers {zero:?}");
 }

@@ -154,7 +154,15 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
     parts.push(module);
     parts.push(read(bound, "mandelight.js")?);
     parts.push(read(bound, MEDIABUNNY)?);
-    for name in ["accessibility.js", "share.js", "gallery.js", "video.js"] {
+    let scripts = [
+        "accessibility.js",
+        "decoder-worker.js",
+        "decoder.js",
+        "share.js",
+        "gallery.js",
+        "video.js",
+    ];
+    for name in scripts {
         parts.push(read(www, name)?);
     }
     let mut boot = read(www, "boot.js")?;

@@ -50,6 +50,18 @@ impl EnvironmentMap {
         Self::new(name, size_px, pixels)
     }
 
+    /// A map of these pixels, clamped; none if their number is not that of a size up to [`MAX_SIZE_PX`].
+    pub fn from_pixels(name: &str, size_px: [u32; 2], mut pixels: Vec<Vec3>) -> Option<Self> {
+        let fits = (0..2).all(|i| (1..=MAX_SIZE_PX[i]).contains(&size_px[i]));
+        if !fits || pixels.len() as u64 != u64::from(size_px[0]) * u64::from(size_px[1]) {
+            return None;
+        }
+        for pixel in &mut pixels {
+            *pixel = clamp_radiance(*pixel);
+        }
+        Some(Self::new(name, size_px, pixels))
+    }
+
     pub(super) fn new(name: &str, size_px: [u32; 2], pixels: Vec<Vec3>) -> Self {
         static NEXT_ID: AtomicU64 = AtomicU64::new(1);
         // A scene stores the map's name, and a document limits names to this length.

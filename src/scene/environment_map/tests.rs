@@ -334,3 +334,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn maps_of_pixels_are_clamped_and_have_as_many_as_their_size_says() {
+    let map = |size_px, pixels| EnvironmentMap::from_pixels("a", size_px, pixels);
+    let pixels = vec![Vec3::new(f32::NAN, -1.0, f32::INFINITY), Vec3::ONE];
+    let clamped = map([2, 1], pixels.clone()).expect("a map");
+    assert_eq!(clamped.pixels(), [Vec3::new(0.0, 0.0, MAX_RADIANCE), Vec3::ONE]);
+    for size_px in [[1, 1], [2, 2], [0, 2], [1 << 16, 1 << 16], [u32::MAX, u32::MAX]] {
+        assert_eq!(map(size_px, pixels.clone()), None, "{size_px:?}");
+    }
+}

@@ -1,13 +1,13 @@
 //! The picture's part of a frame: its camera's input, and what lies over it.
 
-use egui::{Align2, Rect, Ui, vec2};
+use egui::{Align2, Button, Rect, Response, Ui, vec2};
 
 use super::Interface;
 use crate::scene::Project;
 use crate::ui::{
     display_inputs::DisplayInputs,
     dive,
-    floating::{self, ButtonRow},
+    floating::{self, ButtonRow, RowButton},
     frame::Frame,
     handles,
     home::HomeTarget,
@@ -79,11 +79,9 @@ impl Interface {
             let keys = floating::caption(ui, rect, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);
         } else {
-            // Before the first touch, egui does not know that the screen is one.
-            let has_touch = !wide || ui.input(|i| i.has_touch_screen());
-            let is_covered = self.mutate.is_open() || self.share.is_open();
+            let is_covered = self.mutate.is_open() || self.share.is_open() || self.compare.is_on();
             let hint =
-                if is_covered { None } else { self.settings.hints.show(ui, rect, has_touch) };
+                if is_covered { None } else { self.settings.hints.show(ui, rect, self.has_touch) };
             if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
@@ -148,40 +146,113 @@ impl Interface {
 
     /// The buttons in the picture's lower left corner; none over the variations.
     fn buttons(&mut self, ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> ButtonRow {
-        let mut buttons = ButtonRow::new(ui, rect);
+        let mut buttons = ButtonRow::new(ui, rect, self.has_touch);
         if self.mutate.is_open() {
             return buttons;
         }
-        let rects = &mut self.rects;
-        let mut add = |icon, name_and_hover, name, command| {
-            let button = buttons.add(ui, icon, name_and_hover);
-            rects.record(name, &button);
-            if button.clicked() {
-                commands.push(command);
+        let tools = self.tools();
+        let capacity = if self.has_touch { ButtonRow::capacity(rect) } else { tools.len() };
+        let in_row = if tools.len() > capacity { capacity - 1 } else { tools.len() };
+        let (in_row, in_menu) = tools.split_at(in_row);
+        for tool in in_row {
+            let button = buttons.add(ui, tool.button);
+            self.rects.record(tool.rect, &button);
+            if tool.command == Some(Command::FindPlaces) && self.places.are_shown() {
+                floating::mark(ui, &button);
             }
-            button
-        };
-        if !self.settings.timeline_open {
-            let hover =
-                ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
-            add(Icon::Timeline, hover, "timeline toggle", Command::ToggleTimeline);
+            self.use_tool(tool, &button, commands);
         }
-        let hover = ("Surprise me", "Show a random scene (R)");
-        add(Icon::Dice, hover, "surprise", Command::Surprise);
-        let hover = ("Mutate", "Show variations of this scene, side by side (M)");
-        add(Icon::Grid, hover, "mutate", Command::Mutate);
-        let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
-        add(Icon::Share, hover, "share", Command::Share);
-        let pins = add(Icon::Pin, self.places.button(), "find places", Command::FindPlaces);
-        let hover = if self.pilot.is_diving() { dive::STOP } else { dive::BEGIN };
-        add(Icon::Dive, hover, "dive", Command::Dive);
-        if let Some(target) = HomeTarget::of(&self.editor.scene().camera, &self.home) {
-            let (icon, hover) = target.button();
-            add(icon, hover, "home", Command::Home);
-        }
-        if self.places.are_shown() {
-            floating::mark(ui, &pins);
+        if !in_menu.is_empty() {
+            let hover = ("More tools", "Tools for which there is no room here");
+            let more = buttons
+                .add(ui, RowButton { icon: Icon::More, name_and_hover: hover, word: "More" });
+            self.rects.record("more tools", &more);
+            let size = vec2(120.0, floating::button_side(ui));
+            egui::Popup::menu(&more)
+                .align(egui::RectAlign::TOP_END)
+                .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
+                .show(|ui| {
+                    for tool in in_menu {
+                        let (name, hover) = tool.button.name_and_hover;
+                        let button = ui.add_sized(size, Button::new(tool.button.word));
+                        let button = button.accessible_name(name).on_hover_text(hover);
+                        self.rects.record(tool.rect, &button);
+                        if self.use_tool(tool, &button, commands) {
+                            ui.close();
+                        }
+                    }
+                });
         }
         buttons
     }
+
+    /// Runs the command of a tool that was clicked, and returns whether it was. The view before the last
+    /// change has no command: it shows while its button is held.
+    fn use_tool(&mut self, tool: &Tool, button: &Response, commands: &mut Vec<Command>) -> bool {
+        let Some(command) = tool.command else {
+            self.is_comparing |= button.is_pointer_button_down_on();
+            return false;
+        };
+        if button.clicked() {
+            commands.push(command);
+        }
+        button.clicked()
+    }
+
+    /// The tools over the picture, the most used first. Keys alone compare states without a touch screen.
+    fn tools(&self) -> Vec<Tool> {
+        let tool = |icon, name_and_hover, word, rect, command| Tool {
+            button: RowButton { icon, name_and_hover, word },
+            rect,
+            command,
+        };
+        let mut tools = Vec::new();
+        let hover = ("Surprise me", "Show a random scene (R)");
+        tools.push(tool(Icon::Dice, hover, "Surprise", "surprise", Some(Command::Surprise)));
+        let hover = ("Mutate", "Show variations of this scene, side by side (M)");
+        tools.push(tool(Icon::Grid, hover, "Mutate", "mutate", Some(Command::Mutate)));
+        let hover = ("Share", "Share this view: a link, a QR code, the picture (J)");
+        tools.push(tool(Icon::Share, hover, "Share", "share", Some(Command::Share)));
+        let pins = self.places.button();
+        tools.push(tool(Icon::Pin, pins, "Places", "find places", Some(Command::FindPlaces)));
+        let (hover, word) =
+            if self.pilot.is_diving() { (dive::STOP, "Stop") } else { (dive::BEGIN, "Dive") };
+        tools.push(tool(Icon::Dive, hover, word, "dive", Some(Command::Dive)));
+        if let Some(target) = HomeTarget::of(&self.editor.scene().camera, &self.home) {
+            let (icon, hover) = target.button();
+            tools.push(tool(icon, hover, hover.0, "home", Some(Command::Home)));
+        }
+        if !self.settings.timeline_open {
+            let hover =
+                ("Animate", "Show the timeline: animate the camera and all settings with keys (T)");
+            let command = Some(Command::ToggleTimeline);
+            // On a phone, where few tools fit, others are used more.
+            let at = if self.has_touch { tools.len() } else { 0 };
+            let animate = tool(Icon::Timeline, hover, "Animate", "timeline toggle", command);
+            tools.insert(at, animate);
+        }
+        if self.has_touch {
+            let hover =
+                ("Compare", "Keep this state as A and edit a copy, B; then switch (Shift C)");
+            tools.push(tool(
+                Icon::Halves,
+                hover,
+                "Compare",
+                "compare toggle",
+                Some(Command::Compare),
+            ));
+            let hover = ("Before", "Hold to see the view before the last change (C)");
+            tools.push(tool(Icon::Before, hover, "Before", "before", None));
+        }
+        tools
+    }
+}
+
+/// A tool over the picture.
+struct Tool {
+    button: RowButton,
+    /// The name of its rectangle.
+    rect: &'static str,
+    /// What a click runs; none for the one that is held.
+    command: Option<Command>,
 }

@@ -1,8 +1,8 @@
-//! Other scenes in view: presets, kept views, surprises, each reached by a flight.
+//! Other scenes in view: presets, kept views, surprises, each reached by a flight; and looks of the finder.
 
 use super::Interface;
 use crate::{
-    scene::{Project, Scene, document, presets},
+    scene::{Project, Scene, document, looks, presets},
     ui::{action::Action, selection::Selection},
 };
 
@@ -12,6 +12,17 @@ impl Interface {
         if let Some(preset) = presets::all().nth(index) {
             self.fly_into_scene((preset.scene)());
         }
+    }
+
+    /// Applies the look of a list, both by their numbers.
+    pub(super) fn apply_look(&mut self, [list, index]: [usize; 2]) {
+        let Some(look) = looks::lists().get(list).and_then(|list| list.looks.get(index)) else {
+            return;
+        };
+        if look.lights.is_some() {
+            self.selection.light = None;
+        }
+        looks::apply(look, self.editor.scene_mut());
     }
 
     /// Flies to a scene's view, but keeps the quality settings and the path.

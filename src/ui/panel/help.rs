@@ -1,9 +1,10 @@
-//! The help window: keys and gestures, from the tables of [`crate::ui::shortcuts`], and licences.
+//! The help window: keys and gestures, from the tables of [`crate::ui::shortcuts`], and licences; on touch screens gestures
+//! of fingers first.
 
 use egui::{Align2, Grid, Hyperlink, RichText, ScrollArea, Ui, vec2};
 
 use crate::ui::{
-    shortcuts::{FLIGHT, GESTURES, SHORTCUTS},
+    shortcuts::{FLIGHT, GESTURES, SHORTCUTS, TOUCH_GESTURES},
     theme,
     widgets::caption,
 };
@@ -12,7 +13,7 @@ use crate::ui::{
 const LICENSES: &str = "./licenses.txt";
 
 /// Shows the help window in the centre of the screen if `open`.
-pub fn help_window(ctx: &egui::Context, open: &mut bool) {
+pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool) {
     let screen = ctx.content_rect();
     let width = (screen.width() - 40.0).min(420.0);
     egui::Window::new("Keys and gestures")
@@ -23,7 +24,14 @@ pub fn help_window(ctx: &egui::Context, open: &mut bool) {
         .fixed_size(vec2(width, (screen.height() - 90.0).clamp(120.0, 560.0)))
         .show(ctx, |ui| {
             ScrollArea::vertical().auto_shrink([false, true]).show(ui, |ui| {
-                caption(ui, "In the view");
+                let fingers = |ui: &mut Ui| {
+                    caption(ui, "With fingers");
+                    table(ui, "touch gestures", width, TOUCH_GESTURES.iter().copied());
+                };
+                if has_touch {
+                    fingers(ui);
+                }
+                caption(ui, "With a mouse");
                 table(ui, "gestures", width, GESTURES.iter().copied());
                 caption(ui, "Keys");
                 table(ui, "keys", width, SHORTCUTS.iter().filter_map(|shortcut| shortcut.help));
@@ -35,6 +43,9 @@ pub fn help_window(ctx: &egui::Context, open: &mut bool) {
                     width,
                     FLIGHT.iter().filter_map(|flight| flight.help).chain(faster),
                 );
+                if !has_touch {
+                    fingers(ui);
+                }
                 caption(ui, "About");
                 let licenses = "Licences of the software and fonts in this page";
                 ui.add(Hyperlink::from_label_and_url(licenses, LICENSES).open_in_new_tab(true));

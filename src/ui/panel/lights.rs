@@ -24,7 +24,7 @@ const ROW_GAP: f32 = 2.0;
 
 /// The essential controls of light: the key light's direction and colour, and the exposure.
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
-    caption(ui, "Light");
+    caption(ui, "Key light");
     // The ball stays while the section of all lights shows its own: nothing moves under the pointer.
     edit_as_seen(ui, cx, key_ball);
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
@@ -79,8 +79,8 @@ fn edit_as_seen(ui: &mut Ui, cx: &mut Context<'_>, show: fn(&mut Ui, &mut Contex
 /// The section of the panel.
 pub(super) const SECTION: Section = Section {
     name: "lights",
-    title: "Lights",
-    hover: "All lights, their colours and shadows",
+    title: "All lights",
+    hover: "The list of lights, their colours and shadows, and the light of a sky or an environment map",
     show,
     reset: Some(reset),
 };

@@ -27,8 +27,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
             (RigKind::Sky, "Sky", "Adds the light of a sky with a sun"),
             (
                 RigKind::EnvironmentMap,
-                "360° picture",
-                "Adds the light of a 360° picture (environment map)",
+                "Environment map",
+                "Adds the light of an environment map: a picture of everything around, in all directions",
             ),
         ],
     );
@@ -65,7 +65,7 @@ fn light_view_button(ui: &mut Ui, lights: &Lights) -> Response {
         .on_disabled_hover_text(if room < min {
             "The scene has no room for more lights"
         } else {
-            "The rig already moves with the camera, with shadows of near surfaces only"
+            "The light already moves with the camera, with shadows of near surfaces only"
         })
 }
 
@@ -161,7 +161,7 @@ fn map_settings(ui: &mut Ui, cx: &mut Context<'_>) {
     let loaded = cx.environment_map.filter(|environment_map| is_named(rig, environment_map));
     let text = match (rig.environment_map.name.as_str(), loaded) {
         ("", _) => {
-            "A 360° picture, Radiance (.hdr) or OpenEXR (.exr). You can also drop it on the page."
+            "An environment map is a picture of everything around, Radiance (.hdr) or OpenEXR (.exr). You can also drop it on the page."
                 .to_owned()
         }
         (name, Some(environment_map)) => {
@@ -188,16 +188,16 @@ fn map_settings(ui: &mut Ui, cx: &mut Context<'_>) {
 
 fn choose(ui: &mut Ui) -> Response {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
-    ui.add_sized(size, Button::new("Choose picture…").truncate())
-        .help("Choose a 360° picture, Radiance (.hdr) or OpenEXR (.exr)")
+    ui.add_sized(size, Button::new("Choose environment map…").truncate())
+        .help("Choose an environment map, Radiance (.hdr) or OpenEXR (.exr)")
 }
 
 /// The switch that shows the environment map behind the fractal.
 fn background(ui: &mut Ui, background: &mut Background) {
     let mut shown = background.kind == BackgroundKind::EnvironmentMap;
     let response = ui
-        .checkbox(&mut shown, "Show it behind the fractal")
-        .help("Shows the 360° picture instead of the background colours");
+        .checkbox(&mut shown, "Show the map behind the fractal")
+        .help("Shows the environment map instead of the background colours");
     if response.changed() {
         background.kind =
             if shown { BackgroundKind::EnvironmentMap } else { BackgroundKind::Gradient };

@@ -1,8 +1,8 @@
 //! The timeline's track: a ruler to scrub, and keys as diamonds to drag.
 
 use egui::{
-    Align2, Color32, FontId, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui,
-    WidgetInfo, accesskit::Role, pos2, vec2,
+    Color32, FontId, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
+    accesskit::Role, pos2, vec2,
 };
 
 use crate::{
@@ -20,6 +20,10 @@ const MARGIN: f32 = 14.0;
 const DIAMOND: f32 = 6.5;
 /// Distance within which the playhead snaps to a key, in points.
 const SNAP: f32 = 4.0;
+/// Half the width of the playhead's grip, in points.
+const GRIP: f32 = 5.0;
+/// Gap between the playhead at a number's time and that number, in points.
+const LABEL_GAP: f32 = 3.0;
 /// Minimum distance between the ruler's numbers, in points.
 const TICK_GAP: f32 = 64.0;
 /// Possible distances between the ruler's numbers, seconds.
@@ -135,8 +139,12 @@ fn ruler(painter: &Painter, rect: Rect, scale: TimeScale) {
         if is_numbered {
             let text = if step < 1.0 { format!("{secs:.1}") } else { clock(secs) };
             let font = FontId::proportional(12.0);
-            let at = pos2(x, rect.top() + 1.0);
-            painter.text(at, Align2::CENTER_TOP, text, font, theme::TEXT_DIM);
+            let text = painter.layout_no_wrap(text, font, theme::TEXT_DIM);
+            let at = pos2(x + GRIP + LABEL_GAP, rect.top() + 1.0);
+            // The text at the end would be cut.
+            if at.x + text.size().x <= rect.right() {
+                painter.galley(at, text, theme::TEXT_DIM);
+            }
         }
     }
 }
@@ -203,7 +211,7 @@ fn diamond(
 fn playhead(painter: &Painter, rect: Rect, x: f32, on_path: bool, has_path: bool) {
     let color = if has_path { Color32::WHITE } else { theme::TEXT_DIM };
     painter.vline(x, rect.y_range(), Stroke::new(1.0, color.gamma_multiply(0.8)));
-    let corners = [(-5.0, 0.0), (5.0, 0.0), (5.0, 6.0), (0.0, 11.0), (-5.0, 6.0)];
+    let corners = [(-GRIP, 0.0), (GRIP, 0.0), (GRIP, 6.0), (0.0, 11.0), (-GRIP, 6.0)];
     let corners = corners.map(|(dx, dy)| pos2(x + dx, rect.top() + dy)).to_vec();
     let fill = if on_path { color } else { theme::WELL };
     painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, color)));
