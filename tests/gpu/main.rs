@@ -11,6 +11,7 @@ mod edits;
 mod environment_map;
 mod exr;
 mod golden;
+mod hostile_scenes;
 mod indirect;
 mod integrator;
 mod language;
