@@ -9,6 +9,9 @@ use super::{
     theme,
 };
 
+/// Room for the button of an offer, in points.
+const OFFER_WIDTH: f32 = 130.0;
+
 /// Shows `notice` at the upper edge of `view`.
 pub fn show(ui: &Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut Vec<Action>) {
     let (Some(notice), Some(view)) = (notice, view) else {
@@ -31,7 +34,8 @@ pub fn show(ui: &Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut 
                         let color = if notice.is_error { theme::ERROR } else { Color32::WHITE };
                         let font = egui::FontId::proportional(13.5);
                         let text = notice.text.clone();
-                        let text = ui.painter().layout(text, font, color, width - 52.0);
+                        let room = if notice.offer.is_some() { OFFER_WIDTH } else { 0.0 };
+                        let text = ui.painter().layout(text, font, color, width - 52.0 - room);
                         let size = vec2(text.size().x, text.size().y.max(28.0));
                         let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
                         ui.ctx().accesskit_node_builder(shown.id, |node| {
@@ -40,6 +44,11 @@ pub fn show(ui: &Ui, notice: Option<&Notice>, view: Option<Rect>, actions: &mut 
                         });
                         let at = rect.left_center() - vec2(0.0, text.size().y / 2.0);
                         ui.painter().galley(at, text, color);
+                        if let Some(offer) = notice.offer
+                            && ui.button(offer).clicked()
+                        {
+                            actions.push(Action::TakeOffer);
+                        }
                         let dismiss = icon_button(ui, Icon::Cross, "Dismiss", "Close this message");
                         if dismiss.clicked() {
                             actions.push(Action::DismissNotice);

@@ -8,7 +8,7 @@ use std::{cell::RefCell, io::Cursor, rc::Rc, sync::Arc};
 use super::{
     address::Address,
     autosave::{self, Autosave},
-    device_loss::{self, SafeMode},
+    device_loss,
     files::{self, FilePicker},
     gallery,
     mailbox::{Mailbox, Message},
@@ -20,7 +20,11 @@ use crate::{
     reading::visible_lines,
     render::Report,
     scene::{BackgroundKind, Project, Scene, document, environment_map, gradient, link, presets},
-    ui::{Favourites, GalleryState, Interface, Notice, Settings, theme},
+    ui::{
+        Favourites, GalleryState, Interface, Notice, Settings,
+        loss_policy::{SafeMode, Start},
+        theme,
+    },
 };
 
 /// Seconds that a notice of a success stays.
@@ -51,6 +55,8 @@ pub struct Session {
     safe_mode: SafeMode,
     /// The scene in which drawing is paused.
     paused_scene: Option<Scene>,
+    /// The project that lost the GPU several times, so that the visit began with another one.
+    offered: Option<Project>,
 }
 
 /// The app's status, for the interface and the tests.
@@ -64,8 +70,8 @@ pub struct AppStatus {
     pub dispatches: u64,
     /// The interface's frames so far.
     pub frames: u64,
-    /// Whether an export is in progress.
-    pub is_exporting: bool,
+    /// The finished part of the export in progress, 0 to 1; none without one.
+    pub exported: Option<f32>,
 }
 
 impl Session {
@@ -75,9 +81,23 @@ impl Session {
         let (project, error) = initial_project(&address);
         let has_link = project.is_some() && address.read_foreign().is_some();
         let settings = stored_settings().unwrap_or_else(|| first_settings(has_link));
-        let mut interface =
-            Interface::new(project.unwrap_or_else(|| presets::opening().into()), settings);
-        interface.editor_mut().restore_steps(autosave::stored_steps());
+        let opening = Project::from(presets::opening());
+        let named = project.unwrap_or_else(|| opening.clone());
+        let start = device_loss::start(&named.scene);
+        let (project, offered) = match start {
+            Start::Offer if named != opening => (opening, Some(named)),
+            _ => (named, None),
+        };
+        let safe_mode = match (start, &offered) {
+            (Start::Open(safe_mode), _) => safe_mode,
+            // The offer has a notice of its own.
+            (Start::Offer, Some(_)) => SafeMode::Off,
+            (Start::Offer, None) => SafeMode::Paused,
+        };
+        let mut interface = Interface::new(project, settings);
+        if offered.is_none() {
+            interface.editor_mut().restore_steps(autosave::stored_steps());
+        }
         *interface.favourites_mut() = stored_favourites();
         let mailbox = Mailbox::default();
         address.watch(&mailbox);
@@ -93,9 +113,11 @@ impl Session {
             status: AppStatus::default(),
             safe_mode: SafeMode::Off,
             paused_scene: None,
+            offered,
         };
-        session.enter_safe_mode(device_loss::safe_mode_at_start(session.fragment().as_deref()));
+        session.enter_safe_mode(safe_mode);
         session.report_missing_environment_map();
+        session.show_offer();
         if let Some(error) = error {
             session.show_error(error);
         }
@@ -121,9 +143,23 @@ impl Session {
         }
     }
 
-    /// The scene in view as a fragment; `None` if too large for an address.
-    pub fn fragment(&self) -> Option<String> {
-        link::to_fragment(self.interface.scene()).ok()
+    /// Shows the notice that offers the scene which lost the GPU, if there is one.
+    fn show_offer(&mut self) {
+        if self.offered.is_some() {
+            let text = "The graphics card stopped several times while it drew your last scene, so another one was opened.";
+            let offer = Some("Open it anyway");
+            self.show(Notice { text: text.into(), is_error: true, offer }, f64::INFINITY);
+        }
+    }
+
+    /// Opens the offered scene, with a smaller picture until one is complete.
+    pub fn take_offer(&mut self) {
+        self.notice = None;
+        if let Some(project) = self.offered.take() {
+            self.interface.replace_project(project);
+            self.enter_safe_mode(SafeMode::Reduced);
+            self.report_missing_environment_map();
+        }
     }
 
     /// Sets the safe mode and shows its notice.
@@ -150,19 +186,23 @@ impl Session {
     pub fn note_complete_picture(&mut self) {
         if self.safe_mode == SafeMode::Reduced {
             self.safe_mode = SafeMode::Off;
-            device_loss::note_complete_picture();
+            // The picture is of another scene than the offered one.
+            if self.offered.is_none() {
+                device_loss::note_complete_picture();
+            }
             self.mailbox.wake();
         }
     }
 
     /// Shows a success to the visitor, for some seconds.
     pub fn show_notice(&mut self, text: impl Into<String>) {
-        self.show(Notice { text: text.into(), is_error: false }, SUCCESS_SECS);
+        self.show(Notice { text: text.into(), ..Notice::default() }, SUCCESS_SECS);
     }
 
     /// Shows a failure to the visitor, for longer.
     pub fn show_error(&mut self, text: impl Into<String>) {
-        self.show(Notice { text: text.into(), is_error: true }, FAILURE_SECS);
+        let notice = Notice { text: text.into(), is_error: true, ..Notice::default() };
+        self.show(notice, FAILURE_SECS);
     }
 
     fn show(&mut self, notice: Notice, secs: f64) {
@@ -177,7 +217,7 @@ impl Session {
         self.notice.as_ref()?;
         let left_secs = self.notice_until_secs - now_secs;
         if left_secs > 0.0 {
-            return Some(left_secs);
+            return left_secs.is_finite().then_some(left_secs);
         }
         self.notice = None;
         None
@@ -285,13 +325,16 @@ impl Session {
         }
     }
 
-    /// Drops what belongs to the lost GPU and saves the rest. Returns whether an export was lost.
-    pub fn release_gpu(&mut self) -> bool {
-        let was_exporting = self.status.is_exporting;
+    /// Drops what belongs to the lost GPU, saves the rest, and notes the loss.
+    ///
+    /// Returns the safe mode of the restart; `None` after too many losses to restart.
+    pub fn note_loss(&mut self) -> Option<SafeMode> {
         self.gpu = None;
         self.status = AppStatus { frames: self.status.frames, ..AppStatus::default() };
+        // The next visit finds the scene that lost the GPU, and knows it by its text.
+        self.autosave.write(self.interface.editor());
         self.save();
-        was_exporting
+        device_loss::note_loss(self.interface.scene())
     }
 
     /// Writes the kept views, if they changed.

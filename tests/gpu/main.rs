@@ -17,6 +17,7 @@ mod integrator;
 mod language;
 mod lens;
 mod looks;
+mod lost_device;
 mod memory;
 mod mitsuba;
 mod motion_blur;
