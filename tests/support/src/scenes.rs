@@ -20,8 +20,10 @@ use mandelight::{
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
 
 /// A value of the whole range, whose ends are as likely as one value in three.
-fn value(param: &'static Param) -> impl Strategy<Value = f64> {
-    prop_oneof![4 => param.min..=param.max, 1 => Just(param.min), 1 => Just(param.max)]
+///
+/// Boxed, as trees of choices in place overflow the stack of a test.
+fn value(param: &'static Param) -> BoxedStrategy<f64> {
+    prop_oneof![4 => param.min..=param.max, 1 => Just(param.min), 1 => Just(param.max)].boxed()
 }
 
 fn count(param: &'static Param) -> impl Strategy<Value = u32> {
@@ -29,7 +31,7 @@ fn count(param: &'static Param) -> impl Strategy<Value = u32> {
 }
 
 fn color() -> impl Strategy<Value = [f32; 3]> {
-    uniform3(prop_oneof![4 => 0.0..=1.0_f32, 1 => Just(0.0), 1 => Just(1.0)])
+    uniform3(prop_oneof![4 => 0.0..=1.0_f32, 1 => Just(0.0), 1 => Just(1.0)].boxed())
 }
 
 fn direction() -> impl Strategy<Value = [f64; 3]> {
@@ -52,7 +54,7 @@ fn point() -> impl Strategy<Value = PrecisePoint> {
 /// Any formula with any values of its own table.
 fn fractal() -> impl Strategy<Value = Fractal> {
     let formulas: Vec<_> = formula::all().collect();
-    let fraction = || prop_oneof![4 => 0.0..=1.0_f64, 1 => Just(0.0), 1 => Just(1.0)];
+    let fraction = || prop_oneof![4 => 0.0..=1.0_f64, 1 => Just(0.0), 1 => Just(1.0)].boxed();
     let shared = (count(&param::ITERATIONS), fraction());
     (select(formulas), shared, vec(fraction(), 16), vec(section_plane(), 0..=3)).prop_map(
         |(formula, (iterations, t), fractions, section_planes)| {
