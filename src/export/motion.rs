@@ -162,6 +162,11 @@ impl SubFrameView {
         self.clamped_light
     }
 
+    /// Sets what the firefly limit took away from regions that another view drew.
+    pub fn set_clamped_light(&mut self, clamped_light: Option<ClampedLight>) {
+        self.clamped_light = clamped_light;
+    }
+
     /// True if the picture is complete.
     pub fn is_finished(&self) -> bool {
         self.is_finished

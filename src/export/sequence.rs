@@ -112,12 +112,17 @@ impl<S: FrameSink> SequenceJob<S> {
             None => self.begin()?,
         };
         let mut of_file = 0.0;
-        match still.step(now_secs)? {
-            StillStatus::Working { done, .. } => {
+        match still.step(now_secs) {
+            Ok(StillStatus::Working { done, .. }) => {
                 of_file = done;
                 self.still = Some(still);
             }
-            StillStatus::Done { .. } => {
+            Err(error) => {
+                // The still may go on with another device.
+                self.still = Some(still);
+                return Err(error);
+            }
+            Ok(StillStatus::Done { .. }) => {
                 let eye = self.eyes[self.files as usize];
                 self.sink.add(&file_name(self.frame, eye), still.finish()?)?;
                 self.files += 1;
@@ -132,6 +137,20 @@ impl<S: FrameSink> SequenceJob<S> {
         let done = f64::from(self.frame - self.frames.start) + of_frame;
         let remaining_secs = remaining_secs(now_secs - started_secs, done, all);
         Ok(StillStatus::Working { done: done / f64::from(all), remaining_secs })
+    }
+
+    /// Continues on another device, as [`StillJob::resume_on`]; complete frames stay as they are.
+    pub fn resume_on(&mut self, pipelines: &Arc<Pipelines>) {
+        self.pipelines = pipelines.clone();
+        if let Some(still) = &mut self.still {
+            still.resume_on(pipelines);
+        }
+    }
+
+    /// Number of complete files, and of finished tiles of the one after them.
+    pub fn progress(&self) -> (u32, u32) {
+        let files = (self.frame - self.frames.start) * self.eyes.len() as u32 + self.files;
+        (files, self.still.as_ref().map_or(0, StillJob::finished_tiles))
     }
 
     fn begin(&self) -> Result<StillJob<Vec<u8>>, ExportError> {

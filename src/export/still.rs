@@ -17,8 +17,8 @@ use super::{
     tiles::{Tile, Tiling},
 };
 use crate::{
-    render::{Pipelines, pass::denoise, report::ClampedLight},
-    scene::{Camera, Path, Scene},
+    render::{Pipelines, Region, pass::denoise, report::ClampedLight},
+    scene::{Path, Scene},
 };
 
 /// Maximum size of a band of rows, in bytes; reduces the tile's height if pixels are large.
@@ -66,21 +66,22 @@ pub enum StillStatus {
 /// A still in progress. Dropping the job cancels it and leaves an incomplete file.
 pub struct StillJob<W: Write> {
     pipelines: Arc<Pipelines>,
+    subject: Subject,
     overview: Option<Overview>,
     view: SubFrameView,
     tiling: Tiling,
     /// Index of the tile being rendered; equals the number of tiles after the last one.
     tile_index: u32,
     /// The tile whose readback is in flight.
-    readback: Option<(Tile, TileReadback)>,
+    in_flight: Option<TileInFlight>,
+    /// What the firefly limit took away from the tiles that were read back; none without a limit.
+    clamped_light: Option<ClampedLight>,
     /// The band that collects tiles.
     filling: Band,
     /// The band that is being encoded.
     encoding: Band,
-    file: FileEncoding,
     /// Bytes per pixel of the encoder's input.
     pixel_bytes: usize,
-    camera: Camera,
     /// Number of samples, summed over all pixels.
     samples: f64,
     encoder: Encoder<W>,
@@ -89,6 +90,44 @@ pub struct StillJob<W: Write> {
     /// The largest reported progress.
     max_done: f64,
     faults_before: u64,
+}
+
+/// A complete tile whose pixels are on their way.
+struct TileInFlight {
+    tile: Tile,
+    readback: TileReadback,
+    /// What the firefly limit took away up to this tile; none without a limit.
+    clamped_light: Option<ClampedLight>,
+}
+
+/// What a still shows, whatever device draws it.
+struct Subject {
+    /// The scene that the file stores.
+    scene: Scene,
+    sub_frames: SubFrames,
+    options: StillOptions,
+    file: FileEncoding,
+}
+
+impl Subject {
+    fn overview(&self, pipelines: &Arc<Pipelines>, sheet: &Sheet) -> Option<Overview> {
+        let map = self.options.environment_map.as_ref();
+        Overview::new(pipelines, &self.scene, &self.sub_frames, map, sheet, self.file.format)
+    }
+
+    /// The view that draws tiles, beginning with `region`.
+    fn view(&self, pipelines: &Arc<Pipelines>, region: Region) -> SubFrameView {
+        let Self { scene, options, file, .. } = self;
+        let mut drawn = self.sub_frames.clone();
+        drawn.change(|drawn| {
+            drawn.integrator.denoise = options.denoises(scene);
+            // Opacity is a share of all samples, so every pixel gets all.
+            if options.is_transparent {
+                drawn.integrator.noise = 0.0;
+            }
+        });
+        SubFrameView::new(pipelines, region, options.environment_map.as_ref(), drawn, file.values)
+    }
 }
 
 /// One row of tiles, as whole rows of pixels.
@@ -183,34 +222,23 @@ impl<W: Write> StillJob<W> {
         let (apron_px, factor) = if denoises { (denoise::REACH_PX, 2) } else { (0, 1) };
         let max_tile_px = [tile_width, (factor * tile_height).min(max_rows)];
         let tiling = Tiling::new(sheet, max_tile_px, apron_px);
-        let environment_map = options.environment_map.as_ref();
-        let overview =
-            Overview::new(pipelines, scene, &sub_frames, environment_map, &sheet, options.format);
-        let mut drawn = sub_frames;
-        drawn.change(|scene| {
-            scene.integrator.denoise = denoises;
-            // Opacity is a share of all samples, so every pixel gets all.
-            if options.is_transparent {
-                scene.integrator.noise = 0.0;
-            }
-        });
-        let first_px = tiling.tile(0).rendered;
-        let view = SubFrameView::new(pipelines, first_px, environment_map, drawn, file.values);
+        let samples = f64::from(scene.quality.samples);
+        let subject = Subject { scene: scene.clone(), sub_frames, options, file };
         let pixels: f64 = sheet_px.map(f64::from).iter().product();
         Ok(Self {
             pipelines: pipelines.clone(),
-            overview,
-            view,
+            overview: subject.overview(pipelines, &sheet),
+            view: subject.view(pipelines, tiling.tile(0).rendered),
             tiling,
             tile_index: 0,
-            readback: None,
+            in_flight: None,
+            clamped_light: None,
             filling: Band::default(),
             encoding: Band::default(),
-            file,
+            subject,
             pixel_bytes,
             encoder: Encoder::new(file, sink, sheet_px, scene)?,
-            samples: pixels * f64::from(scene.quality.samples),
-            camera: scene.camera.clone(),
+            samples: pixels * samples,
             rows_left: sheet_px[1],
             started_secs: None,
             max_done: 0.0,
@@ -224,8 +252,8 @@ impl<W: Write> StillJob<W> {
     /// natively with a device poll between calls. `now_secs` is a monotonic clock.
     ///
     /// # Errors
-    /// [`ExportError::Gpu`] if the device fails, [`ExportError::Write`] if the sink fails. The
-    /// job cannot continue after an error.
+    /// [`ExportError::Gpu`] if the device fails: then [`Self::resume_on`] continues. [`ExportError::Write`] if
+    /// the sink fails: then the job cannot continue.
     pub fn step(&mut self, now_secs: f64) -> Result<StillStatus, ExportError> {
         let started_secs = *self.started_secs.get_or_insert(now_secs);
         self.render(now_secs);
@@ -235,7 +263,7 @@ impl<W: Write> StillJob<W> {
             return Err(ExportError::Gpu("the device reported an error".to_owned()));
         }
         if self.rows_left == 0 {
-            let clamped_fraction = self.view.clamped_light().map(ClampedLight::fraction);
+            let clamped_fraction = self.clamped_light.map(ClampedLight::fraction);
             return Ok(StillStatus::Done { clamped_fraction });
         }
         self.max_done = self.max_done.max(self.part_done());
@@ -245,6 +273,28 @@ impl<W: Write> StillJob<W> {
         let remaining_secs =
             can_estimate.then(|| elapsed_secs * (1.0 - self.max_done) / self.max_done);
         Ok(StillStatus::Working { done: self.max_done, remaining_secs })
+    }
+
+    /// Continues on another device, after the last tile whose pixels were read from the old one.
+    ///
+    /// The overview, whose statistics were in the old device's memory, is drawn again; it comes out the same.
+    pub fn resume_on(&mut self, pipelines: &Arc<Pipelines>) {
+        self.tile_index = self.finished_tiles();
+        self.in_flight = None;
+        self.pipelines = pipelines.clone();
+        self.faults_before = pipelines.gpu.faults();
+        let last = self.tiling.count() - 1;
+        let region = self.tiling.tile(self.tile_index.min(last)).rendered;
+        self.view = self.subject.view(pipelines, region);
+        self.view.set_clamped_light(self.clamped_light);
+        let is_drawing = self.tile_index <= last;
+        let sheet = self.tiling.sheet();
+        self.overview = is_drawing.then(|| self.subject.overview(pipelines, &sheet)).flatten();
+    }
+
+    /// Number of tiles whose pixels have been read from the device.
+    pub fn finished_tiles(&self) -> u32 {
+        self.tile_index - u32::from(self.in_flight.is_some())
     }
 
     /// Ends the file and returns the sink.
@@ -261,14 +311,16 @@ impl<W: Write> StillJob<W> {
         if !self.finish_overview(now_secs)
             || self.tile_index == self.tiling.count()
             || self.view.pump(now_secs)
-            || self.readback.is_some()
+            || self.in_flight.is_some()
         {
             return;
         }
-        let Some(readback) = self.file.read(&self.pipelines.gpu, self.view.view()) else {
+        let Some(readback) = self.subject.file.read(&self.pipelines.gpu, self.view.view()) else {
             return;
         };
-        self.readback = Some((self.tiling.tile(self.tile_index), readback));
+        let tile = self.tiling.tile(self.tile_index);
+        let clamped_light = self.view.clamped_light();
+        self.in_flight = Some(TileInFlight { tile, readback, clamped_light });
         self.tile_index += 1;
         if self.tile_index < self.tiling.count() {
             // The copy is submitted, so the next tile may overwrite the view.
@@ -291,16 +343,18 @@ impl<W: Write> StillJob<W> {
     /// Moves a complete readback into its band, and a full band to the encoder.
     fn collect(&mut self) -> Result<(), ExportError> {
         if !self.filling.is_full
-            && let Some((tile, readback)) = &mut self.readback
+            && let Some(TileInFlight { tile, readback, clamped_light }) = &mut self.in_flight
         {
+            let Subject { scene, file, .. } = &self.subject;
             let pixels = readback
-                .take(&self.pipelines.gpu, &self.camera, tile.rendered, self.file)
+                .take(&self.pipelines.gpu, &scene.camera, tile.rendered, *file)
                 .map_err(|error| ExportError::Gpu(error.to_string()))?;
             if let Some(pixels) = pixels {
                 let [sheet_width, _] = self.tiling.sheet_px();
                 self.filling.copy_tile(*tile, sheet_width, &pixels, self.pixel_bytes);
                 self.filling.is_full = tile.ends_band;
-                self.readback = None;
+                self.clamped_light = *clamped_light;
+                self.in_flight = None;
             }
         }
         if self.filling.is_full && self.encoding.is_encoded() {

@@ -53,6 +53,11 @@ impl Tiling {
         Self { sheet, tile_px, columns, rows, apron_px }
     }
 
+    /// The sheet.
+    pub fn sheet(&self) -> Sheet {
+        self.sheet
+    }
+
     /// Width and height of the whole sheet, pixels.
     pub fn sheet_px(&self) -> [u32; 2] {
         self.sheet.size_px()

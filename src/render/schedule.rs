@@ -88,6 +88,8 @@ pub struct Schedule {
     is_display_stale: bool,
     /// Whether no picture of the last change has been shown.
     opening: bool,
+    /// Whether the opening is of another view, and not of a step of a movement.
+    is_jump: bool,
     shown_level: u32,
     moving: bool,
     changed_at: f64,
@@ -111,6 +113,7 @@ impl Schedule {
             progress: Progress::new(plan, size_px),
             is_display_stale: false,
             opening: true,
+            is_jump: true,
             shown_level: COARSEST,
             moving: false,
             changed_at: 0.0,
@@ -231,6 +234,8 @@ impl Schedule {
     pub fn change(&mut self, stale: Stale, moving: bool, now_secs: f64) {
         self.moving = moving;
         self.changed_at = now_secs;
+        // A jump that was never shown stays one.
+        self.is_jump = (stale == Stale::Geometry && !moving) || (self.is_jump && self.opening);
         self.restart(stale);
     }
 
@@ -288,7 +293,11 @@ impl Schedule {
     /// What the next piece of work is for.
     fn phase(&self) -> Phase {
         let is_seen = self.pace == Pace::Interactive;
-        if self.opening && is_seen { Phase::Opening } else { Phase::Refining }
+        match self.opening && is_seen {
+            true if self.is_jump => Phase::Jump,
+            true => Phase::Opening,
+            false => Phase::Refining,
+        }
     }
 
     fn choose(&mut self, now_secs: f64) -> Option<Work> {
@@ -326,7 +335,8 @@ impl Schedule {
             progress: &self.progress,
             cost: &self.cost,
             pace: self.pace,
-            budget_ms: self.budget_ms,
+            // Of another view it is not known what the budget is enough for.
+            budget_ms: if self.is_jump { self.budget_ms.min(PIECE_MS) } else { self.budget_ms },
             samples_wanted: self.samples_to_do(),
             is_opening: self.opening,
             is_display_due: now_secs - self.shown_at >= self.display_interval_secs(),
@@ -377,7 +387,7 @@ impl Schedule {
         let is_new_goal = self.is_display_stale && self.progress.samples_done <= 1;
         let adapt = self.adaptation.step(now_secs, now_secs - self.shown_at, is_new_goal);
         self.is_display_stale = false;
-        self.opening = false;
+        (self.opening, self.is_jump) = (false, false);
         self.shown_at = now_secs;
         let level = self.progress.filmed().unwrap_or(0);
         self.shown_level = level;
@@ -397,7 +407,7 @@ impl Schedule {
         let wanted = match self.phase() {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
-            Phase::Opening => MAX_WORKGROUPS,
+            Phase::Opening | Phase::Jump => MAX_WORKGROUPS,
             Phase::Refining => self.piece_workgroups(job).min(MAX_WORKGROUPS),
         };
         let workgroups = wanted.min(total - first_workgroup);

@@ -56,6 +56,8 @@ pub enum Action {
     SharePicture,
     /// Enter or leave fullscreen.
     ToggleFullscreen,
+    /// Take what the notice offers.
+    TakeOffer,
     /// Close the notice.
     DismissNotice,
 }

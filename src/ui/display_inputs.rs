@@ -80,10 +80,12 @@ pub struct ExportProgress {
 }
 
 /// A message of the shell to the user, such as "link copied".
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Notice {
     /// The message.
     pub text: String,
     /// True for an error.
     pub is_error: bool,
+    /// The label of a button that takes what the message offers; none for other messages.
+    pub offer: Option<&'static str>,
 }

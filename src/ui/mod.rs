@@ -33,6 +33,7 @@
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
 //! | [`accessibility`] | the interface as a screen reader reads it |
+//! | [`loss_policy`] | what to draw after losses of the GPU |
 //! | [`editor`] | the edited scene and path, and their history |
 //! | `timeline` | the playhead: the time of the path that is in view |
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, style, icons, widget positions |
@@ -77,6 +78,7 @@ mod widgets;
 
 pub mod accessibility;
 pub mod editor;
+pub mod loss_policy;
 pub mod navigation;
 pub mod opening;
 pub mod rects;

@@ -16,6 +16,10 @@ use super::{
 const AROUND: f32 = 40.0;
 /// Distance from the picture's upper edge, and between messages, in points.
 const GAP: f32 = 12.0;
+/// Room for the cross, in points.
+const CROSS_WIDTH: f32 = 52.0;
+/// Room for the button of an offer, in points.
+const OFFER_WIDTH: f32 = 130.0;
 
 /// Shows the messages of `inputs` at the upper edge of `view`.
 pub fn show(
@@ -27,11 +31,18 @@ pub fn show(
 ) {
     let Some(view) = view else { return };
     let mut top = view.top() + GAP;
-    if let Some(Notice { text, is_error }) = inputs.notice {
+    if let Some(Notice { text, is_error, offer }) = inputs.notice {
         let (text_color, edge) =
             if *is_error { (theme::ERROR, theme::ERROR) } else { (Color32::WHITE, theme::ACCENT) };
-        let message = Message { id: "notice", role: Role::Alert, text, text_color, edge, top };
+        let buttons_width = if offer.is_some() { CROSS_WIDTH + OFFER_WIDTH } else { CROSS_WIDTH };
+        let role = Role::Alert;
+        let message = Message { id: "notice", role, text, text_color, edge, top, buttons_width };
         let shown = message.show(ui, view, |ui| {
+            if let Some(offer) = offer
+                && ui.button(*offer).clicked()
+            {
+                actions.push(Action::TakeOffer);
+            }
             if icon_button(ui, Icon::Cross, "Dismiss", "Close this message").clicked() {
                 actions.push(Action::DismissNotice);
             }
@@ -42,8 +53,9 @@ pub fn show(
     if let Some(name) = inputs.reading {
         let text = format!("Reading {name}…");
         let (text_color, edge) = (Color32::WHITE, theme::LINE);
+        let (role, buttons_width) = (Role::Status, CROSS_WIDTH);
         let message =
-            Message { id: "reading", role: Role::Status, text: &text, text_color, edge, top };
+            Message { id: "reading", role, text: &text, text_color, edge, top, buttons_width };
         let shown = message.show(ui, view, |ui| {
             if icon_button(ui, Icon::Cross, "Cancel", "Stop reading this file").clicked() {
                 actions.push(Action::CancelReading);
@@ -53,7 +65,7 @@ pub fn show(
     }
 }
 
-/// A framed text with a button.
+/// A framed text with buttons.
 struct Message<'a> {
     id: &'static str,
     role: Role,
@@ -62,11 +74,12 @@ struct Message<'a> {
     edge: Color32,
     /// Its upper edge.
     top: f32,
+    buttons_width: f32,
 }
 
 impl Message<'_> {
-    /// Shows the message at the middle of `view`, with `button` on its right: as much of its text as has room.
-    fn show(&self, ui: &Ui, view: Rect, button: impl FnOnce(&mut Ui)) -> Response {
+    /// Shows the message at the middle of `view`, with `buttons` on its right: as much of its text as has room.
+    fn show(&self, ui: &Ui, view: Rect, buttons: impl FnOnce(&mut Ui)) -> Response {
         let width = (view.width() - 24.0).clamp(120.0, 460.0);
         let area = egui::Area::new(egui::Id::unique(self.id))
             .fixed_pos(pos2(view.center().x, self.top))
@@ -78,9 +91,10 @@ impl Message<'_> {
             frame.stroke(egui::Stroke::new(1.0, self.edge)).show(ui, |ui| {
                 ui.horizontal(|ui| {
                     let font = egui::FontId::proportional(13.5);
+                    let room = width - self.buttons_width;
                     let row_height = ui.fonts_mut(|fonts| fonts.row_height(&font));
                     let text = self.text.to_owned();
-                    let mut job = LayoutJob::simple(text, font, self.text_color, width - 52.0);
+                    let mut job = LayoutJob::simple(text, font, self.text_color, room);
                     let rows = (view.bottom() - self.top - AROUND + GAP) / row_height;
                     job.wrap.max_rows = (rows as usize).max(1);
                     let text = ui.painter().layout_job(job);
@@ -92,7 +106,7 @@ impl Message<'_> {
                     });
                     let at = rect.left_center() - vec2(0.0, text.size().y / 2.0);
                     ui.painter().galley(at, text, self.text_color);
-                    button(ui);
+                    buttons(ui);
                 });
             });
         });

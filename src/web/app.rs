@@ -9,6 +9,7 @@ use super::{
     accessibility,
     address::Address,
     engine::Engine,
+    exporter::Exporter,
     files, gallery,
     image_decoder::ImageDecoder,
     mailbox::{Mailbox, Message},
@@ -36,11 +37,12 @@ pub struct App {
 }
 
 impl App {
-    /// An app on `gpu`; `None` if egui runs without wgpu.
+    /// An app on `gpu` that continues the exports of `exporter`; `None` if egui runs without wgpu.
     pub fn new(
         context: &eframe::CreationContext<'_>,
         gpu: Gpu,
         session: Rc<RefCell<Session>>,
+        exporter: Option<Exporter>,
     ) -> Option<Self> {
         let render_state = context.wgpu_render_state.clone()?;
         theme::install(&context.egui_ctx);
@@ -48,7 +50,8 @@ impl App {
         accessibility::connect(&context.egui_ctx);
         session.borrow().mailbox.set_context(&context.egui_ctx);
         let adapter_name = gpu.name();
-        let engine = Engine::new(gpu, render_state, context.egui_ctx.clone(), session.clone());
+        let egui = context.egui_ctx.clone();
+        let engine = Engine::new(gpu, render_state, egui, session.clone(), exporter);
         let opening = Opening::of_document(&context.egui_ctx, session.borrow().interface.scene());
         let address = Address::with_fragment("").unwrap_or_default();
         let address = address.trim_end_matches('#').to_owned();
@@ -172,6 +175,7 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             }
         }
         Action::ToggleFullscreen => page::toggle_fullscreen(),
+        Action::TakeOffer => session.take_offer(),
         Action::DismissNotice => session.notice = None,
     }
 }

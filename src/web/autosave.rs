@@ -64,9 +64,21 @@ impl Autosave {
 
     /// Writes the project of the last frame now, if it has unsaved changes.
     pub fn flush(&mut self, editor: &Editor) {
-        let Some(project) = self.last.as_ref().filter(|_| self.changed_at_secs.is_some()) else {
-            return;
-        };
+        if self.changed_at_secs.is_some()
+            && let Some(project) = self.last.take()
+        {
+            self.write_project(&project, editor);
+            self.last = Some(project);
+        }
+    }
+
+    /// Writes the edited project now, whether it has changed or not.
+    pub fn write(&mut self, editor: &Editor) {
+        self.write_project(editor.project(), editor);
+        self.last = Some(editor.project().clone());
+    }
+
+    fn write_project(&mut self, project: &Project, editor: &Editor) {
         self.changed_at_secs = None;
         let document = document::project_to_json_compact(project);
         self.has_failed |= !key_for_scene(self.written.as_deref()).write(&document);

@@ -13,7 +13,6 @@ use std::{
 use eframe::egui_wgpu::RenderState;
 
 use super::{
-    device_loss::SafeMode,
     exporter::Exporter,
     live_view::LiveView,
     page,
@@ -24,7 +23,7 @@ use super::{
 use crate::{
     gpu::Gpu,
     render::{Activity, Pipelines, Report},
-    ui::{self, SmallTextures},
+    ui::{self, SmallTextures, loss_policy::SafeMode},
 };
 
 /// Milliseconds between two ticks: the shortest timer that browsers allow.
@@ -64,17 +63,20 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// An idle engine. It replaces the one of the lost device.
+    /// An engine that continues the exports of `exporter`. It replaces the one of the lost device.
     pub fn new(
         gpu: Gpu,
         render_state: RenderState,
         context: egui::Context,
         session: Rc<RefCell<Session>>,
+        exporter: Option<Exporter>,
     ) -> Rc<RefCell<Self>> {
         let pipelines = Pipelines::new(&gpu);
         let models = session.borrow().interface.models().clone();
+        let mut exporter = exporter.unwrap_or_else(|| Exporter::new(pipelines.clone()));
+        exporter.resume_on(&pipelines, &mut session.borrow_mut());
         let engine = Rc::new(RefCell::new(Self {
-            exporter: Exporter::new(pipelines.clone()),
+            exporter,
             gpu,
             view: LiveView::new(pipelines.clone(), render_state.clone(), &models),
             small_pictures: SmallPictures::new(pipelines, render_state),
@@ -180,9 +182,9 @@ impl Engine {
             texture: self.view.texture().cloned(),
             dispatches: self.view.dispatches(),
             frames: session.status.frames,
-            is_exporting: self.exporter.is_busy(),
             small_pictures: self.small_pictures.textures().by_id.len(),
             ui_textures: self.context.tex_manager().read().num_allocated(),
+            exported: self.exporter.progress().map(|progress| progress.done),
         };
         busy
     }
@@ -229,6 +231,14 @@ impl Engine {
             self.context.request_repaint();
         }
     }
+}
+
+/// The exports of the running engine, which then has none.
+pub fn take_exporter() -> Option<Exporter> {
+    let engine = ENGINE.with(|slot| slot.borrow().upgrade())?;
+    let engine = &mut *engine.try_borrow_mut().ok()?;
+    let idle = engine.exporter.idle();
+    Some(std::mem::replace(&mut engine.exporter, idle))
 }
 
 /// Advances the running engine between frames.

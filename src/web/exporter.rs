@@ -1,7 +1,7 @@
 //! The export in progress: its start, its steps, its progress and its notices.
 //!
 //! In: sizes and frames to export, of the session's scene. Out: files, progress for the interface,
-//! notices. Runs one export at a time.
+//! notices. Runs one export at a time, which goes on with another device after the GPU was lost.
 
 use std::{ops::Range, sync::Arc};
 
@@ -18,10 +18,17 @@ use crate::{
     ui::{ExportProgress, SequenceFormat, StillFile, StillFormat},
 };
 
+/// Seconds that a failed export waits for the news that the GPU was lost.
+const LOSS_SECS: f64 = 5.0;
+
 /// Runs exports on one device.
 pub struct Exporter {
     pipelines: Arc<Pipelines>,
     export: Option<Export>,
+    /// Why and when the GPU failed the export in progress.
+    stopped: Option<(String, f64)>,
+    /// The export's progress at the last loss of the GPU.
+    progress_at_loss: Option<(u32, u32)>,
     progress: Option<ExportProgress>,
     /// The sequence whose file the visitor has yet to choose.
     requested_sequence: Option<RequestedSequence>,
@@ -45,7 +52,40 @@ struct RequestedSequence {
 impl Exporter {
     /// An exporter without an export.
     pub fn new(pipelines: Arc<Pipelines>) -> Self {
-        Self { pipelines, export: None, progress: None, requested_sequence: None }
+        Self {
+            pipelines,
+            export: None,
+            stopped: None,
+            progress_at_loss: None,
+            progress: None,
+            requested_sequence: None,
+        }
+    }
+
+    /// An exporter on the same device, without an export.
+    pub fn idle(&self) -> Self {
+        Self::new(self.pipelines.clone())
+    }
+
+    /// Continues on another device, from the last finished tile.
+    ///
+    /// Drops an export that has finished no tile since the last loss: it may be what lost the GPU.
+    pub fn resume_on(&mut self, pipelines: &Arc<Pipelines>, session: &mut Session) {
+        self.pipelines = pipelines.clone();
+        self.stopped = None;
+        let Some(export) = &mut self.export else { return };
+        let progress = Some(export.progress());
+        if self.progress_at_loss == progress {
+            self.cancel();
+            return session.show_error(
+                "The graphics card stopped again, which cancelled saving. Save again in a smaller size.",
+            );
+        }
+        self.progress_at_loss = progress;
+        export.resume_on(pipelines);
+        session.show_error(
+            "The graphics card stopped and was started again. Saving goes on where it stopped.",
+        );
     }
 
     /// Whether an export is in progress.
@@ -137,17 +177,26 @@ impl Exporter {
 
     fn begin(&mut self, export: Export) {
         self.export = Some(export);
+        (self.stopped, self.progress_at_loss) = (None, None);
         self.progress = Some(ExportProgress { done: 0.0, remaining_secs: None });
     }
 
     /// Drops the export in progress.
     pub fn cancel(&mut self) {
         self.export = None;
+        self.stopped = None;
         self.progress = None;
     }
 
     /// Advances the export without waiting, and shows a notice when it ends.
     pub fn step(&mut self, session: &mut Session, now_secs: f64) {
+        if let Some((reason, since_secs)) = &self.stopped {
+            if now_secs - since_secs > LOSS_SECS {
+                session.show_error(failure(reason));
+                self.cancel();
+            }
+            return;
+        }
         let Some(export) = self.export.take() else { return };
         let (export, status) = export.step(now_secs);
         self.export = export;
@@ -160,12 +209,21 @@ impl Exporter {
                 None
             }
             ExportStatus::Closing => None,
+            ExportStatus::Stopped(reason) => {
+                self.stopped = Some((reason, now_secs));
+                self.progress
+            }
             ExportStatus::Failed(reason) => {
-                session.show_error(format!("Saving failed: {reason}. Try a smaller size."));
+                session.show_error(failure(&reason));
                 None
             }
         };
     }
+}
+
+/// The notice of an export that failed.
+fn failure(reason: &str) -> String {
+    format!("Saving failed: {reason}. Try a smaller size.")
 }
 
 /// The format of a saved picture.
@@ -179,6 +237,20 @@ pub fn picture_format(file: StillFile) -> PictureFormat {
 }
 
 impl Export {
+    fn resume_on(&mut self, pipelines: &Arc<Pipelines>) {
+        match self {
+            Self::Still(still) => still.resume_on(pipelines),
+            Self::Sequence(sequence) => sequence.resume_on(pipelines),
+        }
+    }
+
+    fn progress(&self) -> (u32, u32) {
+        match self {
+            Self::Still(still) => still.progress(),
+            Self::Sequence(sequence) => sequence.progress(),
+        }
+    }
+
     /// Advances the export without waiting; `None` once it has ended.
     fn step(self, now_secs: f64) -> (Option<Self>, ExportStatus) {
         match self {

@@ -58,7 +58,20 @@ impl SequenceExport {
                 };
                 (None, status)
             }
+            Err(error @ ExportError::Gpu(_)) => {
+                (Some(self), ExportStatus::Stopped(error.to_string()))
+            }
             Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
+    }
+
+    /// Continues on another device.
+    pub fn resume_on(&mut self, pipelines: &Arc<Pipelines>) {
+        self.job.resume_on(pipelines);
+    }
+
+    /// Number of complete files, and of finished tiles of the one after them.
+    pub fn progress(&self) -> (u32, u32) {
+        self.job.progress()
     }
 }

@@ -9,7 +9,7 @@ use super::{
     address::Address,
     autosave::{self, Autosave},
     decoder::{Decoder, Purpose, Reading},
-    device_loss::{self, SafeMode},
+    device_loss,
     file_content::FileContent,
     files::{self, FilePicker},
     gallery,
@@ -20,8 +20,12 @@ use crate::{
     gpu::Gpu,
     reading::visible_lines,
     render::Report,
-    scene::{BackgroundKind, Scene, link, presets},
-    ui::{GalleryState, Interface, Notice, Settings, theme},
+    scene::{BackgroundKind, Project, Scene, link, presets},
+    ui::{
+        GalleryState, Interface, Notice, Settings,
+        loss_policy::{SafeMode, Start},
+        theme,
+    },
 };
 
 /// Seconds that a notice of a success stays.
@@ -58,6 +62,8 @@ pub struct Session {
     safe_mode: SafeMode,
     /// The scene in which drawing is paused.
     paused_scene: Option<Scene>,
+    /// The project that lost the GPU several times, so that the visit began with another one.
+    offered: Option<Project>,
 }
 
 /// The app's status, for the interface and the tests.
@@ -71,12 +77,12 @@ pub struct AppStatus {
     pub dispatches: u64,
     /// The interface's frames so far.
     pub frames: u64,
-    /// Whether an export is in progress.
-    pub is_exporting: bool,
     /// The small pictures on the GPU.
     pub small_pictures: usize,
     /// egui's own textures.
     pub ui_textures: usize,
+    /// The finished part of the export in progress, 0 to 1; none without one.
+    pub exported: Option<f32>,
 }
 
 impl Session {
@@ -86,9 +92,23 @@ impl Session {
         let opened = autosave::stored_scene();
         let settings = stored::settings().unwrap_or_else(|| first_settings(opened.is_link));
         let known_formulas = settings.formulas.clone();
-        let project = opened.project.unwrap_or_else(|| presets::opening().into());
+        let opening = Project::from(presets::opening());
+        let named = opened.project.unwrap_or_else(|| opening.clone());
+        let start = device_loss::start(&named.scene);
+        let (project, offered) = match start {
+            Start::Offer if named != opening => (opening, Some(named)),
+            _ => (named, None),
+        };
+        let safe_mode = match (start, &offered) {
+            (Start::Open(safe_mode), _) => safe_mode,
+            // The offer has a notice of its own.
+            (Start::Offer, Some(_)) => SafeMode::Off,
+            (Start::Offer, None) => SafeMode::Paused,
+        };
         let mut interface = Interface::new(project, settings);
-        interface.editor_mut().restore_steps(autosave::stored_steps());
+        if offered.is_none() {
+            interface.editor_mut().restore_steps(autosave::stored_steps());
+        }
         let (favourites, list_problem) = stored::favourites();
         *interface.favourites_mut() = favourites;
         let mailbox = Mailbox::default();
@@ -109,9 +129,11 @@ impl Session {
             has_told_of_storage: false,
             safe_mode: SafeMode::Off,
             paused_scene: None,
+            offered,
         };
-        session.enter_safe_mode(device_loss::safe_mode_at_start(session.fragment().as_deref()));
+        session.enter_safe_mode(safe_mode);
         session.report_missing_environment_map();
+        session.show_offer();
         let problems: Vec<String> = opened.problem.into_iter().chain(list_problem).collect();
         if !problems.is_empty() {
             session.show_error(problems.join("\n"));
@@ -138,9 +160,23 @@ impl Session {
         }
     }
 
-    /// The scene in view as a fragment; `None` if too large for an address.
-    pub fn fragment(&self) -> Option<String> {
-        link::to_fragment(self.interface.scene()).ok()
+    /// Shows the notice that offers the scene which lost the GPU, if there is one.
+    fn show_offer(&mut self) {
+        if self.offered.is_some() {
+            let text = "The graphics card stopped several times while it drew your last scene, so another one was opened.";
+            let offer = Some("Open it anyway");
+            self.show(Notice { text: text.into(), is_error: true, offer }, f64::INFINITY);
+        }
+    }
+
+    /// Opens the offered scene, with a smaller picture until one is complete.
+    pub fn take_offer(&mut self) {
+        self.notice = None;
+        if let Some(project) = self.offered.take() {
+            self.interface.replace_project(project);
+            self.enter_safe_mode(SafeMode::Reduced);
+            self.report_missing_environment_map();
+        }
     }
 
     /// Sets the safe mode and shows its notice.
@@ -167,19 +203,23 @@ impl Session {
     pub fn note_complete_picture(&mut self) {
         if self.safe_mode == SafeMode::Reduced {
             self.safe_mode = SafeMode::Off;
-            device_loss::note_complete_picture();
+            // The picture is of another scene than the offered one.
+            if self.offered.is_none() {
+                device_loss::note_complete_picture();
+            }
             self.mailbox.wake();
         }
     }
 
     /// Shows a success to the visitor, for some seconds.
     pub fn show_notice(&mut self, text: impl Into<String>) {
-        self.show(Notice { text: text.into(), is_error: false }, SUCCESS_SECS);
+        self.show(Notice { text: text.into(), ..Notice::default() }, SUCCESS_SECS);
     }
 
     /// Shows a failure to the visitor, for longer.
     pub fn show_error(&mut self, text: impl Into<String>) {
-        self.show(Notice { text: text.into(), is_error: true }, FAILURE_SECS);
+        let notice = Notice { text: text.into(), is_error: true, ..Notice::default() };
+        self.show(notice, FAILURE_SECS);
     }
 
     fn show_unopened(&mut self, name: &str, reason: &str) {
@@ -198,7 +238,7 @@ impl Session {
         self.notice.as_ref()?;
         let left_secs = self.notice_until_secs - now_secs;
         if left_secs > 0.0 {
-            return Some(left_secs);
+            return left_secs.is_finite().then_some(left_secs);
         }
         self.notice = None;
         None
@@ -305,13 +345,16 @@ impl Session {
         }
     }
 
-    /// Drops what belongs to the lost GPU and saves the rest. Returns whether an export was lost.
-    pub fn release_gpu(&mut self) -> bool {
-        let was_exporting = self.status.is_exporting;
+    /// Drops what belongs to the lost GPU, saves the rest, and notes the loss.
+    ///
+    /// Returns the safe mode of the restart; `None` after too many losses to restart.
+    pub fn note_loss(&mut self) -> Option<SafeMode> {
         self.gpu = None;
         self.status = AppStatus { frames: self.status.frames, ..AppStatus::default() };
+        // The next visit finds the scene that lost the GPU, and knows it by its text.
+        self.autosave.write(self.interface.editor());
         self.save();
-        was_exporting
+        device_loss::note_loss(self.interface.scene())
     }
 
     /// Writes the kept views, if they changed.

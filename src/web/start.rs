@@ -15,7 +15,8 @@ use wasm_bindgen_futures::spawn_local;
 use web_sys::HtmlCanvasElement;
 
 use super::{
-    app::App, async_compile, device_loss, error_log, page, session::Session, test_hook::TestHook,
+    app::App, async_compile, engine, error_log, exporter::Exporter, page, session::Session,
+    test_hook::TestHook,
 };
 use crate::{gpu::Gpu, render::MAX_REGION_PX};
 
@@ -52,7 +53,7 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     HOST.with(|slot| slot.replace(Some(host.clone())));
     limit_canvas(&host.canvas);
     Session::save_on_leave(&host.session);
-    start_app(&host).await.map_err(|text| JsValue::from_str(&text))?;
+    start_app(&host, None).await.map_err(|text| JsValue::from_str(&text))?;
     // Makes keys work before the first click; a refusal does no harm.
     let _ = host.canvas.focus();
     if page::is_test() {
@@ -61,8 +62,8 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     Ok(())
 }
 
-/// Opens a device and runs an app on it.
-async fn start_app(host: &Rc<AppHost>) -> Result<(), String> {
+/// Opens a device and runs an app on it, which continues the exports of `exporter`.
+async fn start_app(host: &Rc<AppHost>, exporter: Option<Exporter>) -> Result<(), String> {
     let mut gpu = Gpu::open(None).await.map_err(|error| error.to_string())?;
     gpu.async_compile = async_compile::async_compile(&gpu.device);
     let generation = host.generation.get() + 1;
@@ -73,7 +74,7 @@ async fn start_app(host: &Rc<AppHost>) -> Result<(), String> {
     let options = web_options(&gpu);
     host.session.borrow_mut().gpu = Some(gpu.clone());
     let create = move |context: &eframe::CreationContext<'_>| {
-        let app = App::new(context, gpu, session).ok_or("egui runs without wgpu")?;
+        let app = App::new(context, gpu, session, exporter).ok_or("egui runs without wgpu")?;
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
     host.runner
@@ -112,22 +113,16 @@ fn restart_on_loss(device: &wgpu::Device, generation: u32) {
 
 /// Restarts the app on a new device, unless devices were lost too often.
 async fn restart(host: &Rc<AppHost>, message: &str) {
+    // Exports outlive the device: their files hold the tiles that are finished.
+    let exporter = engine::take_exporter();
     host.runner.destroy();
-    let (was_exporting, safe_mode) = {
-        let mut session = host.session.borrow_mut();
-        (session.release_gpu(), device_loss::note_loss(session.fragment()))
-    };
+    let safe_mode = host.session.borrow_mut().note_loss();
     let Some(safe_mode) = safe_mode else {
         give_up(message);
         return;
     };
     host.session.borrow_mut().enter_safe_mode(safe_mode);
-    if was_exporting {
-        host.session.borrow_mut().show_error(
-            "The graphics card stopped, which cancelled saving. Save again in a smaller size.",
-        );
-    }
-    if let Err(error) = start_app(host).await {
+    if let Err(error) = start_app(host, exporter).await {
         give_up(&error);
     }
 }

@@ -33,6 +33,8 @@ pub enum ExportStatus {
     Saved(String),
     /// All bytes are handed over; the file posts a notice when closed.
     Closing,
+    /// The GPU failed, with the reason: the export can go on with another device.
+    Stopped(String),
     /// The export failed, with the reason.
     Failed(String),
 }
@@ -73,8 +75,22 @@ impl StillExport {
                 (Some(self), ExportStatus::Working(done / f64::from(file_count), left_secs))
             }
             Ok(StillStatus::Done { .. }) => self.finish_file(),
+            Err(error @ ExportError::Gpu(_)) => {
+                (Some(self), ExportStatus::Stopped(error.to_string()))
+            }
             Err(error) => (None, ExportStatus::Failed(error.to_string())),
         }
+    }
+
+    /// Continues on another device.
+    pub fn resume_on(&mut self, pipelines: &Arc<Pipelines>) {
+        self.pipelines = pipelines.clone();
+        self.job.resume_on(pipelines);
+    }
+
+    /// Number of complete files, and of finished tiles of the one after them.
+    pub fn progress(&self) -> (u32, u32) {
+        (self.saved.len() as u32, self.job.finished_tiles())
     }
 
     /// Downloads the finished file and starts the next one, if any.

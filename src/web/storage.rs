@@ -27,7 +27,8 @@ pub const FAVOURITES_DAMAGED: StorageKey =
 /// The undo steps, as documents, one a line.
 pub const STEPS: StorageKey = StorageKey { name: "mandelight.steps", lifetime: Lifetime::Tab };
 /// The times of GPU losses and the scene of the last one, as JSON.
-pub const LOSSES: StorageKey = StorageKey { name: "mandelight.losses", lifetime: Lifetime::Tab };
+pub const LOSSES: StorageKey =
+    StorageKey { name: "mandelight.losses", lifetime: Lifetime::Permanent };
 
 /// A key of the browser's storage.
 #[derive(Clone, Copy)]

@@ -56,7 +56,8 @@ impl TestHook {
         set(&object, "zoom", zoom(&session.interface.scene().camera));
         set(&object, "dispatches", status.dispatches as f64);
         set(&object, "frames", status.frames as f64);
-        set(&object, "exporting", status.is_exporting);
+        set(&object, "exporting", status.exported.is_some());
+        set(&object, "exported", status.exported.unwrap_or(0.0));
         set(&object, "smallPictures", status.small_pictures as f64);
         set(&object, "uiTextures", status.ui_textures as f64);
         set(&object, "reading", session.decoder.is_busy());
@@ -118,6 +119,12 @@ impl TestHook {
         if let Some(gpu) = gpu {
             gpu.device.destroy();
         }
+    }
+
+    /// Whether the page has a device: not after a loss, until the restart.
+    #[wasm_bindgen(js_name = hasDevice)]
+    pub fn has_device(&self) -> bool {
+        self.session.borrow().gpu.is_some()
     }
 
     /// The widgets' rectangles: name to `{x, y, width, height}` in CSS pixels.

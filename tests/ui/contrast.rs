@@ -87,7 +87,8 @@ fn texts_stand_out_in_every_panel() {
     harness.run();
     check("everything unfolded", &harness);
     let mut harness = stage(presets::opening(), Settings::default(), [1280.0, 720.0]);
-    harness.state_mut().notice = Some(Notice { text: "A failure".to_owned(), is_error: true });
+    harness.state_mut().notice =
+        Some(Notice { text: "A failure".to_owned(), is_error: true, ..Notice::default() });
     harness.state_mut().gallery = Some(GalleryState::Failed("No list is there".to_owned()));
     harness.run();
     press(&mut harness, "Gallery");

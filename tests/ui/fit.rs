@@ -190,7 +190,8 @@ fn a_long_notice_stays_in_the_window() {
         let mut harness = stage(Scene::default(), Settings::default(), size);
         let text = "The file could not be read: ".to_owned()
             + &"lights.environment[2].intensity ".repeat(6);
-        harness.state_mut().notice = Some(Notice { text: text.clone(), is_error: true });
+        harness.state_mut().notice =
+            Some(Notice { text: text.clone(), is_error: true, ..Notice::default() });
         harness.run();
         harness.get_by_role_and_label(egui::accesskit::Role::Alert, &text);
         let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
@@ -206,7 +207,8 @@ fn a_file_that_is_read_is_named_below_the_notice_and_can_be_cancelled() {
     for size in WINDOWS {
         let mut harness = stage(Scene::default(), Settings::default(), size);
         let text = "Link copied.".to_owned();
-        harness.state_mut().notice = Some(Notice { text: text.clone(), is_error: false });
+        harness.state_mut().notice =
+            Some(Notice { text: text.clone(), is_error: false, ..Notice::default() });
         harness.state_mut().reading = Some("garden.hdr".to_owned());
         harness.run();
         harness.get_by_role_and_label(egui::accesskit::Role::Status, "Reading garden.hdr…");
@@ -275,6 +277,25 @@ fn tools_have_words_on_touch_screens() {
             });
             assert!(is_near, "{name} in {size:?}: {tool:?}, {words:?}");
         }
+    }
+}
+
+#[test]
+fn the_offer_of_a_notice_is_a_button_in_the_window() {
+    for size in WINDOWS {
+        let mut harness = stage(Scene::default(), Settings::default(), size);
+        let text =
+            "The graphics card stopped several times while it drew your last scene.".to_owned();
+        let offer = Some("Open it anyway");
+        harness.state_mut().notice = Some(Notice { text, is_error: true, offer });
+        harness.run();
+        let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
+        for label in ["Open it anyway", "Dismiss"] {
+            let rect = harness.get_by_label(label).rect();
+            assert!(window.contains_rect(rect), "{label}: {rect:?} in {size:?}");
+        }
+        press(&mut harness, "Open it anyway");
+        assert_eq!(harness.state().actions, [mandelight::ui::Action::TakeOffer]);
     }
 }
 

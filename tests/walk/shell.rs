@@ -96,7 +96,8 @@ impl Walker {
             Err(error) => {
                 self.log(format!("refuse a document: {error}"));
                 let text = error.to_string();
-                self.harness.state_mut().notice = Some(Notice { text, is_error: true });
+                self.harness.state_mut().notice =
+                    Some(Notice { text, is_error: true, ..Notice::default() });
             }
         }
     }
@@ -154,7 +155,7 @@ impl Walker {
                 self.log("a notice".to_owned());
                 let is_error = self.dice.chance(0.5);
                 self.harness.state_mut().notice =
-                    self.dice.chance(0.7).then_some(Notice { text, is_error });
+                    self.dice.chance(0.7).then_some(Notice { text, is_error, ..Notice::default() });
             }
             3 => {
                 self.log("another gallery".to_owned());

@@ -37,8 +37,8 @@ const MAX_FIXED: f64 = 0.95;
 /// corrects it while a movement lasts.
 const MAX_FIXED_OF_OPENING: f64 = 0.5;
 
-/// Two openings in a row that cost so many times what refining pieces predict show another view. Rays of a
-/// sparse lattice have little in common: up to twice the cost is normal.
+/// Two openings in a row that cost so many times what refining pieces predict show another view; one opening of a
+/// jump does. Rays of a sparse lattice have little in common: up to twice the cost is normal.
 const OTHER_VIEW: f64 = 3.0;
 
 /// One piece of work.
@@ -94,7 +94,7 @@ impl CostHistory {
     /// The rate of one phase; none where neither has been measured.
     pub fn rate(&self, phase: Phase) -> Option<Rate> {
         match phase {
-            Phase::Opening => self.opening.or(self.refining),
+            Phase::Opening | Phase::Jump => self.opening.or(self.refining),
             Phase::Refining => self.refining.or(self.opening),
         }
     }
@@ -109,6 +109,15 @@ impl CostHistory {
         let measurement = Measurement { rays, ms };
         match phase {
             Phase::Opening => self.learn_opening(measurement),
+            Phase::Jump => {
+                // Pieces sized by the view before would be as much too long, until most of the window is new.
+                let known = self.refining.or(self.opening);
+                let expected_ms = known.map(|rate| rate.expected_ms(rays));
+                if expected_ms.is_some_and(|expected_ms| ms > OTHER_VIEW * expected_ms) {
+                    *self = Self::default();
+                }
+                self.learn_opening(measurement);
+            }
             Phase::Refining => {
                 push(&mut self.pieces, REFINING_PIECES, measurement);
                 self.refining = line(&self.pieces);
@@ -184,6 +193,32 @@ mod tests {
         let rate = history.rate(Phase::Refining).expect("pieces");
         assert!((rate.ray_ms - 0.004).abs() < 1e-9, "{rate:?}");
         assert!((rate.fixed_ms - 3.0).abs() < 1e-6, "{rate:?}");
+    }
+
+    /// The next piece after a jump is sized by the jump's own cost.
+    #[test]
+    fn a_dear_jump_replaces_the_estimates_at_once() {
+        let known = || {
+            let mut history = CostHistory::default();
+            for index in 0..32_u32 {
+                let rays = if index % 2 == 0 { 2000.0 } else { 1000.0 };
+                history.learn(Phase::Refining, rays, 0.001 * rays);
+                history.learn(Phase::Opening, rays, 0.001 * rays);
+            }
+            history
+        };
+        let ray_ms = |history: &CostHistory, phase| history.rate(phase).expect("a rate").ray_ms;
+        let mut jumped = known();
+        jumped.learn(Phase::Jump, 1000.0, 20.0);
+        let mut opened = known();
+        opened.learn(Phase::Opening, 1000.0, 20.0);
+        let mut alike = known();
+        alike.learn(Phase::Jump, 1000.0, 1.5);
+        for phase in [Phase::Opening, Phase::Refining] {
+            assert!((ray_ms(&jumped, phase) - 0.02).abs() < 1e-9, "{jumped:?}");
+            assert!(ray_ms(&opened, phase) < 0.002, "{opened:?}");
+            assert!(ray_ms(&alike, phase) < 0.002, "{alike:?}");
+        }
     }
 
     #[test]

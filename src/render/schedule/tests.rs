@@ -5,6 +5,7 @@ use crate::render::integrator::{DIRECT, PATH};
 
 mod arithmetic;
 mod hand;
+mod jumps;
 mod light;
 mod paths;
 mod stalls;

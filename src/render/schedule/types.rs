@@ -9,11 +9,13 @@ pub enum Pace {
     Still,
 }
 
-/// What a piece of work is for. The two phases have costs of their own.
+/// What a piece of work is for. Openings and refining pieces have costs of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// The first picture of a change.
     Opening,
+    /// The first picture of another view, which may cost many times what the last one cost.
+    Jump,
     /// All work that follows that picture.
     Refining,
 }

@@ -1,10 +1,9 @@
 //! Documents: what is written is read back, and nothing that is read is out of range.
 
 use mandelight::scene::document::{from_json, to_json, to_json_compact};
+use mandelight_test_support::scenes::scene;
 use proptest::{collection::vec, prelude::*, sample::Index};
 use serde_json::{Value, json};
-
-use super::scenes::scene;
 
 /// Values that a field may be given by mistake or malice.
 fn junk() -> impl Strategy<Value = Value> {

@@ -2,9 +2,8 @@
 
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use mandelight::scene::link::{from_fragment, to_fragment};
+use mandelight_test_support::scenes::scene;
 use proptest::{collection::vec, prelude::*, sample::Index};
-
-use super::scenes::scene;
 
 proptest! {
     #[test]

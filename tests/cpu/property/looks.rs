@@ -1,10 +1,9 @@
 //! Looks of any scene: what they change, and what they leave.
 
 use mandelight::scene::{Scene, looks};
+use mandelight_test_support::scenes::scene;
 use proptest::prelude::*;
 use serde_json::Value;
-
-use super::scenes::scene;
 
 /// Paths of a document that the looks of each list may change.
 const OWNED: [(&str, &[&str]); 5] = [

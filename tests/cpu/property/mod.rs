@@ -5,4 +5,3 @@ mod history;
 mod link;
 mod looks;
 mod path;
-mod scenes;

@@ -7,9 +7,8 @@ use mandelight::scene::{
     Path, Project, document, link,
     path::{Easing, Key},
 };
+use mandelight_test_support::scenes::scene;
 use proptest::{collection::vec, option, prelude::*, sample::select};
-
-use super::scenes::scene;
 
 fn path() -> impl Strategy<Value = Path> {
     let easing = select(vec![Easing::Smooth, Easing::Linear, Easing::Hold]);

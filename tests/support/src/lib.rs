@@ -15,6 +15,7 @@
 //! | `dives`, `stereo` | scenes of several tests |
 //! | `oracle` | the thesis's formulas in f64, written without a look at `src/fractal` or the shaders |
 //! | `deep` | the same with numbers of 256 bits, for the deepest views |
+//! | `scenes`, `hostile` | any valid scene; scenes that are hard on the kernels |
 //! | `random` | numbers that come out the same each time |
 //! | `statistics` | quantiles |
 
@@ -26,11 +27,13 @@ pub mod device;
 pub mod dives;
 pub mod expressions;
 pub mod histogram;
+pub mod hostile;
 pub mod oracle;
 pub mod picture;
 pub mod probe;
 pub mod program;
 pub mod random;
+pub mod scenes;
 pub mod statistics;
 pub mod stereo;
 pub mod view;

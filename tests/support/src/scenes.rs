@@ -5,30 +5,33 @@ use mandelight::{
     formula::{
         self, Fractal,
         section::SectionPlane,
-        table::{Kind, Value},
+        table::{Field, Kind, Value},
     },
     scene::{
         Axis, Background, BackgroundKind, Bloom, BloomOrder, Camera, ColorSource, Coloring,
         DrivenByLayer, EnvironmentLight, EnvironmentMapRig, Fog, GradientStop, Indirect,
-        IndirectKind, IntegratorKind, IntegratorSettings, Lens, LightFrame, Lights, Medium,
-        MediumKind, Normals, PointLight, Precise, PrecisePoint, Quality, Rig, RigKind, RigLight,
-        Scene, SecondLayer, SectionColors, Sky, Stereo, StereoLayout, Surface, SurfaceModel, Tone,
-        ToneChannels, ToneCurve, ToneMean,
-        param::{self, Param},
+        IndirectKind, IntegratorKind, IntegratorSettings, Lens, LightFrame, Lights,
+        MAX_RIG_RADIANCE, Medium, MediumKind, Normals, PointLight, Precise, PrecisePoint, Quality,
+        Rig, RigKind, RigLight, Scene, SecondLayer, SectionColors, Sky, Stereo, StereoLayout,
+        Surface, SurfaceModel, Tone, ToneChannels, ToneCurve, ToneMean,
+        param::{self, Param, Scale},
     },
 };
 use proptest::{array::uniform3, collection::vec, option, prelude::*, sample::select};
 
-fn value(param: &'static Param) -> impl Strategy<Value = f64> {
-    param.min..=param.max
+/// A value of the whole range, whose ends are as likely as one value in three.
+///
+/// Boxed, as trees of choices in place overflow the stack of a test.
+fn value(param: &'static Param) -> BoxedStrategy<f64> {
+    prop_oneof![4 => param.min..=param.max, 1 => Just(param.min), 1 => Just(param.max)].boxed()
 }
 
 fn count(param: &'static Param) -> impl Strategy<Value = u32> {
-    param.min as u32..=param.max as u32
+    value(param).prop_map(|value| value as u32)
 }
 
 fn color() -> impl Strategy<Value = [f32; 3]> {
-    uniform3(0.0..=1.0_f32)
+    uniform3(prop_oneof![4 => 0.0..=1.0_f32, 1 => Just(0.0), 1 => Just(1.0)].boxed())
 }
 
 fn direction() -> impl Strategy<Value = [f64; 3]> {
@@ -51,28 +54,13 @@ fn point() -> impl Strategy<Value = PrecisePoint> {
 /// Any formula with any values of its own table.
 fn fractal() -> impl Strategy<Value = Fractal> {
     let formulas: Vec<_> = formula::all().collect();
-    let fraction = || 0.0..=1.0_f64;
+    let fraction = || prop_oneof![4 => 0.0..=1.0_f64, 1 => Just(0.0), 1 => Just(1.0)].boxed();
     let shared = (count(&param::ITERATIONS), fraction());
     (select(formulas), shared, vec(fraction(), 16), vec(section_plane(), 0..=3)).prop_map(
         |(formula, (iterations, t), fractions, section_planes)| {
             let mut fractal = Fractal::new(formula);
             let mut fractions = fractions.into_iter().cycle();
-            let mut next = || fractions.next().unwrap_or_default();
-            for (field, value) in fractal.fields_mut() {
-                let mut within = |param: &Param| param.min + next() * (param.max - param.min);
-                match (field.kind, value) {
-                    (Kind::Number { param, .. }, Value::Number(number)) => *number = within(param),
-                    (Kind::Vector { param, .. }, Value::Vector(numbers)) => {
-                        numbers.fill_with(|| within(param));
-                    }
-                    (Kind::Switch { .. }, Value::Switch(is_on)) => *is_on = next() < 0.5,
-                    (Kind::Choice { options, .. }, Value::Choice(word)) => {
-                        *word =
-                            options[(next() * options.len() as f64) as usize % options.len()].word;
-                    }
-                    _ => unreachable!("a value is of its field's kind"),
-                }
-            }
+            fill(fractal.fields_mut(), || fractions.next().unwrap_or_default());
             fractal.iterations = iterations;
             let span = fractal.max_bailout() - param::BAILOUT.min;
             fractal.bailout = (param::BAILOUT.min + t * span).min(fractal.max_bailout());
@@ -80,6 +68,31 @@ fn fractal() -> impl Strategy<Value = Fractal> {
             fractal
         },
     )
+}
+
+/// Gives fields values of their whole ranges; `next` gives parts of ranges, 0 to 1.
+pub fn fill<'a>(
+    fields: impl Iterator<Item = (&'static Field, &'a mut Value)>,
+    mut next: impl FnMut() -> f64,
+) {
+    for (field, value) in fields {
+        let mut within = |param: &Param| {
+            let value = param.min + next() * (param.max - param.min);
+            let is_whole = param.scale == Scale::Integer;
+            param.clamp(if is_whole { value.round() } else { value })
+        };
+        match (field.kind, value) {
+            (Kind::Number { param, .. }, Value::Number(number)) => *number = within(param),
+            (Kind::Vector { param, .. }, Value::Vector(numbers)) => {
+                numbers.fill_with(|| within(param));
+            }
+            (Kind::Switch { .. }, Value::Switch(is_on)) => *is_on = next() < 0.5,
+            (Kind::Choice { options, .. }, Value::Choice(word)) => {
+                *word = options[(next() * options.len() as f64) as usize % options.len()].word;
+            }
+            _ => unreachable!("a value is of its field's kind"),
+        }
+    }
 }
 
 fn section_plane() -> impl Strategy<Value = SectionPlane> {
@@ -193,7 +206,9 @@ fn sky() -> impl Strategy<Value = Sky> {
 
 fn environment_map_rig() -> impl Strategy<Value = EnvironmentMapRig> {
     let direction = direction().prop_map(|v| v.map(|v| v as f32));
-    let light = (direction, uniform3(0.0..1e6_f32))
+    let strength =
+        prop_oneof![3 => 0.0..10.0_f32, 1 => 0.0..=MAX_RIG_RADIANCE, 1 => Just(MAX_RIG_RADIANCE)];
+    let light = (direction, uniform3(strength))
         .prop_map(|(direction, strength)| RigLight { direction, strength });
     (".{0,40}", value(&param::RIG_ROTATION), vec(light, 0..6))
         .prop_map(|(name, rotation_deg, lights)| EnvironmentMapRig { name, rotation_deg, lights })
