@@ -62,7 +62,7 @@ use mandelight::reading::{visible, visible_lines};
 /// Draws 3D fractals without a window.
 #[derive(Parser)]
 #[command(name = "mandelight", version, about, long_about = None)]
-struct CommandLine {
+pub struct CommandLine {
     #[command(subcommand)]
     command: Command,
 }
@@ -143,8 +143,13 @@ fn explain(error: &clap::Error) -> ! {
         error.exit();
     }
     // The message quotes arguments, and colours are control characters themselves.
-    let _ = write!(io::stderr(), "{}", visible_lines(&error.render().to_string()));
+    let _ = write!(io::stderr(), "{}", explanation(error));
     process::exit(error.exit_code());
+}
+
+/// The text of an error without control characters.
+pub fn explanation(error: &clap::Error) -> String {
+    visible_lines(&error.render().to_string()).into_owned()
 }
 
 /// Writes a message for the user to standard error, without control characters: it may quote files and names.

@@ -5,6 +5,7 @@
 
 mod bench;
 mod check;
+mod fuzz;
 mod headers;
 mod need;
 mod page;
@@ -23,6 +24,8 @@ Usage: cargo xtask <command>
   test              run everything: check, the page, unit, GPU and browser tests
   dist              write dist/, a folder that any static host can serve
   check             check formatting, lints (native and wasm32) and documentation, warnings denied
+  fuzz TARGET [MINUTES]
+                    search inputs that break a promise of a reader, 10 minutes unless given
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   pictures [NAME…]  render the pictures of the README and the docs again
@@ -40,6 +43,7 @@ enum Command {
     Dist,
     Check,
     Bless,
+    Fuzz { target: String, minutes: u64 },
     Bench { options: Vec<String> },
     Pictures { names: Vec<String> },
     Thumbnails { names: Vec<String> },
@@ -61,6 +65,7 @@ fn main() -> ExitCode {
         Command::Dist => page::dist().map(drop),
         Command::Check => check::check(),
         Command::Bless => test::bless(),
+        Command::Fuzz { target, minutes } => fuzz::fuzz(&target, minutes),
         Command::Bench { options } => bench::bench(&options),
         Command::Pictures { names } => pictures::pictures(&names),
         Command::Thumbnails { names } => thumbnails::thumbnails(&names),
@@ -92,6 +97,13 @@ fn parse(words: &[String]) -> Result<Command, String> {
         ["dist"] => Ok(Command::Dist),
         ["check"] => Ok(Command::Check),
         ["bless"] => Ok(Command::Bless),
+        ["fuzz", target] => {
+            Ok(Command::Fuzz { target: (*target).to_owned(), minutes: fuzz::MINUTES })
+        }
+        ["fuzz", target, minutes] => minutes
+            .parse()
+            .map(|minutes| Command::Fuzz { target: (*target).to_owned(), minutes })
+            .map_err(|_| format!("the minutes must be a whole number, not {minutes:?}")),
         ["bench", options @ ..] => Ok(Command::Bench {
             options: options.iter().map(|&option| option.to_owned()).collect(),
         }),
@@ -121,6 +133,8 @@ mod tests {
         let options = vec!["--views".into(), "whole,filled".into()];
         assert_eq!(parsed("bench --views whole,filled"), Ok(Command::Bench { options }));
         assert_eq!(parsed("pictures bloom"), Ok(Command::Pictures { names: vec!["bloom".into()] }));
+        let fuzz = |minutes| Ok(Command::Fuzz { target: "link".into(), minutes });
+        assert_eq!((parsed("fuzz link"), parsed("fuzz link 90")), (fuzz(10), fuzz(90)));
         assert_eq!(parsed("thumbnails"), Ok(Command::Thumbnails { names: Vec::new() }));
         assert_eq!(parsed(""), Ok(Command::Help));
     }
@@ -128,6 +142,7 @@ mod tests {
     #[test]
     fn errors_name_the_invalid_argument() {
         assert!(parsed("serve --port 70000").unwrap_err().contains("70000"));
+        assert!(parsed("fuzz link long").unwrap_err().contains("long"));
         assert!(parsed("tset").unwrap_err().contains("tset"));
         assert!(parsed("dist now").unwrap_err().contains("dist now"));
     }

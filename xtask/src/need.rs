@@ -17,6 +17,12 @@ use crate::shell;
 /// The compilation target of the page.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
+/// A compilation target of this machine whose sizes have 32 bits.
+pub const NARROW_TARGET: &str = "i686-unknown-linux-gnu";
+
+/// Whether this machine runs programs of [`NARROW_TARGET`].
+pub const HAS_NARROW_TARGET: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+
 /// The oldest major version of Node.js that is tested with the browser driver, wasm-opt and the bundler.
 const OLDEST_NODE: u32 = 20;
 
@@ -75,20 +81,31 @@ const FFMPEG: Tool = Tool {
     is_installed: || Command::new("ffprobe").arg("-version").output().is_ok(),
 };
 
+const NARROW_LIBRARIES: Tool = Tool {
+    name: "gcc's libraries of 32 bits",
+    packages: &["gcc-multilib"],
+    is_installed: has_narrow_libraries,
+};
+
 /// Ensures the standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
+    target(WASM_TARGET)
+}
+
+/// Ensures the standard library for a compilation target.
+fn target(name: &str) -> Result<()> {
     let has_it = || {
-        let ask = ["--print", "target-libdir", "--target", WASM_TARGET];
+        let ask = ["--print", "target-libdir", "--target", name];
         shell::output(Command::new("rustc").args(ask)).is_some_and(|dir| Path::new(&dir).is_dir())
     };
     if has_it() {
         return Ok(());
     }
     if shell::output(Command::new("rustup").arg("--version")).is_some() {
-        shell::run(Command::new("rustup").args(["target", "add", WASM_TARGET]))?;
+        shell::run(Command::new("rustup").args(["target", "add", name]))?;
     }
     if !has_it() {
-        bail!("install Rust's {WASM_TARGET} target: `rustup target add {WASM_TARGET}`");
+        bail!("install Rust's {name} target: `rustup target add {name}`");
     }
     Ok(())
 }
@@ -100,8 +117,30 @@ pub fn test_tools() -> Result<Tools> {
         bail!("{BROWSER_VARIABLE} names a program that does not run; set it to Chromium's path");
     }
     ensure_installed(&[VULKAN, BROWSER, NODE, OPENEXR, FFMPEG])?;
+    if HAS_NARROW_TARGET {
+        target(NARROW_TARGET)?;
+        ensure_installed(&[NARROW_LIBRARIES])?;
+    }
     node_packages()?;
     Ok(Tools { chromium: find_browser().context("the browser cannot be found any more")? })
+}
+
+/// Cargo of the nightly toolchain, by rustup.
+pub fn nightly_cargo() -> Command {
+    let mut cargo = Command::new("cargo");
+    cargo.arg("+nightly");
+    cargo
+}
+
+/// Ensures what the coverage-guided fuzzer needs.
+pub fn fuzzer() -> Result<()> {
+    if shell::output(nightly_cargo().args(["fuzz", "--version"])).is_none() {
+        bail!(
+            "install a nightly compiler and cargo-fuzz: `rustup toolchain install nightly`, \
+             `cargo install cargo-fuzz`; the fuzzer also needs a C++ compiler (on Debian: apt-get install g++)"
+        );
+    }
+    Ok(())
 }
 
 /// Ensures a Vulkan driver that needs no graphics card.
@@ -188,6 +227,12 @@ fn has_software_vulkan() -> bool {
         files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("lvp_icd"))
     });
     chosen || (loader && driver)
+}
+
+fn has_narrow_libraries() -> bool {
+    // gcc prints the bare name where it finds no file.
+    let start = shell::output(Command::new("gcc").args(["-m32", "-print-file-name=crt1.o"]));
+    start.is_some_and(|file| Path::new(&file).is_absolute())
 }
 
 fn has_node() -> bool {
