@@ -17,12 +17,6 @@ use crate::shell;
 /// The compilation target of the page.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
-/// A compilation target of this machine whose sizes have 32 bits.
-pub const NARROW_TARGET: &str = "i686-unknown-linux-gnu";
-
-/// Whether this machine runs programs of [`NARROW_TARGET`].
-pub const HAS_NARROW_TARGET: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
-
 /// The oldest major version of Node.js that is tested with the browser driver, wasm-opt and the bundler.
 const OLDEST_NODE: u32 = 20;
 
@@ -81,31 +75,20 @@ const FFMPEG: Tool = Tool {
     is_installed: || Command::new("ffprobe").arg("-version").output().is_ok(),
 };
 
-const NARROW_LIBRARIES: Tool = Tool {
-    name: "gcc's libraries of 32 bits",
-    packages: &["gcc-multilib"],
-    is_installed: has_narrow_libraries,
-};
-
 /// Ensures the standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
-    target(WASM_TARGET)
-}
-
-/// Ensures the standard library for a compilation target.
-fn target(name: &str) -> Result<()> {
     let has_it = || {
-        let ask = ["--print", "target-libdir", "--target", name];
+        let ask = ["--print", "target-libdir", "--target", WASM_TARGET];
         shell::output(Command::new("rustc").args(ask)).is_some_and(|dir| Path::new(&dir).is_dir())
     };
     if has_it() {
         return Ok(());
     }
     if shell::output(Command::new("rustup").arg("--version")).is_some() {
-        shell::run(Command::new("rustup").args(["target", "add", name]))?;
+        shell::run(Command::new("rustup").args(["target", "add", WASM_TARGET]))?;
     }
     if !has_it() {
-        bail!("install Rust's {name} target: `rustup target add {name}`");
+        bail!("install Rust's {WASM_TARGET} target: `rustup target add {WASM_TARGET}`");
     }
     Ok(())
 }
@@ -117,10 +100,6 @@ pub fn test_tools() -> Result<Tools> {
         bail!("{BROWSER_VARIABLE} names a program that does not run; set it to Chromium's path");
     }
     ensure_installed(&[VULKAN, BROWSER, NODE, OPENEXR, FFMPEG])?;
-    if HAS_NARROW_TARGET {
-        target(NARROW_TARGET)?;
-        ensure_installed(&[NARROW_LIBRARIES])?;
-    }
     node_packages()?;
     Ok(Tools { chromium: find_browser().context("the browser cannot be found any more")? })
 }
@@ -227,12 +206,6 @@ fn has_software_vulkan() -> bool {
         files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("lvp_icd"))
     });
     chosen || (loader && driver)
-}
-
-fn has_narrow_libraries() -> bool {
-    // gcc prints the bare name where it finds no file.
-    let start = shell::output(Command::new("gcc").args(["-m32", "-print-file-name=crt1.o"]));
-    start.is_some_and(|file| Path::new(&file).is_absolute())
 }
 
 fn has_node() -> bool {

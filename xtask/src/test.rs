@@ -25,19 +25,12 @@ pub fn test() -> Result<()> {
     let folder = dist.as_ref().ok().cloned();
     note(dist.map(drop));
 
-    // Sizes of 32 bits, as the page has.
-    let narrow: &[&str] =
-        &["test", "--package", "mandelight-fuzzing", "--target", need::NARROW_TARGET];
-    let runs: [&[&str]; 4] = [
+    let runs: [&[&str]; 3] = [
         &["test", "--package", "xtask", "--no-fail-fast"],
-        narrow,
         &["test", "--doc", "--no-fail-fast"],
         &["test", "--lib", "--bins", "--tests", "--no-fail-fast"],
     ];
     for run in runs {
-        if run == narrow && !need::HAS_NARROW_TARGET {
-            continue;
-        }
         let mut cargo = shell::cargo()?;
         cargo.args(run).env(need::BROWSER_VARIABLE, &tools.chromium).env_remove("MANDELIGHT_BLESS");
         match &folder {

@@ -21,6 +21,9 @@ fn check(bytes: &[u8]) -> Outcome {
     assert!(!found.is_empty(), "no gradient and no error");
     for named in found {
         assert!((1..=MAX_GRADIENT_STOPS).contains(&named.stops.len()), "{}", named.stops.len());
+        for stop in &named.stops {
+            assert!(stop.color.iter().all(|channel| (0.0..=1.0).contains(channel)), "{stop:?}");
+        }
         let mut scene = Scene::default();
         scene.surface.gradient = named.stops;
         scene.validate().expect("a gradient that was read is valid");

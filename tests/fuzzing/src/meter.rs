@@ -20,8 +20,12 @@ pub struct Cost {
 /// The result of `call`, and what the call allocated. No other thread may allocate meanwhile.
 pub fn measured<T>(allocator: &Cap<System>, call: impl FnOnce() -> T) -> (T, Cost) {
     let (held, total) = (allocator.allocated(), allocator.total_allocated());
+    let before = allocator.max_allocated();
     let result = call();
-    let peak = allocator.max_allocated().saturating_sub(held);
+    let highest = allocator.max_allocated();
+    // After a call that broke the limit, lower peaks are unknown.
+    let is_known = highest > before || before.saturating_sub(held) <= MAX_HELD_BYTES;
+    let peak = if is_known { highest.saturating_sub(held) } else { 0 };
     // On 32 bits the sum starts again after 4 GiB.
     (result, Cost { total: allocator.total_allocated().wrapping_sub(total), peak })
 }
