@@ -2,12 +2,12 @@
 
 use std::{
     fs::{self, File},
-    io::{self, BufReader},
+    io::{self, BufReader, Read as _},
     path::Path,
 };
 
 use mandelight::{
-    export::{self, PictureFormat, StillOptions, jpeg, webp},
+    export::{self, PictureFormat, StillOptions},
     scene::{Path as CameraPath, document},
 };
 use serde_json::Value;
@@ -46,25 +46,15 @@ pub fn check(
     };
     let options = StillOptions { eye, ..options.clone() };
     let open = || File::open(file).map(BufReader::new);
-    let (size, text) = match options.format {
-        PictureFormat::Exr => (
-            export::exr_complete_size(open()?).ok(),
-            export::exr_scene_text(open()?).ok().flatten(),
-        ),
-        PictureFormat::Jpeg => {
-            let bytes = fs::read(file)?;
-            let text = jpeg::jpeg_scene_text(&bytes).ok().flatten();
-            (jpeg::jpeg_complete_size(&bytes).ok(), text)
-        }
-        PictureFormat::WebP => {
-            let bytes = fs::read(file)?;
-            let text = webp::webp_scene_text(&bytes).ok().flatten();
-            (webp::webp_complete_size(&bytes).ok(), text)
-        }
-        PictureFormat::Png | PictureFormat::Rgb => {
-            (export::png_complete_size(open()?).ok(), export::scene_text(open()?).ok().flatten())
-        }
+    let size = match options.format {
+        PictureFormat::Exr => export::exr_complete_size(open()?).ok(),
+        PictureFormat::Jpeg => export::jpeg_complete_size(open()?).ok(),
+        PictureFormat::WebP => export::webp_complete_size(open()?).ok(),
+        PictureFormat::Png | PictureFormat::Rgb => export::png_complete_size(open()?).ok(),
     };
+    let mut start = Vec::new();
+    File::open(file)?.take(export::MAX_HEADER_BYTES as u64).read_to_end(&mut start)?;
+    let text = export::picture_scene_text(&start).and_then(Result::ok).flatten();
     let (Some(Some(size)), Some(scene)) = (size, path.frame(frame)) else {
         return Ok(Kept::Damaged);
     };

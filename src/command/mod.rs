@@ -65,7 +65,7 @@ use mandelight::reading::{visible, visible_lines};
 #[derive(Parser)]
 #[command(name = "mandelight", version, about, long_about = None, arg_required_else_help = true)]
 #[command(args_conflicts_with_subcommands = true)]
-struct CommandLine {
+pub struct CommandLine {
     /// Prints the licences of the software and fonts that this program contains
     #[arg(long)]
     licenses: bool,
@@ -161,8 +161,13 @@ fn explain(error: &clap::Error) -> ! {
         error.exit();
     }
     // The message quotes arguments, and colours are control characters themselves.
-    let _ = write!(io::stderr(), "{}", visible_lines(&error.render().to_string()));
+    let _ = write!(io::stderr(), "{}", explanation(error));
     process::exit(error.exit_code());
+}
+
+/// The text of an error without control characters.
+pub fn explanation(error: &clap::Error) -> String {
+    visible_lines(&error.render().to_string()).into_owned()
 }
 
 /// Writes a message for the user to standard error, without control characters: it may quote files and names.

@@ -7,14 +7,15 @@
 //! shows it; a segment has at most 64 KiB, so a long document has several. The reader accepts
 //! untrusted files.
 
-use std::io::Write;
+use std::io::{Read, Seek, Write};
 
 use image::{ExtendedColorType, codecs::jpeg::JpegEncoder};
 
 use super::{
-    ExportError, MAX_TEXT_BYTES, SceneTextError,
+    ExportError, MAX_HEADER_BYTES, MAX_TEXT_BYTES, SceneTextError,
     metadata::{SCENE_KEYWORD, capped},
 };
+use crate::reading::source::{Source, Unreadable};
 
 /// Default quality: no visible loss, at about a sixth of a PNG's size.
 pub const DEFAULT_QUALITY: u8 = 92;
@@ -294,23 +295,32 @@ pub fn jpeg_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
 
 /// Width and height in pixels of a complete JPEG; `None` where its end is not there.
 ///
+/// Reads the header, at most [`MAX_HEADER_BYTES`] of it, and the last two bytes.
+///
 /// # Errors
-/// [`SceneTextError::Unreadable`] for a file that is no JPEG; the content of `bytes` is untrusted.
-pub fn jpeg_complete_size(bytes: &[u8]) -> Result<Option<[u32; 2]>, SceneTextError> {
-    if !is_jpeg(bytes) {
-        return Err(unreadable("it begins as another file"));
-    }
-    for segment in Segments::of(bytes) {
-        let Segment { kind, content } = segment.map_err(unreadable)?;
-        // A frame's header: bits of a channel, height, width.
-        if kind == marker::SOF0
-            && let [_, y0, y1, x0, x1, ..] = *content
-        {
-            let size = [[x0, x1], [y0, y1]].map(|side| u32::from(u16::from_be_bytes(side)));
-            return Ok(bytes.ends_with(&[0xFF, marker::EOI]).then_some(size));
+/// [`SceneTextError::Unreadable`] for a file that is no JPEG; the content of `reader` is untrusted.
+pub fn jpeg_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, SceneTextError> {
+    let size = || -> Result<Option<[u32; 2]>, Unreadable> {
+        let mut file = Source::new(reader).map_err(Unreadable::new)?;
+        let header = file.up_to(MAX_HEADER_BYTES, "the header")?;
+        if !is_jpeg(&header) {
+            return Err(Unreadable::new("it begins as another file"));
         }
-    }
-    Err(unreadable("its header has no size"))
+        for segment in Segments::of(&header) {
+            let Segment { kind, content } = segment.map_err(Unreadable::new)?;
+            // A frame's header: bits of a channel, height, width.
+            if kind == marker::SOF0
+                && let [_, y0, y1, x0, x1, ..] = *content
+            {
+                file.go_to(file.length().saturating_sub(2), "the end")?;
+                let is_complete = file.array("the end")? == [0xFF, marker::EOI];
+                let size = [[x0, x1], [y0, y1]].map(|side| u32::from(u16::from_be_bytes(side)));
+                return Ok(is_complete.then_some(size));
+            }
+        }
+        Err(Unreadable::new("its header has no size"))
+    };
+    size().map_err(|error| SceneTextError::unreadable("JPEG", error))
 }
 
 /// The number of a document's part, the number of parts, and the part; none for other segments.

@@ -6,6 +6,9 @@ pub const SCENE_KEYWORD: &str = "mandelight";
 /// Maximum size of a scene document in a picture, in bytes after unpacking.
 pub const MAX_TEXT_BYTES: usize = 1 << 20;
 
+/// Longest start of a picture that has its size and its scene, in bytes: a text may be stored less compactly.
+pub const MAX_HEADER_BYTES: usize = 8 * MAX_TEXT_BYTES;
+
 /// Why the scene document of a picture could not be read.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SceneTextError {

@@ -46,9 +46,11 @@ pub use error::{
 };
 pub use exr::{exr_complete_size, exr_scene_text, is_exr};
 pub use format::{PictureFormat, encode_rgb};
-pub use metadata::{MAX_TEXT_BYTES, SCENE_KEYWORD, SceneTextError};
+pub use jpeg::jpeg_complete_size;
+pub use metadata::{MAX_HEADER_BYTES, MAX_TEXT_BYTES, SCENE_KEYWORD, SceneTextError};
 pub use options::{Eye, StillOptions};
 pub use picture_scene::picture_scene_text;
 pub use png::{is_png, png_complete_size, scene_text};
 pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};
+pub use webp::webp_complete_size;

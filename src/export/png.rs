@@ -11,13 +11,10 @@ use std::{
 pub use png::BitDepth;
 
 use super::{
-    ExportError, MAX_TEXT_BYTES, SceneTextError,
+    ExportError, MAX_HEADER_BYTES, MAX_TEXT_BYTES, SceneTextError,
     metadata::{SCENE_KEYWORD, capped},
 };
 use crate::reading::source::{Source, Unreadable};
-
-/// The decoder's memory limit for chunks before the first pixels, in bytes.
-const MAX_METADATA_BYTES: usize = 8 * MAX_TEXT_BYTES;
 
 /// Size of the file's compressed data chunks, in bytes.
 const IDAT_BYTES: usize = 1 << 16;
@@ -159,7 +156,7 @@ pub fn png_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, S
 /// # Errors
 /// See [`SceneTextError`]; the content of `reader` is untrusted.
 pub fn scene_text(reader: impl BufRead + Seek) -> Result<Option<String>, SceneTextError> {
-    let limits = png::Limits { bytes: MAX_METADATA_BYTES };
+    let limits = png::Limits { bytes: MAX_HEADER_BYTES };
     let reader = png::Decoder::new_with_limits(reader, limits).read_info().map_err(decode)?;
     let info = reader.info();
 

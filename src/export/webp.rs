@@ -5,7 +5,7 @@
 //! writer alone holds the whole picture, and [`MAX_WEBP_PIXELS`](super::MAX_WEBP_PIXELS) limits it. The document is in an
 //! XMP packet, which other programs keep, before the pixels. The reader accepts untrusted files.
 
-use std::io::Write;
+use std::io::{Read, Seek, Write};
 
 use image_webp::{ColorType, WebPEncoder};
 
@@ -13,6 +13,7 @@ use super::{
     ExportError, SceneTextError, checked_webp_size,
     metadata::{SCENE_KEYWORD, capped},
 };
+use crate::reading::source::{Source, Unreadable};
 
 /// Bytes of the file's header: `RIFF`, the size of what follows, `WEBP`.
 const RIFF_HEADER_BYTES: usize = 12;
@@ -234,21 +235,26 @@ pub fn webp_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
 /// Width and height in pixels of a complete WebP with metadata; `None` where its end is not there.
 ///
 /// # Errors
-/// [`SceneTextError::Unreadable`] for a file that is no such WebP; the content of `bytes` is untrusted.
-pub fn webp_complete_size(bytes: &[u8]) -> Result<Option<[u32; 2]>, SceneTextError> {
-    if !is_webp(bytes) {
-        return Err(unreadable("it begins as another file"));
-    }
-    // The first chunk: its header, flags and three reserved bytes, width and height less one in 24 bits each.
-    let features = bytes.get(RIFF_HEADER_BYTES..).and_then(|rest| rest.first_chunk());
-    let Some(&[b'V', b'P', b'8', b'X', _, _, _, _, _, _, _, _, w0, w1, w2, h0, h1, h2]) = features
-    else {
-        return Err(unreadable("its header has no size"));
+/// [`SceneTextError::Unreadable`] for a file that is no such WebP; the content of `reader` is untrusted.
+pub fn webp_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, SceneTextError> {
+    let size = || -> Result<Option<[u32; 2]>, Unreadable> {
+        let mut file = Source::new(reader).map_err(Unreadable::new)?;
+        let start = file.array::<RIFF_HEADER_BYTES>("the header")?;
+        if !is_webp(&start) {
+            return Err(Unreadable::new("it begins as another file"));
+        }
+        // The first chunk: its header, flags and three reserved bytes, width and height less one in 24 bits each.
+        let features = file.array("the header")?;
+        let [b'V', b'P', b'8', b'X', _, _, _, _, _, _, _, _, w0, w1, w2, h0, h1, h2] = features
+        else {
+            return Err(Unreadable::new("its header has no size"));
+        };
+        let size = [[w0, w1, w2, 0], [h0, h1, h2, 0]].map(|side| u32::from_le_bytes(side) + 1);
+        let [_, _, _, _, l0, l1, l2, l3, ..] = start;
+        let length = u64::from(u32::from_le_bytes([l0, l1, l2, l3])) + 8;
+        Ok((length == file.length()).then_some(size))
     };
-    let size = [[w0, w1, w2, 0], [h0, h1, h2, 0]].map(|side| u32::from_le_bytes(side) + 1);
-    let length = bytes.get(4..8).and_then(|length| length.first_chunk()).copied();
-    let length = u32::from_le_bytes(length.unwrap_or_default()) as usize;
-    Ok((length.checked_add(8) == Some(bytes.len())).then_some(size))
+    size().map_err(|error| SceneTextError::unreadable("WebP", error))
 }
 
 #[cfg(test)]

@@ -77,6 +77,15 @@ impl<R: Read + Seek> Source<R> {
         self.fill(&mut bytes, what).map(|()| bytes)
     }
 
+    /// Reads from here to the end, but at most `most` bytes.
+    ///
+    /// # Errors
+    /// Those of reading the file.
+    pub fn up_to(&mut self, most: usize, what: &str) -> Result<Vec<u8>, Unreadable> {
+        let left = self.length - self.position;
+        self.bytes(usize::try_from(left).map_or(most, |left| left.min(most)), what)
+    }
+
     /// Reads as many bytes as `buffer` has.
     ///
     /// # Errors

@@ -6,6 +6,7 @@
 mod bench;
 mod check;
 mod deny;
+mod fuzz;
 mod headers;
 mod icons;
 mod need;
@@ -29,6 +30,8 @@ Usage: cargo xtask <command>
                     warnings denied
   advisories        check the packages for published flaws; needs the network
   nightly           run the tests that take long: 200 random views against fine marches
+  fuzz TARGET [MINUTES]
+                    search inputs that break a promise of a reader, 10 minutes unless given
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   notices           write THIRD-PARTY-LICENSES.txt anew, after a change of packages
@@ -50,6 +53,7 @@ enum Command {
     Nightly,
     Notices,
     Bless,
+    Fuzz { target: String, minutes: u64 },
     Bench { options: Vec<String> },
     Pictures { names: Vec<String> },
     Thumbnails { names: Vec<String> },
@@ -74,6 +78,7 @@ fn main() -> ExitCode {
         Command::Nightly => test::nightly(),
         Command::Notices => notices::write(),
         Command::Bless => test::bless(),
+        Command::Fuzz { target, minutes } => fuzz::fuzz(&target, minutes),
         Command::Bench { options } => bench::bench(&options),
         Command::Pictures { names } => pictures::pictures(&names),
         Command::Thumbnails { names } => thumbnails::thumbnails(&names),
@@ -108,6 +113,13 @@ fn parse(words: &[String]) -> Result<Command, String> {
         ["nightly"] => Ok(Command::Nightly),
         ["notices"] => Ok(Command::Notices),
         ["bless"] => Ok(Command::Bless),
+        ["fuzz", target] => {
+            Ok(Command::Fuzz { target: (*target).to_owned(), minutes: fuzz::MINUTES })
+        }
+        ["fuzz", target, minutes] => minutes
+            .parse()
+            .map(|minutes| Command::Fuzz { target: (*target).to_owned(), minutes })
+            .map_err(|_| format!("the minutes must be a whole number, not {minutes:?}")),
         ["bench", options @ ..] => Ok(Command::Bench {
             options: options.iter().map(|&option| option.to_owned()).collect(),
         }),
@@ -138,6 +150,8 @@ mod tests {
         let options = vec!["--views".into(), "whole,filled".into()];
         assert_eq!(parsed("bench --views whole,filled"), Ok(Command::Bench { options }));
         assert_eq!(parsed("pictures bloom"), Ok(Command::Pictures { names: vec!["bloom".into()] }));
+        let fuzz = |minutes| Ok(Command::Fuzz { target: "link".into(), minutes });
+        assert_eq!((parsed("fuzz link"), parsed("fuzz link 90")), (fuzz(10), fuzz(90)));
         assert_eq!(parsed("thumbnails"), Ok(Command::Thumbnails { names: Vec::new() }));
         assert_eq!(parsed(""), Ok(Command::Help));
     }
@@ -145,6 +159,7 @@ mod tests {
     #[test]
     fn errors_name_the_invalid_argument() {
         assert!(parsed("serve --port 70000").unwrap_err().contains("70000"));
+        assert!(parsed("fuzz link long").unwrap_err().contains("long"));
         assert!(parsed("tset").unwrap_err().contains("tset"));
         assert!(parsed("dist now").unwrap_err().contains("dist now"));
     }

@@ -110,6 +110,24 @@ pub fn test_tools() -> Result<Tools> {
     Ok(Tools { chromium: find_browser().context("the browser cannot be found any more")? })
 }
 
+/// Cargo of the nightly toolchain, by rustup.
+pub fn nightly_cargo() -> Command {
+    let mut cargo = Command::new("cargo");
+    cargo.arg("+nightly");
+    cargo
+}
+
+/// Ensures what the coverage-guided fuzzer needs.
+pub fn fuzzer() -> Result<()> {
+    if shell::output(nightly_cargo().args(["fuzz", "--version"])).is_none() {
+        bail!(
+            "install a nightly compiler and cargo-fuzz: `rustup toolchain install nightly`, \
+             `cargo install cargo-fuzz`; the fuzzer also needs a C++ compiler (on Debian: apt-get install g++)"
+        );
+    }
+    Ok(())
+}
+
 /// Ensures a Vulkan driver that needs no graphics card.
 pub fn vulkan_driver() -> Result<()> {
     ensure_installed(&[VULKAN])

@@ -132,8 +132,8 @@ proptest! {
         let file = written([width, height], &rgb, at_once, &document);
         prop_assert_eq!(decoder(&file).dimensions(), (width, height));
         prop_assert_eq!(decoded(&file), rgb);
-        prop_assert_eq!(webp_complete_size(&file), Ok(Some([width, height])));
-        prop_assert_eq!(webp_complete_size(&file[..file.len() - 1]), Ok(None));
+        prop_assert_eq!(webp_complete_size(Cursor::new(&file)), Ok(Some([width, height])));
+        prop_assert_eq!(webp_complete_size(Cursor::new(&file[..file.len() - 1])), Ok(None));
         prop_assert_eq!(webp_scene_text(&file), Ok(Some(document)));
     }
 
@@ -143,7 +143,7 @@ proptest! {
         let length = file.len();
         file[position % length] = byte;
         file.truncate(cut);
-        let _ = (webp_scene_text(&file), webp_complete_size(&file));
+        let _ = (webp_scene_text(&file), webp_complete_size(Cursor::new(&file)));
     }
 
     #[test]

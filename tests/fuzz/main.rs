@@ -1,0 +1,159 @@
+//! Every reader of what comes from outside, with thousands of changed inputs.
+//!
+//! The inputs are made of `fuzz/corpus` and of each target's seeds, and are the same in every run: `MANDELIGHT_SEED`
+//! chooses others, `MANDELIGHT_FUZZ` multiplies their number. A failure prints the seed and stores the input as
+//! `target/fuzz-failure-TARGET`.
+
+use std::{
+    alloc::System,
+    collections::BTreeSet,
+    env, fs,
+    panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
+    path::{Path, PathBuf},
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+use cap::Cap;
+use fastrand::Rng;
+use mandelight_fuzzing::{
+    Outcome, TARGETS, Target,
+    meter::{Cost, MAX_HELD_BYTES, measured},
+    mutated,
+};
+
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
+
+/// Inputs of all targets together.
+const INPUTS: usize = 100_000;
+/// Largest corpus, in bytes.
+const MAX_CORPUS_BYTES: u64 = 1 << 20;
+/// The seed of the inputs, if the environment has none.
+const SEED: u64 = 0x6d61_6e64_656c_6967;
+
+/// Keeps other tests from allocating until it is dropped.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn number_of(variable: &str) -> Option<u64> {
+    env::var(variable).ok()?.parse().ok()
+}
+
+fn root() -> PathBuf {
+    // The folder of `tests/fuzzing` or of the package: this file is a test of both.
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().find(|folder| folder.join("fuzz/corpus").is_dir()).expect("a corpus").into()
+}
+
+/// The files of a target's corpus, in the order of their names.
+fn corpus(target: &Target) -> Vec<(String, Vec<u8>)> {
+    let folder = root().join("fuzz/corpus").join(target.name);
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.sort();
+    files.iter().map(|file| (file.display().to_string(), fs::read(file).expect("a file"))).collect()
+}
+
+/// Checks an input, and its cost; stores an input that fails as `name`.
+fn check(target: &Target, bytes: &[u8], name: &dyn Fn() -> String) -> (Outcome, Cost) {
+    let run = || {
+        let (outcome, cost) = measured(&ALLOCATOR, || (target.check)(bytes));
+        assert!(cost.peak <= MAX_HELD_BYTES, "{} bytes are held at a time", cost.peak);
+        assert!(cost.total <= target.most_work, "{} bytes are allocated in all", cost.total);
+        (outcome, cost)
+    };
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
+        let file = root().join("target").join(format!("fuzz-failure-{}", target.name));
+        let stored = fs::write(&file, bytes).map(|()| file.display().to_string());
+        eprintln!("{}: this input fails: {}; it is in {stored:?}", target.name, name());
+        resume_unwind(panic)
+    })
+}
+
+fn fuzz(name: &str) {
+    let _alone = alone();
+    let target = TARGETS.iter().find(|target| target.name == name).expect("a target");
+    let seeds = (target.seeds)();
+    let corpus = corpus(target);
+    let (mut most_total, mut most_held) = (0, 0);
+    let mut add = |cost: Cost| {
+        most_total = cost.total.max(most_total);
+        most_held = cost.peak.max(most_held);
+    };
+    for (file, bytes) in &corpus {
+        add(check(target, bytes, &|| file.clone()).1);
+    }
+    for (number, bytes) in seeds.iter().enumerate() {
+        let (outcome, cost) = check(target, bytes, &|| format!("seed {number}"));
+        assert_eq!(outcome, Outcome::Read, "{name}: seed {number}");
+        add(cost);
+    }
+
+    let mut inputs: Vec<&[u8]> = corpus.iter().map(|(_, bytes)| &bytes[..]).collect();
+    inputs.extend(seeds.iter().map(|bytes| &bytes[..]));
+    let seed = number_of("MANDELIGHT_SEED").unwrap_or(SEED);
+    let count = 100 * target.hundreds * number_of("MANDELIGHT_FUZZ").unwrap_or(1) as usize;
+    println!("{name}: {count} inputs of MANDELIGHT_SEED={seed}");
+    let (mut read, mut last) = (0, Vec::new());
+    let mut rng = Rng::with_seed(seed);
+    for number in 0..count {
+        let pick = |rng: &mut Rng| inputs[rng.usize(..inputs.len())];
+        let (first, other) = (pick(&mut rng), pick(&mut rng));
+        // Some changes are added to those of the last input that was read.
+        let base = if rng.u8(..4) == 0 && !last.is_empty() { &last[..] } else { first };
+        let input = mutated(target.mutate, &mut rng, base, other);
+        let (outcome, cost) = check(target, &input, &|| format!("number {number}, seed {seed}"));
+        add(cost);
+        if outcome == Outcome::Read {
+            read += 1;
+            last = input;
+        }
+    }
+    println!("{name}: {read} were read; most held {most_held} bytes, allocated {most_total}");
+    // Changes that are all refused at once, or all read, test little.
+    assert!(read * 50 > count && read * 100 < 99 * count, "{name}: {read} of {count} were read");
+}
+
+macro_rules! targets {
+    ($($name:ident)*) => {
+        $(#[test]
+        fn $name() {
+            fuzz(stringify!($name));
+        })*
+
+        #[test]
+        fn every_target_is_tested() {
+            let tested: Vec<&str> = vec![$(stringify!($name)),*];
+            let all: Vec<&str> = TARGETS.iter().map(|target| target.name).collect();
+            assert_eq!(tested, all);
+            let hundreds: usize = TARGETS.iter().map(|target| target.hundreds).sum();
+            assert!(100 * hundreds >= INPUTS, "{hundreds} hundreds");
+        }
+    };
+}
+
+targets! {
+    document link formula png jpeg webp openexr radiance gradient gallery command_line
+}
+
+/// The corpus is small, and each of its folders belongs to a target that the fuzzer has too.
+#[test]
+fn the_corpus_is_small_and_each_target_has_a_fuzzer() {
+    let _alone = alone();
+    let names: BTreeSet<String> = TARGETS.iter().map(|target| target.name.to_owned()).collect();
+    let folder = root().join("fuzz/corpus");
+    let entries = fs::read_dir(&folder).expect("a corpus");
+    let folders: BTreeSet<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    assert_eq!(folders, names, "the folders of the corpus");
+    let size = |target: &Target| corpus(target).iter().map(|(_, b)| b.len() as u64).sum::<u64>();
+    let bytes: u64 = TARGETS.iter().map(size).sum();
+    assert!(bytes <= MAX_CORPUS_BYTES, "the corpus has {bytes} bytes: minimise it");
+    let sources = fs::read_dir(root().join("fuzz/fuzz_targets")).expect("the fuzzers");
+    let sources: BTreeSet<String> = sources
+        .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    assert_eq!(sources, names, "the fuzzers");
+}
