@@ -1,18 +1,24 @@
-//! Environment maps to drop on the page.
+//! Files that are dropped on the page, good and bad ones.
 
-use std::io::Cursor;
+use std::{fs, io::Cursor};
 
 use exr::prelude::{
     Compression, Encoding, Image, Layer, LayerAttributes, SpecificChannels, Vec2,
     WritableImage as _, f16,
 };
 use image::{Rgb, codecs::hdr::HdrEncoder};
+use mandelight::{
+    export::png::PngStream,
+    scene::{document, environment_map, presets},
+};
+
+use crate::visit::{Visit, folder_of};
 
 /// Width and height of the maps, in pixels.
 const SIZE_PX: [usize; 2] = [64, 32];
 
 /// Files of each format by their names, all of different pixels.
-pub fn environment_maps() -> [(&'static str, Vec<u8>); 2] {
+fn environment_maps() -> [(&'static str, Vec<u8>); 2] {
     [("sky.hdr", radiance()), ("sky.exr", openexr())]
 }
 
@@ -38,4 +44,45 @@ fn openexr() -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes).unwrap();
     bytes.into_inner()
+}
+
+/// Bytes by which the page's memory may grow beside a decoder that takes 256 MiB: texts and glyphs.
+const MAX_GROWTH_BYTES: f64 = (8 << 20) as f64;
+
+#[test]
+fn a_bad_file_costs_that_file_only() {
+    let folder = folder_of("dropped-files");
+    fs::create_dir_all(&folder).unwrap();
+    for (name, bytes) in environment_maps() {
+        fs::write(folder.join(name), bytes).unwrap();
+    }
+    let scene = (presets::opening_scenes()[2].scene)();
+    let mut png = PngStream::new(Vec::new(), [8, 8], &document::to_json(&scene)).unwrap();
+    png.write_pixels(&[0; 8 * 8 * 3]).unwrap();
+    fs::write(folder.join("scene.png"), png.finish().unwrap()).unwrap();
+    fs::write(folder.join("colors.map"), "255 0 0\n0 0 255\n").unwrap();
+
+    let visit = Visit::run_with("files", [("MANDELIGHT_FILES", &folder)]);
+    for (name, bytes) in environment_maps() {
+        let native = environment_map::decode(name, &bytes).unwrap();
+        let seen = &visit.seen["maps"][name];
+        let size_px = ["width", "height"].map(|side| seen[side].as_u64().unwrap() as u32);
+        assert_eq!(size_px, native.size_px(), "{name}");
+        let pixels = seen["pixels"].as_array().unwrap();
+        let pixels: Vec<f32> = pixels.iter().map(|it| it.as_f64().unwrap() as f32).collect();
+        let natively: Vec<f32> = native.pixels().iter().flat_map(|it| it.to_array()).collect();
+        assert!(pixels == natively, "{name} is another map in the page");
+        assert!(native.energy().min_element() > 0.0, "{name} is black");
+    }
+    assert_eq!(visit.scene("dropped"), scene);
+
+    let failures = visit.seen["failures"].as_array().unwrap();
+    assert_eq!(failures.len(), 3 + fs::read_dir("tests/browser/damaged").unwrap().count());
+    for failure in failures {
+        assert_eq!(failure["isSame"], true, "{failure}");
+        assert!(failure["grown"].as_f64().unwrap() < MAX_GROWTH_BYTES, "{failure}");
+    }
+    assert_eq!(visit.seen["reading"], false);
+    assert_eq!(visit.seen["newest"], "newer.hdr");
+    assert_eq!(visit.seen["workers"], 0, "a worker outlives its file");
 }

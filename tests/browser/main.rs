@@ -4,6 +4,7 @@
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
 mod files;
+mod loss;
 mod picture;
 mod size;
 mod storage;
@@ -24,7 +25,7 @@ use mandelight::{
     formula::{self, Fractal},
     render::{Region, shaders, uniforms::Inputs},
     scene::{
-        Path, Project, Scene, document, environment_map,
+        Path, Project, Scene, document,
         gallery::Gallery,
         link,
         path::{Easing, Key},
@@ -204,47 +205,6 @@ fn a_gallery_of_the_address_is_shown_and_opened() {
     }
 }
 
-/// Bytes by which the page's memory may grow beside a decoder that takes 256 MiB: texts and glyphs.
-const MAX_GROWTH_BYTES: f64 = (8 << 20) as f64;
-
-#[test]
-fn a_bad_file_costs_that_file_only() {
-    let folder = folder_of("dropped-files");
-    fs::create_dir_all(&folder).unwrap();
-    for (name, bytes) in files::environment_maps() {
-        fs::write(folder.join(name), bytes).unwrap();
-    }
-    let scene = (presets::opening_scenes()[2].scene)();
-    let mut png = PngStream::new(Vec::new(), [8, 8], &document::to_json(&scene)).unwrap();
-    png.write_pixels(&[0; 8 * 8 * 3]).unwrap();
-    fs::write(folder.join("scene.png"), png.finish().unwrap()).unwrap();
-    fs::write(folder.join("colors.map"), "255 0 0\n0 0 255\n").unwrap();
-
-    let visit = Visit::run_with("files", [("MANDELIGHT_FILES", &folder)]);
-    for (name, bytes) in files::environment_maps() {
-        let native = environment_map::decode(name, &bytes).unwrap();
-        let seen = &visit.seen["maps"][name];
-        let size_px = ["width", "height"].map(|side| seen[side].as_u64().unwrap() as u32);
-        assert_eq!(size_px, native.size_px(), "{name}");
-        let pixels = seen["pixels"].as_array().unwrap();
-        let pixels: Vec<f32> = pixels.iter().map(|it| it.as_f64().unwrap() as f32).collect();
-        let natively: Vec<f32> = native.pixels().iter().flat_map(|it| it.to_array()).collect();
-        assert!(pixels == natively, "{name} is another map in the page");
-        assert!(native.energy().min_element() > 0.0, "{name} is black");
-    }
-    assert_eq!(visit.scene("dropped"), scene);
-
-    let failures = visit.seen["failures"].as_array().unwrap();
-    assert_eq!(failures.len(), 3 + fs::read_dir("tests/browser/damaged").unwrap().count());
-    for failure in failures {
-        assert_eq!(failure["isSame"], true, "{failure}");
-        assert!(failure["grown"].as_f64().unwrap() < MAX_GROWTH_BYTES, "{failure}");
-    }
-    assert_eq!(visit.seen["reading"], false);
-    assert_eq!(visit.seen["newest"], "newer.hdr");
-    assert_eq!(visit.seen["workers"], 0, "a worker outlives its file");
-}
-
 /// A path of two keys and three frames.
 fn short_path() -> Project {
     let scene = presets::opening_scenes()[0].scene;
@@ -326,44 +286,6 @@ fn a_screen_reader_opens_a_scene_changes_the_power_and_saves() {
     let reef = (presets::opening_scenes()[1].scene)();
     assert_eq!(chosen.fractal, reef.fractal);
     assert!(visit.text("/saved").ends_with(".png"));
-}
-
-#[test]
-fn a_lost_gpu_comes_back_with_the_same_scene() {
-    let document = document::project_to_json(&short_path());
-    let visit = Visit::run_with("loss", [("MANDELIGHT_PATH", document)]);
-    assert_eq!(visit.text("/before"), visit.text("/after"));
-    assert!(visit.seen["notice"].is_null(), "{}", visit.seen["notice"]);
-    let [before, after] = ["before", "after"].map(|name| visit.pixels(name));
-    assert!(before.contrast() > 5.0);
-    // The picture after a loss may be smaller; it must not be empty.
-    assert!(after.contrast() > 0.5 * before.contrast(), "{}", after.contrast());
-    assert_eq!(visit.number("/cleared"), 0.0, "a complete picture clears the losses");
-
-    // While the view moves, and while pipelines are compiled.
-    assert_eq!(visit.text("/moved"), visit.text("/moved_after"));
-    assert_ne!(visit.text("/moved"), visit.text("/after"));
-    assert_eq!(visit.number("/power"), 5.0);
-
-    // Files are those of a visit without a loss.
-    let file = |name: &str| fs::read(visit.folder.join(name)).unwrap();
-    assert!(file("resumed.png") == file("whole.png"), "the picture is another one");
-    assert_eq!(visit.number("/still_saving"), 2.0);
-    assert_eq!(visit.seen["offered_notice"], true);
-    assert_eq!(visit.seen["frames"].as_array().unwrap().len(), 3);
-    assert_eq!(visit.number("/same_frames"), 3.0);
-
-    // Twice: nothing is drawn until the visitor moves the view.
-    assert_eq!(visit.number("/paused"), 0.0);
-    assert_eq!(visit.number("/cleared_again"), 0.0);
-
-    // Ten times: the page gave up at the third loss, and offered the scene at each next visit.
-    assert!(visit.number("/given_up") >= 3.0);
-    assert!(visit.text("/last_notice").contains("could not be restarted"));
-    assert_eq!(visit.number("/kept_losses"), 10.0);
-    let [lost, instead, taken] = ["/lost", "/opened_instead", "/taken"].map(|at| visit.text(at));
-    assert_ne!(instead, lost);
-    assert_eq!(taken, lost);
 }
 
 /// Two GPUs round differently, and the page fills its lattice by and by, so that rays go in other

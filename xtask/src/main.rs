@@ -29,7 +29,8 @@ Usage: cargo xtask <command>
   check             check formatting, lints (native and wasm32), documentation and packages,
                     warnings denied
   advisories        check the packages for published flaws; needs the network
-  nightly           run the tests that take long: 200 random views against fine marches
+  nightly           run the tests that take long: 200 random views against fine marches,
+                    2000 hostile scenes, 100,000 actions on the interface
   fuzz TARGET [MINUTES]
                     search inputs that break a promise of a reader, 10 minutes unless given
   bless             replace the golden pictures by the renderer's current output

@@ -50,9 +50,23 @@ pub fn test() -> Result<()> {
 /// Runs the tests that take too long for each change. They print the seeds of their random numbers.
 pub fn nightly() -> Result<()> {
     need::vulkan_driver()?;
-    let mut cargo = shell::cargo()?;
-    cargo.args(["test", "--release", "--test", "gpu", "random_views", "--"]);
-    shell::run(cargo.args(["--ignored", "--nocapture"]))
+    let mut failures = Vec::new();
+    let runs: [&[&str]; 3] = [
+        &["--release", "--test", "gpu", "random_views", "--", "--ignored", "--nocapture"],
+        &["--release", "--test", "gpu", "hostile_scenes", "--", "--ignored", "--nocapture"],
+        &["--release", "--test", "walk", "one_walk", "--", "--ignored", "--nocapture"],
+    ];
+    for run in runs {
+        let mut cargo = shell::cargo()?;
+        cargo.arg("test").args(run);
+        if let Err(error) = shell::run(&mut cargo) {
+            failures.push(error.to_string());
+        }
+    }
+    if !failures.is_empty() {
+        bail!("{}", failures.join("; "));
+    }
+    Ok(())
 }
 
 /// Replaces the golden pictures by current renders. A person must review the new pictures.
