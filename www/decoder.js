@@ -30,7 +30,7 @@ export function decode(module, name, file, { secs, mebibytes, fault }) {
       else if (kind === "memory") {
         fail(`reading it takes more memory than a file may use (${mebibytes} MiB)`);
       } else if (kind === "program") {
-        fail(`reading it ended with an error of the program, which is unharmed (${reason})`);
+        fail(`reading it ended with an error of the program; your scene is unchanged (${reason})`);
       } else fail(reason);
     };
     // The worker itself did not start, or the browser ended it.

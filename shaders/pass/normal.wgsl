@@ -38,7 +38,7 @@ fn sampled_gradient(kind: u32, fractal: Fractal, point: vec3f, spacing: f32) -> 
 const FACING = 0.01;
 
 // The direction nearest to `normal` that faces the eye: the ray came from outside.
-fn facing(normal: vec3f, toward_eye: vec3f) -> vec3f {
+fn turned_to_eye(normal: vec3f, toward_eye: vec3f) -> vec3f {
     let toward = dot(normal, toward_eye);
     if (toward >= 0.0) { return normal; }
     let across = normal - toward * toward_eye;
@@ -63,7 +63,7 @@ fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3
     let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
     if (largest <= 0.0) { return toward_eye; }
     let normal = normalize(gradient / largest);
-    if (is_analytic) { return facing(normal, toward_eye); }
+    if (is_analytic) { return turned_to_eye(normal, toward_eye); }
     return normal;
 }
 

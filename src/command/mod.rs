@@ -128,7 +128,9 @@ pub fn run() -> ExitCode {
     let Some(command) = command_line.command else {
         let outcome = match command_line.licenses {
             true => licenses::run(),
-            false => Err(Failure::usage("no command is given; `mandelight --help` lists them")),
+            false => {
+                Err(Failure::usage("no command is given; `mandelight --help` lists the commands"))
+            }
         };
         return code_of(outcome);
     };

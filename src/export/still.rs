@@ -257,11 +257,11 @@ impl<W: Write> StillJob<W> {
     pub fn step(&mut self, now_secs: f64) -> Result<StillStatus, ExportError> {
         let started_secs = *self.started_secs.get_or_insert(now_secs);
         self.render(now_secs);
+        // Before a tile counts as finished: after an error its pixels may be anything.
+        self.check_device()?;
         self.collect()?;
         self.encode()?;
-        if self.pipelines.gpu.faults() > self.faults_before {
-            return Err(ExportError::Gpu("the device reported an error".to_owned()));
-        }
+        self.check_device()?;
         if self.rows_left == 0 {
             let clamped_fraction = self.clamped_light.map(ClampedLight::fraction);
             return Ok(StillStatus::Done { clamped_fraction });
@@ -273,6 +273,13 @@ impl<W: Write> StillJob<W> {
         let remaining_secs =
             can_estimate.then(|| elapsed_secs * (1.0 - self.max_done) / self.max_done);
         Ok(StillStatus::Working { done: self.max_done, remaining_secs })
+    }
+
+    fn check_device(&self) -> Result<(), ExportError> {
+        if self.pipelines.gpu.faults() > self.faults_before {
+            return Err(ExportError::Gpu("the device reported an error".to_owned()));
+        }
+        Ok(())
     }
 
     /// Continues on another device, after the last tile whose pixels were read from the old one.

@@ -121,7 +121,9 @@ pub fn project_from_json(text: &str) -> Result<Project, DocumentError> {
 
 /// Whether `text` is a scene's document of a version after [`VERSION`], which a newer program can read.
 pub fn is_newer(text: &str) -> bool {
-    let is_text = text.len() <= MAX_BYTES && check_syntax(text).is_ok();
+    // A list would be read as the header's fields.
+    let is_object = text.trim_start().starts_with('{');
+    let is_text = is_object && text.len() <= MAX_BYTES && check_syntax(text).is_ok();
     let header = is_text.then(|| parse::<Header>(text).ok()).flatten();
     header.is_some_and(|Header { mandelight, version }| {
         matches!(mandelight, Some(Scalar::Text(kind)) if kind == KIND)

@@ -15,7 +15,7 @@ pub struct StoredTexts<'a> {
     /// The document that any tab stored last.
     pub last: Option<&'a str>,
     /// The document that was stored last while `last` was a newer version's.
-    pub beside: Option<&'a str>,
+    pub older: Option<&'a str>,
 }
 
 /// The scene to open, and what is said of scenes that cannot be opened.
@@ -61,7 +61,7 @@ pub fn open(texts: &StoredTexts<'_>) -> Opened {
         Some((_, Ok(project))) => Some(project),
         Some((text, Err(_))) if document::is_newer(text) => {
             problem.get_or_insert_with(|| NEWER.to_owned());
-            texts.beside.and_then(|text| document::project_from_json(text).ok())
+            texts.older.and_then(|text| document::project_from_json(text).ok())
         }
         Some((_, Err(error))) => {
             problem
@@ -73,7 +73,7 @@ pub fn open(texts: &StoredTexts<'_>) -> Opened {
 }
 
 /// What is said of a newer version's scene.
-const NEWER: &str = "The scene of the last visit was stored by a newer Mandelight, which will find it again. Reload the page to get the newer version.";
+const NEWER: &str = "The scene of the last visit was stored by a newer Mandelight and is kept. Reload the page to get the newer version and that scene.";
 
 #[cfg(test)]
 mod tests {
@@ -144,7 +144,7 @@ mod tests {
             &format!("\"version\":{},\"more\":[1]", document::VERSION + 1),
             1,
         );
-        let texts = StoredTexts { last: Some(&newer), beside: Some(&other), ..Default::default() };
+        let texts = StoredTexts { last: Some(&newer), older: Some(&other), ..Default::default() };
         let opened = open(&texts);
         assert_eq!(
             opened,

@@ -1,6 +1,8 @@
 //! Buttons and captions over the picture.
 
-use egui::{Align2, FontId, Label, Margin, Pos2, Rect, Response, Stroke, StrokeKind, Ui, vec2};
+use egui::{
+    Align2, FontId, Label, Margin, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, vec2,
+};
 
 use super::{
     icon::{Icon, icon_button},
@@ -111,6 +113,10 @@ impl ButtonRow {
         let at = Rect::from_min_size(area.min, vec2(area.width(), side));
         let (name, hover) = name_and_hover;
         let added = ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover));
+        // The word is part of the button, but no place for the Tab key.
+        let word_rect = Rect::from_min_max(at.left_bottom(), area.max);
+        let sense = Sense::CLICK | Sense::DRAG;
+        let added = added.union(ui.interact(word_rect, added.id.with("word"), sense));
         let (font, below) = (FontId::proportional(12.0), area.center_bottom() - vec2(0.0, 4.0));
         ui.painter().text(below, Align2::CENTER_BOTTOM, word, font, theme::TEXT);
         self.next.x += WORD_STEP;

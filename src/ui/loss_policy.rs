@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// Seconds after which a loss no longer counts against restarts.
 const RECENT_SECS: f64 = 120.0;
+/// Seconds within which losses of several tabs are one.
+const SAME_LOSS_SECS: f64 = 1.0;
 /// Most losses within [`RECENT_SECS`] after which the page still restarts.
 const MAX_RESTARTS: usize = 2;
 /// Losses of a scene without a complete picture after which a visit does not open the scene by itself.
@@ -80,16 +82,32 @@ impl GpuLosses {
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// Adds a loss while `scene` was in view. Returns the safe mode of the restart; none after too many losses.
-    pub fn note(&mut self, scene: String, now_secs: f64) -> Option<SafeMode> {
+    /// Adds a loss while `scene` was in view; none if an export was being drawn, which says nothing of the scene.
+    ///
+    /// `own_secs` is the time of this visit's last loss. Returns the safe mode of the restart; none after too many
+    /// losses.
+    pub fn note(
+        &mut self,
+        scene: Option<String>,
+        now_secs: f64,
+        own_secs: Option<f64>,
+    ) -> Option<SafeMode> {
         // A clock that was set back leaves times in the future, which count as long.
         self.at_secs.retain(|at| (now_secs - at).abs() < RECENT_SECS);
-        self.at_secs.push(now_secs);
-        // Older times than those that decide are of no use.
-        let excess = self.at_secs.len().saturating_sub(MAX_RESTARTS + 1);
-        self.at_secs.drain(..excess);
-        self.scene = Some(scene);
-        self.since_picture = self.since_picture.saturating_add(1);
+        // A GPU that stops is lost to all tabs at once, and the first to note it counts it.
+        let is_noted = self.at_secs.last().is_some_and(|at| {
+            (now_secs - at).abs() < SAME_LOSS_SECS && own_secs.is_none_or(|own| own < *at)
+        });
+        if !is_noted {
+            self.at_secs.push(now_secs);
+            // Older times than those that decide are of no use.
+            let excess = self.at_secs.len().saturating_sub(MAX_RESTARTS + 1);
+            self.at_secs.drain(..excess);
+            if scene.is_some() {
+                self.scene = scene;
+                self.since_picture = self.since_picture.saturating_add(1);
+            }
+        }
         match self.at_secs.len() {
             1 => Some(SafeMode::Reduced),
             count if count <= MAX_RESTARTS => Some(SafeMode::Paused),
@@ -117,6 +135,12 @@ impl GpuLosses {
         self.since_picture = 0;
         self.scene.take().is_some()
     }
+
+    /// Notes a complete picture of a scene that was not in view at a loss: losses before it are no series. True where
+    /// that changes what is stored.
+    pub fn note_other_picture(&mut self) -> bool {
+        std::mem::take(&mut self.since_picture) > 0
+    }
 }
 
 #[cfg(test)]
@@ -125,7 +149,8 @@ mod tests {
 
     fn after(losses: &[(&str, f64)]) -> (GpuLosses, Vec<Option<SafeMode>>) {
         let mut kept = GpuLosses::default();
-        let modes = losses.iter().map(|&(scene, at)| kept.note(scene.to_owned(), at)).collect();
+        let modes =
+            losses.iter().map(|&(scene, at)| kept.note(Some(scene.to_owned()), at, None)).collect();
         (kept, modes)
     }
 
@@ -133,6 +158,20 @@ mod tests {
     fn restarts_put_less_and_less_on_the_gpu_and_end() {
         let (_, modes) = after(&[("a", 0.0), ("a", 10.0), ("a", 20.0), ("a", 30.0)]);
         assert_eq!(modes, [Some(SafeMode::Reduced), Some(SafeMode::Paused), None, None]);
+    }
+
+    #[test]
+    fn a_loss_of_several_tabs_counts_once_and_one_of_an_export_blames_no_scene() {
+        let mut kept = GpuLosses::default();
+        assert_eq!(kept.note(Some("a".to_owned()), 100.0, None), Some(SafeMode::Reduced));
+        assert_eq!(kept.note(Some("b".to_owned()), 100.2, None), Some(SafeMode::Reduced));
+        assert_eq!(kept.scene.as_deref(), Some("a"));
+        // The tab that noted it may lose the GPU again at once.
+        let again = kept.note(Some("a".to_owned()), 100.4, Some(100.0));
+        assert_eq!((again, kept.since_picture), (Some(SafeMode::Paused), 2));
+        assert!(kept.note_other_picture() && !kept.note_other_picture());
+        assert_eq!(kept.note(None, 900.0, None), Some(SafeMode::Reduced));
+        assert_eq!((kept.scene.as_deref(), kept.since_picture), (Some("a"), 0));
     }
 
     #[test]
@@ -175,7 +214,7 @@ mod tests {
         assert!(!kept.note_complete_picture());
         assert_eq!(kept.start("a", 1000.0), Start::Open(SafeMode::Off));
         // A later loss is a first one again.
-        assert_eq!(kept.note("a".to_owned(), 2000.0), Some(SafeMode::Reduced));
+        assert_eq!(kept.note(Some("a".to_owned()), 2000.0, None), Some(SafeMode::Reduced));
         assert_eq!(kept.start("a", 3000.0), Start::Open(SafeMode::Paused));
     }
 

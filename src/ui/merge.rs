@@ -1,29 +1,29 @@
-//! Lists that two tabs edit at once, brought together.
+//! Three-way merge of lists that two tabs edit at once.
 //!
 //! In: the list as it was, as this tab has it, and as the other tab stored it. Out: a list with the edits of
 //! both.
 
-/// `stored` with the edits that made `mine` of `known`: items that were added, removed, or changed.
+/// `theirs` with the edits that made `ours` of `base`: items that were added, removed, or changed.
 ///
 /// `key` tells items apart; of an item that both changed, this tab's form remains. Items that were added before
-/// all known ones stay in front, others come last.
+/// all of `base` stay in front, others come last.
 pub fn merged<T: Clone + PartialEq, K: PartialEq>(
-    known: &[T],
-    mine: &[T],
-    stored: &[T],
+    base: &[T],
+    ours: &[T],
+    theirs: &[T],
     key: impl Fn(&T) -> K,
 ) -> Vec<T> {
     let find = |list: &[T], item: &T| list.iter().find(|other| key(other) == key(item)).cloned();
-    let kept = stored.iter().filter_map(|item| match (find(known, item), find(mine, item)) {
+    let kept = theirs.iter().filter_map(|item| match (find(base, item), find(ours, item)) {
         // This tab removed it, or both added it.
         (Some(_), None) => None,
-        (None, mine) => Some(mine.unwrap_or_else(|| item.clone())),
-        (Some(known), Some(mine)) => Some(if mine == known { item.clone() } else { mine }),
+        (None, ours) => Some(ours.unwrap_or_else(|| item.clone())),
+        (Some(base), Some(ours)) => Some(if ours == base { item.clone() } else { ours }),
     });
     let mut all: Vec<T> = kept.collect();
-    let is_added = |item: &T| find(known, item).is_none() && find(stored, item).is_none();
-    let in_front = mine.iter().position(|item| !is_added(item)).unwrap_or(mine.len());
-    let (front, back) = mine.split_at(in_front);
+    let is_added = |item: &T| find(base, item).is_none() && find(theirs, item).is_none();
+    let in_front = ours.iter().position(|item| !is_added(item)).unwrap_or(ours.len());
+    let (front, back) = ours.split_at(in_front);
     all.splice(0..0, front.iter().cloned());
     all.extend(back.iter().filter(|item| is_added(item)).cloned());
     all
@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn edits_of_both_tabs_remain() {
-        for (known, mine, stored, expected) in [
+        for (base, ours, theirs, expected) in [
             // Both add.
             ("a1", "x1 a1", "y1 a1", "x1 y1 a1"),
             ("a1", "a1 x1", "a1 y1", "a1 y1 x1"),
@@ -50,7 +50,7 @@ mod tests {
             // One removes what the other leaves alone.
             ("a1 b1", "a1", "a1 b1", "a1"),
             ("a1 b1", "a1 b1", "b1", "b1"),
-            // What one removes and the other changes is removed; what both change is mine.
+            // What one removes and the other changes is removed; what both change is ours.
             ("a1 b1", "a2 b1", "b1", "b1"),
             ("a1 b1", "b1", "a2 b1", "b1"),
             ("a1", "a2", "a3", "a2"),
@@ -59,8 +59,8 @@ mod tests {
             ("", "x1", "x2 y1", "x1 y1"),
             ("a1", "a1", "a1", "a1"),
         ] {
-            let found = merged(&list(known), &list(mine), &list(stored), |item| item.0);
-            assert_eq!(found, list(expected), "{known} to {mine} and {stored}");
+            let found = merged(&list(base), &list(ours), &list(theirs), |item| item.0);
+            assert_eq!(found, list(expected), "{base} to {ours} and {theirs}");
         }
     }
 }

@@ -33,7 +33,7 @@
 //! | [`navigation`] | the camera's movements, independent of egui |
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
 //! | [`accessibility`] | the interface as a screen reader reads it |
-//! | [`loss_policy`] | what to draw after losses of the GPU |
+//! | [`loss_policy`] | after losses of the GPU: how often to restart, in which safe mode, and what to open |
 //! | [`editor`] | the edited scene and path, and their history |
 //! | `timeline` | the playhead: the time of the path that is in view |
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, style, icons, widget positions |

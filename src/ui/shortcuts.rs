@@ -245,7 +245,7 @@ pub const KEYLESS: &[(Command, &str)] = &[
 /// What fingers do in the view, each with its effect.
 pub const TOUCH_GESTURES: &[(&str, &str)] = &[
     ("Drag with a finger", "Orbit; in close views around the point under the finger"),
-    ("Pinch", "Move closer, drawn to good places, or farther"),
+    ("Pinch", "Move closer or farther; moving closer steers to detailed places"),
     ("Drag with two fingers", "Pan"),
     ("Double tap", "Fly to that point"),
     ("Drag a handle", "Turn a light, or move a point light"),
@@ -257,7 +257,7 @@ pub const TOUCH_GESTURES: &[(&str, &str)] = &[
 pub const GESTURES: &[(&str, &str)] = &[
     ("Drag", "Orbit; in close views around the point under the pointer"),
     ("Right drag, Shift + drag", "Pan"),
-    ("Wheel", "Move closer, drawn to good places near the pointer, or farther"),
+    ("Wheel", "Move closer or farther; moving closer steers to detailed places near the pointer"),
     ("Double click", "Fly to that point"),
     (
         "Drag a light's handle",

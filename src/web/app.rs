@@ -176,7 +176,7 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
         }
         Action::ToggleFullscreen => page::toggle_fullscreen(),
         Action::TakeOffer => session.take_offer(),
-        Action::DismissNotice => session.notice = None,
+        Action::DismissNotice => session.dismiss_notice(),
     }
 }
 

@@ -103,13 +103,13 @@ impl Autosave {
 /// The scene to open, and what is said of stored scenes that cannot be opened.
 pub fn stored_scene() -> Opened {
     let fragment = Address::read();
-    let [tab, last, beside] =
-        [storage::TAB_SCENE, storage::SCENE, storage::SCENE_BESIDE].map(StorageKey::read);
+    let [tab, last, older] =
+        [storage::TAB_SCENE, storage::SCENE, storage::OLDER_SCENE].map(StorageKey::read);
     last_visit::open(&StoredTexts {
         fragment: fragment.as_deref(),
         tab: tab.as_deref(),
         last: last.as_deref(),
-        beside: beside.as_deref(),
+        older: older.as_deref(),
     })
 }
 
@@ -119,7 +119,7 @@ pub fn stored_scene() -> Opened {
 fn key_for_scene(written: Option<&str>) -> StorageKey {
     let stored = storage::SCENE.read().filter(|stored| Some(stored.as_str()) != written);
     let is_newer = stored.is_some_and(|stored| document::is_newer(&stored));
-    if is_newer { storage::SCENE_BESIDE } else { storage::SCENE }
+    if is_newer { storage::OLDER_SCENE } else { storage::SCENE }
 }
 
 /// The undo steps of the last visit in this tab, the most recent last.

@@ -14,7 +14,7 @@ use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 use web_sys::{Blob, FileReaderSync};
 
-use super::{file_content::Parcel, page::describe};
+use super::{file_content::WorkerResult, page::describe};
 use crate::{
     export,
     scene::{document, environment_map, gradient},
@@ -56,12 +56,12 @@ pub fn decode_file(name: &str, file: &Blob, fault: Option<String>) -> Result<JsV
     let parcel = BlobReader::new(file)
         .map_err(|error| error.to_string())
         .and_then(|mut file| decode(name, &mut file))
-        .and_then(Parcel::pack);
+        .and_then(WorkerResult::pack);
     parcel.map(JsValue::from).map_err(|reason| JsValue::from_str(&reason))
 }
 
 /// What `file` holds: a scene, a picture that contains one, an environment map, or gradients.
-fn decode(name: &str, file: &mut (impl Read + Seek)) -> Result<Parcel, String> {
+fn decode(name: &str, file: &mut (impl Read + Seek)) -> Result<WorkerResult, String> {
     let mut start = Vec::new();
     let unreadable = |error: io::Error| error.to_string();
     file.by_ref().take(16).read_to_end(&mut start).map_err(unreadable)?;
@@ -74,14 +74,14 @@ fn decode(name: &str, file: &mut (impl Read + Seek)) -> Result<Parcel, String> {
     }
     if environment_map::is_environment_map(&start) {
         let map = environment_map::decode::decode_file(name, file);
-        return map.map(Parcel::EnvironmentMap).map_err(|error| error.to_string());
+        return map.map(WorkerResult::EnvironmentMap).map_err(|error| error.to_string());
     }
     if let Some((stem, ending)) = name.rsplit_once('.')
         && gradient::ENDINGS.contains(&ending.to_ascii_lowercase().as_str())
     {
         let bytes = read_start(file, gradient::MAX_FILE_BYTES).map_err(unreadable)?;
         let found = gradient::read(&bytes, stem);
-        return found.map(Parcel::Gradients).map_err(|error| error.to_string());
+        return found.map(WorkerResult::Gradients).map_err(|error| error.to_string());
     }
     // A picture's scene precedes its pixels.
     let bytes = read_start(file, document::MAX_BYTES).map_err(unreadable)?;
@@ -104,9 +104,9 @@ fn read_start(file: &mut impl Read, most: usize) -> io::Result<Vec<u8>> {
 }
 
 /// A document, once it has been read.
-fn read_document(text: String) -> Result<Parcel, String> {
+fn read_document(text: String) -> Result<WorkerResult, String> {
     match document::project_from_json(&text) {
-        Ok(_) => Ok(Parcel::Document(text)),
+        Ok(_) => Ok(WorkerResult::Document(text)),
         Err(error) => Err(error.to_string()),
     }
 }

@@ -35,7 +35,7 @@ const SHOWN_AFTER_SECS: f64 = 0.3;
 
 /// What to do with a scene that was read.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
+pub enum SceneUse {
     /// Show it at once.
     Open,
     /// Fly to it: a picture of the gallery.
@@ -51,11 +51,11 @@ pub struct Fault {
 }
 
 /// A file that is being read.
-pub struct Reading {
+pub struct FileInProgress {
     /// The file's name, without control characters.
     pub name: String,
     /// What to do with its scene.
-    pub purpose: Purpose,
+    pub purpose: SceneUse,
     ticket: u32,
     since_secs: f64,
 }
@@ -63,7 +63,7 @@ pub struct Reading {
 /// The decoder of files, at rest or at work on one.
 #[derive(Default)]
 pub struct Decoder {
-    reading: Option<Reading>,
+    reading: Option<FileInProgress>,
     tickets: u32,
     /// The fault of the next file, for tests.
     pub fault: Option<Fault>,
@@ -71,12 +71,12 @@ pub struct Decoder {
 
 impl Decoder {
     /// Reads `file` instead of the one being read. Posts [`Message::Decoded`].
-    pub fn start(&mut self, name: String, file: Blob, purpose: Purpose, mailbox: &Mailbox) {
+    pub fn start(&mut self, name: String, file: Blob, purpose: SceneUse, mailbox: &Mailbox) {
         self.tickets = self.tickets.wrapping_add(1);
         let (ticket, mailbox) = (self.tickets, mailbox.clone());
         let since_secs = page::now_secs();
         let shown = visible(&name).into_owned();
-        self.reading = Some(Reading { name: shown, purpose, ticket, since_secs });
+        self.reading = Some(FileInProgress { name: shown, purpose, ticket, since_secs });
         let fault = self.fault.take();
         // The interface shows a file that takes long, also while nothing else moves.
         let waking = mailbox.clone();
@@ -102,7 +102,7 @@ impl Decoder {
     }
 
     /// The file of `ticket`, which is read now; none if a newer one or a cancellation replaced it.
-    pub fn finish(&mut self, ticket: u32) -> Option<Reading> {
+    pub fn finish(&mut self, ticket: u32) -> Option<FileInProgress> {
         self.reading.take_if(|reading| reading.ticket == ticket)
     }
 

@@ -23,12 +23,22 @@ pub fn start(scene: &Scene) -> Start {
     read().start(&text_of(scene), page::epoch_secs())
 }
 
-/// Stores a loss with the scene in view. Returns the safe mode of the restart; `None` after too many losses.
-pub fn note_loss(scene: &Scene) -> Option<SafeMode> {
+/// Stores a loss with the scene in view, if that was drawn. `own_secs` is the time of this visit's last loss, which this
+/// one replaces. Returns the safe mode of the restart; `None` after too many losses.
+pub fn note_loss(scene: Option<&Scene>, own_secs: &mut Option<f64>) -> Option<SafeMode> {
     let mut losses = read();
-    let safe_mode = losses.note(text_of(scene), page::epoch_secs());
+    let now_secs = page::epoch_secs();
+    let safe_mode = losses.note(scene.map(text_of), now_secs, own_secs.replace(now_secs));
     storage::LOSSES.write(&losses.to_json());
     safe_mode
+}
+
+/// A complete picture of a scene that did not lose the GPU.
+pub fn note_other_picture() {
+    let mut losses = read();
+    if losses.note_other_picture() {
+        storage::LOSSES.write(&losses.to_json());
+    }
 }
 
 /// Clears the stored scene: a complete picture shows that it does not lose the GPU.

@@ -18,7 +18,7 @@ use crate::{
     ui::{ExportProgress, SequenceFormat, StillFile, StillFormat},
 };
 
-/// Seconds that a failed export waits for the news that the GPU was lost.
+/// Seconds that a failed export waits for the report that the GPU was lost.
 const LOSS_SECS: f64 = 5.0;
 
 /// Runs exports on one device.
@@ -83,9 +83,10 @@ impl Exporter {
         }
         self.progress_at_loss = progress;
         export.resume_on(pipelines);
-        session.show_error(
-            "The graphics card stopped and was started again. Saving goes on where it stopped.",
-        );
+        let text =
+            "The graphics card stopped and was started again. Saving goes on where it stopped.";
+        let texts: Vec<&str> = [text].into_iter().chain(session.pause_text()).collect();
+        session.show_error(texts.join("\n"));
     }
 
     /// Whether an export is in progress.

@@ -7,9 +7,7 @@ use glam::Vec3;
 use js_sys::{Array, Float32Array, Object, Reflect};
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::scene::{
-    EnvironmentMap, GradientStop, Project, document, environment_map, gradient::NamedGradient,
-};
+use crate::scene::{EnvironmentMap, GradientStop, Project, document, gradient::NamedGradient};
 
 /// Channels of a pixel.
 const CHANNELS: u32 = 3;
@@ -25,7 +23,7 @@ pub enum FileContent {
 }
 
 /// A file's content on its way from the worker: one of three kinds.
-pub enum Parcel {
+pub enum WorkerResult {
     /// A document that can be read.
     Document(String),
     /// An environment map.
@@ -34,7 +32,7 @@ pub enum Parcel {
     Gradients(Vec<NamedGradient>),
 }
 
-impl Parcel {
+impl WorkerResult {
     /// The parcel as an object of JavaScript, with buffers to transfer in its list `buffers`.
     ///
     /// # Errors
@@ -96,7 +94,7 @@ impl FileContent {
         let map = map.and_then(|((name, (width, height)), pixels)| {
             environment_map_of(&name, [width, height], &pixels)
         });
-        map.map(Self::EnvironmentMap).ok_or_else(|| "its decoder gave no result".to_owned())
+        map.map(Self::EnvironmentMap).ok_or_else(|| "reading it gave no result".to_owned())
     }
 }
 
@@ -107,8 +105,7 @@ fn environment_map_of(
     pixels: &Float32Array,
 ) -> Option<EnvironmentMap> {
     let [width, height] = size_px;
-    let fits = (0..2).all(|i| (1..=environment_map::MAX_SIZE_PX[i]).contains(&size_px[i]));
-    if !fits || pixels.length() != CHANNELS * width * height {
+    if !EnvironmentMap::has_size(size_px) || pixels.length() != CHANNELS * width * height {
         return None;
     }
     let stride = CHANNELS * width;

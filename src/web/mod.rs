@@ -19,7 +19,7 @@
 //! | `still_export` | a picture into a download |
 //! | `stored` | settings and kept views in the storage |
 //! | `autosave` | writes the scene to storage and address |
-//! | `device_loss` | how often to restart, and in which safe mode |
+//! | `device_loss` | the losses of the GPU in the storage |
 //! | `video` | a video, encoded by the browser |
 //! | `file_access` | a file on the disk, written while its content is made |
 //! | `decoder` | the file that is being decoded, in a worker |

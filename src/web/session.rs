@@ -8,7 +8,7 @@ use std::{cell::RefCell, rc::Rc, sync::Arc};
 use super::{
     address::Address,
     autosave::{self, Autosave},
-    decoder::{Decoder, Purpose, Reading},
+    decoder::{Decoder, FileInProgress, SceneUse},
     device_loss,
     file_content::FileContent,
     files::{self, FilePicker},
@@ -64,6 +64,12 @@ pub struct Session {
     paused_scene: Option<Scene>,
     /// The project that lost the GPU several times, so that the visit began with another one.
     offered: Option<Project>,
+    /// Time of this visit's last loss of the GPU, in seconds since 1970.
+    lost_at_secs: Option<f64>,
+    /// Whether the scene in view is the one that lost the GPU.
+    has_lost_scene: bool,
+    /// Whether a picture of this visit has been complete.
+    has_completed: bool,
 }
 
 /// The app's status, for the interface and the tests.
@@ -129,14 +135,19 @@ impl Session {
             has_told_of_storage: false,
             safe_mode: SafeMode::Off,
             paused_scene: None,
+            has_lost_scene: offered.is_none() && safe_mode == SafeMode::Paused,
             offered,
+            lost_at_secs: None,
+            has_completed: false,
         };
-        session.enter_safe_mode(safe_mode);
         session.report_missing_environment_map();
+        session.enter_safe_mode(safe_mode);
         session.show_offer();
         let problems: Vec<String> = opened.problem.into_iter().chain(list_problem).collect();
         if !problems.is_empty() {
-            session.show_error(problems.join("\n"));
+            let pause = safe_mode.explain().map(str::to_owned);
+            let texts: Vec<String> = problems.into_iter().chain(pause).collect();
+            session.show_error(texts.join("\n"));
         }
         session
     }
@@ -163,8 +174,8 @@ impl Session {
     /// Shows the notice that offers the scene which lost the GPU, if there is one.
     fn show_offer(&mut self) {
         if self.offered.is_some() {
-            let text = "The graphics card stopped several times while it drew your last scene, so another one was opened.";
-            let offer = Some("Open it anyway");
+            let text = "The graphics card stopped several times while drawing this visit's scene, so the opening scene is shown instead.";
+            let offer = Some("Open the scene anyway");
             self.show(Notice { text: text.into(), is_error: true, offer }, f64::INFINITY);
         }
     }
@@ -174,6 +185,7 @@ impl Session {
         self.notice = None;
         if let Some(project) = self.offered.take() {
             self.interface.replace_project(project);
+            self.has_lost_scene = true;
             self.enter_safe_mode(SafeMode::Reduced);
             self.report_missing_environment_map();
         }
@@ -201,14 +213,31 @@ impl Session {
 
     /// Ends the reduced mode: the GPU has completed a picture.
     pub fn note_complete_picture(&mut self) {
+        let is_first = !std::mem::replace(&mut self.has_completed, true);
+        // After an offer, another scene than the lost one is in view.
+        if self.has_lost_scene {
+            self.has_lost_scene = false;
+            device_loss::note_complete_picture();
+        } else if is_first && self.offered.is_none() {
+            device_loss::note_other_picture();
+        }
         if self.safe_mode == SafeMode::Reduced {
             self.safe_mode = SafeMode::Off;
-            // The picture is of another scene than the offered one.
-            if self.offered.is_none() {
-                device_loss::note_complete_picture();
-            }
             self.mailbox.wake();
         }
+    }
+
+    /// What the safe mode says of drawing that is paused.
+    pub fn pause_text(&self) -> Option<&'static str> {
+        self.safe_mode.explain().filter(|_| self.safe_mode == SafeMode::Paused)
+    }
+
+    /// Removes the notice; an offer that it made is declined, and one that it covered is shown.
+    pub fn dismiss_notice(&mut self) {
+        if self.notice.take().is_some_and(|notice| notice.offer.is_some()) {
+            self.offered = None;
+        }
+        self.show_offer();
     }
 
     /// Shows a success to the visitor, for some seconds.
@@ -241,6 +270,7 @@ impl Session {
             return left_secs.is_finite().then_some(left_secs);
         }
         self.notice = None;
+        self.show_offer();
         None
     }
 
@@ -271,7 +301,7 @@ impl Session {
             match message {
                 Message::File(file) => {
                     let name = file.name();
-                    self.decoder.start(name, file.into(), Purpose::Open, &self.mailbox);
+                    self.decoder.start(name, file.into(), SceneUse::Open, &self.mailbox);
                 }
                 Message::Decoded { ticket, content } => {
                     // A newer file, or a cancellation, leaves the result of an older one unused.
@@ -291,10 +321,13 @@ impl Session {
                 Message::Favourite { document, jpeg } => {
                     self.interface.keep_favourite(document, jpeg);
                 }
-                Message::Storage => stored::update_favourites(self.interface.favourites_mut()),
+                Message::Storage => {
+                    // A list that cannot be read is told of when a view is kept.
+                    stored::take_in_favourites(self.interface.favourites_mut());
+                }
                 Message::Gallery(state) => self.gallery = Some(state),
                 Message::GalleryPicture { name, content } => match content {
-                    Ok(file) => self.decoder.start(name, file, Purpose::FlyInto, &self.mailbox),
+                    Ok(file) => self.decoder.start(name, file, SceneUse::FlyInto, &self.mailbox),
                     Err(reason) => self.show_unopened(&name, &reason),
                 },
                 Message::Notice(text) => self.show_notice(text),
@@ -304,9 +337,13 @@ impl Session {
     }
 
     /// Uses what a file holds.
-    fn use_content(&mut self, Reading { name, purpose, .. }: &Reading, content: FileContent) {
+    fn use_content(
+        &mut self,
+        FileInProgress { name, purpose, .. }: &FileInProgress,
+        content: FileContent,
+    ) {
         match content {
-            FileContent::Project(project) if *purpose == Purpose::FlyInto => {
+            FileContent::Project(project) if *purpose == SceneUse::FlyInto => {
                 self.interface.fly_into(*project);
                 self.report_missing_environment_map();
             }
@@ -348,13 +385,19 @@ impl Session {
     /// Drops what belongs to the lost GPU, saves the rest, and notes the loss.
     ///
     /// Returns the safe mode of the restart; `None` after too many losses to restart.
-    pub fn note_loss(&mut self) -> Option<SafeMode> {
+    pub fn note_loss(&mut self, is_exporting: bool) -> Option<SafeMode> {
         self.gpu = None;
         self.status = AppStatus { frames: self.status.frames, ..AppStatus::default() };
         // The next visit finds the scene that lost the GPU, and knows it by its text.
-        self.autosave.write(self.interface.editor());
+        if self.offered.is_none() {
+            self.autosave.write(self.interface.editor());
+        }
         self.save();
-        device_loss::note_loss(self.interface.scene())
+        // While an export is drawn, the view rests. An offered scene remains the one that lost the GPU.
+        let is_scene_lost = !is_exporting && self.offered.is_none();
+        self.has_lost_scene |= is_scene_lost;
+        let scene = is_scene_lost.then(|| self.interface.scene());
+        device_loss::note_loss(scene, &mut self.lost_at_secs)
     }
 
     /// Writes the kept views, if they changed.

@@ -116,7 +116,8 @@ async fn restart(host: &Rc<AppHost>, message: &str) {
     // Exports outlive the device: their files hold the tiles that are finished.
     let exporter = engine::take_exporter();
     host.runner.destroy();
-    let safe_mode = host.session.borrow_mut().note_loss();
+    let is_exporting = exporter.as_ref().is_some_and(Exporter::is_busy);
+    let safe_mode = host.session.borrow_mut().note_loss(is_exporting);
     let Some(safe_mode) = safe_mode else {
         give_up(message);
         return;

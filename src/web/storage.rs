@@ -10,8 +10,8 @@ use super::page::{describe, window};
 /// The scene in view, as a document.
 pub const SCENE: StorageKey =
     StorageKey { name: "mandelight.scene", lifetime: Lifetime::Permanent };
-/// The same, while [`SCENE`] is a newer version's document.
-pub const SCENE_BESIDE: StorageKey =
+/// This version's scene while [`SCENE`] holds a newer version's document.
+pub const OLDER_SCENE: StorageKey =
     StorageKey { name: "mandelight.scene.older", lifetime: Lifetime::Permanent };
 /// This tab's address and document, as `last_visit` writes them.
 pub const TAB_SCENE: StorageKey = StorageKey { name: "mandelight.tab", lifetime: Lifetime::Tab };

@@ -3,12 +3,17 @@
 //! In: the storage's texts, which may be damaged, another version's, or changed by another tab. Out: settings
 //! and views; what this version cannot read is stored again as it is.
 
+use std::cell::RefCell;
+
 use crate::ui::{Favourites, Settings};
 
 use super::storage;
 
 /// What is said of kept views that cannot be read.
 const DAMAGED: &str = "The list of kept views is damaged. It is put aside in the browser's storage, as mandelight.favourites.damaged, and a new list begins.";
+
+/// The same where there is no room for a second list.
+const DAMAGED_AND_FULL: &str = "The list of kept views is damaged, and the browser's storage has no room to put it aside. New views are not kept until mandelight.favourites is removed from the storage.";
 
 /// The settings of the last visit.
 pub fn settings() -> Option<Settings> {
@@ -24,6 +29,7 @@ pub fn settings() -> Option<Settings> {
 pub fn save_settings(settings: &mut Settings, known: &mut Vec<String>) {
     if let Some(stored) = self::settings() {
         settings.merge_formulas(known, &stored.formulas);
+        settings.other = stored.other;
     }
     match serde_json::to_string(settings) {
         Ok(text) if storage::SETTINGS.write(&text) => known.clone_from(&settings.formulas),
@@ -41,24 +47,36 @@ pub fn favourites() -> (Favourites, Option<String>) {
         Ok(favourites) => (favourites, None),
         Err(error) => {
             log::warn!("cannot read the kept views: {error}");
-            put_aside(&text);
-            (Favourites::default(), Some(DAMAGED.to_owned()))
+            let problem = if put_aside(&text) { DAMAGED } else { DAMAGED_AND_FULL };
+            (Favourites::default(), Some(problem.to_owned()))
         }
     }
 }
 
-/// Takes in the views that another tab has stored.
-pub fn update_favourites(favourites: &mut Favourites) {
-    let Some(text) = storage::FAVOURITES.read() else { return };
+thread_local! {
+    /// The list that was taken in last: other tabs change other texts far more often.
+    static TAKEN_IN: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Takes in the views that another tab has stored. Returns whether the stored list may be written over.
+pub fn take_in_favourites(favourites: &mut Favourites) -> bool {
+    let Some(text) = storage::FAVOURITES.read() else { return true };
+    if TAKEN_IN.with_borrow(|taken| *taken == text) {
+        return true;
+    }
     if let Err(error) = favourites.merge(&text) {
         log::warn!("cannot read the kept views: {error}");
-        put_aside(&text);
+        return put_aside(&text);
     }
+    TAKEN_IN.set(text);
+    true
 }
 
 /// Stores the views with those of other tabs. Returns whether they are stored.
 pub fn save_favourites(favourites: &mut Favourites) -> bool {
-    update_favourites(favourites);
+    if !take_in_favourites(favourites) {
+        return false;
+    }
     let is_stored = storage::FAVOURITES.write(&favourites.to_json());
     if is_stored {
         favourites.note_stored();
@@ -66,8 +84,7 @@ pub fn save_favourites(favourites: &mut Favourites) -> bool {
     is_stored
 }
 
-fn put_aside(text: &str) {
-    if !text.is_empty() {
-        storage::FAVOURITES_DAMAGED.write(text);
-    }
+/// Keeps a list that cannot be read. Returns whether nothing of it is lost then.
+fn put_aside(text: &str) -> bool {
+    text.is_empty() || storage::FAVOURITES_DAMAGED.write(text)
 }

@@ -174,7 +174,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   });
 
   async function openOffered() {
-    const button = v.tab.getByRole("button", { name: "Open it anyway", exact: true });
+    const button = v.tab.getByRole("button", { name: "Open the scene anyway", exact: true });
     await button.evaluate((it) => it.click());
     await v.until("the offer to be taken", async () => (await button.count()) === 0, 30);
   }

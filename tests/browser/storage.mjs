@@ -10,8 +10,8 @@ const DAMAGED = [
   (text) => text.slice(0, text.length / 2),
 ];
 
-const PERMANENT = ["mandelight.scene", "mandelight.settings", "mandelight.favourites"];
-const OF_TAB = ["mandelight.tab", "mandelight.steps", "mandelight.losses"];
+const PERMANENT = ["mandelight.scene", "mandelight.settings", "mandelight.favourites", "mandelight.losses"];
+const OF_TAB = ["mandelight.tab", "mandelight.steps"];
 
 await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) => {
   const page = new Mandelight(v);

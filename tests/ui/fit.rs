@@ -286,15 +286,15 @@ fn the_offer_of_a_notice_is_a_button_in_the_window() {
         let mut harness = stage(Scene::default(), Settings::default(), size);
         let text =
             "The graphics card stopped several times while it drew your last scene.".to_owned();
-        let offer = Some("Open it anyway");
+        let offer = Some("Open the scene anyway");
         harness.state_mut().notice = Some(Notice { text, is_error: true, offer });
         harness.run();
         let window = Rect::from_min_size(egui::Pos2::ZERO, size.into());
-        for label in ["Open it anyway", "Dismiss"] {
+        for label in ["Open the scene anyway", "Dismiss"] {
             let rect = harness.get_by_label(label).rect();
             assert!(window.contains_rect(rect), "{label}: {rect:?} in {size:?}");
         }
-        press(&mut harness, "Open it anyway");
+        press(&mut harness, "Open the scene anyway");
         assert_eq!(harness.state().actions, [mandelight::ui::Action::TakeOffer]);
     }
 }

@@ -38,12 +38,12 @@ pub fn packages() -> Result<()> {
     shell::run(check.args(OFFLINE))
 }
 
-/// Checks the packages for published flaws; fails if the database cannot be fetched.
+/// Checks the packages' security advisories; fails if the database cannot be fetched.
 pub fn advisories() -> Result<()> {
     shell::run(check()?.arg("advisories"))
 }
 
-/// Checks the packages for published flaws, or says in one line that the database is out of reach.
+/// Checks the packages' security advisories, or says in one line that the database is out of reach.
 pub fn advisories_if_reachable() -> Result<()> {
     if answers(DATABASE, PATIENCE) {
         return advisories();

@@ -28,18 +28,18 @@ Usage: cargo xtask <command>
   dist              write dist/, a folder that any static host can serve
   check             check formatting, lints (native and wasm32), documentation and packages,
                     warnings denied
-  advisories        check the packages for published flaws; needs the network
+  advisories        check the packages' security advisories; needs the network
   nightly           run the tests that take long: 200 random views against fine marches,
                     2000 hostile scenes, 100,000 actions on the interface
   fuzz TARGET [MINUTES]
-                    search inputs that break a promise of a reader, 10 minutes unless given
+                    search for inputs that break a reader's promises; MINUTES is 10 unless given
   bless             replace the golden pictures by the renderer's current output
   bench [OPTION…]   compare the renderer's speed with the thesis's algorithm; --help lists options
   notices           write THIRD-PARTY-LICENSES.txt anew, after a change of packages
   pictures [NAME…]  render the pictures of the README and the docs again
   thumbnails [NAME…]
                     render the small pictures on the buttons of scenes and dives again,
-                    and the page's opening picture (\"opening\")
+                    and the page's opening picture (\"opening\") and icons (\"icons\")
   help              print this text
 ";
 

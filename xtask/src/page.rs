@@ -63,7 +63,7 @@ const MEDIABUNNY: &str = "mediabunny.js";
 /// The picture that `index.html` contains and shows first.
 const OPENING: &str = "opening.jpg";
 
-/// The licences of what the page contains, whose name stays: the module, which links them, is hashed itself.
+/// The licences of what the page contains, whose name has no hash: the module links to it.
 pub const LICENSES: &str = "licenses.txt";
 
 /// Hexadecimal digits of the hash in a file name: 48 bits.

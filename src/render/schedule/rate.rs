@@ -91,7 +91,7 @@ pub struct CostHistory {
 }
 
 impl CostHistory {
-    /// The rate of one phase; none where neither has been measured.
+    /// The rate of one phase; none before the first measurement.
     pub fn rate(&self, phase: Phase) -> Option<Rate> {
         match phase {
             Phase::Opening | Phase::Jump => self.opening.or(self.refining),

@@ -50,10 +50,16 @@ impl EnvironmentMap {
         Self::new(name, size_px, pixels)
     }
 
+    /// Whether a map may be as large.
+    pub fn has_size(size_px: [u32; 2]) -> bool {
+        (0..2).all(|i| (1..=MAX_SIZE_PX[i]).contains(&size_px[i]))
+    }
+
     /// A map of these pixels, clamped; none if their number is not that of a size up to [`MAX_SIZE_PX`].
     pub fn from_pixels(name: &str, size_px: [u32; 2], mut pixels: Vec<Vec3>) -> Option<Self> {
-        let fits = (0..2).all(|i| (1..=MAX_SIZE_PX[i]).contains(&size_px[i]));
-        if !fits || pixels.len() as u64 != u64::from(size_px[0]) * u64::from(size_px[1]) {
+        if !Self::has_size(size_px)
+            || pixels.len() as u64 != u64::from(size_px[0]) * u64::from(size_px[1])
+        {
             return None;
         }
         for pixel in &mut pixels {

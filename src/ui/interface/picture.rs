@@ -163,7 +163,7 @@ impl Interface {
             self.use_tool(tool, &button, commands);
         }
         if !in_menu.is_empty() {
-            let hover = ("More tools", "Tools for which there is no room here");
+            let hover = ("More tools", "Shows the tools that do not fit in this row");
             let more = buttons
                 .add(ui, RowButton { icon: Icon::More, name_and_hover: hover, word: "More" });
             self.rects.record("more tools", &more);

@@ -27,7 +27,7 @@ fn the_docs_state_when_rays_hit_and_shadow_rays_are_blocked() {
     for sentence in [
         "a power below 4".to_owned(),
         format!(
-            "for {CHECKED_THICKNESS} hit distances along the ray, asked at {THICKNESS_CHECKS} points"
+            "for {CHECKED_THICKNESS} hit distances along the ray, evaluated at {THICKNESS_CHECKS} points"
         ),
         format!("below {cone} times the distance to the point"),
         format!("or below {margin} hit distances of the point"),
