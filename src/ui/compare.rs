@@ -116,7 +116,7 @@ impl Compare {
                     rects.record("end comparison", &end);
                     ends = end.clicked();
                 });
-                ui.set_max_width(CAPTION_WIDTH.min(view.width() - 24.0));
+                ui.set_max_width((view.width() - 24.0).clamp(0.0, CAPTION_WIDTH));
                 let caption = RichText::new(CAPTIONS[shown]).size(12.0).color(theme::TEXT_DIM);
                 let caption = ui.add(Label::new(caption).selectable(false).wrap());
                 rects.record("compare caption", &caption);

@@ -13,13 +13,15 @@ const DAMAGED = [
 const PERMANENT = ["mandelight.scene", "mandelight.settings", "mandelight.favourites", "mandelight.losses"];
 const OF_TAB = ["mandelight.tab", "mandelight.steps"];
 
-await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) => {
+await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) => {
   const page = new Mandelight(v);
+  // Browsers ask for it where a page links no icon.
+  await v.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
   const scenes = (v.seen.scenes = {});
   v.seen.notices = {};
 
   /** A page of the same origin, on which nothing of the program runs. */
-  const leave = (tab = v.tab) => tab.goto(`${v.address}favicon.svg`);
+  const leave = (tab = v.tab) => tab.goto(`${v.address}licenses.txt`);
   /** Opens the page without waiting for a picture. */
   const open = async (that = page, fragment = "") => {
     await leave(that.tab);
@@ -101,6 +103,7 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   scenes.version_1 = await page.scene();
 
   // Two tabs: each keeps a view, each comes back to its own scene.
+  await leave();
   await v.tab.evaluate(() => {
     sessionStorage.clear();
     localStorage.clear();

@@ -38,6 +38,8 @@ await visit({ context: { viewport: SIZE, acceptDownloads: true } }, async (v) =>
 
   // WebGPU's textures and buffers that were created and neither destroyed nor collected.
   await v.tab.addInitScript(() => {
+    // A blank page has no WebGPU.
+    if (!window.GPUDevice) return;
     const held = (window.heldByGpu = { textures: [], buffers: [] });
     const watch = (method, list, bytesOf) => {
       const create = GPUDevice.prototype[method];
