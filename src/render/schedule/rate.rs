@@ -79,7 +79,7 @@ impl Rate {
     }
 }
 
-/// What one kind of work has cost lately, in either phase.
+/// What openings and refining pieces of one kind of work have cost lately.
 #[derive(Clone, Debug, Default)]
 pub struct CostHistory {
     pieces: VecDeque<Measurement>,

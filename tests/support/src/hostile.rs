@@ -1,6 +1,6 @@
 //! Scenes that are hard on the kernels: any values of all parameters, any formula, any depth.
 //!
-//! In: a seed. Out: one valid scene after another. Values and their extremes are those of [`scenes`], the
+//! In: a seed. Out: one valid scene after another. Values and their extremes are those of [`crate::scenes`], the
 //! eye is where surface is, and half of the views are closer than an f32 resolves.
 
 use std::sync::Arc;
