@@ -27,7 +27,7 @@ pub struct Settings {
     pub drawn_to_places: bool,
     /// The size of saved pictures.
     pub export: ExportSize,
-    /// The texts of the formulas that a person keeps: at most [`MAX_KEPT_FORMULAS`], or twice as many after tabs were
+    /// The texts of the formulas that a person keeps: at most `MAX_KEPT_FORMULAS`, or twice as many after tabs were
     /// merged.
     pub formulas: Vec<String>,
     /// Settings of other versions of the program, which are stored again as they are.
