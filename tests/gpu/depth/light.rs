@@ -62,11 +62,16 @@ fn grid(kind: Normals) -> Vec<(DVec3, DVec3)> {
 }
 
 /// The normal of that kind in f64; for the analytic one, of very small differences, or of all neighbours where these
-/// face away.
+/// face away, or the nearest direction that does not.
 fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
     let normal = fitted(field, kind, seen);
     let is_away = kind == Normals::Analytic && normal.dot(seen.toward_eye) < 0.0;
-    if is_away { fitted(field, Normals::TwentySix, seen) } else { normal }
+    if !is_away {
+        return normal;
+    }
+    let wide = fitted(field, Normals::TwentySix, seen);
+    let toward = wide.dot(seen.toward_eye).min(0.0);
+    (wide - toward * seen.toward_eye).normalize_or(seen.toward_eye)
 }
 
 fn fitted(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
