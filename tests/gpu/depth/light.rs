@@ -71,7 +71,12 @@ fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
     }
     let wide = fitted(field, Normals::TwentySix, seen);
     let toward = wide.dot(seen.toward_eye).min(0.0);
-    (wide - toward * seen.toward_eye).normalize_or(seen.toward_eye)
+    if toward == 0.0 {
+        return wide;
+    }
+    // Turned a hundredth of a radian further than a right angle.
+    let across = (wide - toward * seen.toward_eye).normalize_or(seen.toward_eye);
+    (across + 0.01 * seen.toward_eye).normalize()
 }
 
 fn fitted(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
