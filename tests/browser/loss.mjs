@@ -95,7 +95,11 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
       }, 120);
       await forget();
       await lose();
-      await noted(1);
+      // The loss counts against restarts; it says nothing of the scene in view.
+      await v.until("the loss to be stored", async () => {
+        const losses = JSON.parse((await stored(LOSSES)) ?? "{}");
+        return losses.at_secs?.length === 1 && losses.since_picture === 0;
+      }, 60);
       v.seen.still_saving = (v.seen.still_saving ?? 0) + 1;
       return saved;
     };
