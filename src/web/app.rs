@@ -107,7 +107,7 @@ impl eframe::App for App {
         let moving = session.interface.is_moving();
         let autosave_secs = session.autosave.update(session.interface.editor(), moving, now_secs);
         session.save_favourites();
-        session.tell_of_storage();
+        session.show_storage_notice();
         session.status.frames += 1;
         for secs in [notice_secs, engine_secs, autosave_secs].into_iter().flatten() {
             ui.ctx().request_repaint_after_secs(secs as f32);

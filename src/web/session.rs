@@ -58,7 +58,7 @@ pub struct Session {
     /// The kept formulas as they were last read or stored.
     known_formulas: Vec<String>,
     /// Whether the visitor knows that the storage keeps nothing.
-    has_told_of_storage: bool,
+    has_shown_storage_notice: bool,
     safe_mode: SafeMode,
     /// The scene in which drawing is paused.
     paused_scene: Option<Scene>,
@@ -132,7 +132,7 @@ impl Session {
             notice_until_secs: 0.0,
             status: AppStatus::default(),
             known_formulas,
-            has_told_of_storage: false,
+            has_shown_storage_notice: false,
             safe_mode: SafeMode::Off,
             paused_scene: None,
             has_lost_scene: offered.is_none() && safe_mode == SafeMode::Paused,
@@ -322,8 +322,8 @@ impl Session {
                     self.interface.keep_favourite(document, jpeg);
                 }
                 Message::Storage => {
-                    // A list that cannot be read is told of when a view is kept.
-                    stored::take_in_favourites(self.interface.favourites_mut());
+                    // If the list cannot be read, the next view that is kept shows a notice.
+                    stored::merge_stored_favourites(self.interface.favourites_mut());
                 }
                 Message::Gallery(state) => self.gallery = Some(state),
                 Message::GalleryPicture { name, content } => match content {
@@ -410,9 +410,11 @@ impl Session {
         }
     }
 
-    /// Tells once that the storage refuses the scene.
-    pub fn tell_of_storage(&mut self) {
-        if self.autosave.take_failure() && !std::mem::replace(&mut self.has_told_of_storage, true) {
+    /// Shows once that the storage refuses the scene.
+    pub fn show_storage_notice(&mut self) {
+        if self.autosave.take_failure()
+            && !std::mem::replace(&mut self.has_shown_storage_notice, true)
+        {
             self.show_error(
                 "The browser does not store your scene: its storage is full or blocked. The address keeps what fits into a link. Save the scene as a file before you leave.",
             );

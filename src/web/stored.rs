@@ -54,32 +54,34 @@ pub fn favourites() -> (Favourites, Option<String>) {
 }
 
 thread_local! {
-    /// The list that was taken in last: other tabs change other texts far more often.
-    static TAKEN_IN: RefCell<String> = const { RefCell::new(String::new()) };
+    /// The list that this tab read or wrote last: other tabs change other texts far more often.
+    static LAST_LIST: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Takes in the views that another tab has stored. Returns whether the stored list may be written over.
-pub fn take_in_favourites(favourites: &mut Favourites) -> bool {
+/// Merges the views that another tab has stored into `favourites`. Returns whether the stored list may be written over.
+pub fn merge_stored_favourites(favourites: &mut Favourites) -> bool {
     let Some(text) = storage::FAVOURITES.read() else { return true };
-    if TAKEN_IN.with_borrow(|taken| *taken == text) {
+    if LAST_LIST.with_borrow(|last| *last == text) {
         return true;
     }
     if let Err(error) = favourites.merge(&text) {
         log::warn!("cannot read the kept views: {error}");
         return put_aside(&text);
     }
-    TAKEN_IN.set(text);
+    LAST_LIST.set(text);
     true
 }
 
 /// Stores the views with those of other tabs. Returns whether they are stored.
 pub fn save_favourites(favourites: &mut Favourites) -> bool {
-    if !take_in_favourites(favourites) {
+    if !merge_stored_favourites(favourites) {
         return false;
     }
-    let is_stored = storage::FAVOURITES.write(&favourites.to_json());
+    let text = favourites.to_json();
+    let is_stored = storage::FAVOURITES.write(&text);
     if is_stored {
         favourites.note_stored();
+        LAST_LIST.set(text);
     }
     is_stored
 }
