@@ -3,7 +3,7 @@
 
 use std::{collections::BTreeMap, fs, io::Cursor, ops::ControlFlow, path::Path, process::Command};
 
-use exr::prelude::{ReadChannels as _, ReadLayers as _};
+use exr::prelude::{AnyChannels, FlatSamples, Image, Layer, ReadChannels as _, ReadLayers as _};
 use glam::{DVec3, Vec3};
 use mandelight::{
     export::{self, PictureFormat, StillJob, StillOptions, exr::ExrStream},
@@ -24,15 +24,19 @@ struct Decoded {
     notes: BTreeMap<String, String>,
 }
 
-fn decoded(file: &[u8]) -> Decoded {
-    let image = exr::prelude::read()
+/// The first layer of an OpenEXR file, as the `exr` crate reads it.
+pub fn read_exr(file: &[u8]) -> exr::error::Result<Image<Layer<AnyChannels<FlatSamples>>>> {
+    exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()
         .first_valid_layer()
         .all_attributes()
         .from_buffered(Cursor::new(file))
-        .expect("a file that the exr crate reads");
+}
+
+fn decoded(file: &[u8]) -> Decoded {
+    let image = read_exr(file).expect("a file that the exr crate reads");
     let layer = &image.layer_data;
     assert_eq!((layer.size.0, layer.size.1), (SIZE[0] as usize, SIZE[1] as usize));
     let channels = layer.channel_data.list.iter().map(|channel| {

@@ -5,13 +5,11 @@
 
 use std::{
     fs,
-    io::Cursor,
     ops::ControlFlow,
     path::Path,
     time::{SystemTime, UNIX_EPOCH},
 };
 
-use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use mandelight::{
     export::{Eye, PictureFormat, StillJob, StillOptions},
     render::{Pace, Region, View},
@@ -23,6 +21,8 @@ use mandelight_test_support::{
     random::Random,
     view::{pixels, settle},
 };
+
+use crate::exr::read_exr;
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [24, 16];
@@ -131,14 +131,7 @@ fn check_file(hostile: &HostileScene, format: PictureFormat) -> Result<(), Strin
     if format != PictureFormat::Exr {
         return Ok(());
     }
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(file))
-        .map_err(|error| error.to_string())?;
+    let image = read_exr(&file).map_err(|error| error.to_string())?;
     for channel in &image.layer_data.channel_data.list {
         let name = channel.name.to_string();
         let values: Vec<_> = channel.sample_data.values_as_f32().collect();

@@ -6,7 +6,6 @@ use std::{
     sync::Arc,
 };
 
-use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::{DMat3, DVec3};
 use mandelight::{
     export::{
@@ -27,6 +26,7 @@ use mandelight_test_support::{
 };
 
 use super::places::{self, cone};
+use crate::exr::read_exr;
 
 const SIZE: [u32; 2] = [53, 38];
 
@@ -76,13 +76,7 @@ fn tiles_join_without_a_seam() {
 fn open_exr_has_depths_and_places_in_scene_units() {
     for scale in [1e-13, 1e-27] {
         let scene = sampled(places::scene(scale), 1);
-        let image = exr::prelude::read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            .from_buffered(Cursor::new(file(&scene, [20, 11], PictureFormat::Exr)))
+        let image = read_exr(&file(&scene, [20, 11], PictureFormat::Exr))
             .expect("a file that the exr crate reads");
         let channels = &image.layer_data.channel_data.list;
         let channel = |name: &str| -> Vec<f32> {

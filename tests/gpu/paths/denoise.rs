@@ -3,7 +3,7 @@
 use std::{io::Cursor, ops::ControlFlow};
 
 use super::{mean, plain, sampling::ball_on_floor, under_white_sky};
-use exr::prelude::{ReadChannels as _, ReadLayers as _};
+use crate::exr::read_exr;
 use glam::{DQuat, DVec3};
 use mandelight::{
     export::{PictureFormat, StillJob, StillOptions},
@@ -129,14 +129,7 @@ fn open_exr_keeps_its_noise_unless_asked() {
     let of_scene = still(&scene, [2048; 2], PictureFormat::Exr, None);
     let asked = still(&scene, [2048; 2], PictureFormat::Exr, Some(true));
     let read = |bytes: &[u8]| {
-        let image = exr::prelude::read()
-            .no_deep_data()
-            .largest_resolution_level()
-            .all_channels()
-            .first_valid_layer()
-            .all_attributes()
-            .from_buffered(Cursor::new(bytes))
-            .expect("an OpenEXR file");
+        let image = read_exr(bytes).expect("an OpenEXR file");
         let channels = image.layer_data.channel_data.list;
         let values = |name: &str| -> Vec<f32> {
             let channel = channels.iter().find(|channel| channel.name.eq(name));
