@@ -7,7 +7,6 @@ use mandelight::scene::document;
 use crate::{short_path, visit::Visit};
 
 #[test]
-#[ignore = "its part of saving a sequence waits too long"]
 fn a_lost_gpu_comes_back_with_the_same_scene() {
     let document = document::project_to_json(&short_path());
     let visit = Visit::run_with("loss", [("MANDELIGHT_PATH", document)]);
