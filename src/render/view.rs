@@ -150,6 +150,7 @@ impl View {
         self.region = region;
         self.fit_display();
         self.schedule.resize(region.film_px());
+        self.times.note_change();
         let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
         if space::wants_anchor(space.model(), scene, region) == space.reference().is_some() {
             self.upload(self.inputs_about(scene, space));

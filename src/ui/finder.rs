@@ -6,6 +6,7 @@ use egui::{Align2, Button, Key, RichText, ScrollArea, TextEdit, Ui, vec2};
 
 use super::{
     panel::{self, SectionRef},
+    rects::Rects,
     shortcuts::{Command, KEYLESS, SHORTCUTS},
     theme,
 };
@@ -66,7 +67,7 @@ impl Finder {
     }
 
     /// Shows the open window, and returns what was chosen.
-    pub fn show(&mut self, ui: &Ui) -> Option<Target> {
+    pub fn show(&mut self, ui: &Ui, rects: &mut Rects) -> Option<Target> {
         if !self.is_open {
             return None;
         }
@@ -77,7 +78,7 @@ impl Finder {
         });
         let mut open = true;
         let mut chosen = None;
-        egui::Window::new("Find")
+        let shown = egui::Window::new("Find")
             .open(&mut open)
             .fixed_pos(screen.center_top() + vec2(0.0, 24.0))
             .pivot(Align2::CENTER_TOP)
@@ -115,6 +116,9 @@ impl Finder {
                     }
                 });
             });
+        if let Some(shown) = shown {
+            rects.record("find window", &shown.response);
+        }
         if !open || chosen.is_some() {
             *self = Self::default();
         }

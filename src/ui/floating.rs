@@ -76,8 +76,7 @@ const WORD_HEIGHT: f32 = 16.0;
 
 /// Height of the row of buttons over the picture, in points.
 pub fn row_height(ui: &Ui) -> f32 {
-    let has_words = ui.spacing().interact_size.y >= theme::TOUCH_ROW;
-    button_side(ui) + if has_words { WORD_HEIGHT } else { 0.0 }
+    button_side(ui) + if theme::has_touch_rows(ui) { WORD_HEIGHT } else { 0.0 }
 }
 
 /// A row of buttons in the picture's lower left corner; on touch screens with words.

@@ -262,7 +262,7 @@ impl Interface {
         let is_reshaped = *fractal != before.scene.fractal && *camera == before.scene.camera;
         self.view(ui, inputs, wide, is_reshaped, &mut commands);
         notice::show(ui, inputs, self.rects.get("view"), &mut actions, &mut self.rects);
-        panel::help_window(ui.ctx(), &mut self.help_open, self.has_touch);
+        panel::help_window(ui.ctx(), &mut self.help_open, self.has_touch, &mut self.rects);
         if let Some(view) = self.rects.get("view") {
             let project = self.editor.project();
             let shared = self.share.show(ui, view, project, inputs.sharing, &mut self.rects);
@@ -271,7 +271,7 @@ impl Interface {
 
         let view = self.rects.get("view");
         let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
-        match self.finder.show(ui) {
+        match self.finder.show(ui, &mut self.rects) {
             Some(Target::Command(command)) => commands.push(command),
             Some(Target::Section(section)) => panel::show_section(ui, &mut self.settings, section),
             Some(Target::Look(at)) => self.apply_look(at),

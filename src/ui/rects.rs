@@ -1,4 +1,4 @@
-//! Positions of named widgets, for browser tests: a page has no accessibility tree.
+//! Positions of named widgets, for tests and for what is placed beside them.
 
 use std::collections::BTreeMap;
 

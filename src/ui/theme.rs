@@ -77,7 +77,12 @@ pub fn set_motion(ctx: &Context, moves: bool) {
 }
 
 /// Height of a row for fingers, in points.
-pub const TOUCH_ROW: f32 = 44.0;
+const TOUCH_ROW: f32 = 44.0;
+
+/// Whether the rows of this `Ui` have the size for fingers.
+pub fn has_touch_rows(ui: &Ui) -> bool {
+    ui.spacing().interact_size.y >= TOUCH_ROW
+}
 
 /// Sets the row sizes of this `Ui`: larger for touch screens.
 pub fn set_row_sizes(ui: &mut Ui, touch: bool) {

@@ -156,7 +156,16 @@ fn each_state_of_the_interface_fits_the_window() {
         assert!(picture.contrast() > 8.0, "{name} is blank: {}", picture.contrast());
         // What floats over the view is whole, and the view is large.
         let side = |part: &str, side: &str| state["rects"][part][side].as_f64();
-        for part in ["share window", "compare", "panel", "timeline", "variations", "view"] {
+        for part in [
+            "share window",
+            "find window",
+            "help window",
+            "compare",
+            "panel",
+            "timeline",
+            "variations",
+            "view",
+        ] {
             let bounds = ["x", "y", "width", "height"].map(|name| side(part, name));
             let [Some(x), Some(y), Some(width), Some(height)] = bounds else { continue };
             let [right, bottom] = [x + width, y + height];

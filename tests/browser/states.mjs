@@ -5,13 +5,13 @@ import { visit } from "./visit.mjs";
 
 const SIZES = [[1280, 720], [390, 844], [844, 390]];
 
-/** The states: a name, the key that opens it, what is there then, and whether Escape ends it. */
+/** The states: a name, the key that opens it, what is there then, and whether the key ends it, too. */
 const STATES = [
   { name: "timeline", key: "t", rect: "timeline", isToggle: true },
   { name: "share", key: "j", rect: "share window" },
   { name: "mutate", key: "m", rect: "variations" },
-  { name: "find", key: "Control+k", text: "What to find", words: "light" },
-  { name: "help", key: "Shift+?", text: "Keys and gestures" },
+  { name: "find", key: "Control+k", rect: "find window", words: "light" },
+  { name: "help", key: "Shift+?", rect: "help window" },
   { name: "compare", key: "Shift+C", rect: "compare" },
 ];
 
@@ -33,15 +33,24 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
       v.seen.states.push({ name, state, size: [width, height], rects });
     };
     const more = async () => v.tab.mouse.click(...(await page.scrollTo("more")));
-    // Where the panel is a sheet, it is shown at half its height.
+    const toggle = async () => v.tab.mouse.click(...(await page.middle("panel toggle")));
+    // A sheet is shown at half its height; the panel of a low window is hidden until it is asked for.
+    const isHidden = async () => !(await page.rect("panel"));
+    let wasHidden = false;
     const openMore = async () => {
-      const sheet = await page.rect("sheet handle");
-      if (sheet) await page.drag("sheet handle", [0, -0.4 * height]);
+      if (await page.rect("sheet handle")) await page.drag("sheet handle", [0, -0.4 * height]);
+      wasHidden = await isHidden();
+      if (wasHidden) await toggle();
+      await page.rested("the panel", () => page.rect("panel"));
       await more();
     };
     const closeMore = async () => {
       await more();
       if (await page.rect("sheet handle")) await page.drag("sheet handle", [0, 0.4 * height]);
+      if (wasHidden) {
+        await toggle();
+        await v.until("the panel to be hidden", isHidden, 60);
+      }
     };
     await v.tab.setViewportSize({ width, height });
     const fits = async () => {
@@ -57,14 +66,13 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
     await openMore();
     await shoot("panel");
     await closeMore();
-    for (const { name, key, rect, text, words, isToggle } of STATES) {
+    for (const { name, key, rect, words, isToggle } of STATES) {
       await v.tab.keyboard.press(key);
-      if (rect) await page.rested(name, () => page.rect(rect));
-      if (text) await page.says(text);
+      await page.rested(name, () => page.rect(rect));
       if (words) await v.tab.keyboard.type(words);
       await shoot(name);
       await v.tab.keyboard.press(isToggle ? key : "Escape");
-      if (rect) await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
+      await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
     }
   }
 });

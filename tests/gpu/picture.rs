@@ -6,7 +6,7 @@ use glam::DVec3;
 use mandelight::{
     gpu::readback::Readback,
     render::{
-        Pace, Region,
+        Pace, Region, View,
         frame::record,
         integrator::DIRECT,
         recorder::{Dispatches, Recorder},
@@ -18,6 +18,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     compare::difference,
+    device::gpu,
     view::{finished, pipelines, pixels, sampled, settle, still},
 };
 
@@ -241,6 +242,31 @@ fn a_5k_view_works_within_default_limits() {
     let picture = pixels(&view);
     // 0.2 under Reinhard's curve is 0.169, sRGB 114, and every pixel was written.
     assert!(picture.as_chunks::<4>().0.iter().all(|p| (113..=115).contains(&p[0]) && p[3] == 255));
+}
+
+#[test]
+fn the_time_of_a_picture_begins_with_its_size() {
+    let mut view = View::new(pipelines(), Region::whole(SIZE), Pace::Interactive);
+    view.set_scene(&sampled(Scene::default(), 1), false);
+    let mut now_secs = 0.0;
+    let mut finish = |view: &mut View| {
+        let mut pumps = 0;
+        while view.pump(now_secs) {
+            gpu().wait();
+            now_secs += 0.01;
+            pumps += 1;
+        }
+        pumps
+    };
+    let first = finish(&mut view);
+    view.set_region(Region::whole([60, 90]));
+    let second = finish(&mut view);
+    let most_secs = 0.01 * f64::from(second + 1);
+    let elapsed_secs = view.report().elapsed_secs;
+    assert!(
+        elapsed_secs > 0.0 && elapsed_secs <= most_secs,
+        "{elapsed_secs} s after {first} and {second} pumps"
+    );
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use egui::{Align2, Grid, Hyperlink, RichText, ScrollArea, Ui, vec2};
 
 use crate::ui::{
+    rects::Rects,
     shortcuts::{FLIGHT, GESTURES, SHORTCUTS, TOUCH_GESTURES},
     theme,
     widgets::caption,
@@ -13,10 +14,10 @@ use crate::ui::{
 const LICENSES: &str = "./licenses.txt";
 
 /// Shows the help window in the centre of the screen if `open`.
-pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool) {
+pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool, rects: &mut Rects) {
     let screen = ctx.content_rect();
     let width = (screen.width() - 40.0).min(420.0);
-    egui::Window::new("Keys and gestures")
+    let shown = egui::Window::new("Keys and gestures")
         .open(open)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .collapsible(false)
@@ -51,6 +52,9 @@ pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool) {
                 ui.add(Hyperlink::from_label_and_url(licenses, LICENSES).open_in_new_tab(true));
             });
         });
+    if let Some(shown) = shown {
+        rects.record("help window", &shown.response);
+    }
 }
 
 fn table(

@@ -43,9 +43,8 @@ const FRAME: Param = Param {
 /// Draws the strip over the width of `ui`.
 pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut Timeline) {
     let on_path = timeline.was_on_path();
-    let has_large_rows = ui.spacing().interact_size.y >= theme::TOUCH_ROW;
-    let wide =
-        ui.available_width() >= if has_large_rows { ONE_TOUCH_ROW_FROM } else { ONE_ROW_FROM };
+    let one_row_from = if theme::has_touch_rows(ui) { ONE_TOUCH_ROW_FROM } else { ONE_ROW_FROM };
+    let wide = ui.available_width() >= one_row_from;
     let mut strip = Strip { cx, path, timeline, on_path };
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.horizontal(|ui| {
