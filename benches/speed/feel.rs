@@ -17,6 +17,7 @@ use std::{path::Path, sync::Arc};
 use mandelight::render::Pipelines;
 
 use super::failure::Failure;
+pub use replay::PUMP_SECS;
 pub use results::Results;
 use session::{Hold, PARTS, Session};
 

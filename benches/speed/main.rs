@@ -9,6 +9,7 @@
 //! | `failure` | the error of any measurement |
 //! | `arguments` | the command line |
 //! | `statistics` | medians, quantiles, means |
+//! | `poller` | a thread that runs completion callbacks |
 //! | `load` | processor load of this program and of others |
 //! | `peak` | the adapter's multiply-add throughput |
 //! | `views` | scenes, sizes and sample counts |
@@ -35,6 +36,7 @@
 //! | `formulas` | pictures of all formulas: counts, times, errors, compilation |
 //! | `start` | time to the first picture |
 //! | `feel` | interactive response in a recorded session |
+//! | `pieces` | how long pieces of work keep the GPU |
 //! | `report` | the results of a whole run |
 //! | `tables` | the tables of `docs/benchmark.md` |
 
@@ -57,7 +59,9 @@ pub mod mandelbulber;
 pub mod ours;
 pub mod paths;
 pub mod peak;
+pub mod pieces;
 pub mod pixels;
+pub mod poller;
 pub mod powers;
 pub mod reference;
 pub mod report;
@@ -197,6 +201,10 @@ fn measure_tables(
         feel.print();
         report.feel = Some(feel);
     }
+    if arguments.wants(pieces::NAME) {
+        report.pieces = pieces::measure(pipelines, size);
+        pieces::print(&report.pieces);
+    }
     Ok(())
 }
 
@@ -266,6 +274,7 @@ fn chosen(arguments: &Arguments) -> Result<Vec<View>, Failure> {
         start::NAME,
         formulas::NAME,
         feel::NAME,
+        pieces::NAME,
     ];
     let names: Vec<_> = views.iter().map(|view| view.name).chain(tables).collect();
     if let Some(name) = arguments.views.iter().find(|name| !names.contains(&name.as_str())) {

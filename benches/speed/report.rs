@@ -9,7 +9,7 @@ use super::{
     counts::Counts,
     deep, descent, feel, formulas,
     limits::{Measure, Measured},
-    mandelbulber, paths, powers, scaling, start, step_costs,
+    mandelbulber, paths, pieces, powers, scaling, start, step_costs,
 };
 
 /// All results of one run.
@@ -39,6 +39,8 @@ pub struct Report {
     pub formulas: Vec<formulas::Row>,
     /// The replayed session.
     pub feel: Option<feel::Results>,
+    /// How long pieces of work keep the GPU.
+    pub pieces: Vec<pieces::Row>,
 }
 
 impl Report {

@@ -40,6 +40,7 @@ mod read;
 mod report;
 
 use color_following::ColorFollowing;
+pub use parts::PieceTime;
 use parts::{Lent, Shown, StatsValidity, Times};
 
 /// One picture in progress.
@@ -278,7 +279,7 @@ impl View {
         self.schedule.collect(&ended);
         for (work, busy_ms) in ended {
             let Some(work) = work else { continue };
-            self.times.add(busy_ms, matches!(work, Work::Display(_)));
+            self.times.add(work, busy_ms);
         }
     }
 
@@ -440,6 +441,13 @@ impl View {
             self.shown.note(&self.targets);
             self.histogram_readback.note_picture();
         }
+    }
+
+    /// The GPU times of the pieces of work that have finished since the last call, for measurements.
+    ///
+    /// The first call returns none: they are recorded from then on.
+    pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
+        self.times.take_pieces()
     }
 
     /// Sets whether [`Report::histogram`](super::Report::histogram) is kept up to date.

@@ -6,10 +6,7 @@
 //! newest scene.
 
 use std::{
-    sync::{
-        Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, Mutex, PoisonError},
     time::{Duration, Instant},
 };
 
@@ -23,7 +20,7 @@ use mandelight::{
 };
 
 use super::{
-    super::load::Load,
+    super::{load::Load, poller::Poller},
     session::{SIZE_PX, Session, with_motion_budget},
 };
 
@@ -65,36 +62,6 @@ pub struct Replay {
     pub frames: Vec<Frame>,
     /// Fraction of the processors that other programs used, where the system has figures.
     pub others: Option<f64>,
-}
-
-/// A thread that runs completion callbacks promptly, as browsers do.
-struct Poller {
-    stop: Arc<AtomicBool>,
-    thread: Option<std::thread::JoinHandle<()>>,
-}
-
-impl Poller {
-    fn new(gpu: &Gpu) -> Self {
-        let stop = Arc::new(AtomicBool::new(false));
-        let (gpu, should_stop) = (gpu.clone(), stop.clone());
-        let thread = std::thread::spawn(move || {
-            while !should_stop.load(Ordering::Relaxed) {
-                gpu.poll();
-                std::thread::sleep(Duration::from_micros(200));
-            }
-        });
-        Self { stop, thread: Some(thread) }
-    }
-}
-
-impl Drop for Poller {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            // A poller that panicked has printed its message.
-            let _ = thread.join();
-        }
-    }
 }
 
 /// A scene that was given to the view.

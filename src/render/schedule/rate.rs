@@ -17,6 +17,9 @@ const ASSUMED_MS: f64 = 0.001;
 /// of them are held up.
 const REFINING_PIECES: usize = 32;
 
+/// Those of other views that are kept at a jump: few, so that those of the new view soon outnumber them.
+const PIECES_OF_OTHER_VIEWS: usize = 8;
+
 /// Openings that an estimate is made of: the view changes from one to the next.
 const OPENINGS: usize = 9;
 
@@ -31,14 +34,16 @@ const GROWTH: f64 = 5.0;
 /// Below 1, so that pieces grow step by step.
 const MAX_FIXED: f64 = 0.95;
 
-/// Largest part of an opening's time that counts as fixed.
-///
-/// A fixed cost found too high would otherwise explain openings that are too dense, and no refining piece
-/// corrects it while a movement lasts.
-const MAX_FIXED_OF_OPENING: f64 = 0.5;
+/// Pieces that can show that nearly all of their time is fixed.
+const MANY_PIECES: usize = 6;
 
-/// Two openings in a row that cost so many times what refining pieces predict show another view; one opening of a
-/// jump does. Rays of a sparse lattice have little in common: up to twice the cost is normal.
+/// Largest part of the time of fewer pieces, and of openings, that counts as fixed.
+///
+/// Two pieces of an expensive part of a picture can look alike whatever their sizes. A fixed cost found too high would
+/// otherwise explain openings that are too dense, and no refining piece corrects it while a movement lasts.
+const MAX_FIXED_OF_FEW: f64 = 0.5;
+
+/// Two openings in a row that cost so many times what refining pieces predict show another view. Rays of a sparse lattice have little in common: up to twice the cost is normal.
 const OTHER_VIEW: f64 = 3.0;
 
 /// One piece of work.
@@ -84,6 +89,8 @@ impl Rate {
 pub struct CostHistory {
     pieces: VecDeque<Measurement>,
     openings: VecDeque<Measurement>,
+    /// Rays of the largest piece in the present view.
+    most_rays: f64,
     /// Measured over predicted time of the last two openings.
     excess: [f64; 2],
     refining: Option<Rate>,
@@ -110,19 +117,39 @@ impl CostHistory {
         match phase {
             Phase::Opening => self.learn_opening(measurement),
             Phase::Jump => {
-                // Pieces sized by the view before would be as much too long, until most of the window is new.
-                let known = self.refining.or(self.opening);
-                let expected_ms = known.map(|rate| rate.expected_ms(rays));
-                if expected_ms.is_some_and(|expected_ms| ms > OTHER_VIEW * expected_ms) {
-                    *self = Self::default();
-                }
+                self.learn_jump(measurement);
                 self.learn_opening(measurement);
             }
             Phase::Refining => {
+                self.most_rays = self.most_rays.max(rays);
                 push(&mut self.pieces, REFINING_PIECES, measurement);
-                self.refining = line(&self.pieces);
+                self.refining = self.line();
             }
         }
+    }
+
+    /// The rate of the refining pieces, which may grow from what was tried in this view.
+    fn line(&self) -> Option<Rate> {
+        let (fixed_ms, ray_ms) = line(&self.pieces)?;
+        Some(Rate { fixed_ms, ray_ms, max_rays: GROWTH * self.most_rays })
+    }
+
+    /// Forgets most of what other views cost, and all of it where the opening shows a much more expensive view: pieces
+    /// sized by a cheap one could take seconds.
+    fn learn_jump(&mut self, opening: Measurement) {
+        let Measurement { rays, ms } = opening;
+        self.most_rays = rays;
+        let Some(rate) = self.refining.or(self.opening) else { return };
+        let rays_ms = (ms - rate.fixed_ms).max((1.0 - MAX_FIXED_OF_FEW) * ms);
+        let kept = if rays_ms > OTHER_VIEW * rate.ray_ms * rays {
+            self.openings.clear();
+            0
+        } else {
+            PIECES_OF_OTHER_VIEWS
+        };
+        self.pieces.drain(..self.pieces.len().saturating_sub(kept));
+        self.refining = self.line();
+        self.excess = [0.0; 2];
     }
 
     fn learn_opening(&mut self, opening: Measurement) {
@@ -139,7 +166,7 @@ impl CostHistory {
         // Openings are too few, and of too many views, to separate their own fixed cost.
         let fixed_ms = self.refining.or(self.opening).map_or(0.0, |rate| rate.fixed_ms);
         let ray_ms = |opening: &Measurement| {
-            (opening.ms - fixed_ms).max((1.0 - MAX_FIXED_OF_OPENING) * opening.ms) / opening.rays
+            (opening.ms - fixed_ms).max((1.0 - MAX_FIXED_OF_FEW) * opening.ms) / opening.rays
         };
         self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
             .map(|ray_ms| Rate { fixed_ms, ray_ms, max_rays: GROWTH * opening.rays });
@@ -153,19 +180,19 @@ fn push(window: &mut VecDeque<Measurement>, length: usize, measurement: Measurem
     window.push_back(measurement);
 }
 
-/// The line whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
-fn line(pieces: &VecDeque<Measurement>) -> Option<Rate> {
+/// The fixed time and the time of a ray: the line whose slope is the median of all pairs' slopes (Theil 1950, Sen 1968).
+fn line(pieces: &VecDeque<Measurement>) -> Option<(f64, f64)> {
     let slopes = pieces.iter().enumerate().flat_map(|(index, a)| {
         let others = pieces.iter().take(index).filter(|b| b.rays != a.rays);
         others.map(|b| (a.ms - b.ms) / (a.rays - b.rays))
     });
     // Pieces of one size can't separate the two costs: all of theirs counts as rays'.
+    let max_fixed = if pieces.len() < MANY_PIECES { MAX_FIXED_OF_FEW } else { MAX_FIXED };
     let whole_ms = median(pieces.iter().map(|piece| piece.ms / piece.rays).collect())?;
     let ray_ms = median(slopes.collect())
-        .map_or(whole_ms, |slope| slope.clamp((1.0 - MAX_FIXED) * whole_ms, whole_ms));
+        .map_or(whole_ms, |slope| slope.clamp((1.0 - max_fixed) * whole_ms, whole_ms));
     let fixed_ms = median(pieces.iter().map(|piece| piece.ms - ray_ms * piece.rays).collect())?;
-    let largest = pieces.iter().map(|piece| piece.rays).fold(0.0, f64::max);
-    Some(Rate { fixed_ms: fixed_ms.max(0.0), ray_ms, max_rays: GROWTH * largest })
+    Some((fixed_ms.max(0.0), ray_ms))
 }
 
 fn median(values: Vec<f64>) -> Option<f64> {
@@ -195,18 +222,32 @@ mod tests {
         assert!((rate.fixed_ms - 3.0).abs() < 1e-6, "{rate:?}");
     }
 
+    /// What pieces and openings of a cheap view cost: a microsecond a ray.
+    fn known() -> CostHistory {
+        let mut history = CostHistory::default();
+        for index in 0..32_u32 {
+            let rays = if index % 2 == 0 { 2000.0 } else { 1000.0 };
+            history.learn(Phase::Refining, rays, 0.001 * rays);
+            history.learn(Phase::Opening, rays, 0.001 * rays);
+        }
+        history
+    }
+
+    /// Rays that are nothing like those of the opening come a few at a time.
+    #[test]
+    fn pieces_grow_from_a_jump_step_by_step() {
+        let mut history = known();
+        history.learn(Phase::Jump, 20.0, 0.02);
+        for most_rays in [100.0, 500.0, 2500.0] {
+            let rate = history.rate(Phase::Refining).expect("a rate");
+            assert_eq!(rate.max_rays, most_rays);
+            history.learn(Phase::Refining, rate.max_rays, 0.001 * rate.max_rays);
+        }
+    }
+
     /// The next piece after a jump is sized by the jump's own cost.
     #[test]
-    fn a_dear_jump_replaces_the_estimates_at_once() {
-        let known = || {
-            let mut history = CostHistory::default();
-            for index in 0..32_u32 {
-                let rays = if index % 2 == 0 { 2000.0 } else { 1000.0 };
-                history.learn(Phase::Refining, rays, 0.001 * rays);
-                history.learn(Phase::Opening, rays, 0.001 * rays);
-            }
-            history
-        };
+    fn an_expensive_jump_replaces_the_estimates_at_once() {
         let ray_ms = |history: &CostHistory, phase| history.rate(phase).expect("a rate").ray_ms;
         let mut jumped = known();
         jumped.learn(Phase::Jump, 1000.0, 20.0);

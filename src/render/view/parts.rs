@@ -14,7 +14,7 @@ use crate::render::{
 const MAX_WORK_STEP_SECS: f64 = 5.0;
 
 /// When a view changed, how long it has worked since, and what its pictures took.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Times {
     /// The present moment on the caller's clock, seconds.
     now_secs: f64,
@@ -30,17 +30,35 @@ pub struct Times {
     pub frame_ms: f64,
     /// Pictures so far.
     pub pictures: u64,
+    /// The GPU times of pieces of work, if they are recorded.
+    pieces: Option<Vec<PieceTime>>,
+}
+
+/// The GPU time of a piece of work, as [`Stopwatch`](crate::gpu::timing::Stopwatch) measures it.
+#[derive(Clone, Copy, Debug)]
+pub struct PieceTime {
+    /// The piece.
+    pub work: Work,
+    /// Its time, milliseconds.
+    pub busy_ms: f64,
 }
 
 impl Times {
-    /// Adds the GPU time of a piece of work that has finished; `is_picture` if it made the display
-    /// picture.
-    pub fn add(&mut self, busy_ms: f64, is_picture: bool) {
+    /// Adds the GPU time of a piece of work that has finished.
+    pub fn add(&mut self, work: Work, busy_ms: f64) {
+        if let Some(pieces) = &mut self.pieces {
+            pieces.push(PieceTime { work, busy_ms });
+        }
         self.busy_ms += busy_ms;
-        if is_picture {
+        if matches!(work, Work::Display(_)) {
             self.frame_ms = std::mem::take(&mut self.busy_ms);
             self.pictures += 1;
         }
+    }
+
+    /// Records the times of pieces from now on, and returns those recorded so far.
+    pub fn take_pieces(&mut self) -> Vec<PieceTime> {
+        self.pieces.replace(Vec::new()).unwrap_or_default()
     }
 
     /// Moves the present moment on.
