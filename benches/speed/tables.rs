@@ -78,6 +78,9 @@ pub fn updated(mut text: String, report: &Report) -> Result<String, String> {
     if !report.formulas.is_empty() {
         tables.push(("formulas", formulas(&report.formulas)));
     }
+    if !report.pieces.is_empty() {
+        tables.push(("pieces", pieces(report)));
+    }
     for (name, table) in tables {
         let (begin, end) = (format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->"));
         let missing = || format!("there are no markers for a table of {name}");
@@ -95,6 +98,32 @@ fn head(columns: &[&str]) -> String {
 fn line(table: &mut String, cells: impl Iterator<Item = String>) {
     let cells: Vec<_> = cells.collect();
     let _ = writeln!(table, "| {} |", cells.join(" | "));
+}
+
+fn pieces(report: &Report) -> String {
+    let mut table = format!("On {}:\n\n", report.adapter);
+    table += &head(&[
+        "scenes",
+        "pieces",
+        "median, budgets",
+        "99 %, budgets",
+        "over two budgets",
+        "longest, ms",
+        "longest display, ms",
+    ]);
+    for row in &report.pieces {
+        let cells = [
+            format!("{} of {}", row.scenes, row.name),
+            row.pieces.to_string(),
+            format!("{:.2}", row.median),
+            format!("{:.2}", row.most),
+            format!("{:.1} %", row.over),
+            format!("{:.0}", row.longest_ms),
+            format!("{:.0}", row.display_ms),
+        ];
+        line(&mut table, cells.into_iter());
+    }
+    table
 }
 
 fn times(report: &Report) -> String {

@@ -443,13 +443,6 @@ impl View {
         }
     }
 
-    /// The GPU times of the pieces of work that have finished since the last call, for measurements.
-    ///
-    /// The first call returns none: they are recorded from then on.
-    pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
-        self.times.take_pieces()
-    }
-
     /// Sets whether [`Report::histogram`](super::Report::histogram) is kept up to date.
     pub fn watch_histogram(&mut self, wanted: bool) {
         if wanted == self.histogram_readback.is_wanted() {

@@ -1,6 +1,6 @@
-//! A view's status, and the GPU memory that it holds.
+//! A view's status, the times of its work, and the GPU memory that it holds.
 
-use super::View;
+use super::{PieceTime, View};
 use crate::render::{
     memory::Memory,
     report::{Activity, Report},
@@ -39,6 +39,13 @@ impl View {
             memory: self.memory(),
             pictures: self.times.pictures,
         }
+    }
+
+    /// The GPU times of the pieces of work that have finished since the last call, for measurements.
+    ///
+    /// The first call returns none: they are recorded from then on.
+    pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
+        self.times.take_pieces()
     }
 
     /// The view's GPU memory.
