@@ -2,8 +2,8 @@
 //
 // MANDELIGHT_DIST=dist MANDELIGHT_CHROMIUM=/usr/bin/chromium MANDELIGHT_OUT=target/clicks node benches/page/clicks.mjs
 //
-// Each click hides or shows the panel; its answer is the first frame of the interface whose widgets show it. Prints the
-// times in milliseconds for the opening scene at rest and for the expensive one while it is drawn.
+// Each click opens or closes the window for sharing; its answer is the first frame of the interface that shows it. Prints
+// the times in milliseconds for the opening scene at rest and for the expensive one while it is drawn.
 
 import { Mandelight } from "../../tests/browser/mandelight.mjs";
 import { visit } from "../../tests/browser/visit.mjs";
@@ -13,11 +13,12 @@ const CLICKS = 20;
 const PAUSE_MS = 700;
 const MAX_LIGHTS = 64;
 
-/** Clicks the panel's toggle in the page itself, and returns the milliseconds until the widgets have changed. */
+/** Clicks the share button in the page itself, and returns the milliseconds until the widgets have changed. */
 function answer() {
-  const { x, y, width, height } = window.mandelight.uiRects()["panel toggle"];
+  const { x, y, width, height } = window.mandelight.uiRects().share;
   const canvas = document.querySelector("canvas");
-  const hadPanel = "panel" in window.mandelight.uiRects();
+  const isOpen = () => "share window" in window.mandelight.uiRects();
+  const wasOpen = isOpen();
   const at = { clientX: x + width / 2, clientY: y + height / 2, bubbles: true, button: 0 };
   const began = performance.now();
   const pointer = { ...at, pointerId: 1, pointerType: "mouse", isPrimary: true };
@@ -26,7 +27,7 @@ function answer() {
   document.dispatchEvent(new PointerEvent("pointerup", pointer));
   return new Promise((resolve) => {
     const look = () => {
-      const isAnswered = "panel" in window.mandelight.uiRects() !== hadPanel;
+      const isAnswered = isOpen() !== wasOpen;
       const waited = performance.now() - began;
       if (isAnswered || waited > 10_000) resolve(isAnswered ? waited : null);
       else setTimeout(look, 2);
@@ -62,8 +63,13 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
     scene.fractal.iterations = 100;
     scene.quality.detail = 0.1;
     scene.quality.samples = 64;
+    const direction = (k) => {
+      const z = (k + 0.5) / count;
+      const rho = Math.sqrt(1 - z * z);
+      return [rho * Math.cos(2.4 * k), rho * Math.sin(2.4 * k), z];
+    };
     scene.lights.environment = Array.from({ length: count }, (_, k) => ({
-      direction: [Math.cos(2.4 * k), Math.sin(2.4 * k), 0.2 + k / count],
+      direction: direction(k),
       color: [1, 0.9, 0.8],
       intensity: 0.1,
     }));
