@@ -169,8 +169,8 @@ impl Reference {
 
     /// Iterations of a view of `fractal` whose pixels have radius `footprint` at the surface.
     ///
-    /// [`iterations_for`] is enough for 99 of 100 points, but a view has only one anchor's neighbours. If the anchor is
-    /// one of the other points, the steps count in which its dr grows from that of [`WHOLE_FOOTPRINT`].
+    /// [`iterations_for`] is enough for 99 of 100 points; but all points of a view share most steps with the anchor. If
+    /// the anchor's dr takes more steps to grow from 1 / [`WHOLE_FOOTPRINT`] to 1 / `footprint`, those are added.
     pub fn iterations_for(&self, fractal: &Mandelbulb, footprint: f64) -> u32 {
         let derivatives = self.derivatives(1.0, self.own_points);
         let finest = footprint.clamp(0.1 * FINEST_FOOTPRINT, WHOLE_FOOTPRINT);
