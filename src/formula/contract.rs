@@ -458,6 +458,12 @@ pub trait ReferenceOrbit: fmt::Debug + Any + Send + Sync {
     /// Whether the orbit belongs to `fractal`; iterations are not compared.
     fn is_of(&self, fractal: &Fractal) -> bool;
 
+    /// Iterations of a view of `fractal` about the anchor, for pixels of radius `footprint` at the surface.
+    ///
+    /// `footprint` is in scene units. At least [`Formula::iterations_for`]; more where the anchor's orbit is slow to
+    /// separate from its neighbours'.
+    fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32;
+
     /// The distance field about the anchor, for pixels of radius `footprint` at the surface.
     ///
     /// `footprint` sets the iterations. Rays may ignore detail finer than `grain`. Both are in scene units.

@@ -122,8 +122,12 @@ fn indirect(indirect: &scene::Indirect, region: Region) -> Indirect {
 fn march(scene: &Scene, region: Region, space: &RenderSpace) -> March {
     let model = space.model();
     let fractal = model.fractal();
-    let iterations = model.iterations_for(space.footprint(scene, region));
     let reference = space.reference();
+    let footprint = space.footprint(scene, region);
+    let iterations = reference.map_or_else(
+        || model.iterations_for(footprint),
+        |reference| reference.iterations_for(fractal, footprint),
+    );
     let anchor = reference.map_or(DVec3::ZERO, |reference| reference.anchor().to_dvec3());
     let policy = fractal.formula().march_policy(fractal);
     March {

@@ -29,20 +29,23 @@ const SIZE: Size = [36, 24];
 /// The closest views.
 const NEAREST: f64 = 1e-26;
 
-/// Views that are hard to march, or whose estimates ripple below a pixel: their documents, and the parts of pixels that
-/// may be out of their brackets.
-const HARD: [(&str, f64); 7] = [
+/// Views that are hard to march, or whose estimates ripple below a pixel.
+const HARD: [&str; 8] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
-    (include_str!("hard_views/stretched.json"), 0.01),
-    (include_str!("hard_views/stretched_beside.json"), 0.005),
-    (include_str!("hard_views/stretched_zoomed.json"), 0.015),
-    (include_str!("hard_views/rippled.json"), 0.005),
-    (include_str!("hard_views/rippled_below.json"), 0.01),
+    include_str!("hard_views/stretched.json"),
+    include_str!("hard_views/stretched_beside.json"),
+    include_str!("hard_views/stretched_zoomed.json"),
+    include_str!("hard_views/rippled.json"),
+    include_str!("hard_views/rippled_below.json"),
     // Power 2, whose hits must last half a footprint.
-    (include_str!("hard_views/power_2.json"), 0.005),
+    include_str!("hard_views/power_2.json"),
     // A power that is not whole: the set has a seam.
-    (include_str!("hard_views/real_power.json"), 0.005),
+    include_str!("hard_views/real_power.json"),
+    // Power 12 at 3e-25, where orbits separate more slowly than at 99 of 100 points.
+    include_str!("hard_views/slow_orbits.json"),
 ];
+/// Part of their pixels that may be out of their brackets.
+const MOST_WRONG_OF_HARD: f64 = 0.002;
 /// Width and height of their pictures.
 const HARD_SIZE: Size = [48, 32];
 
@@ -125,10 +128,11 @@ fn judge_views(seed: u64, wanted: usize) -> Vec<String> {
 
 #[test]
 fn hard_views_hold_their_limits() {
-    for (index, (text, wrong)) in HARD.into_iter().enumerate() {
+    for (index, text) in HARD.into_iter().enumerate() {
         let judged = judge(&document::from_json(text).expect("a scene"), HARD_SIZE);
         println!("{index}: {judged:?}");
-        assert!(judged.wrong() as f64 <= wrong * judged.pixels as f64, "{index}: {judged:?}");
+        let most = MOST_WRONG_OF_HARD * judged.pixels as f64;
+        assert!(judged.wrong() as f64 <= most, "{index}: {judged:?}");
         assert_eq!(judged.away, 0, "{index}: {judged:?}");
     }
 }

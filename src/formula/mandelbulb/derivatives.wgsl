@@ -14,18 +14,25 @@ struct Derivatives {
     dg: f32,
     // Jacobian times the ray's own direction, with `FOLLOWS_DIRECTION`.
     stretched: vec3f,
-    // Jacobian times the direction that the series approximation stretches most, with `FOLLOWS_DIRECTION`.
-    widest: vec3f,
     // Stretch of the series approximation across its widest direction, over dr. At a scale of 1e-20 it is
     // 1/3 to 1/100 of the widest stretch.
     rest: f32,
+    // Greatest turn of an orbit point about the polar axis per length of the ray, times the power up to
+    // `TURNED_POWER_MAX`, with `FOLLOWS_DIRECTION`.
+    turn: f32,
 }
+
+// Longest step of a ray times `Derivatives.turn`. A step raises the angle about the axis n-fold: past a turn of that
+// order, the orbit's Jacobian is another one.
+const TURN_MAX = 3.0;
+
+// Greatest power that counts in `Derivatives.turn`: at power 16, the whole power costs a third more steps.
+const TURNED_POWER_MAX = 8.0;
 
 fn initial_derivatives(fractal: Fractal, orbit: Orbit, along: vec3f) -> Derivatives {
     let one = orbit.start_derivative;
     let dg = select(one / step_factor(fractal), 0.0, FOLLOWS_DIRECTION);
-    // Without a series, the most stretched direction is unknown: steps turn any other than the ray's toward it.
-    return Derivatives(one, dg, one * along, one * along.yzx, 1.0);
+    return Derivatives(one, dg, one * along, 1.0, 0.0);
 }
 
 // Derivatives after a step. `along`: the ray's direction, a unit vector.
@@ -38,27 +45,26 @@ fn next_derivatives(
         let bound = max(abs(sideways(fractal, step, SIDEWAYS_MAX)), step.stretch);
         let dg = bound * min(before.dg, fractal.derivative_max);
         let added = orbit.constant_derivative / step_factor(fractal);
-        return Derivatives(dr, dg + added, before.stretched, before.widest, 0.0);
+        return Derivatives(dr, dg + added, before.stretched, 0.0, 0.0);
     }
     let stretched = pushed(fractal, step, z, q, before.stretched) + orbit.constant_derivative * along;
-    // The constant's own derivative is nothing beside the stretch of a series.
-    let widest = pushed(fractal, step, z, q, before.widest);
-    return Derivatives(dr, before.dg, stretched, widest, before.rest);
+    // Coordinates instead of the length, whose square may overflow.
+    let aside = max(abs(before.stretched.x), abs(before.stretched.y));
+    let turn = min(fractal.power, TURNED_POWER_MAX) * aside * step.inverse_rho;
+    return Derivatives(dr, before.dg, stretched, before.rest, max(before.turn, turn));
 }
 
 // A ray's safe step. `height`: see `height_of`. The scalar dr ignores the stretch along parallels, so the
 // step is the step factor times the estimate by dg, which bounds that stretch, and at most the distance.
-// With `FOLLOWS_DIRECTION` the step is the distance over the stretch of the ray's direction. Along the ray the
-// stretched direction changes, the sooner the greater the stretch of other directions is: with w for the widest
-// stretch over dr, the ray's counts as at least sqrt(3 w - 2). Where all directions are stretched alike, w is 1.
+// With `FOLLOWS_DIRECTION` the step is the distance over the stretch of the ray's direction, as far as that stretch
+// holds: no orbit point may turn about the axis by more than `TURN_MAX`.
 fn safe_step(derivatives: Derivatives, height: f32) -> f32 {
     if (!FOLLOWS_DIRECTION) { return height / max(max(derivatives.dg, derivatives.dr), 1e-37); }
     // The square of `stretched` can overflow with a large bailout.
     let inverse = 1.0 / max(derivatives.dr, 1e-37);
     let followed = length(inverse * derivatives.stretched);
-    let widest = length(inverse * derivatives.widest);
-    let turning = sqrt(max(3.0 * widest - 2.0, 1.0));
-    return inverse * height / max(max(followed, derivatives.rest), turning);
+    let stretch = max(max(followed, derivatives.rest), 1.0);
+    return min(inverse * height / stretch, TURN_MAX / max(derivatives.turn, 1e-30));
 }
 
 // Derivatives of an orbit and of dr by the point.

@@ -46,10 +46,10 @@ fn series_derivatives(
 ) -> Derivatives {
     let jacobian = series_jacobian(series, point);
     let stretched = jacobian * along;
-    let widest = jacobian * series.widest;
-    let dg = length(widest) / step_factor(fractal);
+    let dg = length(jacobian * series.widest) / step_factor(fractal);
     let rest = series.rest / series.derivative;
-    return Derivatives(series_derivative(series, point), dg, stretched, widest, rest);
+    // Within the series' radius its Jacobian is nearly constant.
+    return Derivatives(series_derivative(series, point), dg, stretched, rest, 0.0);
 }
 
 // The tangent after the steps of a series approximation.

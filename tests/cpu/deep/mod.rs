@@ -5,11 +5,13 @@
 //! | `arithmetic` | the numbers |
 //! | `orbit` | their orbits |
 //! | `views` | the views |
+//! | `iterations` | the iterations that an anchor adds |
 //! | `axis` | the field in f64 hard by the polar axis against the march's estimates |
 //! | `search` | no test: how the views were found |
 
 mod arithmetic;
 mod axis;
+mod iterations;
 mod orbit;
 mod search;
 mod views;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{
-    FINEST_FOOTPRINT, difference, iterations_for,
+    FINEST_FOOTPRINT, difference,
     jacobian::{OrbitJacobian, RotatingJacobian},
     reference::{Reference, ReferenceBuilder},
     rotating_frame::RotatingFrame,
@@ -42,7 +42,7 @@ impl DeepField {
     ///
     /// `footprint` is the radius at the surface, in scene units.
     pub fn new(reference: Arc<Reference>, fractal: &Mandelbulb, footprint: f64) -> Self {
-        let iterations = iterations_for(fractal, footprint);
+        let iterations = reference.iterations_for(fractal, footprint);
         let fractal = Mandelbulb { iterations, ..fractal.clone() };
         let center = -reference.anchor().to_dvec3();
         Self { estimator: Estimator::new(&fractal), center, reference, grain: footprint }
@@ -195,6 +195,10 @@ impl ReferenceOrbit for Reference {
 
     fn is_of(&self, fractal: &Fractal) -> bool {
         fractal.formula().id() == MANDELBULB.id() && self.is_of(&Mandelbulb::of(fractal))
+    }
+
+    fn iterations_for(&self, fractal: &Fractal, footprint: f64) -> u32 {
+        Reference::iterations_for(self, &Mandelbulb::of(fractal), footprint)
     }
 
     fn distance_field(

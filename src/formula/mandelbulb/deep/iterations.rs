@@ -6,7 +6,7 @@ use crate::formula::mandelbulb::parameters::Mandelbulb;
 pub use crate::formula::march::DEEP_FOOTPRINT as FINEST_FOOTPRINT;
 
 /// Least footprint that needs no more than the scene's own iterations, in scene units.
-const WHOLE_FOOTPRINT: f64 = 1e-3;
+pub const WHOLE_FOOTPRINT: f64 = 1e-3;
 
 /// Iterations of a view whose pixels have radius `footprint` at the nearest surface.
 ///

@@ -5,7 +5,7 @@ use std::{any::Any, sync::Arc};
 use glam::DVec3;
 
 use super::{
-    iterations::{FINEST_FOOTPRINT, iterations_for},
+    iterations::{FINEST_FOOTPRINT, WHOLE_FOOTPRINT, iterations_for},
     orbit::{ReferencePoint, Tracer},
     series::{SeriesApproximation, SeriesBuilder},
 };
@@ -165,6 +165,21 @@ impl Reference {
             here
         };
         reference_points.iter().map(step).collect()
+    }
+
+    /// Iterations of a view of `fractal` whose pixels have radius `footprint` at the surface.
+    ///
+    /// [`iterations_for`] is enough for 99 of 100 points; but all points of a view share most steps with the anchor. If
+    /// the anchor's dr takes more steps to grow from 1 / [`WHOLE_FOOTPRINT`] to 1 / `footprint`, those are added.
+    pub fn iterations_for(&self, fractal: &Mandelbulb, footprint: f64) -> u32 {
+        let derivatives = self.derivatives(1.0, self.own_points);
+        let finest = footprint.clamp(0.1 * FINEST_FOOTPRINT, WHOLE_FOOTPRINT);
+        let steps_to = |footprint: f64| {
+            let is_enough = |dr: &f64| dr * footprint >= 1.0;
+            derivatives.iter().position(is_enough).unwrap_or(derivatives.len())
+        };
+        let more = steps_to(finest) - steps_to(WHOLE_FOOTPRINT);
+        iterations_for(fractal, footprint).max(fractal.iterations + more as u32)
     }
 
     fn series_builder(&self, scale: f64) -> SeriesBuilder<'_> {
