@@ -42,7 +42,7 @@ fn only_the_opening_of_a_dearer_view_is_long() {
     assert!(long.iter().all(|&long| long <= 1), "{long:?}");
 }
 
-/// What fills a large budget in a cheap view would hold up the page in a dear one.
+/// What fills a large budget in a cheap view would hold up the page in an expensive one.
 #[test]
 fn a_jump_does_not_spend_a_large_budget() {
     assert_eq!(long_traces(5.0, 200.0, 10.0, 250.0), 0);
