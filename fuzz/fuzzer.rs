@@ -4,7 +4,7 @@ use std::{alloc::System, sync::OnceLock};
 
 use cap::Cap;
 use mandelight_fuzzing::{
-    Target,
+    FuzzTarget,
     meter::{MAX_HELD_BYTES, measured},
     mutated, target,
 };
@@ -15,12 +15,12 @@ static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 /// Checks an input of the target `name`.
 pub fn check(name: &str, bytes: &[u8]) {
     let target = prepared(name);
-    let (_, cost) = measured(&ALLOCATOR, || (target.check)(bytes));
-    assert!(cost.peak <= MAX_HELD_BYTES, "{} bytes are held at a time", cost.peak);
-    assert!(cost.total <= target.most_work, "{} bytes are allocated in all", cost.total);
+    let (_, allocated) = measured(&ALLOCATOR, || (target.check)(bytes));
+    assert!(allocated.peak <= MAX_HELD_BYTES, "{} bytes are held at a time", allocated.peak);
+    assert!(allocated.total <= target.most_work, "{} bytes are allocated in all", allocated.total);
 }
 
-/// Changes the first `size` bytes of `data` and returns the new size: half the time as the format has it.
+/// Changes the first `size` bytes of `data` and returns the new size: half the time the changes keep the format.
 pub fn mutate(name: &str, data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize {
     let mut rng = fastrand::Rng::with_seed(seed.into());
     if rng.bool() {
@@ -30,7 +30,7 @@ pub fn mutate(name: &str, data: &mut [u8], size: usize, max_size: usize, seed: u
     let other = &seeds[rng.usize(..seeds.len())];
     // An empty corpus begins with the seeds.
     let input = if size < 2 || rng.u8(..32) == 0 { &other[..] } else { &data[..size] };
-    let changed = mutated(prepared(name).mutate, &mut rng, input, other);
+    let changed = mutated(prepared(name).format, &mut rng, input, other);
     let count = changed.len().min(max_size);
     data[..count].copy_from_slice(&changed[..count]);
     count
@@ -42,8 +42,8 @@ fn seeds(name: &str) -> &'static [Vec<u8>] {
 }
 
 /// The target, after its first reading, which keeps what the program keeps.
-fn prepared(name: &str) -> &'static Target {
-    static TARGET: OnceLock<&'static Target> = OnceLock::new();
+fn prepared(name: &str) -> &'static FuzzTarget {
+    static TARGET: OnceLock<&'static FuzzTarget> = OnceLock::new();
     TARGET.get_or_init(|| {
         let target = target(name);
         for seed in seeds(name) {

@@ -126,13 +126,9 @@ pub fn run() -> ExitCode {
     log_errors();
     let command_line = CommandLine::try_parse().unwrap_or_else(|error| explain(&error));
     let Some(command) = command_line.command else {
-        let outcome = match command_line.licenses {
-            true => licenses::run(),
-            false => {
-                Err(Failure::usage("no command is given; `mandelight --help` lists the commands"))
-            }
-        };
-        return code_of(outcome);
+        // Without any argument clap prints the help.
+        debug_assert!(command_line.licenses, "the only argument beside the commands");
+        return code_of(licenses::run());
     };
     let outcome = match command {
         Command::Render(arguments) => render::run(arguments),

@@ -23,7 +23,7 @@ use std::io::{Read, Seek, Write};
 
 use ::exr::{
     meta::{
-        BlockDescription, Requirements,
+        BlockDescription, Requirements, attribute,
         header::{Header, LayerAttributes},
         magic_number,
     },
@@ -63,6 +63,9 @@ pub(super) fn bytes_of_pixel(has_alpha: bool, has_guides: bool) -> usize {
 
 /// The first bytes of every OpenEXR file.
 const SIGNATURE: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// The byte after a header's last attribute.
+const END_OF_ATTRIBUTES: u8 = 0;
 
 /// Bytes of a row's header in the file: row number and length.
 const ROW_HEADER_BYTES: usize = 8;
@@ -248,7 +251,14 @@ fn header(size_px: [u32; 2], scene: &Scene, channels: &[&str]) -> Result<Vec<u8>
     let written = exr::MetaData::validate(&headers, true).and_then(|needs: Requirements| {
         magic_number::write(&mut bytes)?;
         needs.write(&mut bytes)?;
-        Header::write_all(&headers, &mut bytes, false)
+        // The crate keeps some attributes in a hash map, whose order differs from run to run.
+        let mut attributes: Vec<_> = headers[0].all_named_attributes().collect();
+        attributes.sort_by_key(|(name, _)| *name);
+        for (name, value) in attributes {
+            attribute::write(name, &value, &mut bytes)?;
+        }
+        bytes.push(END_OF_ATTRIBUTES);
+        Ok(())
     });
     written.map_err(|error| ExportError::Encode(error.to_string()))?;
     Ok(bytes)
@@ -340,6 +350,19 @@ mod tests {
 
     use super::*;
     use crate::render::uniforms::FrameUniforms;
+
+    #[test]
+    fn two_files_of_a_scene_are_the_same() {
+        let file = || {
+            let mut stream = ExrStream::new(Vec::new(), [3, 2], &Scene::default()).unwrap();
+            stream.write_rows(&[7; 3 * 2 * 10 * 4]).unwrap();
+            stream.finish().unwrap()
+        };
+        // Each hash map has an order of its own.
+        let first = file();
+        assert!((0..8).all(|_| file() == first));
+        assert_eq!(exr_complete_size(std::io::Cursor::new(&first)), Ok(Some([3, 2])));
+    }
 
     /// Compares with rays from the shaders' uniforms, by the shaders' formula.
     #[test]

@@ -13,6 +13,7 @@
 //! | `favourites` | the views that a person keeps |
 //! | `merge` | lists that two tabs edit at once |
 //! | `gallery` | the gallery that the page's address names |
+//! | [`file_progress`] | the file that is being fetched and decoded |
 //! | `selection` | the selected light, colour layer and gradient stops |
 //! | `loaded` | the environment map and gradients that people opened |
 //! | `panel/` | the panels, one per file |
@@ -78,6 +79,7 @@ mod widgets;
 
 pub mod accessibility;
 pub mod editor;
+pub mod file_progress;
 pub mod loss_policy;
 pub mod navigation;
 pub mod opening;

@@ -21,7 +21,10 @@ use super::{
 use crate::{
     gpu::Gpu,
     scene::document,
-    ui::{Action, DisplayInputs, GalleryState, KeptPicture, Sharing, StillFormat, theme},
+    ui::{
+        Action, DisplayInputs, GalleryState, KeptPicture, Sharing, StillFormat,
+        file_progress::SceneUse, theme,
+    },
 };
 
 /// The app on one device.
@@ -171,7 +174,9 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             if let Some(GalleryState::Ready { address, gallery }) = &session.gallery
                 && let Some(picture) = gallery.pictures.get(index)
             {
-                gallery::open_picture(address, picture, &session.mailbox);
+                let (name, mailbox) = (&picture.name, &session.mailbox);
+                let ticket = session.decoder.reserve(name, SceneUse::FlyInto, mailbox);
+                gallery::open_picture(address, picture, ticket, mailbox);
             }
         }
         Action::ToggleFullscreen => page::toggle_fullscreen(),

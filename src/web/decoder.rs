@@ -13,7 +13,10 @@ use super::{
     mailbox::{Mailbox, Message},
     page::{self, describe},
 };
-use crate::reading::visible;
+use crate::{
+    reading::visible,
+    ui::file_progress::{FileInProgress, FileProgress, SHOWN_AFTER_SECS, SceneUse},
+};
 
 // The functions of `www/decoder.js`, which `boot.js` puts there.
 #[wasm_bindgen(js_namespace = mandelightDecoder)]
@@ -30,17 +33,6 @@ extern "C" {
 
 /// Seconds after which a file is given up.
 const MAX_SECS: f64 = 60.0;
-/// Seconds after which the interface says that a file is read: most files are read sooner.
-const SHOWN_AFTER_SECS: f64 = 0.3;
-
-/// What to do with a scene that was read.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum SceneUse {
-    /// Show it at once.
-    Open,
-    /// Fly to it: a picture of the gallery.
-    FlyInto,
-}
 
 /// A fault of the worker, for tests.
 pub struct Fault {
@@ -50,21 +42,10 @@ pub struct Fault {
     pub max_secs: f64,
 }
 
-/// A file that is being read.
-pub struct FileInProgress {
-    /// The file's name, without control characters.
-    pub name: String,
-    /// What to do with its scene.
-    pub purpose: SceneUse,
-    ticket: u32,
-    since_secs: f64,
-}
-
 /// The decoder of files, at rest or at work on one.
 #[derive(Default)]
 pub struct Decoder {
-    reading: Option<FileInProgress>,
-    tickets: u32,
+    progress: FileProgress,
     /// The fault of the next file, for tests.
     pub fault: Option<Fault>,
 }
@@ -72,15 +53,25 @@ pub struct Decoder {
 impl Decoder {
     /// Reads `file` instead of the one being read. Posts [`Message::Decoded`].
     pub fn start(&mut self, name: String, file: Blob, purpose: SceneUse, mailbox: &Mailbox) {
-        self.tickets = self.tickets.wrapping_add(1);
-        let (ticket, mailbox) = (self.tickets, mailbox.clone());
-        let since_secs = page::now_secs();
-        let shown = visible(&name).into_owned();
-        self.reading = Some(FileInProgress { name: shown, purpose, ticket, since_secs });
-        let fault = self.fault.take();
+        let ticket = self.reserve(&name, purpose, mailbox);
+        self.decode(ticket, name, file, mailbox);
+    }
+
+    /// Ends the reading of another file for one that is yet to be fetched. Returns its ticket for [`Self::decode`].
+    pub fn reserve(&mut self, name: &str, purpose: SceneUse, mailbox: &Mailbox) -> u32 {
+        self.cancel();
         // The interface shows a file that takes long, also while nothing else moves.
         let waking = mailbox.clone();
         page::after_ms((1000.0 * SHOWN_AFTER_SECS) as i32 + 1, move || waking.wake());
+        self.progress.start(visible(name).into_owned(), purpose, page::now_secs())
+    }
+
+    /// Reads the file of `ticket`, unless a newer one or a cancellation replaced it. Posts [`Message::Decoded`].
+    pub fn decode(&mut self, ticket: u32, name: String, file: Blob, mailbox: &Mailbox) {
+        if !self.progress.is_current(ticket) {
+            return;
+        }
+        let (fault, mailbox) = (self.fault.take(), mailbox.clone());
         spawn_local(async move {
             let max_secs = fault.as_ref().map_or(MAX_SECS, |fault| fault.max_secs);
             let limits = limits(max_secs, fault);
@@ -94,7 +85,7 @@ impl Decoder {
 
     /// Stops reading. Returns whether a file was being read.
     pub fn cancel(&mut self) -> bool {
-        let was_reading = self.reading.take().is_some();
+        let was_reading = self.progress.cancel();
         if was_reading {
             cancel();
         }
@@ -103,18 +94,17 @@ impl Decoder {
 
     /// The file of `ticket`, which is read now; none if a newer one or a cancellation replaced it.
     pub fn finish(&mut self, ticket: u32) -> Option<FileInProgress> {
-        self.reading.take_if(|reading| reading.ticket == ticket)
+        self.progress.finish(ticket)
     }
 
     /// The name of a file that takes long to read.
     pub fn slow_file(&self, now_secs: f64) -> Option<&str> {
-        let reading = self.reading.as_ref()?;
-        (now_secs - reading.since_secs > SHOWN_AFTER_SECS).then_some(reading.name.as_str())
+        self.progress.slow_file(now_secs)
     }
 
     /// Whether a file is being read.
     pub fn is_busy(&self) -> bool {
-        self.reading.is_some()
+        self.progress.is_busy()
     }
 }
 

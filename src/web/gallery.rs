@@ -82,8 +82,8 @@ async fn read_list(address: &str) -> Result<Gallery, String> {
     Gallery::from_json(&text).map_err(|error| error.to_string())
 }
 
-/// Reads the scene of a picture in the folder at `address`, and posts it.
-pub fn open_picture(address: &str, picture: &Picture, mailbox: &Mailbox) {
+/// Fetches the scene of a picture in the folder at `address`, and posts it with its ticket.
+pub fn open_picture(address: &str, picture: &Picture, ticket: u32, mailbox: &Mailbox) {
     let (mailbox, name) = (mailbox.clone(), picture.name.clone());
     let address = format!("{address}{}", picture.file);
     spawn_local(async move {
@@ -93,7 +93,7 @@ pub fn open_picture(address: &str, picture: &Picture, mailbox: &Mailbox) {
             Err(error) => Err(error),
         };
         let content = content.map_err(|error| describe(&error));
-        mailbox.post(Message::GalleryPicture { name, content });
+        mailbox.post(Message::GalleryPicture { ticket, name, content });
     });
 }
 

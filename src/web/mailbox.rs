@@ -32,9 +32,11 @@ pub enum Message {
     Storage,
     /// The gallery of the address has been read, or can't be.
     Gallery(GalleryState),
-    /// A picture of the gallery was chosen.
+    /// A picture of the gallery has been fetched.
     GalleryPicture {
-        /// Its name, for notices.
+        /// The ticket of its decoder.
+        ticket: u32,
+        /// The picture's name.
         name: String,
         /// The file's start, which holds the scene, or why it could not be read.
         content: Result<web_sys::Blob, String>,

@@ -8,7 +8,7 @@ use std::{cell::RefCell, rc::Rc, sync::Arc};
 use super::{
     address::Address,
     autosave::{self, Autosave},
-    decoder::{Decoder, FileInProgress, SceneUse},
+    decoder::Decoder,
     device_loss,
     file_content::FileContent,
     files::{self, FilePicker},
@@ -23,6 +23,7 @@ use crate::{
     scene::{BackgroundKind, Project, Scene, link, presets},
     ui::{
         GalleryState, Interface, Notice, Settings,
+        file_progress::{FileInProgress, SceneUse},
         loss_policy::{SafeMode, Start},
         theme,
     },
@@ -326,9 +327,12 @@ impl Session {
                     stored::merge_stored_favourites(self.interface.favourites_mut());
                 }
                 Message::Gallery(state) => self.gallery = Some(state),
-                Message::GalleryPicture { name, content } => match content {
-                    Ok(file) => self.decoder.start(name, file, SceneUse::FlyInto, &self.mailbox),
-                    Err(reason) => self.show_unopened(&name, &reason),
+                Message::GalleryPicture { ticket, name, content } => match content {
+                    Ok(file) => self.decoder.decode(ticket, name, file, &self.mailbox),
+                    Err(reason) => {
+                        let Some(reading) = self.decoder.finish(ticket) else { continue };
+                        self.show_unopened(&reading.name, &reason);
+                    }
                 },
                 Message::Notice(text) => self.show_notice(text),
                 Message::Error(text) => self.show_error(text),

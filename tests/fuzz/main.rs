@@ -16,8 +16,8 @@ use std::{
 use cap::Cap;
 use fastrand::Rng;
 use mandelight_fuzzing::{
-    Outcome, TARGETS, Target,
-    meter::{Cost, MAX_HELD_BYTES, measured},
+    FuzzTarget, Outcome, TARGETS,
+    meter::{Allocations, MAX_HELD_BYTES, measured},
     mutated,
 };
 
@@ -48,7 +48,7 @@ fn root() -> PathBuf {
 }
 
 /// The files of a target's corpus, in the order of their names.
-fn corpus(target: &Target) -> Vec<(String, Vec<u8>)> {
+fn corpus(target: &FuzzTarget) -> Vec<(String, Vec<u8>)> {
     let folder = root().join("fuzz/corpus").join(target.name);
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
@@ -56,13 +56,17 @@ fn corpus(target: &Target) -> Vec<(String, Vec<u8>)> {
     files.iter().map(|file| (file.display().to_string(), fs::read(file).expect("a file"))).collect()
 }
 
-/// Checks an input, and its cost; stores an input that fails as `name`.
-fn check(target: &Target, bytes: &[u8], name: &dyn Fn() -> String) -> (Outcome, Cost) {
+/// Checks an input and its allocations; stores an input that fails as `name`.
+fn check(target: &FuzzTarget, bytes: &[u8], name: &dyn Fn() -> String) -> (Outcome, Allocations) {
     let run = || {
-        let (outcome, cost) = measured(&ALLOCATOR, || (target.check)(bytes));
-        assert!(cost.peak <= MAX_HELD_BYTES, "{} bytes are held at a time", cost.peak);
-        assert!(cost.total <= target.most_work, "{} bytes are allocated in all", cost.total);
-        (outcome, cost)
+        let (outcome, allocated) = measured(&ALLOCATOR, || (target.check)(bytes));
+        assert!(allocated.peak <= MAX_HELD_BYTES, "{} bytes are held at a time", allocated.peak);
+        assert!(
+            allocated.total <= target.most_work,
+            "{} bytes are allocated in all",
+            allocated.total
+        );
+        (outcome, allocated)
     };
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
         let file = root().join("target").join(format!("fuzz-failure-{}", target.name));
@@ -78,17 +82,17 @@ fn fuzz(name: &str) {
     let seeds = (target.seeds)();
     let corpus = corpus(target);
     let (mut most_total, mut most_held) = (0, 0);
-    let mut add = |cost: Cost| {
-        most_total = cost.total.max(most_total);
-        most_held = cost.peak.max(most_held);
+    let mut add = |allocated: Allocations| {
+        most_total = allocated.total.max(most_total);
+        most_held = allocated.peak.max(most_held);
     };
     for (file, bytes) in &corpus {
         add(check(target, bytes, &|| file.clone()).1);
     }
     for (number, bytes) in seeds.iter().enumerate() {
-        let (outcome, cost) = check(target, bytes, &|| format!("seed {number}"));
+        let (outcome, allocated) = check(target, bytes, &|| format!("seed {number}"));
         assert_eq!(outcome, Outcome::Read, "{name}: seed {number}");
-        add(cost);
+        add(allocated);
     }
 
     let mut inputs: Vec<&[u8]> = corpus.iter().map(|(_, bytes)| &bytes[..]).collect();
@@ -103,9 +107,10 @@ fn fuzz(name: &str) {
         let (first, other) = (pick(&mut rng), pick(&mut rng));
         // Some changes are added to those of the last input that was read.
         let base = if rng.u8(..4) == 0 && !last.is_empty() { &last[..] } else { first };
-        let input = mutated(target.mutate, &mut rng, base, other);
-        let (outcome, cost) = check(target, &input, &|| format!("number {number}, seed {seed}"));
-        add(cost);
+        let input = mutated(target.format, &mut rng, base, other);
+        let (outcome, allocated) =
+            check(target, &input, &|| format!("number {number}, seed {seed}"));
+        add(allocated);
         if outcome == Outcome::Read {
             read += 1;
             last = input;
@@ -148,7 +153,8 @@ fn the_corpus_is_small_and_each_target_has_a_fuzzer() {
     let folders: BTreeSet<String> =
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     assert_eq!(folders, names, "the folders of the corpus");
-    let size = |target: &Target| corpus(target).iter().map(|(_, b)| b.len() as u64).sum::<u64>();
+    let size =
+        |target: &FuzzTarget| corpus(target).iter().map(|(_, b)| b.len() as u64).sum::<u64>();
     let bytes: u64 = TARGETS.iter().map(size).sum();
     assert!(bytes <= MAX_CORPUS_BYTES, "the corpus has {bytes} bytes: minimise it");
     let sources = fs::read_dir(root().join("fuzz/fuzz_targets")).expect("the fuzzers");

@@ -73,8 +73,8 @@ fn the_largest_radiance_picture_is_read_row_by_row() {
 
 fn exr_file(size: [usize; 2], compression: Compression) -> Vec<u8> {
     let noise = |at: Vec2<usize>, k: usize| {
-        let bits =
-            (at.0 * 7919 + at.1 * 104_729 + k * 1_299_709).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let index = (at.0 * 7919 + at.1 * 104_729 + k * 1_299_709) as u64;
+        let bits = index.wrapping_mul(0x9e37_79b9_7f4a_7c15);
         f16::from_f32((bits >> 40) as f32 / 65536.0)
     };
     let channels = SpecificChannels::rgb(move |at| (noise(at, 0), noise(at, 1), noise(at, 2)));

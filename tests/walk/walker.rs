@@ -10,7 +10,7 @@ use mandelight::{
 };
 
 use crate::{
-    checks::Checked,
+    checks::LastChecked,
     shell,
     stage::{Stage, stage_with, unfolded},
     textures::Textures,
@@ -64,7 +64,7 @@ pub struct Walker {
     /// The window, in points.
     pub size: [f32; 2],
     pub is_hidden: bool,
-    pub checked: Checked,
+    pub last_checked: LastChecked,
     textures: Textures,
     seed: u64,
     actions: u64,
@@ -91,7 +91,7 @@ impl Walker {
             formulas,
             size,
             is_hidden: false,
-            checked: Checked::default(),
+            last_checked: LastChecked::default(),
             textures,
             seed,
             actions: 0,
@@ -236,7 +236,7 @@ impl Walker {
             self.key(Key::T, Modifiers::NONE);
         }
         self.run_frames(40);
-        self.checked = Checked::default();
+        self.last_checked = LastChecked::default();
     }
 
     /// Notes an action before it is done.

@@ -51,10 +51,12 @@ pub fn test() -> Result<()> {
 pub fn nightly() -> Result<()> {
     need::vulkan_driver()?;
     let mut failures = Vec::new();
-    let runs: [&[&str]; 3] = [
+    let runs: [&[&str]; 4] = [
         &["--release", "--test", "gpu", "random_views", "--", "--ignored", "--nocapture"],
         &["--release", "--test", "gpu", "hostile_scenes", "--", "--ignored", "--nocapture"],
         &["--release", "--test", "walk", "one_walk", "--", "--ignored", "--nocapture"],
+        // Its limit is lower without debug assertions.
+        &["--release", "--test", "walk", "memory", "--", "--nocapture"],
     ];
     for run in runs {
         let mut cargo = shell::cargo()?;

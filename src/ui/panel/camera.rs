@@ -12,7 +12,7 @@ use crate::{
         shortcuts::Command,
         status::{zoom, zoom_text},
         theme,
-        widgets::{Help as _, param_slider, param_slider_count},
+        widgets::{Help as _, button_row, param_slider, param_slider_count},
     },
 };
 
@@ -39,33 +39,30 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     }
     lens(ui, cx);
     stereo::show(ui, cx);
-    ui.columns(3, |columns| {
-        let mut button = |index: usize, name: &str, hover: &str, command: Command| {
-            let ui: &mut Ui = &mut columns[index];
-            let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
-            let chosen = command == Command::ToggleFlight && cx.flying;
-            let button = egui::Button::selectable(chosen, name).fill(if chosen {
-                ui.visuals().selection.bg_fill
-            } else {
-                theme::RAISED
-            });
-            if ui.add_sized(size, button.truncate()).help(hover).clicked() {
-                cx.commands.push(command);
-            }
-        };
-        button(
-            0,
+    let buttons = [
+        (
             "Home",
             "Fly back to the scene's first view; from a deep one, out to the whole fractal (H)",
             Command::Home,
-        );
-        button(1, "Frame all", "Show the whole fractal from this side (A)", Command::FrameAll);
-        button(
-            2,
+        ),
+        ("Frame all", "Show the whole fractal from this side (A)", Command::FrameAll),
+        (
             "Fly",
             "Fly with the keys W A S D and E Q; Shift is faster, a drag looks around (F)",
             Command::ToggleFlight,
-        );
+        ),
+    ];
+    button_row(ui, buttons.len(), |ui, index, size| {
+        let (name, hover, command) = buttons[index];
+        let chosen = command == Command::ToggleFlight && cx.flying;
+        let button = egui::Button::selectable(chosen, name).fill(if chosen {
+            ui.visuals().selection.bg_fill
+        } else {
+            theme::RAISED
+        });
+        if ui.add_sized(size, button.truncate()).help(hover).clicked() {
+            cx.commands.push(command);
+        }
     });
     let camera = &cx.scene.camera;
     let mut line = |name: &str, value: String, hover: &str| {

@@ -15,7 +15,7 @@ use crate::{
         shortcuts::Command,
         status::duration_text,
         theme,
-        widgets::{Help as _, caption, choice, number},
+        widgets::{Help as _, button_row, caption, choice, number},
     },
 };
 
@@ -165,22 +165,20 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.label(RichText::new(export.text(cx.view_px, layout)).small().color(theme::TEXT_DIM))
         .help("The size of the file of Save picture");
     caption(ui, "Scene");
-    ui.columns(3, |columns| {
-        let mut button = |index: usize, name: &str, hover: &str, command: Command| {
-            let ui: &mut Ui = &mut columns[index];
-            let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
-            if ui.add_sized(size, Button::new(name).truncate()).help(hover).clicked() {
-                cx.commands.push(command);
-            }
-        };
-        button(0, "Save scene", "Save the scene as a JSON file (Ctrl Shift S)", Command::SaveScene);
-        button(
-            1,
+    let buttons = [
+        ("Save scene", "Save the scene as a JSON file (Ctrl Shift S)", Command::SaveScene),
+        (
             "Open…",
             "Open a scene file, or a saved picture with its scene (Ctrl O)",
             Command::LoadScene,
-        );
-        button(2, "Copy link", "Copy a link to this view (L)", Command::CopyLink);
+        ),
+        ("Copy link", "Copy a link to this view (L)", Command::CopyLink),
+    ];
+    button_row(ui, buttons.len(), |ui, index, size| {
+        let (name, hover, command) = buttons[index];
+        if ui.add_sized(size, Button::new(name).truncate()).help(hover).clicked() {
+            cx.commands.push(command);
+        }
     });
 }
 

@@ -82,6 +82,8 @@ fn list(ui: &mut Ui, cx: &mut Context<'_>, state: &mut State) -> Option<Change> 
         ui.push_id(place, |ui| {
             let row = ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 4.0;
+                // A wider number would widen the panel.
+                ui.spacing_mut().button_padding.x = 2.0;
                 let handle = handle(ui, &format!("Move step {}", place + 1));
                 if handle.drag_started() {
                     state.dragged = Some(place);

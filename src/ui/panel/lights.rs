@@ -1,5 +1,6 @@
 //! The lights panel: a list of lights, and the selected light's properties.
 
+use egui::emath::GuiRounding as _;
 use egui::{Button, Id, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
@@ -211,12 +212,16 @@ fn row(
 
 /// Width of a row's switches, in points.
 const TOGGLE_WIDTH: f32 = 46.0;
+/// Space beside a switch's word, in points.
+const TOGGLE_PADDING: f32 = 2.0;
 
 fn toggle(ui: &mut Ui, word: &str, name: &str, hover: &str, on: &mut bool) {
     let side = ui.spacing().interact_size.y;
     let fill = if *on { theme::ACCENT } else { theme::RAISED };
     let text =
         RichText::new(word).small().color(if *on { theme::ON_ACCENT } else { theme::TEXT_DIM });
+    // A wider button would widen the panel.
+    ui.spacing_mut().button_padding.x = TOGGLE_PADDING;
     let response =
         ui.add_sized(vec2(side.max(TOGGLE_WIDTH), side), Button::new(text).fill(fill)).help(hover);
     if response.clicked() {
@@ -231,7 +236,8 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
     let full = format!("A scene has at most {MAX_LIGHTS} lights.");
     let size = |ui: &Ui| {
         vec2(
-            (ui.available_width() - ui.spacing().item_spacing.x) / 2.0,
+            // Rounded up, the buttons would widen the panel.
+            ((ui.available_width() - ui.spacing().item_spacing.x) / 2.0).floor_ui(),
             ui.spacing().interact_size.y,
         )
     };

@@ -1,6 +1,7 @@
 //! Collapsible sections, captions, and choices between a few options.
 
 use super::hover::Help as _;
+use egui::emath::GuiRounding as _;
 use egui::{
     Button, Response, RichText, Sense, Ui, Vec2, WidgetInfo, accesskit::Role,
     collapsing_header::CollapsingState, pos2, vec2,
@@ -89,15 +90,17 @@ pub fn choice<T: PartialEq + Copy>(
 const CHOICE_PADDING: f32 = 4.0;
 
 /// Widths of buttons with these texts that share `total`: equal ones, unless a text is too long for them and all have room.
+///
+/// Multiples of egui's unit of layout: egui would round others up, and each row would widen the panel.
 fn choice_widths(text_widths: &[f32], total: f32, columns: usize) -> Vec<f32> {
     let equal = total / columns as f32;
     let needed: Vec<f32> = text_widths.iter().map(|width| width + 2.0 * CHOICE_PADDING).collect();
     let slack = total - needed.iter().sum::<f32>();
     let is_full = needed.len() == columns;
     if is_full && slack >= 0.0 && needed.iter().any(|width| *width > equal) {
-        needed.iter().map(|width| width + slack / columns as f32).collect()
+        needed.iter().map(|width| (width + slack / columns as f32).floor_ui()).collect()
     } else {
-        vec![equal; needed.len()]
+        vec![equal.floor_ui(); needed.len()]
     }
 }
 
@@ -105,7 +108,8 @@ fn choice_widths(text_widths: &[f32], total: f32, columns: usize) -> Vec<f32> {
 pub fn button_row(ui: &mut Ui, count: usize, mut add: impl FnMut(&mut Ui, usize, Vec2)) {
     let gap = 4.0;
     let width = (ui.available_width() - gap * (count as f32 - 1.0)) / count.max(1) as f32;
-    let size = vec2(width, ui.spacing().interact_size.y);
+    // Rounded up, the buttons would widen the panel.
+    let size = vec2(width.floor_ui(), ui.spacing().interact_size.y);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = gap;
         ui.spacing_mut().button_padding.x = 2.0;
@@ -174,5 +178,14 @@ mod tests {
         // Without room for all, or with a gap in the row, the texts are cut.
         assert_eq!(choice_widths(&[90.0, 90.0, 20.0], 180.0, 3), [60.0; 3]);
         assert_eq!(choice_widths(&[90.0], 180.0, 3), [60.0]);
+    }
+
+    #[test]
+    fn buttons_of_a_choice_are_not_wider_than_their_row() {
+        for (texts, total) in [(vec![30.0; 3], 100.0), (vec![30.0, 70.0, 30.0], 200.3)] {
+            let widths = choice_widths(&texts, total, texts.len());
+            assert!(widths.iter().all(|width| width.round_ui() == *width), "{widths:?}");
+            assert!(widths.iter().sum::<f32>() <= total, "{widths:?}");
+        }
     }
 }

@@ -4,15 +4,15 @@ use clap::Parser as _;
 use mandelight::reading::visible_lines;
 
 use crate::{
-    Mutate, Outcome, Target,
+    FuzzTarget, InputFormat, Outcome,
     command::{CommandLine, explanation},
 };
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "command_line",
     check,
     seeds,
-    mutate: Mutate::Words,
+    format: InputFormat::Words,
     hundreds: 40,
     most_work: 4 << 20,
 };

@@ -9,15 +9,15 @@ use mandelight::scene::{
 };
 
 use crate::{
-    Mutate, Outcome, Target,
+    FuzzTarget, InputFormat, Outcome,
     promises::{project_holds, refused},
 };
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "document",
     check,
     seeds,
-    mutate: Mutate::Json,
+    format: InputFormat::Json,
     hundreds: 200,
     most_work: 32 << 20,
 };

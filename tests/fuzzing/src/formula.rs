@@ -7,13 +7,13 @@ use mandelight::formula::{
     own,
 };
 
-use crate::{Mutate, Outcome, Target, promises::refused};
+use crate::{FuzzTarget, InputFormat, Outcome, promises::refused};
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "formula",
     check,
     seeds,
-    mutate: Mutate::Words,
+    format: InputFormat::Words,
     hundreds: 100,
     most_work: 64 << 20,
 };

@@ -2,13 +2,13 @@
 
 use mandelight::scene::gallery::{Gallery, MAX_PICTURES, is_in_folder};
 
-use crate::{Mutate, Outcome, Target, promises::refused};
+use crate::{FuzzTarget, InputFormat, Outcome, promises::refused};
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "gallery",
     check,
     seeds,
-    mutate: Mutate::Json,
+    format: InputFormat::Json,
     hundreds: 40,
     most_work: 2 << 20,
 };

@@ -2,13 +2,13 @@
 
 use mandelight::scene::{MAX_GRADIENT_STOPS, Scene, gradient};
 
-use crate::{Mutate, Outcome, Target, promises::refused};
+use crate::{FuzzTarget, InputFormat, Outcome, promises::refused};
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "gradient",
     check,
     seeds,
-    mutate: Mutate::Words,
+    format: InputFormat::Words,
     hundreds: 60,
     most_work: 64 << 20,
 };

@@ -10,10 +10,16 @@ use mandelight::{
     scene::document,
 };
 
-use crate::{Mutate, Outcome, Target, document::projects, promises};
+use crate::{FuzzTarget, InputFormat, Outcome, document::projects, promises};
 
-pub const TARGET: Target =
-    Target { name: "jpeg", check, seeds, mutate: Mutate::Jpeg, hundreds: 60, most_work: 16 << 20 };
+pub const TARGET: FuzzTarget = FuzzTarget {
+    name: "jpeg",
+    check,
+    seeds,
+    format: InputFormat::Jpeg,
+    hundreds: 60,
+    most_work: 16 << 20,
+};
 
 fn check(bytes: &[u8]) -> Outcome {
     if let Err(error) = jpeg_complete_size(Cursor::new(bytes)) {

@@ -29,7 +29,8 @@ mod png;
 mod radiance;
 mod webp;
 
-pub use mutate::{Mutate, mutated};
+pub use mutate::{InputFormat, mutated};
+pub use openexr::COMPRESSIONS as OPENEXR_COMPRESSIONS;
 
 /// Whether bytes are read or refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,15 +42,15 @@ pub enum Outcome {
 }
 
 /// A reader under test.
-pub struct Target {
+pub struct FuzzTarget {
     /// The name, also of the folder of its corpus.
     pub name: &'static str,
     /// Reads bytes, and panics where a promise is broken.
     pub check: fn(&[u8]) -> Outcome,
     /// Bytes that are read, to start from.
     pub seeds: fn() -> Vec<Vec<u8>>,
-    /// The form that changes keep.
-    pub mutate: Mutate,
+    /// The format that changes keep.
+    pub format: InputFormat,
     /// Inputs of the ordinary tests, in hundreds: more for what is read more often or costs less.
     pub hundreds: usize,
     /// Most bytes that are allocated in all for any input: a measure of work.
@@ -60,7 +61,7 @@ pub struct Target {
 pub const MAX_INPUT_BYTES: usize = 64 << 10;
 
 /// Every target.
-pub const TARGETS: [Target; 11] = [
+pub const TARGETS: [FuzzTarget; 11] = [
     document::TARGET,
     link::TARGET,
     formula::TARGET,
@@ -78,7 +79,7 @@ pub const TARGETS: [Target; 11] = [
 ///
 /// # Panics
 /// If there is none.
-pub fn target(name: &str) -> &'static Target {
-    static ALL: [Target; 11] = TARGETS;
+pub fn target(name: &str) -> &'static FuzzTarget {
+    static ALL: [FuzzTarget; 11] = TARGETS;
     ALL.iter().find(|target| target.name == name).expect("a target of this name")
 }

@@ -3,12 +3,18 @@
 use mandelight::scene::link::{self, MAX_FRAGMENT_BYTES};
 
 use crate::{
-    Mutate, Outcome, Target, document,
+    FuzzTarget, InputFormat, Outcome, document,
     promises::{project_holds, refused},
 };
 
-pub const TARGET: Target =
-    Target { name: "link", check, seeds, mutate: Mutate::Link, hundreds: 150, most_work: 32 << 20 };
+pub const TARGET: FuzzTarget = FuzzTarget {
+    name: "link",
+    check,
+    seeds,
+    format: InputFormat::Link,
+    hundreds: 150,
+    most_work: 32 << 20,
+};
 
 fn check(bytes: &[u8]) -> Outcome {
     let Ok(fragment) = str::from_utf8(bytes) else { return Outcome::Refused };

@@ -9,7 +9,7 @@ pub const MAX_HELD_BYTES: usize = 64 << 20;
 
 /// What a call allocated.
 #[derive(Clone, Copy, Debug)]
-pub struct Cost {
+pub struct Allocations {
     /// Bytes of all allocations: a measure of work, which other programs do not disturb.
     pub total: usize,
     /// Most bytes that were held at a time beyond those before the call. An upper bound: the allocator knows the highest
@@ -18,7 +18,7 @@ pub struct Cost {
 }
 
 /// The result of `call`, and what the call allocated. No other thread may allocate meanwhile.
-pub fn measured<T>(allocator: &Cap<System>, call: impl FnOnce() -> T) -> (T, Cost) {
+pub fn measured<T>(allocator: &Cap<System>, call: impl FnOnce() -> T) -> (T, Allocations) {
     let (held, total) = (allocator.allocated(), allocator.total_allocated());
     let before = allocator.max_allocated();
     let result = call();
@@ -27,5 +27,5 @@ pub fn measured<T>(allocator: &Cap<System>, call: impl FnOnce() -> T) -> (T, Cos
     let is_known = highest > before || before.saturating_sub(held) <= MAX_HELD_BYTES;
     let peak = if is_known { highest.saturating_sub(held) } else { 0 };
     // On 32 bits the sum starts again after 4 GiB.
-    (result, Cost { total: allocator.total_allocated().wrapping_sub(total), peak })
+    (result, Allocations { total: allocator.total_allocated().wrapping_sub(total), peak })
 }

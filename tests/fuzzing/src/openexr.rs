@@ -12,16 +12,16 @@ use mandelight::{
 };
 
 use crate::{
-    Mutate, Outcome, Target,
+    FuzzTarget, InputFormat, Outcome,
     promises::{project_holds, refused},
     radiance::map_holds,
 };
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "openexr",
     check,
     seeds,
-    mutate: Mutate::OpenExr,
+    format: InputFormat::OpenExr,
     hundreds: 120,
     most_work: 64 << 20,
 };
@@ -55,21 +55,23 @@ fn check(bytes: &[u8]) -> Outcome {
     }
 }
 
+/// Every OpenEXR compression that the `exr` crate can write.
+pub const COMPRESSIONS: [Compression; 10] = [
+    Compression::Uncompressed,
+    Compression::RLE,
+    Compression::ZIP1,
+    Compression::ZIP16,
+    Compression::PIZ,
+    Compression::PXR24,
+    Compression::B44,
+    Compression::B44A,
+    Compression::DWAA(None),
+    Compression::DWAB(None),
+];
+
 /// A small picture of each compression, in rows and in tiles.
 fn seeds() -> Vec<Vec<u8>> {
-    let compressions = [
-        Compression::Uncompressed,
-        Compression::RLE,
-        Compression::ZIP1,
-        Compression::ZIP16,
-        Compression::PIZ,
-        Compression::PXR24,
-        Compression::B44,
-        Compression::B44A,
-        Compression::DWAA(None),
-        Compression::DWAB(None),
-    ];
-    let kinds = compressions.into_iter().enumerate();
+    let kinds = COMPRESSIONS.into_iter().enumerate();
     kinds
         .flat_map(|(i, compression)| {
             let tiles = Blocks::Tiles(Vec2(32, 32));

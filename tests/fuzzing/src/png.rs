@@ -10,10 +10,16 @@ use mandelight::{
     scene::document,
 };
 
-use crate::{Mutate, Outcome, Target, document::projects, promises};
+use crate::{FuzzTarget, InputFormat, Outcome, document::projects, promises};
 
-pub const TARGET: Target =
-    Target { name: "png", check, seeds, mutate: Mutate::Png, hundreds: 120, most_work: 16 << 20 };
+pub const TARGET: FuzzTarget = FuzzTarget {
+    name: "png",
+    check,
+    seeds,
+    format: InputFormat::Png,
+    hundreds: 120,
+    most_work: 16 << 20,
+};
 
 fn check(bytes: &[u8]) -> Outcome {
     let text = export::picture_scene_text(bytes).filter(|_| export::is_png(bytes));

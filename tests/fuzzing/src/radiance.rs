@@ -2,13 +2,13 @@
 
 use mandelight::scene::environment_map::{EnvironmentMap, MAX_RADIANCE, MAX_SIZE_PX, decode};
 
-use crate::{Mutate, Outcome, Target, promises::refused};
+use crate::{FuzzTarget, InputFormat, Outcome, promises::refused};
 
-pub const TARGET: Target = Target {
+pub const TARGET: FuzzTarget = FuzzTarget {
     name: "radiance",
     check,
     seeds,
-    mutate: Mutate::Radiance,
+    format: InputFormat::Radiance,
     hundreds: 110,
     most_work: 64 << 20,
 };

@@ -8,23 +8,11 @@ use exr::prelude::{
 };
 use glam::Vec3;
 use image::{ImageDecoder as _, codecs::hdr::HdrDecoder};
+use mandelight_fuzzing::OPENEXR_COMPRESSIONS as COMPRESSIONS;
 use proptest::prelude::*;
 
 use super::*;
 use crate::reading::openexr::MAX_ATTRIBUTES;
-
-const COMPRESSIONS: [Compression; 10] = [
-    Compression::Uncompressed,
-    Compression::RLE,
-    Compression::ZIP1,
-    Compression::ZIP16,
-    Compression::PIZ,
-    Compression::PXR24,
-    Compression::B44,
-    Compression::B44A,
-    Compression::DWAA(None),
-    Compression::DWAB(None),
-];
 
 fn pixels(bytes: &[u8]) -> Result<Vec<Vec3>, DecodeError> {
     decode("a", bytes).map(|environment_map| environment_map.pixels().to_vec())

@@ -23,9 +23,9 @@ use miniz_oxide::{deflate::compress_to_vec, inflate::decompress_to_vec_with_limi
 
 use crate::MAX_INPUT_BYTES;
 
-/// The form that changes keep.
+/// The format that changes keep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mutate {
+pub enum InputFormat {
     /// Words, numbers and lines.
     Words,
     /// JSON values.
@@ -45,19 +45,19 @@ pub enum Mutate {
 }
 
 /// `input` with a few changes, perhaps with parts of `other`; one in eight keeps no form.
-pub fn mutated(form: Mutate, rng: &mut Rng, input: &[u8], other: &[u8]) -> Vec<u8> {
+pub fn mutated(format: InputFormat, rng: &mut Rng, input: &[u8], other: &[u8]) -> Vec<u8> {
     let mut changed = if rng.u8(..8) == 0 {
         bytes::mutated(rng, input, other)
     } else {
-        match form {
-            Mutate::Words => words::mutated(rng, input, other),
-            Mutate::Json => json::mutated(rng, input, other),
-            Mutate::Link => link(rng, input, other),
-            Mutate::Png => pictures::png(rng, input, other),
-            Mutate::Jpeg => pictures::jpeg(rng, input, other),
-            Mutate::WebP => pictures::webp(rng, input, other),
-            Mutate::OpenExr => environments::openexr(rng, input, other),
-            Mutate::Radiance => environments::radiance(rng, input, other),
+        match format {
+            InputFormat::Words => words::mutated(rng, input, other),
+            InputFormat::Json => json::mutated(rng, input, other),
+            InputFormat::Link => link(rng, input, other),
+            InputFormat::Png => pictures::png(rng, input, other),
+            InputFormat::Jpeg => pictures::jpeg(rng, input, other),
+            InputFormat::WebP => pictures::webp(rng, input, other),
+            InputFormat::OpenExr => environments::openexr(rng, input, other),
+            InputFormat::Radiance => environments::radiance(rng, input, other),
         }
     };
     changed.truncate(MAX_INPUT_BYTES);
