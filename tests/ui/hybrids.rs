@@ -107,3 +107,18 @@ fn each_step_has_controls_of_its_own_parameters() {
     assert_eq!(scene(&harness).fractal.hybrid().expect("a hybrid").loop_start, 1);
     assert!(harness.query_by_label("1 Mandelbox (once)").is_some());
 }
+
+#[test]
+fn a_long_text_in_the_number_of_repeats_does_not_widen_the_panel() {
+    let mut harness = with_steps(&["mandelbox", "twist"]);
+    let panel = |harness: &Harness<'_, Stage>| harness.state().interface.rects().get("panel");
+    let before = panel(&harness);
+    harness.get_by_label("Repeats of step 2").focus();
+    harness.run();
+    harness.event(egui::Event::Paste("length(z) ".repeat(500)));
+    for _ in 0..4 {
+        harness.step();
+    }
+    assert!(before.is_some());
+    assert_eq!(panel(&harness), before);
+}

@@ -170,7 +170,9 @@ fn handle(ui: &mut Ui, name: &str) -> egui::Response {
 
 fn repeats(ui: &mut Ui, place: usize, step: &mut HybridStep) {
     let range = REPEATS.min as u32..=REPEATS.max as u32;
-    let value = DragValue::new(&mut step.repeats).range(range).prefix("× ").speed(0.1);
+    // A pasted text may be of any length.
+    let value =
+        DragValue::new(&mut step.repeats).range(range).prefix("× ").speed(0.1).clip_text(true);
     let size = vec2(56.0, ui.spacing().interact_size.y);
     let response = ui.add_sized(size, value).help(REPEATS.help);
     let name = format!("Repeats of step {}", place + 1);
