@@ -90,7 +90,7 @@ impl Watched {
     }
 }
 
-/// Measures both sets of scenes.
+/// Measures all sets of scenes.
 pub fn measure(pipelines: &Arc<Pipelines>, size_px: Option<[u32; 2]>) -> Vec<Row> {
     let _poller = Poller::new(&pipelines.gpu);
     let region = Region::whole(size_px.unwrap_or(SIZE_PX));

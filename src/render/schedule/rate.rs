@@ -43,7 +43,8 @@ const MANY_PIECES: usize = 6;
 /// otherwise explain openings that are too dense, and no refining piece corrects it while a movement lasts.
 const MAX_FIXED_OF_FEW: f64 = 0.5;
 
-/// Two openings in a row that cost so many times what refining pieces predict show another view. Rays of a sparse lattice have little in common: up to twice the cost is normal.
+/// Two openings in a row that cost so many times what refining pieces predict show another view; one opening of a jump
+/// shows a much more expensive one. Rays of a sparse lattice have little in common: up to twice the cost is normal.
 const OTHER_VIEW: f64 = 3.0;
 
 /// One piece of work.
@@ -51,6 +52,13 @@ const OTHER_VIEW: f64 = 3.0;
 struct Measurement {
     rays: f64,
     ms: f64,
+}
+
+impl Measurement {
+    /// The time of an opening's rays beside a fixed time, milliseconds.
+    fn rays_ms(&self, fixed_ms: f64) -> f64 {
+        (self.ms - fixed_ms).max((1.0 - MAX_FIXED_OF_FEW) * self.ms)
+    }
 }
 
 /// An estimate of what one kind of work costs.
@@ -137,11 +145,10 @@ impl CostHistory {
     /// Forgets most of what other views cost, and all of it where the opening shows a much more expensive view: pieces
     /// sized by a cheap one could take seconds.
     fn learn_jump(&mut self, opening: Measurement) {
-        let Measurement { rays, ms } = opening;
-        self.most_rays = rays;
+        self.most_rays = opening.rays;
         let Some(rate) = self.refining.or(self.opening) else { return };
-        let rays_ms = (ms - rate.fixed_ms).max((1.0 - MAX_FIXED_OF_FEW) * ms);
-        let kept = if rays_ms > OTHER_VIEW * rate.ray_ms * rays {
+        let expected_ms = rate.ray_ms * opening.rays;
+        let kept = if opening.rays_ms(rate.fixed_ms) > OTHER_VIEW * expected_ms {
             self.openings.clear();
             0
         } else {
@@ -165,9 +172,7 @@ impl CostHistory {
         push(&mut self.openings, OPENINGS, opening);
         // Openings are too few, and of too many views, to separate their own fixed cost.
         let fixed_ms = self.refining.or(self.opening).map_or(0.0, |rate| rate.fixed_ms);
-        let ray_ms = |opening: &Measurement| {
-            (opening.ms - fixed_ms).max((1.0 - MAX_FIXED_OF_FEW) * opening.ms) / opening.rays
-        };
+        let ray_ms = |opening: &Measurement| opening.rays_ms(fixed_ms) / opening.rays;
         self.opening = quantile(OPENINGS_QUANTILE, self.openings.iter().map(ray_ms).collect())
             .map(|ray_ms| Rate { fixed_ms, ray_ms, max_rays: GROWTH * opening.rays });
     }
