@@ -2,6 +2,10 @@
 
 use std::{fs::File, io::BufReader, path::Path};
 
+use image::{
+    Rgba, RgbaImage,
+    imageops::{self, FilterType},
+};
 use mandelight_test_support::beauty::Beauty;
 
 /// An RGBA picture, eight bits a channel, row by row from the top.
@@ -71,10 +75,15 @@ impl Picture {
         Difference { mean: sum as f64 / (3 * count) as f64, notable: notable as f64 / count as f64 }
     }
 
-    /// Measures of whether the picture is worth seeing.
+    /// Measures of whether the picture is worth seeing, at the height that their limits are for.
     pub fn beauty(&self) -> Beauty {
-        let rgb: Vec<[u8; 3]> = self.rgba.chunks_exact(4).map(|p| [p[0], p[1], p[2]]).collect();
-        Beauty::of(&rgb, self.size_px[0] as usize)
+        let [width, height] = self.size_px;
+        let picture = RgbaImage::from_raw(width, height, self.rgba.clone()).expect("all pixels");
+        let small_width = (width * Beauty::HEIGHT_PX).div_ceil(height);
+        let small =
+            imageops::resize(&picture, small_width, Beauty::HEIGHT_PX, FilterType::Triangle);
+        let rgb: Vec<[u8; 3]> = small.pixels().map(|&Rgba([r, g, b, _])| [r, g, b]).collect();
+        Beauty::of(&rgb, small_width as usize)
     }
 
     /// The mean of each channel, 0 to 255.

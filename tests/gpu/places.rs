@@ -26,7 +26,7 @@ use mandelight_test_support::{
     view::{finished, rgb, sampled},
 };
 
-const SIZE_PX: [u32; 2] = [144, 96];
+const SIZE_PX: [u32; 2] = [144, Beauty::HEIGHT_PX];
 const ASPECT: f64 = 1.5;
 const SAMPLES: u32 = 2;
 const DEPTHS: [f64; 4] = [1e-3, 1e-6, 1e-10, 1e-20];

@@ -15,6 +15,10 @@ pub struct Beauty {
 }
 
 impl Beauty {
+    /// Height of the pictures that [`Beauty::is_good`] is for, in pixels: in a larger one, a block
+    /// of 16 pixels holds less of the view and has less contrast.
+    pub const HEIGHT_PX: u32 = 96;
+
     /// Measures `pixels`, sRGB, of rows of `width` pixels.
     pub fn of(pixels: &[[u8; 3]], width: usize) -> Self {
         let luminance: Vec<f64> = pixels
