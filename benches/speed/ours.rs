@@ -13,7 +13,7 @@ use mandelight::{
         pass::{self, Pass},
         pipelines::FramePipelines,
         recorder::{Dispatches, Recorder},
-        schedule::{BATCH_WORKGROUPS, Points, Stage, Trace},
+        schedule::{BATCH_WORKGROUPS, KeptPixels, Points, Stage, Trace},
         shaders,
         sky::SampledSky,
         space::RenderSpace,
@@ -240,6 +240,7 @@ impl<'a> PassRunner<'a> {
             lights,
             first_workgroup,
             workgroups: BATCH_WORKGROUPS.min(all - first_workgroup),
+            kept: KeptPixels::default(),
         })
     }
 

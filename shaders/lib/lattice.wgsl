@@ -90,6 +90,11 @@ fn inside_region(pixel: vec2u) -> bool {
     return all(pixel < frame.size_px);
 }
 
+// Whether a pixel already holds what the dispatch would compute.
+fn is_kept(pixel: vec2u) -> bool {
+    return all(pixel >= dispatch.kept_first) && all(pixel < dispatch.kept_end);
+}
+
 // The index of a pixel in film arrays.
 fn pixel_index(pixel: vec2u) -> u32 {
     return pixel.y * frame.size_px.x + pixel.x;
@@ -97,7 +102,7 @@ fn pixel_index(pixel: vec2u) -> u32 {
 
 // A sample, which one thread of a block computes.
 struct Site {
-    // False for pixels outside the region and for samples past the requested number.
+    // False for pixels outside the region or kept, and for samples past the requested number.
     is_there: bool,
     pixel: vec2u,
     // Index among the samples of the pixel that are computed together.
@@ -118,7 +123,8 @@ fn block_site(block: Block, place: u32) -> Site {
     let pixel = pixel_at(block.corner + at);
     let ray = block.index * BLOCK_THREADS + place;
     let index = select(pixel_index(pixel), ray, dispatch.compact != 0u);
-    return Site(inside_region(pixel) && sample < dispatch.samples, pixel, sample, index, ray);
+    let is_there = inside_region(pixel) && !is_kept(pixel) && sample < dispatch.samples;
+    return Site(is_there, pixel, sample, index, ray);
 }
 
 // The first sample of a pixel whose thread loops over all samples of the pixel.

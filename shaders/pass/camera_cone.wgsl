@@ -38,11 +38,20 @@ fn is_converged(block: Block) -> bool {
     return inside_region(pixel) && moments[pixel_index(pixel)] < 0.0;
 }
 
+// Whether the dispatch computes any sample of a block.
+fn has_work(block: Block) -> bool {
+    for (var i = 0u; i < BLOCK_THREADS; i++) {
+        if (block_site(block, i).is_there) { return true; }
+    }
+    return false;
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) thread: vec3u) {
     frame = frame_uniforms;
     if (thread.x >= dispatch.blocks) { return; }
     let block = block_at(thread.x);
+    if (!has_work(block)) { return; }
     if (is_converged(block)) {
         for (var i = 0u; i < BLOCK_THREADS; i++) { surface[block_site(block, i).index].x = SKIPPED; }
         return;

@@ -13,6 +13,9 @@ struct DispatchParams {
     // visited: coprime to the counts, so that a dispatch spreads over the whole region.
     workgroups: vec2u,
     scatter: vec2u,
+    // Pixels that the dispatch leaves as they are: from the first to before the end.
+    kept_first: vec2u,
+    kept_end: vec2u,
     // Position of the first sample inside its pixel, 0 to 1.
     jitter: vec2f,
     // 1: G-buffer records are packed in dispatch order; 0: one record per pixel of the region.

@@ -37,6 +37,7 @@
 //! | `noise_control` | ends a picture of light paths at the noise asked for |
 //! | `histogram_readback` | readback of the film's histogram |
 //! | [`report`] | the status of a view |
+//! | `reuse` | moves samples to the buffers of another size |
 
 pub mod albedo_table;
 mod anchors;
@@ -64,6 +65,7 @@ mod reconstruction;
 pub mod recorder;
 mod region;
 pub mod report;
+mod reuse;
 pub mod samples;
 pub mod schedule;
 pub mod shaders;

@@ -6,7 +6,7 @@
 //! values from the uniforms and draws until a special variant is compiled.
 
 use super::{
-    schedule::{Display, Points, Stage, Trace, Work},
+    schedule::{Display, KeptPixels, Points, Stage, Trace, Work},
     uniforms::Inputs,
 };
 use crate::formula::{FormulaRef, Kernel};
@@ -181,7 +181,14 @@ pub static POST: PipelineSet = PipelineSet {
 pub const SPECIALIZED: [&PipelineSet; 6] = [&RAYS, &NORMALS, &MEDIUM, &SCATTER, &SHADE, &TONE];
 
 fn trace(points: Points, from: Stage) -> Work {
-    Work::Trace(Trace { points, from, lights: 1, first_workgroup: 0, workgroups: 0 })
+    Work::Trace(Trace {
+        points,
+        from,
+        lights: 1,
+        first_workgroup: 0,
+        workgroups: 0,
+        kept: KeptPixels::default(),
+    })
 }
 
 fn path_rehearsal() -> Vec<Work> {
@@ -189,7 +196,13 @@ fn path_rehearsal() -> Vec<Work> {
 }
 
 fn display(level: u32) -> Work {
-    Work::Display(Display { level, fill: false, from_film: false, adapt: 1.0 })
+    Work::Display(Display {
+        level,
+        fill: false,
+        from_film: false,
+        adapt: 1.0,
+        kept: KeptPixels::default(),
+    })
 }
 
 impl PipelineSet {

@@ -18,8 +18,10 @@ impl Reconstruction {
     ///
     /// `is_plain`: no pass reads the whole film. `finest`: the finest level whose samples fit the buffer.
     pub fn upsample_level(&mut self, work: Work, is_plain: bool, finest: u32) -> Option<u32> {
-        let (level, fill, from_film) = match work {
-            Work::Display(Display { level, fill, from_film, .. }) => (level, fill, from_film),
+        let (level, fill, from_film, kept) = match work {
+            Work::Display(Display { level, fill, from_film, kept, .. }) => {
+                (level, fill, from_film, kept)
+            }
             Work::Trace(trace) => {
                 self.is_filled &= !matches!(trace.points, Points::Level(_));
                 return None;
@@ -30,6 +32,8 @@ impl Reconstruction {
         }
         // Filling the film amid a level would overwrite the level's samples: an unfilled film waits for
         // the next complete level.
+        // The film shows more of kept pixels than the lattice.
+        let is_plain = is_plain && kept.share == 0.0;
         if (is_plain && level >= finest && !from_film) || !(fill || self.is_filled) {
             return Some(level.max(finest));
         }
@@ -41,7 +45,7 @@ impl Reconstruction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::schedule::{Stage, Trace};
+    use crate::render::schedule::{KeptPixels, Stage, Trace};
 
     fn trace(points: Points) -> Work {
         Work::Trace(Trace {
@@ -50,11 +54,18 @@ mod tests {
             lights: 0,
             first_workgroup: 0,
             workgroups: 1,
+            kept: KeptPixels::default(),
         })
     }
 
     fn display(fill: bool, from_film: bool) -> Work {
-        Work::Display(Display { level: 4, fill, from_film, adapt: 1.0 })
+        Work::Display(Display {
+            level: 4,
+            fill,
+            from_film,
+            adapt: 1.0,
+            kept: KeptPixels::default(),
+        })
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::{
     layouts::Layouts,
     pipeline_set::PipelineSet,
     post::{Post, Tasks},
-    schedule::{BATCH_WORKGROUPS, Display, Points, Stage, Trace},
+    schedule::{BATCH_WORKGROUPS, Display, KeptPixels, Points, Stage, Trace},
     targets::{DISPATCH_PARAMS_STRIDE_BYTES, MAX_DISPATCHES, Targets},
     uniforms::{DispatchParams, Inputs},
     work_queues::{BLOCK_THREADS, Queue},
@@ -254,6 +254,7 @@ impl<'a> Recorder<'a> {
         let mut params = grid.dispatch_params(trace.first_workgroup);
         params.starts_at_surface = u32::from(trace.from > Stage::March);
         params.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);
+        (params.kept_first, params.kept_end) = (trace.kept.first, trace.kept.end);
         if let Points::Samples { first, count } = trace.points {
             let skipped = self.inputs.sub_frame.map_or(0, |sub_frame| sub_frame.first_sample);
             params.jitter = lattice::jitter(first + skipped);
@@ -268,13 +269,24 @@ impl<'a> Recorder<'a> {
         params
     }
 
-    /// Adds dispatches over a whole grid, for a lattice of `spacing` pixels.
-    pub fn dispatch_grid(&mut self, pipeline: &PassPipeline, grid: &Grid, spacing: u32) {
+    /// Adds dispatches over a whole grid but its `kept` pixels, for a lattice of `spacing` pixels.
+    pub fn dispatch_grid(
+        &mut self,
+        pipeline: &PassPipeline,
+        grid: &Grid,
+        spacing: u32,
+        kept: KeptPixels,
+    ) {
         // Splits a grid that exceeds the limit of workgroups per dispatch.
         const MAX_WORKGROUPS: u32 = 65_535;
         let total = grid.workgroups();
         for first in (0..total).step_by(MAX_WORKGROUPS as usize) {
-            let params = DispatchParams { spacing, ..grid.dispatch_params(first) };
+            let params = DispatchParams {
+                spacing,
+                kept_first: kept.first,
+                kept_end: kept.end,
+                ..grid.dispatch_params(first)
+            };
             self.dispatch(pipeline, params, MAX_WORKGROUPS.min(total - first));
         }
     }

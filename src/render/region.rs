@@ -75,6 +75,17 @@ impl Eyes {
     }
 }
 
+/// Pixels of a region that another region has, too, with the same rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Overlap {
+    /// The upper left one, in the region.
+    pub first: [u32; 2],
+    /// The same pixel in the other region.
+    pub first_in_other: [u32; 2],
+    /// Width and height, in pixels.
+    pub size_px: [u32; 2],
+}
+
 /// A rectangle of a picture, or the same rectangle of both eyes' pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
@@ -138,6 +149,26 @@ impl Region {
         let area = (MAX_REGION_PIXELS as f64 / (size[0] * size[1])).sqrt();
         let scale = side.min(area).min(1.0);
         Self::whole(size.map(|v| ((v * scale) as u32).max(1)))
+    }
+
+    /// The pixels that have the same rays in a view of `other`; none where all rays differ.
+    ///
+    /// Both have to be whole pictures of the camera. Their middles are the same, and the angle of view spans
+    /// the shorter side.
+    pub fn overlap(&self, other: &Self) -> Option<Overlap> {
+        let is_plain = |region: &Self| *region == Self::whole(region.size_px);
+        let (new, old) = (self.size_px, other.size_px);
+        let has_same_scale = new.iter().min() == old.iter().min();
+        let is_on_pixels = new.iter().zip(old).all(|(a, b)| a.abs_diff(b).is_multiple_of(2));
+        if !(is_plain(self) && is_plain(other) && has_same_scale && is_on_pixels) {
+            return None;
+        }
+        let middle = |larger: u32, smaller: u32| larger.saturating_sub(smaller) / 2;
+        Some(Overlap {
+            first: [0, 1].map(|axis: usize| middle(new[axis], old[axis])),
+            first_in_other: [0, 1].map(|axis: usize| middle(old[axis], new[axis])),
+            size_px: [0, 1].map(|axis: usize| new[axis].min(old[axis])),
+        })
     }
 
     /// Whether a view can draw the region.

@@ -16,7 +16,7 @@
 //! | `adaptation` | how exposure follows the film |
 //! | `work`, `types` | plain types |
 
-use super::lattice::{COARSEST, WORKGROUP_THREADS};
+use super::{lattice::COARSEST, region::Overlap};
 
 mod adaptation;
 mod completion;
@@ -35,10 +35,10 @@ use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
-use progress::Progress;
+use progress::{Progress, Reuse};
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
-pub use work::{BATCH_WORKGROUPS, Display, Job, Points, Stage, Trace, Work};
+pub use work::{BATCH_WORKGROUPS, Display, Job, KeptPixels, Points, Stage, Trace, Work};
 
 /// Pieces of work on the GPU at any time.
 pub const MAX_IN_FLIGHT: usize = 2;
@@ -132,7 +132,8 @@ impl Schedule {
         self.budget_ms = budget_ms;
         self.samples_wanted = samples.max(1);
         // The film can't be reduced to fewer samples than were added to it.
-        if self.progress.samples_begun() > self.samples_wanted {
+        let most_samples = self.progress.samples_begun().max(self.progress.kept_samples());
+        if most_samples > self.samples_wanted {
             self.restart(Stale::Light);
         }
     }
@@ -201,13 +202,25 @@ impl Schedule {
         self.is_display_stale |= self.progress.filmed().is_some();
     }
 
-    /// Sets another region; everything becomes stale.
-    pub fn resize(&mut self, size_px: [u32; 2]) {
-        self.progress.size_px = size_px;
+    /// Sets another region. Returns whether pixels are kept: the caller then moves their samples.
+    ///
+    /// `overlap`: the pixels that have the same rays as before; all others become stale. `has_same_light`: whether
+    /// their light is that of the scene, which the new size may change.
+    pub fn resize(
+        &mut self,
+        size_px: [u32; 2],
+        overlap: Option<Overlap>,
+        has_same_light: bool,
+    ) -> bool {
         // The new region has not been shown: its exposure does not start from the old one's.
         self.shown_at = f64::NEG_INFINITY;
         self.adaptation.stop();
-        self.restart(Stale::Geometry);
+        let reuse = self.progress.resize(size_px, overlap, has_same_light);
+        let is_converged = self.is_converged && reuse == Reuse::Film;
+        self.begin_opening();
+        self.is_converged = is_converged;
+        self.is_display_stale = reuse == Reuse::Film;
+        reuse != Reuse::Nothing
     }
 
     /// False while the opening picture of the last change is under way.
@@ -254,6 +267,11 @@ impl Schedule {
             }
             return;
         }
+        self.begin_opening();
+    }
+
+    /// Begins another picture, of which none has been shown.
+    fn begin_opening(&mut self) {
         if self.pace == Pace::Interactive {
             self.cost.forget_paths();
         }
@@ -273,9 +291,7 @@ impl Schedule {
         let phase = self.phase();
         let work = self.choose(now_secs)?;
         let expected_ms = match work {
-            Work::Trace(trace) => {
-                self.cost.expected_ms(trace.job(), phase, trace.workgroups * WORKGROUP_THREADS)
-            }
+            Work::Trace(trace) => self.cost.expected_ms(trace.job(), phase, trace.samples()),
             Work::Display(_) => self.cost.display_ms(),
         };
         self.in_flight.push(Piece { phase, arithmetic: self.cost.arithmetic, expected_ms });
@@ -398,17 +414,19 @@ impl Schedule {
             fill,
             from_film: self.progress.is_filled && level > 0,
             adapt,
+            kept: self.progress.kept_pixels(Points::Level(level)),
         })
     }
 
     fn next_trace(&mut self, points: Points, first_workgroup: u32) -> Trace {
         let job = self.progress.job(points);
+        let kept = self.progress.kept_pixels(points);
         let total = points.grid(self.progress.size_px).workgroups();
         let wanted = match self.phase() {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
             Phase::Opening | Phase::Jump => MAX_WORKGROUPS,
-            Phase::Refining => self.piece_workgroups(job).min(MAX_WORKGROUPS),
+            Phase::Refining => self.piece_workgroups(job, kept).min(MAX_WORKGROUPS),
         };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;
@@ -419,16 +437,18 @@ impl Schedule {
             self.is_display_stale = self.progress.complete(points);
         }
         let Job { from, lights } = job;
-        Trace { points, from, lights, first_workgroup, workgroups }
+        Trace { points, from, lights, first_workgroup, workgroups, kept }
     }
 
     /// Workgroups of a refining piece: every second or third one is half as large as the others.
-    fn piece_workgroups(&mut self, job: Job) -> u32 {
+    fn piece_workgroups(&mut self, job: Job, kept: KeptPixels) -> u32 {
         let aim_ms = match self.pace {
             Pace::Still => STILL_PIECE_MS,
             Pace::Interactive => PIECE_MS.min(PIECE_SHARE * self.budget_ms),
         };
-        let largest = self.cost.piece_workgroups(aim_ms, job);
+        // Workgroups are visited in a scattered order: each run of them has its share of kept pixels.
+        let computed = f64::from(1.0 - kept.share).max(1e-3);
+        let largest = (f64::from(self.cost.piece_workgroups(aim_ms, job)) / computed) as u32;
         // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged
         // completions are of two pieces, so that only every third piece makes pairs of two sizes.
         self.pieces = self.pieces.wrapping_add(1);

@@ -19,7 +19,7 @@ use super::{
     region::Region,
     schedule::{Pace, Schedule, Stale, Work},
     sky::{SampledSky, SkyCache},
-    space::{self, RenderSpace},
+    space::RenderSpace,
     sub_frame::SubFrame,
     targets::Targets,
     uniforms::Inputs,
@@ -38,6 +38,7 @@ mod paths;
 mod prepare;
 mod read;
 mod report;
+mod resize;
 
 use color_following::ColorFollowing;
 pub use parts::PieceTime;
@@ -130,37 +131,6 @@ impl View {
     /// The rectangle that the view draws.
     pub fn region(&self) -> Region {
         self.region
-    }
-
-    /// Changes the rectangle; allocates new buffers if its size differs.
-    pub fn set_region(&mut self, region: Region) {
-        let region = drawable(region);
-        if region == self.region {
-            return;
-        }
-        // Two regions of one size can hold different eye layouts, so discard the film statistics.
-        let same_size = region.size_px == self.region.size_px
-            && region.film_px() == self.region.film_px()
-            && region.display_px() == self.region.display_px();
-        if !same_size {
-            let environment_texture = self.targets.environment_texture.clone();
-            self.targets =
-                Targets { environment_texture, ..Targets::new(&self.pipelines.layouts, region) };
-        }
-        self.stats_validity = StatsValidity::default();
-        self.region = region;
-        self.fit_display();
-        self.schedule.resize(region.film_px());
-        self.times.note_change();
-        let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
-        if space::wants_anchor(space.model(), scene, region) == space.reference().is_some() {
-            self.upload(self.inputs_about(scene, space));
-        } else {
-            // The new pixel size needs another render space.
-            self.is_space_current = false;
-            self.pending = self.pending.take().or_else(|| self.scene.clone());
-            self.inputs = None;
-        }
     }
 
     /// Sets the scene; only changed results become stale.

@@ -46,9 +46,12 @@ pub fn has_side_panel(window: Vec2) -> bool {
 }
 
 /// Width of the side panel in a window of the width `window`, in points.
+///
+/// Even, so that the view beside it shows the same pixels as one without panel, and keeps their samples.
 pub fn panel_width(window: f32) -> f32 {
-    PANEL_WIDTH.min((PANEL_PART * window).floor())
+    PANEL_WIDTH.min(2.0 * (0.5 * PANEL_PART * window).floor())
 }
+
 /// Duration of a widget's animations, in seconds.
 const ANIMATION_SECS: f32 = 0.08;
 /// Opacity of disabled widgets.

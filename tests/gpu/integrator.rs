@@ -10,7 +10,7 @@ use mandelight::{
         integrator::{DIRECT, Integrator},
         pass::{camera_cone, camera_rays, march},
         recorder::{Dispatches, Recorder},
-        schedule::{Points, Stage, Trace, Work},
+        schedule::{KeptPixels, Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -47,7 +47,14 @@ fn rays_lie_at_the_surface_points_of_their_pixels() {
     let mut dispatches = Dispatches::default();
     let points = Points::Level(0);
     let workgroups = points.grid(views::SIZE).workgroups();
-    let trace = Trace { points, from: Stage::March, lights: 0, first_workgroup: 0, workgroups };
+    let trace = Trace {
+        points,
+        from: Stage::March,
+        lights: 0,
+        first_workgroup: 0,
+        workgroups,
+        kept: KeptPixels::default(),
+    };
     for batch in Work::Trace(trace).batches() {
         let mut recorder =
             Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);

@@ -31,6 +31,7 @@ mod post;
 mod random_views;
 mod samples;
 mod shine;
+mod sizes;
 mod soft_shadows;
 mod staleness;
 mod stereo;

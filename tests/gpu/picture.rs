@@ -10,7 +10,7 @@ use mandelight::{
         frame::record,
         integrator::DIRECT,
         recorder::{Dispatches, Recorder},
-        schedule::{Display, Points, Stage, Trace, Work},
+        schedule::{Display, KeptPixels, Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -55,10 +55,23 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     let trace = |points: Points, from| {
         let workgroups = points.grid(size).workgroups();
         let lights = inputs.shining();
-        Work::Trace(Trace { points, from, lights, first_workgroup: 0, workgroups })
+        Work::Trace(Trace {
+            points,
+            from,
+            lights,
+            first_workgroup: 0,
+            workgroups,
+            kept: KeptPixels::default(),
+        })
     };
     let indirect = inputs.has_indirect().then(|| trace(Points::Indirect(level), Stage::Indirect));
-    let show = Work::Display(Display { level, fill: level > 0, from_film: false, adapt: 1.0 });
+    let show = Work::Display(Display {
+        level,
+        fill: level > 0,
+        from_film: false,
+        adapt: 1.0,
+        kept: KeptPixels::default(),
+    });
     let works = [Some(trace(Points::Level(level), Stage::March)), indirect, Some(show)];
     for work in works.into_iter().flatten() {
         let mut recorder =

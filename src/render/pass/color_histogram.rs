@@ -4,6 +4,7 @@ use crate::render::{
     lattice::Grid,
     pipeline_set,
     recorder::{ONE_MODE, Pass, Record, Recorder},
+    schedule::KeptPixels,
 };
 
 /// The pass.
@@ -23,5 +24,5 @@ pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     recorder.bind_color_bins();
     let pipeline = recorder.pipeline(&PASS, 0);
     let grid = Grid::level(level, recorder.inputs.frame.size_px);
-    recorder.dispatch_grid(&pipeline, &grid, 0);
+    recorder.dispatch_grid(&pipeline, &grid, 0, KeptPixels::default());
 }

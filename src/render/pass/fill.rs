@@ -16,13 +16,13 @@ pub const PASS: Pass = Pass {
     record: Record::Film { when: |_, display| display.fill, record },
 };
 
-/// Fills every level below that of `display`, coarsest first: each level reads the one before.
+/// Fills every level below that of `display`, except kept pixels, coarsest first: each level reads the one before.
 pub fn record(recorder: &mut Recorder<'_>, display: &Display) {
     let pipeline = recorder.pipeline(&PASS, 0);
     for finer in (0..display.level).rev() {
         let grid = Grid::added(finer, recorder.inputs.frame.size_px);
         if grid.workgroups() > 0 {
-            recorder.dispatch_grid(&pipeline, &grid, 1 << (finer / 2));
+            recorder.dispatch_grid(&pipeline, &grid, 1 << (finer / 2), display.kept);
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::render::{
     lattice::Grid,
     pipeline_set,
     recorder::{ONE_MODE, Pass, Record, Recorder},
+    schedule::KeptPixels,
 };
 
 /// The pass.
@@ -19,5 +20,5 @@ pub const PASS: Pass = Pass {
 pub fn record(recorder: &mut Recorder<'_>, level: u32) {
     let pipeline = recorder.pipeline(&PASS, 0);
     let grid = Grid::level(level, recorder.inputs.frame.size_px);
-    recorder.dispatch_grid(&pipeline, &grid, 1 << (level / 2));
+    recorder.dispatch_grid(&pipeline, &grid, 1 << (level / 2), KeptPixels::default());
 }

@@ -12,7 +12,6 @@ use super::{
     types::{Arithmetic, Phase},
     work::{Trace, Work},
 };
-use crate::render::lattice::WORKGROUP_THREADS;
 
 /// Largest delay of a merged completion behind the one before.
 ///
@@ -121,10 +120,9 @@ fn learn(cost: &mut Cost, group: &[Completion]) {
         })
         .collect();
     let mean = |values: f64| values / traces.len() as f64;
-    let workgroups = mean(traces.iter().map(|(trace, ..)| f64::from(trace.workgroups)).sum());
+    let samples = mean(traces.iter().map(|(trace, ..)| f64::from(trace.samples())).sum());
     let trace_ms = mean(traces.iter().map(|(.., ms)| ms).sum());
     for (trace, Piece { phase, arithmetic, .. }, _) in &traces {
-        let samples = workgroups * f64::from(WORKGROUP_THREADS);
         cost.traced(trace.job(), *phase, *arithmetic, samples, trace_ms);
     }
     for completion in group {

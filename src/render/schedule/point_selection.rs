@@ -8,7 +8,7 @@ use super::{
     types::{Pace, Phase},
     work::{Job, Points},
 };
-use crate::render::lattice::{COARSEST, Grid, MAX_SAMPLES_TOGETHER};
+use crate::render::lattice::{COARSEST, MAX_SAMPLES_TOGETHER};
 
 /// Longest full frame that is computed straight after the opening, milliseconds.
 const STRAIGHT_MS: f64 = 1000.0;
@@ -45,13 +45,17 @@ impl PointSelection<'_> {
     pub fn next_points(&self) -> Option<Points> {
         let progress = self.progress;
         match progress.shaded {
-            None if self.pace == Pace::Still => Some(Points::Level(0)),
+            None if self.pace == Pace::Still || progress.awaits_light => Some(Points::Level(0)),
             None => Some(Points::Level(self.opening_level())),
             Some(level) if progress.filmed() != Some(level) && self.is_indirect_due(level) => {
                 Some(Points::Indirect(self.finest_indirect(level)))
             }
             Some(0) if progress.samples_done < self.samples_wanted => {
-                let left = self.samples_wanted - progress.samples_done;
+                let until = match progress.kept_samples() {
+                    kept if kept > progress.samples_done => self.samples_wanted.min(kept),
+                    _ => self.samples_wanted,
+                };
+                let left = until - progress.samples_done;
                 let count = left.min(MAX_SAMPLES_TOGETHER);
                 Some(Points::Samples { first: progress.samples_done, count })
             }
@@ -62,9 +66,15 @@ impl PointSelection<'_> {
 
     /// Whether all pixels at once take long enough for a filled preview first.
     pub fn needs_preview(&self) -> bool {
-        let pixels = Grid::level(0, self.progress.size_px).threads();
+        let pixels = self.computed_pixels(Points::All);
         let job = self.progress.job(Points::All);
         self.cost.expected_ms(job, Phase::Refining, pixels) > STRAIGHT_MS
+    }
+
+    /// About how many pixels are computed for `points`.
+    fn computed_pixels(&self, points: Points) -> u32 {
+        let all = f64::from(points.grid(self.progress.size_px).threads());
+        (all * f64::from(1.0 - self.progress.kept_pixels(points).share)) as u32
     }
 
     /// The points after a lattice of `level`, on the way to all pixels.
@@ -98,7 +108,7 @@ impl PointSelection<'_> {
         has_indirect: bool,
     ) -> u32 {
         let fits = |level: &u32| {
-            let pixels = Grid::level(*level, self.progress.size_px).threads();
+            let pixels = self.computed_pixels(Points::Level(*level));
             self.cost.fits(self.budget_ms, self.in_flight_ms, pixels, job(*level), has_indirect)
         };
         (finest..COARSEST).find(fits).unwrap_or(COARSEST)

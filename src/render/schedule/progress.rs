@@ -7,8 +7,30 @@ use super::{
     gbuffer_validity::GBufferValidity,
     plan::Plan,
     types::Stale,
-    work::{Job, Points, Stage},
+    work::{Job, KeptPixels, Points, Stage},
 };
+use crate::render::region::Overlap;
+
+/// Pixels of a picture of another size, while the other pixels catch up with them.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    pixels: KeptPixels,
+    /// Whole samples on the film; 0 if the film holds another light than it should.
+    samples: u32,
+    /// Whether the centre samples have the visibility of the lights that shine.
+    has_visibility: bool,
+}
+
+/// What a picture of another size keeps of the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reuse {
+    /// Everything is computed anew.
+    Nothing,
+    /// Samples, which the next work leaves as they are.
+    Samples,
+    /// The whole film: it is only displayed.
+    Film,
+}
 
 /// Progress of one picture, from a change to the last sample.
 #[derive(Clone, Debug)]
@@ -33,6 +55,9 @@ pub struct Progress {
     pub under_way: Option<(Points, u32)>,
     /// Whether a filled preview is on the film while pixels are under way.
     pub is_filled: bool,
+    kept: Option<Kept>,
+    /// Whether all centre samples are there and await their light.
+    pub awaits_light: bool,
 }
 
 impl Progress {
@@ -49,6 +74,79 @@ impl Progress {
             samples_done: 0,
             under_way: None,
             is_filled: false,
+            kept: None,
+            awaits_light: false,
+        }
+    }
+
+    /// Sets another region, and returns what of its pixels is there: the caller moves it to its place.
+    ///
+    /// `overlap`: the pixels that have the same rays as before. `has_same_light`: whether the film is true for these.
+    pub fn resize(
+        &mut self,
+        size_px: [u32; 2],
+        overlap: Option<Overlap>,
+        has_same_light: bool,
+    ) -> Reuse {
+        let kept = overlap.and_then(|overlap| self.kept_in(size_px, overlap, has_same_light));
+        self.size_px = size_px;
+        let Some(kept) = kept else {
+            self.restart(Stale::Geometry);
+            return Reuse::Nothing;
+        };
+        let is_whole = kept.pixels.first == [0, 0] && kept.pixels.end == size_px;
+        match (is_whole, kept.samples) {
+            (true, 0) => self.restart(Stale::Light),
+            (true, _) => return Reuse::Film,
+            (false, _) => {
+                self.restart(Stale::Geometry);
+                self.kept = Some(kept);
+            }
+        }
+        Reuse::Samples
+    }
+
+    /// What a region of `size_px` can keep of the present one.
+    fn kept_in(&self, size_px: [u32; 2], overlap: Overlap, has_same_light: bool) -> Option<Kept> {
+        let (missing, _) = self.gbuffer_validity.first_missing(0, self.shining);
+        if missing < Stage::Shadow {
+            return None;
+        }
+        let [first, extent] = [overlap.first, overlap.size_px];
+        let pixels = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
+        // Samples under way are on the film of some pixels only.
+        let is_film_even = self.under_way.is_none() && self.kept.is_none();
+        Some(Kept {
+            pixels: KeptPixels {
+                first,
+                end: [0, 1].map(|axis: usize| first[axis] + extent[axis]),
+                share: (pixels(extent) / pixels(size_px)) as f32,
+            },
+            samples: if has_same_light && is_film_even { self.samples_done } else { 0 },
+            has_visibility: missing > Stage::Shadow,
+        })
+    }
+
+    /// The pixels that need not be computed for `points`.
+    pub fn kept_pixels(&self, points: Points) -> KeptPixels {
+        let kept = self.kept.filter(|kept| match points {
+            Points::Samples { first, .. } => first < kept.samples,
+            _ => true,
+        });
+        kept.map_or_else(KeptPixels::default, |kept| kept.pixels)
+    }
+
+    /// The number of samples from which on no pixel is kept.
+    pub fn kept_samples(&self) -> u32 {
+        self.kept.map_or(0, |kept| kept.samples)
+    }
+
+    /// Computes all pixels from now on.
+    fn release_kept(&mut self) {
+        if let Some(kept) = self.kept.take()
+            && !kept.has_visibility
+        {
+            self.gbuffer_validity.invalidate_lights(u64::MAX);
         }
     }
 
@@ -57,6 +155,8 @@ impl Progress {
         if stale == Stale::Tone {
             return;
         }
+        self.release_kept();
+        self.awaits_light = false;
         self.gbuffer_validity.invalidate(stale);
         if stale >= Stale::Light {
             self.shaded = None;
@@ -89,6 +189,12 @@ impl Progress {
                 let level = points.level();
                 self.shaded = Some(level);
                 self.gbuffer_validity.complete(level, self.shining);
+                self.awaits_light = false;
+                if level == 0 && self.kept.is_some_and(|kept| kept.samples == 0) {
+                    self.restart(Stale::Light);
+                    self.awaits_light = true;
+                    return true;
+                }
                 // Levels that wait for indirect light are not on the film yet.
                 !self.has_indirect
             }
@@ -98,11 +204,20 @@ impl Progress {
             }
             Points::Samples { first, count } => {
                 self.samples_done = first + count;
+                self.release_samples();
                 return true;
             }
         };
         self.samples_done = u32::from(self.filmed() == Some(0));
+        self.release_samples();
         is_filmed
+    }
+
+    /// Computes all pixels from now on if the others have caught up with the kept ones.
+    fn release_samples(&mut self) {
+        if self.samples_done > 0 && self.samples_done >= self.kept_samples() {
+            self.kept = None;
+        }
     }
 
     /// Discards the visibility of centre samples if `points` are paths, which keep guides of the denoiser in its place.

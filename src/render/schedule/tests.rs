@@ -8,6 +8,7 @@ mod hand;
 mod jumps;
 mod light;
 mod paths;
+mod sizes;
 mod stalls;
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -91,7 +92,7 @@ impl Device {
         self.submits += 1;
         let pixels = match work {
             Work::Trace(trace) => {
-                let whole = f64::from(trace.workgroups * WORKGROUP_THREADS);
+                let whole = f64::from(trace.samples());
                 let lights = f64::from((trace.lights & self.casting).count_ones());
                 let is_sparse = matches!(trace.points, Points::Level(1..) | Points::Added(_));
                 let each = if is_sparse { self.sparser } else { 1.0 };
@@ -308,7 +309,13 @@ fn tone_edits_only_show() {
     schedule.change(Stale::Tone, true, now);
     assert_eq!(
         schedule.next(now),
-        Some(Work::Display(Display { level: 0, fill: false, from_film: false, adapt: 1.0 }))
+        Some(Work::Display(Display {
+            level: 0,
+            fill: false,
+            from_film: false,
+            adapt: 1.0,
+            kept: KeptPixels::default()
+        }))
     );
     assert_eq!(schedule.next(now), None);
 }

@@ -1,6 +1,6 @@
 //! What a schedule hands out: one piece of work.
 
-use crate::render::lattice::Grid;
+use crate::render::lattice::{Grid, WORKGROUP_THREADS};
 
 /// Most workgroups in one submit: a view's buffers of rays, jittered samples and work queues have this size.
 ///
@@ -76,8 +76,19 @@ pub struct Job {
     pub lights: u64,
 }
 
+/// Pixels that work leaves as they are, since they hold already what it would compute.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct KeptPixels {
+    /// The upper left one.
+    pub first: [u32; 2],
+    /// One past the lower right one.
+    pub end: [u32; 2],
+    /// Part of the region that they are, 0 to 1.
+    pub share: f32,
+}
+
 /// A run of workgroups over some sample points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
     /// The sample points.
     pub points: Points,
@@ -89,6 +100,8 @@ pub struct Trace {
     pub first_workgroup: u32,
     /// How many workgroups.
     pub workgroups: u32,
+    /// The pixels that are not computed.
+    pub kept: KeptPixels,
 }
 
 impl Trace {
@@ -100,6 +113,12 @@ impl Trace {
             workgroups: BATCH_WORKGROUPS.min(end - first),
             ..self
         })
+    }
+
+    /// About how many samples it computes, with those of the last workgroups that lie outside the region.
+    pub fn samples(&self) -> u32 {
+        let samples = f64::from(self.workgroups * WORKGROUP_THREADS);
+        (samples * (1.0 - f64::from(self.kept.share))) as u32
     }
 
     /// What is done for each of its points.
@@ -119,6 +138,8 @@ pub struct Display {
     pub from_film: bool,
     /// Part of the way to its goal that auto exposure moves, above 0; 1 arrives at once.
     pub adapt: f32,
+    /// The pixels that are not filled.
+    pub kept: KeptPixels,
 }
 
 /// One piece of work.
@@ -149,8 +170,14 @@ mod tests {
     fn batches_cover_a_trace_once_and_in_order() {
         for (first_workgroup, workgroups) in [(0, 1), (7, BATCH_WORKGROUPS), (100, 5000)] {
             let points = Points::Level(0);
-            let trace =
-                Trace { points, from: Stage::Normal, lights: 5, first_workgroup, workgroups };
+            let trace = Trace {
+                points,
+                from: Stage::Normal,
+                lights: 5,
+                first_workgroup,
+                workgroups,
+                kept: KeptPixels::default(),
+            };
             let mut next = first_workgroup;
             for batch in Work::Trace(trace).batches() {
                 let Work::Trace(batch) = batch else { panic!("{batch:?} is no trace") };
@@ -161,7 +188,13 @@ mod tests {
             }
             assert_eq!(next, first_workgroup + workgroups);
         }
-        let display = Work::Display(Display { level: 3, fill: true, from_film: false, adapt: 1.0 });
+        let display = Work::Display(Display {
+            level: 3,
+            fill: true,
+            from_film: false,
+            adapt: 1.0,
+            kept: KeptPixels::default(),
+        });
         assert_eq!(display.batches().collect::<Vec<_>>(), [display]);
     }
 }

@@ -330,6 +330,10 @@ host_shared! {
         workgroups: [u32; 2],
         /// Strides in which columns and rows are visited.
         scatter: [u32; 2],
+        /// The upper left one of the pixels that the dispatch leaves as they are.
+        kept_first: [u32; 2],
+        /// One past the lower right one of these pixels.
+        kept_end: [u32; 2],
         /// Position of the first sample in its pixel, 0 to 1.
         jitter: [f32; 2],
         /// 1: G-buffer records are packed in dispatch order.

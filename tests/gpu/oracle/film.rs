@@ -11,7 +11,7 @@ use mandelight::{
         integrator::DIRECT,
         post::{Need, Post, Tasks},
         recorder::{Dispatches, Recorder},
-        schedule::{Display, Work},
+        schedule::{Display, KeptPixels, Work},
         targets::Targets,
         uniforms::{Inputs, Statistics},
     },
@@ -77,7 +77,13 @@ impl Film {
         record(
             &DIRECT,
             &mut recorder,
-            Work::Display(Display { level, fill: level > 0, from_film: false, adapt: 1.0 }),
+            Work::Display(Display {
+                level,
+                fill: level > 0,
+                from_film: false,
+                adapt: 1.0,
+                kept: KeptPixels::default(),
+            }),
         );
         gpu.queue.submit([recorder.finish()]);
 

@@ -9,7 +9,7 @@ use mandelight::{
         frame::record,
         integrator::DIRECT,
         recorder::{Dispatches, Recorder},
-        schedule::{Points, Stage, Trace, Work},
+        schedule::{KeptPixels, Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -91,6 +91,7 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
             lights: 0,
             first_workgroup: 0,
             workgroups,
+            kept: KeptPixels::default(),
         }),
     );
     gpu.queue.submit([recorder.finish()]);

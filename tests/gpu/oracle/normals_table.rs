@@ -12,7 +12,7 @@ use mandelight::{
         integrator::DIRECT,
         pass,
         recorder::{Dispatches, Recorder},
-        schedule::{Points, Stage, Trace, Work},
+        schedule::{KeptPixels, Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -90,7 +90,14 @@ fn costs(scene: &Scene) -> Vec<f64> {
     let points = Points::Level(0);
     let grid = points.grid(PICTURE_PX);
     let workgroups = grid.workgroups();
-    let trace = Trace { points, from: Stage::March, lights: 0, first_workgroup: 0, workgroups };
+    let trace = Trace {
+        points,
+        from: Stage::March,
+        lights: 0,
+        first_workgroup: 0,
+        workgroups,
+        kept: KeptPixels::default(),
+    };
     let targets = Targets::new(&pipelines.layouts, Region::whole(PICTURE_PX));
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {

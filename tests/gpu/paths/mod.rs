@@ -19,7 +19,7 @@ use mandelight::{
         Region, frame, integrator,
         recorder::{Dispatches, Recorder},
         samples::means,
-        schedule::{Points, Stage, Trace, Work},
+        schedule::{KeptPixels, Points, Stage, Trace, Work},
         sky::SkyCache,
         space::RenderSpace,
         targets::Targets,
@@ -69,7 +69,14 @@ impl Tracer {
         // Samples are numbered from the first jittered one on, and a first one replaces the film.
         let points = Points::Samples { first: first + 1, count };
         let workgroups = points.grid(SIZE).workgroups();
-        let trace = Trace { points, from: Stage::Path, lights: 0, first_workgroup: 0, workgroups };
+        let trace = Trace {
+            points,
+            from: Stage::Path,
+            lights: 0,
+            first_workgroup: 0,
+            workgroups,
+            kept: KeptPixels::default(),
+        };
         let gpu = &pipelines.gpu;
         for half in [&self.targets.film_rg, &self.targets.film_bw] {
             gpu.queue.write_buffer(half, 0, &vec![0; half.size() as usize]);

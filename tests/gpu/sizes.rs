@@ -1,0 +1,160 @@
+//! A view that gets another size keeps the samples that are still true, and ends as if it had kept none.
+
+use mandelight::{
+    render::{
+        Pace, Region, View,
+        pass::{march, scatter, shade},
+        recorder::Pass,
+    },
+    scene::{IndirectKind, IntegratorKind, Scene, presets},
+};
+use mandelight_test_support::{
+    compare::{RESIZED, assert_within},
+    device::gpu,
+    view::{finished, pipelines, pixels, sampled, settle, still},
+};
+
+const WIDE: [u32; 2] = [96, 64];
+const NARROW: [u32; 2] = [70, 64];
+
+/// The film of a part of a picture of `size_px`, `columns` from its left.
+fn columns_of(
+    film: &[[f32; 3]],
+    size_px: [u32; 2],
+    columns: std::ops::Range<u32>,
+) -> Vec<[f32; 3]> {
+    let rows = film.chunks_exact(size_px[0] as usize);
+    rows.flat_map(|row| row[columns.start as usize..columns.end as usize].iter().copied()).collect()
+}
+
+/// The columns of the wide picture that the narrow one shows.
+const SHARED: std::ops::Range<u32> = 13..83;
+
+fn film(view: &View) -> Vec<[f32; 3]> {
+    view.film().expect("the film's bytes")
+}
+
+/// Number of dispatches of `pass` during `change`.
+fn dispatched(view: &mut View, pass: &Pass, change: impl FnOnce(&mut View)) -> u64 {
+    let before = view.dispatches().clone();
+    change(view);
+    view.dispatches().since(&before).of(pass).dispatches
+}
+
+fn traced() -> Scene {
+    let mut scene = sampled(Scene::default(), 9);
+    scene.integrator.kind = IntegratorKind::Path;
+    scene
+}
+
+#[test]
+fn a_narrower_picture_is_a_part_of_the_wider_one() {
+    for (scene, pass) in [(sampled(Scene::default(), 5), &march::PASS), (traced(), &scatter::PASS)]
+    {
+        let mut view = finished(&scene, WIDE, Pace::Interactive);
+        let wide = film(&view);
+        let traces = dispatched(&mut view, pass, |view| {
+            view.set_region(Region::whole(NARROW));
+            settle(view);
+        });
+        assert_eq!(traces, 0, "samples are computed again");
+        assert!(film(&view) == columns_of(&wide, WIDE, SHARED), "other samples");
+        assert_eq!(view.report().samples_done, scene.quality.samples);
+        assert_eq!(view.texture().map(wgpu::Texture::width), Some(NARROW[0]));
+        if !scene.traces_paths() {
+            assert_fresh(&view, &scene);
+        }
+    }
+}
+
+/// A path's noise depends on its pixel's place, which is another in the wider picture: computed again, it would differ.
+#[test]
+fn a_wider_picture_adds_to_the_narrower_one() {
+    for scene in [sampled(Scene::default(), 5), traced()] {
+        let mut view = finished(&scene, NARROW, Pace::Interactive);
+        let narrow = film(&view);
+        view.set_region(Region::whole(WIDE));
+        settle(&mut view);
+        let wide = film(&view);
+        assert!(columns_of(&wide, WIDE, SHARED) == narrow, "kept pixels were computed");
+        assert_eq!(view.report().samples_done, scene.quality.samples);
+        let fresh = finished(&scene, WIDE, Pace::Interactive);
+        let added: Vec<_> = [0..SHARED.start, SHARED.end..WIDE[0]].to_vec();
+        for columns in added {
+            let [new, expected] =
+                [&wide, &film(&fresh)].map(|film| columns_of(film, WIDE, columns.clone()));
+            let off = new.iter().zip(&expected).filter(|(a, b)| {
+                a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.02 * b.abs().max(0.1))
+            });
+            assert!(off.count() * 100 <= new.len(), "new pixels are not those of a fresh view");
+        }
+        if !scene.traces_paths() {
+            assert_fresh(&view, &scene);
+        }
+    }
+}
+
+/// Holds that the view's picture is that of a fresh view.
+fn assert_fresh(view: &View, scene: &Scene) {
+    let size_px = view.region().size_px;
+    let what = format!("a view that became {size_px:?}");
+    assert_within(&pixels(view), &still(scene, size_px), size_px, RESIZED, &what);
+}
+
+/// The centre samples' depths, normals and shadows stay true where their light changes.
+#[test]
+fn light_that_depends_on_the_size_is_shaded_anew() {
+    let mut indirect = sampled(Scene::default(), 1);
+    indirect.indirect.kind = IndirectKind::Uniform;
+    // Its surface goes over the narrow picture's borders.
+    let mut colors = sampled((presets::opening_scenes()[1].scene)(), 1);
+    colors.indirect.kind = IndirectKind::Off;
+    assert!(colors.surface.follows_view());
+    for scene in [indirect, colors] {
+        let mut view = finished(&scene, WIDE, Pace::Interactive);
+        let marches = dispatched(&mut view, &march::PASS, |view| {
+            view.set_region(Region::whole(NARROW));
+            settle(view);
+        });
+        assert_eq!(marches, 0, "rays are marched again");
+        assert_fresh(&view, &scene);
+        let shades = dispatched(&mut view, &shade::PASS, |view| {
+            view.set_region(Region::whole(WIDE));
+            settle(view);
+        });
+        assert!(shades > 1, "light of the narrow picture stays");
+        assert_fresh(&view, &scene);
+    }
+}
+
+#[test]
+fn a_size_that_comes_amid_samples_ends_in_the_same_picture() {
+    let scene = sampled(Scene::default(), 6);
+    for pumps in 1..9 {
+        let mut view = View::new(pipelines(), Region::whole(NARROW), Pace::Interactive);
+        view.set_scene(&scene, false);
+        for (size_px, pumps) in [(NARROW, pumps), (WIDE, 2 * pumps), (NARROW, 1), ([70, 96], pumps)]
+        {
+            view.set_region(Region::whole(size_px));
+            for pump in 0..pumps {
+                view.pump(0.02 * f64::from(pump));
+                gpu().wait();
+            }
+        }
+        view.set_region(Region::whole(WIDE));
+        settle(&mut view);
+        assert_fresh(&view, &scene);
+    }
+}
+
+/// Below a picture's width, its height has another scale; an odd difference is half a pixel off.
+#[test]
+fn pictures_of_other_rays_share_nothing() {
+    let overlap = |a, b| Region::whole(a).overlap(&Region::whole(b));
+    assert!(overlap([96, 64], [70, 64]).is_some() && overlap([64, 96], [64, 80]).is_some());
+    assert_eq!(overlap([96, 64], [96, 60]), None);
+    assert_eq!(overlap([96, 64], [71, 64]), None);
+    assert_eq!(overlap([64, 96], [64, 60]), None);
+    let part = Region { picture_px: [96, 64], origin_px: [4, 0], ..Region::whole([70, 64]) };
+    assert_eq!(part.overlap(&Region::whole([96, 64])), None);
+}
