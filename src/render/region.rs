@@ -86,6 +86,29 @@ pub struct Overlap {
     pub size_px: [u32; 2],
 }
 
+impl Overlap {
+    /// Number of pixels.
+    pub fn pixels(&self) -> u64 {
+        self.size_px.map(u64::from).iter().product()
+    }
+
+    /// The pixels around which `reach_px` pixels are the same in both pictures, of the sizes `sizes_px`: up to a border
+    /// that is another, or that both have.
+    pub fn within(&self, sizes_px: [[u32; 2]; 2], reach_px: u32) -> Self {
+        let [new, old] = sizes_px;
+        let inset: [u32; 2] = std::array::from_fn(|axis| {
+            let reach_px = if new[axis] == old[axis] { 0 } else { reach_px };
+            reach_px.min(self.size_px[axis] / 2)
+        });
+        let further = |first: [u32; 2]| [0, 1].map(|axis: usize| first[axis] + inset[axis]);
+        Self {
+            first: further(self.first),
+            first_in_other: further(self.first_in_other),
+            size_px: [0, 1].map(|axis: usize| self.size_px[axis] - 2 * inset[axis]),
+        }
+    }
+}
+
 /// A rectangle of a picture, or the same rectangle of both eyes' pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {

@@ -204,18 +204,18 @@ impl Schedule {
 
     /// Sets another region. Returns whether pixels are kept: the caller then moves their samples.
     ///
-    /// `overlap`: the pixels that have the same rays as before; all others become stale. `has_same_light`: whether
-    /// their light is that of the scene, which the new size may change.
+    /// `overlap`: the pixels that have the same rays as before; all others become stale. `light_reach_px`: how far around
+    /// a pixel its light comes from; none if the new size changes all light.
     pub fn resize(
         &mut self,
         size_px: [u32; 2],
         overlap: Option<Overlap>,
-        has_same_light: bool,
+        light_reach_px: Option<u32>,
     ) -> bool {
         // The new region has not been shown: its exposure does not start from the old one's.
         self.shown_at = f64::NEG_INFINITY;
         self.adaptation.stop();
-        let reuse = self.progress.resize(size_px, overlap, has_same_light);
+        let reuse = self.progress.resize(size_px, overlap, light_reach_px);
         let is_converged = self.is_converged && reuse == Reuse::Film;
         self.begin_opening();
         self.is_converged = is_converged;

@@ -4,7 +4,6 @@ use mandelight::{
     render::{
         Pace, Region, View,
         pass::{march, scatter, shade},
-        recorder::Pass,
     },
     scene::{IndirectKind, IntegratorKind, Scene, presets},
 };
@@ -34,13 +33,6 @@ fn film(view: &View) -> Vec<[f32; 3]> {
     view.film().expect("the film's bytes")
 }
 
-/// Number of dispatches of `pass` during `change`.
-fn dispatched(view: &mut View, pass: &Pass, change: impl FnOnce(&mut View)) -> u64 {
-    let before = view.dispatches().clone();
-    change(view);
-    view.dispatches().since(&before).of(pass).dispatches
-}
-
 fn traced() -> Scene {
     let mut scene = sampled(Scene::default(), 9);
     scene.integrator.kind = IntegratorKind::Path;
@@ -53,10 +45,10 @@ fn a_narrower_picture_is_a_part_of_the_wider_one() {
     {
         let mut view = finished(&scene, WIDE, Pace::Interactive);
         let wide = film(&view);
-        let traces = dispatched(&mut view, pass, |view| {
-            view.set_region(Region::whole(NARROW));
-            settle(view);
-        });
+        let before = view.dispatches().clone();
+        view.set_region(Region::whole(NARROW));
+        settle(&mut view);
+        let traces = view.dispatches().since(&before).of(pass).dispatches;
         assert_eq!(traces, 0, "samples are computed again");
         assert!(film(&view) == columns_of(&wide, WIDE, SHARED), "other samples");
         assert_eq!(view.report().samples_done, scene.quality.samples);
@@ -101,30 +93,47 @@ fn assert_fresh(view: &View, scene: &Scene) {
     assert_within(&pixels(view), &still(scene, size_px), size_px, RESIZED, &what);
 }
 
-/// The centre samples' depths, normals and shadows stay true where their light changes.
+/// The centre samples' depths, normals and shadows stay true where a gradient that follows the view changes.
 #[test]
-fn light_that_depends_on_the_size_is_shaded_anew() {
-    let mut indirect = sampled(Scene::default(), 1);
-    indirect.indirect.kind = IndirectKind::Uniform;
+fn colors_that_follow_the_view_are_shaded_anew() {
     // Its surface goes over the narrow picture's borders.
-    let mut colors = sampled((presets::opening_scenes()[1].scene)(), 1);
-    colors.indirect.kind = IndirectKind::Off;
-    assert!(colors.surface.follows_view());
-    for scene in [indirect, colors] {
-        let mut view = finished(&scene, WIDE, Pace::Interactive);
-        let marches = dispatched(&mut view, &march::PASS, |view| {
-            view.set_region(Region::whole(NARROW));
-            settle(view);
-        });
-        assert_eq!(marches, 0, "rays are marched again");
-        assert_fresh(&view, &scene);
-        let shades = dispatched(&mut view, &shade::PASS, |view| {
-            view.set_region(Region::whole(WIDE));
-            settle(view);
-        });
-        assert!(shades > 1, "light of the narrow picture stays");
-        assert_fresh(&view, &scene);
+    let mut scene = sampled((presets::opening_scenes()[1].scene)(), 1);
+    scene.indirect.kind = IndirectKind::Off;
+    assert!(scene.surface.follows_view());
+    let smooth = sampled(scene.clone(), 6);
+    for (from, to) in [(WIDE, NARROW), (NARROW, WIDE)] {
+        let mut view = finished(&scene, from, Pace::Interactive);
+        let passes = [&march::PASS, &shade::PASS];
+        let before = view.dispatches().clone();
+        view.set_region(Region::whole(to));
+        settle(&mut view);
+        let since = view.dispatches().since(&before);
+        let [marches, shades] = passes.map(|pass| since.of(pass).dispatches);
+        assert!(shades > marches, "{marches} marches and {shades} shades");
+        assert_eq!(marches > 0, to == WIDE, "{marches} marches");
+        view.set_scene(&smooth, false);
+        settle(&mut view);
+        assert_fresh(&view, &smooth);
     }
+}
+
+/// Indirect light comes from a pixel's neighbours, 6 pixels around it.
+#[test]
+fn indirect_light_stays_away_from_the_borders_that_move() {
+    let mut scene = sampled(Scene::default(), 3);
+    scene.indirect.kind = IndirectKind::Uniform;
+    scene.indirect.radius = 0.06;
+    let mut view = finished(&scene, NARROW, Pace::Interactive);
+    let narrow = film(&view);
+    view.set_region(Region::whole(WIDE));
+    settle(&mut view);
+    let inner = columns_of(&narrow, NARROW, 6..64);
+    assert!(columns_of(&film(&view), WIDE, 19..77) == inner, "pixels are not kept");
+    assert_fresh(&view, &scene);
+    view.set_region(Region::whole(NARROW));
+    settle(&mut view);
+    assert!(columns_of(&film(&view), NARROW, 6..64) == inner, "pixels are not kept");
+    assert_fresh(&view, &scene);
 }
 
 #[test]

@@ -81,50 +81,46 @@ impl Progress {
 
     /// Sets another region, and returns what of its pixels is there: the caller moves it to its place.
     ///
-    /// `overlap`: the pixels that have the same rays as before. `has_same_light`: whether the film is true for these.
+    /// `overlap`: the pixels that have the same rays as before. `light_reach_px`: how far around a pixel its light comes
+    /// from; none if the film's light is not true at the new size.
     pub fn resize(
         &mut self,
         size_px: [u32; 2],
         overlap: Option<Overlap>,
-        has_same_light: bool,
+        light_reach_px: Option<u32>,
     ) -> Reuse {
-        let kept = overlap.and_then(|overlap| self.kept_in(size_px, overlap, has_same_light));
-        self.size_px = size_px;
-        let Some(kept) = kept else {
+        let old_size_px = std::mem::replace(&mut self.size_px, size_px);
+        let (missing, _) = self.gbuffer_validity.first_missing(0, self.shining);
+        let Some(overlap) = overlap.filter(|_| missing >= Stage::Shadow) else {
             self.restart(Stale::Geometry);
             return Reuse::Nothing;
         };
-        let is_whole = kept.pixels.first == [0, 0] && kept.pixels.end == size_px;
-        match (is_whole, kept.samples) {
+        // Samples under way are on the film of some pixels only.
+        let is_film_even = self.under_way.is_none() && self.kept.is_none();
+        let lit = light_reach_px
+            .map(|reach_px| overlap.within([size_px, old_size_px], reach_px))
+            .filter(|lit| is_film_even && 2 * lit.pixels() >= overlap.pixels());
+        let (shared, samples) = lit.map_or((overlap, 0), |lit| (lit, self.samples_done));
+        let is_whole = shared.size_px == size_px;
+        match (is_whole, samples) {
             (true, 0) => self.restart(Stale::Light),
             (true, _) => return Reuse::Film,
             (false, _) => {
                 self.restart(Stale::Geometry);
-                self.kept = Some(kept);
+                let end = [0, 1].map(|axis: usize| shared.first[axis] + shared.size_px[axis]);
+                let all = f64::from(size_px[0]) * f64::from(size_px[1]);
+                self.kept = Some(Kept {
+                    pixels: KeptPixels {
+                        first: shared.first,
+                        end,
+                        share: (shared.pixels() as f64 / all) as f32,
+                    },
+                    samples,
+                    has_visibility: missing > Stage::Shadow,
+                });
             }
         }
         Reuse::Samples
-    }
-
-    /// What a region of `size_px` can keep of the present one.
-    fn kept_in(&self, size_px: [u32; 2], overlap: Overlap, has_same_light: bool) -> Option<Kept> {
-        let (missing, _) = self.gbuffer_validity.first_missing(0, self.shining);
-        if missing < Stage::Shadow {
-            return None;
-        }
-        let [first, extent] = [overlap.first, overlap.size_px];
-        let pixels = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
-        // Samples under way are on the film of some pixels only.
-        let is_film_even = self.under_way.is_none() && self.kept.is_none();
-        Some(Kept {
-            pixels: KeptPixels {
-                first,
-                end: [0, 1].map(|axis: usize| first[axis] + extent[axis]),
-                share: (pixels(extent) / pixels(size_px)) as f32,
-            },
-            samples: if has_same_light && is_film_even { self.samples_done } else { 0 },
-            has_visibility: missing > Stage::Shadow,
-        })
     }
 
     /// The pixels that need not be computed for `points`.

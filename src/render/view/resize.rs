@@ -29,9 +29,9 @@ impl View {
         };
         let old_width_px = self.region.size_px[0];
         let overlap = region.overlap(&self.region).filter(|_| has_space && self.can_keep_samples());
-        let has_same_light = self.has_light_of(region);
+        let light_reach_px = self.light_reach_px(region);
         let old_targets = self.fit_region(region);
-        let keeps = self.schedule.resize(region.film_px(), overlap, has_same_light);
+        let keeps = self.schedule.resize(region.film_px(), overlap, light_reach_px);
         self.times.note_change();
         let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
         if !has_space {
@@ -78,11 +78,19 @@ impl View {
             && self.lent.indirect_source.is_none()
     }
 
-    /// Whether the film's light would be the same in `region`.
+    /// How far around a pixel its light comes from, in pixels; none if all the film's light depends on the size.
     ///
-    /// Indirect light comes from all that the picture shows, and backgrounds follow the picture's height.
-    fn has_light_of(&self, region: Region) -> bool {
-        let has_indirect = self.inputs.as_ref().is_some_and(|inputs| inputs.has_indirect());
-        region.size_px[1] == self.region.size_px[1] && !has_indirect
+    /// Backgrounds follow the picture's height, and indirect light comes from a pixel's neighbours.
+    fn light_reach_px(&self, region: Region) -> Option<u32> {
+        /// A neighbour's place in its pixel, and that of the sample.
+        const ROUNDING_PX: f64 = 2.0;
+        let inputs = self.inputs.as_ref()?;
+        let height = region.size_px[1];
+        let reach = if inputs.has_indirect() {
+            (f64::from(inputs.frame.indirect.radius) * f64::from(height) + ROUNDING_PX).ceil()
+        } else {
+            0.0
+        };
+        (height == self.region.size_px[1]).then_some(reach as u32)
     }
 }

@@ -42,7 +42,7 @@ fn finished_narrow(samples: u32) -> Schedule {
 #[test]
 fn kept_pixels_wait_for_the_samples_of_the_others() {
     let mut schedule = finished_narrow(20);
-    assert!(schedule.resize(SIZE, Some(OVERLAP), true));
+    assert!(schedule.resize(SIZE, Some(OVERLAP), Some(0)));
     schedule.aim(16.0, 45);
     let traces = finish(&mut schedule);
     let [mut computed, mut rounds] = [0.0; 2];
@@ -67,7 +67,7 @@ fn a_part_of_a_finished_picture_is_only_displayed() {
     schedule.aim(16.0, 3);
     finish(&mut schedule);
     let overlap = Overlap { first: [0, 0], first_in_other: [160, 0], size_px: NARROW };
-    assert!(schedule.resize(NARROW, Some(overlap), true));
+    assert!(schedule.resize(NARROW, Some(overlap), Some(0)));
     assert!(matches!(first_piece(&mut schedule), Work::Display(Display { level: 0, .. })));
     assert!(finish(&mut schedule).is_empty());
     assert_eq!(schedule.status(0.0).samples_done, 3);
@@ -83,7 +83,7 @@ fn centre_samples_stay_where_the_film_does_not() {
             assert!(matches!(first_piece(&mut schedule), Work::Trace(_)));
             assert!(!schedule.is_between_samples());
         }
-        assert!(schedule.resize(SIZE, Some(OVERLAP), is_under_way));
+        assert!(schedule.resize(SIZE, Some(OVERLAP), is_under_way.then_some(0)));
         let traces = finish(&mut schedule);
         let is_centre = |trace: &&Trace| !matches!(trace.points, Points::Samples { .. });
         let (kept, all): (Vec<&Trace>, Vec<&Trace>) =
@@ -99,20 +99,20 @@ fn centre_samples_stay_where_the_film_does_not() {
 #[test]
 fn an_edit_ends_what_is_kept() {
     let mut schedule = finished_narrow(9);
-    schedule.resize(SIZE, Some(OVERLAP), true);
+    schedule.resize(SIZE, Some(OVERLAP), Some(0));
     schedule.change(Stale::Geometry, false, 0.0);
     assert!(finish(&mut schedule).iter().all(|trace| trace.kept.share == 0.0));
     // Nothing is there of a picture whose rays are under way.
     let mut schedule = schedule_of_lights(Pace::Interactive, NARROW);
     schedule.next(0.0);
-    assert!(!schedule.resize(SIZE, Some(OVERLAP), true));
+    assert!(!schedule.resize(SIZE, Some(OVERLAP), Some(0)));
 }
 
 /// Fewer samples than kept pixels have: they can't be reduced.
 #[test]
 fn fewer_samples_end_what_is_kept() {
     let mut schedule = finished_narrow(9);
-    schedule.resize(SIZE, Some(OVERLAP), true);
+    schedule.resize(SIZE, Some(OVERLAP), Some(0));
     schedule.aim(16.0, 4);
     assert!(finish(&mut schedule).iter().all(|trace| trace.kept.share == 0.0));
     assert_eq!(schedule.status(0.0).samples_done, 4);
@@ -122,7 +122,7 @@ fn fewer_samples_end_what_is_kept() {
 #[test]
 fn pieces_stay_short_after_a_size_that_keeps_pixels() {
     let mut schedule = finished_narrow(20);
-    schedule.resize(SIZE, Some(OVERLAP), true);
+    schedule.resize(SIZE, Some(OVERLAP), Some(0));
     schedule.aim(16.0, 60);
     let longest = finish(&mut schedule)
         .iter()
@@ -130,4 +130,23 @@ fn pieces_stay_short_after_a_size_that_keeps_pixels() {
         .map(|trace| f64::from(trace.samples()) * 2e-4)
         .fold(0.0, f64::max);
     assert!((4.0..=1.2 * PIECE_MS).contains(&longest), "{longest} ms");
+}
+
+/// Light from neighbours is another near a border that moves.
+#[test]
+fn light_from_neighbours_is_kept_away_from_moved_borders() {
+    let mut schedule = finished_narrow(9);
+    assert!(schedule.resize(SIZE, Some(OVERLAP), Some(40)));
+    let traces = finish(&mut schedule);
+    assert!(
+        traces.iter().all(|trace| trace.kept.first == [200, 0] && trace.kept.end == [1080, 720])
+    );
+    // Back again: the narrow picture's own borders are others than in the wide one.
+    let overlap = Overlap { first: [0, 0], first_in_other: [160, 0], size_px: NARROW };
+    assert!(schedule.resize(NARROW, Some(overlap), Some(40)));
+    let traces = finish(&mut schedule);
+    assert!(traces.iter().all(|trace| trace.kept.first == [40, 0] && trace.kept.end == [920, 720]));
+    // Little would be left.
+    assert!(schedule.resize(SIZE, Some(OVERLAP), Some(300)));
+    assert!(finish(&mut schedule)[0].kept.first == OVERLAP.first);
 }
