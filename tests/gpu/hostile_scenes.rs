@@ -26,6 +26,8 @@ use crate::exr::read_exr;
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [24, 16];
+/// Another size, which keeps pixels.
+const NARROW: [u32; 2] = [20, 16];
 /// Scenes in the ordinary tests.
 const SCENES: usize = 40;
 /// Scenes of a long run, unless the environment says otherwise.
@@ -36,7 +38,7 @@ const MANY_SCENES: usize = 2000;
 enum Drawing {
     /// A still, whose buffers are read.
     Still,
-    /// The next scene of one view that someone watches, first while it moves.
+    /// The next scene of one view that someone watches, first while it moves, then in two more sizes.
     Watched,
     /// A file.
     File(PictureFormat),
@@ -102,6 +104,11 @@ impl Drawer {
                     settle(view);
                 }
                 check_view(view)?;
+                for size_px in [NARROW, SIZE] {
+                    view.set_region(Region::whole(size_px));
+                    settle(view);
+                    check_view(view)?;
+                }
             }
             Drawing::File(format) => check_file(hostile, format)?,
         }
