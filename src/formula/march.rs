@@ -147,10 +147,10 @@ pub trait DistanceField: Send + Sync {
         false
     }
 
-    /// [`Self::distance`], clamped where the estimate is far too large: outside the bounding sphere.
+    /// [`Self::distance`], clamped where the estimate is far too large: most often outside the bounding sphere.
     ///
-    /// There the result lies between the distances to the sphere and to its centre. For speeds and
-    /// collisions; rays start at the sphere and need no clamp.
+    /// There the result lies between the distances to the sphere and to its centre; inside, the sphere's far side is the
+    /// farthest. For speeds and collisions; rays start at the sphere and need no clamp.
     fn clear_distance(&self, point: DVec3) -> f64 {
         self.clear_estimate(point).distance
     }
@@ -159,13 +159,14 @@ pub trait DistanceField: Send + Sync {
     fn clear_estimate(&self, point: DVec3) -> Estimate {
         let from_centre = point.distance(self.center());
         let to_sphere = from_centre - self.bounding_radius();
-        let Estimate { distance, step } = self.estimate(point);
-        if to_sphere > 0.0 {
-            let mend = |length: f64| length.clamp(to_sphere, from_centre);
-            Estimate { distance: mend(distance), step: mend(step) }
+        let [least, most] = if to_sphere > 0.0 {
+            [to_sphere, from_centre]
         } else {
-            Estimate { distance, step }
-        }
+            [f64::NEG_INFINITY, from_centre + self.bounding_radius()]
+        };
+        let mend = |length: f64| length.max(least).min(most);
+        let Estimate { distance, step } = self.estimate(point);
+        Estimate { distance: mend(distance), step: mend(step) }
     }
 
     /// Sphere-traces `ray` and returns the depth of the first hit.

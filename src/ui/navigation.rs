@@ -258,7 +258,8 @@ impl Navigator {
         // exceed all limits after enough steps.
         let pivot_distance = pivot_offset
             .length()
-            .clamp(PIVOT_PARTS.start() * new_depth, PIVOT_PARTS.end() * new_depth)
+            .max(PIVOT_PARTS.start() * new_depth)
+            .min(PIVOT_PARTS.end() * new_depth)
             .max(world.clearance(camera));
         camera.position =
             camera.position.moved_by(moved, grain.min(world.grain_at(camera, new_depth)));

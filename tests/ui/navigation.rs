@@ -424,3 +424,55 @@ fn flights_set_off_and_arrive_gently_between_whole_and_close_views() {
         }
     }
 }
+
+/// A field whose estimates are nothing like distances, as those of one's own formulas may be.
+struct Senseless {
+    estimate: f64,
+    bounding_radius: f64,
+}
+
+impl DistanceField for Senseless {
+    fn distance(&self, _point: DVec3) -> f64 {
+        self.estimate
+    }
+
+    fn bounding_radius(&self) -> f64 {
+        self.bounding_radius
+    }
+}
+
+#[test]
+fn senseless_estimates_leave_every_movement_finite() {
+    let estimates = [0.0, 1e-300, 1e-9, 1.0, 7e24, f64::MAX, f64::INFINITY, f64::NAN, -1.0];
+    let radii = [1e-6, 1.2, 1e3];
+    let mut random = random();
+    for (estimate, bounding_radius) in
+        estimates.into_iter().flat_map(|estimate| radii.map(|radius| (estimate, radius)))
+    {
+        let field = Senseless { estimate, bounding_radius };
+        let mut camera = Camera::default();
+        let mut navigator = Navigator::default();
+        for _ in 0..6 {
+            let mut ndc = || DVec2::new(random.signed(), random.signed());
+            navigator.begin_orbit(&camera, world(&field), ndc());
+            navigator.drag(&mut camera, world(&field), ndc());
+            navigator.begin_pan(&camera, world(&field), ndc());
+            navigator.drag(&mut camera, world(&field), ndc());
+            navigator.end();
+            navigator.dolly(&mut camera, world(&field), ndc(), 0.7);
+            navigator.dolly(&mut camera, world(&field), ndc(), -0.4);
+            let travel = DVec3::new(0.5, 0.0, 1.0);
+            let input = FlyInput { travel, ..FlyInput::default() };
+            navigator.fly(&mut camera, world(&field), input, 0.1);
+            navigator.approach(&mut camera, world(&field), ndc());
+            navigator.advance(&mut camera, 0.3);
+            navigator.frame_all(&mut camera, world(&field));
+            navigator.advance(&mut camera, 10.0);
+            navigator.level(&mut camera, world(&field));
+            let what = format!("an estimate of {estimate}, a radius of {bounding_radius}");
+            let points = [camera.position.to_dvec3(), camera.pivot.to_dvec3()];
+            assert!(points.iter().all(|point| point.is_finite()), "{what}: {points:?}");
+            assert!(camera.view_unit() > 0.0, "{what}");
+        }
+    }
+}

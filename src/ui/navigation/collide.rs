@@ -55,7 +55,7 @@ pub fn slide(world: World<'_>, camera: &Camera, displacement: DVec3) -> DVec3 {
             break;
         }
         let eye = start + total;
-        let spacing = 0.5 * world.field.distance(eye).clamp(0.1 * clearance, clearance);
+        let spacing = 0.5 * world.field.distance(eye).max(0.1 * clearance).min(clearance);
         let normal = world.field.normal(eye, spacing);
         left -= normal * (left.dot(normal).min(0.0) - LIFT * left.length());
     }

@@ -133,7 +133,8 @@ impl World<'_> {
             let ray = self.ray(camera, ndc);
             let min = self.field.clear_distance(ray.origin).max(self.nearest(camera));
             let depth = self.closest_approach(camera, ray);
-            ray.direction * depth.clamp(min, 2.0 * MAX_EYE_DISTANCE)
+            // An estimate inside of a large sphere may be above the maximum.
+            ray.direction * depth.max(min).min(2.0 * MAX_EYE_DISTANCE)
         })
     }
 
