@@ -30,10 +30,10 @@ impl Reconstruction {
         if level == 0 {
             return None;
         }
+        // The film shows more of kept pixels than the lattice does.
+        let is_plain = is_plain && kept.share == 0.0;
         // Filling the film amid a level would overwrite the level's samples: an unfilled film waits for
         // the next complete level.
-        // The film shows more of kept pixels than the lattice.
-        let is_plain = is_plain && kept.share == 0.0;
         if (is_plain && level >= finest && !from_film) || !(fill || self.is_filled) {
             return Some(level.max(finest));
         }

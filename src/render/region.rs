@@ -75,14 +75,14 @@ impl Eyes {
     }
 }
 
-/// Pixels of a region that another region has, too, with the same rays.
+/// A rectangle of pixels that two pictures share, with the same rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
-    /// The upper left one, in the region.
+    /// Its upper left pixel in the new picture.
     pub first: [u32; 2],
-    /// The same pixel in the other region.
-    pub first_in_other: [u32; 2],
-    /// Width and height, in pixels.
+    /// Its upper left pixel in the old picture.
+    pub first_in_old: [u32; 2],
+    /// Its width and height, in pixels.
     pub size_px: [u32; 2],
 }
 
@@ -92,19 +92,15 @@ impl Overlap {
         self.size_px.map(u64::from).iter().product()
     }
 
-    /// The pixels around which `reach_px` pixels are the same in both pictures, of the sizes `sizes_px`: up to a border
-    /// that is another, or that both have.
-    pub fn within(&self, sizes_px: [[u32; 2]; 2], reach_px: u32) -> Self {
-        let [new, old] = sizes_px;
-        let inset: [u32; 2] = std::array::from_fn(|axis| {
-            let reach_px = if new[axis] == old[axis] { 0 } else { reach_px };
-            reach_px.min(self.size_px[axis] / 2)
-        });
-        let further = |first: [u32; 2]| [0, 1].map(|axis: usize| first[axis] + inset[axis]);
+    /// The rectangle without `margin_px` columns at its left and as many at its right.
+    pub fn inset(&self, margin_px: u32) -> Self {
+        let [width, height] = self.size_px;
+        let margin_px = margin_px.min(width / 2);
+        let shifted = |[x, y]: [u32; 2]| [x + margin_px, y];
         Self {
-            first: further(self.first),
-            first_in_other: further(self.first_in_other),
-            size_px: [0, 1].map(|axis: usize| self.size_px[axis] - 2 * inset[axis]),
+            first: shifted(self.first),
+            first_in_old: shifted(self.first_in_old),
+            size_px: [width - 2 * margin_px, height],
         }
     }
 }
@@ -174,23 +170,24 @@ impl Region {
         Self::whole(size.map(|v| ((v * scale) as u32).max(1)))
     }
 
-    /// The pixels that have the same rays in a view of `other`; none where all rays differ.
+    /// The pixels that had the same rays in `old`; none where all rays differ.
     ///
-    /// Both have to be whole pictures of the camera. Their middles are the same, and the angle of view spans
-    /// the shorter side.
-    pub fn overlap(&self, other: &Self) -> Option<Overlap> {
-        let is_plain = |region: &Self| *region == Self::whole(region.size_px);
-        let (new, old) = (self.size_px, other.size_px);
-        let has_same_scale = new.iter().min() == old.iter().min();
-        let is_on_pixels = new.iter().zip(old).all(|(a, b)| a.abs_diff(b).is_multiple_of(2));
-        if !(is_plain(self) && is_plain(other) && has_same_scale && is_on_pixels) {
+    /// Both have to be whole pictures of the camera, of one height, which the angle of view spans unless the width is less.
+    pub fn overlap(&self, old: &Self) -> Option<Overlap> {
+        let is_plain = |region: &Self| {
+            let [width, height] = region.size_px;
+            *region == Self::whole([width, height]) && width >= height
+        };
+        let ([new_width, height], [old_width, old_height]) = (self.size_px, old.size_px);
+        // The middles of both are the same: an odd difference would be half a pixel.
+        let is_on_pixels = new_width.abs_diff(old_width).is_multiple_of(2);
+        if !(is_plain(self) && is_plain(old) && height == old_height && is_on_pixels) {
             return None;
         }
-        let middle = |larger: u32, smaller: u32| larger.saturating_sub(smaller) / 2;
         Some(Overlap {
-            first: [0, 1].map(|axis: usize| middle(new[axis], old[axis])),
-            first_in_other: [0, 1].map(|axis: usize| middle(old[axis], new[axis])),
-            size_px: [0, 1].map(|axis: usize| new[axis].min(old[axis])),
+            first: [new_width.saturating_sub(old_width) / 2, 0],
+            first_in_old: [old_width.saturating_sub(new_width) / 2, 0],
+            size_px: [new_width.min(old_width), height],
         })
     }
 

@@ -1,22 +1,20 @@
-//! Moves samples from the buffers of one size to those of another.
+//! Moves samples from the buffers of one width to those of another.
 
 use super::{region::Overlap, targets::Targets};
 use crate::gpu::Gpu;
 
-/// The targets of a picture.
+/// The buffers of a picture, and the width of its rows.
 #[derive(Clone, Copy)]
-pub struct Sized<'a> {
+pub struct Film<'a> {
     /// The buffers.
     pub targets: &'a Targets,
-    /// Width of the film, pixels.
+    /// Width in pixels.
     pub width_px: u32,
 }
 
-impl<'a> Sized<'a> {
-    /// All buffers of samples that stay between two pieces of work, with the bytes of a pixel, in one order.
-    ///
-    /// Light paths have some of them; without paths these hold a few bytes.
-    fn samples(self) -> [(&'a wgpu::Buffer, u64); 7] {
+impl<'a> Film<'a> {
+    /// All buffers of samples that outlive a piece of work, with the bytes of a pixel, in one order.
+    fn buffers(self) -> [(&'a wgpu::Buffer, u64); 7] {
         let Targets { center, film_rg, film_bw, direct, paths, .. } = self.targets;
         [
             (&center.surface, 8),
@@ -29,31 +27,38 @@ impl<'a> Sized<'a> {
         ]
     }
 
-    /// Number of a pixel, row by row.
+    /// Number of pixels.
+    fn pixels(self) -> u64 {
+        self.targets.film_rg.size() / 8
+    }
+
+    /// Index of a pixel, row by row.
     fn index(self, [x, y]: [u32; 2]) -> u64 {
         u64::from(y) * u64::from(self.width_px) + u64::from(x)
     }
 }
 
-/// Copies the samples of the pixels that both have, `overlap` of `to` with `from`.
+/// Copies the samples of the pixels that `new` shares with `old`, and the counts of light paths.
 ///
-/// The buffers of both have to be those of the same scene.
-pub fn copy_samples(gpu: &Gpu, from: Sized<'_>, to: Sized<'_>, overlap: &Overlap) {
+/// Both have to be of one scene.
+pub fn copy_samples(gpu: &Gpu, old: Film<'_>, new: Film<'_>, overlap: &Overlap) {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     let [columns, rows] = overlap.size_px;
-    for ((old, bytes), (new, _)) in from.samples().into_iter().zip(to.samples()) {
-        // Buffers that the scene does not need are of one pixel.
-        if old.size() == bytes || new.size() == bytes {
+    for ((from, bytes), (to, _)) in old.buffers().into_iter().zip(new.buffers()) {
+        let is_whole =
+            [(from, old), (to, new)].map(|(it, film)| it.size() == bytes * film.pixels());
+        // The scene does without this buffer.
+        if is_whole != [true; 2] {
             continue;
         }
         for row in 0..rows {
             let at = |[x, y]: [u32; 2]| [x, y + row];
-            let source = bytes * from.index(at(overlap.first_in_other));
-            let target = bytes * to.index(at(overlap.first));
-            encoder.copy_buffer_to_buffer(old, source, new, target, bytes * u64::from(columns));
+            let source = bytes * old.index(at(overlap.first_in_old));
+            let target = bytes * new.index(at(overlap.first));
+            encoder.copy_buffer_to_buffer(from, source, to, target, bytes * u64::from(columns));
         }
     }
-    let (old, new) = (&from.targets.paths.counts, &to.targets.paths.counts);
-    encoder.copy_buffer_to_buffer(old, 0, new, 0, new.size());
+    let counts = [old, new].map(|film| &film.targets.paths.counts);
+    encoder.copy_buffer_to_buffer(counts[0], 0, counts[1], 0, counts[1].size());
     gpu.queue.submit([encoder.finish()]);
 }

@@ -35,7 +35,8 @@ use cost::Cost;
 pub use gbuffer_validity::GBufferValidity;
 pub use plan::{Plan, SampleCost, WorkKind};
 use point_selection::PointSelection;
-use progress::{Progress, Reuse};
+use progress::Progress;
+pub use progress::Reuse;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
 pub use work::{BATCH_WORKGROUPS, Display, Job, KeptPixels, Points, Stage, Trace, Work};
@@ -202,25 +203,30 @@ impl Schedule {
         self.is_display_stale |= self.progress.filmed().is_some();
     }
 
-    /// Sets another region. Returns whether pixels are kept: the caller then moves their samples.
+    /// Sets another region, and returns what it keeps of the old one: the caller moves that to its place.
     ///
-    /// `overlap`: the pixels that have the same rays as before; all others become stale. `light_reach_px`: how far around
-    /// a pixel its light comes from; none if the new size changes all light.
+    /// `overlap`: the pixels that are the same as before; all others become stale. `indirect_radius_px`: how far around a
+    /// pixel its indirect light comes from; 0 without indirect light.
     pub fn resize(
         &mut self,
         size_px: [u32; 2],
         overlap: Option<Overlap>,
-        light_reach_px: Option<u32>,
-    ) -> bool {
+        indirect_radius_px: u32,
+    ) -> Reuse {
         // The new region has not been shown: its exposure does not start from the old one's.
         self.shown_at = f64::NEG_INFINITY;
         self.adaptation.stop();
-        let reuse = self.progress.resize(size_px, overlap, light_reach_px);
+        let reuse = self.progress.resize(size_px, overlap, indirect_radius_px);
         let is_converged = self.is_converged && reuse == Reuse::Film;
         self.begin_opening();
         self.is_converged = is_converged;
         self.is_display_stale = reuse == Reuse::Film;
-        reuse != Reuse::Nothing
+        reuse
+    }
+
+    /// Samples of the pixels that are kept from a picture of another width; 0 without such pixels.
+    pub fn kept_samples(&self) -> u32 {
+        self.progress.kept_samples()
     }
 
     /// False while the opening picture of the last change is under way.
@@ -446,7 +452,6 @@ impl Schedule {
             Pace::Still => STILL_PIECE_MS,
             Pace::Interactive => PIECE_MS.min(PIECE_SHARE * self.budget_ms),
         };
-        // Workgroups are visited in a scattered order: each run of them has its share of kept pixels.
         let computed = f64::from(1.0 - kept.share).max(1e-3);
         let largest = (f64::from(self.cost.piece_workgroups(aim_ms, job)) / computed) as u32;
         // Pieces of two sizes separate the fixed cost of a piece from that of its pixels. Merged

@@ -410,6 +410,31 @@ impl Inputs {
         self.frame.indirect.kind != 0
     }
 
+    /// How far around a pixel its indirect light comes from, in pixels; 0 without indirect light.
+    ///
+    /// Light paths leave none on the film.
+    pub fn indirect_radius_px(&self) -> u32 {
+        /// The places of both samples in their pixels.
+        const ROUNDING_PX: f32 = 2.0;
+        if !self.has_indirect() || self.traces_paths() {
+            return 0;
+        }
+        let height = self.frame.picture_px[1] as f32;
+        (self.frame.indirect.radius * height + ROUNDING_PX).ceil() as u32
+    }
+
+    /// As [`Self::stale_since`], as if both pictures had one width.
+    pub fn stale_but_for_width(&self, old: &Self) -> Option<Stale> {
+        let mut narrowed = self.clone();
+        let (frame, old_frame) = (&mut narrowed.frame, &old.frame);
+        frame.camera.aspect = old_frame.camera.aspect;
+        frame.picture_px[0] = old_frame.picture_px[0];
+        frame.size_px[0] = old_frame.size_px[0];
+        frame.eyes.second_at = old_frame.eyes.second_at;
+        frame.indirect.source_px[0] = old_frame.indirect.source_px[0];
+        narrowed.stale_since(old)
+    }
+
     /// The level of results that differ from `old`; none if no pass reads a difference.
     ///
     /// `self` must have the [visibility bits](Self::with_bits_of) of `old`.

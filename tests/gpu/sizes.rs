@@ -1,11 +1,14 @@
 //! A view that gets another size keeps the samples that are still true, and ends as if it had kept none.
 
+use std::sync::Arc;
+
+use glam::DVec3;
 use mandelight::{
     render::{
         Pace, Region, View,
         pass::{march, scatter, shade},
     },
-    scene::{IndirectKind, IntegratorKind, Scene, presets},
+    scene::{BackgroundKind, EnvironmentMap, IndirectKind, IntegratorKind, Scene, presets},
 };
 use mandelight_test_support::{
     compare::{RESIZED, assert_within},
@@ -156,14 +159,107 @@ fn a_size_that_comes_amid_samples_ends_in_the_same_picture() {
     }
 }
 
-/// Below a picture's width, its height has another scale; an odd difference is half a pixel off.
+/// Light paths leave guides of the denoiser where direct light has its shadows.
+#[test]
+fn direct_light_after_paths_and_another_width_has_its_shadows() {
+    let mut view = finished(&traced(), NARROW, Pace::Interactive);
+    view.set_region(Region::whole(WIDE));
+    // The centre samples of the borders, at least.
+    for pump in 0..6 {
+        view.pump(0.02 * f64::from(pump));
+        gpu().wait();
+    }
+    let direct = sampled(Scene::default(), 4);
+    view.set_scene(&direct, false);
+    settle(&mut view);
+    assert_fresh(&view, &direct);
+}
+
+/// What is known of the paths' noise goes with them.
+#[test]
+fn paths_that_have_ended_stay_ended() {
+    let mut scene = traced();
+    (scene.quality.samples, scene.integrator.noise) = (400, 0.2);
+    let mut view = finished(&scene, WIDE, Pace::Interactive);
+    let done = view.report().samples_done;
+    assert!((32..400).contains(&done), "{done} samples");
+    let before = view.dispatches().clone();
+    view.set_region(Region::whole(NARROW));
+    settle(&mut view);
+    let report = view.report();
+    assert_eq!((report.samples_done, report.converged_fraction), (done, Some(1.0)));
+    assert_eq!(view.dispatches().since(&before).of(&scatter::PASS).dispatches, 0);
+    // Amid samples, the noise of the film before says nothing of the new one.
+    let mut view = View::new(pipelines(), Region::whole(WIDE), Pace::Interactive);
+    view.set_scene(&scene, false);
+    let mut now_secs = 0.0;
+    while view.report().samples_done < done - 8 {
+        now_secs += 0.02;
+        view.pump(now_secs);
+        gpu().wait();
+    }
+    view.set_region(Region::whole(NARROW));
+    settle(&mut view);
+    assert!(view.report().samples_done >= 32, "{:?}", view.report());
+}
+
+/// Another edit that comes in the same frame is not lost.
+#[test]
+fn an_environment_map_that_comes_with_another_width_is_shown() {
+    let map = |color| Arc::new(EnvironmentMap::from_fn("map.hdr", [8, 4], |_| color));
+    let mut scene = sampled(Scene::default(), 2);
+    scene.background.kind = BackgroundKind::EnvironmentMap;
+    scene.lights.rig.environment_map.name = "map.hdr".into();
+    let [red, blue] = [map(DVec3::X), map(DVec3::Z)];
+    let mut view = View::new(pipelines(), Region::whole(WIDE), Pace::Interactive);
+    view.set_environment_map(Some(&red));
+    view.set_scene(&scene, false);
+    settle(&mut view);
+    view.set_environment_map(Some(&blue));
+    view.set_region(Region::whole(NARROW));
+    settle(&mut view);
+    let corner = film(&view)[0];
+    assert!(corner[2] > 0.9 && corner[0] < 0.1, "{corner:?}");
+}
+
+/// Whatever is on the screen, no pixel of it is one that was never computed.
+#[test]
+fn no_border_is_dark_while_it_is_made() {
+    let mut scene = sampled(Scene::default(), 6);
+    scene.indirect.kind = IndirectKind::Uniform;
+    scene.background.top = [0.5; 3];
+    scene.background.bottom = [0.5; 3];
+    for pumps in 1..7 {
+        let mut view = finished(&sampled(scene.clone(), 2), NARROW, Pace::Interactive);
+        view.set_scene(&scene, false);
+        for pump in 0..pumps {
+            view.pump(100.0 + 0.02 * f64::from(pump));
+            gpu().wait();
+        }
+        view.set_region(Region::whole(WIDE));
+        let mut now_secs = 200.0;
+        while view.pump(now_secs) {
+            gpu().wait();
+            now_secs += 0.02;
+            if view.texture().map(wgpu::Texture::width) == Some(WIDE[0]) {
+                let picture = pixels(&view);
+                let darkest = picture.as_chunks::<4>().0.iter().step_by(WIDE[0] as usize);
+                let darkest = darkest.map(|pixel| pixel[0]).min().expect("a row");
+                assert!(darkest > 90, "a border of {darkest} after {pumps} pumps");
+            }
+        }
+    }
+}
+
+/// A picture taller than wide has another scale; an odd difference is half a pixel off.
 #[test]
 fn pictures_of_other_rays_share_nothing() {
     let overlap = |a, b| Region::whole(a).overlap(&Region::whole(b));
-    assert!(overlap([96, 64], [70, 64]).is_some() && overlap([64, 96], [64, 80]).is_some());
-    assert_eq!(overlap([96, 64], [96, 60]), None);
-    assert_eq!(overlap([96, 64], [71, 64]), None);
-    assert_eq!(overlap([64, 96], [64, 60]), None);
+    assert!(overlap([96, 64], [70, 64]).is_some() && overlap([64, 64], [96, 64]).is_some());
+    for other in [[96, 60], [71, 64], [62, 64]] {
+        assert_eq!(overlap([96, 64], other), None, "{other:?}");
+        assert_eq!(overlap(other, [96, 64]), None, "{other:?}");
+    }
     let part = Region { picture_px: [96, 64], origin_px: [4, 0], ..Region::whole([70, 64]) };
     assert_eq!(part.overlap(&Region::whole([96, 64])), None);
 }

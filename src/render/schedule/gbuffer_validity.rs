@@ -53,6 +53,17 @@ impl GBufferValidity {
         }
     }
 
+    /// Discards what only a lattice has: in a picture of another width, its pixels are no lattice.
+    pub fn discard_sparse(&mut self) {
+        let is_sparse = |finest: &Finest| *finest != Some(0);
+        let Self { depth, normal, visibility } = self;
+        for finest in [depth, normal].into_iter().chain(visibility) {
+            if is_sparse(finest) {
+                *finest = None;
+            }
+        }
+    }
+
     /// The finest level that has depths.
     pub fn depth(&self) -> Option<u32> {
         self.depth

@@ -73,8 +73,8 @@ impl PointSelection<'_> {
 
     /// About how many pixels are computed for `points`.
     fn computed_pixels(&self, points: Points) -> u32 {
-        let all = f64::from(points.grid(self.progress.size_px).threads());
-        (all * f64::from(1.0 - self.progress.kept_pixels(points).share)) as u32
+        let threads = points.grid(self.progress.size_px).threads();
+        self.progress.kept_pixels(points).computed(threads)
     }
 
     /// The points after a lattice of `level`, on the way to all pixels.

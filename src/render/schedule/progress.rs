@@ -11,24 +11,24 @@ use super::{
 };
 use crate::render::region::Overlap;
 
-/// Pixels of a picture of another size, while the other pixels catch up with them.
+/// Pixels of the picture before a change of width, while the other pixels catch up with them.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct ReusedPixels {
     pixels: KeptPixels,
-    /// Whole samples on the film; 0 if the film holds another light than it should.
+    /// Whole samples on the film; 0 if it needs other light.
     samples: u32,
     /// Whether the centre samples have the visibility of the lights that shine.
     has_visibility: bool,
 }
 
-/// What a picture of another size keeps of the one before.
+/// What a picture keeps of the one before it, of another width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reuse {
-    /// Everything is computed anew.
+    /// Nothing: all pixels are computed.
     Nothing,
-    /// Samples, which the next work leaves as they are.
+    /// Depths and normals of some or all pixels, perhaps with their film.
     Samples,
-    /// The whole film: it is only displayed.
+    /// The film of all pixels: the picture is only displayed.
     Film,
 }
 
@@ -55,7 +55,8 @@ pub struct Progress {
     pub under_way: Option<(Points, u32)>,
     /// Whether a filled preview is on the film while pixels are under way.
     pub is_filled: bool,
-    kept: Option<Kept>,
+    /// The pixels that are not computed.
+    reused: Option<ReusedPixels>,
     /// Whether all centre samples are there and await their light.
     pub awaits_light: bool,
 }
@@ -74,75 +75,84 @@ impl Progress {
             samples_done: 0,
             under_way: None,
             is_filled: false,
-            kept: None,
+            reused: None,
             awaits_light: false,
         }
     }
 
     /// Sets another region, and returns what of its pixels is there: the caller moves it to its place.
     ///
-    /// `overlap`: the pixels that have the same rays as before. `light_reach_px`: how far around a pixel its light comes
-    /// from; none if the film's light is not true at the new size.
+    /// `overlap`: the pixels that are the same as before. `indirect_radius_px`: how far around a pixel its indirect light
+    /// comes from; 0 without indirect light.
     pub fn resize(
         &mut self,
         size_px: [u32; 2],
         overlap: Option<Overlap>,
-        light_reach_px: Option<u32>,
+        indirect_radius_px: u32,
     ) -> Reuse {
-        let old_size_px = std::mem::replace(&mut self.size_px, size_px);
-        let (missing, _) = self.gbuffer_validity.first_missing(0, self.shining);
-        let Some(overlap) = overlap.filter(|_| missing >= Stage::Shadow) else {
+        self.size_px = size_px;
+        let (first_missing, _) = self.gbuffer_validity.first_missing(0, self.shining);
+        let Some(overlap) = overlap.filter(|_| first_missing >= Stage::Shadow) else {
             self.restart(Stale::Geometry);
             return Reuse::Nothing;
         };
-        // Samples under way are on the film of some pixels only.
-        let is_film_even = self.under_way.is_none() && self.kept.is_none();
-        let lit = light_reach_px
-            .map(|reach_px| overlap.within([size_px, old_size_px], reach_px))
-            .filter(|lit| is_film_even && 2 * lit.pixels() >= overlap.pixels());
-        let (shared, samples) = lit.map_or((overlap, 0), |lit| (lit, self.samples_done));
-        let is_whole = shared.size_px == size_px;
-        match (is_whole, samples) {
-            (true, 0) => self.restart(Stale::Light),
-            (true, _) => return Reuse::Film,
-            (false, _) => {
-                self.restart(Stale::Geometry);
-                let end = [0, 1].map(|axis: usize| shared.first[axis] + shared.size_px[axis]);
-                let all = f64::from(size_px[0]) * f64::from(size_px[1]);
-                self.kept = Some(Kept {
-                    pixels: KeptPixels {
-                        first: shared.first,
-                        end,
-                        share: (shared.pixels() as f64 / all) as f32,
-                    },
-                    samples,
-                    has_visibility: missing > Stage::Shadow,
-                });
-            }
+        let reused = self.reused_pixels(&overlap, indirect_radius_px, first_missing);
+        let KeptPixels { first, end, .. } = reused.pixels;
+        if (first, end) != ([0, 0], size_px) {
+            self.restart(Stale::Geometry);
+            self.reused = Some(reused);
+            return Reuse::Samples;
         }
-        Reuse::Samples
+        if reused.samples == 0 {
+            self.restart(Stale::Light);
+        }
+        self.gbuffer_validity.discard_sparse();
+        if reused.samples == 0 { Reuse::Samples } else { Reuse::Film }
+    }
+
+    /// The pixels of an overlap whose film is true, or else all of its pixels.
+    fn reused_pixels(
+        &self,
+        overlap: &Overlap,
+        indirect_radius_px: u32,
+        first_missing: Stage,
+    ) -> ReusedPixels {
+        // Samples under way are on the film of some pixels only.
+        let is_film_even = self.under_way.is_none() && self.reused.is_none();
+        let lit = overlap.inset(indirect_radius_px);
+        let has_film =
+            is_film_even && self.samples_done > 0 && 2 * lit.pixels() >= overlap.pixels();
+        ReusedPixels {
+            pixels: KeptPixels::of(if has_film { &lit } else { overlap }, self.size_px),
+            samples: if has_film { self.samples_done } else { 0 },
+            has_visibility: first_missing > Stage::Shadow
+                && self.reused.is_none_or(|reused| reused.has_visibility),
+        }
     }
 
     /// The pixels that need not be computed for `points`.
     pub fn kept_pixels(&self, points: Points) -> KeptPixels {
-        let kept = self.kept.filter(|kept| match points {
-            Points::Samples { first, .. } => first < kept.samples,
+        let kept = self.reused.filter(|reused| match points {
+            Points::Samples { first, .. } => first < reused.samples,
             _ => true,
         });
         kept.map_or_else(KeptPixels::default, |kept| kept.pixels)
     }
 
-    /// The number of samples from which on no pixel is kept.
+    /// Samples of the kept pixels, up to which the others catch up; 0 without such pixels.
     pub fn kept_samples(&self) -> u32 {
-        self.kept.map_or(0, |kept| kept.samples)
+        self.reused.map_or(0, |reused| reused.samples)
     }
 
     /// Computes all pixels from now on.
-    fn release_kept(&mut self) {
-        if let Some(kept) = self.kept.take()
-            && !kept.has_visibility
-        {
+    fn end_reuse(&mut self) {
+        let Some(reused) = self.reused.take() else { return };
+        if !reused.has_visibility {
             self.gbuffer_validity.invalidate_lights(u64::MAX);
+        }
+        if reused.samples == 0 {
+            // They have the light of another picture.
+            self.shaded = None;
         }
     }
 
@@ -151,7 +161,7 @@ impl Progress {
         if stale == Stale::Tone {
             return;
         }
-        self.release_kept();
+        self.end_reuse();
         self.awaits_light = false;
         self.gbuffer_validity.invalidate(stale);
         if stale >= Stale::Light {
@@ -186,10 +196,10 @@ impl Progress {
                 self.shaded = Some(level);
                 self.gbuffer_validity.complete(level, self.shining);
                 self.awaits_light = false;
-                if level == 0 && self.kept.is_some_and(|kept| kept.samples == 0) {
+                if level == 0 && self.reused.is_some_and(|reused| reused.samples == 0) {
                     self.restart(Stale::Light);
                     self.awaits_light = true;
-                    return true;
+                    return !self.has_indirect;
                 }
                 // Levels that wait for indirect light are not on the film yet.
                 !self.has_indirect
@@ -200,19 +210,19 @@ impl Progress {
             }
             Points::Samples { first, count } => {
                 self.samples_done = first + count;
-                self.release_samples();
+                self.end_reuse_if_even();
                 return true;
             }
         };
         self.samples_done = u32::from(self.filmed() == Some(0));
-        self.release_samples();
+        self.end_reuse_if_even();
         is_filmed
     }
 
-    /// Computes all pixels from now on if the others have caught up with the kept ones.
-    fn release_samples(&mut self) {
+    /// Computes all pixels from now on if the others have as many samples as the kept ones.
+    fn end_reuse_if_even(&mut self) {
         if self.samples_done > 0 && self.samples_done >= self.kept_samples() {
-            self.kept = None;
+            self.reused = None;
         }
     }
 

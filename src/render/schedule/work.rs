@@ -1,6 +1,9 @@
 //! What a schedule hands out: one piece of work.
 
-use crate::render::lattice::{Grid, WORKGROUP_THREADS};
+use crate::render::{
+    lattice::{Grid, WORKGROUP_THREADS},
+    region::Overlap,
+};
 
 /// Most workgroups in one submit: a view's buffers of rays, jittered samples and work queues have this size.
 ///
@@ -76,15 +79,34 @@ pub struct Job {
     pub lights: u64,
 }
 
-/// Pixels that work leaves as they are, since they hold already what it would compute.
+/// Pixels that work leaves as they are: they already hold what it would compute.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct KeptPixels {
     /// The upper left one.
     pub first: [u32; 2],
     /// One past the lower right one.
     pub end: [u32; 2],
-    /// Part of the region that they are, 0 to 1.
+    /// Fraction of the region's pixels, 0 to 1.
     pub share: f32,
+}
+
+impl KeptPixels {
+    /// The pixels of an overlap in a region of `size_px`.
+    pub fn of(overlap: &Overlap, size_px: [u32; 2]) -> Self {
+        let Overlap { first, size_px: kept_px, .. } = *overlap;
+        let all = f64::from(size_px[0]) * f64::from(size_px[1]);
+        Self {
+            first,
+            end: [first[0] + kept_px[0], first[1] + kept_px[1]],
+            share: (overlap.pixels() as f64 / all) as f32,
+        }
+    }
+
+    /// About how many of `threads` compute something: workgroups are visited in a scattered order, so that each run of
+    /// them has its share of kept pixels.
+    pub fn computed(&self, threads: u32) -> u32 {
+        (f64::from(threads) * (1.0 - f64::from(self.share))) as u32
+    }
 }
 
 /// A run of workgroups over some sample points.
@@ -117,8 +139,7 @@ impl Trace {
 
     /// About how many samples it computes, with those of the last workgroups that lie outside the region.
     pub fn samples(&self) -> u32 {
-        let samples = f64::from(self.workgroups * WORKGROUP_THREADS);
-        (samples * (1.0 - f64::from(self.kept.share))) as u32
+        self.kept.computed(self.workgroups * WORKGROUP_THREADS)
     }
 
     /// What is done for each of its points.

@@ -8,7 +8,7 @@ use crate::{
         pass::assess_noise,
         recorder::Recorder,
         report::ClampedLight,
-        schedule::{Points, Trace, Work},
+        schedule::{KeptPixels, Points, Trace, Work},
         uniforms::{Inputs, PathCounts},
     },
     scene::Scene,
@@ -21,11 +21,19 @@ const PREVIEW_SAMPLES: u32 = 64;
 const CONVERGED_SAMPLES: u32 = assess_noise::MIN_ROUNDS * assess_noise::SAMPLES_PER_ROUND;
 
 impl View {
-    /// Clears the counts of paths before `work` if it begins a picture.
+    /// Lets the paths of a film that was taken over be assessed, as after a round.
+    pub(super) fn note_reused_rounds(&mut self) {
+        if self.assesses() {
+            self.noise_control.note_round();
+        }
+    }
+
+    /// Clears the counts of paths before `work` if it begins a picture of which no pixel is kept.
     pub(super) fn clear_path_counts(&self, work: Work) {
         if let Work::Trace(Trace {
             points: Points::Samples { first: 1, .. },
             first_workgroup: 0,
+            kept: KeptPixels { share: 0.0, .. },
             ..
         }) = work
         {
@@ -105,7 +113,7 @@ impl View {
         let most = if has_target { CONVERGED_SAMPLES } else { PREVIEW_SAMPLES };
         let before = self.inputs.as_ref().map_or(0.0, |old| old.frame.paths.preview_samples) as u32;
         let done = self.schedule.status(self.times.now_secs()).samples_done;
-        let is_gone = before > 0 && done > before;
+        let is_gone = before > 0 && done.max(self.schedule.kept_samples()) > before;
         if is_gone { before } else { scene.quality.samples.min(most) }
     }
 

@@ -1,4 +1,4 @@
-//! Another region for a view, which keeps what is true of the samples of the old one.
+//! Another region for a view, which keeps what is true of the old picture.
 //!
 //! A window that becomes wider shows more beside the same pixels: their samples are moved to their new places, and
 //! only the others are computed.
@@ -6,10 +6,12 @@
 use super::{StatsValidity, View, drawable};
 use crate::render::{
     Pace,
-    region::Region,
-    reuse::{self, Sized},
+    region::{Overlap, Region},
+    reuse::{self, Film},
+    schedule::{Reuse, Stale},
     space,
     targets::Targets,
+    uniforms::Inputs,
 };
 
 impl View {
@@ -21,76 +23,64 @@ impl View {
         if region == self.region {
             return;
         }
-        let has_space = match (&self.scene, &self.space) {
-            (Some(scene), Some(space)) => {
-                space::wants_anchor(space.model(), scene, region) == space.reference().is_some()
-            }
-            _ => false,
-        };
-        let old_width_px = self.region.size_px[0];
-        let overlap = region.overlap(&self.region).filter(|_| has_space && self.can_keep_samples());
-        let light_reach_px = self.light_reach_px(region);
-        let old_targets = self.fit_region(region);
-        let keeps = self.schedule.resize(region.film_px(), overlap, light_reach_px);
+        let old_region = std::mem::replace(&mut self.region, region);
         self.times.note_change();
-        let (Some(scene), Some(space)) = (&self.scene, &self.space) else { return };
-        if !has_space {
-            // The new pixel size needs another render space.
-            self.is_space_current = false;
-            self.pending = self.pending.take().or_else(|| self.scene.clone());
-            self.inputs = None;
+        let inputs = self.inputs_in_same_space();
+        let overlap = inputs.as_ref().and_then(|inputs| self.overlap(inputs, old_region));
+        let indirect_radius_px = inputs.as_ref().map_or(0, Inputs::indirect_radius_px);
+        let old_targets = self.fit_targets(old_region);
+        let reuse = self.schedule.resize(region.film_px(), overlap, indirect_radius_px);
+        let Some(inputs) = inputs else {
+            if self.inputs.take().is_some() {
+                // The new pixel size needs another render space.
+                self.is_space_current = false;
+                self.pending = self.pending.take().or_else(|| self.scene.clone());
+            }
             return;
-        }
-        self.upload(self.inputs_about(scene, space));
-        if let (Some(overlap), Some(old)) = (overlap.filter(|_| keeps), old_targets) {
-            let old = Sized { targets: &old, width_px: old_width_px };
-            let new = Sized { targets: &self.targets, width_px: region.size_px[0] };
+        };
+        self.upload(inputs);
+        if let (Some(overlap), Some(targets)) = (overlap, old_targets)
+            && reuse != Reuse::Nothing
+        {
+            let old = Film { targets: &targets, width_px: old_region.size_px[0] };
+            let new = Film { targets: &self.targets, width_px: region.size_px[0] };
             reuse::copy_samples(&self.pipelines.gpu, old, new, &overlap);
-            // Whether the kept pixels are clean is known once they are assessed.
-            self.noise_control.note_round();
+        }
+        if reuse == Reuse::Film {
+            self.note_reused_rounds();
         }
     }
 
-    /// Replaces the buffers by those of `region`, and returns the old ones; none if they have its size.
-    fn fit_region(&mut self, region: Region) -> Option<Targets> {
+    /// The scene's inputs in the new region; none if it needs another render space.
+    fn inputs_in_same_space(&self) -> Option<Inputs> {
+        self.inputs.as_ref()?;
+        let (scene, space) = (self.scene.as_ref()?, self.space.as_ref()?);
+        let wants_anchor = space::wants_anchor(space.model(), scene, self.region);
+        (wants_anchor == space.reference().is_some()).then(|| self.inputs_about(scene, space))
+    }
+
+    /// The pixels whose samples may stay; none if anything but the width is new.
+    ///
+    /// Stills and tiles must not depend on earlier sizes.
+    fn overlap(&self, inputs: &Inputs, old_region: Region) -> Option<Overlap> {
+        let is_alone = self.lent.post.is_none() && self.lent.indirect_source.is_none();
+        let is_watched = self.pace == Pace::Interactive && self.sub_frame.is_none() && is_alone;
+        let old = self.inputs.as_ref().filter(|_| is_watched)?;
+        let stale = inputs.stale_but_for_width(old);
+        self.region.overlap(&old_region).filter(|_| stale <= Some(Stale::Tone))
+    }
+
+    /// Replaces the buffers by those of the region, and returns the old ones; none if their size is the same.
+    fn fit_targets(&mut self, old_region: Region) -> Option<Targets> {
         // Two regions of one size can hold different eye layouts, so discard the film statistics.
         self.stats_validity = StatsValidity::default();
-        let same_size = region.size_px == self.region.size_px
-            && region.film_px() == self.region.film_px()
-            && region.display_px() == self.region.display_px();
-        let old = (!same_size).then(|| {
+        let sizes = |region: Region| (region.size_px, region.film_px(), region.display_px());
+        let old = (sizes(self.region) != sizes(old_region)).then(|| {
             let environment_texture = self.targets.environment_texture.clone();
-            let targets =
-                Targets { environment_texture, ..Targets::new(&self.pipelines.layouts, region) };
-            std::mem::replace(&mut self.targets, targets)
+            let targets = Targets::new(&self.pipelines.layouts, self.region);
+            std::mem::replace(&mut self.targets, Targets { environment_texture, ..targets })
         });
-        self.region = region;
         self.fit_display();
         old
-    }
-
-    /// Whether samples may stay over a change of size: not those of stills, which are the same from any
-    /// beginning, nor of tiles.
-    fn can_keep_samples(&self) -> bool {
-        self.pace == Pace::Interactive
-            && self.sub_frame.is_none()
-            && self.lent.post.is_none()
-            && self.lent.indirect_source.is_none()
-    }
-
-    /// How far around a pixel its light comes from, in pixels; none if all the film's light depends on the size.
-    ///
-    /// Backgrounds follow the picture's height, and indirect light comes from a pixel's neighbours.
-    fn light_reach_px(&self, region: Region) -> Option<u32> {
-        /// A neighbour's place in its pixel, and that of the sample.
-        const ROUNDING_PX: f64 = 2.0;
-        let inputs = self.inputs.as_ref()?;
-        let height = region.size_px[1];
-        let reach = if inputs.has_indirect() {
-            (f64::from(inputs.frame.indirect.radius) * f64::from(height) + ROUNDING_PX).ceil()
-        } else {
-            0.0
-        };
-        (height == self.region.size_px[1]).then_some(reach as u32)
     }
 }
