@@ -323,35 +323,51 @@ fn help_lists_the_shortcuts_and_fits() {
 #[test]
 fn no_row_is_wider_than_the_panel() {
     const MARGIN: f32 = 14.0;
-    const WIDTH: f32 = 1280.0;
-    // Texts have other widths at each ratio. The window is so tall that no row is scrolled out of sight.
-    for ratio in [1.0, 1.5, 2.0, 2.625, 3.0] {
-        let mut harness = stage(Scene::default(), unfolded(), [WIDTH * ratio, 9000.0 * ratio]);
-        harness.set_pixels_per_point(ratio);
-        harness.run();
-        for control in [
-            "Form: Julia",
-            "Mix with another formula",
-            "Mirror",
-            "Sky light: Sky",
-            "Add point light",
-            "Added: After curve",
-        ] {
-            press(&mut harness, control);
+    // The widest panel, a narrow one, and a sheet.
+    for size in [[1280.0, 720.0], [640.0, 420.0], [390.0, 844.0]] {
+        // Texts have other widths at each ratio.
+        for ratio in [0.75, 1.0, 1.5, 2.0, 2.625, 3.0] {
+            for has_touch in [false, true] {
+                let mut harness =
+                    stage(Scene::default(), unfolded(), size.map(|side| side * ratio));
+                harness.set_pixels_per_point(ratio);
+                harness.run();
+                if has_touch {
+                    touch(&mut harness);
+                }
+                for control in [
+                    "Form: Julia",
+                    "Mix with another formula",
+                    "Mirror",
+                    "Sky light: Sky",
+                    "Add point light",
+                    "Added: After curve",
+                ] {
+                    button(&harness, control).click_accesskit();
+                    harness.run();
+                }
+                let case = format!("{size:?}, {ratio} pixels per point, touch: {has_touch}");
+                let wide = wider_rows(&harness, size[0] - MARGIN);
+                assert!(wide.is_empty(), "{case}: {wide:#?}");
+                let panel = harness.state().interface.rects().get("panel").expect("the panel");
+                assert!(panel.right() <= size[0], "{case}: {panel:?}");
+            }
         }
-        let panel = harness.state().interface.rects().get("panel").expect("the panel");
-        let heading = button(&harness, "Hide panel").rect().bottom();
-        let nodes = harness.root().children_recursive();
-        let nodes = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
-        let rows = nodes.filter(|node| panel.x_range().contains(node.rect().center().x));
-        let wide = rows.filter_map(|node| {
-            let label = node.accesskit_node().label()?;
-            let rect = node.rect();
-            let is_wide = rect.top() > heading && rect.right() > WIDTH - MARGIN;
-            is_wide.then(|| format!("{label}: {rect:?}"))
-        });
-        let wide: Vec<_> = wide.take(5).collect();
-        assert!(wide.is_empty(), "at {ratio} pixels per point: {wide:#?}");
-        assert!(panel.right() <= WIDTH, "{panel:?}");
     }
+}
+
+/// The first rows of the panel that end to the right of `most`.
+fn wider_rows(harness: &egui_kittest::Harness<'_, Stage>, most: f32) -> Vec<String> {
+    let panel = harness.state().interface.rects().get("panel").expect("the panel");
+    let heading = button(harness, "Hide panel").rect().bottom();
+    let nodes = harness.root().children_recursive();
+    let nodes = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
+    let rows = nodes.filter(|node| panel.x_range().contains(node.rect().center().x));
+    let wide = rows.filter_map(|node| {
+        let label = node.accesskit_node().label().or(node.accesskit_node().value())?;
+        let rect = node.rect();
+        let is_wide = rect.top() > heading && rect.right() > most;
+        is_wide.then(|| format!("{label}: {rect:?}"))
+    });
+    wide.take(5).collect()
 }

@@ -44,6 +44,8 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
             let response = light::direction_ball(ui, "Key light direction", 84.0, light, camera);
             cx.rects.record("key light ball", &response);
             ui.vertical(|ui| {
+                // egui lets a text be half a point wider than its column.
+                ui.set_max_width((ui.available_width() - 0.5).max(0.0));
                 ui.add_space(4.0);
                 ui.label(
                     RichText::new(format!(
