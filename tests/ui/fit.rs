@@ -371,3 +371,24 @@ fn wider_rows(harness: &egui_kittest::Harness<'_, Stage>, most: f32) -> Vec<Stri
     });
     wide.take(5).collect()
 }
+
+/// Rows of buttons have one gap, and begin and end together.
+#[test]
+fn rows_of_buttons_are_alike() {
+    let harness = workshop();
+    let ends = |[first, last]: [&str; 2]| {
+        let [first, last] = [first, last].map(|label| button(&harness, label).rect());
+        (first.left(), last.right())
+    };
+    let gap = |[left, right]: [&str; 2]| {
+        let [left, right] = [left, right].map(|label| button(&harness, label).rect());
+        right.left() - left.right()
+    };
+    let lights = [["Add light", "Add point light"], ["Duplicate", "Remove"]];
+    for row in lights {
+        assert_eq!(gap(row), gap(["Home", "Frame all"]), "{row:?}");
+        let ((left, right), (home, fly)) = (ends(row), ends(["Home", "Fly"]));
+        // A row of three has another remainder of egui's unit of layout.
+        assert!((left - home).abs() < 0.1 && (right - fly).abs() < 0.1, "{row:?}");
+    }
+}
