@@ -1,6 +1,6 @@
 //! Everything is where it can be reached, in every window.
 
-use egui::Rect;
+use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
     scene::{Scene, presets},
@@ -237,11 +237,37 @@ fn hints_in_low_views_leave_the_middle_free() {
     }
 }
 
+/// A hint does not look out from behind a window: it waits until the window is closed.
+#[test]
+fn hints_wait_while_a_window_is_open() {
+    const COMMAND: Modifiers = Modifiers::COMMAND;
+    for size in [[844.0, 390.0], [640.0, 420.0], [1280.0, 720.0]] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        harness.run();
+        let has_hint = |harness: &egui_kittest::Harness<'_, Stage>| {
+            harness.state().interface.rects().get("hint").is_some()
+        };
+        let none = Modifiers::NONE;
+        for (modifiers, key) in [(COMMAND, Key::K), (none, Key::F1), (none, Key::J), (none, Key::M)]
+        {
+            assert!(has_hint(&harness), "before {key:?} in {size:?}");
+            harness.key_press_modifiers(modifiers, key);
+            harness.run_steps(4);
+            assert!(!has_hint(&harness), "{key:?} in {size:?}");
+            harness.key_press(Key::Escape);
+            harness.run_steps(4);
+        }
+        harness.state_mut().notice = Some(Notice { text: "A message".into(), ..Notice::default() });
+        harness.run_steps(4);
+        assert!(!has_hint(&harness), "with a message in {size:?}");
+    }
+}
+
 #[test]
 fn help_begins_with_what_the_screen_is_used_by() {
     for (size, is_touch) in [([390.0, 844.0], true), ([1280.0, 720.0], false)] {
         let mut harness = stage(Scene::default(), Settings::default(), size);
-        harness.key_press(egui::Key::F1);
+        harness.key_press(Key::F1);
         harness.run();
         let top = |text: &str| harness.get_by_label(text).rect().top();
         assert_eq!(top("With fingers") < top("With a mouse"), is_touch, "{size:?}");
@@ -303,7 +329,7 @@ fn the_offer_of_a_notice_is_a_button_in_the_window() {
 fn help_lists_the_shortcuts_and_fits() {
     for size in WINDOWS {
         let mut harness = stage(Scene::default(), Settings::default(), size);
-        harness.key_press(egui::Key::F1);
+        harness.key_press(Key::F1);
         harness.run();
         for (_, what) in
             mandelight::ui::shortcuts::SHORTCUTS.iter().filter_map(|shortcut| shortcut.help)
@@ -313,7 +339,7 @@ fn help_lists_the_shortcuts_and_fits() {
             let fits = |line: &Rect| line.left() >= 0.0 && line.right() <= size[0];
             assert!(lines.iter().all(fits), "{what} in {size:?}: {lines:?}");
         }
-        harness.key_press(egui::Key::Escape);
+        harness.key_press(Key::Escape);
         harness.run();
         assert!(harness.query_by_label("Keys and gestures").is_none());
     }
