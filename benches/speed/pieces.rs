@@ -96,7 +96,7 @@ pub fn measure(pipelines: &Arc<Pipelines>, size_px: Option<[u32; 2]>) -> Vec<Row
     let region = Region::whole(size_px.unwrap_or(SIZE_PX));
     let view = View::new(pipelines, region, Pace::Interactive);
     let mut watched = Watched { view, start: Instant::now() };
-    watched.view.take_piece_times();
+    watched.view.watch_piece_times(true);
     let mut gallery = Vec::new();
     let mut scenes = 0;
     for preset in presets::all() {

@@ -19,4 +19,4 @@ pub mod visible;
 
 pub use list::at_most;
 pub use objects::Objects;
-pub use visible::{visible, visible_lines};
+pub use visible::{is_hidden, visible, visible_lines};

@@ -32,7 +32,7 @@ pub fn visible_lines(text: &str) -> Cow<'_, str> {
 }
 
 /// Whether a character is obeyed instead of drawn: controls, line separators, directions of text.
-fn is_hidden(letter: char) -> bool {
+pub fn is_hidden(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{2028}' | '\u{2029}' | '\u{200e}' | '\u{200f}' | '\u{61c}')
         || matches!(letter, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::reading::is_hidden;
+
 /// The name of the list's file in its folder.
 pub const LIST_FILE: &str = "gallery.json";
 /// Maximum length of a list, in bytes.
@@ -58,7 +60,7 @@ pub enum GalleryError {
     File {
         /// The picture's place in the list.
         index: usize,
-        /// The name, without control characters, cut where it is long.
+        /// The name, without hidden characters, cut where it is long.
         file: String,
     },
 }
@@ -142,7 +144,7 @@ fn checked(stored: Stored) -> Result<Gallery, GalleryError> {
 
 /// True for a path that leads nowhere but into the folder, on every host and in every browser.
 pub fn is_in_folder(file: &str) -> bool {
-    let is_foreign = |c: char| c.is_control() || matches!(c, '\\' | ':' | '?' | '#' | '%');
+    let is_foreign = |c: char| is_hidden(c) || matches!(c, '\\' | ':' | '?' | '#' | '%');
     file.chars().count() <= MAX_NAME_CHARS
         && !file.contains(is_foreign)
         && file.split('/').all(|part| !matches!(part.trim(), "" | "." | ".."))
@@ -157,9 +159,9 @@ fn name_of(file: &str) -> String {
     }
 }
 
-/// A text of the list without control characters, cut where it is long.
+/// A text of the list without hidden characters, cut where it is long.
 fn printable(text: &str) -> String {
-    text.chars().filter(|c| !c.is_control()).take(MAX_NAME_CHARS).collect()
+    text.chars().filter(|&c| !is_hidden(c)).take(MAX_NAME_CHARS).collect()
 }
 
 #[cfg(test)]
@@ -168,7 +170,7 @@ mod tests {
 
     fn list(pictures: &str) -> Result<Gallery, GalleryError> {
         Gallery::from_json(&format!(
-            r#"{{"mandelight": "gallery", "version": 1, "name": "Re\u001befs", "pictures": [{pictures}]}}"#
+            r#"{{"mandelight": "gallery", "version": 1, "name": "R\u202ee\u001befs", "pictures": [{pictures}]}}"#
         ))
     }
 
@@ -176,7 +178,7 @@ mod tests {
     fn a_list_is_read_and_written() {
         let gallery = list(r#"{"file": "deep/cove.2.png"}, {"file": "a.png", "name": "First"}"#);
         let gallery = gallery.expect("a list");
-        assert_eq!(gallery.name, "Reefs", "without control characters");
+        assert_eq!(gallery.name, "Reefs", "without hidden characters");
         let names: Vec<_> = gallery.pictures.iter().map(|picture| &*picture.name).collect();
         assert_eq!(names, ["cove.2", "First"]);
         assert_eq!(Gallery::from_json(&gallery.to_json()), Ok(gallery));
@@ -199,10 +201,13 @@ mod tests {
             "%2e%2e/a.png",
             "a/ ../b.png",
             "a\\nb.png",
+            "a\u{202e}gnp.exe",
         ];
         for file in bad {
             let read = list(&format!(r#"{{"file": "{file}"}}"#));
             assert!(matches!(read, Err(GalleryError::File { index: 0, .. })), "{file}: {read:?}");
+            let message = read.expect_err("a message").to_string();
+            assert!(!message.contains(is_hidden), "{message:?}");
         }
         let long = "a".repeat(MAX_NAME_CHARS + 1);
         assert!(list(&format!(r#"{{"file": "{long}"}}"#)).is_err());

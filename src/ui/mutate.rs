@@ -30,6 +30,8 @@ const MIDDLE: usize = COLUMNS * COLUMNS / 2;
 const GAP: f32 = 8.0;
 /// Height of the controls below the pictures, in points.
 const CONTROLS: f32 = 92.0;
+/// Minimum width of the controls where the view has room for it, in points.
+const CONTROLS_WIDTH: f32 = 340.0;
 /// What stands in the place of a picture that is not drawn yet.
 const DRAWING: &str = "Drawing…";
 /// Samples of a pixel of the small pictures.
@@ -148,9 +150,10 @@ impl Mutate {
         ui.painter().rect_filled(view, 0.0, theme::BACKGROUND.gamma_multiply(0.82));
         let (pictures, controls) =
             view.split_top_bottom_at_y((view.bottom() - CONTROLS).max(view.center().y));
+        let grid = grid(pictures.shrink(GAP));
         let mut chosen = None;
         for (index, variation) in self.variations.iter().enumerate() {
-            let rect = cell(pictures.shrink(GAP), index);
+            let rect = cell(grid, index);
             let response = respond(ui, rect, index);
             paint(ui, &response, rect, textures, variation, index);
             if response.clicked() && index != MIDDLE {
@@ -158,12 +161,14 @@ impl Mutate {
                 chosen = Some(Scene { quality, integrator, ..variation.scene.clone() });
             }
         }
+        let width = grid.width().max(CONTROLS_WIDTH.min(view.width() - 2.0 * GAP));
+        let controls = Rect::from_center_size(controls.center(), vec2(width, controls.height()));
         ui.scope_builder(UiBuilder::new().max_rect(controls), |ui| self.controls(ui, rects));
         chosen
     }
 
     fn controls(&mut self, ui: &mut Ui, rects: &mut Rects) {
-        egui::Frame::new().inner_margin(Margin::symmetric(12, 4)).show(ui, |ui| {
+        egui::Frame::new().inner_margin(Margin::symmetric(0, 4)).show(ui, |ui| {
             ui.horizontal(|ui| {
                 ui.label("How different");
                 let amount = egui::Slider::new(&mut self.amount, 0.05..=1.0).show_value(false);
@@ -199,18 +204,22 @@ impl Mutate {
     }
 }
 
-/// Where the picture of number `index` is in `area`.
-fn cell(area: Rect, index: usize) -> Rect {
+/// Where the pictures are in `area`.
+fn grid(area: Rect) -> Rect {
     let [width, height] = SMALL_PICTURE_PX.map(|side| side as f32);
     let count = COLUMNS as f32;
-    let room = (area.size() - vec2(GAP, GAP) * (count - 1.0)) / count;
+    let gaps = vec2(GAP, GAP) * (count - 1.0);
+    let room = (area.size() - gaps) / count;
     // Enlarged, the pictures would show their pixels.
     let scale = (room.x / width).min(room.y / height).clamp(0.1, 1.6);
-    let size = vec2(width, height) * scale;
-    let step = size + vec2(GAP, GAP);
-    let from = area.center() - (step * count - vec2(GAP, GAP)) / 2.0;
+    Rect::from_center_size(area.center(), vec2(width, height) * scale * count + gaps)
+}
+
+/// Where the picture of number `index` is in `grid`.
+fn cell(grid: Rect, index: usize) -> Rect {
+    let step = (grid.size() + vec2(GAP, GAP)) / COLUMNS as f32;
     let [column, row] = [index % COLUMNS, index / COLUMNS].map(|at| at as f32);
-    Rect::from_min_size(from + vec2(column, row) * step, size)
+    Rect::from_min_size(grid.min + vec2(column, row) * step, step - vec2(GAP, GAP))
 }
 
 fn respond(ui: &Ui, rect: Rect, index: usize) -> Response {
@@ -264,7 +273,9 @@ mod tests {
     fn nine_cells_fit_every_view_and_do_not_overlap() {
         for [width, height] in [[976.0, 600.0], [390.0, 500.0], [540.0, 270.0], [200.0, 200.0]] {
             let area = Rect::from_min_size(pos2(5.0, 7.0), vec2(width, height));
-            let cells: Vec<Rect> = (0..9).map(|index| cell(area, index)).collect();
+            let grid = grid(area);
+            let cells: Vec<Rect> = (0..9).map(|index| cell(grid, index)).collect();
+            assert!((cells[8].max - grid.max).length() < 0.1);
             for (i, one) in cells.iter().enumerate() {
                 assert!(area.expand(0.1).contains_rect(*one), "{one:?} in {area:?}");
                 assert!(cells[..i].iter().all(|other| !other.shrink(0.1).intersects(*one)));

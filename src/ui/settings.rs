@@ -30,9 +30,6 @@ pub struct Settings {
     /// The texts of the formulas that a person keeps: at most `MAX_KEPT_FORMULAS`, or twice as many after tabs were
     /// merged.
     pub formulas: Vec<String>,
-    /// Settings of other versions of the program, which are stored again as they are.
-    #[serde(flatten)]
-    pub other: Map<String, Value>,
 }
 
 /// Maximum number of formulas that a browser keeps.
@@ -50,7 +47,6 @@ impl Default for Settings {
             drawn_to_places: true,
             export: ExportSize::default(),
             formulas: Vec::new(),
-            other: Map::new(),
         }
     }
 }
@@ -75,6 +71,27 @@ impl Settings {
         let mut settings: Self = serde_json::from_value(Value::Object(readable.collect())).ok()?;
         settings.formulas.truncate(2 * MAX_KEPT_FORMULAS);
         Some(settings)
+    }
+
+    /// The text that stores the settings in the place of `stored`, the text so far.
+    ///
+    /// What another version has stored stays: settings of other names, and values of known names as long as the
+    /// setting is what this version reads of them.
+    ///
+    /// # Errors
+    /// If a setting has no form in JSON: those of this version have one.
+    pub fn to_json_over(&self, stored: &str) -> serde_json::Result<String> {
+        let by_name = |settings: &Self| -> serde_json::Result<Map<String, Value>> {
+            serde_json::from_value(serde_json::to_value(settings)?)
+        };
+        let mut values = by_name(self)?;
+        if let Some(read) = Self::from_json(stored) {
+            let read = by_name(&read)?;
+            let mut kept: Map<String, Value> = serde_json::from_str(stored)?;
+            kept.retain(|name, _| values.get(name) == read.get(name));
+            values.extend(kept);
+        }
+        serde_json::to_string(&values)
     }
 
     /// Takes in what another tab has done to the stored formulas since they were `known`.
@@ -115,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_can_be_read_of_stored_settings_is_read_and_the_rest_of_a_newer_version_stays() {
+    fn what_can_be_read_of_stored_settings_is_read() {
         let stored = r#"{"more_open": "yes", "sheet": "floating", "timeline_open": true, "export": [7],
             "formulas": ["a", 7, null, "b"], "sections": {"lights": true}, "palette": {"of": "tomorrow"}}"#;
         let settings = Settings::from_json(stored).expect("an object");
@@ -126,12 +143,37 @@ mod tests {
             (settings.more_open, settings.sheet, settings.export),
             (more_open, sheet, export)
         );
-        let again = serde_json::to_value(&settings).unwrap();
-        assert_eq!(again["palette"]["of"], "tomorrow");
         for damaged in ["", "{", "[]", "null", "7", r#"{"formulas": "#] {
             assert_eq!(Settings::from_json(damaged), None, "{damaged}");
         }
         assert_eq!(Settings::from_json("{}"), Some(Settings::default()));
+    }
+
+    #[test]
+    fn what_another_version_stored_stays_until_its_setting_is_changed() {
+        let stored = r#"{"sheet": "floating", "export": {"of": "tomorrow"}, "formulas": ["a", {"of": "tomorrow"}],
+            "sections": {"lights": true}, "palette": {"of": "tomorrow"}}"#;
+        let value = |text: &str| serde_json::from_str::<Value>(text).expect("JSON");
+        let over = |settings: &Settings, stored: &str| settings.to_json_over(stored).expect("JSON");
+        let mut settings = Settings::from_json(stored).expect("an object");
+        let again = over(&settings, stored);
+        for (name, before) in value(stored).as_object().expect("an object") {
+            assert_eq!(value(&again)[name], *before, "{name}");
+        }
+        assert_eq!(value(&again)["panel_open"], true, "and those of this version beside them");
+
+        settings.sheet = SheetHeight::Tall;
+        settings.formulas.push("b".to_owned());
+        let changed = over(&settings, &again);
+        assert_eq!(Settings::from_json(&changed), Some(settings.clone()));
+        assert_eq!(value(&changed)["export"]["of"], "tomorrow");
+        assert_eq!(value(&changed)["palette"]["of"], "tomorrow");
+        // Once changed, a setting may have its default again.
+        settings.sheet = SheetHeight::default();
+        assert_eq!(Settings::from_json(&over(&settings, &changed)), Some(settings.clone()));
+        for nothing in ["", "[]", "{}"] {
+            assert_eq!(Settings::from_json(&over(&settings, nothing)), Some(settings.clone()));
+        }
     }
 
     #[test]

@@ -27,11 +27,11 @@ pub fn settings() -> Option<Settings> {
 
 /// Stores the settings, with the formulas that other tabs have kept since they were `known`.
 pub fn save_settings(settings: &mut Settings, known: &mut Vec<String>) {
-    if let Some(stored) = self::settings() {
+    let stored = storage::SETTINGS.read().unwrap_or_default();
+    if let Some(stored) = Settings::from_json(&stored) {
         settings.merge_formulas(known, &stored.formulas);
-        settings.other = stored.other;
     }
-    match serde_json::to_string(settings) {
+    match settings.to_json_over(&stored) {
         Ok(text) if storage::SETTINGS.write(&text) => known.clone_from(&settings.formulas),
         Ok(_) => {}
         Err(error) => log::warn!("cannot store the settings: {error}"),

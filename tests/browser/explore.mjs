@@ -64,7 +64,7 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
 
   await page.click("more");
   await page.click("All lights");
-  scenes.lit = await page.changed("a new light", () => page.click("add point light"));
+  scenes.lit = await page.changed("a new light", () => page.click("Add point light"));
   await page.settled();
   await v.screenshot("added-light-720x420");
   const light = await page.newestLight();

@@ -21,6 +21,7 @@ fn no_storage_loses_work_or_stops_the_page() {
     let newer = &visit.seen["newer"];
     assert_eq!(newer["is_kept"], true);
     assert_eq!(newer["settings"]["palette"], "of tomorrow");
+    assert_eq!(newer["settings"]["sheet"], "floating");
     assert_eq!(newer["settings"]["formulas"][0], "f");
     assert_eq!(newer["favourites"][0]["title"], "of tomorrow");
     assert_eq!(exposure("older"), -0.75);

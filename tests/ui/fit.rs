@@ -1,6 +1,6 @@
 //! Everything is where it can be reached, in every window.
 
-use egui::Rect;
+use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use mandelight::{
     scene::{Scene, presets},
@@ -237,11 +237,37 @@ fn hints_in_low_views_leave_the_middle_free() {
     }
 }
 
+/// A hint does not look out from behind a window: it waits until the window is closed.
+#[test]
+fn hints_wait_while_a_window_is_open() {
+    const COMMAND: Modifiers = Modifiers::COMMAND;
+    for size in [[844.0, 390.0], [640.0, 420.0], [1280.0, 720.0]] {
+        let mut harness = stage(presets::opening(), Settings::default(), size);
+        harness.run();
+        let has_hint = |harness: &egui_kittest::Harness<'_, Stage>| {
+            harness.state().interface.rects().get("hint").is_some()
+        };
+        let none = Modifiers::NONE;
+        for (modifiers, key) in [(COMMAND, Key::K), (none, Key::F1), (none, Key::J), (none, Key::M)]
+        {
+            assert!(has_hint(&harness), "before {key:?} in {size:?}");
+            harness.key_press_modifiers(modifiers, key);
+            harness.run_steps(4);
+            assert!(!has_hint(&harness), "{key:?} in {size:?}");
+            harness.key_press(Key::Escape);
+            harness.run_steps(4);
+        }
+        harness.state_mut().notice = Some(Notice { text: "A message".into(), ..Notice::default() });
+        harness.run_steps(4);
+        assert!(!has_hint(&harness), "with a message in {size:?}");
+    }
+}
+
 #[test]
 fn help_begins_with_what_the_screen_is_used_by() {
     for (size, is_touch) in [([390.0, 844.0], true), ([1280.0, 720.0], false)] {
         let mut harness = stage(Scene::default(), Settings::default(), size);
-        harness.key_press(egui::Key::F1);
+        harness.key_press(Key::F1);
         harness.run();
         let top = |text: &str| harness.get_by_label(text).rect().top();
         assert_eq!(top("With fingers") < top("With a mouse"), is_touch, "{size:?}");
@@ -303,7 +329,7 @@ fn the_offer_of_a_notice_is_a_button_in_the_window() {
 fn help_lists_the_shortcuts_and_fits() {
     for size in WINDOWS {
         let mut harness = stage(Scene::default(), Settings::default(), size);
-        harness.key_press(egui::Key::F1);
+        harness.key_press(Key::F1);
         harness.run();
         for (_, what) in
             mandelight::ui::shortcuts::SHORTCUTS.iter().filter_map(|shortcut| shortcut.help)
@@ -313,7 +339,7 @@ fn help_lists_the_shortcuts_and_fits() {
             let fits = |line: &Rect| line.left() >= 0.0 && line.right() <= size[0];
             assert!(lines.iter().all(fits), "{what} in {size:?}: {lines:?}");
         }
-        harness.key_press(egui::Key::Escape);
+        harness.key_press(Key::Escape);
         harness.run();
         assert!(harness.query_by_label("Keys and gestures").is_none());
     }
@@ -323,35 +349,72 @@ fn help_lists_the_shortcuts_and_fits() {
 #[test]
 fn no_row_is_wider_than_the_panel() {
     const MARGIN: f32 = 14.0;
-    const WIDTH: f32 = 1280.0;
-    // Texts have other widths at each ratio. The window is so tall that no row is scrolled out of sight.
-    for ratio in [1.0, 1.5, 2.0, 2.625, 3.0] {
-        let mut harness = stage(Scene::default(), unfolded(), [WIDTH * ratio, 9000.0 * ratio]);
-        harness.set_pixels_per_point(ratio);
-        harness.run();
-        for control in [
-            "Form: Julia",
-            "Mix with another formula",
-            "Mirror",
-            "Sky light: Sky",
-            "Add point light",
-            "Added: After curve",
-        ] {
-            press(&mut harness, control);
+    // The widest panel, a narrow one, and a sheet.
+    for size in [[1280.0, 720.0], [640.0, 420.0], [390.0, 844.0]] {
+        // Texts have other widths at each ratio.
+        for ratio in [0.75, 1.0, 1.5, 2.0, 2.625, 3.0] {
+            for has_touch in [false, true] {
+                let mut harness =
+                    stage(Scene::default(), unfolded(), size.map(|side| side * ratio));
+                harness.set_pixels_per_point(ratio);
+                harness.run();
+                if has_touch {
+                    touch(&mut harness);
+                }
+                for control in [
+                    "Form: Julia",
+                    "Mix with another formula",
+                    "Mirror",
+                    "Sky light: Sky",
+                    "Add point light",
+                    "Added: After curve",
+                ] {
+                    button(&harness, control).click_accesskit();
+                    harness.run();
+                }
+                let case = format!("{size:?}, {ratio} pixels per point, touch: {has_touch}");
+                let wide = wider_rows(&harness, size[0] - MARGIN);
+                assert!(wide.is_empty(), "{case}: {wide:#?}");
+                let panel = harness.state().interface.rects().get("panel").expect("the panel");
+                assert!(panel.right() <= size[0], "{case}: {panel:?}");
+            }
         }
-        let panel = harness.state().interface.rects().get("panel").expect("the panel");
-        let heading = button(&harness, "Hide panel").rect().bottom();
-        let nodes = harness.root().children_recursive();
-        let nodes = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
-        let rows = nodes.filter(|node| panel.x_range().contains(node.rect().center().x));
-        let wide = rows.filter_map(|node| {
-            let label = node.accesskit_node().label()?;
-            let rect = node.rect();
-            let is_wide = rect.top() > heading && rect.right() > WIDTH - MARGIN;
-            is_wide.then(|| format!("{label}: {rect:?}"))
-        });
-        let wide: Vec<_> = wide.take(5).collect();
-        assert!(wide.is_empty(), "at {ratio} pixels per point: {wide:#?}");
-        assert!(panel.right() <= WIDTH, "{panel:?}");
+    }
+}
+
+/// The first rows of the panel that end to the right of `most`.
+fn wider_rows(harness: &egui_kittest::Harness<'_, Stage>, most: f32) -> Vec<String> {
+    let panel = harness.state().interface.rects().get("panel").expect("the panel");
+    let heading = button(harness, "Hide panel").rect().bottom();
+    let nodes = harness.root().children_recursive();
+    let nodes = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
+    let rows = nodes.filter(|node| panel.x_range().contains(node.rect().center().x));
+    let wide = rows.filter_map(|node| {
+        let label = node.accesskit_node().label().or(node.accesskit_node().value())?;
+        let rect = node.rect();
+        let is_wide = rect.top() > heading && rect.right() > most;
+        is_wide.then(|| format!("{label}: {rect:?}"))
+    });
+    wide.take(5).collect()
+}
+
+/// Rows of buttons have one gap, and begin and end together.
+#[test]
+fn rows_of_buttons_are_alike() {
+    let harness = workshop();
+    let ends = |[first, last]: [&str; 2]| {
+        let [first, last] = [first, last].map(|label| button(&harness, label).rect());
+        (first.left(), last.right())
+    };
+    let gap = |[left, right]: [&str; 2]| {
+        let [left, right] = [left, right].map(|label| button(&harness, label).rect());
+        right.left() - left.right()
+    };
+    let lights = [["Add light", "Add point light"], ["Duplicate", "Remove"]];
+    for row in lights {
+        assert_eq!(gap(row), gap(["Home", "Frame all"]), "{row:?}");
+        let ((left, right), (home, fly)) = (ends(row), ends(["Home", "Fly"]));
+        // A row of three has another remainder of egui's unit of layout.
+        assert!((left - home).abs() < 0.1 && (right - fly).abs() < 0.1, "{row:?}");
     }
 }

@@ -65,6 +65,12 @@ fn the_variations_fit_a_phone() {
             let rect = rects.get(name).unwrap_or(Rect::NOTHING);
             assert!(view.contains_rect(rect), "{name}: {rect:?} in {view:?}");
         }
+        let [first, keep] =
+            ["Variation 1", "Keep: Shape"].map(|label| harness.get_by_label(label).rect());
+        let caption = painted(&harness, "How different")[0];
+        let left = first.left().min(0.5 * (view.width() - 340.0));
+        assert!((caption.left() - left).abs() < 2.0, "{caption:?} in {view:?}");
+        assert!(keep.top() > first.bottom(), "{keep:?}");
     }
 }
 

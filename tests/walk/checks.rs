@@ -16,8 +16,8 @@ const WHOLE: [&str; 6] = ["view", "panel", "status", "timeline", "share window",
 
 /// Height of a view in which everything that floats has room, in points.
 const MIN_VIEW_HEIGHT: f32 = 100.0;
-/// Points by which a part may be outside of the window: some rows of a narrow panel are up to 2 points too wide.
-const TOLERANCE: f32 = 3.0;
+/// Points by which a part may be outside of the window, for the rounding of floats.
+const TOLERANCE: f32 = 0.01;
 /// Frames within which everything has its place.
 const SETTLING_FRAMES: usize = 6;
 
@@ -78,7 +78,7 @@ impl Walker {
     fn outside(&self) -> Option<String> {
         // The view and what scrolls end at a whole pixel.
         let pixel = 1.0 / self.harness.ctx.pixels_per_point();
-        let window = self.window().expand(pixel.max(TOLERANCE));
+        let window = self.window().expand(pixel + TOLERANCE);
         let rects = self.harness.state().interface.rects();
         // Panel and timeline together can leave a view that is lower than what floats over it.
         let has_room = rects.get("view").is_some_and(|view| view.height() > MIN_VIEW_HEIGHT);

@@ -25,12 +25,14 @@ Usage: cargo xtask <command>
 
   serve [--port N]  build the page and serve it on 127.0.0.1 (first free port from 8080)
   test              run everything: check, the page, unit, GPU and browser tests
+  test32            test the readers of files, links and texts with sizes of 32 bits,
+                    as the page has; on Linux with an x86-64 processor
   dist              write dist/, a folder that any static host can serve
   check             check formatting, lints (native and wasm32), documentation and packages,
                     warnings denied
   advisories        check the packages' security advisories; needs the network
   nightly           run the tests that take long: 200 random views against fine marches,
-                    2000 hostile scenes, 100,000 actions on the interface
+                    2000 hostile scenes, 100,000 actions on the interface, and test32
   fuzz TARGET [MINUTES]
                     search for inputs that break a reader's promises; MINUTES is 10 unless given
   bless             replace the golden pictures by the renderer's current output
@@ -48,6 +50,7 @@ Usage: cargo xtask <command>
 enum Command {
     Serve { port: u16 },
     Test,
+    Test32,
     Dist,
     Check,
     Advisories,
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
     let result = match command {
         Command::Serve { port } => serve::serve(port),
         Command::Test => test::test(),
+        Command::Test32 => test::test32(),
         Command::Dist => page::dist().map(drop),
         Command::Check => check::check(),
         Command::Advisories => deny::advisories(),
@@ -108,6 +112,7 @@ fn parse(words: &[String]) -> Result<Command, String> {
             .map(|port| Command::Serve { port })
             .map_err(|_| format!("--port must be a number from 0 to 65535, not {port:?}")),
         ["test"] => Ok(Command::Test),
+        ["test32"] => Ok(Command::Test32),
         ["dist"] => Ok(Command::Dist),
         ["check"] => Ok(Command::Check),
         ["advisories"] => Ok(Command::Advisories),
@@ -147,6 +152,7 @@ mod tests {
         assert_eq!(parsed("serve"), Ok(Command::Serve { port: 8080 }));
         assert_eq!(parsed("serve --port 9000"), Ok(Command::Serve { port: 9000 }));
         assert_eq!(parsed("test"), Ok(Command::Test));
+        assert_eq!(parsed("test32"), Ok(Command::Test32));
         assert_eq!(parsed("advisories"), Ok(Command::Advisories));
         let options = vec!["--views".into(), "whole,filled".into()];
         assert_eq!(parsed("bench --views whole,filled"), Ok(Command::Bench { options }));

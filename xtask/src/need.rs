@@ -17,6 +17,12 @@ use crate::shell;
 /// The compilation target of the page.
 pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
+/// A compilation target with the page's sizes, whose programs run here.
+pub const TARGET_32_BITS: &str = "i686-unknown-linux-gnu";
+
+/// True if programs for [`TARGET_32_BITS`] can run on this machine.
+pub const RUNS_32_BITS: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+
 /// The oldest major version of Node.js that is tested with the browser driver, wasm-opt and the bundler.
 const OLDEST_NODE: u32 = 20;
 
@@ -74,7 +80,11 @@ const FFMPEG: Tool = Tool {
     packages: &["ffmpeg"],
     is_installed: || Command::new("ffprobe").arg("-version").output().is_ok(),
 };
-
+const LIBRARIES_32_BITS: Tool = Tool {
+    name: "GCC's libraries of 32 bits",
+    packages: &["gcc-multilib"],
+    is_installed: has_libraries_of_32_bits,
+};
 const PIP: Tool = Tool {
     name: "Python's pip",
     packages: &["python3-pip"],
@@ -83,18 +93,32 @@ const PIP: Tool = Tool {
 
 /// Ensures the standard library for [`WASM_TARGET`].
 pub fn wasm_target() -> Result<()> {
+    rust_target(WASM_TARGET)
+}
+
+/// Ensures what builds and runs programs for [`TARGET_32_BITS`].
+pub fn target_of_32_bits() -> Result<()> {
+    if !RUNS_32_BITS {
+        bail!("the tests with sizes of 32 bits run on Linux with an x86-64 processor only");
+    }
+    rust_target(TARGET_32_BITS)?;
+    ensure_installed(&[LIBRARIES_32_BITS])
+}
+
+/// Ensures the standard library for a target.
+fn rust_target(target: &str) -> Result<()> {
     let has_it = || {
-        let ask = ["--print", "target-libdir", "--target", WASM_TARGET];
+        let ask = ["--print", "target-libdir", "--target", target];
         shell::output(Command::new("rustc").args(ask)).is_some_and(|dir| Path::new(&dir).is_dir())
     };
     if has_it() {
         return Ok(());
     }
     if shell::output(Command::new("rustup").arg("--version")).is_some() {
-        shell::run(Command::new("rustup").args(["target", "add", WASM_TARGET]))?;
+        shell::run(Command::new("rustup").args(["target", "add", target]))?;
     }
     if !has_it() {
-        bail!("install Rust's {WASM_TARGET} target: `rustup target add {WASM_TARGET}`");
+        bail!("install Rust's {target} target: `rustup target add {target}`");
     }
     Ok(())
 }
@@ -222,6 +246,16 @@ fn has_software_vulkan() -> bool {
         files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("lvp_icd"))
     });
     chosen || (loader && driver)
+}
+
+/// True if the C compiler finds what a program of 32 bits is linked with.
+fn has_libraries_of_32_bits() -> bool {
+    // The compiler prints the full path of a file that it has, and the name alone otherwise.
+    ["crt1.o", "libgcc.a"].iter().all(|file| {
+        let ask = format!("-print-file-name={file}");
+        shell::output(Command::new("cc").args(["-m32", &ask]))
+            .is_some_and(|path| Path::new(&path).is_absolute())
+    })
 }
 
 fn has_node() -> bool {

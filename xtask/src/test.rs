@@ -1,4 +1,4 @@
-//! `cargo xtask test`, `cargo xtask nightly` and `cargo xtask bless`.
+//! `cargo xtask test`, `cargo xtask test32`, `cargo xtask nightly` and `cargo xtask bless`.
 
 use anyhow::{Result, bail};
 
@@ -47,6 +47,14 @@ pub fn test() -> Result<()> {
     Ok(())
 }
 
+/// Runs the tests of the readers with sizes of 32 bits, as the page has.
+pub fn test32() -> Result<()> {
+    need::target_of_32_bits()?;
+    let mut cargo = shell::cargo()?;
+    cargo.args(["test", "--package", "mandelight-fuzzing", "--target", need::TARGET_32_BITS]);
+    shell::run(cargo.arg("--no-fail-fast"))
+}
+
 /// Runs the tests that take too long for each change. They print the seeds of their random numbers.
 pub fn nightly() -> Result<()> {
     need::vulkan_driver()?;
@@ -64,6 +72,11 @@ pub fn nightly() -> Result<()> {
         if let Err(error) = shell::run(&mut cargo) {
             failures.push(error.to_string());
         }
+    }
+    if !need::RUNS_32_BITS {
+        eprintln!("xtask: no tests with sizes of 32 bits: this machine does not run them");
+    } else if let Err(error) = test32() {
+        failures.push(error.to_string());
     }
     if !failures.is_empty() {
         bail!("{}", failures.join("; "));

@@ -56,9 +56,16 @@ impl Times {
         }
     }
 
-    /// Records the times of pieces from now on, and returns those recorded so far.
+    /// Sets whether the times of pieces are recorded; those recorded before are dropped at a change.
+    pub fn watch_pieces(&mut self, wanted: bool) {
+        if wanted != self.pieces.is_some() {
+            self.pieces = wanted.then(Vec::new);
+        }
+    }
+
+    /// Returns the times of the pieces that have been recorded since the last call.
     pub fn take_pieces(&mut self) -> Vec<PieceTime> {
-        self.pieces.replace(Vec::new()).unwrap_or_default()
+        self.pieces.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
     /// Moves the present moment on.
@@ -168,5 +175,28 @@ impl StatsValidity {
         self.mean |= tasks.mean;
         self.histogram |= tasks.histogram;
         tasks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_are_recorded_only_while_their_times_are_wanted() {
+        let work = Work::Display(Display { level: 0, fill: false, from_film: false, adapt: 1.0 });
+        let mut times = Times::default();
+        let recorded = |times: &mut Times, busy_ms: f64| {
+            times.add(work, busy_ms);
+            times.take_pieces().iter().map(|piece| piece.busy_ms).collect::<Vec<_>>()
+        };
+        assert!(recorded(&mut times, 1.0).is_empty(), "not yet");
+        times.watch_pieces(true);
+        assert_eq!(recorded(&mut times, 2.0), [2.0], "from the first one on");
+        times.add(work, 3.0);
+        times.watch_pieces(true);
+        assert_eq!(recorded(&mut times, 4.0), [3.0, 4.0]);
+        times.watch_pieces(false);
+        assert!(recorded(&mut times, 5.0).is_empty());
     }
 }

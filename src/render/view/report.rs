@@ -41,9 +41,14 @@ impl View {
         }
     }
 
-    /// The GPU times of the pieces of work that have finished since the last call, for measurements.
+    /// Sets whether the GPU times of pieces of work are recorded, for measurements.
+    pub fn watch_piece_times(&mut self, wanted: bool) {
+        self.times.watch_pieces(wanted);
+    }
+
+    /// The GPU times of the pieces of work that have finished since the last call.
     ///
-    /// The first call returns none: they are recorded from then on.
+    /// None unless [`Self::watch_piece_times`] has begun to record them.
     pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
         self.times.take_pieces()
     }

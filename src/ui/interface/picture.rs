@@ -45,6 +45,7 @@ impl Interface {
         // The buttons precede the pilot, which executes this frame's commands.
         let buttons = self.buttons(ui, rect, commands);
         let is_comparing = self.is_comparing && self.editor.can_undo();
+        let is_covered = self.is_covered(ui.ctx(), inputs);
         let scene = self.editor.scene_mut();
         // A drag belongs to the eye's picture in which it began.
         let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
@@ -79,7 +80,6 @@ impl Interface {
             let keys = floating::caption(ui, rect, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);
         } else {
-            let is_covered = self.mutate.is_open() || self.share.is_open() || self.compare.is_on();
             let hint =
                 if is_covered { None } else { self.settings.hints.show(ui, rect, self.has_touch) };
             if let Some(hint) = hint {
@@ -142,6 +142,14 @@ impl Interface {
             self.editor.replace(Project { scene: chosen, path });
         }
         ui.allocate_rect(area, egui::Sense::hover());
+    }
+
+    /// True if a window or a message may lie where a hint would be.
+    fn is_covered(&self, ctx: &egui::Context, inputs: &DisplayInputs<'_>) -> bool {
+        let has_message = inputs.notice.is_some() || inputs.reading.is_some();
+        let is_over_picture = self.mutate.is_open() || self.share.is_open() || self.compare.is_on();
+        let is_over_window = self.help_open || self.finder.is_open();
+        has_message || is_over_picture || is_over_window || panel::is_formula_window_open(ctx)
     }
 
     /// The buttons in the picture's lower left corner; none over the variations.

@@ -87,6 +87,11 @@ pub(super) fn button(ui: &mut Ui, cx: &Context<'_>) {
     }
 }
 
+/// True while the editor is open.
+pub fn is_formula_window_open(ctx: &egui::Context) -> bool {
+    ctx.data(|data| data.get_temp::<Draft>(draft_id())).is_some_and(|draft| draft.is_open)
+}
+
 /// The editor, while it is open.
 pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
     let ctx = ui.ctx();

@@ -1,6 +1,5 @@
 //! The lights panel: a list of lights, and the selected light's properties.
 
-use egui::emath::GuiRounding as _;
 use egui::{Button, Id, Response, RichText, ScrollArea, Ui, vec2};
 use glam::DVec3;
 
@@ -14,7 +13,7 @@ use crate::{
         selection::LightRef,
         shortcuts::Command,
         theme,
-        widgets::{Help as _, caption, color, param_slider},
+        widgets::{Help as _, button_row, caption, color, param_slider},
     },
 };
 
@@ -44,6 +43,8 @@ fn key_ball(ui: &mut Ui, cx: &mut Context<'_>) {
             let response = light::direction_ball(ui, "Key light direction", 84.0, light, camera);
             cx.rects.record("key light ball", &response);
             ui.vertical(|ui| {
+                // egui lets a text be half a point wider than its column.
+                ui.set_max_width((ui.available_width() - 0.5).max(0.0));
                 ui.add_space(4.0);
                 ui.label(
                     RichText::new(format!(
@@ -231,59 +232,65 @@ fn toggle(ui: &mut Ui, word: &str, name: &str, hover: &str, on: &mut bool) {
     response.accessible_name(name);
 }
 
+/// What a button below the list does.
+#[derive(Clone, Copy)]
+enum ListEdit {
+    Add,
+    AddPoint,
+    Duplicate,
+    Remove,
+}
+
+/// The buttons below the list.
 fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
-    let room = cx.scene.lights.len() < MAX_LIGHTS;
-    let full = format!("A scene has at most {MAX_LIGHTS} lights.");
-    let size = |ui: &Ui| {
-        vec2(
-            // Rounded up, the buttons would widen the panel.
-            ((ui.available_width() - ui.spacing().item_spacing.x) / 2.0).floor_ui(),
-            ui.spacing().interact_size.y,
-        )
-    };
+    let has_room = cx.scene.lights.len() < MAX_LIGHTS;
+    let is_selected = cx.selection.light.is_some();
+    let hover = "Add parallel light, like the sun's, from your upper left";
+    let add = ("Add light", hover, has_room, ListEdit::Add);
+    let hover = "Add a lamp between you and the fractal";
+    let add_point = ("Add point light", hover, has_room, ListEdit::AddPoint);
+    let hover = "Add a copy of the selected light";
+    let duplicate = ("Duplicate", hover, has_room && is_selected, ListEdit::Duplicate);
+    let remove = ("Remove", "Remove the selected light", is_selected, ListEdit::Remove);
+    let mut clicked = None;
     ui.add_space(4.0);
-    ui.horizontal(|ui| {
-        let size = size(ui);
-        let add = |ui: &mut Ui, name: &str, hover: &str| -> Response {
-            ui.add_enabled_ui(room, |ui| ui.add_sized(size, Button::new(name).truncate()))
-                .inner
-                .help(hover)
-                .on_disabled_hover_text(&full)
-        };
-        let environment =
-            add(ui, "Add light", "Add parallel light, like the sun's, from your upper left");
-        let point = add(ui, "Add point light", "Add a lamp between you and the fractal");
-        cx.rects.record("add light", &environment);
-        cx.rects.record("add point light", &point);
-        let Context { scene, selection, .. } = cx;
-        if environment.clicked() {
-            scene.lights.environment.push(new_environment(&scene.camera));
-            selection.light = Some(LightRef::Environment(scene.lights.environment.len() - 1));
-        }
-        if point.clicked() {
-            scene.lights.point.push(new_point(&scene.camera));
-            selection.light = Some(LightRef::Point(scene.lights.point.len() - 1));
-        }
-    });
-    ui.horizontal(|ui| {
-        let size = size(ui);
-        let any = cx.selection.light.is_some();
-        let change = |ui: &mut Ui, name: &str, hover: &str, enabled: bool| -> Response {
-            ui.add_enabled_ui(enabled, |ui| ui.add_sized(size, Button::new(name).truncate()))
-                .inner
-                .help(hover)
-        };
-        let duplicate = change(ui, "Duplicate", "Add a copy of the selected light", any && room);
-        let remove = change(ui, "Remove", "Remove the selected light", any);
-        if let Some(light) = cx.selection.light {
-            if duplicate.clicked() {
-                cx.selection.light = Some(duplicated(&mut cx.scene.lights, light));
-            } else if remove.clicked() {
-                cx.selection.light = removed(&mut cx.scene.lights, light);
+    for row in [[add, add_point], [duplicate, remove]] {
+        button_row(ui, row.len(), |ui, index, size| {
+            let (name, hover, is_enabled, edit) = row[index];
+            let button = Button::new(name).truncate();
+            let mut response =
+                ui.add_enabled_ui(is_enabled, |ui| ui.add_sized(size, button)).inner.help(hover);
+            if !has_room {
+                response = response
+                    .on_disabled_hover_text(format!("A scene has at most {MAX_LIGHTS} lights."));
             }
-        }
-    });
+            cx.rects.record(name, &response);
+            if response.clicked() {
+                clicked = Some(edit);
+            }
+        });
+    }
     ui.add_space(4.0);
+    if let Some(edit) = clicked {
+        cx.selection.light = edited(cx.scene, cx.selection.light, edit);
+    }
+}
+
+/// Edits the lists of lights, and returns the light to select.
+fn edited(scene: &mut Scene, selected: Option<LightRef>, edit: ListEdit) -> Option<LightRef> {
+    let Scene { lights, camera, .. } = scene;
+    match edit {
+        ListEdit::Add => {
+            lights.environment.push(new_environment(camera));
+            Some(LightRef::Environment(lights.environment.len() - 1))
+        }
+        ListEdit::AddPoint => {
+            lights.point.push(new_point(camera));
+            Some(LightRef::Point(lights.point.len() - 1))
+        }
+        ListEdit::Duplicate => selected.map(|light| duplicated(lights, light)),
+        ListEdit::Remove => selected.and_then(|light| removed(lights, light)),
+    }
 }
 
 /// Adds a copy of `light` at the end of its list.

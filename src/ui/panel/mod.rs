@@ -33,7 +33,10 @@ mod surface;
 mod timeline;
 mod tone;
 
-use egui::{Button, Frame, Margin, RichText, ScrollArea, Stroke, Ui, UiBuilder, vec2};
+use egui::{
+    Button, Frame, Margin, Rect, RichText, ScrollArea, Stroke, Ui, UiBuilder,
+    emath::GuiRounding as _, vec2,
+};
 
 use crate::scene::{Scene, param::Param};
 
@@ -47,7 +50,7 @@ use super::{
 };
 pub(super) use context::Context;
 use context::Section;
-pub(super) use formula_text::formula_window;
+pub(super) use formula_text::{formula_window, is_formula_window_open};
 pub(super) use help::help_window;
 pub(super) use sheet::Sheet;
 pub(super) use timeline::strip;
@@ -70,6 +73,10 @@ const SECTIONS: &[Section] = &[
 
 /// Number of buttons in the heading.
 const HEADING_BUTTONS: f32 = 5.0;
+/// Space at the sides of the scrolled part, in points.
+const SIDE_MARGIN: f32 = 14.0;
+/// Space below the last row of the scrolled part, in points.
+const BOTTOM_MARGIN: f32 = 10.0;
 /// Minimum height of a sheet with a fixed area for saving, in points.
 const WITH_SAVING: f32 = 320.0;
 /// Height of the area for saving before it was drawn, in points.
@@ -135,10 +142,9 @@ fn scrolled_and_saving(ui: &mut Ui, cx: &mut Context<'_>) {
 }
 
 fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
-    let margin = Margin { left: 14, right: 14, top: 0, bottom: 10 };
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        Frame::new().inner_margin(margin).show(ui, |ui| {
-            ui.set_width(ui.available_width());
+        let content = UiBuilder::new().max_rect(content_area(ui));
+        ui.scope_builder(content, |ui| {
             essentials(ui, cx);
             if with_saving {
                 ui.add_space(6.0);
@@ -147,8 +153,20 @@ fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
             }
             more(ui, cx);
             reveal_focus(ui);
+            ui.add_space(BOTTOM_MARGIN);
         });
     });
+}
+
+/// What the margins at the panel's sides leave, in whole pixels.
+///
+/// A scroll area rounds its own sides to whole pixels: it would be wider than a part of a pixel leaves.
+fn content_area(ui: &Ui) -> Rect {
+    let pixels_per_point = ui.pixels_per_point();
+    let mut area = ui.available_rect_before_wrap().shrink2(vec2(SIDE_MARGIN, 0.0));
+    area.min.x = ((area.left() * pixels_per_point).ceil() / pixels_per_point).round_ui();
+    area.max.x = ((area.right() * pixels_per_point).floor() / pixels_per_point).round_ui();
+    area
 }
 
 /// Scrolls to the control that the keyboard has just brought the focus to, if it is out of sight.

@@ -1,6 +1,9 @@
 //! Lists of galleries.
 
-use mandelight::scene::gallery::{Gallery, MAX_PICTURES, is_in_folder};
+use mandelight::{
+    reading::is_hidden,
+    scene::gallery::{Gallery, MAX_PICTURES, is_in_folder},
+};
 
 use crate::{FuzzTarget, InputFormat, Outcome, promises::refused};
 
@@ -20,10 +23,10 @@ fn check(bytes: &[u8]) -> Outcome {
         Err(error) => return refused(&error),
     };
     assert!((1..=MAX_PICTURES).contains(&gallery.pictures.len()));
-    assert!(!gallery.name.contains(char::is_control));
+    assert!(!gallery.name.contains(is_hidden));
     for picture in &gallery.pictures {
         assert!(is_in_folder(&picture.file), "{}", picture.file);
-        assert!(!picture.name.is_empty() && !picture.name.contains(char::is_control));
+        assert!(!picture.name.is_empty() && !picture.name.contains(is_hidden));
     }
     assert_eq!(Gallery::from_json(&gallery.to_json()), Ok(gallery));
     Outcome::Read
