@@ -31,6 +31,8 @@ use crate::{
 const PAUSE_SECS: f64 = 0.3;
 /// Number of completions that are offered.
 const COMPLETIONS: usize = 4;
+/// Least width of the window, in points: narrower, its texts would be taller than a screen.
+const MIN_WIDTH: f32 = 280.0;
 /// Greatest size of the window, in points.
 const WINDOW: [f32; 2] = [560.0, 620.0];
 
@@ -120,6 +122,9 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
         .pivot(Align2::LEFT_BOTTOM)
         .default_pos(screen.left_bottom() + vec2(12.0, -40.0))
         .default_size(size)
+        .min_width(MIN_WIDTH.min(size.x))
+        // What the window is too low for scrolls: it would otherwise grow out of the screen.
+        .vscroll(true)
         .max_size(vec2(screen.width() - 24.0, screen.height() - 80.0))
         .show(ctx, |ui| contents(ui, cx, &mut draft));
     draft.is_open = is_open;
