@@ -30,7 +30,7 @@ const SIZE: Size = [36, 24];
 const NEAREST: f64 = 1e-26;
 
 /// Views that are hard to march, or whose estimates ripple below a pixel.
-const HARD: [&str; 8] = [
+const HARD: [&str; 12] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     include_str!("hard_views/stretched.json"),
     include_str!("hard_views/stretched_beside.json"),
@@ -41,6 +41,12 @@ const HARD: [&str; 8] = [
     include_str!("hard_views/power_2.json"),
     // A power that is not whole: the set has a seam.
     include_str!("hard_views/real_power.json"),
+    // Walls along the seam: steps and cones that don't end there pass a sixth of the first view's pixels.
+    include_str!("hard_views/seam.json"),
+    include_str!("hard_views/seam_inside.json"),
+    // Julia sets whose orbits pass the origin in front of a surface.
+    include_str!("hard_views/origin.json"),
+    include_str!("hard_views/origin_real.json"),
     // Power 12 at 3e-25, where orbits separate more slowly than at 99 of 100 points.
     include_str!("hard_views/slow_orbits.json"),
 ];

@@ -14,6 +14,12 @@
 //! ([`step_factor`]), and at most by the estimate by dr. `tests/cpu/fractal/properties.rs` counts the
 //! surfaces that rays still miss, against a march with far shorter steps.
 //!
+//! Two places of an orbit end a step, since estimates in front of them don't hold behind them:
+//!
+//! - The seam of a power that is not whole: zⁿ jumps at the half plane y = 0, x < 0, where longitudes change from π
+//!   to −π. The kernels follow the ray's direction to the seam; without a direction, steps end at the least distance.
+//! - The origin, in the Julia form: dr vanishes there, and the estimate grows without bound beside a surface.
+//!
 //! At power 2, and sometimes at 3, orbits that pass near the axis early cause false minima, thin as hairs:
 //! the estimate falls from several hit distances to below one and back within thousandths of a hit distance.
 //! The Jacobian's norm detects these hairs, but an estimate by the norm would draw them as thick as pixels,
@@ -32,6 +38,8 @@ use crate::formula::{DistanceField, Estimate, OrbitPosition, bounds::slowest_esc
 ///
 /// Uncapped, the stretch would stop every ray at the poles.
 pub const SIDEWAYS_MAX: f64 = 10.0;
+/// Longest step of a ray of a Julia set, over the way by which an orbit point would get to the origin.
+const ORIGIN_PART: f64 = 0.5;
 /// Step of a deep ray over the estimate by the Jacobian's norm (Frobenius).
 ///
 /// With one half, a ray reaches the surface from 10³² times as far in about a hundred steps.
@@ -87,11 +95,13 @@ impl Estimator {
             Some(constant) => (constant, 0.0),
             None => (point, 1.0),
         };
-        let (mut z, mut r, mut dr, mut dg) = (point, point.length(), 1.0, 1.0);
+        let (mut z, mut r, mut dr, mut dg) = (point, point.length(), 1.0_f64, 1.0_f64);
+        let mut limit = f64::INFINITY;
         for _ in 0..self.iterations {
             if r > self.bailout {
                 break;
             }
+            limit = limit.min(self.longest_step(z, dr, dg));
             let (raised, growth) = (self.power.apply(z), self.power.growth(r));
             let sideways = self.power.sideways_growth(z, raised);
             dr = growth * dr + dr_added;
@@ -99,7 +109,22 @@ impl Estimator {
             z = raised + added;
             r = z.length();
         }
-        self.estimate_from(r, dr, self.step_factor / dg.max(MIN_DERIVATIVE))
+        let Estimate { distance, step } =
+            self.estimate_from(r, dr, self.step_factor / dg.max(MIN_DERIVATIVE));
+        Estimate { distance, step: step.min(limit) }
+    }
+
+    /// Longest step of a ray that keeps the orbit point `z` on its side of the origin and of the seam.
+    fn longest_step(&self, z: DVec3, dr: f64, dg: f64) -> f64 {
+        let to_origin = if self.julia_constant.is_some() { z.length() } else { f64::INFINITY };
+        let has_seam = self.power.exponent().fract() != 0.0;
+        // To the half plane y = 0, x < 0.
+        let to_seam = match has_seam {
+            true if z.x < 0.0 => z.y.abs(),
+            true => z.x.hypot(z.y),
+            false => f64::INFINITY,
+        };
+        (ORIGIN_PART * to_origin / dr.max(dg / self.step_factor)).min(to_seam / dg)
     }
 
     /// [`Self::estimate`] along an orbit that carries its Jacobian, for views about an anchor.

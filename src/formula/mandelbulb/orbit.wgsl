@@ -10,7 +10,7 @@
 //     end_estimate, end_gradient, end_traps
 //     quick_estimate, careful_estimate, cone_direction
 //     orbit_of               the orbit of a point (for orbits about an anchor in `difference`)
-//     rho_of, FOLLOWS_DIRECTION   for `derivatives`, where a stepper uses that file
+//     rho_of, FOLLOWS_DIRECTION, HAS_SEAM   for `derivatives`, where a stepper uses that file
 // uses: types/estimate, lib/trap
 
 // What a walk computes along the orbit.

@@ -12,6 +12,9 @@ override HAS_SERIES: bool = true;
 // True if the stretch of the ray's own direction sets a ray's step, false if a product of bounds does.
 override FOLLOWS_DIRECTION: bool = HAS_SERIES || NEAR_STEPS == 0u;
 
+// Deep views are of whole powers.
+const HAS_SEAM = false;
+
 struct OrbitState {
     z: vec3f,
     // Number of steps taken.

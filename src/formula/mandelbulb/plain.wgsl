@@ -5,6 +5,9 @@ const MIXES_STEPS = false;
 // A product of bounds on the stretch sets a ray's step.
 const FOLLOWS_DIRECTION = false;
 
+// True if the set may have seams, along which powers that are not whole tear it.
+override HAS_SEAM: bool = POWER == 0u;
+
 // Offset of orbits from the polar axis, where the longitude is undefined: toward +x, since
 // atan2(0, 0) = 0, and off the plane y = 0, in which a step could still meet the axis.
 const BESIDE_AXIS = vec3f(1e-9, 1e-16, 0.0);

@@ -49,7 +49,7 @@ fn series_derivatives(
     let dg = length(jacobian * series.widest) / step_factor(fractal);
     let rest = series.rest / series.derivative;
     // Within the series' radius its Jacobian is nearly constant.
-    return Derivatives(series_derivative(series, point), dg, stretched, rest, 0.0);
+    return Derivatives(series_derivative(series, point), dg, stretched, rest, 0.0, 0.0);
 }
 
 // The tangent after the steps of a series approximation.

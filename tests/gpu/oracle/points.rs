@@ -51,9 +51,11 @@ fn estimates_at_random_points_agree_with_the_oracle() {
                     assert!(off < 1e-4, "{fractal:?} at {point}: {answer:?}, expected {expected}");
                     // The same steps as on the CPU, whose safety is tested.
                     let step = estimator.estimate(point).step;
-                    let off = (f64::from(answer.step) - step).abs() / step;
+                    let off = (f64::from(answer.step) - step).abs();
+                    // A step may end at a seam, whose distance is as exact as the orbit's points.
+                    let at_seam = if fractal.power.fract() == 0.0 { 0.0 } else { 1e-6 };
                     assert!(
-                        off < 2e-4,
+                        off < 2e-4 * step + at_seam,
                         "{fractal:?} at {point}: {answer:?}, expected a step of {step}"
                     );
                     let smooth = estimate::smooth_iterations(&fractal, point);

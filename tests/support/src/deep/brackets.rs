@@ -19,6 +19,9 @@ const POSSIBLE: f64 = 2.0;
 const FINE: f64 = 0.25;
 /// Part of the hit distance that such a step covers at least.
 const FINEST: f64 = 0.01;
+/// Longest such step within a footprint of a depth, in footprints: at the seam of a power that is not whole the estimate
+/// falls from any height to nothing.
+const FOOTPRINT_PART: f64 = 0.125;
 /// The hit distances for which a ray must be near for its end to be certain: rays may pass what is thinner than their
 /// least step.
 const THICK: f64 = 0.25;
@@ -56,7 +59,9 @@ impl SetView<'_> {
     fn is_near(&self, direction: DVec3, depth: f64) -> bool {
         let (footprint, hit) = (self.footprint(depth), self.hit_distance(depth));
         let range = [depth - footprint, depth + footprint];
-        let fine = |_, estimate: Estimate| (FINE * estimate.step).max(FINEST * hit);
+        let fine = |_, estimate: Estimate| {
+            (FINE * estimate.step).min(FOOTPRINT_PART * footprint).max(FINEST * hit)
+        };
         let is_near = |estimate: Estimate| estimate.distance < POSSIBLE * hit;
         let ask = |_, estimate| is_near(estimate).then_some(());
         is_near(self.estimate(direction, depth))
