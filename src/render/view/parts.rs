@@ -181,10 +181,17 @@ impl StatsValidity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::schedule::KeptPixels;
 
     #[test]
     fn pieces_are_recorded_only_while_their_times_are_wanted() {
-        let work = Work::Display(Display { level: 0, fill: false, from_film: false, adapt: 1.0 });
+        let work = Work::Display(Display {
+            level: 0,
+            fill: false,
+            from_film: false,
+            adapt: 1.0,
+            kept: KeptPixels::default(),
+        });
         let mut times = Times::default();
         let recorded = |times: &mut Times, busy_ms: f64| {
             times.add(work, busy_ms);
