@@ -5,6 +5,7 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
     formula::{self, Fractal},
     scene::{Scene, presets},
+    ui::Settings,
 };
 
 use crate::stage::*;
@@ -130,6 +131,42 @@ fn a_closed_editor_has_drawn_its_text() {
     press(&mut harness, "Close window");
     assert!(harness.query_by_label("Close window").is_none());
     assert_eq!(scene(&harness).fractal.formula().text(), Some(TEXT));
+}
+
+/// Its texts would be taller than the screen if they had no width.
+#[test]
+fn the_editor_stays_on_the_screen_however_small_it_is_made() {
+    let fractal = Fractal::new(formula::find("mandelbox").expect("a formula"));
+    let screen = [1280.0, 720.0];
+    let settings = Settings { timeline_open: true, ..unfolded() };
+    let mut harness = stage(Scene { fractal, ..Scene::default() }, settings, screen);
+    harness.get_by_label("Edit the formula…").click_accesskit();
+    harness.run();
+    type_whole(&mut harness, "name \"A name that is not closed, and a long one at that;");
+    let window = |harness: &Harness<'_, Stage>| {
+        let close = harness.get_by_label("Close window").rect().center();
+        let areas = harness.ctx.memory(|memory| {
+            let layers = memory.areas().visible_layer_ids().into_iter();
+            let windows = layers.filter(|layer| layer.order == egui::Order::Middle);
+            windows.filter_map(|layer| memory.area_rect(layer.id)).collect::<Vec<_>>()
+        });
+        let mut around = areas.into_iter().filter(|rect| rect.contains(close));
+        around.next_back().expect("the editor's window")
+    };
+    for _ in 0..3 {
+        let rect = window(&harness);
+        let width = rect.width();
+        drag(&mut harness, rect.left_center(), rect.right_center(), 6);
+        let rect = window(&harness);
+        assert!(rect.width() <= width, "{rect:?}");
+        drag(&mut harness, rect.center_bottom(), rect.center_top(), 6);
+        let rect = window(&harness);
+        let all = egui::Rect::from_min_size(egui::Pos2::ZERO, screen.into());
+        assert!(all.contains_rect(rect), "{rect:?}");
+    }
+    // What has no room scrolls.
+    let size = window(&harness).size();
+    assert!(size.x < 400.0 && size.y < 200.0, "{size:?}");
 }
 
 /// The panel scrolls: within it, a list shows several rows at any height of the window.
