@@ -47,7 +47,8 @@ pub fn has_side_panel(window: Vec2) -> bool {
 
 /// Width of the side panel in a window of the width `window`, in points.
 ///
-/// Even, so that the view beside it shows the same pixels as one without panel, and keeps their samples.
+/// Even: most screens then have an even number of pixels for it, and the view beside it the same pixels as one without
+/// panel, whose samples it keeps.
 pub fn panel_width(window: f32) -> f32 {
     PANEL_WIDTH.min(2.0 * (0.5 * PANEL_PART * window).floor())
 }
