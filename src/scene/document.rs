@@ -38,6 +38,7 @@ use parts::LinkDocument;
 pub use envelope::{MAX_BYTES, VERSION};
 pub use error::DocumentError;
 pub(super) use keys::{path_value, value_of};
+pub(super) use parse::syntax_text;
 
 fn document(scene: &Scene, path: keys::PathText) -> Document<&Scene, keys::PathText> {
     Document { mandelight: KIND.into(), version: VERSION, scene, path }

@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::document::syntax_text;
 use crate::reading::is_hidden;
 
 /// The name of the list's file in its folder.
@@ -102,7 +103,7 @@ impl Gallery {
             return Err(GalleryError::TooLong);
         }
         let list = serde_json::from_str(text);
-        checked(list.map_err(|error| GalleryError::Syntax(printable(&error.to_string())))?)
+        checked(list.map_err(|error| GalleryError::Syntax(syntax_text(&error)))?)
     }
 
     /// The list's text, which [`Self::from_json`] reads.
@@ -221,6 +222,13 @@ mod tests {
         let scene = r#"{"mandelight": "scene", "version": 1, "pictures": []}"#;
         assert_eq!(Gallery::from_json(scene), Err(GalleryError::NotAList));
         assert!(matches!(Gallery::from_json("[1]"), Err(GalleryError::Syntax(_))));
+        let Err(GalleryError::Syntax(text)) = Gallery::from_json("{\"mandelight\": ") else {
+            panic!("half a list");
+        };
+        assert_eq!(
+            text,
+            "the text ends too early: a part of the file is missing (line 1, column 15)"
+        );
         let long = " ".repeat(MAX_LIST_BYTES + 1);
         assert_eq!(Gallery::from_json(&long), Err(GalleryError::TooLong));
     }

@@ -158,7 +158,7 @@ impl Exporter {
             FileChoice::Cancelled => return,
             FileChoice::Failed(reason) => {
                 return session.show_error(format!(
-                    "The video could not be started: {reason}. Choose another kind of file beside Save."
+                    "The video could not be started: {reason}. PNGs need no encoder: choose them beside Save."
                 ));
             }
             FileChoice::Chosen(file) => file,

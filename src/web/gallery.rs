@@ -37,8 +37,14 @@ pub fn open(mailbox: &Mailbox) -> Option<GalleryState> {
     let location = page::window()?.location();
     let query = UrlSearchParams::new_with_str(&location.search().ok()?).ok()?;
     let named = query.get("gallery")?;
-    let list = Url::new_with_base(&named, &location.href().ok()?).ok().and_then(list_address);
-    let Some(list) = list else {
+    let address = Url::new_with_base(&named, &location.href().ok()?).ok();
+    let origin = location.origin().ok()?;
+    if address.as_ref().is_some_and(|url| url.protocol() == "http:" && url.origin() != origin) {
+        return Some(GalleryState::Failed(format!(
+            "The gallery \"{named}\" is on a host without encryption. Name it with https."
+        )));
+    }
+    let Some(list) = address.and_then(list_address) else {
         return Some(GalleryState::Failed(format!(
             "The gallery \"{named}\" is not the address of a folder or a list on a web host."
         )));

@@ -25,13 +25,13 @@ const PICTURES = "/pictures/";
  * Serves `folder`, and `pictures` beside it.
  * @param {string} folder
  * @param {string} [pictures]
- * @returns {Promise<{address: string, requests: string[], isDown: boolean, appended: object, close: () => Promise<void>}>}
+ * @returns {Promise<{address: string, requests: string[], isDown: boolean, edits: Object<string, (text: string) => string>, close: () => Promise<void>}>}
  *   the page's address; the files requested so far; whether it refuses connections; texts to append
  *   to files, by their names; a function that stops the host
  */
 export async function host(folder, pictures) {
   const requests = [];
-  const state = { isDown: false, appended: {} };
+  const state = { isDown: false, edits: {} };
   const server = createServer(async (request, response) => {
     if (state.isDown) return request.socket.destroy();
     const { pathname } = new URL(request.url, "http://127.0.0.1");
@@ -45,7 +45,7 @@ export async function host(folder, pictures) {
       if (!file?.startsWith(root + sep)) throw new Error("outside the folder");
       const body = await readFile(file);
       response.writeHead(200, { "Content-Type": MIME[extname(file)] ?? "application/octet-stream" });
-      response.end(Buffer.concat([body, Buffer.from(state.appended[name] ?? "")]));
+      response.end(state.edits[name]?.(body.toString()) ?? body);
     } catch {
       response.writeHead(404).end("no such file\n");
     }

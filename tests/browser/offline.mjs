@@ -36,7 +36,8 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   v.server.isDown = false;
 
   // Another version waits until the visitor takes it.
-  v.server.appended["service-worker.js"] = "\n// another version";
+  const version = /^const VERSION = ".*";$/m;
+  v.server.edits["service-worker.js"] = (text) => text.replace(version, 'const VERSION = "another";');
   await v.tab.reload();
   await page.firstPicture();
   const offered = () => v.tab.evaluate(() => !document.getElementById("update").hidden);

@@ -62,6 +62,10 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
       return Math.abs(right - width) < 2 && Math.abs(bottom - height) < 2;
     };
     await v.until("the new size", fits, 60);
+    await v.until("a picture of the new size", async () => {
+      const [view, report] = [await page.rect("view"), await page.report()];
+      return Math.abs(view.width - report.width) < 2 && Math.abs(view.height - report.height) < 2;
+    });
     await shoot("opening");
     await openMore();
     await shoot("panel");

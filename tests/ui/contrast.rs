@@ -13,6 +13,8 @@ use crate::stage::*;
 
 /// Least contrast of text (WCAG 2.2, success criterion 1.4.3, level AA).
 const LEAST: f32 = 4.5;
+/// Least size of text, in points.
+const LEAST_SIZE: f32 = 12.0;
 /// Relative luminance (WCAG 2.2).
 fn luminance(color: Color32) -> f32 {
     let linear = Rgba::from(color);
@@ -67,6 +69,8 @@ fn weak_texts(harness: &Harness<'_, Stage>) -> (BTreeMap<String, f32>, usize) {
         }
         let Some(ground) = behind(&shapes[..index], rect.center()) else { continue };
         count += 1;
+        let smallest = text.galley.job.sections.iter().map(|part| part.format.font_id.size);
+        assert!(smallest.fold(f32::MAX, f32::min) >= LEAST_SIZE, "{words} is too small");
         let ratio = contrast(ground.blend(color_of(text)), ground);
         if ratio < LEAST {
             weak.insert(words.to_owned(), ratio);
