@@ -85,20 +85,25 @@ impl Message<'_> {
             .fixed_pos(pos2(view.center().x, self.top))
             .pivot(Align2::CENTER_TOP)
             .constrain_to(view);
+        let is_touch = theme::has_touch_rows(ui);
+        // The buttons are as large as those of the panels.
+        let larger = if is_touch { ui.spacing().interact_size.y - 28.0 } else { 0.0 };
         let shown = area.show(ui.ctx(), |ui| {
+            theme::set_row_sizes(ui, is_touch);
             let margin = Margin { left: 12, right: 6, top: 6, bottom: 6 };
             let frame = egui::Frame::new().fill(theme::PANEL).corner_radius(8).inner_margin(margin);
             frame.stroke(egui::Stroke::new(1.0, self.edge)).show(ui, |ui| {
                 ui.horizontal(|ui| {
                     let font = egui::FontId::proportional(13.5);
-                    let room = width - self.buttons_width;
+                    // Twice: once for the cross, once for wider gaps.
+                    let room = width - self.buttons_width - 2.0 * larger;
                     let row_height = ui.fonts_mut(|fonts| fonts.row_height(&font));
                     let text = self.text.to_owned();
                     let mut job = LayoutJob::simple(text, font, self.text_color, room);
                     let rows = (view.bottom() - self.top - AROUND + GAP) / row_height;
                     job.wrap.max_rows = (rows as usize).max(1);
                     let text = ui.painter().layout_job(job);
-                    let size = vec2(text.size().x, text.size().y.max(28.0));
+                    let size = vec2(text.size().x, text.size().y.max(28.0 + larger));
                     let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
                     ui.ctx().accesskit_node_builder(shown.id, |node| {
                         node.set_role(self.role);

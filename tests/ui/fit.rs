@@ -172,6 +172,23 @@ fn rows_are_finger_sized_in_narrow_windows() {
 }
 
 #[test]
+fn messages_have_buttons_for_fingers() {
+    let mut harness = stage(Scene::default(), Settings::default(), [390.0, 844.0]);
+    touch(&mut harness);
+    harness.state_mut().notice = Some(Notice {
+        text: "The scene stopped the graphics card".to_owned(),
+        offer: Some("Open it"),
+        ..Notice::default()
+    });
+    harness.run();
+    for label in ["Open it", "Dismiss"] {
+        let rect = harness.get_by_label(label).rect();
+        assert!(rect.height() >= 43.9, "{label}: {rect:?}");
+        assert!(rect.right() <= 390.0, "{label}: {rect:?}");
+    }
+}
+
+#[test]
 fn a_hidden_panel_leaves_the_window_to_the_picture() {
     for size in WINDOWS {
         let settings = Settings { panel_open: false, ..Settings::default() };
