@@ -172,7 +172,8 @@ impl Region {
 
     /// The pixels that had the same rays in `old`; none where all rays differ.
     ///
-    /// Both have to be whole pictures of the camera, of one height, which the angle of view spans unless the width is less.
+    /// Both have to be whole pictures of the camera, of one height and not taller than wide: the angle of view then spans
+    /// the height.
     pub fn overlap(&self, old: &Self) -> Option<Overlap> {
         let is_plain = |region: &Self| {
             let [width, height] = region.size_px;

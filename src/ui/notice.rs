@@ -14,6 +14,8 @@ use super::{
 
 /// Height of the view that is no text of the message: margins and the edge, in points.
 const AROUND: f32 = 40.0;
+/// Least height of a message's row, in points.
+const ROW: f32 = 28.0;
 /// Distance from the picture's upper edge, and between messages, in points.
 const GAP: f32 = 12.0;
 /// Room for the cross, in points.
@@ -87,7 +89,7 @@ impl Message<'_> {
             .constrain_to(view);
         let is_touch = theme::has_touch_rows(ui);
         // The buttons are as large as those of the panels.
-        let larger = if is_touch { ui.spacing().interact_size.y - 28.0 } else { 0.0 };
+        let larger = if is_touch { ui.spacing().interact_size.y - ROW } else { 0.0 };
         let shown = area.show(ui.ctx(), |ui| {
             theme::set_row_sizes(ui, is_touch);
             let margin = Margin { left: 12, right: 6, top: 6, bottom: 6 };
@@ -103,7 +105,7 @@ impl Message<'_> {
                     let rows = (view.bottom() - self.top - AROUND + GAP) / row_height;
                     job.wrap.max_rows = (rows as usize).max(1);
                     let text = ui.painter().layout_job(job);
-                    let size = vec2(text.size().x, text.size().y.max(28.0 + larger));
+                    let size = vec2(text.size().x, text.size().y.max(ROW + larger));
                     let (rect, shown) = ui.allocate_exact_size(size, egui::Sense::hover());
                     ui.ctx().accesskit_node_builder(shown.id, |node| {
                         node.set_role(self.role);

@@ -26,8 +26,8 @@ const PICTURES = "/pictures/";
  * @param {string} folder
  * @param {string} [pictures]
  * @returns {Promise<{address: string, requests: string[], isDown: boolean, edits: Object<string, (text: string) => string>, close: () => Promise<void>}>}
- *   the page's address; the files requested so far; whether it refuses connections; texts to append
- *   to files, by their names; a function that stops the host
+ *   the page's address; the files requested so far; whether it refuses connections; edits of
+ *   files, by their names; a function that stops the host
  */
 export async function host(folder, pictures) {
   const requests = [];

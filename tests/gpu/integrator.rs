@@ -10,7 +10,7 @@ use mandelight::{
         integrator::{DIRECT, Integrator},
         pass::{camera_cone, camera_rays, march},
         recorder::{Dispatches, Recorder},
-        schedule::{KeptPixels, Points, Stage, Trace, Work},
+        schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -46,15 +46,7 @@ fn rays_lie_at_the_surface_points_of_their_pixels() {
     let passes = pipelines.of_frame(&inputs);
     let mut dispatches = Dispatches::default();
     let points = Points::Level(0);
-    let workgroups = points.grid(views::SIZE).workgroups();
-    let trace = Trace {
-        points,
-        from: Stage::March,
-        lights: 0,
-        first_workgroup: 0,
-        workgroups,
-        kept: KeptPixels::default(),
-    };
+    let trace = Trace::whole(points, Stage::March, 0, views::SIZE);
     for batch in Work::Trace(trace).batches() {
         let mut recorder =
             Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);

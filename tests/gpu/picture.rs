@@ -52,18 +52,8 @@ pub fn sparse(scene: &Scene, size: [u32; 2], level: u32) -> Vec<u8> {
     targets.upload(&pipelines.gpu.queue, &inputs);
     let passes = pipelines.of_frame(&inputs);
     let mut dispatches = Dispatches::default();
-    let trace = |points: Points, from| {
-        let workgroups = points.grid(size).workgroups();
-        let lights = inputs.shining();
-        Work::Trace(Trace {
-            points,
-            from,
-            lights,
-            first_workgroup: 0,
-            workgroups,
-            kept: KeptPixels::default(),
-        })
-    };
+    let trace =
+        |points: Points, from| Work::Trace(Trace::whole(points, from, inputs.shining(), size));
     let indirect = inputs.has_indirect().then(|| trace(Points::Indirect(level), Stage::Indirect));
     let show = Work::Display(Display {
         level,

@@ -54,7 +54,7 @@ fn seam_rate(
     fractal: Fractal, before: Derivatives, z: vec3f, inverse_rho: f32, along: vec3f,
 ) -> f32 {
     if (all(along == vec3f(0.0))) {
-        // A cone's rays move the point in every direction, also in that which is stretched most.
+        // A cone's rays move the point in every direction, the most stretched one too.
         let inverse = select(inverse_rho, 1.0 / max(abs(z.y), 1e-18), z.x < 0.0);
         return step_factor(fractal) * before.dg * inverse;
     }

@@ -103,11 +103,12 @@ impl Progress {
             self.reused = Some(reused);
             return Reuse::Samples;
         }
-        if reused.samples == 0 {
-            self.restart(Stale::Light);
-        }
         self.gbuffer_validity.discard_sparse();
-        if reused.samples == 0 { Reuse::Samples } else { Reuse::Film }
+        if reused.samples > 0 {
+            return Reuse::Film;
+        }
+        self.restart(Stale::Light);
+        Reuse::Samples
     }
 
     /// The pixels of an overlap whose film is true, or else all of its pixels.

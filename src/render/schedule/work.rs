@@ -127,6 +127,12 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// All of `points`, in a region of `size_px`.
+    pub fn whole(points: Points, from: Stage, lights: u64, size_px: [u32; 2]) -> Self {
+        let workgroups = points.grid(size_px).workgroups();
+        Self { points, from, lights, first_workgroup: 0, workgroups, kept: KeptPixels::default() }
+    }
+
     /// Parts of the trace that fit the buffers of one batch, in order.
     fn batches(self) -> impl Iterator<Item = Self> {
         let end = self.first_workgroup + self.workgroups;

@@ -20,7 +20,7 @@ use mandelight::{
         integrator::DIRECT,
         pipeline_set,
         recorder::{Dispatches, Recorder},
-        schedule::{KeptPixels, Points, Stage, Trace, Work},
+        schedule::{Points, Stage, Trace, Work},
         space::RenderSpace,
         targets::Targets,
         uniforms::Inputs,
@@ -111,16 +111,7 @@ pub fn drawn(scene: &Scene, size: [u32; 2], space: &RenderSpace) -> Drawn {
     for (points, from) in stages {
         let mut recorder =
             Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
-        let workgroups = points.grid(size).workgroups();
-        let lights = inputs.shining();
-        let trace = Trace {
-            points,
-            from,
-            lights,
-            first_workgroup: 0,
-            workgroups,
-            kept: KeptPixels::default(),
-        };
+        let trace = Trace::whole(points, from, inputs.shining(), size);
         record(&DIRECT, &mut recorder, Work::Trace(trace));
         gpu.queue.submit([recorder.finish()]);
         gpu.wait();

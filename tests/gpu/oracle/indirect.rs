@@ -9,7 +9,7 @@ use mandelight::{
         frame::record,
         integrator::DIRECT,
         recorder::{Dispatches, Recorder},
-        schedule::{KeptPixels, Points, Stage, Trace, Work},
+        schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -81,19 +81,8 @@ fn indirect_shaded(scene: &Scene, made: &[Made]) -> Vec<f64> {
     let mut recorder =
         Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
     let points = Points::Indirect(0);
-    let workgroups = points.grid(SIZE).workgroups();
-    record(
-        &DIRECT,
-        &mut recorder,
-        Work::Trace(Trace {
-            points,
-            from: Stage::Indirect,
-            lights: 0,
-            first_workgroup: 0,
-            workgroups,
-            kept: KeptPixels::default(),
-        }),
-    );
+    let trace = Trace::whole(points, Stage::Indirect, 0, SIZE);
+    record(&DIRECT, &mut recorder, Work::Trace(trace));
     gpu.queue.submit([recorder.finish()]);
     assert_eq!((dispatches.passes(), dispatches.total()), (vec!["indirect"], 1));
     let bytes = Readback::buffer(gpu, &targets.film_rg).wait(gpu).expect("the film's bytes");

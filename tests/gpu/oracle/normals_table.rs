@@ -12,7 +12,7 @@ use mandelight::{
         integrator::DIRECT,
         pass,
         recorder::{Dispatches, Recorder},
-        schedule::{KeptPixels, Points, Stage, Trace, Work},
+        schedule::{Points, Stage, Trace, Work},
         targets::Targets,
         uniforms::Inputs,
     },
@@ -89,15 +89,7 @@ fn costs(scene: &Scene) -> Vec<f64> {
     const PICTURE_PX: [u32; 2] = [384, 256];
     let points = Points::Level(0);
     let grid = points.grid(PICTURE_PX);
-    let workgroups = grid.workgroups();
-    let trace = Trace {
-        points,
-        from: Stage::March,
-        lights: 0,
-        first_workgroup: 0,
-        workgroups,
-        kept: KeptPixels::default(),
-    };
+    let trace = Trace::whole(points, Stage::March, 0, PICTURE_PX);
     let targets = Targets::new(&pipelines.layouts, Region::whole(PICTURE_PX));
     let mut dispatches = Dispatches::default();
     let mut millis = |way: Option<Normals>| {

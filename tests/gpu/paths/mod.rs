@@ -19,7 +19,7 @@ use mandelight::{
         Region, frame, integrator,
         recorder::{Dispatches, Recorder},
         samples::means,
-        schedule::{KeptPixels, Points, Stage, Trace, Work},
+        schedule::{Points, Stage, Trace, Work},
         sky::SkyCache,
         space::RenderSpace,
         targets::Targets,
@@ -68,15 +68,7 @@ impl Tracer {
         let mut dispatches = Dispatches::default();
         // Samples are numbered from the first jittered one on, and a first one replaces the film.
         let points = Points::Samples { first: first + 1, count };
-        let workgroups = points.grid(SIZE).workgroups();
-        let trace = Trace {
-            points,
-            from: Stage::Path,
-            lights: 0,
-            first_workgroup: 0,
-            workgroups,
-            kept: KeptPixels::default(),
-        };
+        let trace = Trace::whole(points, Stage::Path, 0, SIZE);
         let gpu = &pipelines.gpu;
         for half in [&self.targets.film_rg, &self.targets.film_bw] {
             gpu.queue.write_buffer(half, 0, &vec![0; half.size() as usize]);
