@@ -44,12 +44,23 @@ fn pair_power(w: Pair, n: u32) -> Pair {
     return v;
 }
 
+// Factors that bring lengths of about `size` near 1 and back, so that products of two or more lengths stay in an
+// f32's range: GPUs take numbers below 1.2e-38 for 0, and their compilers may multiply in another order than the one
+// that is written.
+struct Magnification {
+    up: f32,
+    down: f32,
+}
+
+fn magnification(size: f32) -> Magnification {
+    let is_tiny = size < 1e-15;
+    return Magnification(select(1.0, 1e18, is_tiny), select(1.0, 1e-18, is_tiny));
+}
+
 // |v|, even if the square of |v| is too small for an f32.
 fn length_of(v: vec2f) -> f32 {
-    let is_tiny = max(abs(v.x), abs(v.y)) < 1e-15;
-    let up = select(1.0, 1e18, is_tiny);
-    let down = select(1.0, 1e-18, is_tiny);
-    return length(up * v) * down;
+    let by = magnification(max(abs(v.x), abs(v.y)));
+    return length(by.up * v) * by.down;
 }
 
 // Differences of an orbit's rho and rotor to those of a reference point.
@@ -60,16 +71,18 @@ struct Deviation {
     inverse_rho: f32,
 }
 
-// `aside`: the difference across the axis; `rho`: the orbit's own rho.
+// `aside`: the difference across the axis, no longer than both rho together; `rho`: the orbit's own rho.
 fn deviation(reference: ReferencePoint, aside: vec2f, rho: f32) -> Deviation {
-    let inverse_rho = 1.0 / max(rho, 1e-37);
-    let inverse_sum = 1.0 / max(rho + reference.rho, 1e-37);
-    let along = dot(reference.rotor, aside);
-    let d_rho = 2.0 * (reference.rho * inverse_sum) * along + dot(aside, inverse_sum * aside);
+    let by = magnification(rho + reference.rho);
+    let inverse_rho = 1.0 / max(by.up * rho, 1e-19);
+    let inverse_sum = 1.0 / max(by.up * (rho + reference.rho), 1e-19);
+    let offset = by.up * aside;
+    let along = dot(reference.rotor, offset);
+    let d_rho = 2.0 * (by.up * reference.rho * inverse_sum) * along + dot(offset, inverse_sum * offset);
     // On the axis the rotor is 1.
-    let turned = inverse_rho * (aside - d_rho * reference.rotor);
+    let turned = inverse_rho * (offset - d_rho * reference.rotor);
     let d_rotor = select(vec2f(1.0, 0.0) - reference.rotor, turned, rho > 0.0);
-    return Deviation(d_rho, d_rotor, inverse_rho);
+    return Deviation(by.down * d_rho, d_rotor, by.up * inverse_rho);
 }
 
 // The orbit of a point given as its offset from the anchor.

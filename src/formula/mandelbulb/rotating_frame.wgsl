@@ -76,12 +76,14 @@ fn moved_on(
     let shrink = dr_before * inverse;
     let j = before.jacobian;
     // Gradient of the longitude by the point.
-    let by_rho = dr_before * min(1.0 / max(rho, 1e-37), 1e6 / fractal.scale);
+    let by_rho = min(dr_before * min(1.0 / max(rho, 1e-37), 1e6 / fractal.scale), 1e30);
     let turn = fractal.power * (before.turn + by_rho * (vec3f(-u.y, u.x, 0.0) * j));
     // Ripples finer than some pixels are lower than a pixel if the axis is in view.
     let finest = 0.5 / frame.camera.hit_cone;
     let most = finest * clamp(anchor_orbit.points[0].rho / fractal.scale, 1.0, 1e9);
-    let capped = turn * min(1.0, most / max(length(turn), 1e-37));
+    // Coordinates instead of the length, whose square overflows from 1e-20 on.
+    let size = max(max(abs(turn.x), abs(turn.y)), max(abs(turn.z), 1e-37));
+    let capped = turn * min(1.0, most / (size * length(turn / size)));
     let constant = orbit.constant + orbit.added;
     let around = complex_product(vec2f(-constant.y, constant.x), rotor);
     let own = inverse * orbit.constant_derivative;

@@ -263,9 +263,9 @@ fn assert_shown(film: &Film, size_px: [u32; 2], scene: &Scene, colors: &[[f32; 3
     let expected = bloom::shown(&scene.tone, &scene.bloom, size_px, &exposed);
     for (i, (found, expected)) in found.display.iter().zip(expected).enumerate() {
         let expected = DVec3::from_array(expected.to_array().map(|v| 255.0 * srgb(v)));
-        // Half a step of dither, half of rounding.
+        // Half a step of dither; 0.6 of rounding, as Direct3D and Vulkan allow.
         let error = (*found - expected).abs().max_element();
-        assert!(error < 1.05, "{:?} at {i}: {found} for {expected}", scene.bloom);
+        assert!(error < 1.15, "{:?} at {i}: {found} for {expected}", scene.bloom);
     }
 }
 
