@@ -13,7 +13,7 @@ use mandelight::{
         pass::{self, Pass},
         pipelines::FramePipelines,
         recorder::{Dispatches, Recorder},
-        schedule::{BATCH_WORKGROUPS, KeptPixels, Points, Stage, Trace},
+        schedule::{KeptPixels, Points, Stage, Trace},
         shaders,
         sky::SampledSky,
         space::RenderSpace,
@@ -234,12 +234,13 @@ impl<'a> PassRunner<'a> {
         let lights = u64::MAX >> (64 - self.inputs.frame.surface.light_count.clamp(1, 64));
         let all =
             points.grid(self.inputs.frame.size_px).workgroups().div_ceil(self.workgroup_stride);
-        (0..all).step_by(BATCH_WORKGROUPS as usize).map(move |first_workgroup| Trace {
+        let batch = self.targets.batch_workgroups;
+        (0..all).step_by(batch as usize).map(move |first_workgroup| Trace {
             points,
             from: Stage::March,
             lights,
             first_workgroup,
-            workgroups: BATCH_WORKGROUPS.min(all - first_workgroup),
+            workgroups: batch.min(all - first_workgroup),
             kept: KeptPixels::default(),
         })
     }

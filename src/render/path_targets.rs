@@ -17,6 +17,9 @@ pub struct PathTargets {
     pub samples: u64,
     /// The sky; none without one.
     pub sky: Option<Arc<SampledSky>>,
+    /// The sky's map, and its table.
+    texture: Arc<EnvironmentTexture>,
+    table: wgpu::Texture,
     /// A [`PathState`] per sample of a batch.
     paths: wgpu::Buffer,
     /// An f32 per pixel, for the estimate of its noise.
@@ -44,7 +47,6 @@ impl PathTargets {
         guides: &wgpu::Buffer,
     ) -> Self {
         let device = &layouts.gpu.device;
-        let paths = storage(device, "paths", samples.max(1) * PathState::SIZE as u64);
         let moments = storage(device, "moments", 4 * pixels.max(1));
         let counts = storage(device, "path counts", PathCounts::SIZE as u64);
         let map = sky.map(|sky| &**sky.map());
@@ -54,19 +56,12 @@ impl PathTargets {
             None => Arc::new(EnvironmentTexture::new(layouts, map)),
         };
         let table = table_texture(layouts, sky.map(|sky| &**sky));
-        let view = table.create_view(&Default::default());
-        let resources = [
-            wgpu::BindingResource::TextureView(&texture.view),
-            wgpu::BindingResource::Sampler(&texture.sampler),
-            wgpu::BindingResource::TextureView(&view),
-            paths.as_entire_binding(),
-        ];
-        let traced = [&paths, &moments, &counts, guides].map(wgpu::Buffer::as_entire_binding);
+        let paths = path_states(layouts, samples);
         Self {
             samples,
             sky: sky.cloned(),
-            group: group(device, &layouts.paths, "paths", resources),
-            traced_group: group(device, &layouts.traced_paths, "traced paths", traced),
+            group: paths_group(layouts, &texture, &table, &paths),
+            traced_group: traced_group(layouts, [&paths, &moments, &counts, guides]),
             moments_group: group(
                 device,
                 &layouts.moments,
@@ -75,10 +70,26 @@ impl PathTargets {
             ),
             sky_bytes: 16 * u64::from(table.width()) * u64::from(table.height())
                 + if shared.is_some() { 0 } else { texture.bytes },
+            texture,
+            table,
             paths,
             moments,
             counts,
         }
+    }
+
+    /// Allocates `samples` paths instead of those that there are, and keeps the moments of all pixels.
+    ///
+    /// `guides`: as in [`new`](Self::new).
+    pub fn fit_samples(&mut self, layouts: &Layouts, samples: u64, guides: &wgpu::Buffer) {
+        if samples == self.samples {
+            return;
+        }
+        self.samples = samples;
+        self.paths = path_states(layouts, samples);
+        self.group = paths_group(layouts, &self.texture, &self.table, &self.paths);
+        let traced = [&self.paths, &self.moments, &self.counts, guides];
+        self.traced_group = traced_group(layouts, traced);
     }
 
     /// GPU memory in bytes; 0 if no paths are traced.
@@ -88,6 +99,32 @@ impl PathTargets {
         }
         self.paths.size() + self.moments.size() + self.sky_bytes
     }
+}
+
+fn path_states(layouts: &Layouts, samples: u64) -> wgpu::Buffer {
+    storage(&layouts.gpu.device, "paths", samples.max(1) * PathState::SIZE as u64)
+}
+
+fn paths_group(
+    layouts: &Layouts,
+    texture: &EnvironmentTexture,
+    table: &wgpu::Texture,
+    paths: &wgpu::Buffer,
+) -> wgpu::BindGroup {
+    let view = table.create_view(&Default::default());
+    let resources = [
+        wgpu::BindingResource::TextureView(&texture.view),
+        wgpu::BindingResource::Sampler(&texture.sampler),
+        wgpu::BindingResource::TextureView(&view),
+        paths.as_entire_binding(),
+    ];
+    group(&layouts.gpu.device, &layouts.paths, "paths", resources)
+}
+
+/// `buffers`: the paths, the moments, the counts, the guides.
+fn traced_group(layouts: &Layouts, buffers: [&wgpu::Buffer; 4]) -> wgpu::BindGroup {
+    let resources = buffers.map(wgpu::Buffer::as_entire_binding);
+    group(&layouts.gpu.device, &layouts.traced_paths, "traced paths", resources)
 }
 
 /// The sky's table; a single empty cell without a sky.

@@ -8,7 +8,7 @@ use super::{
     layouts::Layouts,
     pipeline_set::PipelineSet,
     post::{Post, Tasks},
-    schedule::{BATCH_WORKGROUPS, Display, KeptPixels, Points, Stage, Trace},
+    schedule::{Display, KeptPixels, Points, Stage, Trace},
     targets::{DISPATCH_PARAMS_STRIDE_BYTES, MAX_DISPATCHES, Targets},
     uniforms::{DispatchParams, Inputs},
     work_queues::{BLOCK_THREADS, Queue},
@@ -250,7 +250,7 @@ impl<'a> Recorder<'a> {
 
     /// The dispatch parameters of a batch. Binds the jittered samples if the batch computes those.
     pub fn dispatch_params(&mut self, trace: &Trace, grid: &Grid) -> DispatchParams {
-        debug_assert!(trace.workgroups <= BATCH_WORKGROUPS, "buffers hold one batch");
+        debug_assert!(trace.workgroups <= self.targets.batch_workgroups, "buffers hold one batch");
         let mut params = grid.dispatch_params(trace.first_workgroup);
         params.starts_at_surface = u32::from(trace.from > Stage::March);
         params.blocks = trace.workgroups * (WORKGROUP_THREADS / BLOCK_THREADS);

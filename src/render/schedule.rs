@@ -39,13 +39,15 @@ use progress::Progress;
 pub use progress::Reuse;
 use types::Phase;
 pub use types::{Arithmetic, Pace, Stale, Status};
-pub use work::{BATCH_WORKGROUPS, Display, Job, KeptPixels, Points, Stage, Trace, Work};
+pub use work::{
+    BATCH_WORKGROUPS, Display, Job, KeptPixels, MAX_BATCH_WORKGROUPS, Points, Stage, Trace, Work,
+};
 
 /// Pieces of work on the GPU at any time.
 pub const MAX_IN_FLIGHT: usize = 2;
 
 /// Most workgroups in a piece of work: a megapixel.
-pub const MAX_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
+pub const MAX_WORKGROUPS: u32 = MAX_BATCH_WORKGROUPS;
 
 /// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
 /// of each dispatch leave much of the GPU idle: short pieces waste time.

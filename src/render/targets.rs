@@ -1,7 +1,8 @@
 //! The buffers of one region: uniforms, G-buffers, film, display.
 //!
 //! Bytes per pixel: G-buffer 24, film 16, display 4, direct light 4 if it is the source of indirect
-//! light. Rays, work queues and the G-buffer of jittered samples have the size of a batch, for any region.
+//! light. Rays, work queues and the G-buffer of jittered samples have the size of a batch, which grows where the GPU
+//! takes large pieces of work.
 
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ use super::{
     path_targets::PathTargets,
     post::{Need, Post},
     region::Region,
-    schedule::BATCH_WORKGROUPS,
+    schedule::{BATCH_WORKGROUPS, MAX_BATCH_WORKGROUPS},
     shutter::Shutter,
     sky::SampledSky,
     uniforms::{self, DispatchParams, FRAME_BYTES, GRADIENT_ENTRIES, Light, Ray},
@@ -73,6 +74,10 @@ pub struct Targets {
     pub albedo_table: wgpu::Buffer,
     /// The bind group of all six buffers.
     pub frame_group: wgpu::BindGroup,
+    /// Most workgroups of a batch.
+    pub batch_workgroups: u32,
+    /// Those of all of the region's samples that are computed together: no batch needs more.
+    pub all_workgroups: u32,
     /// The rays of one batch.
     pub rays: wgpu::Buffer,
     /// The centre samples of all pixels.
@@ -117,8 +122,8 @@ impl Targets {
         let pixels = u64::from(size_px[0]) * u64::from(size_px[1]);
         // A batch holds whole workgroups, some of them past the region's last pixels. Samples that are
         // computed together need the most workgroups.
-        let batch_workgroups =
-            Grid::samples(MAX_SAMPLES_TOGETHER, size_px).workgroups().min(BATCH_WORKGROUPS);
+        let all_workgroups = Grid::samples(MAX_SAMPLES_TOGETHER, size_px).workgroups();
+        let batch_workgroups = all_workgroups.min(BATCH_WORKGROUPS);
         let batch_samples = u64::from(batch_workgroups * WORKGROUP_THREADS);
         let rays = storage(device, "rays", batch_samples * Ray::SIZE as u64);
         let uniform = |label, bytes| buffer(device, label, bytes, wgpu::BufferUsages::UNIFORM);
@@ -170,6 +175,8 @@ impl Targets {
             albedo_table,
             frame_group,
             center,
+            batch_workgroups,
+            all_workgroups,
             jittered: GBuffer::new(layouts, batch_samples, &rays),
             rays,
             work_queues: WorkQueues::new(layouts, batch_workgroups, false),
@@ -188,6 +195,26 @@ impl Targets {
         }
     }
 
+    /// Makes the buffers of a batch as large as a trace of so many workgroups, if that halves the number of its batches
+    /// at least; returns whether they have grown.
+    ///
+    /// Pieces of work are sized by time: only large GPUs take that many workgroups in one. Buffers of paths are those of
+    /// [`fit_paths`](Self::fit_paths).
+    pub fn fit_batch(&mut self, layouts: &Layouts, workgroups: u32) -> bool {
+        let most = self.all_workgroups.min(MAX_BATCH_WORKGROUPS);
+        let wanted = workgroups.min(MAX_BATCH_WORKGROUPS).next_power_of_two().min(most);
+        if wanted < 2 * self.batch_workgroups {
+            return false;
+        }
+        let samples = u64::from(wanted * WORKGROUP_THREADS);
+        self.rays = storage(&layouts.gpu.device, "rays", samples * Ray::SIZE as u64);
+        self.center.bind_rays(layouts, &self.rays);
+        self.jittered = GBuffer::new(layouts, samples, &self.rays);
+        self.work_queues = WorkQueues::new(layouts, wanted, self.work_queues.for_paths);
+        self.batch_workgroups = wanted;
+        true
+    }
+
     /// Allocates direct light for all pixels if needed, else frees it.
     pub fn fit_direct(&mut self, layouts: &Layouts, needed: bool) {
         let pixels = self.film_rg.size() / 8;
@@ -200,9 +227,12 @@ impl Targets {
 
     /// Allocates the paths of a batch and the sky's textures if paths are traced, else frees them.
     pub fn fit_paths(&mut self, layouts: &Layouts, traced: bool, sky: Option<&Arc<SampledSky>>) {
-        let samples = self.rays.size() / Ray::SIZE as u64;
+        let samples = u64::from(self.batch_workgroups * WORKGROUP_THREADS);
         let needed = if traced { samples } else { 0 };
-        if self.paths.samples != needed || self.paths.sky.as_ref() != sky {
+        let is_sky_current = self.paths.sky.as_ref() == sky;
+        if is_sky_current && self.paths.samples.min(needed) > 0 {
+            self.paths.fit_samples(layouts, needed, &self.center.visibility);
+        } else if self.paths.samples != needed || !is_sky_current {
             let shown = &self.environment_texture;
             let pixels = if traced { self.film_rg.size() / 8 } else { 0 };
             self.paths = PathTargets::new(
@@ -214,8 +244,7 @@ impl Targets {
             );
         }
         if self.work_queues.for_paths != traced {
-            let workgroups = (samples / u64::from(WORKGROUP_THREADS)) as u32;
-            self.work_queues = WorkQueues::new(layouts, workgroups, traced);
+            self.work_queues = WorkQueues::new(layouts, self.batch_workgroups, traced);
         }
     }
 
@@ -318,14 +347,20 @@ impl GBuffer {
         let surface = storage(device, "surface", 8 * samples);
         let color_data = storage(device, "colour data", 8 * samples);
         let visibility = storage(device, "visibility", 8 * samples);
-        let group = group(
-            device,
-            &layouts.gbuffer,
-            "gbuffer",
-            [&surface, &color_data, &visibility, rays].map(wgpu::Buffer::as_entire_binding),
-        );
+        let group = gbuffer_group(layouts, [&surface, &color_data, &visibility, rays]);
         Self { surface, color_data, visibility, group }
     }
+
+    /// Binds other rays.
+    fn bind_rays(&mut self, layouts: &Layouts, rays: &wgpu::Buffer) {
+        let buffers = [&self.surface, &self.color_data, &self.visibility, rays];
+        self.group = gbuffer_group(layouts, buffers);
+    }
+}
+
+fn gbuffer_group(layouts: &Layouts, buffers: [&wgpu::Buffer; 4]) -> wgpu::BindGroup {
+    let resources = buffers.map(wgpu::Buffer::as_entire_binding);
+    group(&layouts.gpu.device, &layouts.gbuffer, "gbuffer", resources)
 }
 
 /// Paths keep the guides in place of the centre samples' visibility: see `GBufferValidity`.

@@ -378,7 +378,17 @@ impl View {
         )
     }
 
+    /// Makes the buffers of a batch fit a piece of work that the GPU is known to finish in time.
+    fn fit_batch(&mut self, work: Work) {
+        let (Work::Trace(trace), Some(inputs)) = (work, &self.inputs) else { return };
+        let layouts = &self.pipelines.layouts;
+        if self.targets.fit_batch(layouts, trace.workgroups) {
+            (self.integrator.fit_targets)(&mut self.targets, layouts, inputs);
+        }
+    }
+
     fn submit(&mut self, work: Work) {
+        self.fit_batch(work);
         let upsample_level = self.upsample_level(work);
         // Sub-frames before the last are not shown.
         let is_shown = self.sub_frame.is_none_or(|sub_frame| sub_frame.is_last());
@@ -392,7 +402,8 @@ impl View {
         let Some(inputs) = &self.inputs else { return };
         let passes = self.pipelines.of_frame(inputs);
         let (layouts, dispatches) = (&self.pipelines.layouts, &mut self.dispatches);
-        let commands = work.batches().map(|batch| {
+        let batches = work.batches(self.targets.batch_workgroups);
+        let commands = batches.map(|batch| {
             let mut recorder = Recorder::new(layouts, &passes, &self.targets, inputs, dispatches);
             recorder.tasks = tasks;
             recorder.upsample_level = upsample_level;

@@ -47,7 +47,7 @@ fn rays_lie_at_the_surface_points_of_their_pixels() {
     let mut dispatches = Dispatches::default();
     let points = Points::Level(0);
     let trace = Trace::whole(points, Stage::March, 0, views::SIZE);
-    for batch in Work::Trace(trace).batches() {
+    for batch in Work::Trace(trace).batches(targets.batch_workgroups) {
         let mut recorder =
             Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
         frame::record(&RAYS_ALONE, &mut recorder, batch);

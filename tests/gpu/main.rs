@@ -1,6 +1,7 @@
 //! The kernels on whatever adapter there is (lavapipe will do): what they draw, how much they
 //! run, and whether they agree with pictures and mathematics made elsewhere.
 
+mod batches;
 mod benchmark;
 mod colors;
 mod compiling;

@@ -5,11 +5,17 @@ use crate::render::{
     region::Overlap,
 };
 
-/// Most workgroups in one submit: a view's buffers of rays, jittered samples and work queues have this size.
+/// Workgroups in one submit at first: a view's buffers of rays, jittered samples and work queues have this size.
 ///
 /// The size keeps a view of 1920×1080 with everything on below the memory of the thesis
 /// ([`memory`](crate::render::memory)).
 pub const BATCH_WORKGROUPS: u32 = 2048;
+
+/// Most workgroups in one submit.
+///
+/// Each pass of a batch waits for the longest ray of the pass before it. On a large GPU that takes longer than all the
+/// others: there, batches grow ([`Targets::fit_batch`](crate::render::targets::Targets::fit_batch)).
+pub const MAX_BATCH_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
 
 /// Which sample points a trace computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,12 +139,12 @@ impl Trace {
         Self { points, from, lights, first_workgroup: 0, workgroups, kept: KeptPixels::default() }
     }
 
-    /// Parts of the trace that fit the buffers of one batch, in order.
-    fn batches(self) -> impl Iterator<Item = Self> {
+    /// Parts of the trace that have at most so many workgroups, in order.
+    fn batches(self, batch_workgroups: u32) -> impl Iterator<Item = Self> {
         let end = self.first_workgroup + self.workgroups;
-        (self.first_workgroup..end).step_by(BATCH_WORKGROUPS as usize).map(move |first| Self {
+        (self.first_workgroup..end).step_by(batch_workgroups as usize).map(move |first| Self {
             first_workgroup: first,
-            workgroups: BATCH_WORKGROUPS.min(end - first),
+            workgroups: batch_workgroups.min(end - first),
             ..self
         })
     }
@@ -179,13 +185,17 @@ pub enum Work {
 }
 
 impl Work {
-    /// Parts to submit one after another: each part reuses the buffers of a batch.
-    pub fn batches(self) -> impl Iterator<Item = Self> {
+    /// Parts to submit one after another: each part reuses the buffers of a batch, which hold so many workgroups.
+    pub fn batches(self, batch_workgroups: u32) -> impl Iterator<Item = Self> {
         let (trace, display) = match self {
             Self::Trace(trace) => (Some(trace), None),
             Self::Display(_) => (None, Some(self)),
         };
-        trace.into_iter().flat_map(Trace::batches).map(Self::Trace).chain(display)
+        trace
+            .into_iter()
+            .flat_map(move |trace| trace.batches(batch_workgroups))
+            .map(Self::Trace)
+            .chain(display)
     }
 }
 
@@ -206,7 +216,7 @@ mod tests {
                 kept: KeptPixels::default(),
             };
             let mut next = first_workgroup;
-            for batch in Work::Trace(trace).batches() {
+            for batch in Work::Trace(trace).batches(BATCH_WORKGROUPS) {
                 let Work::Trace(batch) = batch else { panic!("{batch:?} is no trace") };
                 assert_eq!((batch.job(), batch.points), (trace.job(), points));
                 assert_eq!(batch.first_workgroup, next);
@@ -222,6 +232,6 @@ mod tests {
             adapt: 1.0,
             kept: KeptPixels::default(),
         });
-        assert_eq!(display.batches().collect::<Vec<_>>(), [display]);
+        assert_eq!(display.batches(BATCH_WORKGROUPS).collect::<Vec<_>>(), [display]);
     }
 }

@@ -73,7 +73,7 @@ impl Tracer {
         for half in [&self.targets.film_rg, &self.targets.film_bw] {
             gpu.queue.write_buffer(half, 0, &vec![0; half.size() as usize]);
         }
-        for batch in Work::Trace(trace).batches() {
+        for batch in Work::Trace(trace).batches(self.targets.batch_workgroups) {
             let mut recorder = Recorder::new(
                 &pipelines.layouts,
                 &passes,

@@ -1,0 +1,106 @@
+//! Batches of work: their size changes nothing in a picture.
+
+use mandelight::{
+    gpu::readback::Readback,
+    render::{
+        Region, frame, integrator,
+        recorder::{Dispatches, Recorder},
+        schedule::{BATCH_WORKGROUPS, Points, Stage, Trace, Work},
+        sky::SkyCache,
+        space::RenderSpace,
+        targets::Targets,
+        uniforms::Inputs,
+    },
+    scene::{IntegratorKind, RigKind, Scene},
+};
+use mandelight_test_support::device::pipelines;
+
+/// Width and height of the picture: a sample of each pixel fills two and a half batches.
+const SIZE: [u32; 2] = [640, 512];
+
+/// The film after the centre samples and two more of each pixel. The batches are as large as the work from the sample
+/// `from` on; they stay as they are without one.
+fn film(scene: &Scene, from: Option<u32>) -> (Vec<Vec<u8>>, Vec<u32>) {
+    let pipelines = pipelines();
+    let gpu = &pipelines.gpu;
+    let region = Region::whole(SIZE);
+    let sky = SkyCache::default().sky_of(scene, None);
+    let space = RenderSpace::of(scene, region);
+    let inputs = Inputs::about(scene, region, &space).with_sky(scene, &space, sky.as_ref());
+    let integrator = integrator::of(&inputs);
+    let mut targets = Targets::new(&pipelines.layouts, region);
+    (integrator.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
+    targets.upload(&gpu.queue, &inputs);
+    pipelines.specialize(scene);
+    let passes = pipelines.of_frame(&inputs);
+    let mut dispatches = Dispatches::default();
+    let center = if inputs.traces_paths() { Stage::Path } else { Stage::March };
+    let mut sizes = Vec::new();
+    for sample in 0..3 {
+        let points = match sample {
+            0 => Points::Level(0),
+            _ => Points::Samples { first: sample, count: 1 },
+        };
+        let trace = Trace::whole(points, center, u64::MAX, SIZE);
+        if from.is_some_and(|from| sample >= from)
+            && targets.fit_batch(&pipelines.layouts, trace.workgroups)
+        {
+            (integrator.fit_targets)(&mut targets, &pipelines.layouts, &inputs);
+        }
+        for batch in Work::Trace(trace).batches(targets.batch_workgroups) {
+            let mut recorder =
+                Recorder::new(&pipelines.layouts, &passes, &targets, &inputs, &mut dispatches);
+            frame::record(integrator, &mut recorder, batch);
+            gpu.queue.submit([recorder.finish()]);
+        }
+        sizes.push(targets.batch_workgroups);
+    }
+    let read = |buffer| Readback::buffer(gpu, buffer).wait(gpu).expect("the buffer's bytes");
+    let buffers =
+        [&targets.film_rg, &targets.film_bw, &targets.center.surface, &targets.paths.moments];
+    (buffers.map(read).to_vec(), sizes)
+}
+
+#[test]
+fn larger_batches_draw_the_same_picture() {
+    let direct = Scene::default();
+    let mut traced = Scene::default();
+    (traced.integrator.kind, traced.integrator.bounces) = (IntegratorKind::Path, 2);
+    traced.lights.rig.kind = RigKind::Sky;
+    for (name, scene) in [("direct light", direct), ("light paths", traced)] {
+        let (expected, small) = film(&scene, None);
+        assert_eq!(small, [BATCH_WORKGROUPS; 3], "{name}");
+        for from in 0..3 {
+            let (found, sizes) = film(&scene, Some(from));
+            let has_grown = sizes
+                .iter()
+                .zip(0..)
+                .all(|(&size, sample)| (size >= 2 * BATCH_WORKGROUPS) == (sample >= from));
+            assert!(has_grown, "{name}: {sizes:?} from {from}");
+            for (buffer, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                let differing = found.iter().zip(expected).filter(|(a, b)| a != b).count();
+                assert_eq!(
+                    (found.len(), differing),
+                    (expected.len(), 0),
+                    "{name}, {buffer}, {from}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn batches_are_no_larger_than_the_region_and_seldom_change() {
+    let layouts = &pipelines().layouts;
+    let mut targets = Targets::new(layouts, Region::whole(SIZE));
+    assert!(!targets.fit_batch(layouts, BATCH_WORKGROUPS));
+    assert!(targets.fit_batch(layouts, BATCH_WORKGROUPS + 1));
+    assert_eq!(targets.batch_workgroups, 2 * BATCH_WORKGROUPS);
+    assert!(!targets.fit_batch(layouts, 2 * BATCH_WORKGROUPS));
+    assert!(targets.fit_batch(layouts, u32::MAX / 2));
+    assert!(!targets.fit_batch(layouts, u32::MAX / 2));
+    let mut small = Targets::new(layouts, Region::whole([40, 30]));
+    let before = small.memory().total();
+    assert!(!small.fit_batch(layouts, u32::MAX / 2));
+    assert_eq!(small.memory().total(), before);
+}
