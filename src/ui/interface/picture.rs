@@ -16,6 +16,7 @@ use crate::ui::{
     places::{self, PinInputs},
     shortcuts::{self, Command},
     theme, view,
+    widgets::Help as _,
 };
 
 impl Interface {
@@ -183,7 +184,7 @@ impl Interface {
                     for tool in in_menu {
                         let (name, hover) = tool.button.name_and_hover;
                         let button = ui.add_sized(size, Button::new(tool.button.word));
-                        let button = button.accessible_name(name).on_hover_text(hover);
+                        let button = button.accessible_name(name).help(hover);
                         self.rects.record(tool.rect, &button);
                         if self.use_tool(tool, &button, commands) {
                             ui.close();

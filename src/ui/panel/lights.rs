@@ -261,8 +261,8 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
             let mut response =
                 ui.add_enabled_ui(is_enabled, |ui| ui.add_sized(size, button)).inner.help(hover);
             if !has_room {
-                response = response
-                    .on_disabled_hover_text(format!("A scene has at most {MAX_LIGHTS} lights."));
+                response =
+                    response.disabled_help(format!("A scene has at most {MAX_LIGHTS} lights."));
             }
             cx.rects.record(name, &response);
             if response.clicked() {
