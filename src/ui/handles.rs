@@ -17,12 +17,18 @@ use crate::scene::{Camera, MIN_VIEW_UNIT, Scene, follow};
 
 /// Side of a handle's sensitive square, in points.
 const GRIP: f32 = 30.0;
+
 /// Change of the distance per point of a drag with Shift, as a natural logarithm.
 const DEPTH_PER_POINT: f64 = 0.01;
 /// Range of a dragged light's distance from the eye, in scene units.
 const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
 /// Rounding of positions, in pixels at the light's depth.
 const GRAIN_PX: f64 = 1e-2;
+
+/// The sensitive square of a handle at `at`.
+fn grip(ui: &Ui, at: Pos2) -> Rect {
+    Rect::from_center_size(at, Vec2::splat(theme::target_size(ui, GRIP)))
+}
 
 /// Draws the handles of all point lights and moves a dragged light.
 ///
@@ -40,7 +46,7 @@ pub fn point_lights(
         let Some(at) = project(&scene.camera, frame, offset) else {
             continue;
         };
-        let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+        let area = grip(ui, at);
         let response =
             ui.interact(area, ui.scope_id().with(("point light", index)), Sense::click_and_drag());
         response.widget_info(|| {
@@ -65,9 +71,7 @@ pub fn point_lights(
         let shines = !light.muted && (!any_solo || light.solo);
         let lit = response.hovered() || response.dragged() || selected == Some(this);
         paint(ui, at, theme::display_color(light.color), shines, false, lit);
-        response.on_hover_text(
-            "Drag to move this light. With Shift, it moves toward or away from you.",
-        );
+        response.help("Drag to move this light. With Shift, it moves toward or away from you.");
     }
     touched
 }
@@ -95,7 +99,7 @@ pub fn environment_lights(
             let mut toward_light = light.toward_light_in_view(camera);
             let at = ball::dot_place(center, radius, toward_light);
             let id = ui.scope_id().with(("light", index));
-            let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+            let area = grip(ui, at);
             let response = ui.interact(area, id, Sense::click_and_drag());
             let this = LightRef::Environment(index);
             let name = format!("{} in the view", this.name());
@@ -133,7 +137,7 @@ pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
         let Some(at) = project(camera, frame, offset) else {
             continue;
         };
-        let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+        let area = grip(ui, at);
         let id = ui.scope_id().with(("section plane", index));
         let response = ui.interact(area, id, Sense::drag());
         let name = format!("Section plane {} in the view", index + 1);
@@ -148,7 +152,7 @@ pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
         }
         let is_lit = response.hovered() || response.dragged();
         paint_plane(ui, at, arrow * ARROW as f32, is_lit);
-        response.on_hover_text("Drag to move this section plane along its arrow");
+        response.help("Drag to move this section plane along its arrow");
     }
 }
 

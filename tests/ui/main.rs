@@ -34,5 +34,7 @@ mod sections;
 mod share;
 mod stage;
 mod steady;
+mod targets;
 mod timeline;
+mod windows;
 mod zoom;
