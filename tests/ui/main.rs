@@ -36,5 +36,6 @@ mod stage;
 mod steady;
 mod targets;
 mod timeline;
+mod tooltips;
 mod windows;
 mod zoom;

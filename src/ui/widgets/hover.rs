@@ -68,7 +68,7 @@ fn show(control: &Response, mut tooltip: Tooltip<'_>, text: impl FnOnce() -> Str
     let at = Rect::from_min_size(place(control, size, screen), size);
     let corner = RectAlign { parent: Align2::LEFT_TOP, child: Align2::LEFT_TOP };
     tooltip.popup = tooltip.popup.anchor(PopupAnchor::ParentRect(at)).align(corner);
-    tooltip.popup = tooltip.popup.align_alternatives(&[]).gap(0.0);
+    tooltip.popup = tooltip.popup.align_alternatives(&[]).gap(0.0).width(width + around.x);
     tooltip.show(|ui| ui.add(Label::new(text).wrap()));
 }
 
@@ -103,16 +103,20 @@ fn candidates(control: &Response, size: Vec2, screen: Rect) -> impl Iterator<Ite
     let panel = panel.filter(|panel| panel.contains(rect.center()));
     let window = ctx.memory(|memory| memory.area_rect(control.layer_id.id));
     let middle = rect.center().y - 0.5 * size.y;
+    let steps = (screen.height().max(screen.width()) / STEP) as usize;
+    let beside = panel.or(window).into_iter().flat_map(move |area| {
+        let sides = [area.left() - GAP - size.x, area.right() + GAP].into_iter();
+        let sides = sides.filter(move |x| *x >= screen.left() && x + size.x <= screen.right());
+        sides.flat_map(move |x| {
+            (0..steps).flat_map(move |step| {
+                let away = STEP * step as f32;
+                [pos2(x, middle - away), pos2(x, middle + away)]
+            })
+        })
+    });
     // Of a wide control, the text is near the pointer.
     let pointer = ctx.pointer_hover_pos().filter(|_| rect.width() > size.x);
     let left = pointer.map_or(rect.left(), |at| at.x - 0.5 * size.x);
-    let beside = panel.or(window).into_iter().flat_map(move |area| {
-        [pos2(area.left() - GAP - size.x, middle), pos2(area.right() + GAP, middle)]
-            .into_iter()
-            .filter(move |at| screen.x_range().contains(at.x))
-            .filter(move |at| at.x + size.x <= screen.right())
-    });
-    let steps = (screen.height().max(screen.width()) / STEP) as usize;
     let around = (0..=steps).flat_map(move |step| {
         let away = GAP + STEP * step as f32;
         [
@@ -125,8 +129,22 @@ fn candidates(control: &Response, size: Vec2, screen: Rect) -> impl Iterator<Ite
     // Over the control itself, whose clicks it lets through, where all around is full.
     let over = pos2(rect.center().x - 0.5 * size.x, rect.bottom() - size.y - GAP);
     let fits = rect.width() > size.x && rect.height() > 2.0 * size.y;
-    let over = fits.then_some(over);
-    beside.chain(around).chain(over)
+    let anywhere = std::iter::once_with(move || anywhere(rect.center(), size, screen)).flatten();
+    beside.chain(around).chain(fits.then_some(over)).chain(anywhere)
+}
+
+/// Places all over the screen, the nearest to `center` first.
+fn anywhere(center: Pos2, size: Vec2, screen: Rect) -> Vec<Pos2> {
+    let [columns, rows] = [screen.width(), screen.height()].map(|side| (side / STEP) as usize / 2);
+    let step = 2.0 * STEP;
+    let all = (0..=rows).flat_map(|row| (0..=columns).map(move |column| (row, column)));
+    let place = |(row, column)| screen.min + step * egui::vec2(column as f32, row as f32);
+    let mut all: Vec<Pos2> = all.map(place).collect();
+    all.sort_by(|a, b| {
+        let away = |at: &Pos2| (*at + 0.5 * size).distance_sq(center);
+        away(a).total_cmp(&away(b))
+    });
+    all
 }
 
 /// The rectangles of all controls but those that `control` lies on.
