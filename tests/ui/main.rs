@@ -38,4 +38,5 @@ mod targets;
 mod timeline;
 mod tooltips;
 mod windows;
+mod words;
 mod zoom;
