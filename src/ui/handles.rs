@@ -2,16 +2,16 @@
 //!
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
 //! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
-//! is on the panel's ball. A section plane moves along its normal. What is behind the eye has no handle.
+//! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus. A section plane moves along its normal. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
 
 use super::{
     frame::Frame,
-    selection::LightRef,
+    selection::{LightRef, Selection},
     theme,
-    widgets::{Help as _, ball},
+    widgets::{ArrowSteps, Help as _, arrow_steps, ball},
 };
 use crate::scene::{Camera, MIN_VIEW_UNIT, Scene, follow};
 
@@ -20,6 +20,8 @@ const GRIP: f32 = 30.0;
 
 /// Change of the distance per point of a drag with Shift, as a natural logarithm.
 const DEPTH_PER_POINT: f64 = 0.01;
+/// Drag that a press of an arrow key stands for, in points.
+const KEY_POINTS: f32 = 10.0;
 /// Range of a dragged light's distance from the eye, in scene units.
 const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
 /// Rounding of positions, in pixels at the light's depth.
@@ -37,12 +39,24 @@ pub fn point_lights(
     ui: &Ui,
     frame: Frame,
     scene: &mut Scene,
-    selected: Option<LightRef>,
+    selected: &Selection,
 ) -> Option<LightRef> {
     let mut touched = None;
     let any_solo = scene.lights.any_solo();
     for (index, light) in scene.lights.point.iter_mut().enumerate() {
+        let this = LightRef::Point(index);
         let offset = &light.position - &scene.camera.position;
+        let grain = offset.length() * scene.camera.half_height(frame.aspect()) * 2.0
+            / f64::from(frame.height_px.max(1))
+            * GRAIN_PX;
+        let mut move_by = |delta: Vec2, in_depth: bool| {
+            let moved = displacement(&scene.camera, frame, offset, delta, in_depth);
+            light.position = light.position.moved_by(moved, grain);
+        };
+        let steps_of_row = selected.moved_light.filter(|(light, _)| *light == this);
+        if let Some((_, steps)) = steps_of_row {
+            move_by(key_delta(steps), steps.is_shifted);
+        }
         let Some(at) = project(&scene.camera, frame, offset) else {
             continue;
         };
@@ -56,24 +70,27 @@ pub fn point_lights(
                 format!("Point light {} in the view", index + 1),
             )
         });
-        let this = LightRef::Point(index);
-        if response.clicked() || response.drag_started() {
+        if response.clicked() || response.drag_started() || response.gained_focus() {
             touched = Some(this);
         }
         if response.dragged() {
-            let in_depth = ui.input(|i| i.modifiers.shift);
-            let moved = displacement(&scene.camera, frame, offset, response.drag_delta(), in_depth);
-            let grain = offset.length() * scene.camera.half_height(frame.aspect()) * 2.0
-                / f64::from(frame.height_px.max(1))
-                * GRAIN_PX;
-            light.position = light.position.moved_by(moved, grain);
+            move_by(response.drag_delta(), ui.input(|i| i.modifiers.shift));
+        }
+        if let Some(steps) = arrow_steps(ui, &response) {
+            move_by(key_delta(steps), steps.is_shifted);
         }
         let shines = !light.muted && (!any_solo || light.solo);
-        let lit = response.hovered() || response.dragged() || selected == Some(this);
+        let is_held = response.hovered() || response.dragged() || response.has_focus();
+        let lit = is_held || selected.light == Some(this);
         paint(ui, at, theme::display_color(light.color), shines, false, lit);
-        response.help("Drag to move this light. With Shift, it moves toward or away from you.");
+        response.help("Drag to move this light, or use the arrow keys. With Shift, up and down move it away from you and toward you.");
     }
     touched
+}
+
+/// The drag that arrow keys stand for, in points.
+fn key_delta(steps: ArrowSteps) -> Vec2 {
+    Vec2::new(steps.right as f32, -steps.up as f32) * KEY_POINTS
 }
 
 /// Radius of the ball around the picture's middle on which directional lights are, as a part of the
@@ -87,7 +104,7 @@ pub fn environment_lights(
     ui: &Ui,
     frame: Frame,
     scene: &mut Scene,
-    selected: Option<LightRef>,
+    selected: &Selection,
 ) -> Option<LightRef> {
     let Scene { camera, lights, .. } = scene;
     let center = frame.rect.center();
@@ -104,7 +121,13 @@ pub fn environment_lights(
             let this = LightRef::Environment(index);
             let name = format!("{} in the view", this.name());
             response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, name.clone()));
-            if ball::turn(ui, &response, center, radius, &mut toward_light) {
+            let mut is_turned = ball::turn(ui, &response, center, radius, &mut toward_light);
+            let steps_of_row = selected.moved_light.filter(|(light, _)| *light == this);
+            if let Some((_, steps)) = steps_of_row {
+                ball::turn_by_steps(&mut toward_light, steps);
+                is_turned = true;
+            }
+            if is_turned {
                 light.set_toward_light_in_view(toward_light, camera);
             }
             if response.clicked() || response.drag_started() || response.gained_focus() {
@@ -117,7 +140,7 @@ pub fn environment_lights(
                 ui.painter().circle_stroke(center, radius, spoke);
                 ui.painter().line_segment([center, at], spoke);
             }
-            let is_lit = is_held || selected == Some(this);
+            let is_lit = is_held || selected.light == Some(this);
             let color = theme::display_color(light.color);
             paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
             response.help(ball::HELP);
@@ -216,7 +239,9 @@ fn displacement(
 
 /// The length that a point of the window spans at the depth of `offset`, in scene units.
 fn scene_per_point(camera: &Camera, frame: Frame, offset: DVec3) -> f64 {
-    let depth = offset.dot(camera.forward()).max(0.0);
+    let depth = offset.dot(camera.forward());
+    // Keys move a light behind the eye too.
+    let depth = if depth > 0.0 { depth } else { offset.length() };
     2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0))
 }
 

@@ -86,16 +86,17 @@ impl Interface {
             if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
-            let light = handles::point_lights(ui, frame, scene, self.selection.light);
+            let light = handles::point_lights(ui, frame, scene, &self.selection);
             self.selection.light = light.or(self.selection.light);
             if panel::shows_lights(&self.settings) {
-                let light = handles::environment_lights(ui, frame, scene, self.selection.light);
+                let light = handles::environment_lights(ui, frame, scene, &self.selection);
                 self.selection.light = light.or(self.selection.light);
             }
             if panel::shows_section_planes(&self.settings) {
                 handles::section_planes(ui, frame, scene);
             }
         }
+        self.selection.moved_light = None;
         self.camera_status = Some(self.pilot.camera_status(scene, frame));
         let is_moving = self.timeline.is_playing()
             || self.pilot.is_moving(ui.input(|i| i.time))

@@ -13,7 +13,7 @@ mod section;
 mod swatch;
 mod window_heading;
 
-pub use ball::ball;
+pub use ball::{ArrowSteps, arrow_steps, ball};
 pub use card::card;
 pub use color::color;
 pub use gradient::{gradient, gradient_card, move_stop, paint_bar};
