@@ -3,8 +3,8 @@
 //! In: the scene, how far to go, what must stay. Out: small pictures to draw, and the chosen variation.
 
 use egui::{
-    Checkbox, Color32, CornerRadius, Margin, Rect, Response, RichText, Sense, Stroke, StrokeKind,
-    Ui, UiBuilder, WidgetInfo, accesskit::Role, vec2,
+    Checkbox, Color32, CornerRadius, Margin, Rect, Response, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, WidgetInfo, accesskit::Role, vec2,
 };
 
 use super::{
@@ -189,7 +189,7 @@ impl Mutate {
                 }
             });
             ui.horizontal_wrapped(|ui| {
-                ui.label(RichText::new("Keep").color(theme::TEXT_DIM));
+                ui.label("Keep");
                 let Locks { shape, colors, light, view } = &mut self.locks;
                 for (name, lock, hover) in [
                     ("Shape", shape, "All keep the form of the middle"),
