@@ -232,7 +232,10 @@ pub fn display_color(linear: [f32; 3]) -> Color32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{param, presets};
+    use crate::{
+        formula,
+        scene::{param, presets},
+    };
 
     #[test]
     fn negative_powers_are_written_with_a_caret() {
@@ -247,11 +250,16 @@ mod tests {
         let presets = presets::all().flat_map(|preset| [preset.name, preset.blurb]);
         let params = param::all().flat_map(|param| [param.label, param.help]);
         let texts: Vec<String> = presets.chain(params).map(printable).collect();
+        let texts = texts.iter().map(|text| (text.as_str(), FontId::proportional(13.0)));
+        // The editor shows them as they are.
+        let formulas = formula::texts().chain(formula::step_texts());
+        let formulas = formulas.map(|(_, text)| (text, FontId::monospace(12.0)));
+        let texts: Vec<_> = texts.chain(formulas).collect();
         // The fonts are loaded by the first frame.
         let mut output = context.run_ui(Default::default(), |ui| {
-            for text in &texts {
-                let font = FontId::proportional(13.0);
-                let lacks = |c: &char| !ui.fonts_mut(|fonts| fonts.has_glyph(&font, *c));
+            for (text, font) in &texts {
+                let lacks =
+                    |c: &char| *c != '\n' && !ui.fonts_mut(|fonts| fonts.has_glyph(font, *c));
                 let missing: String = text.chars().filter(lacks).collect();
                 assert_eq!(missing, "", "in {text:?}");
             }
