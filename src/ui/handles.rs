@@ -2,7 +2,8 @@
 //!
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
 //! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
-//! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus. A section plane moves along its normal. What is behind the eye has no handle.
+//! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
+//! A section plane moves along its normal. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;

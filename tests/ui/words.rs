@@ -29,7 +29,7 @@ fn banned(texts: &[String], phrases: &[&str]) -> Vec<String> {
     let is_banned = |text: &&String| {
         let mut words = text.split(|c: char| !c.is_alphanumeric());
         let has_phrase = |phrase: &&str| text.to_lowercase().contains(&phrase.to_lowercase());
-        words.any(|word| BANNED_WORDS.contains(&word)) || phrases.iter().any(|it| has_phrase(it))
+        words.any(|word| BANNED_WORDS.contains(&word)) || phrases.iter().any(has_phrase)
     };
     texts.iter().filter(is_banned).cloned().collect()
 }
