@@ -167,6 +167,22 @@ async function fixDevicePixels(canvas) {
   }
 }
 
+/** What went wrong while the page loaded, in plain words, with the browser's own words at the end. */
+function explainLoading(error) {
+  // Browsers report a lost connection as a TypeError, whose message is for programmers.
+  if (error instanceof TypeError) {
+    return "Check the internet connection, then try again.\n\nA part of the page did not arrive.";
+  }
+  const detail = error instanceof Error ? error.message : String(error);
+  if (error instanceof RangeError) {
+    return `This device has too little free memory. Close other pages and programs, then try again.\n\n${detail}`;
+  }
+  return (
+    "A part of the page arrived damaged, or this browser is too old for it. Try again; if that does not " +
+    `help, update the browser.\n\n${detail}`
+  );
+}
+
 async function boot() {
   showOpening();
   showLoading("Loading…", NaN);
@@ -184,12 +200,7 @@ async function boot() {
     await mandelight.default({ module_or_path: fetchModule(module) });
   } catch (error) {
     console.error(error);
-    // Browsers report a lost connection as a TypeError, whose message is for programmers.
-    const reason = error instanceof TypeError ? "A part of the page did not arrive." : error.message;
-    showNotice(
-      "Mandelight could not be loaded",
-      `Check the internet connection, then try again.\n\n${reason}`,
-    );
+    showNotice("Mandelight could not be loaded", explainLoading(error));
     return;
   }
   isLoading = false;

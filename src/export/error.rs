@@ -68,6 +68,32 @@ pub enum ExportError {
     Cancelled,
 }
 
+impl ExportError {
+    /// A file that could not be written, for a reason in the system's words.
+    pub fn unwritten(reason: String) -> Self {
+        Self::Write(std::io::Error::other(reason))
+    }
+
+    /// What happened and what to do, in plain words, with the detail at the end.
+    pub fn explain(&self) -> String {
+        let advice = match self {
+            Self::Write(_) => {
+                "The file could not be written. Check the free space on the disk, then save again."
+            }
+            Self::Encode(_) => {
+                "The picture could not be made into a file. Choose another kind of file or a smaller size, then save again."
+            }
+            Self::Gpu(_) => {
+                "The graphics card could not draw the picture. Close other programs that use it, or choose a smaller size, then save again."
+            }
+            Self::Cancelled => return "Saving was cancelled.".to_owned(),
+            // These name the remedy themselves.
+            _ => return format!("The file could not be saved: {self}."),
+        };
+        format!("{advice} ({self})")
+    }
+}
+
 /// Returns `size_px` if both sides are from 1 to [`MAX_PICTURE_PX`].
 ///
 /// # Errors
@@ -91,5 +117,27 @@ pub fn checked_webp_size(size_px: [u32; 2]) -> Result<[u32; 2], ExportError> {
         Ok(size_px)
     } else {
         Err(ExportError::WebPSize(size_px))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn explanations_begin_with_plain_words_and_end_with_the_detail() {
+        let detail = "QuotaExceededError: 0x80070070";
+        for error in [
+            ExportError::Write(std::io::Error::other(detail)),
+            ExportError::Encode(detail.to_owned()),
+            ExportError::Gpu(detail.to_owned()),
+        ] {
+            let text = error.explain();
+            assert!(text.starts_with("The "), "{text}");
+            assert!(text.contains("save again. ("), "{text}");
+            assert!(text.ends_with(&format!("{detail})")), "{text}");
+        }
+        let text = ExportError::WebPSize([20_000, 10]).explain();
+        assert!(text.contains("choose a smaller size"), "{text}");
     }
 }

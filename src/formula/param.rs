@@ -31,13 +31,12 @@ impl Unit {
     /// The suffix after a value, with a leading space if the unit has one.
     pub const fn suffix(self) -> &'static str {
         match self {
-            Self::None | Self::Count => "",
+            Self::None | Self::Count | Self::SceneUnits => "",
             Self::Degrees => "°",
-            Self::SceneUnits => " u",
             Self::ViewUnits => " view",
             Self::PerViewUnit => " /view",
             Self::Centimetres => " cm",
-            Self::Stops => " EV",
+            Self::Stops => " stops",
             Self::Seconds => " s",
             Self::Milliseconds => " ms",
             Self::Footprints => " px",

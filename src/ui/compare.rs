@@ -88,8 +88,6 @@ impl Compare {
             .pivot(egui::Align2::CENTER_TOP)
             .constrain_to(view);
         let area = area.show(ui.ctx(), |area| {
-            // On a touch screen the rows of the panels have larger buttons; so have these.
-            area.spacing_mut().interact_size = ui.spacing().interact_size;
             let frame = Frame::new().fill(theme::PANEL.gamma_multiply(0.9));
             frame.corner_radius(theme::RADIUS).inner_margin(Margin::same(4)).show(area, |ui| {
                 ui.horizontal(|ui| {

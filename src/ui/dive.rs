@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use egui::{Align2, Button, Label, Margin, Rect, RichText, Ui, vec2};
 
-use super::{navigation::guide::GuideStatus, rects::Rects, shortcuts::Command, theme};
+use super::{
+    navigation::guide::GuideStatus, rects::Rects, shortcuts::Command, theme, widgets::Help as _,
+};
 use crate::scene::{
     Camera, Scene,
     path::{Easing, Key},
@@ -62,7 +64,7 @@ pub fn show(
                     }
                     if is_over && has_record {
                         let hover = "Make this dive the camera path, instead of the present one, to play, edit and save it";
-                        let keep = ui.add(Button::new("Keep as a path")).on_hover_text(hover);
+                        let keep = ui.add(Button::new("Keep as a path")).help(hover);
                         rects.record("keep dive", &keep);
                         if keep.clicked() {
                             commands.push(Command::KeepDive);

@@ -9,6 +9,7 @@ use super::{
     rects::Rects,
     shortcuts::{Command, KEYLESS, SHORTCUTS},
     theme,
+    widgets::window_heading,
 };
 use crate::scene::{
     looks,
@@ -79,15 +80,15 @@ impl Finder {
         let mut open = true;
         let mut chosen = None;
         let shown = egui::Window::new("Find")
-            .open(&mut open)
             .fixed_pos(screen.center_top() + vec2(0.0, 24.0))
             .pivot(Align2::CENTER_TOP)
             .constrain_to(screen)
-            .collapsible(false)
+            .title_bar(false)
             .resizable(false)
             .fixed_size(vec2(WIDTH.min(screen.width() - 40.0), screen.height() - 120.0))
             .show(ui.ctx(), |window| {
                 window.spacing_mut().interact_size.y = ui.spacing().interact_size.y.max(30.0);
+                open = !window_heading(window, "Find");
                 let field = TextEdit::singleline(&mut self.typed)
                     .align(Align2::LEFT_CENTER)
                     .hint_text("A control, a scene, a look, a command…")

@@ -2,27 +2,36 @@
 //!
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
 //! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
-//! is on the panel's ball. A section plane moves along its normal. What is behind the eye has no handle.
+//! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
+//! A section plane moves along its normal. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
 
 use super::{
     frame::Frame,
-    selection::LightRef,
+    selection::{LightRef, Selection},
     theme,
-    widgets::{Help as _, ball},
+    widgets::{ArrowSteps, Help as _, arrow_steps, ball},
 };
 use crate::scene::{Camera, MIN_VIEW_UNIT, Scene, follow};
 
 /// Side of a handle's sensitive square, in points.
 const GRIP: f32 = 30.0;
+
 /// Change of the distance per point of a drag with Shift, as a natural logarithm.
 const DEPTH_PER_POINT: f64 = 0.01;
+/// Drag that a press of an arrow key stands for, in points.
+const KEY_POINTS: f32 = 10.0;
 /// Range of a dragged light's distance from the eye, in scene units.
 const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
 /// Rounding of positions, in pixels at the light's depth.
 const GRAIN_PX: f64 = 1e-2;
+
+/// The sensitive square of a handle at `at`.
+fn grip(ui: &Ui, at: Pos2) -> Rect {
+    Rect::from_center_size(at, Vec2::splat(theme::target_size(ui, GRIP)))
+}
 
 /// Draws the handles of all point lights and moves a dragged light.
 ///
@@ -31,16 +40,28 @@ pub fn point_lights(
     ui: &Ui,
     frame: Frame,
     scene: &mut Scene,
-    selected: Option<LightRef>,
+    selected: &Selection,
 ) -> Option<LightRef> {
     let mut touched = None;
     let any_solo = scene.lights.any_solo();
     for (index, light) in scene.lights.point.iter_mut().enumerate() {
+        let this = LightRef::Point(index);
         let offset = &light.position - &scene.camera.position;
+        let grain = offset.length() * scene.camera.half_height(frame.aspect()) * 2.0
+            / f64::from(frame.height_px.max(1))
+            * GRAIN_PX;
+        let mut move_by = |delta: Vec2, in_depth: bool| {
+            let moved = displacement(&scene.camera, frame, offset, delta, in_depth);
+            light.position = light.position.moved_by(moved, grain);
+        };
+        let steps_of_row = selected.moved_light.filter(|(light, _)| *light == this);
+        if let Some((_, steps)) = steps_of_row {
+            move_by(key_delta(steps), steps.is_shifted);
+        }
         let Some(at) = project(&scene.camera, frame, offset) else {
             continue;
         };
-        let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+        let area = grip(ui, at);
         let response =
             ui.interact(area, ui.scope_id().with(("point light", index)), Sense::click_and_drag());
         response.widget_info(|| {
@@ -50,26 +71,27 @@ pub fn point_lights(
                 format!("Point light {} in the view", index + 1),
             )
         });
-        let this = LightRef::Point(index);
-        if response.clicked() || response.drag_started() {
+        if response.clicked() || response.drag_started() || response.gained_focus() {
             touched = Some(this);
         }
         if response.dragged() {
-            let in_depth = ui.input(|i| i.modifiers.shift);
-            let moved = displacement(&scene.camera, frame, offset, response.drag_delta(), in_depth);
-            let grain = offset.length() * scene.camera.half_height(frame.aspect()) * 2.0
-                / f64::from(frame.height_px.max(1))
-                * GRAIN_PX;
-            light.position = light.position.moved_by(moved, grain);
+            move_by(response.drag_delta(), ui.input(|i| i.modifiers.shift));
+        }
+        if let Some(steps) = arrow_steps(ui, &response) {
+            move_by(key_delta(steps), steps.is_shifted);
         }
         let shines = !light.muted && (!any_solo || light.solo);
-        let lit = response.hovered() || response.dragged() || selected == Some(this);
+        let is_held = response.hovered() || response.dragged() || response.has_focus();
+        let lit = is_held || selected.light == Some(this);
         paint(ui, at, theme::display_color(light.color), shines, false, lit);
-        response.on_hover_text(
-            "Drag to move this light. With Shift, it moves toward or away from you.",
-        );
+        response.help("Drag to move this light, or use the arrow keys. With Shift, up and down move it away from you and toward you.");
     }
     touched
+}
+
+/// The drag that arrow keys stand for, in points.
+fn key_delta(steps: ArrowSteps) -> Vec2 {
+    Vec2::new(steps.right as f32, -steps.up as f32) * KEY_POINTS
 }
 
 /// Radius of the ball around the picture's middle on which directional lights are, as a part of the
@@ -83,7 +105,7 @@ pub fn environment_lights(
     ui: &Ui,
     frame: Frame,
     scene: &mut Scene,
-    selected: Option<LightRef>,
+    selected: &Selection,
 ) -> Option<LightRef> {
     let Scene { camera, lights, .. } = scene;
     let center = frame.rect.center();
@@ -95,12 +117,18 @@ pub fn environment_lights(
             let mut toward_light = light.toward_light_in_view(camera);
             let at = ball::dot_place(center, radius, toward_light);
             let id = ui.scope_id().with(("light", index));
-            let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+            let area = grip(ui, at);
             let response = ui.interact(area, id, Sense::click_and_drag());
             let this = LightRef::Environment(index);
             let name = format!("{} in the view", this.name());
             response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, name.clone()));
-            if ball::turn(ui, &response, center, radius, &mut toward_light) {
+            let mut is_turned = ball::turn(ui, &response, center, radius, &mut toward_light);
+            let steps_of_row = selected.moved_light.filter(|(light, _)| *light == this);
+            if let Some((_, steps)) = steps_of_row {
+                ball::turn_by_steps(&mut toward_light, steps);
+                is_turned = true;
+            }
+            if is_turned {
                 light.set_toward_light_in_view(toward_light, camera);
             }
             if response.clicked() || response.drag_started() || response.gained_focus() {
@@ -113,7 +141,7 @@ pub fn environment_lights(
                 ui.painter().circle_stroke(center, radius, spoke);
                 ui.painter().line_segment([center, at], spoke);
             }
-            let is_lit = is_held || selected == Some(this);
+            let is_lit = is_held || selected.light == Some(this);
             let color = theme::display_color(light.color);
             paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
             response.help(ball::HELP);
@@ -133,7 +161,7 @@ pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
         let Some(at) = project(camera, frame, offset) else {
             continue;
         };
-        let area = Rect::from_center_size(at, Vec2::splat(GRIP));
+        let area = grip(ui, at);
         let id = ui.scope_id().with(("section plane", index));
         let response = ui.interact(area, id, Sense::drag());
         let name = format!("Section plane {} in the view", index + 1);
@@ -148,7 +176,7 @@ pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
         }
         let is_lit = response.hovered() || response.dragged();
         paint_plane(ui, at, arrow * ARROW as f32, is_lit);
-        response.on_hover_text("Drag to move this section plane along its arrow");
+        response.help("Drag to move this section plane along its arrow");
     }
 }
 
@@ -212,7 +240,9 @@ fn displacement(
 
 /// The length that a point of the window spans at the depth of `offset`, in scene units.
 fn scene_per_point(camera: &Camera, frame: Frame, offset: DVec3) -> f64 {
-    let depth = offset.dot(camera.forward()).max(0.0);
+    let depth = offset.dot(camera.forward());
+    // Keys move a light behind the eye too.
+    let depth = if depth > 0.0 { depth } else { offset.length() };
     2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0))
 }
 

@@ -2,6 +2,8 @@
 
 use egui::{Button, Color32, Painter, Pos2, Response, Sense, Stroke, Ui, Vec2, vec2};
 
+use super::widgets::Help as _;
+
 /// An icon, designed for a box of 16 points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Icon {
@@ -71,8 +73,8 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, hover: &str) -> Response
                 .frame_when_inactive(false),
         )
         .accessible_name(name)
-        .on_hover_text(hover)
-        .on_disabled_hover_text(hover);
+        .help(hover)
+        .disabled_help(hover);
     let color = if ui.is_enabled() {
         ui.style().interact(&response).fg_stroke.color
     } else {

@@ -87,6 +87,7 @@ pub mod rects;
 pub mod shortcuts;
 pub mod theme;
 pub mod thumbnail;
+pub mod toast;
 
 pub use action::Action;
 pub use display_inputs::{

@@ -3,8 +3,8 @@
 //! In: the scene, how far to go, what must stay. Out: small pictures to draw, and the chosen variation.
 
 use egui::{
-    Checkbox, Color32, CornerRadius, Margin, Rect, Response, RichText, Sense, Stroke, StrokeKind,
-    Ui, UiBuilder, WidgetInfo, accesskit::Role, vec2,
+    Checkbox, Color32, CornerRadius, Margin, Rect, Response, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, WidgetInfo, accesskit::Role, vec2,
 };
 
 use super::{
@@ -13,6 +13,7 @@ use super::{
     rects::Rects,
     small_picture::{SMALL_PICTURE_PX, SmallPicture, SmallPictureId},
     theme,
+    widgets::Help as _,
 };
 use crate::{
     fractal::surprise::is_worth_seeing,
@@ -174,10 +175,10 @@ impl Mutate {
                 let amount = egui::Slider::new(&mut self.amount, 0.05..=1.0).show_value(false);
                 let amount = ui
                     .add(amount)
-                    .on_hover_text("Farther right, the eight differ more from the middle")
+                    .help("Farther right, the eight differ more from the middle")
                     .accessible_name("How different");
                 rects.record("how different", &amount);
-                let more = ui.button("Eight more").on_hover_text("Other variations of the middle");
+                let more = ui.button("Eight more").help("Other variations of the middle");
                 if more.clicked() {
                     self.forget();
                 }
@@ -188,7 +189,7 @@ impl Mutate {
                 }
             });
             ui.horizontal_wrapped(|ui| {
-                ui.label(RichText::new("Keep").color(theme::TEXT_DIM));
+                ui.label("Keep");
                 let Locks { shape, colors, light, view } = &mut self.locks;
                 for (name, lock, hover) in [
                     ("Shape", shape, "All keep the form of the middle"),
@@ -196,7 +197,7 @@ impl Mutate {
                     ("Light", light, "All keep the lights and the background of the middle"),
                     ("View", view, "All are seen from where the middle is"),
                 ] {
-                    let response = ui.add(Checkbox::new(lock, name)).on_hover_text(hover);
+                    let response = ui.add(Checkbox::new(lock, name)).help(hover);
                     response.accessible_name(format!("Keep: {name}"));
                 }
             });
@@ -232,7 +233,7 @@ fn respond(ui: &Ui, rect: Rect, index: usize) -> Response {
         }
     };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    response.on_hover_text(hover)
+    response.help(hover)
 }
 
 fn paint(

@@ -87,11 +87,9 @@ impl Message<'_> {
             .fixed_pos(pos2(view.center().x, self.top))
             .pivot(Align2::CENTER_TOP)
             .constrain_to(view);
-        let is_touch = theme::has_touch_rows(ui);
-        // The buttons are as large as those of the panels.
-        let larger = if is_touch { ui.spacing().interact_size.y - ROW } else { 0.0 };
+        // For fingers, the buttons are higher than the row.
+        let larger = (ui.spacing().interact_size.y - ROW).max(0.0);
         let shown = area.show(ui.ctx(), |ui| {
-            theme::set_row_sizes(ui, is_touch);
             let margin = Margin { left: 12, right: 6, top: 6, bottom: 6 };
             let frame = egui::Frame::new().fill(theme::PANEL).corner_radius(8).inner_margin(margin);
             frame.stroke(egui::Stroke::new(1.0, self.edge)).show(ui, |ui| {

@@ -1,5 +1,6 @@
 //! The selected light, colour layer and gradient stops.
 
+use super::widgets::ArrowSteps;
 use crate::scene::{Coloring, GradientStop, Lights, Surface};
 
 /// The selected light, colour layer and gradient stops, which are not part of a scene.
@@ -11,6 +12,8 @@ pub struct Selection {
     stops: [usize; 2],
     /// The layer that gets the gradient of a file.
     pub gradient_target: LayerRef,
+    /// The light whose row has the keyboard, with the arrow keys of this frame: its handle moves by them.
+    pub moved_light: Option<(LightRef, ArrowSteps)>,
 }
 
 impl Selection {

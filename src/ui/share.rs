@@ -5,7 +5,12 @@
 use egui::{Align2, Button, Color32, Label, Mesh, Rect, RichText, Sense, Ui, Vec2, vec2};
 use qrcodegen::{QrCode, QrCodeEcc};
 
-use super::{rects::Rects, shortcuts::Command, theme};
+use super::{
+    rects::Rects,
+    shortcuts::Command,
+    theme,
+    widgets::{Help as _, window_heading},
+};
 use crate::scene::{Project, link};
 
 /// Length of a link, in bytes, up to which phones can read its QR code from a screen.
@@ -85,15 +90,15 @@ impl Share {
         let is_low = screen.height() < LOW && width > 1.5 * WIDTH;
         let width = if is_low { width } else { WIDTH };
         let shown = egui::Window::new("Share this view")
-            .open(&mut open)
             .fixed_pos(view.center())
             .pivot(Align2::CENTER_CENTER)
             .constrain_to(screen)
-            .collapsible(false)
+            .title_bar(false)
             .resizable(false)
-            .fixed_size(vec2(width, (screen.height() - 80.0).max(120.0)))
+            .fixed_size(vec2(width, (screen.height() - 48.0).max(120.0)))
             .show(ui.ctx(), |window| {
                 window.spacing_mut().interact_size.y = ui.spacing().interact_size.y.max(34.0);
+                open = !window_heading(window, "Share this view");
                 egui::ScrollArea::vertical().auto_shrink([false, true]).show(window, |ui| {
                     if is_low {
                         ui.columns_const(|[code, others]| {
@@ -181,7 +186,7 @@ impl Code {
 fn buttons(ui: &mut Ui, sharing: Sharing<'_>, rects: &mut Rects, commands: &mut Vec<Command>) {
     let mut button = |name: &'static str, hover: &str, command: Command| {
         let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
-        let response = ui.add_sized(size, Button::new(name)).on_hover_text(hover);
+        let response = ui.add_sized(size, Button::new(name)).help(hover);
         rects.record(name, &response);
         if response.clicked() {
             commands.push(command);

@@ -261,7 +261,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Double click", "Fly to that point"),
     (
         "Drag a light's handle",
-        "Turn a light, or move a point light; with Shift toward or away from you",
+        "Turn a light, or move a point light; with Shift toward or away from you. On its handle or its row, arrow keys do the same",
     ),
     ("Alt + click", "Focus there, with a depth of field"),
     ("Alt + Shift + click", "Light that place"),

@@ -2,9 +2,9 @@
 //!
 //! In: the renderer's report and the camera. Out: text that fits the available width.
 
-use egui::{Rect, RichText, Sense, Ui, pos2};
+use egui::{Rect, Sense, Ui, pos2};
 
-use super::{navigation::CameraStatus, theme};
+use super::{navigation::CameraStatus, theme, widgets::Help as _};
 use crate::{
     render::report::{Activity, Report, clamped_text},
     scene::{Camera, Fractal, Scene, presets},
@@ -78,18 +78,18 @@ pub fn status_line(ui: &mut Ui, status: &StatusInputs<'_>) {
         node.set_role(egui::accesskit::Role::Status);
         node.set_label(words);
     });
-    response.on_hover_ui(|ui| {
-        let line = |ui: &mut Ui, text: String| ui.label(RichText::new(text).small());
-        line(ui, activity_text(report, false));
+    response.live_help(|| {
+        let mut lines = vec![activity_text(report, false)];
         if report.pixels_per_sample > 1 {
-            line(ui, format!("One of {} pixels is drawn so far.", report.pixels_per_sample));
+            lines.push(format!("One of {} pixels is drawn so far.", report.pixels_per_sample));
         }
-        line(ui, right_text(status, f32::INFINITY));
+        lines.push(right_text(status, f32::INFINITY));
         if is_at_limit(status) {
-            line(ui, limit_help(status.scene).to_owned());
+            lines.push(limit_help(status.scene).to_owned());
         }
-        line(ui, format!("GPU time of the last frame: {:.1} ms", report.frame_ms));
-        line(ui, format!("Rendered by {}", status.adapter));
+        lines.push(format!("GPU time of the last frame: {:.1} ms", report.frame_ms));
+        lines.push(format!("Rendered by {}", status.adapter));
+        lines.join("\n")
     });
 }
 

@@ -4,7 +4,9 @@
 
 use egui::{
     Color32, Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle,
-    Theme, Ui, Vec2, style::WidgetVisuals, vec2,
+    Theme, Ui, Vec2,
+    style::{Spacing, WidgetVisuals},
+    vec2,
 };
 
 /// Background of the window.
@@ -88,14 +90,31 @@ pub fn has_touch_rows(ui: &Ui) -> bool {
     ui.spacing().interact_size.y >= TOUCH_ROW
 }
 
-/// Sets the row sizes of this `Ui`: larger for touch screens.
+/// Width or height of a control that is `size` points for a pointer: for fingers at least that of a row.
+pub fn target_size(ui: &Ui, size: f32) -> f32 {
+    if has_touch_rows(ui) { size.max(TOUCH_ROW) } else { size }
+}
+
+/// Sets the row sizes of this `Ui`, and of all windows, menus and messages: larger for touch screens.
 pub fn set_row_sizes(ui: &mut Ui, touch: bool) {
-    let spacing = ui.spacing_mut();
+    row_sizes(ui.spacing_mut(), touch);
+    let ctx = ui.ctx();
+    if ctx.global_style().spacing.interact_size != ui.spacing().interact_size {
+        ctx.all_styles_mut(|style| row_sizes(&mut style.spacing, touch));
+    }
+}
+
+fn row_sizes(spacing: &mut Spacing, touch: bool) {
     if touch {
-        spacing.interact_size.y = TOUCH_ROW;
+        spacing.interact_size = Vec2::splat(TOUCH_ROW);
         spacing.item_spacing = vec2(8.0, 6.0);
         spacing.icon_width = 22.0;
         spacing.icon_width_inner = 14.0;
+    } else {
+        spacing.interact_size = vec2(28.0, 26.0);
+        spacing.item_spacing = vec2(6.0, 5.0);
+        spacing.icon_width = 17.0;
+        spacing.icon_width_inner = 10.0;
     }
 }
 
@@ -158,14 +177,11 @@ fn colors(style: &mut Style) {
 
 fn spacing(style: &mut Style) {
     let spacing = &mut style.spacing;
-    spacing.item_spacing = vec2(6.0, 5.0);
+    row_sizes(spacing, false);
     spacing.button_padding = vec2(9.0, 3.0);
-    spacing.interact_size = vec2(28.0, 26.0);
     spacing.menu_margin = Margin::same(8);
     spacing.window_margin = Margin::same(12);
     spacing.tooltip_width = 280.0;
-    spacing.icon_width = 17.0;
-    spacing.icon_width_inner = 10.0;
     spacing.icon_spacing = 7.0;
     spacing.combo_width = 60.0;
     // A bar with a width of its own would change what is beside it, and with that whether it is needed.
@@ -216,7 +232,10 @@ pub fn display_color(linear: [f32; 3]) -> Color32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{param, presets};
+    use crate::{
+        formula,
+        scene::{param, presets},
+    };
 
     #[test]
     fn negative_powers_are_written_with_a_caret() {
@@ -231,11 +250,16 @@ mod tests {
         let presets = presets::all().flat_map(|preset| [preset.name, preset.blurb]);
         let params = param::all().flat_map(|param| [param.label, param.help]);
         let texts: Vec<String> = presets.chain(params).map(printable).collect();
+        let texts = texts.iter().map(|text| (text.as_str(), FontId::proportional(13.0)));
+        // The editor shows them as they are.
+        let formulas = formula::texts().chain(formula::step_texts());
+        let formulas = formulas.map(|(_, text)| (text, FontId::monospace(12.0)));
+        let texts: Vec<_> = texts.chain(formulas).collect();
         // The fonts are loaded by the first frame.
         let mut output = context.run_ui(Default::default(), |ui| {
-            for text in &texts {
-                let font = FontId::proportional(13.0);
-                let lacks = |c: &char| !ui.fonts_mut(|fonts| fonts.has_glyph(&font, *c));
+            for (text, font) in &texts {
+                let lacks =
+                    |c: &char| *c != '\n' && !ui.fonts_mut(|fonts| fonts.has_glyph(font, *c));
                 let missing: String = text.chars().filter(lacks).collect();
                 assert_eq!(missing, "", "in {text:?}");
             }

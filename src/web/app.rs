@@ -89,7 +89,7 @@ impl eframe::App for App {
             kept_picture: engine.kept_picture().or(opening),
             report: &session.status.report,
             export: engine.exporter.progress(),
-            notice: session.notice.as_ref(),
+            notice: session.toast.notice(),
             adapter: &self.adapter_name,
             sharing: Sharing { address: &self.address, has_share_sheet: self.has_share_sheet },
             reading: session.decoder.slow_file(now_secs),
@@ -152,7 +152,9 @@ fn perform(action: Action, engine: &mut Engine, session: &mut Session) {
             let text = document::project_to_json(session.interface.project());
             let saved = files::download("mandelight.json", "application/json", text.as_bytes());
             if let Err(reason) = saved {
-                session.show_error(format!("The scene could not be saved: {reason}"));
+                session.show_error(format!(
+                    "The scene could not be saved. Copy a link to it instead. ({reason})"
+                ));
             }
         }
         Action::LoadScene | Action::ChooseEnvironmentMap | Action::ChooseGradient => {

@@ -118,7 +118,7 @@ impl Exporter {
         };
         match StillExport::start(&self.pipelines, session.interface.scene(), options, pair) {
             Ok(still) => self.begin(Export::Still(Box::new(still))),
-            Err(error) => session.show_error(format!("The picture could not be saved: {error}")),
+            Err(error) => session.show_error(error.explain()),
         }
     }
 
@@ -137,7 +137,7 @@ impl Exporter {
         let size_px = match options.sheet_px(scene) {
             Ok(size_px) => size_px,
             Err(error) => {
-                return session.show_error(format!("The frames could not be saved: {error}"));
+                return session.show_error(error.explain());
             }
         };
         let frames_per_second = path.frames_per_second;
@@ -158,7 +158,7 @@ impl Exporter {
             FileChoice::Cancelled => return,
             FileChoice::Failed(reason) => {
                 return session.show_error(format!(
-                    "The video could not be started: {reason}. PNGs need no encoder: choose them beside Save."
+                    "The browser could not start this video. Choose a smaller size, or PNGs beside Save, which every browser can write. ({reason})"
                 ));
             }
             FileChoice::Chosen(file) => file,
@@ -172,7 +172,7 @@ impl Exporter {
             file,
         ) {
             Ok(sequence) => self.begin(Export::Sequence(Box::new(sequence))),
-            Err(error) => session.show_error(format!("The frames could not be saved: {error}")),
+            Err(error) => session.show_error(error.explain()),
         }
     }
 
@@ -193,7 +193,7 @@ impl Exporter {
     pub fn step(&mut self, session: &mut Session, now_secs: f64) {
         if let Some((reason, since_secs)) = &self.stopped {
             if now_secs - since_secs > LOSS_SECS {
-                session.show_error(failure(reason));
+                session.show_error(reason.as_str());
                 self.cancel();
             }
             return;
@@ -215,16 +215,11 @@ impl Exporter {
                 self.progress
             }
             ExportStatus::Failed(reason) => {
-                session.show_error(failure(&reason));
+                session.show_error(reason);
                 None
             }
         };
     }
-}
-
-/// The notice of an export that failed.
-fn failure(reason: &str) -> String {
-    format!("Saving failed: {reason}. Try a smaller size.")
 }
 
 /// The format of a saved picture.

@@ -84,7 +84,7 @@ pub fn closed_message(name: &str, outcome: Result<(), String>) -> Message {
     match outcome {
         Ok(()) => Message::Notice(format!("Saved {name}.")),
         Err(reason) => Message::Error(format!(
-            "{name} could not be saved ({reason}). Check the free space on the disk, then save again."
+            "{name} could not be saved. Check the free space on the disk, then save again. ({reason})"
         )),
     }
 }

@@ -162,7 +162,7 @@ pub fn copy_link(link: String, notice: &str, mailbox: &Mailbox) {
         mailbox.post(match outcome {
             Ok(_) => Message::Notice(notice),
             Err(error) => Message::Error(format!(
-                "The link could not be copied ({}). Copy it from the address bar.",
+                "The link could not be copied. Copy it from the address bar. ({})",
                 describe(&error)
             )),
         });

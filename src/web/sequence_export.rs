@@ -54,14 +54,14 @@ impl SequenceExport {
             Ok(StillStatus::Done { .. }) => {
                 let status = match self.job.finish() {
                     Ok(file) => file.finish(),
-                    Err(error) => ExportStatus::Failed(error.to_string()),
+                    Err(error) => ExportStatus::Failed(error.explain()),
                 };
                 (None, status)
             }
             Err(error @ ExportError::Gpu(_)) => {
-                (Some(self), ExportStatus::Stopped(error.to_string()))
+                (Some(self), ExportStatus::Stopped(error.explain()))
             }
-            Err(error) => (None, ExportStatus::Failed(error.to_string())),
+            Err(error) => (None, ExportStatus::Failed(error.explain())),
         }
     }
 

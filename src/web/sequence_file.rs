@@ -196,10 +196,10 @@ impl SequenceFile {
             Ok(ZipWriter::Download(download)) => {
                 match download.finish(&name, SequenceFormat::Pngs.media_type()) {
                     Ok(()) => ExportStatus::Saved(name),
-                    Err(reason) => ExportStatus::Failed(reason),
+                    Err(reason) => ExportStatus::Failed(ExportError::unwritten(reason).explain()),
                 }
             }
-            Err(error) => ExportStatus::Failed(error.to_string()),
+            Err(error) => ExportStatus::Failed(error.explain()),
         }
     }
 }

@@ -26,6 +26,7 @@ use crate::{
         file_progress::{FileInProgress, SceneUse},
         loss_policy::{SafeMode, Start},
         theme,
+        toast::Toast,
     },
 };
 
@@ -50,10 +51,8 @@ pub struct Session {
     pub gpu: Option<Gpu>,
     /// The gallery that the address names, if it names one.
     pub gallery: Option<GalleryState>,
-    /// The notice to the visitor, until it is dismissed or expires.
-    pub notice: Option<Notice>,
-    /// When the notice expires, on the page's clock.
-    notice_until_secs: f64,
+    /// The notice to the visitor, until it is dismissed or expires on the page's clock.
+    pub toast: Toast,
     /// The app's status after the last step.
     pub status: AppStatus,
     /// The kept formulas as they were last read or stored.
@@ -129,8 +128,7 @@ impl Session {
             gallery: gallery::open(&mailbox),
             mailbox,
             gpu: None,
-            notice: None,
-            notice_until_secs: 0.0,
+            toast: Toast::default(),
             status: AppStatus::default(),
             known_formulas,
             has_shown_storage_notice: false,
@@ -183,7 +181,7 @@ impl Session {
 
     /// Opens the offered scene, with a smaller picture until one is complete.
     pub fn take_offer(&mut self) {
-        self.notice = None;
+        self.toast.take();
         if let Some(project) = self.offered.take() {
             self.interface.replace_project(project);
             self.has_lost_scene = true;
@@ -235,7 +233,7 @@ impl Session {
 
     /// Removes the notice; an offer that it made is declined, and one that it covered is shown.
     pub fn dismiss_notice(&mut self) {
-        if self.notice.take().is_some_and(|notice| notice.offer.is_some()) {
+        if self.toast.take().is_some_and(|notice| notice.offer.is_some()) {
             self.offered = None;
         }
         self.show_offer();
@@ -259,20 +257,15 @@ impl Session {
     fn show(&mut self, notice: Notice, secs: f64) {
         // A notice may quote files and names.
         let text = visible_lines(&notice.text).into_owned();
-        self.notice = Some(Notice { text, ..notice });
-        self.notice_until_secs = page::now_secs() + secs;
+        self.toast.show(Notice { text, ..notice }, page::now_secs() + secs);
     }
 
     /// Removes an expired notice. Returns the seconds until the notice expires.
     pub fn expire_notice(&mut self, now_secs: f64) -> Option<f64> {
-        self.notice.as_ref()?;
-        let left_secs = self.notice_until_secs - now_secs;
-        if left_secs > 0.0 {
-            return left_secs.is_finite().then_some(left_secs);
+        if self.toast.expire(now_secs) {
+            self.show_offer();
         }
-        self.notice = None;
-        self.show_offer();
-        None
+        self.toast.remaining_secs(now_secs)
     }
 
     /// Copies a link to this view, and to its camera path where that fits.

@@ -33,9 +33,9 @@ pub enum ExportStatus {
     Saved(String),
     /// All bytes are handed over; the file posts a notice when closed.
     Closing,
-    /// The GPU failed, with the reason: the export can go on with another device.
+    /// The GPU failed, with an explanation: the export can go on with another device.
     Stopped(String),
-    /// The export failed, with the reason.
+    /// The export failed, with an explanation.
     Failed(String),
 }
 
@@ -76,9 +76,9 @@ impl StillExport {
             }
             Ok(StillStatus::Done { .. }) => self.finish_file(),
             Err(error @ ExportError::Gpu(_)) => {
-                (Some(self), ExportStatus::Stopped(error.to_string()))
+                (Some(self), ExportStatus::Stopped(error.explain()))
             }
-            Err(error) => (None, ExportStatus::Failed(error.to_string())),
+            Err(error) => (None, ExportStatus::Failed(error.explain())),
         }
     }
 
@@ -101,13 +101,13 @@ impl StillExport {
             let name = format!("mandelight-{width}x{height}{suffix}.{}", format.extension());
             Ok((name, self.job.finish()?))
         });
-        let saved = file.map_err(|error| error.to_string()).and_then(|(name, download)| {
-            download.finish(&name, format.media_type())?;
+        let saved = file.and_then(|(name, download)| {
+            download.finish(&name, format.media_type()).map_err(ExportError::unwritten)?;
             Ok(name)
         });
         match saved {
             Ok(name) => self.saved.push(name),
-            Err(reason) => return (None, ExportStatus::Failed(reason)),
+            Err(error) => return (None, ExportStatus::Failed(error.explain())),
         }
         let Some(&eye) = self.eyes.get(self.saved.len()) else {
             return (None, ExportStatus::Saved(self.saved.join(" and ")));
@@ -120,7 +120,7 @@ impl StillExport {
                 let done = self.saved.len() as f64 / self.eyes.len() as f64;
                 (Some(Self { job, ..self }), ExportStatus::Working(done, None))
             }
-            Err(error) => (None, ExportStatus::Failed(error.to_string())),
+            Err(error) => (None, ExportStatus::Failed(error.explain())),
         }
     }
 }

@@ -5,7 +5,6 @@
 
 use std::{
     cell::{Cell, RefCell},
-    io,
     rc::Rc,
 };
 
@@ -125,7 +124,7 @@ impl Video {
 impl FrameSink for Video {
     fn add(&mut self, _name: &str, rgb: Vec<u8>) -> Result<(), ExportError> {
         if let Some(error) = self.0.error.take() {
-            return Err(ExportError::Write(io::Error::other(error)));
+            return Err(ExportError::Encode(error));
         }
         self.0.is_busy.set(true);
         let added = JsFuture::from(self.0.encoder.add(Uint8Array::from(rgb.as_slice())));

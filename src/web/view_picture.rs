@@ -14,7 +14,7 @@ use super::{
     page::{self, describe},
 };
 use crate::{
-    export::{PictureFormat, encode_rgb},
+    export::{ExportError, PictureFormat, encode_rgb},
     gpu::{Gpu, readback::Readback},
     scene::Scene,
     ui::{DEFAULT_QUALITY, StillFile, thumbnail},
@@ -62,7 +62,7 @@ impl ViewPicture {
             mailbox.post(match copy_picture(picture).await {
                 Ok(_) => Message::Notice("Picture copied. Paste it anywhere.".to_owned()),
                 Err(error) => Message::Error(format!(
-                    "The picture could not be copied ({}). Save it instead.",
+                    "The picture could not be copied. Save it instead. ({})",
                     describe(&error)
                 )),
             });
@@ -77,7 +77,7 @@ impl ViewPicture {
             if let Err(error) = share_picture(picture, &name).await {
                 let reason = describe(&error);
                 mailbox.post(Message::Error(format!(
-                    "The picture could not be shared ({reason}). Save it instead."
+                    "The picture could not be shared. Save it instead. ({reason})"
                 )));
             }
         });
@@ -91,9 +91,10 @@ impl ViewPicture {
             let [width, height] = thumbnail::SIZE_PX;
             mailbox.post(match small_copy(picture, width, height).await {
                 Ok(file) => Message::Favourite { document, jpeg: Uint8Array::new(&file).to_vec() },
-                Err(error) => {
-                    Message::Error(format!("The view could not be kept: {}.", describe(&error)))
-                }
+                Err(error) => Message::Error(format!(
+                    "The view could not be kept. Try again, or save the scene as a file. ({})",
+                    describe(&error)
+                )),
             });
         });
     }
@@ -110,7 +111,7 @@ impl ViewPicture {
             };
             mailbox.post(match saved {
                 Ok(()) => Message::Notice(format!("Saved {name}.")),
-                Err(reason) => Message::Error(format!("Saving failed: {reason}.")),
+                Err(reason) => Message::Error(ExportError::unwritten(reason).explain()),
             });
         });
     }

@@ -2,11 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Color32, Pos2, Rgba, Shape, epaint::TextShape};
-use egui_kittest::Harness;
+use egui::{Color32, Event, Key, Modifiers, Pos2, Rgba, Shape, epaint::TextShape};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
 use mandelight::{
+    formula::{self, Fractal},
     scene::{Scene, presets},
-    ui::{GalleryState, Notice, Settings, theme},
+    ui::{GalleryState, Notice, Settings, ViewTexture, theme},
 };
 
 use crate::stage::*;
@@ -26,28 +30,36 @@ fn contrast(a: Color32, b: Color32) -> f32 {
     (a.max(b) + 0.05) / (a.min(b) + 0.05)
 }
 
-/// The colour at `at` after `shapes`; none where a picture or a gradient lies there.
-fn behind(shapes: &[&Shape], at: Pos2) -> Option<Color32> {
+/// The colours that can be at `at` after `shapes`: black and white for a picture, none for a gradient.
+fn behind(shapes: &[&Shape], at: Pos2) -> Vec<Color32> {
     // Under the first shape lies the page's background.
-    let mut color = Some(theme::BACKGROUND);
+    let mut colors = vec![theme::BACKGROUND];
     for shape in shapes {
         match shape {
             Shape::Rect(rect) if rect.rect.contains(at) => {
-                let is_picture = rect.brush.is_some();
-                color = color.filter(|_| !is_picture).map(|under| under.blend(rect.fill));
-                if rect.fill.a() == 255 && !is_picture {
-                    color = Some(rect.fill);
+                if rect.brush.is_some() {
+                    colors = vec![Color32::BLACK, Color32::WHITE];
+                } else if rect.fill.a() == 255 {
+                    colors = vec![rect.fill];
+                } else {
+                    colors.iter_mut().for_each(|under| *under = under.blend(rect.fill));
                 }
             }
             Shape::Circle(circle) if circle.center.distance(at) < circle.radius => {
-                color = color.map(|under| under.blend(circle.fill));
+                colors.iter_mut().for_each(|under| *under = under.blend(circle.fill));
             }
-            Shape::Mesh(mesh) if mesh.calc_bounds().contains(at) => color = None,
+            Shape::Mesh(mesh) if mesh.calc_bounds().contains(at) => {
+                let is_picture = mesh.texture_id == VIEW.texture;
+                colors = if is_picture { vec![Color32::BLACK, Color32::WHITE] } else { Vec::new() };
+            }
             _ => {}
         }
     }
-    color
+    colors
 }
+
+/// A picture in the view, of any colours.
+const VIEW: ViewTexture = ViewTexture { texture: egui::TextureId::User(7), size_px: [1280, 720] };
 
 fn color_of(text: &TextShape) -> Color32 {
     let section = text.galley.job.sections.first().map(|section| section.format.color);
@@ -67,11 +79,15 @@ fn weak_texts(harness: &Harness<'_, Stage>) -> (BTreeMap<String, f32>, usize) {
         if words.is_empty() || !rect.is_finite() {
             continue;
         }
-        let Some(ground) = behind(&shapes[..index], rect.center()) else { continue };
+        let grounds = behind(&shapes[..index], rect.center());
+        if grounds.is_empty() {
+            continue;
+        }
         count += 1;
         let smallest = text.galley.job.sections.iter().map(|part| part.format.font_id.size);
         assert!(smallest.fold(f32::MAX, f32::min) >= LEAST_SIZE, "{words} is too small");
-        let ratio = contrast(ground.blend(color_of(text)), ground);
+        let ratio = |ground: Color32| contrast(ground.blend(color_of(text)), ground);
+        let ratio = grounds.into_iter().map(ratio).fold(f32::MAX, f32::min);
         if ratio < LEAST {
             weak.insert(words.to_owned(), ratio);
         }
@@ -103,6 +119,109 @@ fn texts_stand_out_in_every_panel() {
     harness.run();
     check("a phone", &harness);
     assert!(seen > 300, "{seen}");
+}
+
+/// A stage with a picture in its view, after keys.
+fn shown(settings: Settings, keys: &[(Modifiers, Key)]) -> Harness<'static, Stage> {
+    let mut harness = without_motion(stage(presets::opening(), settings, [1280.0, 720.0]));
+    harness.state_mut().picture = Some(VIEW);
+    harness.run();
+    for &(modifiers, key) in keys {
+        harness.key_press_modifiers(modifiers, key);
+        harness.run_steps(14);
+    }
+    harness
+}
+
+fn assert_strong(what: &str, harness: &Harness<'_, Stage>) {
+    let (weak, count) = weak_texts(harness);
+    assert!(count > 20, "{what}: {count}");
+    assert!(weak.is_empty(), "{what}: {weak:?}");
+}
+
+#[test]
+fn texts_stand_out_in_windows_and_over_any_picture() {
+    const NONE: Modifiers = Modifiers::NONE;
+    for (what, key, modifiers, words) in [
+        ("sharing", Key::J, NONE, "Copy picture"),
+        ("help", Key::F1, NONE, "With a mouse"),
+        ("variations", Key::M, NONE, "Eight more"),
+        ("comparing", Key::C, Modifiers::SHIFT, "A"),
+        ("the keys of fly mode", Key::F, NONE, "Fly"),
+    ] {
+        let harness = shown(Settings::default(), &[(modifiers, key)]);
+        assert!(!painted(&harness, words).is_empty() || words == "Fly", "{what}");
+        assert_strong(what, &harness);
+    }
+    let mut harness = shown(Settings::default(), &[(Modifiers::COMMAND, Key::K)]);
+    harness.event(Event::Text("light".to_owned()));
+    harness.run_steps(4);
+    assert_strong("finding", &harness);
+    harness.event(Event::Text("no such thing".to_owned()));
+    harness.run_steps(4);
+    assert!(!painted(&harness, "Nothing is called that.").is_empty());
+    assert_strong("finding nothing", &harness);
+    let mut harness = shown(Settings::default(), &[]);
+    button(&harness, "Light a place").click_accesskit();
+    harness.run();
+    assert!(!painted(&harness, "Click a place to light it · Esc to stop").is_empty());
+    assert_strong("a caption", &harness);
+    let mut harness = shown(Settings::default(), &[]);
+    button(&harness, "Find places").click();
+    harness.run_steps(4);
+    assert_strong("the search for places", &harness);
+    for _ in 0..3000 {
+        if harness.query_by_label_contains("Place 1:").is_some() {
+            break;
+        }
+        harness.step();
+    }
+    harness.get_by_label_contains("Place 1:");
+    assert_strong("pins", &harness);
+}
+
+#[test]
+fn texts_of_the_formula_editor_stand_out() {
+    let fractal = Fractal::new(formula::find("mandelbox").expect("a formula"));
+    let scene = Scene { fractal, ..Scene::default() };
+    let mut harness = stage(scene, unfolded(), [1280.0, 3000.0]);
+    press(&mut harness, "Edit the formula…");
+    assert_strong("the formula editor", &harness);
+    harness.get_by_label("Formula text").focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.run();
+    harness.event(Event::Text("name \"A\"; step { z = quaternion_p".to_owned()));
+    harness.run_steps(3);
+    assert_strong("completions", &harness);
+    harness.run_steps(40);
+    assert_strong("an error", &harness);
+    harness.get_by_label("Functions").click();
+    harness.run();
+    assert!(!painted(&harness, "Functions").is_empty());
+    assert_strong("functions", &harness);
+}
+
+#[test]
+fn texts_stand_out_under_the_pointer() {
+    let mut seen = 0;
+    for keys in [&[][..], &[(Modifiers::NONE, Key::J)], &[(Modifiers::NONE, Key::T)]] {
+        let mut harness = shown(Settings::default(), keys);
+        let screen = harness.ctx.content_rect();
+        let nodes = harness.root().children_recursive();
+        let controls = nodes.filter(|node| {
+            let node = node.accesskit_node();
+            egui::accessibility::is_input(node.role()) && node.bounding_box().is_some()
+        });
+        let places: Vec<Pos2> = controls.map(|node| node.rect().center()).collect();
+        for at in places.into_iter().filter(|at| screen.contains(*at)) {
+            harness.event(Event::PointerMoved(at));
+            harness.run_steps(3);
+            assert_strong(&format!("under the pointer at {at:?}"), &harness);
+            seen += 1;
+        }
+    }
+    assert!(seen > 60, "{seen}");
 }
 
 #[test]

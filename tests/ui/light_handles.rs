@@ -1,6 +1,6 @@
 //! Handles of directional lights in the view: they follow the pointer, and show while lights are edited.
 
-use egui::{Key, vec2};
+use egui::{Key, Modifiers, vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use mandelight::{
     scene::{Scene, follow, presets},
@@ -73,4 +73,58 @@ fn lights_that_follow_the_view_turn_as_they_are_seen() {
 fn directional_lights_have_handles_only_while_their_section_is_open() {
     let harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
     assert!(harness.query_by_label("Light 1 in the view").is_none());
+}
+
+/// From the eye to the first point light, in the eye's axes.
+fn seen(harness: &Harness<'_, Stage>) -> glam::DVec3 {
+    let Scene { camera, lights, .. } = scene(harness);
+    camera.rotation().inverse() * (&lights.point[0].position - &camera.position)
+}
+
+#[test]
+fn arrows_move_a_point_light_from_its_handle_and_from_its_row() {
+    for name in ["Point light 1 in the view", "Point 1"] {
+        let mut harness = opened(Scene::default());
+        button(&harness, "Add point light").click_accesskit();
+        harness.run();
+        let begun = seen(&harness);
+        let press_key = |harness: &mut Harness<'_, Stage>, modifiers, key| {
+            let control = harness.get_by_label(name);
+            control.focus();
+            harness.run();
+            let before = seen(harness);
+            harness.key_press_modifiers(modifiers, key);
+            harness.run();
+            seen(harness) - before
+        };
+        let (none, shift) = (Modifiers::NONE, Modifiers::SHIFT);
+        let right = press_key(&mut harness, none, Key::ArrowRight);
+        assert!(right.x > 1e-3 && right.y.abs() + right.z.abs() < 1e-4, "{name}: {right}");
+        let up = press_key(&mut harness, none, Key::ArrowUp);
+        assert!(up.y > 1e-3 && up.x.abs() + up.z.abs() < 1e-4, "{name}: {up}");
+        let away = press_key(&mut harness, shift, Key::ArrowUp);
+        assert!(away.z < -1e-3 && away.cross(seen(&harness)).length() < 1e-4, "{name}: {away}");
+        press_key(&mut harness, shift, Key::ArrowDown);
+        press_key(&mut harness, none, Key::ArrowDown);
+        press_key(&mut harness, none, Key::ArrowLeft);
+        assert!((seen(&harness) - begun).length() < 1e-3, "{name}: back");
+        assert_eq!(scene(&harness).camera, Scene::default().camera, "{name}: the view stays");
+    }
+}
+
+#[test]
+fn arrows_turn_a_directional_light_from_its_row() {
+    let mut harness = opened(Scene::default());
+    let direction = |harness: &Harness<'_, Stage>| {
+        let Scene { camera, lights, .. } = scene(harness);
+        lights.environment[0].toward_light_in_view(camera)
+    };
+    let before = direction(&harness);
+    button(&harness, "Light 1").focus();
+    harness.run();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let turned = before.angle_between(direction(&harness)).to_degrees();
+    assert!((1.0..=5.01).contains(&turned), "{turned} degrees");
+    assert_eq!(scene(&harness).camera, Scene::default().camera, "the view stays");
 }

@@ -16,6 +16,7 @@ use crate::ui::{
     places::{self, PinInputs},
     shortcuts::{self, Command},
     theme, view,
+    widgets::Help as _,
 };
 
 impl Interface {
@@ -85,16 +86,17 @@ impl Interface {
             if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
-            let light = handles::point_lights(ui, frame, scene, self.selection.light);
+            let light = handles::point_lights(ui, frame, scene, &self.selection);
             self.selection.light = light.or(self.selection.light);
             if panel::shows_lights(&self.settings) {
-                let light = handles::environment_lights(ui, frame, scene, self.selection.light);
+                let light = handles::environment_lights(ui, frame, scene, &self.selection);
                 self.selection.light = light.or(self.selection.light);
             }
             if panel::shows_section_planes(&self.settings) {
                 handles::section_planes(ui, frame, scene);
             }
         }
+        self.selection.moved_light = None;
         self.camera_status = Some(self.pilot.camera_status(scene, frame));
         let is_moving = self.timeline.is_playing()
             || self.pilot.is_moving(ui.input(|i| i.time))
@@ -183,7 +185,7 @@ impl Interface {
                     for tool in in_menu {
                         let (name, hover) = tool.button.name_and_hover;
                         let button = ui.add_sized(size, Button::new(tool.button.word));
-                        let button = button.accessible_name(name).on_hover_text(hover);
+                        let button = button.accessible_name(name).help(hover);
                         self.rects.record(tool.rect, &button);
                         if self.use_tool(tool, &button, commands) {
                             ui.close();

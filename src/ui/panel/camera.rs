@@ -85,7 +85,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     if let Some(camera_status) = cx.camera_status {
         line(
             "To the surface",
-            format!("{} u", significant(camera_status.distance)),
+            format!("{} units", significant(camera_status.distance)),
             "The eye's estimated distance to the nearest surface, in scene units. You fly slower when it is small.",
         );
     }

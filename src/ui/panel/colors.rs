@@ -188,7 +188,7 @@ fn stop(ui: &mut Ui, cx: &mut Context<'_>, which: LayerRef) {
             let remove = ui
                 .add_enabled(removable, Button::new("Remove stop"))
                 .help("Remove the selected stop")
-                .on_disabled_hover_text("A gradient needs at least one stop.");
+                .disabled_help("A gradient needs at least one stop.");
             if remove.clicked() {
                 stops.remove(*selected);
                 *selected = selected.saturating_sub(1);

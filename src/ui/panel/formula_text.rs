@@ -23,7 +23,7 @@ use crate::{
     ui::{
         settings::MAX_KEPT_FORMULAS,
         theme,
-        widgets::{Help as _, caption},
+        widgets::{Help as _, caption, window_heading},
     },
 };
 
@@ -117,17 +117,23 @@ pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
     let size = vec2(WINDOW[0].min(screen.width() - 24.0), WINDOW[1].min(0.72 * screen.height()));
     let mut is_open = true;
     egui::Window::new("Formula")
-        .open(&mut is_open)
-        .collapsible(false)
+        .title_bar(false)
         .pivot(Align2::LEFT_BOTTOM)
         .default_pos(screen.left_bottom() + vec2(12.0, -40.0))
         .default_size(size)
         .min_width(MIN_WIDTH.min(size.x))
-        // What the window is too low for scrolls: it would otherwise grow out of the screen.
-        .vscroll(true)
         .max_size(vec2(screen.width() - 24.0, screen.height() - 80.0))
-        .show(ctx, |ui| contents(ui, cx, &mut draft));
+        .show(ctx, |ui| {
+            is_open = !window_heading(ui, "Formula");
+            // What the window is too low for scrolls: it would otherwise grow out of the screen.
+            let scroll = ScrollArea::vertical().id_salt("window").auto_shrink(false);
+            scroll.show(ui, |ui| contents(ui, cx, &mut draft));
+        });
     draft.is_open = is_open;
+    if !is_open {
+        // The next frame draws a text whose pause is not over.
+        ctx.request_repaint();
+    }
     draw_when_typed(ui, cx, &mut draft);
     ctx.data_mut(|data| data.insert_temp(draft_id(), draft));
 }
@@ -243,7 +249,7 @@ fn keep_row(ui: &mut Ui, cx: &mut Context<'_>, draft: &Draft) {
     let button = ui
         .add_enabled(has_room && draft.error.is_none(), Button::new(label))
         .help(hover)
-        .on_disabled_hover_text(disabled);
+        .disabled_help(disabled);
     if button.clicked() {
         match place {
             Some(place) => drop(kept.remove(place)),

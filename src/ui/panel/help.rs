@@ -7,7 +7,7 @@ use crate::ui::{
     rects::Rects,
     shortcuts::{FLIGHT, GESTURES, SHORTCUTS, TOUCH_GESTURES},
     theme,
-    widgets::caption,
+    widgets::{caption, window_heading},
 };
 
 /// The licences of what the page contains, beside the page.
@@ -15,15 +15,18 @@ const LICENSES: &str = "./licenses.txt";
 
 /// Shows the help window in the centre of the screen if `open`.
 pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool, rects: &mut Rects) {
+    if !*open {
+        return;
+    }
     let screen = ctx.content_rect();
     let width = (screen.width() - 40.0).min(420.0);
     let shown = egui::Window::new("Keys and gestures")
-        .open(open)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .collapsible(false)
+        .title_bar(false)
         .resizable(false)
         .fixed_size(vec2(width, (screen.height() - 90.0).clamp(120.0, 560.0)))
         .show(ctx, |ui| {
+            *open = !window_heading(ui, "Keys and gestures");
             ScrollArea::vertical().auto_shrink([false, true]).show(ui, |ui| {
                 let fingers = |ui: &mut Ui| {
                     caption(ui, "With fingers");
@@ -49,7 +52,8 @@ pub fn help_window(ctx: &egui::Context, open: &mut bool, has_touch: bool, rects:
                 }
                 caption(ui, "About");
                 let licenses = "Licences of the software and fonts in this page";
-                ui.add(Hyperlink::from_label_and_url(licenses, LICENSES).open_in_new_tab(true));
+                let link = Hyperlink::from_label_and_url(licenses, LICENSES).open_in_new_tab(true);
+                ui.add_sized(vec2(ui.available_width(), ui.spacing().interact_size.y), link);
             });
         });
     if let Some(shown) = shown {

@@ -150,7 +150,7 @@ fn place_at(rows: &[Rect], y: f32) -> usize {
 
 /// Six dots to drag a row by; arrow keys move the row while they have the focus.
 fn handle(ui: &mut Ui, name: &str) -> egui::Response {
-    let size = vec2(18.0, ui.spacing().interact_size.y.max(26.0));
+    let size = vec2(theme::target_size(ui, 18.0), ui.spacing().interact_size.y.max(26.0));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let response = ui.interact(rect, ui.scope_id().with("handle"), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));

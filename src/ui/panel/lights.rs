@@ -10,10 +10,10 @@ use super::{
 use crate::{
     scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, Scene, follow, param},
     ui::{
-        selection::LightRef,
+        selection::{LightRef, Selection},
         shortcuts::Command,
         theme,
-        widgets::{Help as _, button_row, caption, color, param_slider},
+        widgets::{Help as _, arrow_steps, button_row, caption, color, param_slider},
     },
 };
 
@@ -142,7 +142,7 @@ fn first(lights: &Lights) -> Option<LightRef> {
 }
 
 fn list(ui: &mut Ui, cx: &mut Context<'_>) {
-    let selected = &mut cx.selection.light;
+    let Selection { light: selected, moved_light, .. } = cx.selection;
     let lights = &mut cx.scene.lights;
     let row_height = ui.spacing().interact_size.y + ROW_GAP;
     let height = row_height * MAX_SHOWN_ROWS;
@@ -167,6 +167,9 @@ fn list(ui: &mut Ui, cx: &mut Context<'_>) {
             });
             for (this, color, muted, solo) in environment.chain(point) {
                 let row = row(ui, this, selected, color, muted, solo);
+                if let Some(steps) = arrow_steps(ui, &row) {
+                    (*selected, *moved_light) = (Some(this), Some((this, steps)));
+                }
                 if is_new && *selected == Some(this) {
                     row.scroll_to_me(None);
                 }
@@ -198,7 +201,7 @@ fn row(
             let button = Button::selectable(chosen, text).min_size(vec2(width, height)).truncate();
             let response = ui
                 .add_sized(vec2(width, height), button)
-                .help("Select this light to edit it below");
+                .help("Select this light to edit it below. The arrow keys move it in the view.");
             if response.clicked() {
                 *selected = Some(this);
             }
@@ -261,8 +264,8 @@ fn buttons(ui: &mut Ui, cx: &mut Context<'_>) {
             let mut response =
                 ui.add_enabled_ui(is_enabled, |ui| ui.add_sized(size, button)).inner.help(hover);
             if !has_room {
-                response = response
-                    .on_disabled_hover_text(format!("A scene has at most {MAX_LIGHTS} lights."));
+                response =
+                    response.disabled_help(format!("A scene has at most {MAX_LIGHTS} lights."));
             }
             cx.rects.record(name, &response);
             if response.clicked() {

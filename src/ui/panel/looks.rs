@@ -39,7 +39,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (index, list) in looks::lists().iter().enumerate() {
             let text = RichText::new(list.name).small();
-            let response = ui.add(Button::selectable(index == chosen, text)).help(list.about);
+            let button = Button::selectable(index == chosen, text);
+            let response = ui.add(button.min_size(ui.spacing().interact_size)).help(list.about);
             if response.clicked() {
                 chosen = index;
                 ui.data_mut(|data| data.insert_temp(id, chosen));

@@ -20,7 +20,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         .add_enabled_ui(cx.favourites.has_room(), |ui| ui.add_sized(size, button))
         .inner
         .help("Keeps the scene with a small picture, in this browser alone")
-        .on_disabled_hover_text(format!("There are {MAX_FAVOURITES} views. Remove one first."));
+        .disabled_help(format!("There are {MAX_FAVOURITES} views. Remove one first."));
     cx.rects.record("keep view", &keep);
     if keep.clicked() {
         cx.actions.push(Action::KeepFavourite);

@@ -17,24 +17,23 @@ fn memory(ui: &mut Ui, cx: &Context<'_>) {
     let memory = cx.inputs.report.memory;
     let text = format!("GPU memory: {}", mebibytes(memory.total()));
     let label = ui.label(RichText::new(text).small().color(theme::TEXT_DIM));
-    label.on_hover_ui(|ui| {
-        let line = |ui: &mut Ui, name: &str, bytes: u64| {
-            ui.label(RichText::new(format!("{name}: {}", mebibytes(bytes))).small());
-        };
-        for (purpose, bytes) in memory.purposes().into_iter().filter(|(_, bytes)| *bytes > 0) {
-            line(ui, purpose, bytes);
-        }
-        ui.label(RichText::new("In addition:").small());
+    label.live_help(|| {
+        let line = |name: &str, bytes: u64| format!("{name}: {}", mebibytes(bytes));
+        let purposes = memory.purposes().into_iter().filter(|(_, bytes)| *bytes > 0);
+        let mut lines: Vec<String> = purposes.map(|(name, bytes)| line(name, bytes)).collect();
+        lines.push("In addition:".to_owned());
         let window = ui.ctx().content_rect().size() * ui.ctx().pixels_per_point();
         // The window has two buffers of 4 bytes per pixel.
-        line(ui, "the window's buffers, about", 8 * (window.x * window.y) as u64);
+        let buffers = 8 * (window.x * window.y) as u64;
+        lines.push(line("the window's buffers, about", buffers));
         let textures = ui.ctx().tex_manager();
         let interface: usize = textures.read().allocated().map(|(_, meta)| meta.bytes_used()).sum();
-        line(ui, "the interface's textures", interface as u64);
+        lines.push(line("the interface's textures", interface as u64));
         let small = cx.inputs.small_pictures.memory_bytes;
         if small > 0 {
-            line(ui, "small pictures", small);
+            lines.push(line("small pictures", small));
         }
+        lines.join("\n")
     });
 }
 

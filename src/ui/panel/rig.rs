@@ -62,7 +62,7 @@ fn light_view_button(ui: &mut Ui, lights: &Lights) -> Response {
     ui.add_enabled_ui(room >= min && !is_attached_to_view(&lights.rig), |ui| ui.add_sized(size, button))
         .inner
         .help("Lights what you see, at any zoom: a sky that moves with the camera, with shadows of near surfaces only")
-        .on_disabled_hover_text(if room < min {
+        .disabled_help(if room < min {
             "The scene has no room for more lights"
         } else {
             "The light already moves with the camera, with shadows of near surfaces only"

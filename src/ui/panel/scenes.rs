@@ -37,8 +37,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (index, list) in lists.iter().enumerate() {
             let text = RichText::new(list.name).small();
-            let button = ui.add(Button::selectable(index == chosen, text));
-            let response = button.help(list.about);
+            let button = Button::selectable(index == chosen, text);
+            let response = ui.add(button.min_size(ui.spacing().interact_size)).help(list.about);
             cx.rects.record(list.name, &response);
             if response.clicked() {
                 chosen = index;
@@ -47,7 +47,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         }
         let mut other = |name, about, index| {
             let text = RichText::new(name).small();
-            let button = ui.add(Button::selectable(chosen == index, text)).help(about);
+            let button = Button::selectable(chosen == index, text);
+            let button = ui.add(button.min_size(ui.spacing().interact_size)).help(about);
             cx.rects.record(name, &button);
             if button.clicked() {
                 chosen = index;

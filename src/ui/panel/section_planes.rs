@@ -86,7 +86,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let add = ui.add_enabled(planes.len() < MAX_SECTION_PLANES, Button::new(text));
     cx.rects.record("add section plane", &add);
     let full = format!("A fractal has at most {MAX_SECTION_PLANES} section planes.");
-    if add.help(hover).on_disabled_hover_text(full).clicked() {
+    if add.help(hover).disabled_help(full).clicked() {
         let new = new_plane(planes, camera);
         planes.push(new);
     }
@@ -105,7 +105,8 @@ fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
             (Axis::Z, "Z", "Across the z axis: cuts away the side of positive z, above"),
         ] {
             let is_chosen = normal.dot(axis.direction()).abs() > 1.0 - 1e-9;
-            if ui.selectable_label(is_chosen, text).help(hover).clicked() {
+            let button = Button::selectable(is_chosen, text).min_size(ui.spacing().interact_size);
+            if ui.add(button).help(hover).clicked() {
                 plane.direction = axis.direction().to_array();
             }
         }

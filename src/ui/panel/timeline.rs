@@ -183,7 +183,7 @@ impl Strip<'_, '_> {
             let height = ui.spacing().interact_size.y;
             let button = Button::new(name).min_size(vec2(0.0, height));
             let response = ui.add_enabled(enabled, button);
-            let response = response.help(hover).on_disabled_hover_text(hover);
+            let response = response.help(hover).disabled_help(hover);
             if command == Command::AddKey {
                 self.cx.rects.record("add key", &response);
             }
@@ -333,9 +333,9 @@ impl Strip<'_, '_> {
     }
 }
 
-/// A number field, `width` points wide.
+/// A number field, `width` points wide where there are no fingers.
 fn short_number(ui: &mut Ui, width: f32, param: &Param, value: &mut f64) -> Response {
-    let size = vec2(width, ui.spacing().interact_size.y);
+    let size = vec2(theme::target_size(ui, width), ui.spacing().interact_size.y);
     ui.push_id(param.label, |ui| ui.allocate_ui(size, |ui| number(ui, param, value)).inner).inner
 }
 

@@ -19,6 +19,7 @@ use crate::{
         icon::{self, Icon},
         rects::Rects,
         theme,
+        widgets::Help as _,
     },
 };
 
@@ -80,7 +81,7 @@ fn respond(ui: &Ui, pin: &Pin, index: usize, rect: Rect) -> Response {
     let id = ui.scope_id().with(("place", pin.place.position.clone().0.map(|it| it.to_string())));
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, pin.name(index)));
-    response.on_hover_text(pin.help())
+    response.help(pin.help())
 }
 
 fn paint(painter: &Painter, inputs: &PinInputs<'_>, pin: &Pin, at: Pos2, rect: Rect, is_lit: bool) {

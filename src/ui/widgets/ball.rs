@@ -58,8 +58,48 @@ pub fn turn(
 ) -> bool {
     let before = *toward_light;
     drag(ui, response, center, radius, toward_light);
-    turn_by_keys(ui, response, toward_light);
+    if let Some(steps) = arrow_steps(ui, response) {
+        turn_by_steps(toward_light, steps);
+    }
     before != *toward_light
+}
+
+/// Presses of the arrow keys in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArrowSteps {
+    /// Presses of the right arrow less those of the left one.
+    pub right: f64,
+    /// Presses of the up arrow less those of the down one.
+    pub up: f64,
+    /// True with Shift.
+    pub is_shifted: bool,
+}
+
+/// The presses while `response` has the focus, which the arrow keys then leave there; none without presses.
+pub fn arrow_steps(ui: &Ui, response: &Response) -> Option<ArrowSteps> {
+    if !response.has_focus() {
+        return None;
+    }
+    let arrows =
+        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    let steps = ui.input(|i| {
+        let presses = |key| i.num_presses(key) as f64;
+        ArrowSteps {
+            right: presses(Key::ArrowRight) - presses(Key::ArrowLeft),
+            up: presses(Key::ArrowUp) - presses(Key::ArrowDown),
+            is_shifted: i.modifiers.shift,
+        }
+    });
+    (steps.right != 0.0 || steps.up != 0.0).then_some(steps)
+}
+
+/// Turns a direction by 5 degrees a press, with Shift by half a degree.
+pub fn turn_by_steps(toward_light: &mut DVec3, steps: ArrowSteps) {
+    let step = if steps.is_shifted { KEY_TURN_RAD * 0.1 } else { KEY_TURN_RAD };
+    let turn =
+        DQuat::from_rotation_y(steps.right * step) * DQuat::from_rotation_x(-steps.up * step);
+    *toward_light = (turn * *toward_light).normalize();
 }
 
 /// The place of a direction's dot on the ball.
@@ -115,28 +155,6 @@ fn drag(ui: &Ui, response: &Response, center: Pos2, radius: f32, toward_light: &
         && moved
     {
         *toward_light = direction_from_point(at + grab.offset, grab.side);
-    }
-}
-
-fn turn_by_keys(ui: &Ui, response: &Response, toward_light: &mut DVec3) {
-    if !response.has_focus() {
-        return;
-    }
-    let arrows =
-        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-    let (right, up, fine) = ui.input(|i| {
-        let presses = |key| i.num_presses(key) as f64;
-        (
-            presses(Key::ArrowRight) - presses(Key::ArrowLeft),
-            presses(Key::ArrowUp) - presses(Key::ArrowDown),
-            i.modifiers.shift,
-        )
-    });
-    if right != 0.0 || up != 0.0 {
-        let step = if fine { KEY_TURN_RAD * 0.1 } else { KEY_TURN_RAD };
-        let turn = DQuat::from_rotation_y(right * step) * DQuat::from_rotation_x(-up * step);
-        *toward_light = (turn * *toward_light).normalize();
     }
 }
 

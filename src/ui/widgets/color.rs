@@ -94,7 +94,7 @@ fn square(ui: &mut Ui, hsv: &mut Hsv) {
 }
 
 fn hue_bar(ui: &mut Ui, hsv: &mut Hsv) {
-    let height = ui.spacing().interact_size.y.clamp(20.0, 32.0);
+    let height = ui.spacing().interact_size.y.max(20.0);
     let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, height), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, ui.is_enabled(), "Hue"));
     let [right, _] = steps(ui, &response, false);

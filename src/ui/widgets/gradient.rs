@@ -15,6 +15,8 @@ use crate::{
 const BAR_HEIGHT: f32 = 26.0;
 /// Height of the handles below the bar, in points.
 const HANDLE_HEIGHT: f32 = 18.0;
+/// Width of a handle's sensitive area, in points.
+const HANDLE_WIDTH: f32 = 16.0;
 /// Height of a gradient in a list, in points.
 const CARD_HEIGHT: f32 = 26.0;
 /// Number of colour samples along the bar.
@@ -25,9 +27,14 @@ const SAMPLES: usize = 96;
 /// A click on the bar adds a stop; a drag of a handle moves a stop between its neighbours.
 /// `selected` is the index of the selected stop.
 pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize) -> Response {
-    let size = vec2(ui.available_width(), BAR_HEIGHT + HANDLE_HEIGHT);
+    // The handles at both ends stay in the window.
+    let inset = if theme::has_touch_rows(ui) { 10.0 } else { 7.0 };
+    let [bar_height, handle_height] =
+        [BAR_HEIGHT, HANDLE_HEIGHT].map(|height| theme::target_size(ui, height));
+    let size = vec2(ui.available_width(), bar_height + handle_height);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-    let bar = Rect::from_min_size(rect.min, vec2(rect.width(), BAR_HEIGHT)).shrink2(vec2(7.0, 0.0));
+    let bar =
+        Rect::from_min_size(rect.min, vec2(rect.width(), bar_height)).shrink2(vec2(inset, 0.0));
     let mut response = ui.interact(bar, ui.scope_id().with("gradient bar"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), "Gradient"));
 
@@ -55,7 +62,7 @@ pub fn gradient(ui: &mut Ui, stops: &mut Vec<GradientStop>, selected: &mut usize
 
 /// A button that shows a gradient and its name.
 pub fn gradient_card(ui: &mut Ui, name: &str, stops: &[GradientStop], is_chosen: bool) -> Response {
-    let size = vec2(ui.available_width(), CARD_HEIGHT);
+    let size = vec2(ui.available_width(), theme::target_size(ui, CARD_HEIGHT));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), is_chosen, name));
     if ui.is_rect_visible(rect) {
@@ -117,9 +124,10 @@ fn handle(
 ) -> bool {
     let x = lerp(bar.x_range(), stops[index].position as f32);
     let tip = pos2(x, bar.bottom());
+    let half = theme::target_size(ui, HANDLE_WIDTH) / 2.0;
     let area = Rect::from_min_max(
-        pos2(x - 8.0, bar.bottom() - 2.0),
-        pos2(x + 8.0, bar.bottom() + HANDLE_HEIGHT),
+        pos2(x - half, bar.bottom() - 2.0),
+        pos2(x + half, bar.bottom() + theme::target_size(ui, HANDLE_HEIGHT)),
     );
     let response =
         ui.interact(area, ui.scope_id().with(("gradient stop", index)), Sense::click_and_drag());

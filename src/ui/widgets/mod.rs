@@ -11,8 +11,9 @@ mod reveal;
 mod scale;
 mod section;
 mod swatch;
+mod window_heading;
 
-pub use ball::ball;
+pub use ball::{ArrowSteps, arrow_steps, ball};
 pub use card::card;
 pub use color::color;
 pub use gradient::{gradient, gradient_card, move_stop, paint_bar};
@@ -22,3 +23,4 @@ pub use param::{number, param_slider, param_slider_count, param_slider_wide};
 pub use reveal::{reveal, revealed};
 pub use section::{button_row, caption, choice, section};
 pub use swatch::{NAME_HEIGHT, swatch};
+pub use window_heading::window_heading;

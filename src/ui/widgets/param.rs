@@ -20,7 +20,7 @@ use crate::{
 };
 
 /// Width of the number field at a row's right end, in points.
-const VALUE_WIDTH: f32 = 64.0;
+const VALUE_WIDTH: f32 = 76.0;
 /// Space beside a value in its field, in points.
 const VALUE_PADDING: f32 = 2.0;
 /// Radius of a slider's handle, in points.
@@ -111,8 +111,7 @@ pub fn param_slider_count(ui: &mut Ui, param: &Param, value: &mut u32) -> Respon
 /// The value as a button that becomes a text field. A typed value is clamped to the range.
 pub fn number(ui: &mut Ui, param: &Param, value: &mut f64) -> Response {
     let id = ui.next_auto_id();
-    let size =
-        vec2(ui.available_width().at_most(VALUE_WIDTH), ui.spacing().interact_size.y.at_most(34.0));
+    let size = vec2(ui.available_width().at_most(VALUE_WIDTH), ui.spacing().interact_size.y);
     let name = format!("{} value", param.label);
     if ui.memory(|memory| memory.has_focus(id)) {
         let mut typed = *value;
@@ -192,7 +191,7 @@ fn rail_ui(ui: &mut Ui, rect: Rect, param: &Param, value: &mut f64) -> Response 
     let held = if touch {
         let grip = Rect::from_center_size(
             pos2(handle_x(*value), rect.center().y),
-            Vec2::splat(rect.height().at_least(40.0)),
+            Vec2::splat(rect.height().at_least(44.0)),
         );
         let handle =
             ui.interact(grip.intersect(rect.expand(8.0)), id.with("handle"), Sense::drag());

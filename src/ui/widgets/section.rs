@@ -89,12 +89,14 @@ pub fn choice<T: PartialEq + Copy>(
 /// Space beside the text of a choice's button, in points.
 const CHOICE_PADDING: f32 = 4.0;
 
-/// Widths of buttons with these texts that share `total`: equal ones, unless a text is too long for them and all have room.
+/// Widths of buttons with these texts that share `total`: equal ones, unless a text is too long for them and all have room,
+/// at least `least` each.
 ///
 /// Multiples of egui's unit of layout: egui would round others up, and each row would widen the panel.
-fn choice_widths(text_widths: &[f32], total: f32, columns: usize) -> Vec<f32> {
+fn choice_widths(text_widths: &[f32], total: f32, columns: usize, least: f32) -> Vec<f32> {
     let equal = total / columns as f32;
-    let needed: Vec<f32> = text_widths.iter().map(|width| width + 2.0 * CHOICE_PADDING).collect();
+    let needed: Vec<f32> =
+        text_widths.iter().map(|width| (width + 2.0 * CHOICE_PADDING).max(least)).collect();
     let slack = total - needed.iter().sum::<f32>();
     let is_full = needed.len() == columns;
     if is_full && slack >= 0.0 && needed.iter().any(|width| *width > equal) {
@@ -104,19 +106,25 @@ fn choice_widths(text_widths: &[f32], total: f32, columns: usize) -> Vec<f32> {
     }
 }
 
-/// A row of `count` equal buttons over the full width; `add` adds the one of a number, of a given size.
+/// `count` equal buttons over the full width, in one row if they are wide enough there; `add` adds the one of a number,
+/// of a given size.
 pub fn button_row(ui: &mut Ui, count: usize, mut add: impl FnMut(&mut Ui, usize, Vec2)) {
     let gap = 4.0;
-    let width = (ui.available_width() - gap * (count as f32 - 1.0)) / count.max(1) as f32;
+    let (total, least) = (ui.available_width(), ui.spacing().interact_size.x);
+    let most = (((total + gap) / (least + gap)).floor() as usize).max(1);
+    let columns = count.div_ceil(count.div_ceil(most).max(1)).max(1);
+    let width = (total - gap * (columns as f32 - 1.0)) / columns as f32;
     // Rounded up, the buttons would widen the panel.
     let size = vec2(width.floor_ui(), ui.spacing().interact_size.y);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = gap;
-        ui.spacing_mut().button_padding.x = 2.0;
-        for index in 0..count {
-            add(ui, index, size);
-        }
-    });
+    for first in (0..count).step_by(columns) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            ui.spacing_mut().button_padding.x = 2.0;
+            for index in first..count.min(first + columns) {
+                add(ui, index, size);
+            }
+        });
+    }
 }
 
 /// One row of a choice; the buttons share the width as [`choice_widths`] says.
@@ -135,7 +143,7 @@ fn choice_row<T: PartialEq + Copy>(
         text.into_galley(ui, extend, f32::INFINITY, egui::TextStyle::Button).size().x.ceil()
     };
     let text_widths: Vec<f32> = options.iter().map(text_width).collect();
-    let widths = choice_widths(&text_widths, total, columns);
+    let widths = choice_widths(&text_widths, total, columns, ui.spacing().interact_size.x);
     let height = ui.spacing().interact_size.y;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = gap;
@@ -172,18 +180,20 @@ mod tests {
 
     #[test]
     fn a_long_text_gets_room_from_short_ones() {
-        assert_eq!(choice_widths(&[30.0, 40.0], 200.0, 2), [100.0, 100.0]);
-        let widths = choice_widths(&[40.0, 80.0, 40.0, 40.0], 280.0, 4);
+        assert_eq!(choice_widths(&[30.0, 40.0], 200.0, 2, 28.0), [100.0, 100.0]);
+        let widths = choice_widths(&[40.0, 80.0, 40.0, 40.0], 280.0, 4, 28.0);
         assert_eq!(widths, [60.0, 100.0, 60.0, 60.0]);
+        // Short ones stay wide enough for fingers.
+        assert_eq!(choice_widths(&[10.0, 80.0], 144.0, 2, 44.0), [50.0, 94.0]);
         // Without room for all, or with a gap in the row, the texts are cut.
-        assert_eq!(choice_widths(&[90.0, 90.0, 20.0], 180.0, 3), [60.0; 3]);
-        assert_eq!(choice_widths(&[90.0], 180.0, 3), [60.0]);
+        assert_eq!(choice_widths(&[90.0, 90.0, 20.0], 180.0, 3, 28.0), [60.0; 3]);
+        assert_eq!(choice_widths(&[90.0], 180.0, 3, 28.0), [60.0]);
     }
 
     #[test]
     fn buttons_of_a_choice_are_not_wider_than_their_row() {
         for (texts, total) in [(vec![30.0; 3], 100.0), (vec![30.0, 70.0, 30.0], 200.3)] {
-            let widths = choice_widths(&texts, total, texts.len());
+            let widths = choice_widths(&texts, total, texts.len(), 28.0);
             assert!(widths.iter().all(|width| width.round_ui() == *width), "{widths:?}");
             assert!(widths.iter().sum::<f32>() <= total, "{widths:?}");
         }

@@ -12,10 +12,11 @@ pub fn row_of(dive: &Preset) -> (f64, String) {
     let start = format!("| {} |", dive.name);
     let row = docs.lines().find(|line| line.contains(&start)).expect(dive.name);
     let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-    let depth = cells.iter().find_map(|cell| cell.strip_suffix(" u")?.parse().ok());
+    // The last number: the one before it is the power.
+    let depth = cells.iter().rev().find_map(|cell| cell.parse().ok());
     let (_, fragment) = row.split_once("/#").expect("a link");
     let fragment = fragment.split(')').next().unwrap_or_default().to_owned();
-    (depth.expect("a depth such as 1e-20 u"), fragment)
+    (depth.expect("a depth such as 1e-20"), fragment)
 }
 
 /// A flight from the whole bulb down to the deepest dive, and past it to 1e-25 of another eye.

@@ -7,13 +7,15 @@ use egui::{
 
 use crate::{
     scene::{Path, path::Easing},
-    ui::{theme, timeline::Timeline},
+    ui::{theme, timeline::Timeline, widgets::Help as _},
 };
 
 /// Height of the ruler, in points.
 const RULER_HEIGHT: f32 = 20.0;
 /// Height of the keys' lane below the ruler, in points.
 const LANE_HEIGHT: f32 = 28.0;
+/// Width of a diamond's sensitive area, in points.
+const KEY_WIDTH: f32 = 20.0;
 /// Margin at both ends, so that the outer keys can be grabbed, in points.
 const MARGIN: f32 = 14.0;
 /// Half the width of a diamond, in points.
@@ -50,11 +52,16 @@ impl TimeScale {
     }
 }
 
+/// Height of the lane, which is higher for fingers.
+fn lane_height(ui: &Ui) -> f32 {
+    theme::target_size(ui, LANE_HEIGHT)
+}
+
 /// Draws the track and returns its response.
 ///
 /// Scrubbing moves the playhead; dragging a diamond moves its key.
 pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool) -> Response {
-    let size = vec2(ui.available_width(), RULER_HEIGHT + LANE_HEIGHT);
+    let size = vec2(ui.available_width(), RULER_HEIGHT + lane_height(ui));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let id = ui.scope_id().with("timeline track");
     let response = ui.interact(rect, id, Sense::click_and_drag());
@@ -74,16 +81,13 @@ pub fn show(ui: &mut Ui, path: &mut Path, timeline: &mut Timeline, on_path: bool
     let painter = ui.painter().with_clip_rect(rect);
     painter.rect_filled(rect, theme::RADIUS, theme::WELL);
     ruler(&painter, rect, scale);
-    let lane_y = rect.top() + RULER_HEIGHT + LANE_HEIGHT / 2.0;
+    let lane_y = rect.top() + RULER_HEIGHT + lane_height(ui) / 2.0;
     lines(&painter, lane_y, scale, path);
     for index in 0..path.keys.len() {
         diamond(ui, &response, pos2(0.0, lane_y), scale, path, timeline, index);
     }
     playhead(&painter, rect, scale.x(timeline.secs()), on_path, !path.is_empty());
-    // At the track's corner, the text would cover the buttons above.
-    response.on_hover_text_at_pointer(
-        "Drag to move in time. Click a key to show it, drag it to change its time.",
-    )
+    response.help("Drag to move in time. Click a key to show it, drag it to change its time.")
 }
 
 /// The time scale: the path plus 12 %. The scale is constant during a drag.
@@ -179,8 +183,8 @@ fn diamond(
 ) {
     let key = &path.keys[index];
     let center = pos2(scale.x(key.time_secs), lane.y);
-    let touch = ui.input(|i| i.has_touch_screen());
-    let area = Rect::from_center_size(center, vec2(if touch { 34.0 } else { 20.0 }, LANE_HEIGHT));
+    let size = vec2(theme::target_size(ui, KEY_WIDTH), lane_height(ui));
+    let area = Rect::from_center_size(center, size);
     let response = ui.interact(area, track.id.with(("key", index)), Sense::click_and_drag());
     let name = format!("Key {} at {:.2} s", index + 1, key.time_secs);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name));
@@ -204,7 +208,7 @@ fn diamond(
     let corners = corners.map(|(x, y)| center + vec2(x, y) * DIAMOND).to_vec();
     let painter = ui.painter().with_clip_rect(track.rect);
     painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, outline)));
-    response.on_hover_text(format!("{name}. Click to show it, drag to change its time."));
+    response.help(format!("{name}. Click to show it, drag to change its time."));
 }
 
 /// Draws the playhead: a line with a grip, hollow if the view differs from the path.
