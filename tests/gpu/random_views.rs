@@ -51,7 +51,7 @@ const HARD: [&str; 12] = [
     include_str!("hard_views/slow_orbits.json"),
 ];
 /// Part of their pixels that may be out of their brackets.
-const MOST_WRONG_OF_HARD: f64 = 0.002;
+const MOST_WRONG_OF_HARD: f64 = 0.003;
 /// Width and height of their pictures.
 const HARD_SIZE: Size = [48, 32];
 
