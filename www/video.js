@@ -18,6 +18,12 @@ import { chooseCodec } from "./codecs.js";
 const MAX_FRAMES_WAITING = 4;
 const MAX_PACKETS_WAITING = 8;
 
+/** Frames that wait for their packets, above which the encoder has to encode them all. */
+const MAX_FRAMES_KEPT = 32;
+
+/** New encoders in a row that encode nothing, after which a video fails. */
+const MAX_RESTARTS = 3;
+
 /** Seconds between key frames, to which players can jump. */
 const KEY_FRAME_SECS = 2;
 
@@ -68,15 +74,21 @@ class Video {
   /** The first failure; everything that waits ends by it. */
   #failure;
   #frames = 0;
-  #packets = 0;
+  /** The frames without a packet so far, each with its number. A new encoder encodes them again. */
+  #unencoded = [];
   #packetsWaiting = 0;
   /** The packets on their way to the file, in order. */
   #written = Promise.resolve();
   #isCancelled = false;
   #wakes = [];
   #encoder;
-  /** Whether the browser took the encoder back, which it does with idle ones. */
-  #isReclaimed = false;
+  /** Why the encoder stopped, if it did: browsers take idle encoders back, and hardware fails. */
+  #stopReason;
+  /** New encoders since the last packet. */
+  #restarts = 0;
+  #needsKeyFrame = true;
+  /** What the packets' decoder has to know, from the first encoder. */
+  #description;
 
   constructor({ name, configuration }, { container, size, framesPerSecond, stream }) {
     this.size = size;
@@ -103,26 +115,66 @@ class Video {
   /** The file's stream. A cancelled output closes it, which would keep half a video. */
   #sink() {
     return new WritableStream({
-      write: (chunk) => this.stream.write(chunk),
+      write: (chunk) =>
+        this.stream.write(chunk).catch((error) => {
+          throw new Error(`the file could not be written (${error.message}), so check the free space on the disk`);
+        }),
       close: () => (this.#isCancelled ? undefined : this.stream.close()),
     });
   }
 
   #startEncoder() {
-    this.#isReclaimed = false;
-    this.#encoder = new VideoEncoder({
-      output: (chunk, metadata) => this.#addPacket(chunk, metadata),
+    this.#stopReason = undefined;
+    this.#needsKeyFrame = true;
+    const encoder = new VideoEncoder({
+      output: (chunk, metadata) => {
+        if (encoder === this.#encoder) this.#addPacket(chunk, metadata);
+      },
       error: (error) => {
-        if (error.name === "QuotaExceededError" && this.#packets === this.#frames) {
-          this.#isReclaimed = true;
-          this.#wake();
-        } else {
-          this.#fail(error);
-        }
+        if (encoder !== this.#encoder) return;
+        this.#stopReason = error;
+        this.#wake();
       },
     });
-    this.#encoder.configure(this.configuration);
-    this.#encoder.addEventListener("dequeue", () => this.#wake());
+    this.#encoder = encoder;
+    encoder.configure(this.configuration);
+    encoder.addEventListener("dequeue", () => this.#wake());
+  }
+
+  /** Replaces an encoder that stopped, and encodes again what it left. */
+  #restart() {
+    if (++this.#restarts > MAX_RESTARTS) {
+      throw new Error(`the browser's video encoder stopped (${this.#stopReason.message})`);
+    }
+    if (this.#encoder.state !== "closed") this.#encoder.close();
+    this.#startEncoder();
+    for (const kept of this.#unencoded) this.#encode(kept);
+  }
+
+  #encode({ frame, number }) {
+    const keyFrames = Math.max(1, Math.round(this.framesPerSecond * KEY_FRAME_SECS));
+    try {
+      this.#encoder.encode(frame, { keyFrame: this.#needsKeyFrame || number % keyFrames === 0 });
+      this.#needsKeyFrame = false;
+    } catch (error) {
+      this.#stopReason ??= error;
+    }
+  }
+
+  /** Waits until the encoder has encoded all frames that it does not drop. */
+  async #flush() {
+    const encoder = this.#encoder;
+    try {
+      await encoder.flush();
+      this.#forgetFrames();
+    } catch (error) {
+      this.#stopReason ??= error;
+    }
+  }
+
+  /** Frees the kept frames: no garbage collector knows how large they are. */
+  #forgetFrames() {
+    for (const { frame } of this.#unencoded.splice(0)) frame.close();
   }
 
   #wake() {
@@ -137,15 +189,19 @@ class Video {
   }
 
   #addPacket(chunk, metadata) {
-    this.#packets++;
-    this.#packetsWaiting++;
     const bytes = new Uint8Array(chunk.byteLength);
     chunk.copyTo(bytes);
     // The encoder's times are whole microseconds; the frame's number gives the exact time.
-    const frame = Math.round((chunk.timestamp * this.framesPerSecond) / 1e6);
-    const [secs, duration] = [frame / this.framesPerSecond, 1 / this.framesPerSecond];
+    const number = Math.round((chunk.timestamp * this.framesPerSecond) / 1e6);
+    const at = this.#unencoded.findIndex((kept) => kept.number === number);
+    if (at < 0) return;
+    this.#unencoded.splice(at, 1)[0].frame.close();
+    this.#restarts = 0;
+    this.#packetsWaiting++;
+    const [secs, duration] = [number / this.framesPerSecond, 1 / this.framesPerSecond];
     const packet = new EncodedPacket(bytes, chunk.type, secs, duration);
     const { decoderConfig } = metadata ?? {};
+    if (decoderConfig) this.#checkDescription(decoderConfig.description);
     // Some browsers leave out what the frames said of their colours.
     const described = decoderConfig && { decoderConfig: { ...decoderConfig, colorSpace: BT709 } };
     this.#written = this.#written
@@ -157,37 +213,44 @@ class Video {
       });
   }
 
+  /** Fails if a new encoder's packets need another decoder than those that the file has. */
+  #checkDescription(description) {
+    const bytes = description
+      ? new Uint8Array(description.buffer ?? description, description.byteOffset ?? 0, description.byteLength)
+      : new Uint8Array();
+    const text = bytes.join();
+    this.#description ??= text;
+    if (text !== this.#description) {
+      this.#fail(new Error("the browser's video encoder stopped, and its next one writes another kind of video"));
+    }
+  }
+
   /**
    * Adds a frame, and waits while the encoder or the disk is behind. One call at a time.
    * @param {Uint8Array} rgb rows of pixels of three bytes
    */
   async add(rgb) {
-    if (this.#failure) throw this.#failure;
-    const isRestarted = this.#isReclaimed;
-    if (isRestarted) this.#startEncoder();
     toI420(rgb, this.size, this.planes, this.evenSize);
     const [codedWidth, codedHeight] = this.evenSize;
     const micros = (frame) => Math.round((frame * 1e6) / this.framesPerSecond);
+    const number = this.#frames++;
     const frame = new VideoFrame(this.planes, {
       format: "I420",
       colorSpace: BT709,
       codedWidth,
       codedHeight,
-      timestamp: micros(this.#frames),
+      timestamp: micros(number),
       duration: micros(1),
     });
-    const keyFrames = Math.max(1, Math.round(this.framesPerSecond * KEY_FRAME_SECS));
-    try {
-      this.#encoder.encode(frame, { keyFrame: isRestarted || this.#frames % keyFrames === 0 });
-    } finally {
-      // A frame holds memory that no garbage collector knows of.
-      frame.close();
-    }
-    this.#frames++;
+    this.#unencoded.push({ frame, number });
+    if (!this.#stopReason) this.#encode(this.#unencoded.at(-1));
     const isBehind = () =>
       this.#encoder.encodeQueueSize >= MAX_FRAMES_WAITING || this.#packetsWaiting >= MAX_PACKETS_WAITING;
-    while (!this.#failure && !this.#isCancelled && !this.#isReclaimed && isBehind()) {
-      await new Promise((resolve) => this.#wakes.push(resolve));
+    while (!this.#failure && !this.#isCancelled) {
+      if (this.#stopReason) this.#restart();
+      else if (this.#unencoded.length > MAX_FRAMES_KEPT) await this.#flush();
+      else if (isBehind()) await new Promise((resolve) => this.#wakes.push(resolve));
+      else break;
     }
     if (this.#failure) throw this.#failure;
   }
@@ -195,10 +258,11 @@ class Video {
   /** Ends the file. @returns {Promise<Blob | undefined>} the video, unless it is on the disk */
   async finish() {
     try {
-      if (!this.#isReclaimed) {
-        await this.#encoder.flush();
-        this.#encoder.close();
+      while (this.#unencoded.length > 0 && !this.#failure) {
+        if (this.#stopReason) this.#restart();
+        await this.#flush();
       }
+      if (this.#encoder.state !== "closed") this.#encoder.close();
       await this.#written;
       if (this.#failure) throw this.#failure;
       this.source.close();
@@ -216,6 +280,7 @@ class Video {
     this.#isCancelled = true;
     this.#wake();
     if (this.#encoder.state !== "closed") this.#encoder.close();
+    this.#forgetFrames();
     await this.#written;
     await this.output.cancel().catch(() => {});
     await this.stream?.abort().catch(() => {});
