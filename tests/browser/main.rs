@@ -110,8 +110,17 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     let carried = document::from_json(&text.expect("the picture carries a scene")).unwrap();
     assert_eq!(carried, visit.scene("before_reload"));
 
-    // The finished picture was saved as it was.
+    // The share sheet gets the same file, and the clipboard the same picture.
+    assert_eq!(visit.text("/shared/type"), "image/png");
+    assert_eq!(visit.text("/shared/name"), visit.text("/download"));
+    assert_eq!(fs::read(visit.folder.join("shared.png")).unwrap(), fs::read(&file).unwrap());
+    let copied = Picture::read_png(&visit.folder.join("copied.png"));
+    assert_eq!(copied.size_px, saved.size_px);
+    assert!(copied.difference(&saved).mean < 0.01, "the clipboard has another picture");
+
+    // The finished picture was saved, sent and copied as it was.
     assert_eq!(visit.number("/saved_dispatches"), 0.0);
+    assert_eq!(visit.number("/used_dispatches"), 0.0);
 
     let kept = base64::prelude::BASE64_STANDARD.decode(visit.text("/kept/picture")).unwrap();
     assert!(kept.starts_with(&[0xff, 0xd8]) && kept.len() > 1000, "a small JPEG file");
