@@ -53,6 +53,62 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
     document.scene.quality.samples = count;
     window.mandelight.setScene(JSON.stringify(document));
   }, samples);
+  // The states of the panel at the side. A phone's sheet shows its upper end alone: this script scrolls by a wheel.
+  const lights = async () => {
+    await page.click("All lights");
+    await page.settled();
+    await page.scrollTo("All lights");
+    await shootSettled("lights");
+    await page.click("All lights");
+  };
+  const ofThePanel = async () => {
+    // The lists are at the upper end of the panel.
+    const scroll = async (distance) => {
+      const panel = await page.rect("panel");
+      await v.tab.mouse.move(panel.x + panel.width / 2, panel.y + panel.height / 2);
+      await v.tab.mouse.wheel(0, distance);
+    };
+    await scroll(-20000);
+    await click("Mine");
+    await click("keep view");
+    await v.until("the view to be kept", () => v.tab.evaluate(() => localStorage.getItem("mandelight.favourites")));
+    await shootSettled("mine");
+    await click("Scenes");
+
+    // A pointer over a swatch.
+    const place = async () => {
+      const box = await v.tab.getByRole("button", { name: /^Look: / }).nth(2).boundingBox();
+      return [box.x + box.width / 2, box.y + box.height / 2];
+    };
+    await scroll((await place())[1] - height / 2);
+    const [x, y] = await page.rested("the swatch", place);
+    await v.tab.mouse.move(x, y - 9);
+    await v.tab.mouse.move(x, y);
+    await page.rested("the preview", () => page.rect("look preview"));
+    await shootSettled("look");
+    await v.tab.mouse.move(...(await page.middle("view")));
+
+    // A picture that is not finished is rendered again to save it.
+    await sampled(256);
+    await v.tab.keyboard.press("Control+s");
+    await page.rested("the progress of saving", () => page.rect("cancel export"));
+    await shoot("saving");
+    await click("cancel export");
+    await page.says("Saving was cancelled.");
+    await page.rested("the notice", () => page.rect("notice"));
+    await shoot("notice");
+    await sampled(1);
+  };
+  const formula = async () => {
+    // The opening scene's formula has no text.
+    await page.show(process.env.MANDELIGHT_FORMULA);
+    await page.click("more");
+    await page.click("Fractal");
+    await v.tab.getByRole("button", { name: "Edit the formula…", exact: true }).evaluate((it) => it.click());
+    await page.rested("the editor", () => page.rect("formula text"));
+    await shootSettled("formula");
+  };
+
   await sampled(1);
   // The page knows of fingers by the first touch.
   if (hasTouch) await v.tab.touchscreen.tap(...(await page.middle("status")));
@@ -67,54 +123,13 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
   const wasHidden = await isHidden();
   if (wasHidden) await click("panel toggle");
   await page.rested("the panel", () => page.rect("panel"));
-  await page.click("more");
+  if (!hasTouch) await page.click("more");
   await shootSettled("panel");
-  await page.click("All lights");
-  await page.settled();
-  await page.scrollTo("All lights");
-  await shootSettled("lights");
-  await page.click("All lights");
-  await page.click("more");
-
-  // The opening scene's formula has no text.
-  const opening = await page.scene();
-  await page.show(process.env.MANDELIGHT_FORMULA);
-  const press = (name) => v.tab.getByRole("button", { name, exact: true }).evaluate((it) => it.click());
-  await press("Edit the formula…");
-  await page.rested("the editor", () => page.rect("formula text"));
-  await shootSettled("formula");
-  await press("Edit the formula…");
-  await v.until("the editor to close", async () => !(await page.rect("formula text")), 60);
-  await page.show(opening);
-
-  await page.click("Mine");
-  await page.click("keep view");
-  await v.until("the view to be kept", () => v.tab.evaluate(() => localStorage.getItem("mandelight.favourites")));
-  await page.scrollTo("Mine");
-  await shootSettled("mine");
-  await page.click("Scenes");
-
-  // A pointer over a swatch; fingers hover nowhere.
   if (!hasTouch) {
-    const swatch = v.tab.getByRole("button", { name: /^Look: / }).nth(2);
-    const box = await swatch.boundingBox();
-    await v.tab.mouse.move(box.x, box.y + box.height / 2);
-    await v.tab.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-    await page.rested("the preview", () => page.rect("look preview"));
-    await shootSettled("look");
-    await v.tab.mouse.move(...(await page.middle("view")));
+    await lights();
+    await page.click("more");
+    await ofThePanel();
   }
-
-  // A picture that is not finished is rendered again to save it.
-  await sampled(256);
-  await v.tab.keyboard.press("Control+s");
-  await page.rested("the progress of saving", () => page.rect("cancel export"));
-  await shoot("saving");
-  await page.click("cancel export");
-  await page.says("Saving was cancelled.");
-  await page.rested("the notice", () => page.rect("notice"));
-  await shoot("notice");
-  await sampled(1);
   await drag(0.4);
   if (wasHidden) {
     await click("panel toggle");
@@ -130,4 +145,6 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
     await v.tab.keyboard.press(isToggle ? key : "Escape");
     await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
   }
+
+  if (!hasTouch) await formula();
 }

@@ -6,13 +6,14 @@ use crate::{picture::Picture, visit::Visit};
 
 #[test]
 fn each_state_of_the_interface_fits_the_window() {
-    let mut formula = (presets::formulas()[0].scene)();
+    let quaternions = presets::formulas().iter().find(|it| it.id() == "quaternion-julia");
+    let mut formula = (quaternions.expect("a scene of a formula with a text").scene)();
     formula.quality.samples = 1;
     let variables = [("MANDELIGHT_FORMULA", document::to_json(&formula))];
     let visit = Visit::run_with("states", variables);
     let states = visit.seen["states"].as_array().unwrap();
-    // Fingers hover over no look.
-    assert_eq!(states.len(), 3 * 15 + 1);
+    // Six more of the panel at the side.
+    assert_eq!(states.len(), 3 * 10 + 6);
     for state in states {
         let name = state["name"].as_str().unwrap();
         let size_px = [0, 1].map(|i| state["size"][i].as_u64().unwrap() as u32);
