@@ -239,6 +239,7 @@ window.mandelightAccessibility = accessibility;
 window.mandelightDecoder = decoder;
 window.mandelightGallery = gallery;
 window.mandelightShare = share;
+window.mandelightCodecs = () => import("./codecs.js");
 window.mandelightVideo = () => import("./video.js");
 window.mandelightNotice = (text, detail) => {
   hasModuleNotice = true;

@@ -12,142 +12,26 @@ import {
   StreamTarget,
   WebMOutputFormat,
 } from "./mediabunny.js";
+import { chooseCodec } from "./codecs.js";
 
 /** Frames in the encoder, and packets on their way to the file, above which `add` waits. */
 const MAX_FRAMES_WAITING = 4;
 const MAX_PACKETS_WAITING = 8;
 
-/** Longest side in pixels. (Chromium's page crashes when it is asked about sides of 20,000.) */
-const MAX_SIDE_PX = 8192;
+/** Frames that wait for their packets, above which the encoder has to encode them all. */
+const MAX_FRAMES_KEPT = 32;
+
+/** New encoders in a row that encode nothing, after which a video fails. */
+const MAX_RESTARTS = 3;
 
 /** Seconds between key frames, to which players can jump. */
 const KEY_FRAME_SECS = 2;
-
-/** Bits for each pixel of a frame: fractals are full of detail, on which sparing shows. */
-const BITS_PER_PIXEL = 0.25;
 
 /** Bytes that are written to the disk at once. */
 const CHUNK_BYTES = 4 << 20;
 
 /** The colours of HDTV, ITU-R BT.709: what players assume that do not read what a file says. */
 const BT709 = { primaries: "bt709", transfer: "bt709", matrix: "bt709", fullRange: false };
-
-// The levels of each codec: its code, the largest frame, the most per second, and the most kbit/s.
-// ITU-T H.264, table A-1: in macroblocks of 16×16 pixels.
-const H264_LEVELS = [
-  [10, 99, 1485, 64],
-  [11, 396, 3000, 192],
-  [12, 396, 6000, 384],
-  [13, 396, 11880, 768],
-  [20, 396, 11880, 2000],
-  [21, 792, 19800, 4000],
-  [22, 1620, 20250, 4000],
-  [30, 1620, 40500, 10000],
-  [31, 3600, 108000, 14000],
-  [32, 5120, 216000, 20000],
-  [40, 8192, 245760, 20000],
-  [41, 8192, 245760, 50000],
-  [42, 8704, 522240, 50000],
-  [50, 22080, 589824, 135000],
-  [51, 36864, 983040, 240000],
-  [52, 36864, 2073600, 240000],
-  [60, 139264, 4177920, 240000],
-  [61, 139264, 8355840, 480000],
-  [62, 139264, 16711680, 800000],
-];
-// WebM's list of VP9 levels: in pixels.
-const VP9_LEVELS = [
-  [10, 36864, 829440, 200],
-  [11, 73728, 2764800, 800],
-  [20, 122880, 4608000, 1800],
-  [21, 245760, 9216000, 3600],
-  [30, 552960, 20736000, 7200],
-  [31, 983040, 36864000, 12000],
-  [40, 2228224, 83558400, 18000],
-  [41, 2228224, 160432128, 30000],
-  [50, 8912896, 311951360, 60000],
-  [51, 8912896, 588251136, 120000],
-  [52, 8912896, 1176502272, 180000],
-  [60, 35651584, 1176502272, 180000],
-  [61, 35651584, 2353004544, 240000],
-  [62, 35651584, 4706009088, 480000],
-];
-// AV1 specification, annex A.3: in pixels.
-const AV1_LEVELS = [
-  [0, 147456, 4423680, 1500],
-  [1, 278784, 8363520, 3000],
-  [4, 665856, 19975680, 6000],
-  [5, 1065024, 31950720, 10000],
-  [8, 2359296, 70778880, 12000],
-  [9, 2359296, 141557760, 20000],
-  [12, 8912896, 267386880, 30000],
-  [13, 8912896, 534773760, 40000],
-  [14, 8912896, 1069547520, 60000],
-  [16, 35651584, 1069547520, 60000],
-  [17, 35651584, 2139095040, 100000],
-  [18, 35651584, 4278190080, 160000],
-];
-
-/** The lowest level that is enough; undefined where none is. */
-function levelOf(levels, frame, rate, bitrate) {
-  const level = levels.find(
-    ([, maxFrame, perSecond, kbits]) =>
-      frame <= maxFrame && frame * rate <= perSecond && bitrate <= 1000 * kbits,
-  );
-  return level?.[0];
-}
-
-const twoDigits = (number, radix) => number.toString(radix).toUpperCase().padStart(2, "0");
-
-/** The codecs to try for a file, the most playable first: Mediabunny's name and the browser's. */
-function codecsOf({ container, width, height, framesPerSecond, bitrate }) {
-  const codecs = [];
-  const pixels = width * height;
-  if (container === "mp4") {
-    const [across, down] = [width, height].map((side) => Math.ceil(side / 16));
-    // No side may be longer than the square root of eight times the largest frame.
-    const levels = H264_LEVELS.filter(([, maxFrame]) => Math.max(across, down) ** 2 <= 8 * maxFrame);
-    const h264 = levelOf(levels, across * down, framesPerSecond, bitrate);
-    if (h264) {
-      // The profiles High, Main and Constrained Baseline.
-      for (const profile of ["6400", "4D00", "42E0"]) {
-        codecs.push(["avc", `avc1.${profile}${twoDigits(h264, 16)}`]);
-      }
-    }
-    const av1 = levelOf(AV1_LEVELS, pixels, framesPerSecond, bitrate);
-    if (av1 !== undefined) codecs.push(["av1", `av01.0.${twoDigits(av1, 10)}M.08`]);
-  }
-  const vp9 = levelOf(VP9_LEVELS, pixels, framesPerSecond, bitrate);
-  // 8 bits, 4:2:0, BT.709, limited range.
-  if (vp9) codecs.push(["vp9", `vp09.00.${twoDigits(vp9, 10)}.08.01.01.01.01.00`]);
-  if (container === "webm") codecs.push(["vp8", "vp8"]);
-  return codecs;
-}
-
-/** The first codec that the browser encodes, with its configuration; undefined where it has none. */
-async function chooseCodec(video) {
-  const { width, height, framesPerSecond, bitrate } = video;
-  for (const [name, codec] of codecsOf(video)) {
-    const configuration = {
-      codec,
-      width,
-      height,
-      framerate: framesPerSecond,
-      bitrate,
-      bitrateMode: "variable",
-      latencyMode: "quality",
-      alpha: "discard",
-      // The form that MP4 stores.
-      ...(name === "avc" ? { avc: { format: "avc" } } : {}),
-    };
-    try {
-      const { supported } = await VideoEncoder.isConfigSupported(configuration);
-      if (supported) return { name, configuration };
-    } catch {
-      // A browser that does not know the codec's name.
-    }
-  }
-}
 
 /**
  * Converts sRGB to I420 in BT.709's limited range: planes of luma, and of two colour differences at half
@@ -185,25 +69,26 @@ function toI420(rgb, [width, height], planes, [evenWidth, evenHeight]) {
   }
 }
 
-/** Whether this browser encodes videos. */
-export function isSupported() {
-  return typeof VideoEncoder !== "undefined" && typeof VideoFrame !== "undefined";
-}
-
 /** A video that is being made. */
 class Video {
   /** The first failure; everything that waits ends by it. */
   #failure;
   #frames = 0;
-  #packets = 0;
+  /** The frames without a packet so far, each with its number. A new encoder encodes them again. */
+  #unencoded = [];
   #packetsWaiting = 0;
   /** The packets on their way to the file, in order. */
   #written = Promise.resolve();
   #isCancelled = false;
   #wakes = [];
   #encoder;
-  /** Whether the browser took the encoder back, which it does with idle ones. */
-  #isReclaimed = false;
+  /** Why the encoder stopped, if it did: browsers take idle encoders back, and hardware fails. */
+  #stopReason;
+  /** New encoders since the last packet. */
+  #restarts = 0;
+  #needsKeyFrame = true;
+  /** What the packets' decoder has to know, from the first encoder. */
+  #description;
 
   constructor({ name, configuration }, { container, size, framesPerSecond, stream }) {
     this.size = size;
@@ -230,26 +115,66 @@ class Video {
   /** The file's stream. A cancelled output closes it, which would keep half a video. */
   #sink() {
     return new WritableStream({
-      write: (chunk) => this.stream.write(chunk),
+      write: (chunk) =>
+        this.stream.write(chunk).catch((error) => {
+          throw new Error(`the file could not be written (${error.message}), so check the free space on the disk`);
+        }),
       close: () => (this.#isCancelled ? undefined : this.stream.close()),
     });
   }
 
   #startEncoder() {
-    this.#isReclaimed = false;
-    this.#encoder = new VideoEncoder({
-      output: (chunk, metadata) => this.#addPacket(chunk, metadata),
+    this.#stopReason = undefined;
+    this.#needsKeyFrame = true;
+    const encoder = new VideoEncoder({
+      output: (chunk, metadata) => {
+        if (encoder === this.#encoder) this.#addPacket(chunk, metadata);
+      },
       error: (error) => {
-        if (error.name === "QuotaExceededError" && this.#packets === this.#frames) {
-          this.#isReclaimed = true;
-          this.#wake();
-        } else {
-          this.#fail(error);
-        }
+        if (encoder !== this.#encoder) return;
+        this.#stopReason = error;
+        this.#wake();
       },
     });
-    this.#encoder.configure(this.configuration);
-    this.#encoder.addEventListener("dequeue", () => this.#wake());
+    this.#encoder = encoder;
+    encoder.configure(this.configuration);
+    encoder.addEventListener("dequeue", () => this.#wake());
+  }
+
+  /** Replaces an encoder that stopped, and encodes again what it left. */
+  #restart() {
+    if (++this.#restarts > MAX_RESTARTS) {
+      throw new Error(`the browser's video encoder stopped (${this.#stopReason.message})`);
+    }
+    if (this.#encoder.state !== "closed") this.#encoder.close();
+    this.#startEncoder();
+    for (const kept of this.#unencoded) this.#encode(kept);
+  }
+
+  #encode({ frame, number }) {
+    const keyFrames = Math.max(1, Math.round(this.framesPerSecond * KEY_FRAME_SECS));
+    try {
+      this.#encoder.encode(frame, { keyFrame: this.#needsKeyFrame || number % keyFrames === 0 });
+      this.#needsKeyFrame = false;
+    } catch (error) {
+      this.#stopReason ??= error;
+    }
+  }
+
+  /** Waits until the encoder has encoded all frames that it does not drop. */
+  async #flush() {
+    const encoder = this.#encoder;
+    try {
+      await encoder.flush();
+      this.#forgetFrames();
+    } catch (error) {
+      this.#stopReason ??= error;
+    }
+  }
+
+  /** Frees the kept frames: no garbage collector knows how large they are. */
+  #forgetFrames() {
+    for (const { frame } of this.#unencoded.splice(0)) frame.close();
   }
 
   #wake() {
@@ -264,15 +189,19 @@ class Video {
   }
 
   #addPacket(chunk, metadata) {
-    this.#packets++;
-    this.#packetsWaiting++;
     const bytes = new Uint8Array(chunk.byteLength);
     chunk.copyTo(bytes);
     // The encoder's times are whole microseconds; the frame's number gives the exact time.
-    const frame = Math.round((chunk.timestamp * this.framesPerSecond) / 1e6);
-    const [secs, duration] = [frame / this.framesPerSecond, 1 / this.framesPerSecond];
+    const number = Math.round((chunk.timestamp * this.framesPerSecond) / 1e6);
+    const at = this.#unencoded.findIndex((kept) => kept.number === number);
+    if (at < 0) return;
+    this.#unencoded.splice(at, 1)[0].frame.close();
+    this.#restarts = 0;
+    this.#packetsWaiting++;
+    const [secs, duration] = [number / this.framesPerSecond, 1 / this.framesPerSecond];
     const packet = new EncodedPacket(bytes, chunk.type, secs, duration);
     const { decoderConfig } = metadata ?? {};
+    if (decoderConfig) this.#checkDescription(decoderConfig.description);
     // Some browsers leave out what the frames said of their colours.
     const described = decoderConfig && { decoderConfig: { ...decoderConfig, colorSpace: BT709 } };
     this.#written = this.#written
@@ -284,37 +213,44 @@ class Video {
       });
   }
 
+  /** Fails if a new encoder's packets need another decoder than those that the file has. */
+  #checkDescription(description) {
+    const bytes = description
+      ? new Uint8Array(description.buffer ?? description, description.byteOffset ?? 0, description.byteLength)
+      : new Uint8Array();
+    const text = bytes.join();
+    this.#description ??= text;
+    if (text !== this.#description) {
+      this.#fail(new Error("the browser's video encoder stopped, and its next one writes another kind of video"));
+    }
+  }
+
   /**
    * Adds a frame, and waits while the encoder or the disk is behind. One call at a time.
    * @param {Uint8Array} rgb rows of pixels of three bytes
    */
   async add(rgb) {
-    if (this.#failure) throw this.#failure;
-    const isRestarted = this.#isReclaimed;
-    if (isRestarted) this.#startEncoder();
     toI420(rgb, this.size, this.planes, this.evenSize);
     const [codedWidth, codedHeight] = this.evenSize;
     const micros = (frame) => Math.round((frame * 1e6) / this.framesPerSecond);
+    const number = this.#frames++;
     const frame = new VideoFrame(this.planes, {
       format: "I420",
       colorSpace: BT709,
       codedWidth,
       codedHeight,
-      timestamp: micros(this.#frames),
+      timestamp: micros(number),
       duration: micros(1),
     });
-    const keyFrames = Math.max(1, Math.round(this.framesPerSecond * KEY_FRAME_SECS));
-    try {
-      this.#encoder.encode(frame, { keyFrame: isRestarted || this.#frames % keyFrames === 0 });
-    } finally {
-      // A frame holds memory that no garbage collector knows of.
-      frame.close();
-    }
-    this.#frames++;
+    this.#unencoded.push({ frame, number });
+    if (!this.#stopReason) this.#encode(this.#unencoded.at(-1));
     const isBehind = () =>
       this.#encoder.encodeQueueSize >= MAX_FRAMES_WAITING || this.#packetsWaiting >= MAX_PACKETS_WAITING;
-    while (!this.#failure && !this.#isCancelled && !this.#isReclaimed && isBehind()) {
-      await new Promise((resolve) => this.#wakes.push(resolve));
+    while (!this.#failure && !this.#isCancelled) {
+      if (this.#stopReason) this.#restart();
+      else if (this.#unencoded.length > MAX_FRAMES_KEPT) await this.#flush();
+      else if (isBehind()) await new Promise((resolve) => this.#wakes.push(resolve));
+      else break;
     }
     if (this.#failure) throw this.#failure;
   }
@@ -322,10 +258,11 @@ class Video {
   /** Ends the file. @returns {Promise<Blob | undefined>} the video, unless it is on the disk */
   async finish() {
     try {
-      if (!this.#isReclaimed) {
-        await this.#encoder.flush();
-        this.#encoder.close();
+      while (this.#unencoded.length > 0 && !this.#failure) {
+        if (this.#stopReason) this.#restart();
+        await this.#flush();
       }
+      if (this.#encoder.state !== "closed") this.#encoder.close();
       await this.#written;
       if (this.#failure) throw this.#failure;
       this.source.close();
@@ -343,6 +280,7 @@ class Video {
     this.#isCancelled = true;
     this.#wake();
     if (this.#encoder.state !== "closed") this.#encoder.close();
+    this.#forgetFrames();
     await this.#written;
     await this.output.cancel().catch(() => {});
     await this.stream?.abort().catch(() => {});
@@ -359,15 +297,6 @@ class Video {
  * @returns {Promise<Video>}
  */
 export async function open(container, width, height, framesPerSecond, stream) {
-  if (!isSupported()) throw new Error("this browser does not encode videos");
-  if (Math.max(width, height) > MAX_SIDE_PX) {
-    throw new Error(`videos have at most ${MAX_SIDE_PX} pixels a side`);
-  }
-  const [evenWidth, evenHeight] = [width, height].map((side) => side + (side % 2));
-  const bitrate = Math.round(BITS_PER_PIXEL * evenWidth * evenHeight * framesPerSecond);
-  const codec = await chooseCodec({ container, width: evenWidth, height: evenHeight, framesPerSecond, bitrate });
-  if (!codec) {
-    throw new Error(`this browser encodes no ${container} videos of ${width} × ${height} pixels`);
-  }
+  const codec = await chooseCodec(container, width, height, framesPerSecond);
   return new Video(codec, { container, size: [width, height], framesPerSecond, stream }).start();
 }

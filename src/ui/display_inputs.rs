@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use egui::{Color32, CornerRadius, Painter, Rect, Shape, epaint::RectShape, pos2};
 
-use super::{gallery::GalleryState, share::Sharing, small_picture::SmallPictureId};
+use super::{
+    export_size::MissingEncoders, gallery::GalleryState, share::Sharing,
+    small_picture::SmallPictureId,
+};
 use crate::render::report::Report;
 
 /// The data of one frame that the interface displays.
@@ -20,6 +23,9 @@ pub struct DisplayInputs<'a> {
     pub export: Option<ExportProgress>,
     /// The shell's message, if any.
     pub notice: Option<&'a Notice>,
+    /// The kinds of video that the browser cannot encode, of those of
+    /// [`Interface::video`](super::Interface::video).
+    pub missing_encoders: MissingEncoders,
     /// The name of the file that is being read, if that takes long.
     pub reading: Option<&'a str>,
     /// The name of the GPU adapter.

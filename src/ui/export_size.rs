@@ -114,6 +114,13 @@ impl SequenceFormat {
         (Self::Pngs, "PNGs", "A picture for each frame in a zip file, for other programs"),
     ];
 
+    /// This format, or the nearest that needs no missing encoder: another kind of video before PNGs.
+    pub fn or_encodable(self, missing: MissingEncoders) -> Self {
+        let all = Self::ALL.map(|(format, ..)| format);
+        let encodable = [self].into_iter().chain(all).find(|&format| !missing.contains(format));
+        encodable.unwrap_or(Self::Pngs)
+    }
+
     /// True for a video.
     pub fn is_video(self) -> bool {
         self != Self::Pngs
@@ -134,6 +141,61 @@ impl SequenceFormat {
             Self::Mp4 => "video/mp4",
             Self::WebM => "video/webm",
             Self::Pngs => "application/zip",
+        }
+    }
+}
+
+/// A video that the timeline can save.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VideoSpec {
+    /// Width and height of a frame, in pixels; of both eyes' pictures together.
+    pub size_px: [u32; 2],
+    /// Frames per second.
+    pub frames_per_second: u32,
+}
+
+/// The kinds of video that the browser cannot encode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MissingEncoders {
+    /// It encodes both kinds, or has not answered yet.
+    #[default]
+    None,
+    /// It encodes no videos at all.
+    All,
+    /// It cannot encode these in the [`VideoSpec`]'s size and rate.
+    OfThisSize {
+        /// True if MP4 is missing.
+        mp4: bool,
+        /// True if WebM is missing.
+        webm: bool,
+    },
+}
+
+impl MissingEncoders {
+    /// True if `format` needs an encoder that is missing.
+    pub fn contains(self, format: SequenceFormat) -> bool {
+        match (self, format) {
+            (_, SequenceFormat::Pngs) | (Self::None, _) => false,
+            (Self::All, _) => true,
+            (Self::OfThisSize { mp4, .. }, SequenceFormat::Mp4) => mp4,
+            (Self::OfThisSize { webm, .. }, SequenceFormat::WebM) => webm,
+        }
+    }
+
+    /// What is missing, as a sentence; none if nothing is.
+    pub fn text(self) -> Option<&'static str> {
+        match self {
+            Self::None | Self::OfThisSize { mp4: false, webm: false } => None,
+            Self::All => Some("This browser cannot encode videos."),
+            Self::OfThisSize { mp4: true, webm: true } => {
+                Some("This browser cannot encode videos of this size.")
+            }
+            Self::OfThisSize { mp4: true, .. } => {
+                Some("This browser cannot encode MP4 videos of this size.")
+            }
+            Self::OfThisSize { webm: true, .. } => {
+                Some("This browser cannot encode WebM videos of this size.")
+            }
         }
     }
 }
@@ -195,10 +257,15 @@ impl ExportSize {
         if self.pair { [1, 1] } else { layout.grid() }
     }
 
+    /// Width and height of the saved file, in pixels.
+    pub fn file_px(&self, view_px: [u32; 2], layout: StereoLayout) -> [u32; 2] {
+        let (picture_px, grid) = (self.resolve(view_px, layout), self.grid_in_file(layout));
+        [0, 1].map(|axis| picture_px[axis] * grid[axis])
+    }
+
     /// The size of the saved file as text.
     pub fn text(&self, view_px: [u32; 2], layout: StereoLayout) -> String {
-        let (picture_px, grid) = (self.resolve(view_px, layout), self.grid_in_file(layout));
-        let [width, height] = [0, 1].map(|axis| picture_px[axis] * grid[axis]);
+        let [width, height] = self.file_px(view_px, layout);
         let pair = if self.is_pair(layout) { ", one for each eye" } else { "" };
         format!("{width} × {height} pixels{pair}")
     }
@@ -228,6 +295,24 @@ mod tests {
         assert_eq!(export.resolve([800, 600], StereoLayout::Off), [1, MAX_EXPORT_SIDE_PX]);
         let export = ExportSize { times: u32::MAX, typed_px: [1, 1], ..Default::default() };
         assert_eq!(export.resolve([1600, 400], StereoLayout::Off), [16384, 4096]);
+    }
+
+    #[test]
+    fn formats_without_an_encoder_have_a_substitute() {
+        use SequenceFormat::{Mp4, Pngs, WebM};
+        let of_size = |mp4, webm| MissingEncoders::OfThisSize { mp4, webm };
+        for (missing, substitutes) in [
+            (MissingEncoders::None, [Mp4, WebM, Pngs]),
+            (MissingEncoders::All, [Pngs; 3]),
+            (of_size(false, false), [Mp4, WebM, Pngs]),
+            (of_size(true, false), [WebM, WebM, Pngs]),
+            (of_size(false, true), [Mp4, Mp4, Pngs]),
+            (of_size(true, true), [Pngs; 3]),
+        ] {
+            assert_eq!([Mp4, WebM, Pngs].map(|format| format.or_encodable(missing)), substitutes);
+            let is_complete = substitutes == [Mp4, WebM, Pngs];
+            assert_eq!(missing.text().is_none(), is_complete, "{missing:?}");
+        }
     }
 
     #[test]

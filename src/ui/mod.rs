@@ -94,7 +94,8 @@ pub use display_inputs::{
     DisplayInputs, ExportProgress, KeptPicture, Notice, SmallTextures, ViewTexture,
 };
 pub use export_size::{
-    DEFAULT_QUALITY, ExportSize, MAX_EXPORT_SIDE_PX, SequenceFormat, StillFile, StillFormat,
+    DEFAULT_QUALITY, ExportSize, MAX_EXPORT_SIDE_PX, MissingEncoders, SequenceFormat, StillFile,
+    StillFormat, VideoSpec,
 };
 pub use favourites::{Favourite, Favourites};
 pub use gallery::GalleryState;

@@ -16,6 +16,7 @@ use super::{
     opening::{self, Opening},
     page,
     session::Session,
+    video_support::VideoSupport,
     view_picture::{self, ViewPicture},
 };
 use crate::{
@@ -35,6 +36,7 @@ pub struct App {
     /// The page's address without a fragment.
     address: String,
     has_share_sheet: bool,
+    video_support: VideoSupport,
     /// The picture that the page opened with, while the view has no better one.
     opening: Option<Opening>,
 }
@@ -59,7 +61,16 @@ impl App {
         let address = Address::with_fragment("").unwrap_or_default();
         let address = address.trim_end_matches('#').to_owned();
         let has_share_sheet = view_picture::has_share_sheet();
-        Some(Self { adapter_name, engine, session, address, has_share_sheet, opening })
+        let video_support = VideoSupport::default();
+        Some(Self {
+            adapter_name,
+            engine,
+            session,
+            address,
+            has_share_sheet,
+            video_support,
+            opening,
+        })
     }
 
     /// The opening picture, if it is still of use; otherwise removes it.
@@ -92,12 +103,14 @@ impl eframe::App for App {
             notice: session.toast.notice(),
             adapter: &self.adapter_name,
             sharing: Sharing { address: &self.address, has_share_sheet: self.has_share_sheet },
+            missing_encoders: self.video_support.missing(),
             reading: session.decoder.slow_file(now_secs),
             gallery: session.gallery.as_ref(),
             reduced_motion: page::prefers_reduced_motion(),
             small_pictures: engine.small_textures(),
         };
         let actions = session.interface.show(ui, &inputs);
+        self.video_support.check(session.interface.video(), &session.mailbox);
         if let Some(opening) = &mut self.opening {
             opening.hand_over();
         }

@@ -10,6 +10,7 @@ use super::{
     sequence_file::{FileChoice, FileRequest, SequenceKind},
     session::Session,
     still_export::{ExportStatus, StillExport},
+    video,
 };
 use crate::{
     export::{PictureFormat, StillOptions},
@@ -216,6 +217,10 @@ impl Exporter {
             }
             ExportStatus::Failed(reason) => {
                 session.show_error(reason);
+                None
+            }
+            ExportStatus::VideoFailed(reason) => {
+                session.show_error(video::failure(&reason));
                 None
             }
         };

@@ -12,6 +12,7 @@
 //! | `engine` | the GPU work between frames |
 //! | `exporter` | the export in progress |
 //! | `view_picture` | the picture on the screen as a file, for clipboard, share sheet, download |
+//! | `video_support` | which videos the browser can encode |
 //! | `test_hook` | the object by which browser tests drive the page |
 //! | `session` | the state that outlives the GPU: interface, scene, notice |
 //! | `sequence_export` | frames of a path into a zip or a video |
@@ -69,4 +70,5 @@ mod storage;
 mod stored;
 mod test_hook;
 mod video;
+mod video_support;
 mod view_picture;

@@ -52,16 +52,17 @@ impl SequenceExport {
                 (Some(self), ExportStatus::Working(done, remaining_secs))
             }
             Ok(StillStatus::Done { .. }) => {
-                let status = match self.job.finish() {
+                let Self { job, backlog, .. } = self;
+                let status = match job.finish() {
                     Ok(file) => file.finish(),
-                    Err(error) => ExportStatus::Failed(error.explain()),
+                    Err(error) => failed(&backlog, error),
                 };
                 (None, status)
             }
             Err(error @ ExportError::Gpu(_)) => {
                 (Some(self), ExportStatus::Stopped(error.explain()))
             }
-            Err(error) => (None, ExportStatus::Failed(error.explain())),
+            Err(error) => (None, failed(&self.backlog, error)),
         }
     }
 
@@ -73,5 +74,15 @@ impl SequenceExport {
     /// Number of complete files, and of finished tiles of the one after them.
     pub fn progress(&self) -> (u32, u32) {
         self.job.progress()
+    }
+}
+
+/// The status of an export that ended by `error`.
+fn failed(backlog: &Backlog, error: ExportError) -> ExportStatus {
+    match (backlog, error) {
+        (Backlog::Video(_), ExportError::Write(error)) => {
+            ExportStatus::VideoFailed(error.to_string())
+        }
+        (_, error) => ExportStatus::Failed(error.explain()),
     }
 }

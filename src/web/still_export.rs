@@ -37,6 +37,8 @@ pub enum ExportStatus {
     Stopped(String),
     /// The export failed, with an explanation.
     Failed(String),
+    /// The export of a video failed, with the reason.
+    VideoFailed(String),
 }
 
 impl StillExport {

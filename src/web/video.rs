@@ -15,7 +15,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use super::{
     file_access::{ChosenFile, closed_message},
     files,
-    mailbox::Mailbox,
+    mailbox::{Mailbox, Message},
     page::describe,
 };
 use crate::export::{ExportError, FrameSink};
@@ -50,6 +50,13 @@ extern "C" {
     /// Stops.
     #[wasm_bindgen(method)]
     fn cancel(this: &Encoder) -> Promise;
+}
+
+/// The message about a video that failed.
+pub fn failure(reason: &str) -> String {
+    format!(
+        "The video could not be saved: {reason}. Save it again, in a smaller size or as PNGs, which need no encoder."
+    )
 }
 
 /// A video that is being made. Clones share it; dropping the last one unfinished deletes its file.
@@ -115,8 +122,10 @@ impl Video {
                 (Ok(blob), None) => files::download_blob(&name, blob.unchecked_ref()),
                 (Err(error), _) => Err(error),
             };
-            let saved = saved.map_err(|error| describe(&error));
-            self.0.mailbox.post(closed_message(&name, saved));
+            self.0.mailbox.post(match saved {
+                Ok(()) => closed_message(&name, Ok(())),
+                Err(error) => Message::Error(failure(&describe(&error))),
+            });
         });
     }
 }

@@ -1,5 +1,7 @@
 // A visit with the mouse: turn, zoom, change the power, add a light, save, reload, open a link.
 
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
 
@@ -11,6 +13,13 @@ const sleep = (secs) => new Promise((resolve) => setTimeout(resolve, 1000 * secs
 await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
+
+  // A share sheet of this system, which keeps what it gets.
+  await v.context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await v.tab.addInitScript(() => {
+    navigator.canShare = ({ files }) => files.every((file) => file.type === "image/png");
+    navigator.share = async (data) => void (window.shared = data);
+  });
 
   // The opening view, until its edges are smooth.
   await v.timed("first_picture", () => page.open());
@@ -75,6 +84,28 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   const { dispatches } = await page.report();
   v.seen.download = await page.keepDownload("download.png", "save picture");
   v.seen.saved_dispatches = (await page.report()).dispatches - dispatches;
+
+  // The picture on the screen, to the share sheet and to the clipboard.
+  const share = async (button) => {
+    await v.tab.keyboard.press("j");
+    await v.tab.mouse.click(...(await page.middle(button)));
+    await v.tab.keyboard.press("Escape");
+  };
+  await share("Send picture…");
+  v.seen.shared = await v.until("the share sheet", () => v.tab.evaluate(async () => {
+    const [file] = window.shared?.files ?? [];
+    return file && { name: file.name, type: file.type, bytes: Array.from(new Uint8Array(await file.arrayBuffer())) };
+  }), 60);
+  await writeFile(join(v.out, "shared.png"), Buffer.from(v.seen.shared.bytes));
+  delete v.seen.shared.bytes;
+  await share("Copy picture");
+  await page.says("Picture copied");
+  const copied = await v.tab.evaluate(async () => {
+    const [item] = await navigator.clipboard.read();
+    return Array.from(new Uint8Array(await (await item.getType("image/png")).arrayBuffer()));
+  });
+  await writeFile(join(v.out, "copied.png"), Buffer.from(copied));
+  v.seen.used_dispatches = (await page.report()).dispatches - dispatches;
 
   // A kept view has a picture, and is stored.
   // The lists stand at the upper end of the panel.

@@ -4,7 +4,7 @@ use std::fs;
 
 use mandelight::scene::document;
 
-use crate::{short_path, visit::Visit};
+use crate::{sequence::short_path, visit::Visit};
 
 #[test]
 fn a_lost_gpu_comes_back_with_the_same_scene() {

@@ -5,8 +5,11 @@
 
 mod files;
 mod loss;
+mod opening;
 mod picture;
+mod sequence;
 mod size;
+mod states;
 mod storage;
 mod video;
 mod visit;
@@ -24,13 +27,7 @@ use mandelight::{
     export::{self, png::PngStream},
     formula::{self, Fractal},
     render::{Region, shaders, uniforms::Inputs},
-    scene::{
-        Path, Project, Scene, document,
-        gallery::Gallery,
-        link,
-        path::{Easing, Key},
-        presets,
-    },
+    scene::{Scene, document, gallery::Gallery, link, presets},
 };
 use mandelight_test_support::expressions::Expressions;
 use picture::Picture;
@@ -113,8 +110,17 @@ fn a_visitor_turns_changes_lights_saves_and_comes_back() {
     let carried = document::from_json(&text.expect("the picture carries a scene")).unwrap();
     assert_eq!(carried, visit.scene("before_reload"));
 
-    // The finished picture was saved as it was.
+    // The share sheet gets the same file, and the clipboard the same picture.
+    assert_eq!(visit.text("/shared/type"), "image/png");
+    assert_eq!(visit.text("/shared/name"), visit.text("/download"));
+    assert_eq!(fs::read(visit.folder.join("shared.png")).unwrap(), fs::read(&file).unwrap());
+    let copied = Picture::read_png(&visit.folder.join("copied.png"));
+    assert_eq!(copied.size_px, saved.size_px);
+    assert!(copied.difference(&saved).mean < 0.01, "the clipboard has another picture");
+
+    // The finished picture was saved, sent and copied as it was.
     assert_eq!(visit.number("/saved_dispatches"), 0.0);
+    assert_eq!(visit.number("/used_dispatches"), 0.0);
 
     let kept = base64::prelude::BASE64_STANDARD.decode(visit.text("/kept/picture")).unwrap();
     assert!(kept.starts_with(&[0xff, 0xd8]) && kept.len() > 1000, "a small JPEG file");
@@ -146,44 +152,6 @@ fn a_page_that_was_open_once_works_without_a_connection() {
 }
 
 #[test]
-fn each_state_of_the_interface_fits_the_window() {
-    let visit = Visit::run("states");
-    let states = visit.seen["states"].as_array().unwrap();
-    assert_eq!(states.len(), 24);
-    for state in states {
-        let name = state["name"].as_str().unwrap();
-        let size_px = [0, 1].map(|i| state["size"][i].as_u64().unwrap() as u32);
-        let picture = Picture::read_png(&visit.folder.join(format!("{name}.png")));
-        assert_eq!(picture.size_px, size_px, "{name}");
-        assert!(picture.contrast() > 8.0, "{name} is blank: {}", picture.contrast());
-        // What floats over the view is whole, and the view is large.
-        let side = |part: &str, side: &str| state["rects"][part][side].as_f64();
-        for part in [
-            "share window",
-            "find window",
-            "help window",
-            "compare",
-            "panel",
-            "timeline",
-            "variations",
-            "view",
-        ] {
-            let bounds = ["x", "y", "width", "height"].map(|name| side(part, name));
-            let [Some(x), Some(y), Some(width), Some(height)] = bounds else { continue };
-            let [right, bottom] = [x + width, y + height];
-            let is_inside = x >= -0.5
-                && y >= -0.5
-                && right <= f64::from(size_px[0]) + 0.5
-                && bottom <= f64::from(size_px[1]) + 0.5;
-            assert!(is_inside, "{name}: {part} is at {bounds:?}");
-        }
-        let view = side("view", "width").unwrap() * side("view", "height").unwrap();
-        let part = view / f64::from(size_px[0] * size_px[1]);
-        assert!(part > 0.3, "{name}: the view is {part} of the window");
-    }
-}
-
-#[test]
 fn a_gallery_of_the_address_is_shown_and_opened() {
     let folder = folder_of("gallery-pictures");
     fs::create_dir_all(&folder).unwrap();
@@ -211,55 +179,16 @@ fn a_gallery_of_the_address_is_shown_and_opened() {
     assert!(red[0] > 2.0 * red[2] && blue[2] > 2.0 * blue[0], "{red:?}, {blue:?}");
     let opened = visit.scene("opened");
     assert_eq!(Scene { quality: first.quality.clone(), ..opened }, first);
-    for name in ["missing", "broken", "nowhere"] {
+    for name in ["missing", "broken", "nowhere", "refused"] {
         assert_eq!(visit.seen[name], true, "{name}");
     }
-}
 
-/// A path of two keys and three frames.
-fn short_path() -> Project {
-    let scene = presets::opening_scenes()[0].scene;
-    let key = |time_secs, power| {
-        let mut scene = scene();
-        scene.fractal.set("power", power);
-        scene.quality.samples = 1;
-        Key { time_secs, easing: Easing::Linear, scene: scene.into() }
-    };
-    let keys = vec![key(0.0, 8.0), key(1.0, 7.0)];
-    let scene = (*keys[0].scene).clone();
-    Project { scene, path: Path { frames_per_second: 2, keys, ..Path::default() } }
-}
-
-#[test]
-fn a_path_is_scrubbed_played_and_saved_as_videos_and_as_a_zip_of_its_frames() {
-    let project = short_path();
-    let document = document::project_to_json(&project);
-    let visit = Visit::run_with("sequence", [("MANDELIGHT_PATH", document)]);
-    let scrubbed = visit.scene("scrubbed");
-    let power = scrubbed.fractal.number("power").expect("a Mandelbulb");
-    assert!((7.0..8.0).contains(&power), "{power}");
-
-    let names: Vec<_> = (0..3).map(export::frame_name).collect();
-    for (pointer, prefix) in [("/frames", "frames"), ("/streamed", "streamed")] {
-        assert_eq!(visit.seen.pointer(pointer), Some(&serde_json::json!(names)));
-        for (i, name) in names.iter().enumerate() {
-            let file = visit.folder.join(format!("{prefix}-{name}"));
-            assert!(Picture::read_png(&file).contrast() > 5.0, "{name} is empty");
-            let text = export::scene_text(BufReader::new(File::open(&file).unwrap())).unwrap();
-            let carried = document::from_json(&text.unwrap()).unwrap();
-            assert_eq!(carried, project.path.frame(i as u32).unwrap(), "{prefix}, {name}");
-        }
-    }
-    for name in ["/name", "/suggested"] {
-        assert!(visit.text(name).ends_with(".zip"), "{}", visit.text(name));
-    }
-    let named: Vec<&str> =
-        visit.seen["video_names"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
-    let files = [("video.mp4", "frames"), ("video.webm", "frames"), ("streamed.mp4", "streamed")];
-    for (name, (file, prefix)) in named.iter().zip(files) {
-        assert_eq!(FilePath::new(name).extension(), FilePath::new(file).extension());
-        let pictures = names.iter().map(|name| visit.folder.join(format!("{prefix}-{name}")));
-        video::shows_frames(&visit.folder.join(file), &pictures.collect::<Vec<_>>());
+    let opened = visit.scene("opened_elsewhere");
+    assert_eq!(Scene { quality: second.quality.clone(), ..opened }, second);
+    let asked = visit.seen["other_host"].as_array().unwrap();
+    assert!(asked.iter().any(|it| it["pathname"] == "/gallery.json"), "{asked:#?}");
+    for request in asked {
+        assert!(request["cookie"].is_null() && request["referer"].is_null(), "{request}");
     }
 }
 
@@ -270,6 +199,13 @@ fn a_phone_shows_the_picture_and_fingers_move_it() {
     only_changes(&visit, "turned", "pinched", &["camera"]);
     let eye_to_pivot = |name: &str| visit.scene(name).camera.view_unit();
     assert!(eye_to_pivot("pinched") < eye_to_pivot("turned"), "spreading two fingers goes nearer");
+    only_changes(&visit, "opened", "tapped", &["camera"]);
+    let [opened, tapped, clicked] = ["opened", "tapped", "clicked"].map(|name| visit.scene(name));
+    let distance = |a: &Scene, b: &Scene| (&a.camera.position - &b.camera.position).length();
+    let flown = distance(&tapped, &opened);
+    assert!(flown > 0.1 * opened.camera.view_unit(), "a double tap flies to the point: {flown}");
+    let apart = distance(&tapped, &clicked);
+    assert!(apart < 0.02 * flown, "a double tap ends {apart} from where a double click does");
     assert_eq!(visit.seen["scrolled"], serde_json::json!([0, 0, 1]), "the page itself moved");
 }
 

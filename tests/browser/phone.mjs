@@ -42,6 +42,16 @@ await visit({ context: phone }, async (v) => {
     fingers([[x - 30, y], [x - 90, y]], [[x + 30, y], [x + 90, y]]),
   );
   await page.settled();
+
+  // Two taps do what a double click does.
+  const beside = [x + 40, y - 30];
+  await page.show(scenes.opened);
+  scenes.tapped = await page.changed("a double tap", () =>
+    // Sent at once: a slow machine's answers would make two taps of it.
+    Promise.all([touch("touchStart", beside), touch("touchEnd"), touch("touchStart", beside), touch("touchEnd")]));
+  await page.show(scenes.opened);
+  scenes.clicked = await page.changed("a double click", () => v.tab.mouse.dblclick(...beside));
+  await page.show(scenes.opened);
   v.seen.scrolled = await v.tab.evaluate(() => [window.scrollX, window.scrollY, visualViewport.scale]);
   await v.screenshot("pinched-390x844");
 });

@@ -61,6 +61,15 @@ impl Picture {
         Self::new(size_px, (0..rows).flat_map(row).copied().collect())
     }
 
+    /// The picture with one pixel for `factor` × `factor` pixels.
+    pub fn shrunk(&self, factor: u32) -> Self {
+        let [width, height] = self.size_px;
+        let picture = RgbaImage::from_raw(width, height, self.rgba.clone()).expect("all pixels");
+        let size_px = self.size_px.map(|side| side / factor);
+        let small = imageops::resize(&picture, size_px[0], size_px[1], FilterType::Triangle);
+        Self::new(size_px, small.into_raw())
+    }
+
     /// The difference between this picture and `other`, of the same size.
     pub fn difference(&self, other: &Self) -> Difference {
         assert_eq!(self.size_px, other.size_px);

@@ -42,12 +42,66 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await entry.evaluate((button) => button.click());
     await v.until(`the choice of ${name}`, async () => (await entry.count()) === 0, 30);
   };
+  const muxers = () => v.server.requests.filter((name) => name.startsWith("mediabunny-")).length;
+  v.seen.muxers = [muxers()];
   v.seen.video_names = [await page.keepDownload("video.mp4", "save sequence")];
+  v.seen.muxers.push(muxers());
   await choose("WebM");
   v.seen.video_names.push(await page.keepDownload("video.webm", "save sequence"));
   await choose("PNGs");
   v.seen.name = await page.keepDownload("frames.zip", "save sequence");
   v.seen.frames = await keepFrames(v, "frames.zip", "frames");
+
+  // An encoder that is taken away with two frames, once; the next one encodes them again.
+  await v.tab.evaluate(() => {
+    window.faultyEncoders = 1;
+    window.VideoEncoder = class extends VideoEncoder {
+      #error;
+      #isFaulty = window.faultyEncoders-- > 0;
+      #taken = 0;
+      #rejects = [];
+      constructor(callbacks) {
+        super(callbacks);
+        this.#error = callbacks.error;
+      }
+      encode(frame, options) {
+        if (!this.#isFaulty) return super.encode(frame, options);
+        if (++this.#taken === 2) setTimeout(() => this.#takeAway());
+      }
+      flush() {
+        if (!this.#isFaulty) return super.flush();
+        return new Promise((_, reject) => this.#rejects.push(reject));
+      }
+      #takeAway() {
+        this.close();
+        for (const reject of this.#rejects) reject(new DOMException("closed", "AbortError"));
+        this.#error(new DOMException("taken away", "QuotaExceededError"));
+      }
+    };
+  });
+  await choose("MP4");
+  v.seen.video_names.push(await page.keepDownload("resumed.mp4", "save sequence"));
+  v.seen.faulty_left = await v.tab.evaluate(() => window.faultyEncoders);
+
+  // If all encoders are taken away, the message says what to do.
+  await v.tab.evaluate(() => (window.faultyEncoders = Infinity));
+  await press("save sequence");
+  v.seen.failed = await page.says(
+    "The video could not be saved: the browser's video encoder stopped (taken away). " +
+      "Save it again, in a smaller size or as PNGs, which need no encoder.");
+
+  // Where the browser has no encoder, it is asked before the choice, and PNGs are all it offers.
+  await v.tab.evaluate(() => (window.VideoEncoder = undefined));
+  await v.tab.setViewportSize({ width: 700, height: 420 });
+  v.seen.substitute = await page.says("Save frames");
+  await press("kind of file");
+  v.seen.reason = await page.says("This browser cannot encode videos.");
+  await v.screenshot("no-encoder-700x420");
+  v.seen.offered = await Promise.all(["MP4", "WebM", "PNGs"].map((name) =>
+    v.tab.getByRole("button", { name, exact: true }).count()));
+  await v.tab.keyboard.press("Escape");
+  await choose("PNGs");
+  await v.tab.setViewportSize({ width: 720, height: 420 });
 
   // With the save dialogue, the zip is written frame by frame.
   await v.tab.addInitScript(() => {
@@ -64,9 +118,9 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
             window.written.push([Array.from(data), position]);
           },
           close: async () => void (window.fileIsClosed = true),
-          abort: async () => {},
+          abort: async () => void (window.isAborted = true),
         }),
-        remove: async () => {},
+        remove: async () => void (window.isRemoved = true),
       };
     };
   });
@@ -96,6 +150,27 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.suggested = await written("streamed.zip");
   v.seen.streamed = await keepFrames(v, "streamed.zip", "streamed");
   await choose("MP4");
+
+  // A cancelled video leaves no file, and the next one is whole.
+  await v.tab.evaluate(() => {
+    window.encoders = [];
+    window.VideoEncoder = class extends VideoEncoder {
+      constructor(callbacks) {
+        super(callbacks);
+        window.encoders.push(this);
+      }
+    };
+  });
+  await press("save sequence");
+  await v.until("an encoder", () => v.tab.evaluate(() => window.encoders.length > 0), 60);
+  await press("cancel export");
+  await page.says("Saving was cancelled.");
+  v.seen.cancelled = await v.until("the file to be removed", () => v.tab.evaluate(() =>
+    window.isAborted && window.isRemoved && {
+      isClosed: window.fileIsClosed,
+      encoders: window.encoders.map((encoder) => encoder.state),
+    }), 60);
+  await v.tab.evaluate(() => void window.written.splice(0));
   v.seen.video_names.push(await written("streamed.mp4"));
 });
 

@@ -83,6 +83,8 @@ export class Visit {
     this.seen = { errors: [], secs: {} };
     /** Errors of the browser that the script provokes on purpose: texts that match. */
     this.provoked = null;
+    /** Origins besides the page's own that the page may ask. */
+    this.otherHosts = new Set();
   }
 
   /** Opens a tab and records every error in it. */
@@ -98,7 +100,7 @@ export class Visit {
     this.context.on("request", (request) => {
       const { protocol, origin } = new URL(request.url());
       const isElsewhere = protocol.startsWith("http") && origin !== new URL(this.address).origin;
-      if (isElsewhere) record("request", `${origin} is another host`);
+      if (isElsewhere && !this.otherHosts.has(origin)) record("request", `${origin} is another host`);
     });
     this.tab.on("crash", () => record("page", "the tab crashed"));
     this.tab.on("requestfailed", (request) => {
@@ -139,6 +141,12 @@ export class Visit {
 
   async screenshot(name) {
     await this.tab.screenshot({ path: join(this.out, `${name}.png`) });
+  }
+
+  /** Goes on in a new window of the same browser, which knows nothing of the first one. */
+  async openAnew(context) {
+    this.context = await this.context.browser().newContext(context);
+    await this.open();
   }
 
   /** The notice over the page, or null while none is shown. */

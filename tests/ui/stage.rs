@@ -9,8 +9,9 @@ use mandelight::{
     render::report::{Activity, Report},
     scene::{Project, Scene},
     ui::{
-        Action, DisplayInputs, ExportProgress, GalleryState, Interface, KeptPicture, Notice,
-        Settings, Sharing, SmallTextures, ViewTexture, all_sections_open, theme,
+        Action, DisplayInputs, ExportProgress, GalleryState, Interface, KeptPicture,
+        MissingEncoders, Notice, Settings, Sharing, SmallTextures, ViewTexture, all_sections_open,
+        theme,
     },
 };
 
@@ -23,6 +24,7 @@ pub struct Stage {
     pub kept_picture: Option<KeptPicture>,
     pub export: Option<ExportProgress>,
     pub notice: Option<Notice>,
+    pub missing_encoders: MissingEncoders,
     pub reading: Option<String>,
     pub small_pictures: SmallTextures,
     pub reduced_motion: bool,
@@ -76,6 +78,7 @@ pub fn stage_with(
         kept_picture: None,
         export: None,
         notice: None,
+        missing_encoders: MissingEncoders::None,
         reading: None,
         small_pictures: SmallTextures::default(),
         reduced_motion: false,
@@ -95,6 +98,7 @@ pub fn stage_with(
                     report: &stage.report,
                     export: stage.export,
                     notice: stage.notice.as_ref(),
+                    missing_encoders: stage.missing_encoders,
                     reading: stage.reading.as_deref(),
                     adapter: "a test",
                     sharing: Sharing {

@@ -7,7 +7,7 @@ use mandelight::{
         Camera, Path, Project, Scene,
         path::{Easing, Key as PathKey, MAX_KEYS},
     },
-    ui::{Action, ExportProgress, SequenceFormat, Settings},
+    ui::{Action, ExportProgress, MissingEncoders, SequenceFormat, Settings},
 };
 
 use crate::stage::*;
@@ -310,6 +310,28 @@ fn a_sequence_is_asked_for_by_its_frames_and_shows_its_progress() {
     harness.get_by_role_and_label(Role::ComboBox, "Kind of file").click();
     harness.run();
     press(&mut harness, "PNGs");
+    press(&mut harness, "Save frames");
+    assert_eq!(harness.state().actions.last(), Some(&saved([20, 181], SequenceFormat::Pngs)));
+
+    // A kind that the browser cannot encode isn't offered, and a stored choice of it gets a substitute.
+    let kinds = |harness: &mut egui_kittest::Harness<'_, Stage>| {
+        harness.get_by_role_and_label(Role::ComboBox, "Kind of file").click();
+        harness.run();
+        let kinds = ["MP4", "WebM", "PNGs"]
+            .map(|kind| harness.query_all_by_role_and_label(Role::Button, kind).next().is_some());
+        harness.key_press(Key::Escape);
+        harness.run();
+        kinds
+    };
+    assert_eq!(kinds(&mut harness), [true; 3]);
+    harness.state_mut().missing_encoders = MissingEncoders::OfThisSize { mp4: false, webm: true };
+    assert_eq!(kinds(&mut harness), [true, false, true]);
+    harness.get_by_role_and_label(Role::ComboBox, "Kind of file").click();
+    harness.run();
+    harness.get_by_label("This browser cannot encode WebM videos of this size.");
+    press(&mut harness, "MP4");
+    harness.state_mut().missing_encoders = MissingEncoders::All;
+    assert_eq!(kinds(&mut harness), [false, false, true]);
     press(&mut harness, "Save frames");
     assert_eq!(harness.state().actions.last(), Some(&saved([20, 181], SequenceFormat::Pngs)));
 

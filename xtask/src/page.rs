@@ -160,6 +160,7 @@ fn parts(bound: &Path, www: &Path) -> Result<Vec<Part>> {
         "decoder.js",
         "share.js",
         "gallery.js",
+        "codecs.js",
         "video.js",
     ];
     for name in scripts {

@@ -3,7 +3,10 @@
 use super::Interface;
 use crate::{
     scene::{Path, Project},
-    ui::dive,
+    ui::{
+        dive,
+        export_size::{ExportSize, VideoSpec},
+    },
 };
 
 /// Seconds of a turn around the scene.
@@ -31,6 +34,19 @@ impl Interface {
         if !self.settings.timeline_open {
             self.toggle_timeline(wide);
         }
+    }
+
+    /// The video that the timeline would save; none while it has nothing to save or is hidden.
+    pub fn video(&self) -> Option<VideoSpec> {
+        let path = &self.project().path;
+        if !self.settings.timeline_open || path.frame_count() == 0 {
+            return None;
+        }
+        // A video has both eyes' pictures in each frame.
+        let export = ExportSize { pair: false, ..self.settings.export };
+        let layout = self.scene().camera.stereo.layout;
+        let size_px = export.file_px(self.view_px, layout);
+        Some(VideoSpec { size_px, frames_per_second: path.frames_per_second })
     }
 
     /// Shows or hides the timeline. A narrow window has room for either timeline or open sheet.

@@ -27,6 +27,9 @@ const ONE_ROW_FROM: f32 = 740.0;
 /// The same with the larger buttons of touch screens.
 const ONE_TOUCH_ROW_FROM: f32 = 920.0;
 
+/// Width of the reason why a kind of video is missing, in points.
+const REASON_WIDTH: f32 = 190.0;
+
 /// A frame's number, at most that of the longest path at the highest frame rate.
 const FRAME: Param = Param {
     path: "export.frame",
@@ -268,19 +271,28 @@ impl Strip<'_, '_> {
 
     /// The choice between a video and pictures.
     fn format(&mut self, ui: &mut Ui) {
+        let missing = self.cx.inputs.missing_encoders;
         let chosen = &mut self.cx.settings.export.sequence;
+        let shown_format = chosen.or_encodable(missing);
         let name = |format| {
             SequenceFormat::ALL.iter().find(|(of, ..)| *of == format).map_or("", |it| it.1)
         };
         let shown = ComboBox::from_id_salt("kind of file")
             .width(64.0)
-            .selected_text(name(*chosen))
+            .selected_text(name(shown_format))
             .show_ui(ui, |ui| {
-                for (format, name, hover) in SequenceFormat::ALL {
+                let offered = SequenceFormat::ALL.iter().filter(|it| !missing.contains(it.0));
+                for &(format, name, hover) in offered {
+                    let is_shown = format == shown_format;
                     // Only a pointer's click closes the menu by itself.
-                    if ui.selectable_value(chosen, format, name).help(hover).clicked() {
+                    if ui.selectable_label(is_shown, name).help(hover).clicked() {
+                        *chosen = format;
                         ui.close();
                     }
+                }
+                if let Some(reason) = missing.text() {
+                    ui.set_min_width(REASON_WIDTH);
+                    ui.label(RichText::new(reason).small().color(theme::TEXT_DIM));
                 }
             });
         let response = shown.response.accessible_name("Kind of file");
@@ -305,6 +317,7 @@ impl Strip<'_, '_> {
         self.format(ui);
         let [first, end] = self.timeline.frames.unwrap_or([0, last]).map(|f| f.min(last));
         let (mut export, view_px) = (self.cx.settings.export, self.cx.view_px);
+        export.sequence = export.sequence.or_encodable(self.cx.inputs.missing_encoders);
         // A video has both eyes' pictures in each frame.
         export.pair &= !export.sequence.is_video();
         let layout = self.cx.scene.camera.stereo.layout;

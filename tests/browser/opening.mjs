@@ -1,0 +1,63 @@
+// The picture that the document contains: there before the module, and in the place of the view's first one.
+// Then a visitor who asks for little motion.
+
+import { Mandelight } from "./mandelight.mjs";
+import { visit } from "./visit.mjs";
+
+const SIZE = { viewport: { width: 640, height: 400 } };
+
+await visit({ context: SIZE }, async (v) => {
+  v.seen.normal = await watched(v, "normal");
+  await v.openAnew({ ...SIZE, reducedMotion: "reduce" });
+  v.seen.reduced = await watched(v, "reduced");
+
+  // Another scene is there at once: no camera between the two is seen.
+  const page = new Mandelight(v);
+  await v.tab.evaluate(() => {
+    window.cameras = new Set();
+    const note = () => {
+      window.cameras.add(JSON.stringify(JSON.parse(window.mandelight.scene()).scene.camera.position));
+      requestAnimationFrame(note);
+    };
+    note();
+  });
+  await page.changed("another scene", () => v.tab.keyboard.press("2"));
+  v.seen.cameras = await v.tab.evaluate(() => window.cameras.size);
+});
+
+/** Loads the page as at a first visit, the module only once the opening picture has been photographed. */
+async function watched(v, name) {
+  const page = new Mandelight(v);
+  let release;
+  const released = new Promise((resolve) => (release = resolve));
+  await v.context.route(/\.wasm$/, async (route) => {
+    await released;
+    await route.continue();
+  });
+  await v.tab.goto(`${v.address}?test`);
+  const motion = await v.until("the opening picture", () => v.tab.evaluate(async () => {
+    const [frame, picture] = ["opening", "opening-picture"].map((id) => document.getElementById(id));
+    if (frame.hidden || !picture.complete) return null;
+    const animation = getComputedStyle(picture).animationName;
+    // What the hand-over does, and back.
+    frame.className = "leaving";
+    const fade = getComputedStyle(frame).transitionDuration;
+    frame.className = "";
+    await Promise.allSettled(document.getAnimations().map((it) => it.finished));
+    return { animation, fade, width: frame.clientWidth, height: frame.clientHeight };
+  }));
+  await v.screenshot(`${name}-inlined`);
+  const isModuleThere = await v.tab.evaluate(() => Boolean(window.mandelight?.report));
+
+  release();
+  await v.until("the hand-over", () => v.tab.evaluate(() => {
+    const frame = document.getElementById("opening");
+    return frame.hidden || (frame.className === "leaving" && getComputedStyle(frame).opacity === "0");
+  }));
+  await v.screenshot(`${name}-handed-over`);
+  const { samplesDone } = await page.report();
+  await page.sampled(2);
+  await v.until("the view's own picture", () => v.tab.evaluate(() => document.getElementById("opening").hidden));
+  await v.screenshot(`${name}-drawn`);
+  return { ...motion, isModuleThere, samplesDone, view: await page.rect("view") };
+}
