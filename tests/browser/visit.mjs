@@ -29,14 +29,6 @@ const SOFTWARE_GPU = [
   "--ignore-gpu-blocklist",
 ];
 
-/** WebGPU on the machine's own GPU: MANDELIGHT_GPU=hardware. */
-const HARDWARE_GPU = [
-  "--enable-unsafe-webgpu",
-  "--enable-features=Vulkan",
-  "--use-angle=vulkan",
-  "--ignore-gpu-blocklist",
-];
-
 const POLL_MS = 50;
 
 /** Chromium's error for a request that a navigation or a download aborted. */
@@ -52,10 +44,9 @@ export async function visit({ gpu = true, context = {} }, steps) {
   const out = setting("MANDELIGHT_OUT");
   await mkdir(out, { recursive: true });
   const server = await host(setting("MANDELIGHT_DIST"), process.env.MANDELIGHT_PICTURES);
-  const ofGpu = process.env.MANDELIGHT_GPU === "hardware" ? HARDWARE_GPU : SOFTWARE_GPU;
   const browser = await chromium.launch({
     executablePath: setting("MANDELIGHT_CHROMIUM"),
-    args: [...FLAGS, ...(gpu ? ofGpu : ["--disable-gpu"])],
+    args: [...FLAGS, ...(gpu ? SOFTWARE_GPU : ["--disable-gpu"])],
   });
   const v = new Visit(out, server, await browser.newContext(context));
   try {
