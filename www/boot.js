@@ -171,7 +171,10 @@ async function fixDevicePixels(canvas) {
 function explainLoading(error) {
   // Browsers report a lost connection as a TypeError, whose message is for programmers.
   if (error instanceof TypeError) {
-    return "Check the internet connection, then try again.\n\nA part of the page did not arrive.";
+    return (
+      "Check the internet connection, then try again. If that does not help, update the browser.\n\n" +
+      `A part of the page did not arrive. (${error.message})`
+    );
   }
   const detail = error instanceof Error ? error.message : String(error);
   if (error instanceof RangeError) {

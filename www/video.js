@@ -166,7 +166,8 @@ class Video {
     const encoder = this.#encoder;
     try {
       await encoder.flush();
-      this.#forgetFrames();
+      // Those that could not be handed over are encoded again.
+      if (!this.#stopReason) this.#forgetFrames();
     } catch (error) {
       this.#stopReason ??= error;
     }

@@ -87,7 +87,7 @@ impl ExportError {
                 "The graphics card could not draw the picture. Close other programs that use it, or choose a smaller size, then save again."
             }
             Self::Cancelled => return "Saving was cancelled.".to_owned(),
-            // These name the remedy themselves.
+            // Their sentences need no advice.
             _ => return format!("The file could not be saved: {self}."),
         };
         format!("{advice} ({self})")

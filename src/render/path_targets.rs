@@ -17,8 +17,9 @@ pub struct PathTargets {
     pub samples: u64,
     /// The sky; none without one.
     pub sky: Option<Arc<SampledSky>>,
-    /// The sky's map, and its table.
+    /// The sky's map.
     texture: Arc<EnvironmentTexture>,
+    /// The sky's sampling table.
     table: wgpu::Texture,
     /// A [`PathState`] per sample of a batch.
     paths: wgpu::Buffer,
@@ -78,7 +79,7 @@ impl PathTargets {
         }
     }
 
-    /// Allocates `samples` paths instead of those that there are, and keeps the moments of all pixels.
+    /// Reallocates the path states for `samples` paths; keeps the moments of all pixels.
     ///
     /// `guides`: as in [`new`](Self::new).
     pub fn fit_samples(&mut self, layouts: &Layouts, samples: u64, guides: &wgpu::Buffer) {

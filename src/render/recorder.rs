@@ -278,16 +278,16 @@ impl<'a> Recorder<'a> {
         kept: KeptPixels,
     ) {
         // Splits a grid that exceeds the limit of workgroups per dispatch.
-        const MAX_WORKGROUPS: u32 = 65_535;
+        const MAX_DISPATCH_WORKGROUPS: u32 = 65_535;
         let total = grid.workgroups();
-        for first in (0..total).step_by(MAX_WORKGROUPS as usize) {
+        for first in (0..total).step_by(MAX_DISPATCH_WORKGROUPS as usize) {
             let params = DispatchParams {
                 spacing,
                 kept_first: kept.first,
                 kept_end: kept.end,
                 ..grid.dispatch_params(first)
             };
-            self.dispatch(pipeline, params, MAX_WORKGROUPS.min(total - first));
+            self.dispatch(pipeline, params, MAX_DISPATCH_WORKGROUPS.min(total - first));
         }
     }
 

@@ -46,8 +46,8 @@ pub use work::{
 /// Pieces of work on the GPU at any time.
 pub const MAX_IN_FLIGHT: usize = 2;
 
-/// Most workgroups in a piece of work: a megapixel.
-pub const MAX_WORKGROUPS: u32 = MAX_BATCH_WORKGROUPS;
+/// Most workgroups in a piece of work: a megapixel, and one of the largest batches.
+pub const MAX_PIECE_WORKGROUPS: u32 = MAX_BATCH_WORKGROUPS;
 
 /// Longest GPU time that a piece aims at while someone is watching, milliseconds. The last workgroups
 /// of each dispatch leave much of the GPU idle: short pieces waste time.
@@ -433,8 +433,8 @@ impl Schedule {
         let wanted = match self.phase() {
             // With its display an opening makes the two pieces in flight, so that every displayed
             // frame can have one.
-            Phase::Opening | Phase::Jump => MAX_WORKGROUPS,
-            Phase::Refining => self.piece_workgroups(job, kept).min(MAX_WORKGROUPS),
+            Phase::Opening | Phase::Jump => MAX_PIECE_WORKGROUPS,
+            Phase::Refining => self.piece_workgroups(job, kept).min(MAX_PIECE_WORKGROUPS),
         };
         let workgroups = wanted.min(total - first_workgroup);
         let next = first_workgroup + workgroups;

@@ -76,7 +76,7 @@ pub struct Targets {
     pub frame_group: wgpu::BindGroup,
     /// Most workgroups of a batch.
     pub batch_workgroups: u32,
-    /// Those of all of the region's samples that are computed together: no batch needs more.
+    /// Workgroups of the region's largest trace: the upper limit of `batch_workgroups`.
     pub all_workgroups: u32,
     /// The rays of one batch.
     pub rays: wgpu::Buffer,
@@ -195,17 +195,16 @@ impl Targets {
         }
     }
 
-    /// Makes the buffers of a batch as large as a trace of so many workgroups, if that halves the number of its batches
-    /// at least; returns whether they have grown.
+    /// Enlarges the buffers of a batch for a trace of `workgroups`; returns whether they grew.
     ///
-    /// Pieces of work are sized by time: only large GPUs take that many workgroups in one. Buffers of paths are those of
-    /// [`fit_paths`](Self::fit_paths).
+    /// They grow if the trace fills two batches. Buffers of paths are those of [`fit_paths`](Self::fit_paths).
     pub fn fit_batch(&mut self, layouts: &Layouts, workgroups: u32) -> bool {
         let most = self.all_workgroups.min(MAX_BATCH_WORKGROUPS);
-        let wanted = workgroups.min(MAX_BATCH_WORKGROUPS).next_power_of_two().min(most);
-        if wanted < 2 * self.batch_workgroups {
+        let workgroups = workgroups.min(most);
+        if workgroups < 2 * self.batch_workgroups {
             return false;
         }
+        let wanted = workgroups.next_power_of_two().min(most);
         let samples = u64::from(wanted * WORKGROUP_THREADS);
         self.rays = storage(&layouts.gpu.device, "rays", samples * Ray::SIZE as u64);
         self.center.bind_rays(layouts, &self.rays);

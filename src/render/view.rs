@@ -17,7 +17,7 @@ use super::{
     reconstruction::Reconstruction,
     recorder::{Dispatches, Recorder},
     region::Region,
-    schedule::{Pace, Schedule, Stale, Work},
+    schedule::{Pace, Schedule, Stage, Stale, Work},
     sky::{SampledSky, SkyCache},
     space::RenderSpace,
     sub_frame::SubFrame,
@@ -378,11 +378,14 @@ impl View {
         )
     }
 
-    /// Makes the buffers of a batch fit a piece of work that the GPU is known to finish in time.
+    /// Makes the buffers of a batch fit a piece of work.
+    ///
+    /// Pieces are sized by time: a GPU that traces so many rays in one is a large one. Shading alone says nothing of it.
     fn fit_batch(&mut self, work: Work) {
         let (Work::Trace(trace), Some(inputs)) = (work, &self.inputs) else { return };
+        let workgroups = trace.kept.computed(trace.workgroups);
         let layouts = &self.pipelines.layouts;
-        if self.targets.fit_batch(layouts, trace.workgroups) {
+        if trace.from <= Stage::March && self.targets.fit_batch(layouts, workgroups) {
             (self.integrator.fit_targets)(&mut self.targets, layouts, inputs);
         }
     }

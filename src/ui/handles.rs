@@ -240,9 +240,8 @@ fn displacement(
 
 /// The length that a point of the window spans at the depth of `offset`, in scene units.
 fn scene_per_point(camera: &Camera, frame: Frame, offset: DVec3) -> f64 {
-    let depth = offset.dot(camera.forward());
-    // Keys move a light behind the eye too.
-    let depth = if depth > 0.0 { depth } else { offset.length() };
+    // Keys move a light beside or behind the eye too.
+    let depth = offset.dot(camera.forward()).max(0.1 * offset.length());
     2.0 * camera.half_height(frame.aspect()) * depth / f64::from(frame.rect.height().max(1.0))
 }
 

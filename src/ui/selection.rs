@@ -12,7 +12,7 @@ pub struct Selection {
     stops: [usize; 2],
     /// The layer that gets the gradient of a file.
     pub gradient_target: LayerRef,
-    /// The light whose row has the keyboard, with the arrow keys of this frame: its handle moves by them.
+    /// Arrow-key presses on a light's row, and the light: its handle applies them.
     pub moved_light: Option<(LightRef, ArrowSteps)>,
 }
 

@@ -80,9 +80,7 @@ impl SequenceExport {
 /// The status of an export that ended by `error`.
 fn failed(backlog: &Backlog, error: ExportError) -> ExportStatus {
     match (backlog, error) {
-        (Backlog::Video(_), ExportError::Write(error)) => {
-            ExportStatus::VideoFailed(error.to_string())
-        }
+        (Backlog::Video(_), ExportError::Encode(reason)) => ExportStatus::VideoFailed(reason),
         (_, error) => ExportStatus::Failed(error.explain()),
     }
 }

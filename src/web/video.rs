@@ -114,7 +114,13 @@ impl Video {
         self.0.is_finished.set(true);
         let finished = JsFuture::from(self.0.encoder.finish());
         spawn_local(async move {
-            let saved = match (finished.await, &self.0.file) {
+            let finished = finished.await;
+            // A frame that could not be added is missing in a file that is whole otherwise.
+            let finished = match self.0.error.take() {
+                Some(error) => Err(JsValue::from(error)),
+                None => finished,
+            };
+            let saved = match (finished, &self.0.file) {
                 (Ok(_), Some(file)) => {
                     file.keep();
                     Ok(())

@@ -67,7 +67,10 @@ impl VideoSupport {
             match missing_for(spec).await {
                 Ok(missing) => answer.missing.set(missing),
                 // Then a video that can't be encoded fails at its start, with a message.
-                Err(error) => log::warn!("the check of encoders: {}", describe(&error)),
+                Err(error) => {
+                    answer.missing.set(MissingEncoders::None);
+                    log::warn!("the check of encoders: {}", describe(&error));
+                }
             }
             answer.is_pending.set(false);
             mailbox.wake();

@@ -94,9 +94,10 @@ fn batches_are_no_larger_than_the_region_and_seldom_change() {
     let layouts = &pipelines().layouts;
     let mut targets = Targets::new(layouts, Region::whole(SIZE));
     assert!(!targets.fit_batch(layouts, BATCH_WORKGROUPS));
-    assert!(targets.fit_batch(layouts, BATCH_WORKGROUPS + 1));
-    assert_eq!(targets.batch_workgroups, 2 * BATCH_WORKGROUPS);
-    assert!(!targets.fit_batch(layouts, 2 * BATCH_WORKGROUPS));
+    assert!(!targets.fit_batch(layouts, 2 * BATCH_WORKGROUPS - 1));
+    assert!(targets.fit_batch(layouts, 2 * BATCH_WORKGROUPS + 1));
+    assert_eq!(targets.batch_workgroups, 4 * BATCH_WORKGROUPS);
+    assert!(!targets.fit_batch(layouts, 8 * BATCH_WORKGROUPS - 1));
     assert!(targets.fit_batch(layouts, u32::MAX / 2));
     assert!(!targets.fit_batch(layouts, u32::MAX / 2));
     let mut small = Targets::new(layouts, Region::whole([40, 30]));

@@ -142,15 +142,17 @@ fn assert_strong(what: &str, harness: &Harness<'_, Stage>) {
 #[test]
 fn texts_stand_out_in_windows_and_over_any_picture() {
     const NONE: Modifiers = Modifiers::NONE;
+    let flight_keys =
+        "W  S · A  D · E  Q to fly, Shift for faster, drag to look around, Esc to stop";
     for (what, key, modifiers, words) in [
         ("sharing", Key::J, NONE, "Copy picture"),
         ("help", Key::F1, NONE, "With a mouse"),
         ("variations", Key::M, NONE, "Eight more"),
         ("comparing", Key::C, Modifiers::SHIFT, "A"),
-        ("the keys of fly mode", Key::F, NONE, "Fly"),
+        ("the keys of fly mode", Key::F, NONE, flight_keys),
     ] {
         let harness = shown(Settings::default(), &[(modifiers, key)]);
-        assert!(!painted(&harness, words).is_empty() || words == "Fly", "{what}");
+        assert!(!painted(&harness, words).is_empty(), "{what}");
         assert_strong(what, &harness);
     }
     let mut harness = shown(Settings::default(), &[(Modifiers::COMMAND, Key::K)]);

@@ -68,7 +68,7 @@ fn covered(harness: &mut Harness<'_, Stage>) -> (Vec<String>, usize) {
             count += 1;
             for (other, under) in controls(harness) {
                 let both = under.intersect(tooltip);
-                let is_other = other != name && !under.contains_rect(rect);
+                let is_other = under != rect && !under.contains_rect(rect);
                 if is_other && both.width() > 1.0 && both.height() > 1.0 {
                     covered.push(format!("the text of {name:?} at {tooltip:?} covers {other:?}"));
                 }

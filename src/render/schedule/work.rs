@@ -13,8 +13,8 @@ pub const BATCH_WORKGROUPS: u32 = 2048;
 
 /// Most workgroups in one submit.
 ///
-/// Each pass of a batch waits for the longest ray of the pass before it. On a large GPU that takes longer than all the
-/// others: there, batches grow ([`Targets::fit_batch`](crate::render::targets::Targets::fit_batch)).
+/// Each pass of a batch waits for the longest ray of the pass before it. On a large GPU that takes longer than all other
+/// rays together, so that batches grow there ([`Targets::fit_batch`](crate::render::targets::Targets::fit_batch)).
 pub const MAX_BATCH_WORKGROUPS: u32 = 8 * BATCH_WORKGROUPS;
 
 /// Which sample points a trace computes.

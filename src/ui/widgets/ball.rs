@@ -75,7 +75,7 @@ pub struct ArrowSteps {
     pub is_shifted: bool,
 }
 
-/// The presses while `response` has the focus, which the arrow keys then leave there; none without presses.
+/// Arrow-key presses of this frame while `response` has the focus; the keys don't move the focus. None without presses.
 pub fn arrow_steps(ui: &Ui, response: &Response) -> Option<ArrowSteps> {
     if !response.has_focus() {
         return None;

@@ -30,7 +30,7 @@ pub trait Help {
     /// As [`Self::help`], while the control is disabled.
     fn disabled_help(self, text: impl Into<String>) -> Self;
 
-    /// As [`Self::help`], with a text of the moment, which is no description for screen readers.
+    /// As [`Self::help`], with a text that changes each frame and is not given to screen readers.
     fn live_help(self, text: impl FnOnce() -> String) -> Self;
 }
 

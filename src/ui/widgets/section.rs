@@ -106,8 +106,8 @@ fn choice_widths(text_widths: &[f32], total: f32, columns: usize, least: f32) ->
     }
 }
 
-/// `count` equal buttons over the full width, in one row if they are wide enough there; `add` adds the one of a number,
-/// of a given size.
+/// `count` equal buttons over the full width, in one row if they are wide enough there; `add(ui, index, size)` adds
+/// the button `index`.
 pub fn button_row(ui: &mut Ui, count: usize, mut add: impl FnMut(&mut Ui, usize, Vec2)) {
     let gap = 4.0;
     let (total, least) = (ui.available_width(), ui.spacing().interact_size.x);

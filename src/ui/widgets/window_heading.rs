@@ -18,7 +18,7 @@ pub fn window_heading(ui: &mut Ui, title: &str) -> bool {
         let font = TextStyle::Heading.resolve(ui.style());
         // Painted: screen readers get the title as the window's name.
         ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, title, font, theme::TEXT);
-        icon_button(ui, Icon::Cross, "Close window", "Close this window (Esc)").clicked()
+        icon_button(ui, Icon::Cross, "Close window", "Close this window").clicked()
     })
     .inner
 }
