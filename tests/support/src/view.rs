@@ -14,7 +14,8 @@ pub fn settle(view: &mut View) {
     let start = std::time::Instant::now();
     while view.pump(start.elapsed().as_secs_f64()) {
         gpu().wait();
-        assert!(start.elapsed().as_secs() < 300, "the view never rests: {:?}", view.report());
+        // Long enough for a busy machine: this only ends a view that would never rest.
+        assert!(start.elapsed().as_secs() < 1800, "the view never rests: {:?}", view.report());
     }
 }
 
