@@ -10,6 +10,7 @@ use super::{
     histogram_readback::HistogramReadback,
     indirect::IndirectSource,
     integrator::{self, DIRECT, Integrator},
+    lattice::WORKGROUP_THREADS,
     noise_control::NoiseControl,
     pipelines::Pipelines,
     post::{Need, Post, Tasks},
@@ -383,7 +384,7 @@ impl View {
     /// Pieces are sized by time: a GPU that traces so many rays in one is a large one. Shading alone says nothing of it.
     fn fit_batch(&mut self, work: Work) {
         let (Work::Trace(trace), Some(inputs)) = (work, &self.inputs) else { return };
-        let workgroups = trace.kept.computed(trace.workgroups);
+        let workgroups = trace.samples() / WORKGROUP_THREADS;
         let layouts = &self.pipelines.layouts;
         if trace.from <= Stage::March && self.targets.fit_batch(layouts, workgroups) {
             (self.integrator.fit_targets)(&mut self.targets, layouts, inputs);

@@ -18,7 +18,6 @@ use crate::scene::{Camera, MIN_VIEW_UNIT, Scene, follow};
 
 /// Side of a handle's sensitive square, in points.
 const GRIP: f32 = 30.0;
-
 /// Change of the distance per point of a drag with Shift, as a natural logarithm.
 const DEPTH_PER_POINT: f64 = 0.01;
 /// Drag that a press of an arrow key stands for, in points.

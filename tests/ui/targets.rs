@@ -51,6 +51,13 @@ impl Seen {
             .count();
         self.small.extend(small(harness).into_iter().map(|small| format!("{what}: {small}")));
     }
+
+    /// No control was too small, of more than so many.
+    fn assert_large(&self, controls: usize) {
+        assert!(self.controls > controls, "{}", self.controls);
+        let count = self.small.len();
+        assert!(self.small.is_empty(), "{count} are too small: {:#?}", self.small);
+    }
 }
 
 /// A stage whose screen is touched.
@@ -137,9 +144,7 @@ fn controls_have_room_for_fingers() {
     harness.run();
     press_each(&mut harness, &["View 1"]);
     seen.look("a kept view, while a picture is saved", &harness);
-    assert!(seen.controls > 1000, "{}", seen.controls);
-    let count = seen.small.len();
-    assert!(seen.small.is_empty(), "{count} are too small: {:#?}", seen.small);
+    seen.assert_large(1000);
 }
 
 #[test]
@@ -189,9 +194,7 @@ fn messages_menus_and_the_timeline_have_room_for_fingers() {
     harness.run_steps(40);
     harness.get_by_label_contains("quaternion_p");
     seen.look("the formula editor", &harness);
-    assert!(seen.controls > 200, "{}", seen.controls);
-    let count = seen.small.len();
-    assert!(seen.small.is_empty(), "{count} are too small: {:#?}", seen.small);
+    seen.assert_large(200);
 }
 
 #[test]
@@ -232,5 +235,5 @@ fn what_lies_over_the_picture_has_room_for_fingers() {
     harness.run_steps(3);
     harness.get_by_label("Keep as a path");
     seen.look("a dive", &harness);
-    assert!(seen.small.is_empty(), "{:#?}", seen.small);
+    seen.assert_large(0);
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Button, Event, Id, Painter, Rect, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Event, Id, Painter, Rect, RichText, ScrollArea, Sense, Ui, vec2};
 
 use super::context::Context;
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
     },
     ui::{
         sphere::{Sphere, background_colors, paint_background},
-        widgets::{Help as _, NAME_HEIGHT, caption, paint_bar, swatch},
+        widgets::{Help as _, NAME_HEIGHT, caption, choice_button, paint_bar, swatch},
     },
 };
 
@@ -39,8 +39,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (index, list) in looks::lists().iter().enumerate() {
             let text = RichText::new(list.name).small();
-            let button = Button::selectable(index == chosen, text);
-            let response = ui.add(button.min_size(ui.spacing().interact_size)).help(list.about);
+            let response = choice_button(ui, index == chosen, text).help(list.about);
             if response.clicked() {
                 chosen = index;
                 ui.data_mut(|data| data.insert_temp(id, chosen));

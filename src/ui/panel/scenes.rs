@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use egui::{Button, Id, Rect, RichText, Ui};
+use egui::{Id, Rect, RichText, Ui};
 
 use super::{card_grid::arrange, context::Context, gallery, mine};
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
         shortcuts::Command,
         status::zoom,
         theme, thumbnail,
-        widgets::{Help as _, card},
+        widgets::{Help as _, card, choice_button},
     },
 };
 
@@ -37,8 +37,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ui.spacing_mut().button_padding.x = 4.0;
         for (index, list) in lists.iter().enumerate() {
             let text = RichText::new(list.name).small();
-            let button = Button::selectable(index == chosen, text);
-            let response = ui.add(button.min_size(ui.spacing().interact_size)).help(list.about);
+            let response = choice_button(ui, index == chosen, text).help(list.about);
             cx.rects.record(list.name, &response);
             if response.clicked() {
                 chosen = index;
@@ -47,8 +46,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         }
         let mut other = |name, about, index| {
             let text = RichText::new(name).small();
-            let button = Button::selectable(chosen == index, text);
-            let button = ui.add(button.min_size(ui.spacing().interact_size)).help(about);
+            let button = choice_button(ui, chosen == index, text).help(about);
             cx.rects.record(name, &button);
             if button.clicked() {
                 chosen = index;

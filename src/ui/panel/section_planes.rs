@@ -15,7 +15,7 @@ use crate::{
     },
     ui::{
         icon::{Icon, icon_button},
-        widgets::{Help as _, caption, color, param_slider},
+        widgets::{Help as _, caption, choice_button, color, param_slider},
     },
 };
 
@@ -105,8 +105,7 @@ fn directions(ui: &mut Ui, plane: &mut SectionPlane, camera: &Camera) {
             (Axis::Z, "Z", "Across the z axis: cuts away the side of positive z, above"),
         ] {
             let is_chosen = normal.dot(axis.direction()).abs() > 1.0 - 1e-9;
-            let button = Button::selectable(is_chosen, text).min_size(ui.spacing().interact_size);
-            if ui.add(button).help(hover).clicked() {
+            if choice_button(ui, is_chosen, text).help(hover).clicked() {
                 plane.direction = axis.direction().to_array();
             }
         }

@@ -3,7 +3,7 @@
 use super::hover::Help as _;
 use egui::emath::GuiRounding as _;
 use egui::{
-    Button, Response, RichText, Sense, Ui, Vec2, WidgetInfo, accesskit::Role,
+    Button, IntoAtoms, Response, RichText, Sense, Ui, Vec2, WidgetInfo, accesskit::Role,
     collapsing_header::CollapsingState, pos2, vec2,
 };
 
@@ -104,6 +104,11 @@ fn choice_widths(text_widths: &[f32], total: f32, columns: usize, least: f32) ->
     } else {
         vec![equal.floor_ui(); needed.len()]
     }
+}
+
+/// A button for one of several choices, as wide and high as fingers need it at least.
+pub fn choice_button<'a>(ui: &mut Ui, is_chosen: bool, text: impl IntoAtoms<'a>) -> Response {
+    ui.add(Button::selectable(is_chosen, text).min_size(ui.spacing().interact_size))
 }
 
 /// `count` equal buttons over the full width, in one row if they are wide enough there; `add(ui, index, size)` adds
