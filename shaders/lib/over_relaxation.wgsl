@@ -43,12 +43,19 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
 
 // Hits are checked if the estimate has false minima: a hit counts if the ray stays within the hit distance
 // for `CHECKED_THICKNESS` hit distances, at `THICKNESS_CHECKS` points. False minima are far thinner than a pixel, and
-// which of them a ray meets is chance.
+// which of them a ray meets is chance. Rays that have spent half of their steps creep through dust that no
+// estimate shows to be empty. Hits aren't checked there: these rays would pass what is thicker than a hit distance.
+const CHECKED_STEPS = 0.5;
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
 const LOOKS = HALVINGS + THICKNESS_CHECKS;
+
+// Whether hits are still checked after `spent` of `most` steps.
+fn checks_hit_after(spent: u32, most: u32) -> bool {
+    return f32(spent) < CHECKED_STEPS * f32(most);
+}
 
 // A hit that is being checked.
 struct Crossing {

@@ -74,7 +74,8 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < frame.march.march_steps; i++) {
-            let is_looking = (checks_hits && crossing.looks > 0u) || within_hit > 0.0;
+            let is_checking = checks_hits && crossing.looks > 0u;
+            let is_looking = is_checking || within_hit > 0.0;
             let is_inside = t <= interval.y || is_looking;
             var ahead = Estimate(0.0, 0.0);
             if (is_inside) {
@@ -99,7 +100,8 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
             if (!is_looking && within > hit) {
                 colors = next_color_point(colors, before, t, ahead.distance, within);
             }
-            if (checks_hits && within_hit == 0.0 && (is_looking || ahead.distance < hit)) {
+            let starts_check = checks_hits && ahead.distance < hit && checks_hit_after(i, frame.march.march_steps);
+            if (within_hit == 0.0 && (is_checking || starts_check)) {
                 t = next_look(&crossing, before, t, hit, ahead.distance < hit);
                 if (crossing.looks > LOOKS) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
