@@ -23,13 +23,13 @@ fn is_sampled(kind: u32, offset: vec3f) -> bool {
 
 // The gradient, not normalised, of the linear function that fits the samples best (least squares):
 // by symmetry the sum of each value times its offset. Three samples use differences to the point itself.
-fn sampled_gradient(kind: u32, fractal: Fractal, point: vec3f, spacing: f32) -> vec3f {
+fn sampled_gradient(kind: u32, fractal: Fractal, center: vec3f, spacing: f32) -> vec3f {
     var gradient = vec3f(0.0);
     for (var k = 0u; k < 27u; k++) {
         let offset = vec3f(vec3u(k % 3u, k / 3u % 3u, k / 9u)) - 1.0;
         if (!is_sampled(kind, offset)) { continue; }
         let weight = select(offset, vec3f(-1.0), all(offset == vec3f(0.0)));
-        gradient += weight * distance_estimate(fractal, point + spacing * offset);
+        gradient += weight * distance_estimate(fractal, center + spacing * offset);
     }
     return gradient;
 }
@@ -47,18 +47,24 @@ fn turned_to_eye(normal: vec3f, toward_eye: vec3f) -> vec3f {
     return normalize(across / length + FACING * toward_eye);
 }
 
-// Points toward the eye if the gradient is zero, as inside the set, or if normals are off.
+// True if the estimate ripples below a pixel: the gradient at the point faces away from the eye, or is 0 inside the set.
+fn is_rippled(gradient: vec3f, toward_eye: vec3f) -> bool {
+    return dot(gradient, toward_eye) < 0.0 || all(gradient == vec3f(0.0));
+}
+
+// Points toward the eye if the gradient is zero, or if normals are off.
 fn surface_normal(fractal: Fractal, point: vec3f, spacing: f32, toward_eye: vec3f) -> vec3f {
     var kind = normals_kind();
     var gradient = vec3f(0.0);
     let is_analytic = kind == NORMALS_ANALYTIC;
+    var center = point;
     if (is_analytic) {
         gradient = distance_gradient(fractal, point);
-        // Where the estimate ripples finer than a pixel, the gradient at a point may face away; over the pixel's
-        // width it seldom does.
-        kind = select(NORMALS_NONE, NORMALS_TWENTY_SIX, dot(gradient, toward_eye) < 0.0);
+        kind = select(NORMALS_NONE, NORMALS_TWENTY_SIX, is_rippled(gradient, toward_eye));
+        // The grid ends at the point: in front of it the estimate falls toward the surface, and the ripples lie behind.
+        center += spacing * toward_eye;
     }
-    if (kind != NORMALS_NONE) { gradient = sampled_gradient(kind, fractal, point, spacing); }
+    if (kind != NORMALS_NONE) { gradient = sampled_gradient(kind, fractal, center, spacing); }
     // The square of the gradient's length may overflow an f32.
     let largest = max(max(abs(gradient.x), abs(gradient.y)), abs(gradient.z));
     if (largest <= 0.0) { return toward_eye; }

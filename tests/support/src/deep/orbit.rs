@@ -130,12 +130,11 @@ impl Set {
         Raised { point, raising, longitude, parallel: after.axes.z_axis }
     }
 
-    /// The estimate's gradient of unit length from central differences, `spacing` apart; zero
-    /// where there is none.
-    pub fn normal(&self, point: &Point, spacing: f64) -> DVec3 {
+    /// The estimate's gradient from central differences, `spacing` apart.
+    pub fn gradient(&self, point: &Point, spacing: f64) -> DVec3 {
         let at = |way: DVec3| self.estimate(&moved(point, way), spacing).distance;
-        let along = |axis: DVec3| at(axis * spacing) - at(-axis * spacing);
-        DVec3::from_array(DVec3::AXES.map(along)).normalize_or_zero()
+        let along = |axis: DVec3| (at(axis * spacing) - at(-axis * spacing)) / (2.0 * spacing);
+        DVec3::from_array(DVec3::AXES.map(along))
     }
 }
 

@@ -169,22 +169,28 @@ impl<'a> SetView<'a> {
         self.march(self.direction(centre(pixel)), |estimate| estimate.step)
     }
 
-    /// The normal at `depth` of a pixel's ray; that of the pixel's footprint where the point's own faces away, or the
-    /// nearest that does not.
+    /// The normal at `depth` of a pixel's ray: of the point, or of the pixel's footprint where the estimate ripples below
+    /// a pixel; turned to the eye.
     pub fn normal(&self, pixel: [u32; 2], depth: f64) -> DVec3 {
         let direction = self.direction(centre(pixel));
-        let point = self.at(direction, depth);
-        let hit = self.hit_distance(depth);
-        let normal = self.set.normal(&point, 1e-6 * hit);
-        if normal.dot(direction) <= 0.0 {
-            return normal;
+        let gradient =
+            self.set.gradient(&self.at(direction, depth), 1e-6 * self.hit_distance(depth));
+        if gradient != DVec3::ZERO && gradient.dot(direction) <= 0.0 {
+            return gradient.normalize();
         }
-        // Of the linear function that fits the 26 neighbours in a grid best.
-        let steps = [-1.0, 0.0, 1.0];
-        let grid = steps.iter().flat_map(|&x| steps.map(|y| (x, y)));
-        let grid = grid.flat_map(|(x, y)| steps.map(|z| DVec3::new(x, y, z)));
+        self.footprint_normal(direction, depth, 2)
+    }
+
+    /// The normal of a pixel's footprint: the slope of the linear function that fits a grid in a cube best, turned to the
+    /// eye. The cube is two hit distances wide, one in front of the depth, and cut into `cuts`³ cells, whose corners count.
+    pub fn footprint_normal(&self, direction: DVec3, depth: f64, cuts: u32) -> DVec3 {
+        let hit = self.hit_distance(depth);
+        let center = self.at(direction, depth - hit);
+        let steps = || (0..=cuts).map(move |k| 2.0 * f64::from(k) / f64::from(cuts) - 1.0);
+        let grid = steps().flat_map(|x| steps().map(move |y| (x, y)));
+        let grid = grid.flat_map(|(x, y)| steps().map(move |z| DVec3::new(x, y, z)));
         let slope = |offset: DVec3| {
-            offset * self.set.estimate(&moved(&point, offset * hit), 1e-3 * hit).distance
+            offset * self.set.estimate(&moved(&center, offset * hit), 1e-3 * hit).distance
         };
         let normal = grid.map(slope).sum::<DVec3>().normalize_or(-direction);
         let away = normal.dot(direction).max(0.0);
