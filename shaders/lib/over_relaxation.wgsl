@@ -43,18 +43,19 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
 
 // Hits are checked if the estimate has false minima: a hit counts if the ray stays within the hit distance
 // for `CHECKED_THICKNESS` hit distances, at `THICKNESS_CHECKS` points. False minima are far thinner than a pixel, and
-// which of them a ray meets is chance. Rays that have spent half of their steps creep through dust that no
-// estimate shows to be empty. Hits aren't checked there: these rays would pass what is thicker than a hit distance.
-const CHECKED_STEPS = 0.5;
+// which of them a ray meets is chance.
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
+// Checks that are left after `MOST_CHECKED` of a ray's steps: it creeps through dust that no estimate shows to be empty, and
+// would pass what is thicker than a hit distance.
+const MOST_CHECKED = 0.62;
+const FEW_CHECKS = 1u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
-const LOOKS = HALVINGS + THICKNESS_CHECKS;
 
-// Whether hits are still checked after `spent` of `most` steps.
-fn checks_hit_after(spent: u32, most: u32) -> bool {
-    return f32(spent) < CHECKED_STEPS * f32(most);
+// Looks that a hit takes, after `spent` of `most` steps.
+fn looks_after(spent: u32, most: u32) -> u32 {
+    return HALVINGS + select(THICKNESS_CHECKS, FEW_CHECKS, f32(spent) > MOST_CHECKED * f32(most));
 }
 
 // A hit that is being checked.
@@ -63,12 +64,14 @@ struct Crossing {
     outside: f32,
     inside: f32,
     // Number of looks taken, with the one that found the crossing. 0: no hit is being checked. More than
-    // `LOOKS`: the hit counts.
+    // `looks_after`: the hit counts.
     looks: u32,
 }
 
-// After a look at depth `t`: the depth of the next look, or of the hit if the hit counts.
-fn next_look(crossing: ptr<function, Crossing>, before: f32, t: f32, hit: f32, is_near: bool) -> f32 {
+// After a look at depth `t`: the depth of the next look, or of the hit if the hit counts, after `enough` looks.
+fn next_look(
+    crossing: ptr<function, Crossing>, enough: u32, before: f32, t: f32, hit: f32, is_near: bool,
+) -> f32 {
     let looks = (*crossing).looks;
     if (looks == 0u) {
         *crossing = Crossing(before, t, 1u);
@@ -76,7 +79,7 @@ fn next_look(crossing: ptr<function, Crossing>, before: f32, t: f32, hit: f32, i
     }
     if (looks > HALVINGS) {
         (*crossing).looks = select(0u, looks + 1u, is_near);
-        if (is_near && looks == LOOKS) { return (*crossing).inside; }
+        if (is_near && looks >= enough) { return (*crossing).inside; }
         return t + select(0.0, CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit, is_near);
     }
     if (is_near) { (*crossing).inside = t; } else { (*crossing).outside = t; }

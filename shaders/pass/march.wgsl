@@ -11,6 +11,9 @@ const MIN_STEP_WITH_HIT_CHECK = 0.4;
 // sought by bisection: they may have ended deep inside the set.
 const WIDEST_CROSSING = 4.0;
 
+// Stands in for the distance that is missing before the first point: crossings are interpolated to that point.
+const UNKNOWN_LEFT = 1e30;
+
 // A ray stays with a surface until it is so many colour distances away: gaps that only a fine picture
 // resolves keep the colours of their rim. A larger factor paints wider rims on what lies behind.
 const LEAVING = 8.0;
@@ -59,12 +62,13 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var t = max(interval.x, clear);
     var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
-    // Depth of the last point, and the distance that was missing to a hit there.
-    var before = t;
-    var left = 0.0;
+    // Depth of the last point, and the distance that was missing to a hit there. The first point may be inside: balls of
+    // a cone are as good as the estimate.
+    var before = interval.x;
+    var left = UNKNOWN_LEFT;
     // Depth along `forward` is the same for both eyes. Bounced rays take the colours of the surface.
     let color_spread = select(frame.camera.color_cone * dot(ray.direction, frame.camera.forward), 0.0, is_bounced());
-    var colors = ColorPoint(0.0, 0.0);
+    var colors = ColorPoint(0.0, UNKNOWN_LEFT);
     let checks_hits = needs_hit_check();
     let min_step = select(MIN_STEP, MIN_STEP_WITH_HIT_CHECK, checks_hits);
     var crossing = Crossing(0.0, 0.0, 0u);
@@ -74,8 +78,7 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var pending = PendingEstimate(Estimate(0.0, 0.0), false);
     for (; ; ) {
         for (; i < frame.march.march_steps; i++) {
-            let is_checking = checks_hits && crossing.looks > 0u;
-            let is_looking = is_checking || within_hit > 0.0;
+            let is_looking = (checks_hits && crossing.looks > 0u) || within_hit > 0.0;
             let is_inside = t <= interval.y || is_looking;
             var ahead = Estimate(0.0, 0.0);
             if (is_inside) {
@@ -100,10 +103,10 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
             if (!is_looking && within > hit) {
                 colors = next_color_point(colors, before, t, ahead.distance, within);
             }
-            let starts_check = checks_hits && ahead.distance < hit && checks_hit_after(i, frame.march.march_steps);
-            if (within_hit == 0.0 && (is_checking || starts_check)) {
-                t = next_look(&crossing, before, t, hit, ahead.distance < hit);
-                if (crossing.looks > LOOKS) { return ray_end(max(t, 1e-30), colors); }
+            if (checks_hits && within_hit == 0.0 && (is_looking || ahead.distance < hit)) {
+                let enough = looks_after(i, frame.march.march_steps);
+                t = next_look(&crossing, enough, before, t, hit, ahead.distance < hit);
+                if (crossing.looks > enough) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
             }
             let is_near = ahead.distance < hit;

@@ -30,7 +30,7 @@ const SIZE: Size = [36, 24];
 const NEAREST: f64 = 1e-26;
 
 /// Views that are hard to march, or whose estimates ripple below a pixel, and their pictures' sizes.
-const HARD: [(&str, Size); 13] = [
+const HARD: [(&str, Size); 15] = [
     // Directions are stretched up to a hundred times as much as the ray's; the third is a quarter of the first.
     (include_str!("hard_views/stretched.json"), HARD_SIZE),
     (include_str!("hard_views/stretched_beside.json"), HARD_SIZE),
@@ -51,6 +51,10 @@ const HARD: [(&str, Size); 13] = [
     (include_str!("hard_views/slow_orbits.json"), HARD_SIZE),
     // Power 2 in dust, through which rays creep by their least steps. The reference takes seconds for few pixels.
     (include_str!("hard_views/dust.json"), [12, 8]),
+    // Power 6: the steps after the near ones stretch unevenly, so that an orbit's rounding counts a hundred times.
+    (include_str!("hard_views/uneven.json"), SIZE),
+    // A Julia set of power 16, whose estimate at the eye is more than the way to the surface.
+    (include_str!("hard_views/first_step.json"), SIZE),
 ];
 /// Part of their pixels that may be out of their brackets.
 const MOST_WRONG_OF_HARD: f64 = 0.003;

@@ -61,15 +61,15 @@ fn grid(kind: Normals) -> Vec<(DVec3, DVec3)> {
     (0..27).map(offset).filter(is_in).map(|offset| (offset, weight(offset))).collect()
 }
 
-/// The normal of that kind in f64; for the analytic one, of very small differences, or of all neighbours where these
-/// face away, or the nearest direction that does not.
+/// The normal of that kind in f64; for the analytic one, of very small differences, or where these face away, of all
+/// neighbours of a place in front of the point, or the nearest direction that does not.
 fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
-    let normal = fitted(field, kind, seen);
+    let normal = fitted(field, kind, seen, seen.point);
     let is_away = kind == Normals::Analytic && normal.dot(seen.toward_eye) < 0.0;
     if !is_away {
         return normal;
     }
-    let wide = fitted(field, Normals::TwentySix, seen);
+    let wide = fitted(field, Normals::TwentySix, seen, seen.point + seen.hit * seen.toward_eye);
     let toward = wide.dot(seen.toward_eye).min(0.0);
     if toward == 0.0 {
         return wide;
@@ -79,14 +79,14 @@ fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
     (across + 0.01 * seen.toward_eye).normalize()
 }
 
-fn fitted(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
+fn fitted(field: &DeepField, kind: Normals, seen: &Seen, center: DVec3) -> DVec3 {
     let (kind, spacing) = match kind {
         Normals::None => return seen.toward_eye,
         Normals::Analytic => (Normals::Six, 1e-4 * seen.hit),
         kind => (kind, seen.hit),
     };
     let slope =
-        |(offset, weight): (DVec3, DVec3)| weight * field.distance(seen.point + spacing * offset);
+        |(offset, weight): (DVec3, DVec3)| weight * field.distance(center + spacing * offset);
     grid(kind).into_iter().map(slope).sum::<DVec3>().normalize_or(seen.toward_eye)
 }
 
