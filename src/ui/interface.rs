@@ -1,6 +1,7 @@
-//! One frame of the interface: layout, dispatch, undo. The picture's part is in `picture`, the opening of
+//! One frame of the interface: layout and undo. Commands run in `dispatch`. The picture's part is in `picture`, the opening of
 //! other scenes in `scenes`, the camera path in `paths`.
 
+mod dispatch;
 mod paths;
 mod picture;
 mod scenes;
@@ -70,6 +71,9 @@ pub struct Interface {
     help_open: bool,
     /// True if the screen is used with fingers.
     has_touch: bool,
+    /// True if a text field had the keyboard at the end of the last frame: egui takes the focus from it before a frame
+    /// with the Escape key.
+    was_typing: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
     view_px: [u32; 2],
@@ -107,6 +111,7 @@ impl Interface {
             look_preview: LookPreview::default(),
             help_open: false,
             has_touch: false,
+            was_typing: false,
             camera_status: None,
             rects: Rects::default(),
             view_px: [1, 1],
@@ -291,7 +296,7 @@ impl Interface {
             ui.ctx().request_repaint();
         }
         for command in commands {
-            self.dispatch(command, wide, &mut actions);
+            self.dispatch(ui, command, wide, &mut actions);
         }
         self.show_state(other_state);
         if let Some(scene) = self.surprises.advance(ui) {
@@ -311,6 +316,7 @@ impl Interface {
             // The view's caption names the look.
             ui.ctx().request_repaint();
         }
+        self.was_typing = ui.ctx().text_edit_focused();
         actions
     }
 
@@ -407,77 +413,6 @@ impl Interface {
         self.moving = gesture && self.editor.secs_since_change(now_secs) < STILL_SECS;
         if self.moving {
             ui.ctx().request_repaint_after_secs(STILL_SECS as f32);
-        }
-    }
-
-    fn dispatch(&mut self, command: Command, wide: bool, actions: &mut Vec<Action>) {
-        match command {
-            Command::Undo => {
-                self.pilot.cancel();
-                self.timeline.stop();
-                self.editor.undo();
-            }
-            Command::Redo => {
-                self.pilot.cancel();
-                self.timeline.stop();
-                self.editor.redo();
-            }
-            Command::SavePicture => {
-                let (export, layout) =
-                    (self.settings.export, self.editor.scene().camera.stereo.layout);
-                actions.push(Action::SavePicture {
-                    size_px: export.resolve(self.view_px, layout),
-                    file: export.file,
-                    pair: export.is_pair(layout),
-                });
-            }
-            Command::SaveScene => actions.push(Action::SaveScene),
-            Command::LoadScene => actions.push(Action::LoadScene),
-            Command::CopyLink => actions.push(Action::CopyLink),
-            Command::CopyPicture => actions.push(Action::CopyPicture),
-            Command::SharePicture => actions.push(Action::SharePicture),
-            Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
-            Command::Preset(index) => self.choose_preset(index),
-            Command::Favourite(index) => self.open_favourite(index, actions),
-            Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
-            Command::KeepDive => self.keep_dive(wide),
-            Command::Turntable => self.make_turntable(wide),
-            Command::Leave if self.help_open => self.help_open = false,
-            Command::Find => self.finder.toggle(),
-            Command::Leave if self.finder.is_open() => self.finder.toggle(),
-            Command::Leave if self.share.is_open() => self.share.toggle(),
-            Command::Share => self.share.toggle(),
-            Command::Leave if self.mutate.is_open() => self.mutate.toggle(),
-            Command::Mutate => self.mutate.toggle(),
-            Command::Surprise => self.surprises.begin(),
-            Command::Compare => {
-                let other = self.compare.toggle(self.editor.project());
-                self.show_state(other);
-            }
-            Command::Leave if self.places.are_shown() => self.places.put_away(),
-            Command::FindPlaces => self.places.toggle(),
-            Command::Leave if self.light_click.waits() => self.light_click.toggle(),
-            Command::LightPlace => self.light_click.toggle(),
-            Command::Leave if self.compare.is_on() && !self.pilot.is_flying() => self.compare.end(),
-            Command::Leave => self.pilot.set_flying(false),
-            Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
-            Command::ToggleTimeline => self.toggle_timeline(wide),
-            Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
-            Command::ToggleHelp => self.help_open = !self.help_open,
-            // The pilot and the timeline execute these commands.
-            Command::PlayPause
-            | Command::AddKey
-            | Command::UpdateKey
-            | Command::DeleteKey
-            | Command::PreviousKey
-            | Command::NextKey
-            | Command::Home
-            | Command::FrameAll
-            | Command::Focus
-            | Command::Dive
-            | Command::Orbit(..)
-            | Command::Pan(..)
-            | Command::Dolly(_) => {}
         }
     }
 }

@@ -50,7 +50,7 @@ use super::{
 };
 pub(super) use context::Context;
 use context::Section;
-pub(super) use formula_text::{formula_window, is_formula_window_open};
+pub(super) use formula_text::{close_formula_window, formula_window, is_formula_window_open};
 pub(super) use help::help_window;
 pub(super) use sheet::Sheet;
 pub(super) use timeline::strip;
