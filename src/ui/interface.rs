@@ -1,7 +1,8 @@
 //! One frame of the interface: layout and undo. Commands run in `dispatch`. The picture's part is in `picture`, the opening of
-//! other scenes in `scenes`, the camera path in `paths`.
+//! other scenes in `scenes`, the camera path in `paths`, what the finder leads to in `finding`.
 
 mod dispatch;
+mod finding;
 mod paths;
 mod picture;
 mod scenes;
@@ -13,10 +14,11 @@ use egui::{Margin, Panel, Ui};
 use super::{
     action::Action,
     compare::Compare,
+    control_index,
     display_inputs::DisplayInputs,
     editor::Editor,
     favourites::{Favourite, Favourites},
-    finder::{Finder, Target},
+    finder::Finder,
     frame::Frame,
     light_click::LightClick,
     loaded::Loaded,
@@ -47,6 +49,8 @@ use crate::{
 
 /// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
+/// Seconds for which [`Command::ShowBefore`] shows the view before the last change.
+const BEFORE_SECS: f64 = 2.0;
 
 /// The user interface and the edited project.
 #[derive(Debug)]
@@ -82,6 +86,8 @@ pub struct Interface {
     moving: bool,
     /// True while the view before the last change is shown.
     is_comparing: bool,
+    /// Time until which the view before the last change is shown by [`Command::ShowBefore`], on egui's clock.
+    before_until_secs: f64,
     histogram_shown: bool,
     loaded: Loaded,
     /// Ends the slices of searches.
@@ -118,6 +124,7 @@ impl Interface {
             frame: None,
             moving: false,
             is_comparing: false,
+            before_until_secs: 0.0,
             histogram_shown: false,
             loaded: Loaded::default(),
             clock: Clock::default(),
@@ -256,7 +263,7 @@ impl Interface {
         let wide = theme::has_side_panel(ui.available_size());
         // Before the first touch, egui does not know that the screen is one.
         self.has_touch = !wide || ui.input(|input| input.has_touch_screen());
-        self.is_comparing = shortcuts::is_comparing(ui.ctx());
+        self.is_comparing = shortcuts::is_comparing(ui.ctx()) || now_secs < self.before_until_secs;
         self.pilot.set_jumps(inputs.reduced_motion);
         theme::set_motion(ui.ctx(), !inputs.reduced_motion);
         theme::set_row_sizes(ui, self.has_touch);
@@ -276,16 +283,12 @@ impl Interface {
 
         let view = self.rects.get("view");
         let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
-        match self.finder.show(ui, &mut self.rects) {
-            Some(Target::Command(command)) => commands.push(command),
-            Some(Target::Section(section)) => panel::show_section(ui, &mut self.settings, section),
-            Some(Target::Look(at)) => self.apply_look(at),
-            Some(Target::Control(section, param)) => {
-                panel::show_section(ui, &mut self.settings, section);
-                widgets::reveal(ui, param.path);
-            }
-            None => {}
+        let (project, settings) = (self.editor.project(), &self.settings);
+        let controls = || control_index::controls(project, settings, inputs);
+        if let Some(target) = self.finder.show(ui, &mut self.rects, controls) {
+            self.show_target(ui, target, wide, &mut commands);
         }
+        widgets::focus_named(ui.ctx());
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
             self.timeline.command(command, self.editor.project_mut(), now_secs);
@@ -297,6 +300,10 @@ impl Interface {
         }
         for command in commands {
             self.dispatch(ui, command, wide, &mut actions);
+            if command == Command::ShowBefore {
+                self.before_until_secs = now_secs + BEFORE_SECS;
+                ui.ctx().request_repaint_after_secs(BEFORE_SECS as f32);
+            }
         }
         self.show_state(other_state);
         if let Some(scene) = self.surprises.advance(ui) {

@@ -9,7 +9,7 @@
 //! | `interface` | one frame: layout, dispatch, undo |
 //! | `display_inputs`, `action` | the shell's data to display, and requests to the shell |
 //! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
-//! | `finder` | the search over commands, scenes, sections and controls |
+//! | `finder`, `control_index` | the search over commands, scenes, sections and controls; the names of controls |
 //! | `favourites` | the views that a person keeps |
 //! | `merge` | lists that two tabs edit at once |
 //! | `gallery` | the gallery that the page's address names |
@@ -41,6 +41,7 @@
 
 mod action;
 mod compare;
+mod control_index;
 mod display_inputs;
 mod dive;
 mod export_size;

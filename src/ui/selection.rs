@@ -17,6 +17,11 @@ pub struct Selection {
 }
 
 impl Selection {
+    /// A selection of this light.
+    pub fn of(light: LightRef) -> Self {
+        Self { light: Some(light), ..Self::default() }
+    }
+
     /// Index of the selected stop of a layer's gradient.
     pub fn stop_mut(&mut self, layer: LayerRef) -> &mut usize {
         &mut self.stops[layer as usize]

@@ -56,6 +56,8 @@ pub enum Command {
     LightPlace,
     /// Switch fly mode on or off.
     ToggleFlight,
+    /// Show the view before the last change for a moment.
+    ShowBefore,
     /// Search the view for places and show pins on them, or put the pins away.
     FindPlaces,
     /// Close the help window, put the pins away, or leave fly mode.
@@ -240,6 +242,9 @@ pub fn flight_help() -> String {
 pub const KEYLESS: &[(Command, &str)] = &[
     (Command::Turntable, "Make a path around the scene"),
     (Command::LightPlace, "Light a place by a click"),
+    (Command::ShowBefore, "Before: show the view before the last change for two seconds (hold C)"),
+    (Command::CopyPicture, "Copy the picture to the clipboard"),
+    (Command::NextKey, "Go to the next key"),
 ];
 
 /// What fingers do in the view, each with its effect.

@@ -74,8 +74,9 @@ impl Interface {
             Command::ToggleTimeline => self.toggle_timeline(wide),
             Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
             Command::ToggleHelp => self.help_open = !self.help_open,
-            // The pilot and the timeline execute these commands.
-            Command::PlayPause
+            // The pilot, the timeline and `show` execute these commands.
+            Command::ShowBefore
+            | Command::PlayPause
             | Command::AddKey
             | Command::UpdateKey
             | Command::DeleteKey

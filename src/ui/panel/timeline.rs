@@ -297,7 +297,7 @@ impl Strip<'_, '_> {
             });
         let response = shown.response.accessible_name("Kind of file");
         self.cx.rects.record("kind of file", &response);
-        response.help("Whether the frames become a video or pictures");
+        response.help("Whether the frames become a video, MP4 or WebM, or pictures, PNGs");
     }
 
     /// The button that saves the frames, or the progress of an export.

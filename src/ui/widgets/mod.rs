@@ -20,7 +20,7 @@ pub use gradient::{gradient, gradient_card, move_stop, paint_bar};
 pub use histogram::{DisplayRange, histogram};
 pub use hover::{Help, set_panel_area};
 pub use param::{number, param_slider, param_slider_count, param_slider_wide};
-pub use reveal::{reveal, revealed};
+pub use reveal::{focus_named, reveal, reveal_focus, reveal_named, revealed};
 pub use section::{button_row, caption, choice, choice_button, section};
 pub use swatch::{NAME_HEIGHT, swatch};
 pub use window_heading::window_heading;
