@@ -7,7 +7,7 @@ use crate::scene::Project;
 use crate::ui::{
     display_inputs::DisplayInputs,
     dive,
-    floating::{self, ButtonRow, RowButton},
+    floating::{self, ButtonRow, CaptionArea, RowButton},
     frame::Frame,
     handles,
     home::HomeTarget,
@@ -67,22 +67,26 @@ impl Interface {
             self.settings.hints.note(&before, &scene.camera, is_zoom);
         }
         let has_record = self.pilot.dive_record().len() > 1;
-        dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
+        let captions = CaptionArea::new(rect, buttons.area(rect));
+        dive::show(ui, captions, self.pilot.guide_status(), has_record, &mut self.rects, commands);
         if is_comparing {
-            let caption = floating::caption(ui, rect, "Before the last change");
+            let caption = floating::caption(ui, captions, "Before the last change");
             self.rects.record("comparing", &caption);
         } else if let Some(name) = self.look_preview.name() {
-            let caption = floating::caption(ui, rect, &format!("Preview: {name}"));
+            let caption = floating::caption(ui, captions, &format!("Preview: {name}"));
             self.rects.record("look preview", &caption);
         } else if self.light_click.waits() {
-            let caption = floating::caption(ui, rect, light_click::HINT);
+            let caption = floating::caption(ui, captions, light_click::HINT);
             self.rects.record("light click", &caption);
         } else if self.pilot.is_flying() {
-            let keys = floating::caption(ui, rect, &shortcuts::flight_help());
+            let keys = floating::caption(ui, captions, &shortcuts::flight_help());
             self.rects.record("fly keys", &keys);
         } else {
-            let hint =
-                if is_covered { None } else { self.settings.hints.show(ui, rect, self.has_touch) };
+            let hint = if is_covered {
+                None
+            } else {
+                self.settings.hints.show(ui, captions, self.has_touch)
+            };
             if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
@@ -156,12 +160,13 @@ impl Interface {
 
     /// The buttons in the picture's lower left corner; none over the variations.
     fn buttons(&mut self, ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> ButtonRow {
-        let mut buttons = ButtonRow::new(ui, rect, self.has_touch);
+        let mut buttons = ButtonRow::new(ui, rect);
         if self.mutate.is_open() {
             return buttons;
         }
         let tools = self.tools();
-        let capacity = if self.has_touch { ButtonRow::capacity(rect) } else { tools.len() };
+        let has_words = floating::has_words(ui, rect);
+        let capacity = if has_words { ButtonRow::capacity(rect) } else { tools.len() };
         let in_row = if tools.len() > capacity { capacity - 1 } else { tools.len() };
         let (in_row, in_menu) = tools.split_at(in_row);
         for tool in in_row {
