@@ -1,13 +1,14 @@
 //! Buttons and captions over the picture.
 
 use egui::{
-    Align2, FontId, InnerResponse, Label, Margin, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
-    Ui, vec2,
+    Align2, Button, FontId, InnerResponse, Label, Margin, Pos2, Rect, Response, Sense, Stroke,
+    StrokeKind, Ui, vec2,
 };
 
 use super::{
     icon::{Icon, icon_button},
     theme,
+    widgets::Help as _,
 };
 
 /// Distance between buttons, and to the picture's edges, in points.
@@ -88,6 +89,20 @@ pub fn caption(ui: &Ui, area: CaptionArea, text: &str) -> Response {
 pub fn clear_caption(ui: &Ui, area: CaptionArea, text: &str) -> Response {
     let shown = area.clear_caption(ui).interactable(false);
     framed(ui, shown, area.width(), |ui| line(ui, text)).response
+}
+
+/// As [`clear_caption`], with a button below the text. Returns the response of both, and that of the button.
+pub fn caption_with_button(
+    ui: &Ui,
+    area: CaptionArea,
+    text: &str,
+    (name, hover): (&str, &str),
+) -> (Response, Response) {
+    let shown = framed(ui, area.clear_caption(ui), area.width(), |ui| {
+        line(ui, text);
+        ui.add(Button::new(name).min_size(ui.spacing().interact_size)).help(hover)
+    });
+    (shown.response, shown.inner)
 }
 
 const CAPTION: &str = "caption";

@@ -14,6 +14,7 @@ mod export;
 mod favourites;
 mod finder;
 mod fit;
+mod fly;
 mod focus;
 mod follow;
 mod gallery;

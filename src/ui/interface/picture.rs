@@ -79,8 +79,18 @@ impl Interface {
             let caption = floating::caption(ui, captions, light_click::HINT);
             self.rects.record("light click", &caption);
         } else if self.pilot.is_flying() {
-            let keys = floating::caption(ui, captions, &shortcuts::flight_help());
-            self.rects.record("fly keys", &keys);
+            let help = shortcuts::flight_help(self.has_touch);
+            let caption = if self.has_touch {
+                let hover = ("Stop flying", "Leave fly mode (F)");
+                let (caption, stop) = floating::caption_with_button(ui, captions, &help, hover);
+                if stop.clicked() {
+                    commands.push(Command::ToggleFlight);
+                }
+                caption
+            } else {
+                floating::caption(ui, captions, &help)
+            };
+            self.rects.record("fly keys", &caption);
         } else {
             let hint = if is_covered {
                 None
