@@ -97,21 +97,28 @@ fn key_delta(steps: ArrowSteps) -> Vec2 {
 /// picture's shorter side.
 const BALL_PART: f32 = 0.42;
 
+/// What was done to handles in a frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Handled {
+    /// The clicked or dragged light.
+    pub touched: Option<LightRef>,
+    /// True if the pointer or the keyboard is at a handle.
+    pub is_held: bool,
+}
+
 /// Draws the handles of all directional lights and turns a dragged light.
-///
-/// Returns the clicked or dragged light.
 pub fn environment_lights(
     ui: &Ui,
     frame: Frame,
     scene: &mut Scene,
     selected: &Selection,
-) -> Option<LightRef> {
+) -> Handled {
     let Scene { camera, lights, .. } = scene;
     let center = frame.rect.center();
     let radius = BALL_PART * frame.rect.size().min_elem();
     follow::edit(lights, camera, |lights| {
         let any_solo = lights.any_solo();
-        let mut touched = None;
+        let mut handled = Handled::default();
         for (index, light) in lights.environment.iter_mut().enumerate() {
             let mut toward_light = light.toward_light_in_view(camera);
             let at = ball::dot_place(center, radius, toward_light);
@@ -131,10 +138,11 @@ pub fn environment_lights(
                 light.set_toward_light_in_view(toward_light, camera);
             }
             if response.clicked() || response.drag_started() || response.gained_focus() {
-                touched = Some(this);
+                handled.touched = Some(this);
             }
             let shines = !light.muted && (!any_solo || light.solo);
             let is_held = response.hovered() || response.dragged() || response.has_focus();
+            handled.is_held |= is_held;
             if is_held {
                 let spoke = Stroke::new(1.0, Color32::from_white_alpha(70));
                 ui.painter().circle_stroke(center, radius, spoke);
@@ -145,7 +153,7 @@ pub fn environment_lights(
             paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
             response.help(ball::HELP);
         }
-        touched
+        handled
     })
 }
 

@@ -20,7 +20,7 @@
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `frame`, `pilot`, `handles` | the picture, where it is, the camera's input, handles of lights and section planes |
 //! | `compare` | two states of the project, of which one is in view |
-//! | `light_click` | a click that lights a place |
+//! | `light_click`, `light_handles` | a click that lights a place; when directional lights have handles in the view |
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
@@ -57,6 +57,7 @@ mod home;
 mod icon;
 mod interface;
 mod light_click;
+mod light_handles;
 mod loaded;
 mod look_preview;
 mod merge;

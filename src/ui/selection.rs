@@ -14,6 +14,8 @@ pub struct Selection {
     pub gradient_target: LayerRef,
     /// Arrow-key presses on a light's row, and the light: its handle applies them.
     pub moved_light: Option<(LightRef, ArrowSteps)>,
+    /// True if the pointer or the keyboard is at a control of a light in this frame.
+    pub uses_lights: bool,
 }
 
 impl Selection {

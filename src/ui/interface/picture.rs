@@ -102,15 +102,20 @@ impl Interface {
             }
             let light = handles::point_lights(ui, frame, scene, &self.selection);
             self.selection.light = light.or(self.selection.light);
-            if panel::shows_lights(&self.settings) {
-                let light = handles::environment_lights(ui, frame, scene, &self.selection);
-                self.selection.light = light.or(self.selection.light);
+            let is_in_use = self.selection.uses_lights || self.light_click.waits();
+            if panel::shows_lights(&self.settings) || self.light_handles.are_shown(ui, is_in_use) {
+                let handled = handles::environment_lights(ui, frame, scene, &self.selection);
+                self.selection.light = handled.touched.or(self.selection.light);
+                if handled.is_held {
+                    self.light_handles.keep(ui);
+                }
             }
             if panel::shows_section_planes(&self.settings) {
                 handles::section_planes(ui, frame, scene);
             }
         }
         self.selection.moved_light = None;
+        self.selection.uses_lights = false;
         self.camera_status = Some(self.pilot.camera_status(scene, frame));
         let is_moving = self.timeline.is_playing()
             || self.pilot.is_moving(ui.input(|i| i.time))
