@@ -148,6 +148,8 @@ pub struct RowButton {
 
 /// Width of a button with a word, with the gap to the next, in points.
 const WORD_STEP: f32 = 54.0;
+/// Minimum number of buttons beside the middle of a low picture.
+const MIN_BESIDE: usize = 4;
 /// Height of a word, in points.
 const WORD_HEIGHT: f32 = 16.0;
 
@@ -179,9 +181,16 @@ impl ButtonRow {
         Self { next: rect.left_bottom() + corner - vec2(0.0, height), has_words }
     }
 
-    /// Number of buttons with words that fit the picture in `rect`.
+    /// Number of buttons with words that fit the picture in `rect`. In a low picture they leave the middle free, if
+    /// enough of them fit beside it.
     pub fn capacity(rect: Rect) -> usize {
-        ((rect.width() - 4.0) / WORD_STEP).floor().max(1.0) as usize
+        let fitting = |width: f32| ((width - 4.0) / WORD_STEP).floor().max(1.0) as usize;
+        let beside_middle = fitting(0.5 * rect.width());
+        if rect.height() < LOW && beside_middle >= MIN_BESIDE {
+            beside_middle
+        } else {
+            fitting(rect.width())
+        }
     }
 
     /// Adds a button on the right of the others.

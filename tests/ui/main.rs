@@ -26,6 +26,7 @@ mod keyboard;
 mod light_click;
 mod light_handles;
 mod looks;
+mod low_windows;
 mod mutate;
 mod navigation;
 mod orbit;
