@@ -3,7 +3,7 @@
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
 //! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
 //! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
-//! A section plane moves along its normal. What is behind the eye has no handle.
+//! A section plane moves along its normal, by a drag or by arrow keys. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
@@ -22,6 +22,8 @@ const GRIP: f32 = 30.0;
 const DEPTH_PER_POINT: f64 = 0.01;
 /// Drag that a press of an arrow key stands for, in points.
 const KEY_POINTS: f32 = 10.0;
+/// Part of a key's step that a press with Shift moves a section plane.
+const FINE_PART: f64 = 0.1;
 /// Range of a dragged light's distance from the eye, in scene units.
 const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
 /// Rounding of positions, in pixels at the light's depth.
@@ -181,9 +183,14 @@ pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
             let moved = along(arrow, response.drag_delta()) * per_point;
             plane.point = plane.point.moved_by(normal * moved, per_point * GRAIN_PX);
         }
-        let is_lit = response.hovered() || response.dragged();
+        if let Some(steps) = arrow_steps(ui, &response) {
+            let part = if steps.is_shifted { FINE_PART } else { 1.0 };
+            let points = f64::from(KEY_POINTS) * part * (steps.right + steps.up);
+            plane.point = plane.point.moved_by(normal * (points * per_point), per_point * GRAIN_PX);
+        }
+        let is_lit = response.hovered() || response.dragged() || response.has_focus();
         paint_plane(ui, at, arrow * ARROW as f32, is_lit);
-        response.help("Drag to move this section plane along its arrow");
+        response.help("Drag to move this section plane along its arrow, or use the arrow keys: right and up move it along the arrow, with Shift finely.");
     }
 }
 

@@ -32,6 +32,7 @@ mod navigation;
 mod orbit;
 mod places;
 mod screen_reader;
+mod section_handles;
 mod sections;
 mod share;
 mod stage;
