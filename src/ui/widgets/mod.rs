@@ -16,7 +16,7 @@ mod window_heading;
 
 pub use ball::{ArrowSteps, arrow_steps, ball};
 pub use card::card;
-pub use color::color;
+pub use color::{color, color_size};
 pub use gradient::{gradient, gradient_card, move_stop, paint_bar};
 pub use histogram::{DisplayRange, histogram};
 pub use hover::{Help, set_panel_area};
