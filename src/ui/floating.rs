@@ -91,7 +91,7 @@ pub fn clear_caption(ui: &Ui, area: CaptionArea, text: &str) -> Response {
     framed(ui, shown, area.width(), |ui| line(ui, text)).response
 }
 
-/// As [`clear_caption`], with a button below the text. Returns the response of both, and that of the button.
+/// As [`clear_caption`], with a button before the text. Returns the response of both, and that of the button.
 pub fn caption_with_button(
     ui: &Ui,
     area: CaptionArea,
@@ -99,8 +99,13 @@ pub fn caption_with_button(
     (name, hover): (&str, &str),
 ) -> (Response, Response) {
     let shown = framed(ui, area.clear_caption(ui), area.width(), |ui| {
-        line(ui, text);
-        ui.add(Button::new(name).min_size(ui.spacing().interact_size)).help(hover)
+        let row = ui.horizontal(|ui| {
+            let button = Button::new(name).min_size(ui.spacing().interact_size);
+            let button = ui.add(button).help(hover);
+            line(ui, text);
+            button
+        });
+        row.inner
     });
     (shown.response, shown.inner)
 }

@@ -242,7 +242,8 @@ pub fn flight_help(has_touch: bool) -> String {
 }
 
 /// What fingers do in fly mode, in one line.
-const FLIGHT_GESTURES: &str = "Drag to look around, spread or pinch two fingers to fly forward or back, drag two fingers to move sideways";
+const FLIGHT_GESTURES: &str =
+    "Drag to look around, spread or pinch two fingers to fly, drag both to move sideways";
 
 /// Commands without a key, which the finder finds by these words.
 pub const KEYLESS: &[(Command, &str)] = &[
