@@ -116,6 +116,17 @@ fn the_key_light_s_controls_show_handles_which_stay_to_be_reached() {
 }
 
 #[test]
+fn a_light_setup_that_was_chosen_has_handles() {
+    let mut harness = first_visit();
+    press(&mut harness, "Looks: Lights");
+    assert!(!has_handle(&harness));
+    button(&harness, "Light: Studio").click();
+    harness.run_steps(6);
+    assert_ne!(scene(&harness).lights, presets::opening().lights);
+    assert!(has_handle(&harness));
+}
+
+#[test]
 fn the_keyboard_at_the_ball_shows_handles_too() {
     let mut harness = first_visit();
     harness.get_by_label("Key light direction").focus();
