@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Button, Label, Margin, Rect, RichText, Ui, vec2};
+use egui::{Button, Label, RichText, Ui};
 
 use super::{
-    navigation::guide::GuideStatus, rects::Rects, shortcuts::Command, theme, widgets::Help as _,
+    floating::{CAPTION_GAP, CaptionArea, framed},
+    navigation::guide::GuideStatus,
+    rects::Rects,
+    shortcuts::Command,
+    widgets::Help as _,
 };
 use crate::scene::{
     Camera, Scene,
@@ -30,10 +34,10 @@ pub fn keys(record: &[(f64, Camera)], scene: &Scene) -> Vec<Key> {
     keys
 }
 
-/// Shows the dive's status at the lower edge of `view`, and afterwards the offer to keep it.
+/// Shows the dive's status at the lower edge of the picture, and afterwards the offer to keep it.
 pub fn show(
     ui: &Ui,
-    view: Rect,
+    area: CaptionArea,
     status: GuideStatus,
     has_record: bool,
     rects: &mut Rects,
@@ -50,28 +54,20 @@ pub fn show(
     if text.is_empty() && !has_record {
         return;
     }
-    let shown = egui::Area::new(egui::Id::unique("dive status"))
-        .fixed_pos(view.center_bottom() - vec2(0.0, 14.0))
-        .pivot(Align2::CENTER_BOTTOM)
-        .constrain_to(view)
-        .show(ui.ctx(), |ui| {
-            let frame = egui::Frame::new().fill(theme::PANEL.gamma_multiply(0.9)).corner_radius(8);
-            frame.inner_margin(Margin::symmetric(12, 6)).show(ui, |ui| {
-                ui.set_max_width((view.width() - 48.0).max(80.0));
-                ui.horizontal_wrapped(|ui| {
-                    if !text.is_empty() {
-                        ui.add(Label::new(RichText::new(text)).selectable(false).wrap());
-                    }
-                    if is_over && has_record {
-                        let hover = "Make this dive the camera path, instead of the present one, to play, edit and save it";
-                        let keep = ui.add(Button::new("Keep as a path")).help(hover);
-                        rects.record("keep dive", &keep);
-                        if keep.clicked() {
-                            commands.push(Command::KeepDive);
-                        }
-                    }
-                });
-            });
+    let shown = framed(ui, area.low("dive status", CAPTION_GAP), area.width(), |ui| {
+        ui.horizontal_wrapped(|ui| {
+            if !text.is_empty() {
+                ui.add(Label::new(RichText::new(text)).selectable(false).wrap());
+            }
+            if is_over && has_record {
+                let hover = "Make this dive the camera path, instead of the present one, to play, edit and save it";
+                let keep = ui.add(Button::new("Keep as a path")).help(hover);
+                rects.record("keep dive", &keep);
+                if keep.clicked() {
+                    commands.push(Command::KeepDive);
+                }
+            }
         });
+    });
     rects.record("dive status", &shown.response);
 }

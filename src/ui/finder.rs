@@ -5,7 +5,8 @@
 use egui::{Align2, Button, Key, RichText, ScrollArea, TextEdit, Ui, vec2};
 
 use super::{
-    panel::{self, SectionRef},
+    control_index::Control,
+    panel::{self, PanelPart, SectionRef},
     rects::Rects,
     shortcuts::{Command, KEYLESS, SHORTCUTS},
     theme,
@@ -23,14 +24,16 @@ const MAX_RESULTS: usize = 9;
 const WIDTH: f32 = 380.0;
 
 /// What a result leads to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// A command.
     Command(Command),
     /// A section of the panel.
     Section(SectionRef),
-    /// A control in a section of the panel.
-    Control(SectionRef, &'static Param),
+    /// A parameter's control in a section of the panel.
+    Parameter(SectionRef, &'static Param),
+    /// Another control: its part, and its name there.
+    Control(PanelPart, String),
     /// A look, or a part of one: the number of its list, and its number there.
     Look([usize; 2]),
 }
@@ -51,6 +54,8 @@ struct Entry {
 pub struct Finder {
     is_open: bool,
     typed: String,
+    /// Everything that can be found; empty until the window is shown.
+    entries: Vec<Entry>,
     /// What is found by the typed words.
     found: Vec<Entry>,
     selected: usize,
@@ -67,10 +72,18 @@ impl Finder {
         self.is_open
     }
 
-    /// Shows the open window, and returns what was chosen.
-    pub fn show(&mut self, ui: &Ui, rects: &mut Rects) -> Option<Target> {
+    /// Shows the open window, and returns what was chosen. `controls` lists the controls, once per opening.
+    pub fn show(
+        &mut self,
+        ui: &Ui,
+        rects: &mut Rects,
+        controls: impl FnOnce() -> Vec<Control>,
+    ) -> Option<Target> {
         if !self.is_open {
             return None;
+        }
+        if self.entries.is_empty() {
+            self.entries = entries(controls());
         }
         let screen = ui.ctx().content_rect();
         let (down, up, enter) = ui.input(|input| {
@@ -97,7 +110,7 @@ impl Finder {
                 field.request_focus();
                 if field.changed() {
                     self.selected = 0;
-                    self.found = found(&self.typed);
+                    self.found = found(&self.entries, &self.typed);
                 }
                 field.accessible_name("What to find");
                 let found = &self.found;
@@ -112,7 +125,7 @@ impl Finder {
                         if row(ui, entry, index == self.selected)
                             || (enter && index == self.selected)
                         {
-                            chosen = Some(entry.target);
+                            chosen = Some(entry.target.clone());
                         }
                     }
                 });
@@ -130,17 +143,21 @@ impl Finder {
 /// A result; true if it was clicked.
 fn row(ui: &mut Ui, entry: &Entry, is_selected: bool) -> bool {
     let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
-    let about = RichText::new(&entry.about).color(theme::TEXT_DIM);
+    // Secondary text is too weak on the colour of what is selected.
+    let color = if is_selected { theme::TEXT } else { theme::TEXT_DIM };
+    let about = RichText::new(&entry.about).color(color);
     let button = Button::selectable(is_selected, entry.name.as_str()).right_text(about);
     let response = ui.add_sized(size, button.truncate());
     if is_selected {
         response.scroll_to_me(None);
     }
-    response.clicked()
+    let is_clicked = response.clicked();
+    response.accessible_name(entry.name.as_str());
+    is_clicked
 }
 
 /// Everything that can be found: commands first, then controls, sections, scenes and looks.
-fn entries() -> Vec<Entry> {
+fn entries(controls: Vec<Control>) -> Vec<Entry> {
     let printable = |text: &str| theme::printable(text);
     let commands = SHORTCUTS.iter().filter_map(|shortcut| {
         let (keys, what) = shortcut.help?;
@@ -155,15 +172,6 @@ fn entries() -> Vec<Entry> {
         about: String::new(),
         words: String::new(),
         target: Target::Command(command),
-    });
-    let controls = param::all().filter_map(|param| {
-        let section = panel::section_of(param)?;
-        Some(Entry {
-            name: param.label.to_owned(),
-            about: section.title().to_owned(),
-            words: printable(param.help),
-            target: Target::Control(section, param),
-        })
     });
     let sections = panel::sections().map(|section| Entry {
         name: section.title().to_owned(),
@@ -188,11 +196,47 @@ fn entries() -> Vec<Entry> {
             target: Target::Look([at, index]),
         })
     });
-    commands.chain(keyless).chain(controls).chain(sections).chain(scenes).chain(looks).collect()
+    let commands: Vec<Entry> = commands.chain(keyless).collect();
+    let others: Vec<Entry> = sections.chain(scenes).chain(looks).collect();
+    let is_there = |name: &str| commands.iter().chain(&others).any(|entry| entry.name == name);
+    // The panel has commands, cards of scenes and swatches of looks as well.
+    let is_new = |control: &Control| {
+        let of_look = control.name.strip_prefix(LOOK).unwrap_or(&control.name);
+        control.part != PanelPart::Panel || !(is_there(&control.name) || is_there(of_look))
+    };
+    let mut all_controls: Vec<Entry> = Vec::new();
+    for Control { name, label, help, part } in controls.into_iter().filter(is_new) {
+        let target = Target::Control(part, label);
+        let (about, words) = (part.title().to_owned(), printable(&help));
+        all_controls.push(Entry { name, about, words, target });
+    }
+    for entry in parameters() {
+        let is_same = |other: &Entry| other.name == entry.name && other.about == entry.about;
+        if !all_controls.iter().any(is_same) {
+            all_controls.push(entry);
+        }
+    }
+    commands.into_iter().chain(all_controls).chain(others).collect()
 }
 
+/// The parameters of all scenes, also of those that have no control for them now.
+fn parameters() -> impl Iterator<Item = Entry> {
+    param::all().filter_map(|param| {
+        let section = panel::section_of(param)?;
+        Some(Entry {
+            name: param.label.to_owned(),
+            about: section.title().to_owned(),
+            words: theme::printable(param.help),
+            target: Target::Parameter(section, param),
+        })
+    })
+}
+
+/// The beginning of the name of a look's swatch.
+const LOOK: &str = "Look: ";
+
 /// What is found by all typed words, the best first: those in names before those in descriptions.
-fn found(typed: &str) -> Vec<Entry> {
+fn found(entries: &[Entry], typed: &str) -> Vec<Entry> {
     let typed = typed.trim().to_lowercase();
     if typed.is_empty() {
         return Vec::new();
@@ -206,43 +250,59 @@ fn found(typed: &str) -> Vec<Entry> {
             () if name == typed => 0,
             () if name.starts_with(&typed) => 1,
             () if starts_word => 2,
-            () if name.contains(&typed) => 3,
+            () if typed.split_whitespace().all(|word| name.contains(word)) => 3,
             () => 4,
         })
     };
-    let mut ranked: Vec<(u8, Entry)> =
-        entries().into_iter().filter_map(|entry| Some((rank(&entry)?, entry))).collect();
+    let mut ranked: Vec<(u8, &Entry)> =
+        entries.iter().filter_map(|entry| Some((rank(entry)?, entry))).collect();
     // A stable sort keeps the order of `entries` among equals.
     ranked.sort_by_key(|(rank, _)| *rank);
     ranked.truncate(MAX_RESULTS);
-    ranked.into_iter().map(|(_, entry)| entry).collect()
+    ranked.into_iter().map(|(_, entry)| entry.clone()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn all() -> Vec<Entry> {
+        let control = |name: &str, help: &str| Control {
+            name: name.to_owned(),
+            label: name.to_owned(),
+            help: help.to_owned(),
+            part: PanelPart::Timeline,
+        };
+        entries(vec![control("Save video", "Renders the frames"), control("Frame rate", "")])
+    }
+
     fn first(typed: &str) -> Option<Target> {
-        found(typed).first().map(|entry| entry.target)
+        found(&all(), typed).first().map(|entry| entry.target.clone())
     }
 
     #[test]
     fn controls_scenes_and_commands_are_found_by_their_words() {
         assert!(
-            matches!(first("exposure"), Some(Target::Control(_, param)) if *param == param::EXPOSURE)
+            matches!(first("exposure"), Some(Target::Parameter(_, param)) if *param == param::EXPOSURE)
         );
         assert_eq!(first("undo"), Some(Target::Command(Command::Undo)));
         assert!(matches!(first("sea urch"), Some(Target::Command(Command::Preset(3)))));
-        assert!(matches!(first("FIELD of"), Some(Target::Control(..))));
+        assert!(matches!(first("FIELD of"), Some(Target::Parameter(..))));
         // By the description too, with words in any order.
+        let found = |typed: &str| found(&all(), typed);
         assert!(found("arches glowing").iter().any(|entry| entry.name == "Kiln"));
         assert!(found("no such thing").is_empty() && found("  ").is_empty());
+        assert_eq!(
+            first("video save"),
+            Some(Target::Control(PanelPart::Timeline, "Save video".into()))
+        );
     }
 
     #[test]
     fn every_entry_is_found_by_its_name() {
-        for entry in entries() {
-            let found = found(&entry.name);
+        let all = all();
+        for entry in &all {
+            let found = found(&all, &entry.name);
             let is_listed = found.iter().any(|other| other.name == entry.name);
             assert!(is_listed, "{:?}: {found:?}", entry.name);
         }

@@ -1,12 +1,14 @@
 //! Buttons and captions over the picture.
 
 use egui::{
-    Align2, FontId, Label, Margin, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, vec2,
+    Align2, Button, FontId, InnerResponse, Label, Margin, Pos2, Rect, Response, Sense, Stroke,
+    StrokeKind, Ui, vec2,
 };
 
 use super::{
     icon::{Icon, icon_button},
     theme,
+    widgets::Help as _,
 };
 
 /// Distance between buttons, and to the picture's edges, in points.
@@ -24,32 +26,112 @@ pub fn button(ui: &mut Ui, at: Pos2, icon: Icon, (name, hover): (&str, &str)) ->
     ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
 }
 
-/// A line of text at the lower edge of the picture in `view`, which does not take the pointer.
-pub fn caption(ui: &Ui, view: Rect, text: &str) -> Response {
-    // In a narrow picture the buttons of the lower left corner would lie under the text.
-    let above = if view.width() < 800.0 { row_height(ui) + 2.0 * GAP } else { 14.0 };
-    text_at(ui, view, view.center_bottom() - vec2(0.0, above), Align2::CENTER_BOTTOM, text)
+/// Width of a view, in points, from which on captions are beside the row of buttons; otherwise they are above the row.
+const CAPTIONS_BESIDE_FROM: f32 = 800.0;
+
+/// Where captions can be: the picture, and the part of it on the right of the row of buttons.
+#[derive(Clone, Copy)]
+pub struct CaptionArea {
+    view: Rect,
+    beside: Rect,
 }
 
-/// The same at the upper edge, where nothing of the set is in a low picture.
-pub fn top_caption(ui: &Ui, view: Rect, text: &str) -> Response {
-    text_at(ui, view, view.center_top() + vec2(0.0, 0.5 * GAP), Align2::CENTER_TOP, text)
+impl CaptionArea {
+    /// The area for captions of the picture in `view`, whose row of buttons is in `buttons`.
+    pub fn new(view: Rect, buttons: Rect) -> Self {
+        let left = if view.width() < CAPTIONS_BESIDE_FROM { view.left() } else { buttons.right() };
+        Self { view, beside: Rect::from_min_max(Pos2::new(left, view.top()), view.max) }
+    }
+
+    /// Width of the part beside the buttons, in points.
+    pub fn width(self) -> f32 {
+        self.beside.width()
+    }
+
+    /// An area at the lower edge of the picture, `above` points over it, where no button is.
+    pub fn low(self, id: &str, above: f32) -> egui::Area {
+        let at = self.view.center_bottom() - vec2(0.0, above);
+        let area = egui::Area::new(egui::Id::unique(id)).fixed_pos(at);
+        area.pivot(Align2::CENTER_BOTTOM).constrain_to(self.beside)
+    }
+
+    /// The area of captions at the lower edge.
+    fn caption(self, ui: &Ui) -> egui::Area {
+        // In a narrow picture the buttons of the lower left corner would lie under the text.
+        let is_narrow = self.view.width() < CAPTIONS_BESIDE_FROM;
+        let above = if is_narrow { row_height(ui) + 2.0 * GAP } else { CAPTION_GAP };
+        self.low(CAPTION, above)
+    }
+
+    /// The area of captions that leave the middle free: in a low picture it is at the upper edge.
+    fn clear_caption(self, ui: &Ui) -> egui::Area {
+        if self.view.height() >= LOW {
+            return self.caption(ui);
+        }
+        let at = self.view.center_top() + vec2(0.0, 0.5 * GAP);
+        let area = egui::Area::new(egui::Id::unique(CAPTION)).fixed_pos(at);
+        area.pivot(Align2::CENTER_TOP).constrain_to(self.view)
+    }
 }
 
-fn text_at(ui: &Ui, view: Rect, at: Pos2, pivot: Align2, text: &str) -> Response {
-    let shown = egui::Area::new(egui::Id::unique("caption"))
-        .fixed_pos(at)
-        .pivot(pivot)
-        .constrain_to(view)
-        .interactable(false)
-        .show(ui.ctx(), |ui| {
-            let frame = egui::Frame::new().fill(theme::PANEL.gamma_multiply(0.9)).corner_radius(8);
-            frame.inner_margin(Margin::symmetric(12, 6)).show(ui, |ui| {
-                ui.set_max_width((view.width() - 48.0).max(80.0));
-                ui.add(Label::new(text).selectable(false).wrap());
-            });
+/// Height of a picture, in points, below which a caption above the row of buttons would cover the set.
+pub const LOW: f32 = 420.0;
+/// Distance of captions and of messages from the lower edge of a wide picture, in points.
+pub const CAPTION_GAP: f32 = 14.0;
+
+/// A line of text at the lower edge of the picture, which does not take the pointer.
+pub fn caption(ui: &Ui, area: CaptionArea, text: &str) -> Response {
+    let shown = area.caption(ui).interactable(false);
+    framed(ui, shown, area.width(), |ui| line(ui, text)).response
+}
+
+/// As [`caption`], at the upper edge of a low picture, where nothing of the set is.
+pub fn clear_caption(ui: &Ui, area: CaptionArea, text: &str) -> Response {
+    let shown = area.clear_caption(ui).interactable(false);
+    framed(ui, shown, area.width(), |ui| line(ui, text)).response
+}
+
+/// As [`clear_caption`], with a button before the text. Returns the response of both, and that of the button.
+pub fn caption_with_button(
+    ui: &Ui,
+    area: CaptionArea,
+    text: &str,
+    (name, hover): (&str, &str),
+) -> (Response, Response) {
+    let shown = framed(ui, area.clear_caption(ui), area.width(), |ui| {
+        let row = ui.horizontal(|ui| {
+            let button = Button::new(name).min_size(ui.spacing().interact_size);
+            let button = ui.add(button).help(hover);
+            line(ui, text);
+            button
         });
-    shown.response
+        row.inner
+    });
+    (shown.response, shown.inner)
+}
+
+const CAPTION: &str = "caption";
+
+fn line(ui: &mut Ui, text: &str) {
+    ui.add(Label::new(text).selectable(false).wrap());
+}
+
+/// Shows `contents` in a frame, in a room of this width.
+pub fn framed<R>(
+    ui: &Ui,
+    area: egui::Area,
+    room: f32,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> InnerResponse<R> {
+    area.show(ui.ctx(), |ui| {
+        let frame = egui::Frame::new().fill(theme::PANEL.gamma_multiply(0.9)).corner_radius(8);
+        let frame = frame.inner_margin(Margin::symmetric(12, 6));
+        let show = |ui: &mut Ui| {
+            ui.set_max_width((room - 48.0).max(80.0));
+            contents(ui)
+        };
+        frame.show(ui, show).inner
+    })
 }
 
 /// Marks a button whose function is on.
@@ -65,12 +147,14 @@ pub struct RowButton {
     pub icon: Icon,
     /// Its name for screen readers, and its explanation.
     pub name_and_hover: (&'static str, &'static str),
-    /// The word below the icon on touch screens, where nothing explains it.
+    /// The word below the icon: on touch screens, where nothing explains it, and where there is room.
     pub word: &'static str,
 }
 
 /// Width of a button with a word, with the gap to the next, in points.
 const WORD_STEP: f32 = 54.0;
+/// Minimum number of buttons beside the middle of a low picture.
+const MIN_BESIDE: usize = 4;
 /// Height of a word, in points.
 const WORD_HEIGHT: f32 = 16.0;
 
@@ -79,7 +163,15 @@ pub fn row_height(ui: &Ui) -> f32 {
     button_side(ui) + if theme::has_touch_rows(ui) { WORD_HEIGHT } else { 0.0 }
 }
 
-/// A row of buttons in the picture's lower left corner; on touch screens with words.
+/// Width of a picture, in points, from which on its buttons have words.
+const WORDS_FROM: f32 = 800.0;
+
+/// Whether the buttons over the picture in `rect` have words: on touch screens, and in wide pictures.
+pub fn has_words(ui: &Ui, rect: Rect) -> bool {
+    theme::has_touch_rows(ui) || rect.width() >= WORDS_FROM
+}
+
+/// A row of buttons in the picture's lower left corner; with words as [`has_words`] says.
 pub struct ButtonRow {
     next: Pos2,
     has_words: bool,
@@ -87,15 +179,23 @@ pub struct ButtonRow {
 
 impl ButtonRow {
     /// An empty row over the picture in `rect`.
-    pub fn new(ui: &Ui, rect: Rect, has_words: bool) -> Self {
+    pub fn new(ui: &Ui, rect: Rect) -> Self {
+        let has_words = has_words(ui, rect);
         let corner = if has_words { vec2(2.0, -2.0) } else { vec2(GAP, -GAP) };
         let height = button_side(ui) + if has_words { WORD_HEIGHT } else { 0.0 };
         Self { next: rect.left_bottom() + corner - vec2(0.0, height), has_words }
     }
 
-    /// Number of buttons with words that fit the picture in `rect`.
+    /// Number of buttons with words that fit the picture in `rect`. In a low picture they leave the middle free, if
+    /// enough of them fit beside it.
     pub fn capacity(rect: Rect) -> usize {
-        ((rect.width() - 4.0) / WORD_STEP).floor().max(1.0) as usize
+        let fitting = |width: f32| ((width - 4.0) / WORD_STEP).floor().max(1.0) as usize;
+        let beside_middle = fitting(0.5 * rect.width());
+        if rect.height() < LOW && beside_middle >= MIN_BESIDE {
+            beside_middle
+        } else {
+            fitting(rect.width())
+        }
     }
 
     /// Adds a button on the right of the others.

@@ -3,7 +3,7 @@
 //! A drag moves a point light parallel to the screen. A drag with Shift moves the light along its ray;
 //! upward is away from the eye. A directional light's handle is on a ball around the picture's middle, as a dot
 //! is on the panel's ball. Arrow keys do the same while the handle or the light's row has the focus.
-//! A section plane moves along its normal. What is behind the eye has no handle.
+//! A section plane moves along its normal, by a drag or by arrow keys. What is behind the eye has no handle.
 
 use egui::{Color32, Pos2, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, accesskit::Role};
 use glam::DVec3;
@@ -22,6 +22,8 @@ const GRIP: f32 = 30.0;
 const DEPTH_PER_POINT: f64 = 0.01;
 /// Drag that a press of an arrow key stands for, in points.
 const KEY_POINTS: f32 = 10.0;
+/// Part of a key's step that a press with Shift moves a section plane.
+const FINE_PART: f64 = 0.1;
 /// Range of a dragged light's distance from the eye, in scene units.
 const DEPTHS: std::ops::RangeInclusive<f64> = MIN_VIEW_UNIT..=90.0;
 /// Rounding of positions, in pixels at the light's depth.
@@ -97,21 +99,28 @@ fn key_delta(steps: ArrowSteps) -> Vec2 {
 /// picture's shorter side.
 const BALL_PART: f32 = 0.42;
 
+/// What was done to handles in a frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Handled {
+    /// The clicked or dragged light.
+    pub touched: Option<LightRef>,
+    /// True if the pointer or the keyboard is at a handle.
+    pub is_held: bool,
+}
+
 /// Draws the handles of all directional lights and turns a dragged light.
-///
-/// Returns the clicked or dragged light.
 pub fn environment_lights(
     ui: &Ui,
     frame: Frame,
     scene: &mut Scene,
     selected: &Selection,
-) -> Option<LightRef> {
+) -> Handled {
     let Scene { camera, lights, .. } = scene;
     let center = frame.rect.center();
     let radius = BALL_PART * frame.rect.size().min_elem();
     follow::edit(lights, camera, |lights| {
         let any_solo = lights.any_solo();
-        let mut touched = None;
+        let mut handled = Handled::default();
         for (index, light) in lights.environment.iter_mut().enumerate() {
             let mut toward_light = light.toward_light_in_view(camera);
             let at = ball::dot_place(center, radius, toward_light);
@@ -131,10 +140,11 @@ pub fn environment_lights(
                 light.set_toward_light_in_view(toward_light, camera);
             }
             if response.clicked() || response.drag_started() || response.gained_focus() {
-                touched = Some(this);
+                handled.touched = Some(this);
             }
             let shines = !light.muted && (!any_solo || light.solo);
             let is_held = response.hovered() || response.dragged() || response.has_focus();
+            handled.is_held |= is_held;
             if is_held {
                 let spoke = Stroke::new(1.0, Color32::from_white_alpha(70));
                 ui.painter().circle_stroke(center, radius, spoke);
@@ -145,7 +155,7 @@ pub fn environment_lights(
             paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
             response.help(ball::HELP);
         }
-        touched
+        handled
     })
 }
 
@@ -173,9 +183,14 @@ pub fn section_planes(ui: &Ui, frame: Frame, scene: &mut Scene) {
             let moved = along(arrow, response.drag_delta()) * per_point;
             plane.point = plane.point.moved_by(normal * moved, per_point * GRAIN_PX);
         }
-        let is_lit = response.hovered() || response.dragged();
+        if let Some(steps) = arrow_steps(ui, &response) {
+            let part = if steps.is_shifted { FINE_PART } else { 1.0 };
+            let points = f64::from(KEY_POINTS) * part * (steps.right + steps.up);
+            plane.point = plane.point.moved_by(normal * (points * per_point), per_point * GRAIN_PX);
+        }
+        let is_lit = response.hovered() || response.dragged() || response.has_focus();
         paint_plane(ui, at, arrow * ARROW as f32, is_lit);
-        response.help("Drag to move this section plane along its arrow");
+        response.help("Drag to move this section plane along its arrow, or use the arrow keys: right and up move it along the arrow, with Shift finely.");
     }
 }
 

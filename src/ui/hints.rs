@@ -2,14 +2,11 @@
 //!
 //! In: whether the visitor turned the view or came closer. Out: a line of text, until both were done.
 
-use egui::{Rect, Response, Ui};
+use egui::{Response, Ui};
 use serde::{Deserialize, Serialize};
 
-use super::floating;
+use super::floating::{self, CaptionArea};
 use crate::scene::Camera;
-
-/// Height of a view, in points, below which hints are at its upper edge.
-const LOW: f32 = 420.0;
 
 /// The hints that a visitor has followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,12 +40,9 @@ impl Hints {
         }
     }
 
-    /// Shows the hints that are left over the picture in `view`, worded for fingers or a mouse.
-    pub fn show(self, ui: &Ui, view: Rect, has_touch: bool) -> Option<Response> {
-        let text = self.text(has_touch)?;
-        // Above the buttons of a low view, the text would cover the set.
-        let show = if view.height() < LOW { floating::top_caption } else { floating::caption };
-        Some(show(ui, view, &text))
+    /// Shows the hints that are left over the picture, worded for fingers or a mouse.
+    pub fn show(self, ui: &Ui, area: CaptionArea, has_touch: bool) -> Option<Response> {
+        Some(floating::clear_caption(ui, area, &self.text(has_touch)?))
     }
 }
 

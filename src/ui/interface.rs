@@ -1,6 +1,8 @@
-//! One frame of the interface: layout, dispatch, undo. The picture's part is in `picture`, the opening of
-//! other scenes in `scenes`, the camera path in `paths`.
+//! One frame of the interface: layout and undo. Commands run in `dispatch`. The picture's part is in `picture`, the opening of
+//! other scenes in `scenes`, the camera path in `paths`, what the finder leads to in `finding`.
 
+mod dispatch;
+mod finding;
 mod paths;
 mod picture;
 mod scenes;
@@ -12,12 +14,14 @@ use egui::{Margin, Panel, Ui};
 use super::{
     action::Action,
     compare::Compare,
+    control_index,
     display_inputs::DisplayInputs,
     editor::Editor,
     favourites::{Favourite, Favourites},
-    finder::{Finder, Target},
+    finder::Finder,
     frame::Frame,
     light_click::LightClick,
+    light_handles::LightHandles,
     loaded::Loaded,
     look_preview::LookPreview,
     mutate::Mutate,
@@ -46,6 +50,8 @@ use crate::{
 
 /// Pause within a gesture after which the view counts as still and is refined.
 const STILL_SECS: f64 = 0.25;
+/// Seconds for which [`Command::ShowBefore`] shows the view before the last change.
+const BEFORE_SECS: f64 = 2.0;
 
 /// The user interface and the edited project.
 #[derive(Debug)]
@@ -62,6 +68,7 @@ pub struct Interface {
     sheet: panel::Sheet,
     share: Share,
     light_click: LightClick,
+    light_handles: LightHandles,
     compare: Compare,
     finder: Finder,
     mutate: Mutate,
@@ -70,6 +77,9 @@ pub struct Interface {
     help_open: bool,
     /// True if the screen is used with fingers.
     has_touch: bool,
+    /// True if a text field had the keyboard at the end of the last frame: egui takes the focus from it before a frame
+    /// with the Escape key.
+    was_typing: bool,
     camera_status: Option<CameraStatus>,
     rects: Rects,
     view_px: [u32; 2],
@@ -78,6 +88,8 @@ pub struct Interface {
     moving: bool,
     /// True while the view before the last change is shown.
     is_comparing: bool,
+    /// Time until which the view before the last change is shown by [`Command::ShowBefore`], on egui's clock.
+    before_until_secs: f64,
     histogram_shown: bool,
     loaded: Loaded,
     /// Ends the slices of searches.
@@ -100,6 +112,7 @@ impl Interface {
             sheet: panel::Sheet::default(),
             share: Share::default(),
             light_click: LightClick::default(),
+            light_handles: LightHandles::default(),
             compare: Compare::default(),
             finder: Finder::default(),
             mutate: Mutate::default(),
@@ -107,12 +120,14 @@ impl Interface {
             look_preview: LookPreview::default(),
             help_open: false,
             has_touch: false,
+            was_typing: false,
             camera_status: None,
             rects: Rects::default(),
             view_px: [1, 1],
             frame: None,
             moving: false,
             is_comparing: false,
+            before_until_secs: 0.0,
             histogram_shown: false,
             loaded: Loaded::default(),
             clock: Clock::default(),
@@ -251,7 +266,7 @@ impl Interface {
         let wide = theme::has_side_panel(ui.available_size());
         // Before the first touch, egui does not know that the screen is one.
         self.has_touch = !wide || ui.input(|input| input.has_touch_screen());
-        self.is_comparing = shortcuts::is_comparing(ui.ctx());
+        self.is_comparing = shortcuts::is_comparing(ui.ctx()) || now_secs < self.before_until_secs;
         self.pilot.set_jumps(inputs.reduced_motion);
         theme::set_motion(ui.ctx(), !inputs.reduced_motion);
         theme::set_row_sizes(ui, self.has_touch);
@@ -271,16 +286,12 @@ impl Interface {
 
         let view = self.rects.get("view");
         let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
-        match self.finder.show(ui, &mut self.rects) {
-            Some(Target::Command(command)) => commands.push(command),
-            Some(Target::Section(section)) => panel::show_section(ui, &mut self.settings, section),
-            Some(Target::Look(at)) => self.apply_look(at),
-            Some(Target::Control(section, param)) => {
-                panel::show_section(ui, &mut self.settings, section);
-                widgets::reveal(ui, param.path);
-            }
-            None => {}
+        let (project, settings) = (self.editor.project(), &self.settings);
+        let controls = || control_index::controls(project, settings, inputs);
+        if let Some(target) = self.finder.show(ui, &mut self.rects, controls) {
+            self.show_target(ui, target, wide, &mut commands);
         }
+        widgets::focus_named(ui.ctx());
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
             self.timeline.command(command, self.editor.project_mut(), now_secs);
@@ -291,7 +302,11 @@ impl Interface {
             ui.ctx().request_repaint();
         }
         for command in commands {
-            self.dispatch(command, wide, &mut actions);
+            self.dispatch(ui, command, wide, &mut actions);
+            if command == Command::ShowBefore {
+                self.before_until_secs = now_secs + BEFORE_SECS;
+                ui.ctx().request_repaint_after_secs(BEFORE_SECS as f32);
+            }
         }
         self.show_state(other_state);
         if let Some(scene) = self.surprises.advance(ui) {
@@ -311,6 +326,7 @@ impl Interface {
             // The view's caption names the look.
             ui.ctx().request_repaint();
         }
+        self.was_typing = ui.ctx().text_edit_focused();
         actions
     }
 
@@ -407,77 +423,6 @@ impl Interface {
         self.moving = gesture && self.editor.secs_since_change(now_secs) < STILL_SECS;
         if self.moving {
             ui.ctx().request_repaint_after_secs(STILL_SECS as f32);
-        }
-    }
-
-    fn dispatch(&mut self, command: Command, wide: bool, actions: &mut Vec<Action>) {
-        match command {
-            Command::Undo => {
-                self.pilot.cancel();
-                self.timeline.stop();
-                self.editor.undo();
-            }
-            Command::Redo => {
-                self.pilot.cancel();
-                self.timeline.stop();
-                self.editor.redo();
-            }
-            Command::SavePicture => {
-                let (export, layout) =
-                    (self.settings.export, self.editor.scene().camera.stereo.layout);
-                actions.push(Action::SavePicture {
-                    size_px: export.resolve(self.view_px, layout),
-                    file: export.file,
-                    pair: export.is_pair(layout),
-                });
-            }
-            Command::SaveScene => actions.push(Action::SaveScene),
-            Command::LoadScene => actions.push(Action::LoadScene),
-            Command::CopyLink => actions.push(Action::CopyLink),
-            Command::CopyPicture => actions.push(Action::CopyPicture),
-            Command::SharePicture => actions.push(Action::SharePicture),
-            Command::ToggleFullscreen => actions.push(Action::ToggleFullscreen),
-            Command::Preset(index) => self.choose_preset(index),
-            Command::Favourite(index) => self.open_favourite(index, actions),
-            Command::ToggleFlight => self.pilot.set_flying(!self.pilot.is_flying()),
-            Command::KeepDive => self.keep_dive(wide),
-            Command::Turntable => self.make_turntable(wide),
-            Command::Leave if self.help_open => self.help_open = false,
-            Command::Find => self.finder.toggle(),
-            Command::Leave if self.finder.is_open() => self.finder.toggle(),
-            Command::Leave if self.share.is_open() => self.share.toggle(),
-            Command::Share => self.share.toggle(),
-            Command::Leave if self.mutate.is_open() => self.mutate.toggle(),
-            Command::Mutate => self.mutate.toggle(),
-            Command::Surprise => self.surprises.begin(),
-            Command::Compare => {
-                let other = self.compare.toggle(self.editor.project());
-                self.show_state(other);
-            }
-            Command::Leave if self.places.are_shown() => self.places.put_away(),
-            Command::FindPlaces => self.places.toggle(),
-            Command::Leave if self.light_click.waits() => self.light_click.toggle(),
-            Command::LightPlace => self.light_click.toggle(),
-            Command::Leave if self.compare.is_on() && !self.pilot.is_flying() => self.compare.end(),
-            Command::Leave => self.pilot.set_flying(false),
-            Command::TogglePanel => self.settings.panel_open = !self.settings.panel_open,
-            Command::ToggleTimeline => self.toggle_timeline(wide),
-            Command::AddKey if !self.settings.timeline_open => self.toggle_timeline(wide),
-            Command::ToggleHelp => self.help_open = !self.help_open,
-            // The pilot and the timeline execute these commands.
-            Command::PlayPause
-            | Command::AddKey
-            | Command::UpdateKey
-            | Command::DeleteKey
-            | Command::PreviousKey
-            | Command::NextKey
-            | Command::Home
-            | Command::FrameAll
-            | Command::Focus
-            | Command::Dive
-            | Command::Orbit(..)
-            | Command::Pan(..)
-            | Command::Dolly(_) => {}
         }
     }
 }

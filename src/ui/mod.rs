@@ -9,7 +9,7 @@
 //! | `interface` | one frame: layout, dispatch, undo |
 //! | `display_inputs`, `action` | the shell's data to display, and requests to the shell |
 //! | `settings`, `export_size`, `sheet_height` | settings stored between visits, such as the size of saved pictures |
-//! | `finder` | the search over commands, scenes, sections and controls |
+//! | `finder`, `control_index` | the search over commands, scenes, sections and controls; the names of controls |
 //! | `favourites` | the views that a person keeps |
 //! | `merge` | lists that two tabs edit at once |
 //! | `gallery` | the gallery that the page's address names |
@@ -20,7 +20,7 @@
 //! | `widgets/` | sliders for the parameter table, the direction ball, the gradient editor |
 //! | `view`, `frame`, `pilot`, `handles` | the picture, where it is, the camera's input, handles of lights and section planes |
 //! | `compare` | two states of the project, of which one is in view |
-//! | `light_click` | a click that lights a place |
+//! | `light_click`, `light_handles` | a click that lights a place; when directional lights have handles in the view |
 //! | `field` | the distance field for the camera's movements |
 //! | `places/` | the search for places of the view, and its pins |
 //! | `slice` | slices of a frame for searches |
@@ -41,6 +41,7 @@
 
 mod action;
 mod compare;
+mod control_index;
 mod display_inputs;
 mod dive;
 mod export_size;
@@ -56,6 +57,7 @@ mod home;
 mod icon;
 mod interface;
 mod light_click;
+mod light_handles;
 mod loaded;
 mod look_preview;
 mod merge;

@@ -14,9 +14,16 @@ pub struct Selection {
     pub gradient_target: LayerRef,
     /// Arrow-key presses on a light's row, and the light: its handle applies them.
     pub moved_light: Option<(LightRef, ArrowSteps)>,
+    /// True if the pointer or the keyboard is at a control of a light in this frame.
+    pub uses_lights: bool,
 }
 
 impl Selection {
+    /// A selection of this light.
+    pub fn of(light: LightRef) -> Self {
+        Self { light: Some(light), ..Self::default() }
+    }
+
     /// Index of the selected stop of a layer's gradient.
     pub fn stop_mut(&mut self, layer: LayerRef) -> &mut usize {
         &mut self.stops[layer as usize]

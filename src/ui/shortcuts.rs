@@ -56,6 +56,8 @@ pub enum Command {
     LightPlace,
     /// Switch fly mode on or off.
     ToggleFlight,
+    /// Show the view before the last change for a moment.
+    ShowBefore,
     /// Search the view for places and show pins on them, or put the pins away.
     FindPlaces,
     /// Close the help window, put the pins away, or leave fly mode.
@@ -230,16 +232,26 @@ pub const FLIGHT: &[FlightKey] = &[
     flight_key(Key::Q, [0.0, -1.0, 0.0], None),
 ];
 
-/// The keys of fly mode in one line.
-pub fn flight_help() -> String {
+/// How to fly, in one line: by fingers or by keys.
+pub fn flight_help(has_touch: bool) -> String {
+    if has_touch {
+        return FLIGHT_GESTURES.to_owned();
+    }
     let keys: Vec<_> = FLIGHT.iter().filter_map(|flight| Some(flight.help?.0)).collect();
     format!("{} to fly, Shift for faster, drag to look around, Esc to stop", keys.join(" · "))
 }
+
+/// What fingers do in fly mode, in one line.
+const FLIGHT_GESTURES: &str =
+    "Drag to look around, spread or pinch two fingers to fly, drag both to move sideways";
 
 /// Commands without a key, which the finder finds by these words.
 pub const KEYLESS: &[(Command, &str)] = &[
     (Command::Turntable, "Make a path around the scene"),
     (Command::LightPlace, "Light a place by a click"),
+    (Command::ShowBefore, "Before: show the view before the last change for two seconds (hold C)"),
+    (Command::CopyPicture, "Copy the picture to the clipboard"),
+    (Command::NextKey, "Go to the next key"),
 ];
 
 /// What fingers do in the view, each with its effect.
@@ -248,6 +260,7 @@ pub const TOUCH_GESTURES: &[(&str, &str)] = &[
     ("Pinch", "Move closer or farther; moving closer steers to detailed places"),
     ("Drag with two fingers", "Pan"),
     ("Double tap", "Fly to that point"),
+    ("Drag in fly mode", "Look around; two fingers fly forward, back and sideways"),
     ("Drag a handle", "Turn a light, or move a point light"),
     ("Double tap a slider", "Reset to its default"),
     ("Hold Before", "See the view before the last change"),

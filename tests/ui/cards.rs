@@ -197,3 +197,11 @@ fn with_reduced_motion_a_scene_is_there_at_once() {
     harness.run_steps(3);
     assert_eq!(scene(&harness).camera, (presets::dives()[0].scene)().camera);
 }
+
+#[test]
+fn the_lists_have_forty_scenes_with_pictures() {
+    let with_picture = presets::all().filter(|preset| thumbnail::jpeg(preset).is_some());
+    let names: HashSet<&str> = with_picture.map(|preset| preset.name).collect();
+    assert!(names.len() >= 40, "{}", names.len());
+    assert_eq!(names.len(), presets::all().count(), "each has a name and a picture of its own");
+}

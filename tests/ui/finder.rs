@@ -1,17 +1,20 @@
 //! The finder: by keyboard to every control.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use egui::{Key, Modifiers};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui::{Key, Modifiers, accesskit::Role};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
 use mandelight::{
-    scene::{Scene, looks, param, presets},
+    scene::{Project, Scene, looks, param, path, presets},
     ui::{Settings, SheetHeight, section_title_of},
 };
 
 use crate::stage::*;
 
-fn find(harness: &mut egui_kittest::Harness<'_, Stage>, text: &str) {
+fn find(harness: &mut Harness<'_, Stage>, text: &str) {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
     harness.run();
     harness.get_by_label("What to find").type_text(text);
@@ -63,6 +66,145 @@ fn a_look_is_found_and_applied_as_one_step() {
     assert_eq!(*scene(&harness), looks::applied(look, &presets::opening()));
     assert_ne!(*scene(&harness), presets::opening());
     assert_eq!(undo_all(&mut harness), 1);
+}
+
+/// The names of the results.
+fn results(harness: &Harness<'_, Stage>) -> Vec<String> {
+    let window = harness.state().interface.rects().get("find window").expect("the window");
+    let nodes = harness.root().children_recursive();
+    let rows = nodes.filter(|node| {
+        let node_role = node.accesskit_node().role();
+        node_role == Role::Button && window.contains(node.rect().center())
+    });
+    rows.filter_map(|node| node.accesskit_node().label()).collect()
+}
+
+/// Types another text into the open finder.
+fn retype(harness: &mut Harness<'_, Stage>, text: &str) {
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(2);
+}
+
+/// The names of controls in the panel and in the timeline.
+fn names_of_controls(harness: &Harness<'_, Stage>) -> BTreeSet<String> {
+    let rects = harness.state().interface.rects();
+    let areas = ["panel", "timeline"].map(|name| rects.get(name).expect(name));
+    let nodes = harness.root().children_recursive().filter(|node| {
+        let is_in = |area: &egui::Rect| area.contains(node.rect().center());
+        let node = node.accesskit_node();
+        let is_control =
+            egui::accessibility::is_input(node.role()) && node.role() != Role::Splitter;
+        is_control && node.bounding_box().is_some() && areas.iter().any(is_in)
+    });
+    let names = nodes.filter_map(|node| node.accesskit_node().label());
+    // The heading of all sections, each of which is found.
+    let names = names.filter(|name| name != "More");
+    names.map(|name| name.strip_suffix(" value").unwrap_or(&name).to_owned()).collect()
+}
+
+/// A control that is new in the panel or the timeline is found without a line in the finder.
+#[test]
+fn every_control_of_the_panel_and_the_timeline_is_found() {
+    let mut project = Project::from(Scene::default());
+    let key = |time_secs| path::Key {
+        time_secs,
+        easing: path::Easing::Smooth,
+        scene: Scene::default().into(),
+    };
+    project.path.keys = vec![key(0.0), key(3.0)];
+    let settings = Settings { timeline_open: true, ..unfolded() };
+    let mut harness = without_motion(stage(project.clone(), settings, [1280.0, 6000.0]));
+    harness.get_by_label("Key 2 at 3.00 s").click();
+    harness.run();
+    let names = names_of_controls(&harness);
+    assert!(names.len() > 200, "{}", names.len());
+
+    let mut harness = without_motion(stage(project, Settings::default(), [1280.0, 720.0]));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    harness.run();
+    let is_found = |harness: &mut Harness<'_, Stage>, name: &str| {
+        let name = name.strip_prefix("Look: ").unwrap_or(name);
+        retype(harness, name);
+        results(harness).iter().any(|result| result == name)
+    };
+    let missing: Vec<&String> = names.iter().filter(|name| !is_found(&mut harness, name)).collect();
+    assert!(missing.is_empty(), "{} of {}: {missing:#?}", missing.len(), names.len());
+}
+
+#[test]
+fn words_of_a_control_s_options_and_help_find_it() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    harness.run();
+    for (typed, name) in [
+        ("jpeg", "File: JPEG"),
+        ("exr", "File: EXR"),
+        ("webp", "File: WebP"),
+        ("16 bit", "Bits per channel: 16"),
+        ("transparent", "Background: Transparent"),
+        ("jpeg quality", "Quality"),
+        ("webm", "Kind of file"),
+        ("mp4", "Kind of file"),
+        ("save video", "Save video"),
+        ("frame rate", "Frame rate"),
+        ("motion blur", "Motion blur"),
+        ("open a gradient file", "Choose a gradient…"),
+        ("edit the formula", "Edit the formula…"),
+        ("reset fog", "Reset: Fog"),
+        ("form julia", "Form: Julia"),
+        ("before", "Before: show the view before the last change for two seconds (hold C)"),
+    ] {
+        retype(&mut harness, typed);
+        let found = results(&harness);
+        assert!(found.iter().any(|result| result == name), "{typed}: {found:?}");
+    }
+}
+
+/// The control that has the keyboard.
+fn focused(harness: &Harness<'_, Stage>) -> Option<(String, egui::Rect)> {
+    let mut nodes = harness.root().children_recursive();
+    let node = nodes.find(|node| node.accesskit_node().is_focused())?;
+    Some((node.accesskit_node().label()?, node.rect()))
+}
+
+#[test]
+fn a_choice_is_shown_with_the_keyboard() {
+    for size in [[1280.0, 720.0], [390.0, 844.0]] {
+        for has_motion in [false, true] {
+            let mut harness = stage(Scene::default(), Settings::default(), size);
+            harness.state_mut().reduced_motion = !has_motion;
+            harness.run();
+            for (typed, part, name) in [
+                ("file jpeg", "panel", "File: JPEG"),
+                ("turntable", "timeline", "Turntable"),
+                ("reset fog", "panel", "Reset: Fog"),
+            ] {
+                find(&mut harness, typed);
+                harness.run_steps(30);
+                let (label, rect) = focused(&harness).expect("a control");
+                assert_eq!(label, name, "in {size:?}");
+                let area = harness.state().interface.rects().get(part).expect(part);
+                assert!(area.expand(1.0).contains_rect(rect), "{name}: {rect:?} in {area:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_view_before_the_last_change_is_shown_for_two_seconds() {
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
+    let before = scene(&harness).clone();
+    slider(&harness, "Power").set_value_accesskit(5.0);
+    harness.run();
+    let after = scene(&harness).clone();
+    find(&mut harness, "before: show");
+    let shown = |harness: &Harness<'_, Stage>| harness.state().interface.shown_scene().clone();
+    harness.run_steps(3);
+    assert_eq!(shown(&harness), before);
+    harness.run_steps(130);
+    assert_eq!(shown(&harness), after);
 }
 
 /// The finder opens the section in which a control really is.

@@ -323,6 +323,43 @@ fn tools_have_words_on_touch_screens() {
     }
 }
 
+/// A wide picture has room for words below the icons; a narrow one with a mouse has hover texts alone.
+#[test]
+fn tools_have_words_in_wide_pictures() {
+    for (size, has_words) in [
+        ([1280.0, 720.0], true),
+        ([1920.0, 1080.0], true),
+        ([1000.0, 720.0], false),
+        ([640.0, 420.0], false),
+    ] {
+        let harness = stage(presets::opening(), Settings::default(), size);
+        let view = harness.state().interface.rects().get("view").expect("the view");
+        assert!(harness.query_by_label("More tools").is_none(), "all have room in {size:?}");
+        for (name, word) in [
+            ("Animate", "Animate"),
+            ("Surprise me", "Surprise"),
+            ("Mutate", "Mutate"),
+            ("Share", "Share"),
+            ("Find places", "Places"),
+            ("Dive", "Dive"),
+        ] {
+            let tool = button(&harness, name).rect();
+            let below = |at: &Rect| {
+                let is_below = at.top() >= tool.bottom() - 18.0 && view.contains_rect(*at);
+                is_below && tool.x_range().contains(at.center().x)
+            };
+            let found = painted(&harness, word).iter().any(below);
+            assert_eq!(found, has_words, "{name} in {size:?}: {tool:?}");
+        }
+        // Captions are beside or above the tools.
+        let hint = harness.state().interface.rects().get("hint").expect("a hint");
+        for name in ["Animate", "Dive"] {
+            let tool = button(&harness, name).rect();
+            assert!(!hint.intersects(tool), "{hint:?} covers {name} in {size:?}");
+        }
+    }
+}
+
 #[test]
 fn the_offer_of_a_notice_is_a_button_in_the_window() {
     for size in WINDOWS {
@@ -406,6 +443,11 @@ fn wider_rows(harness: &egui_kittest::Harness<'_, Stage>, most: f32) -> Vec<Stri
     let nodes = harness.root().children_recursive();
     let nodes = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
     let rows = nodes.filter(|node| panel.x_range().contains(node.rect().center().x));
+    // The row of lists of scenes scrolls sideways.
+    let rects = harness.state().interface.rects();
+    let lists = presets::lists().map(|list| list.name).into_iter().chain(["Mine"]);
+    let lists: Vec<Rect> = lists.filter_map(|name| rects.get(name)).collect();
+    let rows = rows.filter(|node| !lists.contains(&node.rect()));
     let wide = rows.filter_map(|node| {
         let label = node.accesskit_node().label().or(node.accesskit_node().value())?;
         let rect = node.rect();

@@ -49,6 +49,49 @@ fn tab_goes_through_the_panel_in_reading_order() {
     }
 }
 
+/// Whether `next` comes after `before` for a reader: in a row from left to right, else below.
+fn is_read_after(before: Rect, next: Rect) -> bool {
+    let both = before.y_range().intersection(next.y_range()).span();
+    let is_in_row = both > 0.5 * before.height().min(next.height());
+    if is_in_row { next.left() >= before.left() - 0.5 } else { next.top() > before.top() - 0.5 }
+}
+
+/// The places that the Tab key visits in the panel go from the top to the bottom, and in rows from left to right.
+#[test]
+fn tab_visits_the_places_of_the_panel_in_reading_order() {
+    let with_sections = |names: &[&str]| {
+        let mut settings = Settings { more_open: true, ..Settings::default() };
+        names.iter().for_each(|name| settings.sections.set_open(name, true));
+        settings
+    };
+    for settings in [
+        Settings::default(),
+        with_sections(&["lights", "tone"]),
+        with_sections(&["colors", "export", "camera"]),
+    ] {
+        let size = [1280.0, 3000.0];
+        let mut harness = without_motion(stage(Scene::default(), settings, size));
+        let visited = visited(&mut harness, 150);
+        let panel = harness.state().interface.rects().get("panel").expect("the panel");
+        let in_panel: Vec<_> =
+            visited.iter().filter(|(_, rect)| panel.contains(rect.center())).collect();
+        assert!(in_panel.len() > 20, "{}", in_panel.len());
+        for pair in in_panel.windows(2) {
+            assert!(is_read_after(pair[0].1, pair[1].1), "{pair:#?}");
+        }
+    }
+}
+
+#[test]
+fn the_measure_knows_reading_order() {
+    let rect =
+        |left: f32, top: f32| Rect::from_min_size(egui::pos2(left, top), egui::vec2(40.0, 20.0));
+    assert!(is_read_after(rect(0.0, 0.0), rect(50.0, 2.0)), "to the right");
+    assert!(is_read_after(rect(50.0, 0.0), rect(0.0, 30.0)), "the next row");
+    assert!(!is_read_after(rect(50.0, 0.0), rect(0.0, 2.0)), "to the left");
+    assert!(!is_read_after(rect(0.0, 30.0), rect(50.0, 0.0)), "up");
+}
+
 /// A screen reader can name every control that can be used.
 #[test]
 fn every_control_has_a_name() {

@@ -1,4 +1,4 @@
-//! Handles of directional lights in the view: they follow the pointer, and show while lights are edited.
+//! Handles of lights in the view: they follow the pointer, and show while a person works on lights.
 
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -69,10 +69,69 @@ fn lights_that_follow_the_view_turn_as_they_are_seen() {
     assert!(!scene(&harness).lights.follow_view, "turning a light ends the following");
 }
 
+/// A stage of the opening scene, whose lights are all directional, with the panel as at a first visit.
+fn first_visit() -> Harness<'static, Stage> {
+    without_motion(stage(presets::opening(), Settings::default(), [1280.0, 1000.0]))
+}
+
+fn has_handle(harness: &Harness<'_, Stage>) -> bool {
+    harness.query_by_label("Light 1 in the view").is_some()
+}
+
 #[test]
-fn directional_lights_have_handles_only_while_their_section_is_open() {
-    let harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
-    assert!(harness.query_by_label("Light 1 in the view").is_none());
+fn the_picture_has_no_handles_while_lights_are_not_in_use() {
+    let mut harness = first_visit();
+    assert!(!has_handle(&harness));
+    let rects = harness.state().interface.rects();
+    let elsewhere = ["power", "view"].map(|name| rects.get(name).expect(name).center());
+    for at in elsewhere {
+        harness.event(egui::Event::PointerMoved(at));
+        harness.run_steps(3);
+        assert!(!has_handle(&harness), "{at}");
+    }
+}
+
+#[test]
+fn the_key_light_s_controls_show_handles_which_stay_to_be_reached() {
+    let mut harness = first_visit();
+    let rects = harness.state().interface.rects();
+    let [ball, view] = ["key light ball", "view"].map(|name| rects.get(name).expect(name));
+    harness.event(egui::Event::PointerMoved(ball.center()));
+    harness.run_steps(3);
+    assert!(has_handle(&harness));
+    // The pointer needs some seconds to the handle, which then turns the light.
+    let handle = harness.get_by_label("Light 1 in the view").rect().center();
+    harness.event(egui::Event::PointerMoved(view.right_center() - vec2(20.0, 0.0)));
+    harness.run_steps(180);
+    let before = scene(&harness).lights.environment[0].direction;
+    drag(&mut harness, handle, handle + vec2(-40.0, 30.0), 6);
+    assert_ne!(scene(&harness).lights.environment[0].direction, before);
+    // A handle in use stays; after its use, handles go.
+    harness.run_steps(600);
+    assert!(has_handle(&harness), "the pointer is at the handle");
+    harness.event(egui::Event::PointerMoved(view.right_center() - vec2(20.0, 0.0)));
+    harness.get_by_label("Power").focus();
+    harness.run_steps(420);
+    assert!(!has_handle(&harness), "7 seconds later");
+}
+
+#[test]
+fn a_light_setup_that_was_chosen_has_handles() {
+    let mut harness = first_visit();
+    press(&mut harness, "Looks: Lights");
+    assert!(!has_handle(&harness));
+    button(&harness, "Light: Studio").click();
+    harness.run_steps(6);
+    assert_ne!(scene(&harness).lights, presets::opening().lights);
+    assert!(has_handle(&harness));
+}
+
+#[test]
+fn the_keyboard_at_the_ball_shows_handles_too() {
+    let mut harness = first_visit();
+    harness.get_by_label("Key light direction").focus();
+    harness.run_steps(3);
+    assert!(has_handle(&harness));
 }
 
 /// From the eye to the first point light, in the eye's axes.

@@ -119,7 +119,7 @@ fn the_keyboard_is_in_one_place() {
     harness.run();
     let next = shown().focus.expect("a focus");
     let next = shown().elements.into_iter().find(|element| element.id == next).unwrap();
-    assert_eq!(next.name, "Power value");
+    assert_eq!(next.name, "Power 2");
 }
 
 /// An open section says so.

@@ -411,3 +411,32 @@ fn the_playhead_covers_no_number_at_its_own_time() {
     );
     assert!(!grip.intersects(zero), "{grip:?} covers {zero:?}");
 }
+
+/// Keys that are close together share no place: each is clicked at its own diamond.
+#[test]
+fn close_keys_share_no_touch_area() {
+    for has_touch in [false, true] {
+        let mut crowded = project();
+        for (key, secs) in crowded.path.keys.iter_mut().zip([0.0, 0.2, 0.3]) {
+            key.time_secs = secs;
+        }
+        let mut harness = stage(crowded, open(), [1280.0, 720.0]);
+        if has_touch {
+            touch(&mut harness);
+        }
+        let names = ["Key 1 at 0.00 s", "Key 2 at 0.20 s", "Key 3 at 0.30 s"];
+        let areas = names.map(|name| harness.get_by_label(name).rect());
+        for (pair, names) in areas.windows(2).zip(names.windows(2)) {
+            assert!(pair[0].right() <= pair[1].left() + 0.01, "{names:?}: {pair:?}");
+        }
+        // Away from neighbours, the area has its full width.
+        let width = if has_touch { 44.0 } else { 20.0 };
+        assert!((areas[0].right() - areas[0].left()) <= width + 0.1);
+        for (index, name) in names.into_iter().enumerate() {
+            harness.get_by_label(name).click();
+            harness.run();
+            let power = path(&harness).keys[index].scene.fractal.number("power");
+            assert_eq!(scene(&harness).fractal.number("power"), power, "{name}");
+        }
+    }
+}

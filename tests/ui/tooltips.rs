@@ -3,8 +3,9 @@
 use egui::{Event, Key, Modifiers, Order, Rect, accesskit::Role};
 use egui_kittest::{Harness, kittest::NodeT as _};
 use mandelight::{
-    scene::{Scene, presets},
-    ui::Settings,
+    formula::{self, Fractal},
+    scene::{Scene, document, presets},
+    ui::{Settings, thumbnail},
 };
 
 use crate::stage::*;
@@ -103,6 +104,45 @@ fn hover_texts_cover_no_other_control() {
     look("comparing", &mut open(Settings::default(), &[(Modifiers::SHIFT, Key::C)]));
     let mut harness = without_motion(stage(Scene::default(), unfolded(), [1280.0, 2000.0]));
     look("many options", &mut harness);
+    assert!(count > 150, "{count} hover texts");
+    assert!(all.is_empty(), "{} are covered: {all:#?}", all.len());
+}
+
+#[test]
+fn hover_texts_of_low_windows_and_of_lists_cover_no_other_control() {
+    let (mut all, mut count) = (Vec::new(), 0);
+    let mut look = |what: &str, harness: &mut Harness<'_, Stage>| {
+        let (covered, seen) = covered(harness);
+        all.extend(covered.into_iter().map(|covered| format!("{what}: {covered}")));
+        count += seen;
+    };
+    for size in [[1280.0, 720.0], [640.0, 420.0]] {
+        let open = |scene: Scene, settings: Settings| without_motion(stage(scene, settings, size));
+        let mut harness = open(presets::opening(), Settings::default());
+        look(&format!("the panel in {size:?}"), &mut harness);
+
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+        harness.run_steps(4);
+        // A long list of results would fill the low window.
+        harness.event(Event::Text("porcelain".to_owned()));
+        harness.run_steps(4);
+        look(&format!("the finder in {size:?}"), &mut harness);
+
+        let mut harness = open(presets::opening(), Settings::default());
+        let kept = document::project_to_json_compact(harness.state().interface.project());
+        let jpeg = thumbnail::jpeg(&presets::opening_scenes()[0]).expect("a picture");
+        harness.state_mut().interface.keep_favourite(kept, jpeg.to_vec());
+        press(&mut harness, "Mine");
+        look(&format!("kept views in {size:?}"), &mut harness);
+
+        let fractal = Fractal::new(formula::find("mandelbox").expect("a formula"));
+        let mut settings = Settings { more_open: true, ..Settings::default() };
+        settings.sections.set_open("fractal", true);
+        let mut harness = open(Scene { fractal, ..Scene::default() }, settings);
+        button(&harness, "Edit the formula…").click_accesskit();
+        harness.run_steps(14);
+        look(&format!("the formula editor in {size:?}"), &mut harness);
+    }
     assert!(count > 150, "{count} hover texts");
     assert!(all.is_empty(), "{} are covered: {all:#?}", all.len());
 }

@@ -1,8 +1,12 @@
-//! What stands in the panel is in words that someone knows who has never rendered anything.
+//! What the page says is in words that someone knows who has never rendered anything.
 
-use egui::Shape;
-use egui_kittest::Harness;
-use mandelight::{scene::presets, ui::Settings};
+use egui::{Key, Modifiers, Shape};
+use egui_kittest::{Harness, kittest::NodeT as _};
+use mandelight::{
+    render::report::Activity,
+    scene::presets,
+    ui::{Settings, shortcuts},
+};
 
 use crate::stage::*;
 
@@ -22,6 +26,26 @@ fn texts(harness: &Harness<'_, Stage>) -> Vec<String> {
         _ => None,
     });
     texts.collect()
+}
+
+/// All texts of the last frame that are no keys and no formula, and the hover texts of its controls without their keys.
+fn texts_and_help(harness: &Harness<'_, Stage>) -> Vec<String> {
+    let keys: Vec<&str> = shortcuts::SHORTCUTS
+        .iter()
+        .filter_map(|shortcut| shortcut.help)
+        .chain(shortcuts::FLIGHT.iter().filter_map(|flight| flight.help))
+        .map(|(keys, _)| keys)
+        .collect();
+    let texts = shapes(harness).into_iter().filter_map(|shape| match shape {
+        Shape::Text(text) => Some(text.galley.text().to_owned()),
+        _ => None,
+    });
+    let texts = texts.filter(|text| !keys.contains(&text.as_str()) && !text.contains("step {"));
+    let nodes = harness.root().children_recursive();
+    let help = nodes.filter_map(|node| node.accesskit_node().description());
+    // A hover text ends with the control's key: `Show variations (M)`.
+    let help = help.map(|help| help.rfind(" (").map_or(help.clone(), |at| help[..at].to_owned()));
+    texts.chain(help).collect()
 }
 
 /// The texts with a banned word, or with a phrase of `phrases`.
@@ -58,6 +82,69 @@ fn the_simple_panel_has_no_words_of_specialists() {
     press(&mut harness, "Mine");
     look(&harness);
     assert!(count > 200, "{count}");
+}
+
+/// The status line, the timeline, windows and hover texts.
+#[test]
+fn nothing_around_the_panel_has_short_forms() {
+    const NONE: Modifiers = Modifiers::NONE;
+    const COMMAND: Modifiers = Modifiers::COMMAND;
+    let mut count = 0;
+    for (what, keys) in [
+        ("the page", &[][..]),
+        ("the timeline", &[(NONE, Key::T), (NONE, Key::K), (NONE, Key::K)]),
+        ("help", &[(NONE, Key::F1)]),
+        ("sharing", &[(NONE, Key::J)]),
+        ("variations", &[(NONE, Key::M)]),
+        ("the finder", &[(COMMAND, Key::K)]),
+        ("a comparison", &[(Modifiers::SHIFT, Key::C)]),
+        ("fly mode", &[(NONE, Key::F)]),
+    ] {
+        let mut harness =
+            without_motion(stage(presets::opening(), Settings::default(), [1280.0, 1400.0]));
+        for &(modifiers, key) in keys {
+            harness.key_press_modifiers(modifiers, key);
+            harness.run_steps(14);
+        }
+        let texts = texts_and_help(&harness);
+        count += texts.len();
+        // The keys of fly mode stand in its caption.
+        let is_of_keys = |text: &String| what == "fly mode" && text.contains("Shift for faster");
+        let texts: Vec<String> = texts.into_iter().filter(|text| !is_of_keys(text)).collect();
+        let banned = banned(&texts, &BANNED_PHRASES);
+        assert!(banned.is_empty(), "{what}: {banned:?}");
+    }
+    assert!(count > 500, "{count}");
+    let status = status_texts();
+    assert!(status.len() >= 4, "{status:?}");
+    assert!(banned(&status, &BANNED_PHRASES).is_empty(), "{status:?}");
+}
+
+/// What the status line says at each activity.
+fn status_texts() -> Vec<String> {
+    let mut harness = stage(presets::opening(), Settings::default(), [1280.0, 720.0]);
+    let activities = [Activity::Idle, Activity::Moving, Activity::Refining];
+    let said = activities.into_iter().flat_map(|activity| {
+        harness.state_mut().report.activity = activity;
+        harness.run();
+        let line = harness.state().interface.rects().get("status").expect("the status line");
+        let texts = shapes(&harness).into_iter().filter_map(|shape| match shape {
+            Shape::Text(text) if line.contains(text.visual_bounding_rect().center()) => {
+                Some(text.galley.text().to_owned())
+            }
+            _ => None,
+        });
+        texts.collect::<Vec<_>>()
+    });
+    said.collect()
+}
+
+#[test]
+fn hover_texts_of_all_sections_have_no_short_forms() {
+    let texts = texts_and_help(&workshop());
+    assert!(texts.len() > 400, "{}", texts.len());
+    let banned = banned(&texts, &BANNED_PHRASES);
+    assert!(banned.is_empty(), "{banned:?}");
 }
 
 #[test]

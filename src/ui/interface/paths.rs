@@ -49,6 +49,13 @@ impl Interface {
         Some(VideoSpec { size_px, frames_per_second: path.frames_per_second })
     }
 
+    /// Shows the timeline where it is hidden.
+    pub(super) fn show_timeline(&mut self, wide: bool) {
+        if !self.settings.timeline_open || (!wide && self.settings.panel_open) {
+            self.toggle_timeline(wide);
+        }
+    }
+
     /// Shows or hides the timeline. A narrow window has room for either timeline or open sheet.
     pub(super) fn toggle_timeline(&mut self, wide: bool) {
         let open = &mut self.settings.timeline_open;

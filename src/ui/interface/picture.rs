@@ -7,7 +7,7 @@ use crate::scene::Project;
 use crate::ui::{
     display_inputs::DisplayInputs,
     dive,
-    floating::{self, ButtonRow, RowButton},
+    floating::{self, ButtonRow, CaptionArea, RowButton},
     frame::Frame,
     handles,
     home::HomeTarget,
@@ -67,36 +67,55 @@ impl Interface {
             self.settings.hints.note(&before, &scene.camera, is_zoom);
         }
         let has_record = self.pilot.dive_record().len() > 1;
-        dive::show(ui, rect, self.pilot.guide_status(), has_record, &mut self.rects, commands);
+        let captions = CaptionArea::new(rect, buttons.area(rect));
+        dive::show(ui, captions, self.pilot.guide_status(), has_record, &mut self.rects, commands);
         if is_comparing {
-            let caption = floating::caption(ui, rect, "Before the last change");
+            let caption = floating::caption(ui, captions, "Before the last change");
             self.rects.record("comparing", &caption);
         } else if let Some(name) = self.look_preview.name() {
-            let caption = floating::caption(ui, rect, &format!("Preview: {name}"));
+            let caption = floating::caption(ui, captions, &format!("Preview: {name}"));
             self.rects.record("look preview", &caption);
         } else if self.light_click.waits() {
-            let caption = floating::caption(ui, rect, light_click::HINT);
+            let caption = floating::caption(ui, captions, light_click::HINT);
             self.rects.record("light click", &caption);
         } else if self.pilot.is_flying() {
-            let keys = floating::caption(ui, rect, &shortcuts::flight_help());
-            self.rects.record("fly keys", &keys);
+            let help = shortcuts::flight_help(self.has_touch);
+            let caption = if self.has_touch {
+                let hover = ("Stop flying", "Leave fly mode (F)");
+                let (caption, stop) = floating::caption_with_button(ui, captions, &help, hover);
+                if stop.clicked() {
+                    commands.push(Command::ToggleFlight);
+                }
+                caption
+            } else {
+                floating::caption(ui, captions, &help)
+            };
+            self.rects.record("fly keys", &caption);
         } else {
-            let hint =
-                if is_covered { None } else { self.settings.hints.show(ui, rect, self.has_touch) };
+            let hint = if is_covered {
+                None
+            } else {
+                self.settings.hints.show(ui, captions, self.has_touch)
+            };
             if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
             let light = handles::point_lights(ui, frame, scene, &self.selection);
             self.selection.light = light.or(self.selection.light);
-            if panel::shows_lights(&self.settings) {
-                let light = handles::environment_lights(ui, frame, scene, &self.selection);
-                self.selection.light = light.or(self.selection.light);
+            let is_in_use = self.selection.uses_lights || self.light_click.waits();
+            if panel::shows_lights(&self.settings) || self.light_handles.are_shown(ui, is_in_use) {
+                let handled = handles::environment_lights(ui, frame, scene, &self.selection);
+                self.selection.light = handled.touched.or(self.selection.light);
+                if handled.is_held {
+                    self.light_handles.keep(ui);
+                }
             }
             if panel::shows_section_planes(&self.settings) {
                 handles::section_planes(ui, frame, scene);
             }
         }
         self.selection.moved_light = None;
+        self.selection.uses_lights = false;
         self.camera_status = Some(self.pilot.camera_status(scene, frame));
         let is_moving = self.timeline.is_playing()
             || self.pilot.is_moving(ui.input(|i| i.time))
@@ -156,12 +175,13 @@ impl Interface {
 
     /// The buttons in the picture's lower left corner; none over the variations.
     fn buttons(&mut self, ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> ButtonRow {
-        let mut buttons = ButtonRow::new(ui, rect, self.has_touch);
+        let mut buttons = ButtonRow::new(ui, rect);
         if self.mutate.is_open() {
             return buttons;
         }
         let tools = self.tools();
-        let capacity = if self.has_touch { ButtonRow::capacity(rect) } else { tools.len() };
+        let has_words = floating::has_words(ui, rect);
+        let capacity = if has_words { ButtonRow::capacity(rect) } else { tools.len() };
         let in_row = if tools.len() > capacity { capacity - 1 } else { tools.len() };
         let (in_row, in_menu) = tools.split_at(in_row);
         for tool in in_row {

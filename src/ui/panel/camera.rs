@@ -48,7 +48,7 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
         ("Frame all", "Show the whole fractal from this side (A)", Command::FrameAll),
         (
             "Fly",
-            "Fly with the keys W A S D and E Q; Shift is faster, a drag looks around (F)",
+            "Fly by keys, which the view names, or with two fingers; a drag looks around (F)",
             Command::ToggleFlight,
         ),
     ];

@@ -204,7 +204,7 @@ fn gradients(ui: &mut Ui, cx: &mut Context<'_>, which: LayerRef) {
             [ui.available_width(), ui.spacing().interact_size.y],
             Button::new("Choose a gradient…"),
         )
-        .help("Gradients that come with Mandelight, and those of your files");
+        .help("Gradients that come with Mandelight, and those of your files: open a gradient file here");
     let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     popup.show(|ui| {
         ui.set_width(LIST_WIDTH);

@@ -94,6 +94,15 @@ pub fn is_formula_window_open(ctx: &egui::Context) -> bool {
     ctx.data(|data| data.get_temp::<Draft>(draft_id())).is_some_and(|draft| draft.is_open)
 }
 
+/// Closes the editor; its text is drawn as after the cross.
+pub fn close_formula_window(ctx: &egui::Context) {
+    ctx.data_mut(|data| {
+        let Some(draft) = data.get_temp::<Draft>(draft_id()) else { return };
+        data.insert_temp(draft_id(), Draft { is_open: false, ..draft });
+    });
+    ctx.request_repaint();
+}
+
 /// The editor, while it is open.
 pub fn formula_window(ui: &Ui, cx: &mut Context<'_>) {
     let ctx = ui.ctx();

@@ -24,9 +24,17 @@ const ROW_GAP: f32 = 2.0;
 
 /// The essential controls of light: the key light's direction and colour, and the exposure.
 pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
-    caption(ui, "Key light");
     // The ball stays while the section of all lights shows its own: nothing moves under the pointer.
-    edit_as_seen(ui, cx, key_ball);
+    let shown = ui.scope(|ui| {
+        caption(ui, "Key light");
+        edit_as_seen(ui, cx, key_ball);
+    });
+    let has_keyboard = |focused| {
+        let control = ui.ctx().read_response(focused);
+        control.is_some_and(|control| shown.response.rect.contains(control.rect.center()))
+    };
+    let has_keyboard = ui.memory(|memory| memory.focused()).is_some_and(has_keyboard);
+    cx.selection.uses_lights |= ui.rect_contains_pointer(shown.response.rect) || has_keyboard;
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
     cx.rects.record("exposure", &response);
 }

@@ -91,6 +91,9 @@ fn look_swatch(
     } else if response.has_focus() && !is_pressed {
         cx.look_preview.focus(look);
     }
+    // Of a light setup that is in view, the lights have handles.
+    let is_of_lights = look.lights.is_some() && look.material.is_none();
+    cx.selection.uses_lights |= is_of_lights && (response.hovered() || response.has_focus());
     if response.clicked() && !is_chosen {
         if look.lights.is_some() {
             cx.selection.light = None;

@@ -38,7 +38,7 @@ use egui::{
     emath::GuiRounding as _, vec2,
 };
 
-use crate::scene::{Scene, param::Param};
+use crate::scene::{Path, Scene, param::Param};
 
 use super::{
     icon::{Icon, icon_button, icon_side},
@@ -46,11 +46,12 @@ use super::{
     sheet_height::{HEADING, SheetHeight},
     shortcuts::Command,
     theme,
-    widgets::{Help as _, reveal, revealed, section},
+    timeline::Timeline,
+    widgets::{Help as _, reveal, reveal_focus, revealed, section},
 };
 pub(super) use context::Context;
 use context::Section;
-pub(super) use formula_text::{formula_window, is_formula_window_open};
+pub(super) use formula_text::{close_formula_window, formula_window, is_formula_window_open};
 pub(super) use help::help_window;
 pub(super) use sheet::Sheet;
 pub(super) use timeline::strip;
@@ -169,22 +170,6 @@ fn content_area(ui: &Ui) -> Rect {
     area
 }
 
-/// Scrolls to the control that the keyboard has just brought the focus to, if it is out of sight.
-fn reveal_focus(ui: &Ui) {
-    let id = ui.scope_id().with("last focus");
-    let focused = ui.memory(|memory| memory.focused());
-    if ui.data(|data| data.get_temp(id)) == Some(focused) {
-        return;
-    }
-    ui.data_mut(|data| data.insert_temp(id, focused));
-    if let Some(control) = focused.and_then(|focused| ui.ctx().read_response(focused)) {
-        let is_cut = !control.interact_rect.expand(1.0).contains_rect(control.rect);
-        if is_cut && control.layer_id == ui.layer_id() {
-            ui.scroll_to_rect(control.rect, None);
-        }
-    }
-}
-
 fn heading(ui: &mut Ui, cx: &mut Context<'_>, open: bool) {
     ui.horizontal(|ui| {
         let title = RichText::new("Mandelight").heading().color(theme::ACCENT);
@@ -241,24 +226,13 @@ fn essentials(ui: &mut Ui, cx: &mut Context<'_>) {
 /// All other controls, in sections.
 fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     ui.add_space(8.0);
-    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
-    let find = ui.add_sized(size, Button::new("Find a setting…"));
-    let find = find.help("Search all controls, scenes and commands by their names (Ctrl K)");
-    cx.rects.record("find", &find);
-    if find.clicked() {
-        cx.commands.push(Command::Find);
-    }
+    find_button(ui, cx);
     ui.add_space(4.0);
     let mut more_open = cx.settings.more_open;
     let response = section(ui, "More", "All other settings", &mut more_open, |ui| {
-        for Section { name, title, hover, show, reset } in SECTIONS {
+        for shown @ Section { name, title, hover, .. } in SECTIONS {
             let mut is_open = cx.settings.sections.is_open(name);
-            let heading = section(ui, title, hover, &mut is_open, |ui| {
-                show(ui, cx);
-                if let Some(reset) = reset {
-                    reset_button(ui, cx, title, *reset);
-                }
-            });
+            let heading = section(ui, title, hover, &mut is_open, |ui| contents(ui, cx, shown));
             if revealed(ui, name) {
                 heading.scroll_to_me(Some(egui::Align::TOP));
             }
@@ -268,6 +242,25 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
     });
     cx.rects.record("more", &response);
     cx.settings.more_open = more_open;
+}
+
+/// The button that opens the finder.
+fn find_button(ui: &mut Ui, cx: &mut Context<'_>) {
+    let size = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    let find = ui.add_sized(size, Button::new("Find a setting…"));
+    let find = find.help("Search all controls, scenes and commands by their names (Ctrl K)");
+    cx.rects.record("find", &find);
+    if find.clicked() {
+        cx.commands.push(Command::Find);
+    }
+}
+
+/// A section's controls.
+fn contents(ui: &mut Ui, cx: &mut Context<'_>, section: &Section) {
+    (section.show)(ui, cx);
+    if let Some(reset) = section.reset {
+        reset_button(ui, cx, section.title, reset);
+    }
 }
 
 /// A small button at the end of a section that restores its settings.
@@ -352,11 +345,66 @@ pub fn section_title_of(param: &Param) -> Option<&'static str> {
 /// Opens a section, with whatever hides it, and scrolls to it.
 pub(super) fn show_section(ui: &Ui, settings: &mut Settings, section: SectionRef) {
     reveal(ui, SECTIONS[section.0].name);
-    settings.panel_open = true;
     settings.more_open = true;
     settings.sections.set_open(SECTIONS[section.0].name, true);
+    show_panel(settings);
+}
+
+/// Shows the panel, as a sheet at half height at least.
+pub(super) fn show_panel(settings: &mut Settings) {
+    settings.panel_open = true;
     if settings.sheet == SheetHeight::Low {
         settings.sheet = SheetHeight::Half;
+    }
+}
+
+/// A part of the panel, or the timeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PanelPart {
+    /// The heading, the controls above the sections, and saving.
+    Panel,
+    /// A section.
+    Section(SectionRef),
+    /// The timeline.
+    Timeline,
+}
+
+impl PanelPart {
+    /// The part's name.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Panel => "Panel",
+            Self::Section(section) => section.title(),
+            Self::Timeline => "Timeline",
+        }
+    }
+}
+
+/// All parts, from top to bottom.
+pub(super) fn parts() -> impl Iterator<Item = PanelPart> {
+    [PanelPart::Panel]
+        .into_iter()
+        .chain(sections().map(PanelPart::Section))
+        .chain([PanelPart::Timeline])
+}
+
+/// Draws the controls of a part alone, over the width of `ui`.
+pub(super) fn show_part(
+    ui: &mut Ui,
+    cx: &mut Context<'_>,
+    part: PanelPart,
+    path: &mut Path,
+    timeline: &mut Timeline,
+) {
+    match part {
+        PanelPart::Panel => {
+            heading(ui, cx, true);
+            essentials(ui, cx);
+            find_button(ui, cx);
+            export::save(ui, cx);
+        }
+        PanelPart::Section(SectionRef(index)) => contents(ui, cx, &SECTIONS[index]),
+        PanelPart::Timeline => strip(ui, cx, path, timeline),
     }
 }
 

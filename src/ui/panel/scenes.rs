@@ -14,7 +14,7 @@ use crate::{
         shortcuts::Command,
         status::zoom,
         theme, thumbnail,
-        widgets::{Help as _, card, choice_button},
+        widgets::{Help as _, card, choice_button, scrolled_row},
     },
 };
 
@@ -31,31 +31,22 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     // A gallery is what its link is for.
     let opening = if cx.inputs.gallery.is_some() { gallery_list } else { dive };
     let mut chosen = ui.data_mut(|data| *data.get_temp_mut_or(id, opening));
-    ui.horizontal_wrapped(|ui| {
-        // All lists fit in one row of the panel.
+    let gallery = ("Gallery", "The gallery that this page's address names", gallery_list);
+    let gallery = cx.inputs.gallery.is_some().then_some(gallery);
+    let presets = lists.iter().enumerate().map(|(index, list)| (list.name, list.about, index));
+    let mine = ("Mine", "The views that you keep in this browser", mine_list);
+    scrolled_row(ui, "lists of scenes", |ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 4.0;
-        for (index, list) in lists.iter().enumerate() {
-            let text = RichText::new(list.name).small();
-            let response = choice_button(ui, index == chosen, text).help(list.about);
-            cx.rects.record(list.name, &response);
+        for (name, about, index) in gallery.into_iter().chain(presets).chain([mine]) {
+            let text = RichText::new(name).small();
+            let response = choice_button(ui, index == chosen, text).help(about);
+            cx.rects.record(name, &response);
             if response.clicked() {
                 chosen = index;
                 ui.data_mut(|data| data.insert_temp(id, chosen));
+                response.scroll_to_me(None);
             }
-        }
-        let mut other = |name, about, index| {
-            let text = RichText::new(name).small();
-            let button = choice_button(ui, chosen == index, text).help(about);
-            cx.rects.record(name, &button);
-            if button.clicked() {
-                chosen = index;
-                ui.data_mut(|data| data.insert_temp(id, chosen));
-            }
-        };
-        other("Mine", "The views that you keep in this browser", mine_list);
-        if cx.inputs.gallery.is_some() {
-            other("Gallery", "The gallery that this page's address names", gallery_list);
         }
     });
     if let Some(list) = lists.get(chosen) {

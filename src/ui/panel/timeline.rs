@@ -16,7 +16,7 @@ use crate::{
         shortcuts::Command,
         theme,
         timeline::Timeline,
-        widgets::{Help as _, number},
+        widgets::{Help as _, number, scrolled_row},
     },
 };
 
@@ -26,6 +26,9 @@ mod track;
 const ONE_ROW_FROM: f32 = 740.0;
 /// The same with the larger buttons of touch screens.
 const ONE_TOUCH_ROW_FROM: f32 = 920.0;
+
+/// Height of a window, in points, below which a narrow strip has one row of buttons, which scrolls.
+const LOW: f32 = 480.0;
 
 /// Width of the reason why a kind of video is missing, in points.
 const REASON_WIDTH: f32 = 190.0;
@@ -67,6 +70,16 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     strip.cx.rects.record("timeline track", &response);
     if wide {
         ui.horizontal(|ui| {
+            strip.selected_key(ui);
+            strip.rate(ui);
+            strip.shutter(ui);
+            strip.frames(ui);
+            strip.save(ui);
+        });
+    } else if ui.ctx().content_rect().height() < LOW {
+        scrolled_row(ui, "timeline row", |ui| {
+            strip.own_view(ui);
+            strip.keys(ui);
             strip.selected_key(ui);
             strip.rate(ui);
             strip.shutter(ui);
@@ -297,7 +310,7 @@ impl Strip<'_, '_> {
             });
         let response = shown.response.accessible_name("Kind of file");
         self.cx.rects.record("kind of file", &response);
-        response.help("Whether the frames become a video or pictures");
+        response.help("Whether the frames become a video, MP4 or WebM, or pictures, PNGs");
     }
 
     /// The button that saves the frames, or the progress of an export.

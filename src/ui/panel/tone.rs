@@ -7,7 +7,7 @@ use crate::{
     scene::{Background, Scene, Tone, ToneChannels, ToneCurve, ToneMean, param},
     ui::{
         theme,
-        widgets::{DisplayRange, Help as _, choice, color, histogram, param_slider},
+        widgets::{DisplayRange, Help as _, choice, color, color_size, histogram, param_slider},
     },
 };
 
@@ -34,20 +34,21 @@ fn show(ui: &mut Ui, cx: &mut Context<'_>) {
     let background = &mut cx.scene.background;
     ui.horizontal(|ui| {
         ui.label(egui::RichText::new("Background").color(theme::TEXT_DIM));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            color(
-                ui,
-                "Background bottom",
-                "The background's colour at the lower edge",
-                &mut background.bottom,
-            );
-            color(
-                ui,
-                "Background top",
-                "The background's colour at the upper edge",
-                &mut background.top,
-            );
-        });
+        // Added from left to right, which is the order of the Tab key.
+        let buttons = 2.0 * color_size(ui).x + ui.spacing().item_spacing.x;
+        ui.add_space((ui.available_width() - buttons).max(0.0));
+        color(
+            ui,
+            "Background top",
+            "The background's colour at the upper edge",
+            &mut background.top,
+        );
+        color(
+            ui,
+            "Background bottom",
+            "The background's colour at the lower edge",
+            &mut background.bottom,
+        );
     });
 }
 

@@ -17,6 +17,11 @@ use crate::{
 
 /// Width of the picker, in points.
 const WIDTH: f32 = 232.0;
+/// Width and height of the button of [`color`], in points.
+pub fn color_size(ui: &Ui) -> Vec2 {
+    vec2(ui.spacing().interact_size.x.max(32.0), ui.spacing().interact_size.y)
+}
+
 /// Number of mesh cells along a side of the square and the bar.
 const CELLS: usize = 24;
 /// Change of a value per arrow key press, as a fraction of its range.
@@ -26,7 +31,7 @@ const KEY_STEP: f32 = 0.02;
 ///
 /// `name` is the accessible name, `hover` the hover text.
 pub fn color(ui: &mut Ui, name: &str, hover: &str, linear: &mut [f32; 3]) -> Response {
-    let size = vec2(ui.spacing().interact_size.x.max(32.0), ui.spacing().interact_size.y);
+    let size = color_size(ui);
     let (rect, mut response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::ColorWell, ui.is_enabled(), name));
     paint_button(ui, rect, &response, *linear);

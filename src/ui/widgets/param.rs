@@ -79,6 +79,12 @@ fn row(
         let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
         let Parts { label, rail, number: number_at } = place(row);
         let label = label_ui(ui, label, param.label);
+        // Tab and screen readers meet the number above a rail before the rail.
+        let is_above = number_at.top() < rail.top();
+        let number_ui = |ui: &mut Ui, value: &mut f64| {
+            ui.put(number_at, |ui: &mut Ui| number(ui, param, value))
+        };
+        let above = is_above.then(|| number_ui(ui, value));
         let rail = rail_ui(ui, rail, param, value);
         if revealed(ui, param.path) {
             rail.request_focus();
@@ -87,7 +93,7 @@ fn row(
         if label.double_clicked() || rail.double_clicked() {
             *value = param.default;
         }
-        let number = ui.put(number_at, |ui: &mut Ui| number(ui, param, value));
+        let number = above.unwrap_or_else(|| number_ui(ui, value));
         let hover = hover_text(param);
         let [label, rail, number] = [label, rail, number].map(|part| part.help(&hover));
         rail.union(label).union(number)

@@ -1,8 +1,8 @@
 //! The timeline's track: a ruler to scrub, and keys as diamonds to drag.
 
 use egui::{
-    Color32, FontId, Key, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo,
-    accesskit::Role, pos2, vec2,
+    Color32, FontId, Key, Painter, Pos2, Rangef, Rect, Response, Sense, Shape, Stroke, Ui,
+    WidgetInfo, accesskit::Role, pos2, vec2,
 };
 
 use crate::{
@@ -182,9 +182,8 @@ fn diamond(
     index: usize,
 ) {
     let key = &path.keys[index];
-    let center = pos2(scale.x(key.time_secs), lane.y);
-    let size = vec2(theme::target_size(ui, KEY_WIDTH), lane_height(ui));
-    let area = Rect::from_center_size(center, size);
+    let height = Rangef::point(lane.y).expand(lane_height(ui) / 2.0);
+    let area = Rect::from_x_y_ranges(key_range(ui, scale, path, index), height);
     let response = ui.interact(area, track.id.with(("key", index)), Sense::click_and_drag());
     let name = format!("Key {} at {:.2} s", index + 1, key.time_secs);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name));
@@ -209,6 +208,17 @@ fn diamond(
     let painter = ui.painter().with_clip_rect(track.rect);
     painter.add(Shape::convex_polygon(corners, fill, Stroke::new(1.5, outline)));
     response.help(format!("{name}. Click to show it, drag to change its time."));
+}
+
+/// The x coordinates of a key's sensitive area, which ends at the middle between neighbours.
+fn key_range(ui: &Ui, scale: TimeScale, path: &Path, index: usize) -> Rangef {
+    let x_of = |index: usize| path.keys.get(index).map(|key| scale.x(key.time_secs));
+    let x = x_of(index).unwrap_or_default();
+    let half = theme::target_size(ui, KEY_WIDTH) / 2.0;
+    let middle_to = |neighbour: Option<f32>| neighbour.map(|other| (x + other) / 2.0);
+    let left = middle_to(index.checked_sub(1).and_then(x_of)).unwrap_or(x - half);
+    let right = middle_to(x_of(index + 1)).unwrap_or(x + half);
+    Rangef::new(left.max(x - half), right.min(x + half))
 }
 
 /// Draws the playhead: a line with a grip, hollow if the view differs from the path.

@@ -1,0 +1,42 @@
+//! What the finder leads to.
+
+use egui::Ui;
+
+use super::Interface;
+use crate::ui::{
+    finder::Target,
+    panel::{self, PanelPart},
+    shortcuts::Command,
+    widgets,
+};
+
+impl Interface {
+    /// Runs the chosen command, or shows the chosen section or control.
+    pub(super) fn show_target(
+        &mut self,
+        ui: &Ui,
+        target: Target,
+        wide: bool,
+        commands: &mut Vec<Command>,
+    ) {
+        match target {
+            Target::Command(command) => commands.push(command),
+            Target::Section(section) => panel::show_section(ui, &mut self.settings, section),
+            Target::Look(at) => self.apply_look(at),
+            Target::Parameter(section, param) => {
+                panel::show_section(ui, &mut self.settings, section);
+                widgets::reveal(ui, param.path);
+            }
+            Target::Control(part, label) => {
+                match part {
+                    PanelPart::Panel => panel::show_panel(&mut self.settings),
+                    PanelPart::Section(section) => {
+                        panel::show_section(ui, &mut self.settings, section)
+                    }
+                    PanelPart::Timeline => self.show_timeline(wide),
+                }
+                widgets::reveal_named(ui.ctx(), label);
+            }
+        }
+    }
+}
