@@ -46,16 +46,16 @@ fn step_escalation(spent: u32, most: u32) -> f32 {
 // which of them a ray meets is chance.
 const CHECKED_THICKNESS = 0.5;
 const THICKNESS_CHECKS = 6u;
-// Checks that are left after `MOST_CHECKED` of a ray's steps: it creeps through dust that no estimate shows to be empty, and
-// would pass what is thicker than a hit distance.
-const MOST_CHECKED = 0.62;
-const FEW_CHECKS = 1u;
+// A ray that has spent this part of its steps needs only `LATE_CHECKS`. It creeps through dust, and six checks would let it
+// pass layers that are thinner than two hit distances.
+const LATE_STEPS_PART = 0.62;
+const LATE_CHECKS = 1u;
 // Halvings of the step that crossed the hit distance, so that the checked length starts at the crossing.
 const HALVINGS = 5u;
 
 // Looks that a hit takes, after `spent` of `most` steps.
-fn looks_after(spent: u32, most: u32) -> u32 {
-    return HALVINGS + select(THICKNESS_CHECKS, FEW_CHECKS, f32(spent) > MOST_CHECKED * f32(most));
+fn required_looks(spent: u32, most: u32) -> u32 {
+    return HALVINGS + select(THICKNESS_CHECKS, LATE_CHECKS, f32(spent) > LATE_STEPS_PART * f32(most));
 }
 
 // A hit that is being checked.
@@ -64,13 +64,13 @@ struct Crossing {
     outside: f32,
     inside: f32,
     // Number of looks taken, with the one that found the crossing. 0: no hit is being checked. More than
-    // `looks_after`: the hit counts.
+    // `required_looks`: the hit counts.
     looks: u32,
 }
 
-// After a look at depth `t`: the depth of the next look, or of the hit if the hit counts, after `enough` looks.
+// After a look at depth `t`: the depth of the next look, or of the hit if the hit counts, after `required` looks.
 fn next_look(
-    crossing: ptr<function, Crossing>, enough: u32, before: f32, t: f32, hit: f32, is_near: bool,
+    crossing: ptr<function, Crossing>, required: u32, before: f32, t: f32, hit: f32, is_near: bool,
 ) -> f32 {
     let looks = (*crossing).looks;
     if (looks == 0u) {
@@ -79,7 +79,7 @@ fn next_look(
     }
     if (looks > HALVINGS) {
         (*crossing).looks = select(0u, looks + 1u, is_near);
-        if (is_near && looks >= enough) { return (*crossing).inside; }
+        if (is_near && looks >= required) { return (*crossing).inside; }
         return t + select(0.0, CHECKED_THICKNESS / f32(THICKNESS_CHECKS) * hit, is_near);
     }
     if (is_near) { (*crossing).inside = t; } else { (*crossing).outside = t; }

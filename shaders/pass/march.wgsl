@@ -11,7 +11,7 @@ const MIN_STEP_WITH_HIT_CHECK = 0.4;
 // sought by bisection: they may have ended deep inside the set.
 const WIDEST_CROSSING = 4.0;
 
-// Stands in for the distance that is missing before the first point: crossings are interpolated to that point.
+// Before a ray's first point no distance is known; a crossing on the way to that point is placed at it.
 const UNKNOWN_LEFT = 1e30;
 
 // A ray stays with a surface until it is so many colour distances away: gaps that only a fine picture
@@ -47,9 +47,10 @@ struct RayEnd {
     is_on_section: bool,
 }
 
-// Colours are taken at the surface if the hit distance is greater than the colour distance.
+// Colours are taken at the surface if the hit distance is greater than the colour distance, or if the first point of the
+// ray is inside.
 fn ray_end(surface: f32, colors: ColorPoint) -> RayEnd {
-    return RayEnd(surface, select(surface, colors.depth, colors.depth > 0.0), false);
+    return RayEnd(surface, select(surface, min(colors.depth, surface), colors.depth > 0.0), false);
 }
 
 fn is_bounced() -> bool {
@@ -62,8 +63,8 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
     var t = max(interval.x, clear);
     var is_on_section = cut.depth > 0.0 && t <= 1.000001 * cut.depth;
     var over = over_relaxation();
-    // Depth of the last point, and the distance that was missing to a hit there. The first point may be inside: balls of
-    // a cone are as good as the estimate.
+    // Depth of the last point, and the distance that was missing to a hit there. A cone may end inside the set where its
+    // estimate is too large: the way to a ray's first point starts at the bounding sphere.
     var before = interval.x;
     var left = UNKNOWN_LEFT;
     // Depth along `forward` is the same for both eyes. Bounced rays take the colours of the surface.
@@ -104,9 +105,9 @@ fn march(fractal: Fractal, ray: Ray, interval: vec2f, cut: SectionEntry, clear: 
                 colors = next_color_point(colors, before, t, ahead.distance, within);
             }
             if (checks_hits && within_hit == 0.0 && (is_looking || ahead.distance < hit)) {
-                let enough = looks_after(i, frame.march.march_steps);
-                t = next_look(&crossing, enough, before, t, hit, ahead.distance < hit);
-                if (crossing.looks > enough) { return ray_end(max(t, 1e-30), colors); }
+                let required = required_looks(i, frame.march.march_steps);
+                t = next_look(&crossing, required, before, t, hit, ahead.distance < hit);
+                if (crossing.looks > required) { return ray_end(max(t, 1e-30), colors); }
                 if (crossing.looks > 0u) { continue; }
             }
             let is_near = ahead.distance < hit;

@@ -27,8 +27,8 @@ pub enum Kept {
     Foreign,
 }
 
-/// Checks the file of a frame: its format, that it has its last bytes, its size in pixels and its scene. The pixels
-/// are not read.
+/// Checks the file of a frame: its format, that it has its last bytes, its size in pixels and its scene; the pixels of
+/// PNGs, whose chunks have checksums.
 ///
 /// # Errors
 /// Those of reading the file.
@@ -64,5 +64,9 @@ pub fn check(
     let is_scene =
         text.is_some_and(|text| value(&text) == value(&document::to_json_compact(&shown)));
     let is_size = options.sheet_px(&shown).is_ok_and(|expected| expected == size);
-    Ok(if is_scene && is_size { Kept::Complete } else { Kept::Foreign })
+    if !is_scene || !is_size {
+        return Ok(Kept::Foreign);
+    }
+    let is_png = matches!(options.format, PictureFormat::Png | PictureFormat::Rgb);
+    Ok(if is_png && !export::png_has_all_pixels(open()?) { Kept::Damaged } else { Kept::Complete })
 }

@@ -50,7 +50,7 @@ pub use jpeg::jpeg_complete_size;
 pub use metadata::{MAX_HEADER_BYTES, MAX_TEXT_BYTES, SCENE_KEYWORD, SceneTextError};
 pub use options::{Eye, StillOptions};
 pub use picture_scene::picture_scene_text;
-pub use png::{is_png, png_complete_size, scene_text};
+pub use png::{is_png, png_complete_size, png_has_all_pixels, scene_text};
 pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};
 pub use webp::webp_complete_size;

@@ -149,6 +149,21 @@ pub fn png_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, S
     size().map_err(|error| SceneTextError::unreadable("PNG", error))
 }
 
+/// Whether all of a PNG's pixels can be read: a crash of the machine may leave holes in a file.
+pub fn png_has_all_pixels(reader: impl BufRead + Seek) -> bool {
+    let limits = png::Limits { bytes: MAX_HEADER_BYTES };
+    let Ok(mut reader) = png::Decoder::new_with_limits(reader, limits).read_info() else {
+        return false;
+    };
+    loop {
+        match reader.next_row() {
+            Ok(Some(_)) => {}
+            Ok(None) => return reader.finish().is_ok(),
+            Err(_) => return false,
+        }
+    }
+}
+
 /// The scene document of a PNG, if it has one before its pixels.
 ///
 /// The pixels are neither read nor decoded.

@@ -226,7 +226,7 @@ fn a_screen_reader_opens_a_scene_changes_the_power_and_saves() {
 
     only_changes(&visit, "opened", "powered", &["fractal", "camera"]);
     assert_eq!(visit.scene("powered").fractal.number("power"), Some(5.0));
-    assert_eq!(visit.text("/after_tab"), "Power value");
+    assert_eq!(visit.text("/after_tab"), "Power 2");
     let stepped = visit.scene("stepped").fractal.number("power");
     assert!(stepped.is_some_and(|power| power > 5.0 && power < 6.0), "{stepped:?}");
     let chosen = visit.scene("chosen");

@@ -10,7 +10,10 @@ use std::{
     env, fs,
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
     path::{Path, PathBuf},
+    process,
     sync::{Mutex, MutexGuard, PoisonError},
+    thread,
+    time::{Duration, Instant},
 };
 
 use cap::Cap;
@@ -30,6 +33,50 @@ const INPUTS: usize = 100_000;
 const MAX_CORPUS_BYTES: u64 = 1 << 20;
 /// The seed of the inputs, if the environment has none.
 const SEED: u64 = 0x6d61_6e64_656c_6967;
+
+/// Time that no input takes, on a busy machine neither: the largest take tenths of a second.
+const ENDLESS: Duration = Duration::from_secs(60);
+
+/// The input that is being read, to be stored if it never ends.
+struct Reading {
+    since: Instant,
+    target: &'static str,
+    bytes: Vec<u8>,
+}
+
+static READING: Mutex<Option<Reading>> = Mutex::new(None);
+
+fn reading() -> MutexGuard<'static, Option<Reading>> {
+    READING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends the process at an input that takes [`ENDLESS`], and stores it.
+fn watch_for_endless_inputs() {
+    static WATCH: std::sync::Once = std::sync::Once::new();
+    WATCH.call_once(|| {
+        thread::spawn(|| {
+            loop {
+                thread::sleep(Duration::from_secs(1));
+                if let Some(reading) = &*reading()
+                    && reading.since.elapsed() > ENDLESS
+                {
+                    let stored = store(reading.target, &reading.bytes);
+                    eprintln!("{}: this input does not end; it is in {stored}", reading.target);
+                    process::abort();
+                }
+            }
+        });
+    });
+}
+
+/// Stores an input that fails; says where, or why not.
+fn store(target: &str, bytes: &[u8]) -> String {
+    let file = root().join("target").join(format!("fuzz-failure-{target}"));
+    match fs::write(&file, bytes) {
+        Ok(()) => file.display().to_string(),
+        Err(error) => format!("no file: {error}"),
+    }
+}
 
 /// Keeps other tests from allocating until it is dropped.
 fn alone() -> MutexGuard<'static, ()> {
@@ -58,6 +105,8 @@ fn corpus(target: &FuzzTarget) -> Vec<(String, Vec<u8>)> {
 
 /// Checks an input and its allocations; stores an input that fails as `name`.
 fn check(target: &FuzzTarget, bytes: &[u8], name: &dyn Fn() -> String) -> (Outcome, Allocations) {
+    *reading() =
+        Some(Reading { since: Instant::now(), target: target.name, bytes: bytes.to_vec() });
     let run = || {
         let (outcome, allocated) = measured(&ALLOCATOR, || (target.check)(bytes));
         assert!(allocated.peak <= MAX_HELD_BYTES, "{} bytes are held at a time", allocated.peak);
@@ -68,16 +117,18 @@ fn check(target: &FuzzTarget, bytes: &[u8], name: &dyn Fn() -> String) -> (Outco
         );
         (outcome, allocated)
     };
-    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
-        let file = root().join("target").join(format!("fuzz-failure-{}", target.name));
-        let stored = fs::write(&file, bytes).map(|()| file.display().to_string());
-        eprintln!("{}: this input fails: {}; it is in {stored:?}", target.name, name());
+    let read = catch_unwind(AssertUnwindSafe(run));
+    *reading() = None;
+    read.unwrap_or_else(|panic| {
+        let stored = store(target.name, bytes);
+        eprintln!("{}: this input fails: {}; it is in {stored}", target.name, name());
         resume_unwind(panic)
     })
 }
 
 fn fuzz(name: &str) {
     let _alone = alone();
+    watch_for_endless_inputs();
     let target = TARGETS.iter().find(|target| target.name == name).expect("a target");
     let seeds = (target.seeds)();
     let corpus = corpus(target);

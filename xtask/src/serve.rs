@@ -154,6 +154,8 @@ fn mime_of(path: &str) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use std::io::{Read as _, Write as _};
+
     use super::*;
 
     fn site() -> Site {
@@ -198,6 +200,20 @@ mod tests {
         assert_eq!(site().answer(&Method::Head, "/").status, 200);
         for method in [Method::Post, Method::Put, Method::Delete, Method::Options] {
             assert_eq!(site().answer(&method, "/").status, 405, "{method}");
+        }
+    }
+
+    #[test]
+    fn answers_carry_the_headers() {
+        let server = Server::http((Ipv4Addr::LOCALHOST, 0)).unwrap();
+        let address = server.server_addr().to_ip().unwrap();
+        std::thread::spawn(move || answer_all(&server, &site()));
+        let mut stream = std::net::TcpStream::connect(address).unwrap();
+        write!(stream, "GET / HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n").unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        for (name, value) in headers::ALL {
+            assert!(answer.contains(&format!("{name}: {value}\r\n")), "{name}: {answer}");
         }
     }
 

@@ -61,7 +61,7 @@ fn grid(kind: Normals) -> Vec<(DVec3, DVec3)> {
     (0..27).map(offset).filter(is_in).map(|offset| (offset, weight(offset))).collect()
 }
 
-/// The normal of that kind in f64; for the analytic one, of very small differences, or where these face away, of all
+/// The normal of that kind in f64; for the analytic one, of very small differences, or where these face away or are 0, of all
 /// neighbours of a place in front of the point, or the nearest direction that does not.
 fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
     let normal = fitted(field, kind, seen, seen.point);
@@ -79,6 +79,7 @@ fn normal(field: &DeepField, kind: Normals, seen: &Seen) -> DVec3 {
     (across + 0.01 * seen.toward_eye).normalize()
 }
 
+/// The slope of the estimate about `center`, of any length.
 fn fitted(field: &DeepField, kind: Normals, seen: &Seen, center: DVec3) -> DVec3 {
     let (kind, spacing) = match kind {
         Normals::None => return seen.toward_eye,
@@ -87,7 +88,7 @@ fn fitted(field: &DeepField, kind: Normals, seen: &Seen, center: DVec3) -> DVec3
     };
     let slope =
         |(offset, weight): (DVec3, DVec3)| weight * field.distance(center + spacing * offset);
-    grid(kind).into_iter().map(slope).sum::<DVec3>().normalize_or(seen.toward_eye)
+    grid(kind).into_iter().map(slope).sum()
 }
 
 #[test]
