@@ -13,6 +13,8 @@ use egui::{
 };
 use serde::Serialize;
 
+use super::widgets::is_seeking;
+
 /// What an [`Element`] is, and its state of that kind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase", tag = "kind")]
@@ -223,7 +225,7 @@ pub struct ScreenReader {
 
 impl ScreenReader {
     /// A screen reader's side of an interface; `show` gets the elements at every change, at least
-    /// `interval_secs` apart unless requests come in between.
+    /// `interval_secs` apart unless requests or a search for a control come in between.
     pub fn new(show: fn(&Elements), interval_secs: f64) -> Self {
         let shown = Elements::default();
         Self { show, interval_secs, shown, requests: Vec::new(), next_secs: 0.0, wait_secs: None }
@@ -255,7 +257,12 @@ impl Plugin for ScreenReader {
             self.next_secs = now_secs + self.interval_secs;
             self.wait_secs = None;
         } else {
-            context.disable_accesskit();
+            // The search for a control reads the tree of every frame.
+            if is_seeking(context) {
+                context.enable_accesskit();
+            } else {
+                context.disable_accesskit();
+            }
             self.wait_secs = Some(self.next_secs - now_secs);
         }
         input.events.extend(self.requests.drain(..).map(egui::Event::AccessKitActionRequest));

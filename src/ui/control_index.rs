@@ -3,6 +3,8 @@
 //! In: the project and the settings. Out: each control's name, help and part. The names are read from the accessibility
 //! tree of frames that are never painted, with every section open: a new control is in the index by itself.
 
+use std::{cell::OnceCell, sync::Arc};
+
 use egui::{Pos2, RawInput, Rect, vec2};
 
 use super::{
@@ -32,12 +34,12 @@ const SIZE: egui::Vec2 = vec2(theme::PANEL_WIDTH, 8000.0);
 /// Width of the timeline's frames, in points.
 const TIMELINE_WIDTH: f32 = 1600.0;
 /// The end of a number field's name, after the name of its slider.
-const NUMBER: &str = " value";
+const NUMBER_SUFFIX: &str = " value";
 
 /// A control of the panel or the timeline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
-    /// The name, without [`NUMBER`].
+    /// The name, without [`NUMBER_SUFFIX`].
     pub name: String,
     /// The name in the accessibility tree.
     pub label: String,
@@ -47,31 +49,74 @@ pub struct Control {
     pub part: PanelPart,
 }
 
-/// The controls that the project has, then those that other projects have.
-pub fn controls(
-    project: &Project,
-    settings: &Settings,
-    inputs: &DisplayInputs<'_>,
-) -> Vec<Control> {
-    let inputs = DisplayInputs { export: None, ..*inputs };
-    let ctx = egui::Context::default();
-    theme::install(&ctx);
-    ctx.enable_accesskit();
-    let mut controls: Vec<Control> = Vec::new();
-    for sample in samples(project, settings) {
-        for part in panel::parts() {
-            for element in elements(&ctx, sample.clone(), part, &inputs).elements {
-                let Some(control) = control(element, part) else { continue };
-                let is_same = |known: &Control| {
-                    known.name == control.name && known.part.title() == control.part.title()
-                };
-                if !controls.iter().any(is_same) {
-                    controls.push(control);
-                }
+/// The names of controls, for each opening of the finder.
+#[derive(Debug, Default)]
+pub struct ControlIndex {
+    /// The context of the frames; its fonts are laid out once.
+    ctx: OnceCell<egui::Context>,
+    /// The controls of [`fixed_states`].
+    of_fixed_states: OnceCell<Vec<Control>>,
+}
+
+impl ControlIndex {
+    /// The controls that the project has, then those that other projects have.
+    pub fn controls(
+        &self,
+        project: &Project,
+        settings: &Settings,
+        inputs: &DisplayInputs<'_>,
+    ) -> Vec<Control> {
+        let inputs = DisplayInputs { export: None, ..*inputs };
+        let ctx = self.ctx.get_or_init(|| {
+            let ctx = egui::Context::default();
+            theme::install(&ctx);
+            ctx.enable_accesskit();
+            ctx
+        });
+        let of_fixed_states = self.of_fixed_states.get_or_init(|| {
+            let controls = fixed_states().into_iter().flat_map(|state| {
+                let controls = controls_of(ctx, &state, &inputs);
+                controls.filter(|control| !is_of_one_scene(control)).collect::<Vec<_>>()
+            });
+            controls.collect()
+        });
+        let present = IndexedState {
+            project: project.clone(),
+            settings: settings.clone(),
+            selection: Selection::of(LightRef::Environment(0)),
+        };
+        let mut controls: Vec<Control> = Vec::new();
+        for control in controls_of(ctx, &present, &inputs).chain(of_fixed_states.iter().cloned()) {
+            let is_same = |known: &Control| {
+                known.name == control.name && known.part.title() == control.part.title()
+            };
+            if !controls.iter().any(is_same) {
+                controls.push(control);
             }
         }
+        controls
     }
-    controls
+}
+
+/// The controls that a state has.
+fn controls_of<'a>(
+    ctx: &'a egui::Context,
+    state: &'a IndexedState,
+    inputs: &'a DisplayInputs<'_>,
+) -> impl Iterator<Item = Control> + 'a {
+    panel::parts().flat_map(move |part| {
+        let elements = elements(ctx, state.clone(), part, inputs).elements;
+        elements.into_iter().filter_map(move |element| control(element, part))
+    })
+}
+
+/// True for a control of a numbered light, key or section plane, which not every scene has.
+fn is_of_one_scene(control: &Control) -> bool {
+    let words: Vec<&str> = control.name.split_whitespace().collect();
+    words.windows(2).any(|pair| {
+        let is_numbered = ["Key", "Light", "Point", "Plane", "plane", "Stop", "Step"];
+        is_numbered.contains(&pair[0]) && pair[1].starts_with(|c: char| c.is_ascii_digit())
+    })
 }
 
 /// The control of an element; none for texts and for headings of sections.
@@ -82,69 +127,57 @@ fn control(element: Element, part: PanelPart) -> Option<Control> {
         _ => true,
     };
     let label = element.name;
-    let name = label.strip_suffix(NUMBER).unwrap_or(&label).to_owned();
+    let name = label.strip_suffix(NUMBER_SUFFIX).unwrap_or(&label).to_owned();
     let help = element.help.unwrap_or_default();
     (is_control && !name.is_empty()).then_some(Control { name, label, help, part })
 }
 
-/// What the panel shows in a frame.
+/// What the panel and the timeline show in a frame.
 #[derive(Clone)]
-struct Sample {
+struct IndexedState {
     project: Project,
     settings: Settings,
     selection: Selection,
 }
 
-/// The project itself, and projects with controls that it lacks.
-fn samples(project: &Project, settings: &Settings) -> [Sample; 3] {
-    let with_path = |mut project: Project| {
-        let key = |time_secs| Key {
-            time_secs,
-            easing: Easing::default(),
-            scene: project.scene.clone().into(),
-        };
-        if project.path.is_empty() {
-            project.path.keys = vec![key(0.0), key(1.0)];
-        }
-        project
-    };
+/// States that together have all controls which depend on the formula and on choices.
+fn fixed_states() -> [IndexedState; 2] {
     let mandelbox = formula::find("mandelbox").map(Fractal::new);
-    let mix = presets::mixes().first().map(|preset| (preset.scene)().fractal);
-    let [mut one, mut other] = [mandelbox, mix].map(|fractal| {
-        let scene = Scene { fractal: fractal.unwrap_or_default(), ..Scene::default() };
-        (scene, settings.clone())
-    });
-    for (scene, settings) in [&mut one, &mut other] {
+    let hybrid = presets::mixes().first().map(|preset| (preset.scene)().fractal);
+    let [mut formula_state, mut hybrid_state] = [mandelbox, hybrid].map(|fractal| {
+        let mut scene = Scene { fractal: fractal.unwrap_or_default(), ..Scene::default() };
         scene.lights.point.push(PointLight::default());
         scene.fractal.section_planes.push(SectionPlane::default());
         scene.camera.stereo.layout = StereoLayout::SideBySide;
         scene.lights.rig.kind = RigKind::Sky;
         scene.surface.second_layer.amount = 0.5;
+        let mut settings = Settings::default();
         settings.export.times = 0;
+        let selection = Selection::of(LightRef::Environment(0));
+        IndexedState { project: scene.into(), settings, selection }
+    });
+    formula_state.settings.export.file.format = StillFormat::Jpeg;
+    hybrid_state.settings.export.file.format = StillFormat::Png;
+    hybrid_state.project.scene.surface.coloring.source = ColorSource::AxisTrap;
+    hybrid_state.selection = Selection::of(LightRef::Point(0));
+    for state in [&mut formula_state, &mut hybrid_state] {
+        let Project { scene, path } = &mut state.project;
+        let scene: Arc<Scene> = scene.clone().into();
+        let key = |time_secs| Key { time_secs, easing: Easing::default(), scene: scene.clone() };
+        path.keys = vec![key(0.0), key(1.0)];
     }
-    one.1.export.file.format = StillFormat::Jpeg;
-    other.1.export.file.format = StillFormat::Png;
-    other.0.surface.coloring.source = ColorSource::AxisTrap;
-    let sample = |project: Project, settings: Settings, light| Sample {
-        project: with_path(project),
-        settings,
-        selection: Selection::of(light),
-    };
-    [
-        sample(project.clone(), settings.clone(), LightRef::Environment(0)),
-        sample(one.0.into(), one.1, LightRef::Environment(0)),
-        sample(other.0.into(), other.1, LightRef::Point(0)),
-    ]
+    [formula_state, hybrid_state]
 }
 
 /// The elements of a part of the panel.
 fn elements(
     ctx: &egui::Context,
-    sample: Sample,
+    state: IndexedState,
     part: PanelPart,
     inputs: &DisplayInputs<'_>,
 ) -> Elements {
-    let Sample { project: Project { mut scene, mut path }, mut settings, mut selection } = sample;
+    let IndexedState { project: Project { mut scene, mut path }, mut settings, mut selection } =
+        state;
     let (mut favourites, mut rects) = (Favourites::default(), Rects::default());
     let (mut look_preview, mut histogram_shown) = (LookPreview::default(), false);
     let (mut commands, mut actions) = (Vec::new(), Vec::new());

@@ -8,7 +8,7 @@ use super::{
     control_index::Control,
     panel::{self, PanelPart, SectionRef},
     rects::Rects,
-    shortcuts::{Command, KEYLESS, SHORTCUTS},
+    shortcuts::{Command, FINDER_ONLY, SHORTCUTS},
     theme,
     widgets::window_heading,
 };
@@ -167,7 +167,7 @@ fn entries(controls: Vec<Control>) -> Vec<Entry> {
         let (name, about) = (what.to_owned(), printable(keys));
         is_one.then_some(Entry { name, about, words: String::new(), target })
     });
-    let keyless = KEYLESS.iter().map(|&(command, what)| Entry {
+    let finder_only = FINDER_ONLY.iter().map(|&(command, what)| Entry {
         name: what.to_owned(),
         about: String::new(),
         words: String::new(),
@@ -196,7 +196,7 @@ fn entries(controls: Vec<Control>) -> Vec<Entry> {
             target: Target::Look([at, index]),
         })
     });
-    let commands: Vec<Entry> = commands.chain(keyless).collect();
+    let commands: Vec<Entry> = commands.chain(finder_only).collect();
     let others: Vec<Entry> = sections.chain(scenes).chain(looks).collect();
     let is_there = |name: &str| commands.iter().chain(&others).any(|entry| entry.name == name);
     // The panel has commands, cards of scenes and swatches of looks as well.
@@ -205,12 +205,13 @@ fn entries(controls: Vec<Control>) -> Vec<Entry> {
         control.part != PanelPart::Panel || !(is_there(&control.name) || is_there(of_look))
     };
     let mut all_controls: Vec<Entry> = Vec::new();
-    for Control { name, label, help, part } in controls.into_iter().filter(is_new) {
+    let controls = controls.into_iter().filter(is_new).map(|control| {
+        let Control { name, label, help, part } = control;
         let target = Target::Control(part, label);
-        let (about, words) = (part.title().to_owned(), printable(&help));
-        all_controls.push(Entry { name, about, words, target });
-    }
-    for entry in parameters() {
+        Entry { name, about: part.title().to_owned(), words: printable(&help), target }
+    });
+    // A parameter is found by its path, also where another control of the section has its name.
+    for entry in parameters().chain(controls) {
         let is_same = |other: &Entry| other.name == entry.name && other.about == entry.about;
         if !all_controls.iter().any(is_same) {
             all_controls.push(entry);

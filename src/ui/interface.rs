@@ -14,8 +14,8 @@ use egui::{Margin, Panel, Ui};
 use super::{
     action::Action,
     compare::Compare,
-    control_index,
-    display_inputs::DisplayInputs,
+    control_index::ControlIndex,
+    display_inputs::{DisplayInputs, Notice},
     editor::Editor,
     favourites::{Favourite, Favourites},
     finder::Finder,
@@ -27,7 +27,7 @@ use super::{
     mutate::Mutate,
     navigation::CameraStatus,
     notice,
-    panel::{self, Context},
+    panel::{self, Context, PanelPart},
     pilot::Pilot,
     places::Places,
     rects::Rects,
@@ -41,6 +41,7 @@ use super::{
     surprises::Surprises,
     theme,
     timeline::Timeline,
+    toast::Toast,
     view, widgets,
 };
 use crate::{
@@ -52,6 +53,9 @@ use crate::{
 const STILL_SECS: f64 = 0.25;
 /// Seconds for which [`Command::ShowBefore`] shows the view before the last change.
 const BEFORE_SECS: f64 = 2.0;
+
+/// Seconds for which a notice of the interface itself stays.
+const NOTICE_SECS: f64 = 6.0;
 
 /// The user interface and the edited project.
 #[derive(Debug)]
@@ -71,6 +75,8 @@ pub struct Interface {
     light_handles: LightHandles,
     compare: Compare,
     finder: Finder,
+    control_index: ControlIndex,
+    toast: Toast,
     mutate: Mutate,
     surprises: Surprises,
     look_preview: LookPreview,
@@ -115,6 +121,8 @@ impl Interface {
             light_handles: LightHandles::default(),
             compare: Compare::default(),
             finder: Finder::default(),
+            control_index: ControlIndex::default(),
+            toast: Toast::default(),
             mutate: Mutate::default(),
             surprises: Surprises::default(),
             look_preview: LookPreview::default(),
@@ -266,7 +274,12 @@ impl Interface {
         let wide = theme::has_side_panel(ui.available_size());
         // Before the first touch, egui does not know that the screen is one.
         self.has_touch = !wide || ui.input(|input| input.has_touch_screen());
-        self.is_comparing = shortcuts::is_comparing(ui.ctx()) || now_secs < self.before_until_secs;
+        let before_left_secs = self.before_until_secs - now_secs;
+        self.is_comparing = shortcuts::is_comparing(ui.ctx()) || before_left_secs > 0.0;
+        if before_left_secs > 0.0 {
+            // In every frame: egui keeps one time at most, that of the last frame.
+            ui.ctx().request_repaint_after_secs(before_left_secs as f32);
+        }
         self.pilot.set_jumps(inputs.reduced_motion);
         theme::set_motion(ui.ctx(), !inputs.reduced_motion);
         theme::set_row_sizes(ui, self.has_touch);
@@ -276,7 +289,7 @@ impl Interface {
         let Scene { fractal, camera, .. } = self.scene();
         let is_reshaped = *fractal != before.scene.fractal && *camera == before.scene.camera;
         self.view(ui, inputs, wide, is_reshaped, &mut commands);
-        notice::show(ui, inputs, self.rects.get("view"), &mut actions, &mut self.rects);
+        self.notices(ui, inputs, now_secs, &mut actions);
         panel::help_window(ui.ctx(), &mut self.help_open, self.has_touch, &mut self.rects);
         if let Some(view) = self.rects.get("view") {
             let project = self.editor.project();
@@ -287,11 +300,15 @@ impl Interface {
         let view = self.rects.get("view");
         let other_state = view.and_then(|view| self.compare.show(ui, view, &mut self.rects));
         let (project, settings) = (self.editor.project(), &self.settings);
-        let controls = || control_index::controls(project, settings, inputs);
+        let controls = || self.control_index.controls(project, settings, inputs);
         if let Some(target) = self.finder.show(ui, &mut self.rects, controls) {
             self.show_target(ui, target, wide, &mut commands);
         }
-        widgets::focus_named(ui.ctx());
+        if widgets::focus_named(ui.ctx()).is_some() {
+            let text = "This scene has no such control.".to_owned();
+            let notice = Notice { text, ..Notice::default() };
+            self.toast.show(notice, now_secs + NOTICE_SECS);
+        }
         let applies = |command| self.settings.timeline_open || command == Command::AddKey;
         for command in commands.iter().copied().filter(|&command| applies(command)) {
             self.timeline.command(command, self.editor.project_mut(), now_secs);
@@ -305,7 +322,6 @@ impl Interface {
             self.dispatch(ui, command, wide, &mut actions);
             if command == Command::ShowBefore {
                 self.before_until_secs = now_secs + BEFORE_SECS;
-                ui.ctx().request_repaint_after_secs(BEFORE_SECS as f32);
             }
         }
         self.show_state(other_state);
@@ -379,6 +395,7 @@ impl Interface {
         if let Some(shown) = shown {
             cx.rects.record("panel", &shown.response);
             widgets::set_panel_area(ui, shown.response.rect);
+            widgets::note_part(ui, PanelPart::Panel.title(), shown.response.rect);
         }
         if timeline_open {
             let margin = Margin { left: 12, right: 8, top: 6, bottom: 8 };
@@ -388,8 +405,35 @@ impl Interface {
                 panel::strip(ui, &mut cx, &mut project.path, &mut self.timeline);
             });
             cx.rects.record("timeline", &shown.response);
+            // The buttons of a low window scroll sideways out of the strip.
+            let row = shown.response.rect.with_max_x(f32::INFINITY).with_min_x(f32::NEG_INFINITY);
+            widgets::note_part(ui, PanelPart::Timeline.title(), row);
         }
         panel::formula_window(ui, &mut cx);
+    }
+
+    /// Shows the shell's message, else the interface's own.
+    fn notices(
+        &mut self,
+        ui: &Ui,
+        inputs: &DisplayInputs<'_>,
+        now_secs: f64,
+        actions: &mut Vec<Action>,
+    ) {
+        self.toast.expire(now_secs);
+        if let Some(left_secs) = self.toast.remaining_secs(now_secs) {
+            ui.ctx().request_repaint_after_secs(left_secs as f32);
+        }
+        let own = self.toast.notice().filter(|_| inputs.notice.is_none()).cloned();
+        let notice = inputs.notice.or(own.as_ref());
+        let shown = DisplayInputs { notice, ..*inputs };
+        let first = actions.len();
+        notice::show(ui, &shown, self.rects.get("view"), actions, &mut self.rects);
+        let is_dismissal = |action: &Action| *action == Action::DismissNotice;
+        if own.is_some() && actions[first..].iter().any(is_dismissal) {
+            self.toast.take();
+            actions.retain(|action| !is_dismissal(action));
+        }
     }
 
     fn status(&mut self, ui: &mut Ui, inputs: &DisplayInputs<'_>) {

@@ -245,8 +245,8 @@ pub fn flight_help(has_touch: bool) -> String {
 const FLIGHT_GESTURES: &str =
     "Drag to look around, spread or pinch two fingers to fly, drag both to move sideways";
 
-/// Commands without a key, which the finder finds by these words.
-pub const KEYLESS: &[(Command, &str)] = &[
+/// Commands that only the finder lists, by these words: they have no row of their own in the help window.
+pub const FINDER_ONLY: &[(Command, &str)] = &[
     (Command::Turntable, "Make a path around the scene"),
     (Command::LightPlace, "Light a place by a click"),
     (Command::ShowBefore, "Before: show the view before the last change for two seconds (hold C)"),

@@ -8,8 +8,12 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 use mandelight::{
-    scene::{Project, Scene, looks, param, path, presets},
-    ui::{Settings, SheetHeight, section_title_of},
+    scene::{IndirectKind, Project, Scene, looks, param, path, presets},
+    ui::{
+        Settings, SheetHeight,
+        accessibility::{Request, ScreenReader},
+        section_title_of, theme,
+    },
 };
 
 use crate::stage::*;
@@ -203,7 +207,15 @@ fn the_view_before_the_last_change_is_shown_for_two_seconds() {
     let shown = |harness: &Harness<'_, Stage>| harness.state().interface.shown_scene().clone();
     harness.run_steps(3);
     assert_eq!(shown(&harness), before);
-    harness.run_steps(130);
+    // Each frame asks for the next: the last is not left on the screen of an idle page.
+    let mut frames = 0;
+    while shown(&harness) == before {
+        let delay = harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+        assert!(delay.as_secs_f64() <= 2.0, "no repaint is asked for: {delay:?}");
+        harness.step();
+        frames += 1;
+        assert!(frames < 130, "the view before the last change stays");
+    }
     assert_eq!(shown(&harness), after);
 }
 
@@ -236,4 +248,124 @@ fn the_sections_of_controls_are_theirs() {
         }
     }
     assert!(checked > 20, "{checked} controls");
+}
+
+/// Two sections have a *Strength*: the chosen section's gets the keyboard.
+#[test]
+fn controls_of_one_name_are_told_apart_by_their_section() {
+    for size in [[1280.0, 720.0], [390.0, 844.0]] {
+        let mut settings = Settings { more_open: true, ..Settings::default() };
+        settings.sections.set_open("indirect", true);
+        let mut lit = Scene::default();
+        lit.indirect.kind = IndirectKind::Uniform;
+        for (typed, path) in [
+            ("strength bloom", "bloom.strength"),
+            ("radius bloom", "bloom.radius"),
+            ("strength indirect", "indirect.strength"),
+        ] {
+            let mut harness = without_motion(stage(lit.clone(), settings.clone(), size));
+            find(&mut harness, typed);
+            harness.run_steps(30);
+            let mut nodes = harness.root().children_recursive();
+            let focused = nodes.find(|node| node.accesskit_node().is_focused());
+            let focused = focused.unwrap_or_else(|| panic!("{typed}")).accesskit_node();
+            assert_eq!(focused.author_id(), Some(path), "{typed} in {size:?}");
+        }
+    }
+}
+
+#[test]
+fn keys_and_lights_that_the_project_lacks_are_not_listed() {
+    let mut harness =
+        without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    harness.run();
+    for lacking in
+        ["Key 1 at 0.00 s", "Key 2 at 1.00 s", "Point 1", "Only Point 1", "Remove plane 1"]
+    {
+        retype(&mut harness, lacking);
+        let found = results(&harness);
+        assert!(!found.iter().any(|name| name.contains(lacking)), "{lacking}: {found:?}");
+    }
+    for other in ["Add point light", "Light 1", "Add key"] {
+        retype(&mut harness, other);
+        let found = results(&harness);
+        assert!(found.iter().any(|name| name == other), "{other}: {found:?}");
+    }
+}
+
+#[test]
+fn a_control_that_the_scene_lacks_is_answered_by_a_notice() {
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
+    let has_notice =
+        |harness: &Harness<'_, Stage>| harness.state().interface.rects().get("notice").is_some();
+    find(&mut harness, "eye separation");
+    assert!(has_notice(&harness));
+    assert!(harness.query_by_label("This scene has no such control.").is_some());
+    press(&mut harness, "Dismiss");
+    assert!(!has_notice(&harness), "the cross closes it");
+    assert!(harness.state().actions.is_empty(), "{:?}", harness.state().actions);
+    // A control that is there needs no notice.
+    find(&mut harness, "specular");
+    harness.run_steps(150);
+    assert!(!has_notice(&harness));
+}
+
+/// Without a screen reader egui makes no tree, and with one few: the search asks for those that it needs.
+#[test]
+fn a_choice_is_found_where_trees_are_rare() {
+    let input = |count: u32, event: Option<egui::Event>| egui::RawInput {
+        time: Some(f64::from(count) / 60.0),
+        screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 720.0))),
+        events: event.into_iter().collect(),
+        ..egui::RawInput::default()
+    };
+    let key = |key, modifiers| egui::Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers,
+    };
+    for has_reader in [false, true] {
+        let context = egui::Context::default();
+        theme::install(&context);
+        if has_reader {
+            context.add_plugin(ScreenReader::new(|_| {}, 0.2));
+        }
+        let mut stage = Stage::new(Scene::default(), Settings::default(), [1280.0, 720.0]);
+        let mut trees = Vec::new();
+        for count in 1..200 {
+            let event = match count {
+                10 => Some(key(Key::K, Modifiers::COMMAND)),
+                20 => Some(egui::Event::Text("reset fog".to_owned())),
+                30 => Some(key(Key::Enter, Modifiers::NONE)),
+                _ => None,
+            };
+            let mut output = context.run_ui(input(count, event), |ui| stage.show(ui));
+            output.textures_delta.clear();
+            trees.push(output.platform_output.accesskit_update.is_some());
+        }
+        // A frame with a tree knows the name of what has the keyboard.
+        context.enable_accesskit();
+        if has_reader {
+            context.plugin::<ScreenReader>().lock().request("0", &Request::Focus);
+        }
+        let mut output = context.run_ui(input(200, None), |ui| stage.show(ui));
+        output.textures_delta.clear();
+        let tree = output.platform_output.accesskit_update.expect("a tree");
+        let focused = tree.nodes.iter().find(|(id, _)| *id == tree.focus);
+        let name = focused.and_then(|(_, node)| node.label());
+        assert_eq!(name, Some("Reset: Fog"), "with a screen reader: {has_reader}");
+        let late = trees[150..].iter().filter(|has_tree| **has_tree).count();
+        let expected = if has_reader { 3..=5 } else { 0..=0 };
+        assert!(expected.contains(&late), "{late} trees after the search");
+    }
+}
+
+#[test]
+fn the_next_key_opens_the_timeline() {
+    let mut harness = without_motion(stage(Scene::default(), Settings::default(), [1280.0, 720.0]));
+    find(&mut harness, "go to the next key");
+    assert!(harness.state().interface.settings().timeline_open);
 }

@@ -73,6 +73,22 @@ fn the_keyboard_reaches_what_is_scrolled_out_of_the_timeline() {
     }
 }
 
+/// Only what contains a control scrolls to it.
+#[test]
+fn the_panel_stays_while_the_keyboard_is_in_the_timeline() {
+    let settings = Settings { timeline_open: true, ..Settings::default() };
+    let mut harness = touched(with_keys(), settings);
+    let names = ["panel", "power", "exposure", "Opening", "Mine"];
+    let places = |harness: &Harness<'_, Stage>| {
+        names.map(|name| harness.state().interface.rects().get(name))
+    };
+    let before = places(&harness);
+    assert!(before.iter().flatten().count() >= 4, "{before:?}");
+    button(&harness, "Save video").focus();
+    harness.run_steps(30);
+    assert_eq!(places(&harness), before);
+}
+
 #[test]
 fn the_lists_of_scenes_are_one_row() {
     for (size, has_touch) in [

@@ -53,38 +53,6 @@ pub fn stage_with(
     settings: Settings,
     size: [f32; 2],
 ) -> Harness<'static, Stage> {
-    let report = Report {
-        activity: Activity::Refining,
-        size_px: [size[0] as u32, size[1] as u32],
-        converged_fraction: None,
-        clamped_light: None,
-        samples_done: 4,
-        samples_so_far: 4.5,
-        samples_wanted: 16,
-        pixels_per_sample: 1,
-        elapsed_secs: 1.5,
-        anchor_ms: 0.0,
-        frame_interval_secs: 0.2,
-        frame_ms: 7.0,
-        pictures: 9,
-        memory: Default::default(),
-        histogram: None,
-    };
-    let stage = Stage {
-        interface: Interface::new(project, settings),
-        actions: Vec::new(),
-        report,
-        picture: None,
-        kept_picture: None,
-        export: None,
-        notice: None,
-        missing_encoders: MissingEncoders::None,
-        reading: None,
-        small_pictures: SmallTextures::default(),
-        reduced_motion: false,
-        gallery: None,
-        has_share_sheet: false,
-    };
     builder
         .with_size(Vec2::from(size))
         .with_step_dt(1.0 / 60.0)
@@ -92,30 +60,72 @@ pub fn stage_with(
         .with_context_setup(theme::install)
         .build_ui_state(
             |ui, stage: &mut Stage| {
-                let inputs = DisplayInputs {
-                    picture: stage.picture,
-                    kept_picture: stage.kept_picture,
-                    report: &stage.report,
-                    export: stage.export,
-                    notice: stage.notice.as_ref(),
-                    missing_encoders: stage.missing_encoders,
-                    reading: stage.reading.as_deref(),
-                    adapter: "a test",
-                    sharing: Sharing {
-                        address: "https://example.org/",
-                        has_share_sheet: stage.has_share_sheet,
-                    },
-                    gallery: stage.gallery.as_ref(),
-                    reduced_motion: stage.reduced_motion,
-                    small_pictures: &stage.small_pictures,
-                };
                 // The harness insets what it shows; the page doesn't.
                 let whole = egui::UiBuilder::new().max_rect(ui.ctx().content_rect());
-                let actions = ui.scope_builder(whole, |ui| stage.interface.show(ui, &inputs));
-                stage.actions.extend(actions.inner);
+                ui.scope_builder(whole, |ui| stage.show(ui));
             },
-            stage,
+            Stage::new(project, settings, size),
         )
+}
+
+impl Stage {
+    /// What the harness carries at the beginning.
+    pub fn new(project: impl Into<Project>, settings: Settings, size: [f32; 2]) -> Self {
+        let report = Report {
+            activity: Activity::Refining,
+            size_px: [size[0] as u32, size[1] as u32],
+            converged_fraction: None,
+            clamped_light: None,
+            samples_done: 4,
+            samples_so_far: 4.5,
+            samples_wanted: 16,
+            pixels_per_sample: 1,
+            elapsed_secs: 1.5,
+            anchor_ms: 0.0,
+            frame_interval_secs: 0.2,
+            frame_ms: 7.0,
+            pictures: 9,
+            memory: Default::default(),
+            histogram: None,
+        };
+        Self {
+            interface: Interface::new(project, settings),
+            actions: Vec::new(),
+            report,
+            picture: None,
+            kept_picture: None,
+            export: None,
+            notice: None,
+            missing_encoders: MissingEncoders::None,
+            reading: None,
+            small_pictures: SmallTextures::default(),
+            reduced_motion: false,
+            gallery: None,
+            has_share_sheet: false,
+        }
+    }
+
+    /// One frame of the interface over all of `ui`.
+    pub fn show(&mut self, ui: &mut egui::Ui) {
+        let inputs = DisplayInputs {
+            picture: self.picture,
+            kept_picture: self.kept_picture,
+            report: &self.report,
+            export: self.export,
+            notice: self.notice.as_ref(),
+            missing_encoders: self.missing_encoders,
+            reading: self.reading.as_deref(),
+            adapter: "a test",
+            sharing: Sharing {
+                address: "https://example.org/",
+                has_share_sheet: self.has_share_sheet,
+            },
+            gallery: self.gallery.as_ref(),
+            reduced_motion: self.reduced_motion,
+            small_pictures: &self.small_pictures,
+        };
+        self.actions.extend(self.interface.show(ui, &inputs));
+    }
 }
 
 /// A new scene on a wide stage, everything unfolded.

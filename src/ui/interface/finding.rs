@@ -7,7 +7,7 @@ use crate::ui::{
     finder::Target,
     panel::{self, PanelPart},
     shortcuts::Command,
-    widgets,
+    widgets::{self, Sought},
 };
 
 impl Interface {
@@ -20,12 +20,28 @@ impl Interface {
         commands: &mut Vec<Command>,
     ) {
         match target {
-            Target::Command(command) => commands.push(command),
+            Target::Command(command) => {
+                // These commands do nothing while the timeline is hidden.
+                if matches!(
+                    command,
+                    Command::PlayPause
+                        | Command::UpdateKey
+                        | Command::DeleteKey
+                        | Command::PreviousKey
+                        | Command::NextKey
+                ) {
+                    self.show_timeline(wide);
+                }
+                commands.push(command);
+            }
             Target::Section(section) => panel::show_section(ui, &mut self.settings, section),
             Target::Look(at) => self.apply_look(at),
             Target::Parameter(section, param) => {
                 panel::show_section(ui, &mut self.settings, section);
                 widgets::reveal(ui, param.path);
+                let (label, part) = (param.label.to_owned(), section.title());
+                let sought = Sought { label, part, param: Some(param.path) };
+                widgets::reveal_named(ui.ctx(), sought);
             }
             Target::Control(part, label) => {
                 match part {
@@ -35,7 +51,8 @@ impl Interface {
                     }
                     PanelPart::Timeline => self.show_timeline(wide),
                 }
-                widgets::reveal_named(ui.ctx(), label);
+                let sought = Sought { label, part: part.title(), param: None };
+                widgets::reveal_named(ui.ctx(), sought);
             }
         }
     }

@@ -47,7 +47,7 @@ use super::{
     shortcuts::Command,
     theme,
     timeline::Timeline,
-    widgets::{Help as _, reveal, reveal_focus, revealed, section},
+    widgets::{Help as _, note_part, reveal, reveal_focus, revealed, section},
 };
 pub(super) use context::Context;
 use context::Section;
@@ -146,14 +146,15 @@ fn scrolled(ui: &mut Ui, cx: &mut Context<'_>, with_saving: bool) {
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let content = UiBuilder::new().max_rect(content_area(ui));
         ui.scope_builder(content, |ui| {
-            essentials(ui, cx);
-            if with_saving {
-                ui.add_space(6.0);
-                export::save(ui, cx);
-                ui.add_space(4.0);
-            }
-            more(ui, cx);
-            reveal_focus(ui);
+            reveal_focus(ui, |ui| {
+                essentials(ui, cx);
+                if with_saving {
+                    ui.add_space(6.0);
+                    export::save(ui, cx);
+                    ui.add_space(4.0);
+                }
+                more(ui, cx);
+            });
             ui.add_space(BOTTOM_MARGIN);
         });
     });
@@ -233,6 +234,7 @@ fn more(ui: &mut Ui, cx: &mut Context<'_>) {
         for shown @ Section { name, title, hover, .. } in SECTIONS {
             let mut is_open = cx.settings.sections.is_open(name);
             let heading = section(ui, title, hover, &mut is_open, |ui| contents(ui, cx, shown));
+            note_part(ui, title, ui.min_rect().with_min_y(heading.rect.bottom()));
             if revealed(ui, name) {
                 heading.scroll_to_me(Some(egui::Align::TOP));
             }

@@ -21,7 +21,9 @@ pub use gradient::{gradient, gradient_card, move_stop, paint_bar};
 pub use histogram::{DisplayRange, histogram};
 pub use hover::{Help, set_panel_area};
 pub use param::{number, param_slider, param_slider_count, param_slider_wide};
-pub use reveal::{focus_named, reveal, reveal_focus, reveal_named, revealed};
+pub use reveal::{
+    Sought, focus_named, is_seeking, note_part, reveal, reveal_focus, reveal_named, revealed,
+};
 pub use scrolled_row::scrolled_row;
 pub use section::{button_row, caption, choice, choice_button, section};
 pub use swatch::{NAME_HEIGHT, swatch};

@@ -7,13 +7,5 @@ use super::reveal::reveal_focus;
 /// Shows `contents` in a row; what the keyboard reaches scrolls into sight.
 pub fn scrolled_row<R>(ui: &mut Ui, id: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
     let area = ScrollArea::horizontal().id_salt(id).auto_shrink([false, true]);
-    let shown = area.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            let shown = contents(ui);
-            reveal_focus(ui);
-            shown
-        })
-        .inner
-    });
-    shown.inner
+    area.show(ui, |ui| ui.horizontal(|ui| reveal_focus(ui, contents)).inner).inner
 }
