@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use super::{
     frame::Frame,
+    light_handles::is_used_by_keyboard,
     selection::{LightRef, Selection},
     theme,
     widgets::{ArrowSteps, Help as _, arrow_steps, ball},
@@ -101,10 +102,10 @@ const BALL_PART: f32 = 0.42;
 
 /// What was done to handles in a frame.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Handled {
+pub struct HandleInteraction {
     /// The clicked or dragged light.
     pub touched: Option<LightRef>,
-    /// True if the pointer or the keyboard is at a handle.
+    /// True if the pointer is at a handle, or the keyboard is used at one.
     pub is_held: bool,
 }
 
@@ -114,13 +115,13 @@ pub fn environment_lights(
     frame: Frame,
     scene: &mut Scene,
     selected: &Selection,
-) -> Handled {
+) -> HandleInteraction {
     let Scene { camera, lights, .. } = scene;
     let center = frame.rect.center();
     let radius = BALL_PART * frame.rect.size().min_elem();
     follow::edit(lights, camera, |lights| {
         let any_solo = lights.any_solo();
-        let mut handled = Handled::default();
+        let mut interaction = HandleInteraction::default();
         for (index, light) in lights.environment.iter_mut().enumerate() {
             let mut toward_light = light.toward_light_in_view(camera);
             let at = ball::dot_place(center, radius, toward_light);
@@ -140,22 +141,23 @@ pub fn environment_lights(
                 light.set_toward_light_in_view(toward_light, camera);
             }
             if response.clicked() || response.drag_started() || response.gained_focus() {
-                handled.touched = Some(this);
+                interaction.touched = Some(this);
             }
             let shines = !light.muted && (!any_solo || light.solo);
-            let is_held = response.hovered() || response.dragged() || response.has_focus();
-            handled.is_held |= is_held;
-            if is_held {
+            let is_pointed_at = response.hovered() || response.dragged();
+            interaction.is_held |= is_pointed_at || is_used_by_keyboard(&response);
+            let is_lit = is_pointed_at || response.has_focus();
+            if is_lit {
                 let spoke = Stroke::new(1.0, Color32::from_white_alpha(70));
                 ui.painter().circle_stroke(center, radius, spoke);
                 ui.painter().line_segment([center, at], spoke);
             }
-            let is_lit = is_held || selected.light == Some(this);
+            let is_lit = is_lit || selected.light == Some(this);
             let color = theme::display_color(light.color);
             paint(ui, at, color, shines, toward_light.z < 0.0, is_lit);
             response.help(ball::HELP);
         }
-        handled
+        interaction
     })
 }
 

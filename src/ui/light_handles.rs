@@ -1,9 +1,18 @@
 //! When directional lights have handles in the view: while a person works on lights, and shortly after.
 
-use egui::Ui;
+use egui::{Event, Response, Ui};
 
 /// Seconds for which the handles stay after the last use: long enough to reach one from the panel.
 const STAY_SECS: f64 = 6.0;
+
+/// True in a frame in which the keyboard reaches a control or a key is pressed at it.
+///
+/// A control that merely keeps the focus is not in use: the focus stays where it is until something else gets it.
+pub fn is_used_by_keyboard(control: &Response) -> bool {
+    let is_pressed = |event: &Event| matches!(event, Event::Key { pressed: true, .. });
+    control.gained_focus()
+        || control.has_focus() && control.ctx.input(|input| input.events.iter().any(is_pressed))
+}
 
 /// Whether directional lights have handles in the view.
 #[derive(Debug, Default)]

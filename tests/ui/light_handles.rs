@@ -134,6 +134,43 @@ fn the_keyboard_at_the_ball_shows_handles_too() {
     assert!(has_handle(&harness));
 }
 
+/// The keyboard's focus stays at the ball after a drag, which is no use of it.
+#[test]
+fn handles_go_after_a_drag_of_the_key_light_s_ball() {
+    let mut harness = first_visit();
+    let rects = harness.state().interface.rects();
+    let [ball, view] = ["key light ball", "view"].map(|name| rects.get(name).expect(name));
+    drag(&mut harness, ball.center(), ball.center() + vec2(12.0, -8.0), 4);
+    assert!(has_handle(&harness));
+    harness.event(egui::Event::PointerMoved(view.right_center() - vec2(20.0, 0.0)));
+    harness.run_steps(420);
+    assert!(!has_handle(&harness), "7 seconds later");
+    let delay = harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+    assert!(delay.as_secs_f64() > 60.0, "an idle page draws again after {delay:?}");
+    // A key at the ball is a use.
+    harness.get_by_label("Key light direction").focus();
+    harness.run_steps(420);
+    assert!(!has_handle(&harness));
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(3);
+    assert!(has_handle(&harness));
+}
+
+#[test]
+fn handles_show_while_a_place_to_light_is_awaited() {
+    let mut harness = first_visit();
+    // The window is too low to show the button at once.
+    button(&harness, "Light a place").focus();
+    harness.run();
+    press(&mut harness, "Light a place");
+    let view = harness.state().interface.rects().get("view").expect("the view");
+    harness.event(egui::Event::PointerMoved(view.right_center() - vec2(20.0, 0.0)));
+    harness.run_steps(480);
+    let caption = harness.state().interface.rects().get("light click");
+    assert!(caption.is_some(), "a place is awaited");
+    assert!(has_handle(&harness));
+}
+
 /// From the eye to the first point light, in the eye's axes.
 fn seen(harness: &Harness<'_, Stage>) -> glam::DVec3 {
     let Scene { camera, lights, .. } = scene(harness);

@@ -79,8 +79,10 @@ impl Interface {
             let caption = floating::caption(ui, captions, light_click::HINT);
             self.rects.record("light click", &caption);
         } else if self.pilot.is_flying() {
-            let help = shortcuts::flight_help(self.has_touch);
-            let caption = if self.has_touch {
+            // A narrow window on a desktop has the rows of a touch screen, but no fingers.
+            let has_fingers = ui.input(|input| input.has_touch_screen());
+            let help = shortcuts::flight_help(has_fingers);
+            let caption = if has_fingers {
                 let hover = ("Stop flying", "Leave fly mode (F)");
                 let (caption, stop) = floating::caption_with_button(ui, captions, &help, hover);
                 if stop.clicked() {
@@ -100,13 +102,16 @@ impl Interface {
             if let Some(hint) = hint {
                 self.rects.record("hint", &hint);
             }
+        }
+        let is_previewing = self.look_preview.name().is_some();
+        if !(is_comparing || is_previewing || self.pilot.is_flying()) {
             let light = handles::point_lights(ui, frame, scene, &self.selection);
             self.selection.light = light.or(self.selection.light);
             let is_in_use = self.selection.uses_lights || self.light_click.waits();
             if panel::shows_lights(&self.settings) || self.light_handles.are_shown(ui, is_in_use) {
-                let handled = handles::environment_lights(ui, frame, scene, &self.selection);
-                self.selection.light = handled.touched.or(self.selection.light);
-                if handled.is_held {
+                let used = handles::environment_lights(ui, frame, scene, &self.selection);
+                self.selection.light = used.touched.or(self.selection.light);
+                if used.is_held {
                     self.light_handles.keep(ui);
                 }
             }

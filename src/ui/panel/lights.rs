@@ -10,6 +10,7 @@ use super::{
 use crate::{
     scene::{Camera, EnvironmentLight, Lights, MAX_LIGHTS, PointLight, Scene, follow, param},
     ui::{
+        light_handles::is_used_by_keyboard,
         selection::{LightRef, Selection},
         shortcuts::Command,
         theme,
@@ -29,12 +30,14 @@ pub(super) fn key_light(ui: &mut Ui, cx: &mut Context<'_>) {
         caption(ui, "Key light");
         edit_as_seen(ui, cx, key_ball);
     });
-    let has_keyboard = |focused| {
+    let is_at_keyboard = |focused| {
         let control = ui.ctx().read_response(focused);
-        control.is_some_and(|control| shown.response.rect.contains(control.rect.center()))
+        control.is_some_and(|control| {
+            shown.response.rect.contains(control.rect.center()) && is_used_by_keyboard(&control)
+        })
     };
-    let has_keyboard = ui.memory(|memory| memory.focused()).is_some_and(has_keyboard);
-    cx.selection.uses_lights |= ui.rect_contains_pointer(shown.response.rect) || has_keyboard;
+    let is_at_keyboard = ui.memory(|memory| memory.focused()).is_some_and(is_at_keyboard);
+    cx.selection.uses_lights |= ui.rect_contains_pointer(shown.response.rect) || is_at_keyboard;
     let response = param_slider(ui, &param::EXPOSURE, &mut cx.scene.tone.exposure);
     cx.rects.record("exposure", &response);
 }

@@ -12,6 +12,7 @@ use crate::{
         looks::{self, Look, LookList},
     },
     ui::{
+        light_handles::is_used_by_keyboard,
         sphere::{Sphere, background_colors, paint_background},
         widgets::{Help as _, NAME_HEIGHT, caption, choice_button, paint_bar, swatch},
     },
@@ -91,9 +92,10 @@ fn look_swatch(
     } else if response.has_focus() && !is_pressed {
         cx.look_preview.focus(look);
     }
-    // Of a light setup that is in view, the lights have handles.
+    // Shows light handles while a light setup is pointed at.
     let is_of_lights = look.lights.is_some() && look.material.is_none();
-    cx.selection.uses_lights |= is_of_lights && (response.hovered() || response.has_focus());
+    cx.selection.uses_lights |=
+        is_of_lights && (response.hovered() || is_used_by_keyboard(&response));
     if response.clicked() && !is_chosen {
         if look.lights.is_some() {
             cx.selection.light = None;
