@@ -26,8 +26,9 @@ pub fn button(ui: &mut Ui, at: Pos2, icon: Icon, (name, hover): (&str, &str)) ->
     ui.put(at, |ui: &mut Ui| icon_button(ui, icon, name, hover))
 }
 
-/// Width of a view, in points, from which on captions are beside the row of buttons; otherwise they are above the row.
-const CAPTIONS_BESIDE_FROM: f32 = 800.0;
+/// Width of a picture, in points, from which on its buttons have words, and captions are beside the row of buttons.
+/// In a narrower picture captions are above the row.
+const WIDE_FROM: f32 = 800.0;
 
 /// Where captions can be: the picture, and the part of it on the right of the row of buttons.
 #[derive(Clone, Copy)]
@@ -39,7 +40,7 @@ pub struct CaptionArea {
 impl CaptionArea {
     /// The area for captions of the picture in `view`, whose row of buttons is in `buttons`.
     pub fn new(view: Rect, buttons: Rect) -> Self {
-        let left = if view.width() < CAPTIONS_BESIDE_FROM { view.left() } else { buttons.right() };
+        let left = if view.width() < WIDE_FROM { view.left() } else { buttons.right() };
         Self { view, beside: Rect::from_min_max(Pos2::new(left, view.top()), view.max) }
     }
 
@@ -58,14 +59,18 @@ impl CaptionArea {
     /// The area of captions at the lower edge.
     fn caption(self, ui: &Ui) -> egui::Area {
         // In a narrow picture the buttons of the lower left corner would lie under the text.
-        let is_narrow = self.view.width() < CAPTIONS_BESIDE_FROM;
-        let above = if is_narrow { row_height(ui) + 2.0 * GAP } else { CAPTION_GAP };
+        let is_narrow = self.view.width() < WIDE_FROM;
+        let above = if is_narrow {
+            row_height(has_words(ui, self.view), ui) + 2.0 * GAP
+        } else {
+            CAPTION_GAP
+        };
         self.low(CAPTION, above)
     }
 
     /// The area of captions that leave the middle free: in a low picture it is at the upper edge.
     fn clear_caption(self, ui: &Ui) -> egui::Area {
-        if self.view.height() >= LOW {
+        if self.view.height() >= LOW_PICTURE {
             return self.caption(ui);
         }
         let at = self.view.center_top() + vec2(0.0, 0.5 * GAP);
@@ -75,7 +80,7 @@ impl CaptionArea {
 }
 
 /// Height of a picture, in points, below which a caption above the row of buttons would cover the set.
-pub const LOW: f32 = 420.0;
+pub const LOW_PICTURE: f32 = 420.0;
 /// Distance of captions and of messages from the lower edge of a wide picture, in points.
 pub const CAPTION_GAP: f32 = 14.0;
 
@@ -158,17 +163,14 @@ const MIN_BESIDE: usize = 4;
 /// Height of a word, in points.
 const WORD_HEIGHT: f32 = 16.0;
 
-/// Height of the row of buttons over the picture, in points.
-pub fn row_height(ui: &Ui) -> f32 {
-    button_side(ui) + if theme::has_touch_rows(ui) { WORD_HEIGHT } else { 0.0 }
+/// Height of a row of buttons over the picture, with words or without, in points.
+fn row_height(has_words: bool, ui: &Ui) -> f32 {
+    button_side(ui) + if has_words { WORD_HEIGHT } else { 0.0 }
 }
-
-/// Width of a picture, in points, from which on its buttons have words.
-const WORDS_FROM: f32 = 800.0;
 
 /// Whether the buttons over the picture in `rect` have words: on touch screens, and in wide pictures.
 pub fn has_words(ui: &Ui, rect: Rect) -> bool {
-    theme::has_touch_rows(ui) || rect.width() >= WORDS_FROM
+    theme::has_touch_rows(ui) || rect.width() >= WIDE_FROM
 }
 
 /// A row of buttons in the picture's lower left corner; with words as [`has_words`] says.
@@ -182,8 +184,8 @@ impl ButtonRow {
     pub fn new(ui: &Ui, rect: Rect) -> Self {
         let has_words = has_words(ui, rect);
         let corner = if has_words { vec2(2.0, -2.0) } else { vec2(GAP, -GAP) };
-        let height = button_side(ui) + if has_words { WORD_HEIGHT } else { 0.0 };
-        Self { next: rect.left_bottom() + corner - vec2(0.0, height), has_words }
+        let height = vec2(0.0, row_height(has_words, ui));
+        Self { next: rect.left_bottom() + corner - height, has_words }
     }
 
     /// Number of buttons with words that fit the picture in `rect`. In a low picture they leave the middle free, if
@@ -191,7 +193,7 @@ impl ButtonRow {
     pub fn capacity(rect: Rect) -> usize {
         let fitting = |width: f32| ((width - 4.0) / WORD_STEP).floor().max(1.0) as usize;
         let beside_middle = fitting(0.5 * rect.width());
-        if rect.height() < LOW && beside_middle >= MIN_BESIDE {
+        if rect.height() < LOW_PICTURE && beside_middle >= MIN_BESIDE {
             beside_middle
         } else {
             fitting(rect.width())

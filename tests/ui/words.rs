@@ -43,9 +43,14 @@ fn texts_and_help(harness: &Harness<'_, Stage>) -> Vec<String> {
     let texts = texts.filter(|text| !keys.contains(&text.as_str()) && !text.contains("step {"));
     let nodes = harness.root().children_recursive();
     let help = nodes.filter_map(|node| node.accesskit_node().description());
-    // A hover text ends with the control's key: `Show variations (M)`.
-    let help = help.map(|help| help.rfind(" (").map_or(help.clone(), |at| help[..at].to_owned()));
+    // A hover text has the control's key: `Show variations (M)`.
+    let help = help.map(|help| without_keys(&help, &keys));
     texts.chain(help).collect()
+}
+
+/// A hover text without shortcuts in parentheses.
+fn without_keys(help: &str, keys: &[&str]) -> String {
+    keys.iter().fold(help.to_owned(), |help, key| help.replace(&format!(" ({key})"), ""))
 }
 
 /// The texts with a banned word, or with a phrase of `phrases`.

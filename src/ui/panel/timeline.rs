@@ -28,7 +28,7 @@ const ONE_ROW_FROM: f32 = 740.0;
 const ONE_TOUCH_ROW_FROM: f32 = 920.0;
 
 /// Height of a window, in points, below which a narrow strip has one row of buttons, which scrolls.
-const LOW: f32 = 480.0;
+const LOW_WINDOW: f32 = 480.0;
 
 /// Width of the reason why a kind of video is missing, in points.
 const REASON_WIDTH: f32 = 190.0;
@@ -56,8 +56,7 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     ui.horizontal(|ui| {
         strip.transport(ui);
         if wide {
-            strip.own_view(ui);
-            strip.keys(ui);
+            strip.own_view_and_keys(ui);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let close = icon_button(ui, Icon::Cross, "Hide timeline", "Hide the timeline (T)");
@@ -69,22 +68,11 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     let response = track::show(ui, strip.path, strip.timeline, on_path);
     strip.cx.rects.record("timeline track", &response);
     if wide {
-        ui.horizontal(|ui| {
-            strip.selected_key(ui);
-            strip.rate(ui);
-            strip.shutter(ui);
-            strip.frames(ui);
-            strip.save(ui);
-        });
-    } else if ui.ctx().content_rect().height() < LOW {
+        ui.horizontal(|ui| strip.key_and_saving(ui));
+    } else if ui.ctx().content_rect().height() < LOW_WINDOW {
         scrolled_row(ui, "timeline row", |ui| {
-            strip.own_view(ui);
-            strip.keys(ui);
-            strip.selected_key(ui);
-            strip.rate(ui);
-            strip.shutter(ui);
-            strip.frames(ui);
-            strip.save(ui);
+            strip.own_view_and_keys(ui);
+            strip.key_and_saving(ui);
         });
     } else {
         ui.horizontal_wrapped(|ui| {
@@ -113,6 +101,21 @@ struct Strip<'a, 'b> {
 }
 
 impl Strip<'_, '_> {
+    /// The buttons of the view and of keys, in one row.
+    fn own_view_and_keys(&mut self, ui: &mut Ui) {
+        self.own_view(ui);
+        self.keys(ui);
+    }
+
+    /// The selected key, and how the frames are rendered and saved, in one row.
+    fn key_and_saving(&mut self, ui: &mut Ui) {
+        self.selected_key(ui);
+        self.rate(ui);
+        self.shutter(ui);
+        self.frames(ui);
+        self.save(ui);
+    }
+
     /// Buttons for previous key, play and next key, and the playhead's time.
     fn transport(&mut self, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 3.0;

@@ -17,15 +17,15 @@ use crate::{
 
 /// Width of the picker, in points.
 const WIDTH: f32 = 232.0;
-/// Width and height of the button of [`color`], in points.
-pub fn color_size(ui: &Ui) -> Vec2 {
-    vec2(ui.spacing().interact_size.x.max(32.0), ui.spacing().interact_size.y)
-}
-
 /// Number of mesh cells along a side of the square and the bar.
 const CELLS: usize = 24;
 /// Change of a value per arrow key press, as a fraction of its range.
 const KEY_STEP: f32 = 0.02;
+
+/// Width and height of the button of [`color`], in points.
+pub fn color_size(ui: &Ui) -> Vec2 {
+    vec2(ui.spacing().interact_size.x.max(32.0), ui.spacing().interact_size.y)
+}
 
 /// A button in the colour `linear` (Rec. 709) that opens a picker.
 ///

@@ -16,6 +16,8 @@ const RULER_HEIGHT: f32 = 20.0;
 const LANE_HEIGHT: f32 = 28.0;
 /// Width of a diamond's sensitive area, in points.
 const KEY_WIDTH: f32 = 20.0;
+/// Minimum width of a key's sensitive area between others at its time, in points.
+const MIN_KEY_WIDTH: f32 = 6.0;
 /// Margin at both ends, so that the outer keys can be grabbed, in points.
 const MARGIN: f32 = 14.0;
 /// Half the width of a diamond, in points.
@@ -210,7 +212,8 @@ fn diamond(
     response.help(format!("{name}. Click to show it, drag to change its time."));
 }
 
-/// The x coordinates of a key's sensitive area, which ends at the middle between neighbours.
+/// The x coordinates of a key's sensitive area, which ends at the middle between neighbours, but is at least
+/// [`MIN_KEY_WIDTH`] wide.
 fn key_range(ui: &Ui, scale: TimeScale, path: &Path, index: usize) -> Rangef {
     let x_of = |index: usize| path.keys.get(index).map(|key| scale.x(key.time_secs));
     let x = x_of(index).unwrap_or_default();
@@ -218,7 +221,8 @@ fn key_range(ui: &Ui, scale: TimeScale, path: &Path, index: usize) -> Rangef {
     let middle_to = |neighbour: Option<f32>| neighbour.map(|other| (x + other) / 2.0);
     let left = middle_to(index.checked_sub(1).and_then(x_of)).unwrap_or(x - half);
     let right = middle_to(x_of(index + 1)).unwrap_or(x + half);
-    Rangef::new(left.max(x - half), right.min(x + half))
+    let least = 0.5 * MIN_KEY_WIDTH;
+    Rangef::new(left.max(x - half).min(x - least), right.min(x + half).max(x + least))
 }
 
 /// Draws the playhead: a line with a grip, hollow if the view differs from the path.
