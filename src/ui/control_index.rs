@@ -110,13 +110,17 @@ fn controls_of<'a>(
     })
 }
 
-/// True for a control of a numbered light, key or section plane, which not every scene has.
+/// What scenes have in different numbers; a control's name has its number after the word.
+const NUMBERED: [&str; 6] = ["key", "light", "plane", "point", "step", "stop"];
+
+/// True for a control of a numbered thing, such as a light, which not every scene has.
 fn is_of_one_scene(control: &Control) -> bool {
-    let words: Vec<&str> = control.name.split_whitespace().collect();
-    words.windows(2).any(|pair| {
-        let is_numbered = ["Key", "Light", "Point", "Plane", "plane", "Stop", "Step"];
-        is_numbered.contains(&pair[0]) && pair[1].starts_with(|c: char| c.is_ascii_digit())
-    })
+    let name = control.name.to_lowercase();
+    let words: Vec<&str> = name.split_whitespace().collect();
+    let is_number = |word: &str| word.chars().all(|c| c.is_ascii_digit());
+    // The steps of a hybrid are called `1 Rotation`.
+    let is_step = words.len() > 1 && is_number(words[0]);
+    is_step || words.windows(2).any(|pair| NUMBERED.contains(&pair[0]) && is_number(pair[1]))
 }
 
 /// The control of an element; none for texts and for headings of sections.

@@ -280,9 +280,15 @@ fn keys_and_lights_that_the_project_lacks_are_not_listed() {
         without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
     harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
     harness.run();
-    for lacking in
-        ["Key 1 at 0.00 s", "Key 2 at 1.00 s", "Point 1", "Only Point 1", "Remove plane 1"]
-    {
+    for lacking in [
+        "Key 1 at 0.00 s",
+        "Key 2 at 1.00 s",
+        "Point 1",
+        "Only Point 1",
+        "Remove plane 1",
+        "Move step 1",
+        "Repeats of step 1",
+    ] {
         retype(&mut harness, lacking);
         let found = results(&harness);
         assert!(!found.iter().any(|name| name.contains(lacking)), "{lacking}: {found:?}");
