@@ -17,7 +17,7 @@ use mandelight_test_support::{
     deep::{
         brackets::Verdict,
         random_views::random_view,
-        rays::{SetView, Size, centre},
+        rays::{SetView, Size, centre, pixels},
         views,
     },
     random::Random,
@@ -81,8 +81,7 @@ struct Judged {
 fn judge(scene: &Scene, size: Size) -> Judged {
     let samples = single_samples(scene, size);
     let looking = SetView::new(scene, size, views::plenty(scene));
-    let pixels: Vec<_> =
-        (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])).zip(0..).collect();
+    let pixels: Vec<_> = pixels(size).collect();
     let verdicts = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
         let found = looking.hit_at(samples.depth[index]);
         let direction = looking.direction(centre(pixel));
@@ -174,11 +173,7 @@ fn normals_of_rippled_views_are_a_footprints() {
         let scene = document::from_json(text).expect("a scene");
         let samples = single_samples(&scene, RIPPLED_SIZE);
         let looking = SetView::new(&scene, RIPPLED_SIZE, views::plenty(&scene));
-        let pixels: Vec<_> = (0..RIPPLED_SIZE[1])
-            .flat_map(|y| (0..RIPPLED_SIZE[0]).map(move |x| [x, y]))
-            .zip(0..)
-            .step_by(EVERY)
-            .collect();
+        let pixels: Vec<_> = pixels(RIPPLED_SIZE).step_by(EVERY).collect();
         let angles = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
             let depth = looking.hit_at(samples.depth[index])?;
             let normal = looking.footprint_normal(looking.direction(centre(pixel)), depth, CUTS);

@@ -8,7 +8,7 @@ use mandelight::{
 };
 use mandelight_test_support::{
     deep::{
-        rays::{SetView, Size, centre},
+        rays::{SetView, Size, centre, pixels},
         views::{self, ANCHORS, Anchor, size},
     },
     view::single_samples,
@@ -41,11 +41,7 @@ struct Comparison {
 
 fn compare(scene: &Scene, size: Size, samples: &Samples, every: usize) -> Comparison {
     let looking = SetView::new(scene, size, views::plenty(scene));
-    let pixels: Vec<_> = (0..size[1])
-        .flat_map(|y| (0..size[0]).map(move |x| [x, y]))
-        .zip(0..)
-        .step_by(every)
-        .collect();
+    let pixels: Vec<_> = pixels(size).step_by(every).collect();
     let both = in_parallel(&pixels, |&(pixel, index): &([u32; 2], usize)| {
         let found = looking.hit_at(samples.depth[index]);
         let mut expected = looking.depth(pixel);

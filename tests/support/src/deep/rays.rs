@@ -198,6 +198,11 @@ impl<'a> SetView<'a> {
     }
 }
 
+/// A picture's pixels with their indices, row by row from the top.
+pub fn pixels([width, height]: Size) -> impl Iterator<Item = ([u32; 2], usize)> {
+    (0..height).flat_map(move |y| (0..width).map(move |x| [x, y])).zip(0..)
+}
+
 /// Where a pixel's centre is.
 pub fn centre(pixel: [u32; 2]) -> [f64; 2] {
     pixel.map(|v| f64::from(v) + 0.5)
