@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, TouchPhase};
+use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 use mandelight::{
@@ -23,7 +23,7 @@ use mandelight_test_support::{
     descent::{NOTCH, VIEWPORT, sixteen_pixels, wheel_in},
 };
 
-use crate::stage::{pointer, scene, stage};
+use crate::stage::{pointer, scene, stage, wheel};
 
 /// The field about the point that `camera` looks at.
 fn field_about_pivot(scene: &Scene, camera: &Camera) -> Arc<dyn DistanceField> {
@@ -192,13 +192,7 @@ fn the_wheel_is_drawn_to_a_place_only_with_the_switch() {
         harness.event(Event::PointerMoved(at));
         let mut frames = 0;
         while scene(&harness).camera.view_unit() > 1e-3 && frames < 2000 {
-            harness.event(Event::MouseWheel {
-                unit: MouseWheelUnit::Point,
-                delta: egui::vec2(0.0, 30.0),
-                phase: TouchPhase::Move,
-                source: egui::MouseWheelSource::Unknown,
-                modifiers: Modifiers::NONE,
-            });
+            harness.event(wheel(30.0));
             harness.step();
             frames += 1;
         }

@@ -1,9 +1,6 @@
 //! Gestures in the view, the keyboard, and what one step of undo is.
 
-use egui::{
-    Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase,
-    vec2,
-};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, vec2};
 use egui_kittest::kittest::Queryable as _;
 use mandelight::{
     formula::mandelbulb,
@@ -91,13 +88,7 @@ fn the_wheel_comes_nearer_and_a_run_of_notches_is_one_step() {
     let before = scene(&harness).camera.view_unit();
     harness.event(Event::PointerMoved(center));
     for _ in 0..3 {
-        harness.event(Event::MouseWheel {
-            unit: MouseWheelUnit::Point,
-            delta: vec2(0.0, 100.0),
-            phase: TouchPhase::Move,
-            source: egui::MouseWheelSource::Unknown,
-            modifiers: Modifiers::NONE,
-        });
+        harness.event(wheel(100.0));
     }
     harness.run_steps(60);
     let after = scene(&harness).camera.view_unit();
@@ -118,13 +109,7 @@ fn a_run_of_notches_is_one_step_where_frames_take_long_too() {
         let input = harness.input_mut();
         input.time = Some(now_secs);
         if frame < 8 {
-            input.events.push(Event::MouseWheel {
-                unit: MouseWheelUnit::Point,
-                delta: vec2(0.0, 60.0),
-                phase: TouchPhase::Move,
-                source: egui::MouseWheelSource::Unknown,
-                modifiers: Modifiers::NONE,
-            });
+            input.events.push(wheel(60.0));
         }
         harness.step();
     }
@@ -430,13 +415,7 @@ fn hints_go_when_they_are_followed() {
     assert!(harness.query_by_label_contains("Drag to turn").is_none());
     assert!(harness.query_by_label("Scroll to come closer").is_some());
     harness.event(egui::Event::PointerMoved(center));
-    harness.event(egui::Event::MouseWheel {
-        unit: egui::MouseWheelUnit::Point,
-        delta: vec2(0.0, 100.0),
-        phase: TouchPhase::Move,
-        source: egui::MouseWheelSource::Unknown,
-        modifiers: Modifiers::NONE,
-    });
+    harness.event(wheel(100.0));
     harness.run();
     assert!(harness.state().interface.rects().get("hint").is_none());
     let settings = harness.state().interface.settings().clone();

@@ -1,8 +1,7 @@
 //! Looks: shown under the pointer and with the keyboard, kept by a click, and where their swatches are.
 
 use egui::{
-    Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, Shape, TouchDeviceId,
-    TouchId, TouchPhase,
+    Event, Key, Modifiers, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId, TouchPhase,
     accesskit::{Role, Toggled},
     pos2, vec2,
 };
@@ -149,13 +148,7 @@ fn a_swatch_that_scrolls_under_the_pointer_shows_nothing() {
         without_motion(stage(presets::opening(), Settings::default(), [1280.0, 720.0]));
     let swatch = button(&harness, "Look: Gold").rect().center();
     hover(&mut harness, swatch - vec2(0.0, 200.0));
-    harness.event(Event::MouseWheel {
-        unit: MouseWheelUnit::Point,
-        delta: vec2(0.0, -200.0),
-        modifiers: Modifiers::NONE,
-        phase: TouchPhase::Move,
-        source: egui::MouseWheelSource::Unknown,
-    });
+    harness.event(wheel(-200.0));
     harness.run_steps(60);
     let moved = button(&harness, "Look: Gold").rect();
     assert!(moved.contains(swatch - vec2(0.0, 200.0)), "{moved:?}");

@@ -73,6 +73,21 @@ fn the_keyboard_reaches_what_is_scrolled_out_of_the_timeline() {
     }
 }
 
+#[test]
+fn a_plain_wheel_moves_the_timeline_s_row() {
+    let settings = Settings { timeline_open: true, ..Settings::default() };
+    let mut harness = without_motion(stage(with_keys(), settings, [720.0, 420.0]));
+    harness.run();
+    let strip = rect(&harness, "timeline");
+    let last = button(&harness, "Save video").rect();
+    assert!(last.left() > strip.right(), "{last:?} is in sight");
+    harness.event(egui::Event::PointerMoved(egui::pos2(strip.center().x, last.center().y)));
+    harness.event(wheel(-2000.0));
+    harness.run_steps(30);
+    let last = button(&harness, "Save video").rect();
+    assert!(last.right() <= strip.right(), "{last:?} in {strip:?}");
+}
+
 /// Only what contains a control scrolls to it.
 #[test]
 fn the_panel_stays_while_the_keyboard_is_in_the_timeline() {

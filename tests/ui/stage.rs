@@ -1,8 +1,8 @@
 //! An interface on a stage: a harness around it, and shorthands for what tests do with it.
 
 use egui::{
-    Event, Modifiers, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId, TouchPhase, Vec2,
-    accesskit::Role,
+    Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId,
+    TouchPhase, Vec2, accesskit::Role,
 };
 use egui_kittest::{Harness, HarnessBuilder, Node, kittest::Queryable as _};
 use mandelight::{
@@ -185,6 +185,17 @@ fn flatten<'a>(shape: &'a Shape, into: &mut Vec<&'a Shape>) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| flatten(shape, into)),
         shape => into.push(shape),
+    }
+}
+
+/// A turn of the wheel by `points`, up if positive.
+pub fn wheel(points: f32) -> Event {
+    Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        delta: egui::vec2(0.0, points),
+        phase: TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicU32, Ordering},
 };
 
-use egui::{Event, MouseWheelUnit, Pos2, TouchPhase, vec2};
+use egui::{Event, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DQuat, DVec2, DVec3};
 use mandelight::{
@@ -194,13 +194,7 @@ fn the_status_line_says_that_nothing_is_there() {
     let view: Pos2 = harness.state().interface.rects().get("view").expect("a view").center();
     harness.event(Event::PointerMoved(view));
     let mut turn = |delta: f32| {
-        harness.event(Event::MouseWheel {
-            unit: MouseWheelUnit::Point,
-            delta: vec2(0.0, delta),
-            phase: TouchPhase::Move,
-            source: egui::MouseWheelSource::Unknown,
-            modifiers: egui::Modifiers::NONE,
-        });
+        harness.event(wheel(delta));
         harness.run_steps(30);
         let said = harness.query_by_label_contains("Nothing to zoom into here").is_some();
         (scene(&harness).camera.clone(), said)

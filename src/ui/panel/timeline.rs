@@ -70,9 +70,13 @@ pub fn strip(ui: &mut Ui, cx: &mut Context<'_>, path: &mut Path, timeline: &mut 
     if wide {
         ui.horizontal(|ui| strip.key_and_saving(ui));
     } else if ui.ctx().content_rect().height() < LOW_WINDOW {
-        scrolled_row(ui, "timeline row", |ui| {
-            strip.own_view_and_keys(ui);
-            strip.key_and_saving(ui);
+        ui.scope(|ui| {
+            // Nothing else is here that a plain wheel could scroll.
+            ui.style_mut().always_scroll_the_only_direction = true;
+            scrolled_row(ui, "timeline row", |ui| {
+                strip.own_view_and_keys(ui);
+                strip.key_and_saving(ui);
+            });
         });
     } else {
         ui.horizontal_wrapped(|ui| {
