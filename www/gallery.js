@@ -47,6 +47,9 @@ export async function read(address, maxBytes, isWhole) {
   return bytes;
 }
 
+/** The picture that is being made small: one at a time, for each may take 128 MiB. */
+let latest = Promise.resolve();
+
 /**
  * The middle of a picture, made small.
  * @param {Uint8Array} file a picture that the browser can decode
@@ -54,7 +57,11 @@ export async function read(address, maxBytes, isWhole) {
  * @param {number} height
  * @returns {Promise<Uint8ClampedArray>} sRGB and alpha, row by row
  */
-export async function smallPixels(file, width, height) {
-  const context = await smallContext(new Blob([file]), width, height);
-  return context.getImageData(0, 0, width, height).data;
+export function smallPixels(file, width, height) {
+  const make = async () => {
+    const context = await smallContext(new Blob([file]), width, height);
+    return context.getImageData(0, 0, width, height).data;
+  };
+  latest = latest.then(make, make);
+  return latest;
 }

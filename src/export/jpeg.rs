@@ -306,21 +306,29 @@ pub fn jpeg_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, 
         if !is_jpeg(&header) {
             return Err(Unreadable::new("it begins as another file"));
         }
-        for segment in Segments::of(&header) {
-            let Segment { kind, content } = segment.map_err(Unreadable::new)?;
-            // A frame's header: bits of a channel, height, width.
-            if kind == marker::SOF0
-                && let [_, y0, y1, x0, x1, ..] = *content
-            {
-                file.go_to(file.length().saturating_sub(2), "the end")?;
-                let is_complete = file.array("the end")? == [0xFF, marker::EOI];
-                let size = [[x0, x1], [y0, y1]].map(|side| u32::from(u16::from_be_bytes(side)));
-                return Ok(is_complete.then_some(size));
-            }
-        }
-        Err(Unreadable::new("its header has no size"))
+        let size = jpeg_size(&header)?;
+        file.go_to(file.length().saturating_sub(2), "the end")?;
+        let is_complete = file.array("the end")? == [0xFF, marker::EOI];
+        Ok(is_complete.then_some(size))
     };
     size().map_err(|error| SceneTextError::unreadable("JPEG", error))
+}
+
+/// Width and height in pixels of a baseline JPEG that [`is_jpeg`], from its header.
+///
+/// # Errors
+/// If the header is damaged or has no size: that of a progressive JPEG is in another segment.
+pub(super) fn jpeg_size(header: &[u8]) -> Result<[u32; 2], Unreadable> {
+    for segment in Segments::of(header) {
+        let Segment { kind, content } = segment.map_err(Unreadable::new)?;
+        // A frame's header: bits of a channel, height, width.
+        if kind == marker::SOF0
+            && let [_, y0, y1, x0, x1, ..] = *content
+        {
+            return Ok([[x0, x1], [y0, y1]].map(|side| u32::from(u16::from_be_bytes(side))));
+        }
+    }
+    Err(Unreadable::new("its header has no size"))
 }
 
 /// The number of a document's part, the number of parts, and the part; none for other segments.

@@ -21,6 +21,7 @@
 //! | [`jpeg`] | JPEG writer with the scene document; scene reader |
 //! | [`webp`] | WebP writer with the scene document; scene reader |
 //! | `picture_scene` | scene reader of all formats |
+//! | `picture_size` | the size of a picture that a browser is to decode |
 //! | `metadata` | what the scene readers share |
 
 pub mod archive;
@@ -33,6 +34,7 @@ mod motion;
 mod options;
 mod overview;
 mod picture_scene;
+mod picture_size;
 pub mod png;
 pub mod sequence;
 mod sheet;
@@ -50,6 +52,7 @@ pub use jpeg::jpeg_complete_size;
 pub use metadata::{MAX_HEADER_BYTES, MAX_TEXT_BYTES, SCENE_KEYWORD, SceneTextError};
 pub use options::{Eye, StillOptions};
 pub use picture_scene::picture_scene_text;
+pub use picture_size::{MAX_DECODED_PIXELS, decodable_size};
 pub use png::{is_png, png_complete_size, png_has_all_pixels, scene_text};
 pub use sequence::{FrameSink, SequenceJob, frame_name};
 pub use still::{StillJob, StillStatus};

@@ -22,6 +22,9 @@ const IDAT_BYTES: usize = 1 << 16;
 /// The first bytes of every PNG.
 const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
+/// Bytes up to the end of the size in pixels: the signature, and the first chunk's length, name and sides.
+const SIZE_END: usize = SIGNATURE.len() + 16;
+
 /// The last chunk of every PNG: its length, name and checksum.
 const END: [u8; 12] = *b"\0\0\0\0IEND\xae\x42\x60\x82";
 
@@ -137,16 +140,28 @@ pub fn is_png(bytes: &[u8]) -> bool {
 pub fn png_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, SceneTextError> {
     let size = || -> Result<Option<[u32; 2]>, Unreadable> {
         let mut file = Source::new(reader).map_err(Unreadable::new)?;
-        if file.array::<8>("the signature")? != SIGNATURE {
+        let header = file.array::<SIZE_END>("the header")?;
+        if !is_png(&header) {
             return Err(Unreadable::new("it has no signature"));
         }
-        let header = file.array::<8>("the header")?;
-        let sides = [file.array("the header")?, file.array("the header")?];
         file.go_to(file.length().saturating_sub(END.len() as u64), "the last chunk")?;
-        let is_complete = header[4..] == *b"IHDR" && file.array("the last chunk")? == END;
-        Ok(is_complete.then(|| sides.map(u32::from_be_bytes)))
+        let is_complete = file.array("the last chunk")? == END;
+        Ok(png_size(&header).ok().filter(|_| is_complete))
     };
     size().map_err(|error| SceneTextError::unreadable("PNG", error))
+}
+
+/// Width and height in pixels of a PNG that [`is_png`], from its first bytes.
+///
+/// # Errors
+/// If its first chunk is not the header.
+pub(super) fn png_size(start: &[u8]) -> Result<[u32; 2], Unreadable> {
+    match start.get(SIGNATURE.len() + 4..SIZE_END) {
+        Some(&[b'I', b'H', b'D', b'R', w0, w1, w2, w3, h0, h1, h2, h3]) => {
+            Ok([[w0, w1, w2, w3], [h0, h1, h2, h3]].map(u32::from_be_bytes))
+        }
+        _ => Err(Unreadable::new("its header has no size")),
+    }
 }
 
 /// Whether all of a PNG's pixels can be read: a crash of the machine may leave holes in a file.

@@ -21,6 +21,9 @@ const RIFF_HEADER_BYTES: usize = 12;
 /// Bytes of a chunk's header: its name and its size.
 const CHUNK_HEADER_BYTES: usize = 8;
 
+/// Bytes up to the end of the first chunk's size in pixels.
+const SIZE_END: usize = RIFF_HEADER_BYTES + 18;
+
 /// Bits of the `VP8X` chunk: that the file has an XMP chunk, and that its pixels have alpha.
 const HAS_XMP: u8 = 1 << 2;
 const HAS_ALPHA: u8 = 1 << 4;
@@ -239,22 +242,30 @@ pub fn webp_scene_text(bytes: &[u8]) -> Result<Option<String>, SceneTextError> {
 pub fn webp_complete_size(reader: impl Read + Seek) -> Result<Option<[u32; 2]>, SceneTextError> {
     let size = || -> Result<Option<[u32; 2]>, Unreadable> {
         let mut file = Source::new(reader).map_err(Unreadable::new)?;
-        let start = file.array::<RIFF_HEADER_BYTES>("the header")?;
-        if !is_webp(&start) {
+        let header = file.array::<SIZE_END>("the header")?;
+        if !is_webp(&header) {
             return Err(Unreadable::new("it begins as another file"));
         }
-        // The first chunk: its header, flags and three reserved bytes, width and height less one in 24 bits each.
-        let features = file.array("the header")?;
-        let [b'V', b'P', b'8', b'X', _, _, _, _, _, _, _, _, w0, w1, w2, h0, h1, h2] = features
-        else {
-            return Err(Unreadable::new("its header has no size"));
-        };
-        let size = [[w0, w1, w2, 0], [h0, h1, h2, 0]].map(|side| u32::from_le_bytes(side) + 1);
-        let [_, _, _, _, l0, l1, l2, l3, ..] = start;
+        let size = webp_size(&header)?;
+        let [_, _, _, _, l0, l1, l2, l3, ..] = header;
         let length = u64::from(u32::from_le_bytes([l0, l1, l2, l3])) + 8;
         Ok((length == file.length()).then_some(size))
     };
     size().map_err(|error| SceneTextError::unreadable("WebP", error))
+}
+
+/// Width and height in pixels of a WebP with metadata that [`is_webp`], from its first bytes.
+///
+/// # Errors
+/// If its first chunk is another one than a file with metadata has.
+pub(super) fn webp_size(header: &[u8]) -> Result<[u32; 2], Unreadable> {
+    // The first chunk: its header, flags and three reserved bytes, width and height less one in 24 bits each.
+    match header.get(RIFF_HEADER_BYTES..SIZE_END) {
+        Some(&[b'V', b'P', b'8', b'X', _, _, _, _, _, _, _, _, w0, w1, w2, h0, h1, h2]) => {
+            Ok([[w0, w1, w2, 0], [h0, h1, h2, 0]].map(|side| u32::from_le_bytes(side) + 1))
+        }
+        _ => Err(Unreadable::new("its header has no size")),
+    }
 }
 
 #[cfg(test)]

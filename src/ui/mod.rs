@@ -35,6 +35,7 @@
 //! | [`shortcuts`] | the table of keys, for dispatch and for the help window |
 //! | [`accessibility`] | the interface as a screen reader reads it |
 //! | [`loss_policy`] | after losses of the GPU: how often to restart, in which safe mode, and what to open |
+//! | [`ended_scenes`] | scenes that ended a visit, which the next one offers |
 //! | [`editor`] | the edited scene and path, and their history |
 //! | `timeline` | the playhead: the time of the path that is in view |
 //! | `status`, [`theme`], `icon`, [`rects`] | the status line, style, icons, widget positions |
@@ -81,6 +82,7 @@ mod widgets;
 
 pub mod accessibility;
 pub mod editor;
+pub mod ended_scenes;
 pub mod file_progress;
 pub mod loss_policy;
 pub mod navigation;

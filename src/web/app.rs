@@ -14,7 +14,7 @@ use super::{
     image_decoder::ImageDecoder,
     mailbox::{Mailbox, Message},
     opening::{self, Opening},
-    page,
+    page, scene_watch,
     session::Session,
     video_support::VideoSupport,
     view_picture::{self, ViewPicture},
@@ -122,6 +122,10 @@ impl eframe::App for App {
         let engine_secs = engine.update(session);
         let moving = session.interface.is_moving();
         let autosave_secs = session.autosave.update(session.interface.editor(), moving, now_secs);
+        // After autosave, whose scene has a picture already where the view rests.
+        if engine.is_sharp() {
+            scene_watch::note_picture();
+        }
         session.save_favourites();
         session.show_storage_notice();
         session.status.frames += 1;

@@ -15,6 +15,7 @@ use crate::{
 
 use super::{
     address::Address,
+    scene_watch,
     storage::{self, StorageKey},
 };
 
@@ -80,6 +81,8 @@ impl Autosave {
 
     fn write_project(&mut self, project: &Project, editor: &Editor) {
         self.changed_at_secs = None;
+        // Noted before the storage names it: the next frame may be the last.
+        scene_watch::watch(&project.scene);
         let document = document::project_to_json_compact(project);
         self.has_failed |= !key_for_scene(self.written.as_deref()).write(&document);
         storage::STEPS.write(&steps_to_text(editor.steps()));

@@ -98,6 +98,11 @@ impl Engine {
         self.view.shown()
     }
 
+    /// True once the first sharp picture of the newest scene is complete.
+    pub fn is_sharp(&self) -> bool {
+        self.view.is_sharp()
+    }
+
     /// The picture from before a change of size, until the newest is as good.
     pub fn kept_picture(&self) -> Option<ui::KeptPicture> {
         self.view.kept()

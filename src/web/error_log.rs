@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 
-use super::page;
+use super::{page, scene_watch};
 
 /// Messages kept; later ones are only counted.
 const MAX_MESSAGES: usize = 32;
@@ -37,6 +37,7 @@ pub fn install() {
     }
     let previous_hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
+        scene_watch::note_end();
         record_error(info.to_string());
         page::show_notice(
             "Mandelight stopped because of an error in the program",

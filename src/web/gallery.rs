@@ -13,6 +13,7 @@ use super::{
     page::{self, describe},
 };
 use crate::{
+    export::{self, MAX_HEADER_BYTES},
     scene::{
         document::MAX_BYTES,
         gallery::{Gallery, LIST_FILE, MAX_LIST_BYTES, Picture},
@@ -106,8 +107,11 @@ pub fn open_picture(address: &str, picture: &Picture, ticket: u32, mailbox: &Mai
 /// Reads the picture at `address` and makes it as small as a thumbnail.
 pub async fn thumbnail(address: &str) -> Result<egui::ColorImage, String> {
     let file = read(address, MAX_PICTURE_BYTES, true).await.map_err(|error| describe(&error))?;
+    let file: Uint8Array = file.unchecked_into();
+    let header = file.subarray(0, file.length().min(MAX_HEADER_BYTES as u32)).to_vec();
+    export::decodable_size(&header)?;
     let [width, height] = thumbnail::SIZE_PX.map(|side| 2 * side);
-    let pixels = small_pixels(file.unchecked_into(), width, height).await;
+    let pixels = small_pixels(file, width, height).await;
     let pixels = pixels.map_err(|error| describe(&error))?;
     let pixels = pixels.unchecked_into::<Uint8ClampedArray>().to_vec();
     Ok(egui::ColorImage::from_rgba_unmultiplied([width as usize, height as usize], &pixels))

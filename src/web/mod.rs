@@ -20,6 +20,8 @@
 //! | `still_export` | a picture into a download |
 //! | `stored` | settings and kept views in the storage |
 //! | `autosave` | writes the scene to storage and address |
+//! | `error_log` | panics and errors of the visit |
+//! | `scene_watch` | the scene on its way to a picture, in the storage |
 //! | `device_loss` | the losses of the GPU in the storage |
 //! | `video` | a video, encoded by the browser |
 //! | `file_access` | a file on the disk, written while its content is made |
@@ -28,7 +30,6 @@
 //! | `files` | downloads, file dialogue, dropped files, clipboard |
 //! | `address` | the scene in the address bar |
 //! | `storage` | texts in the browser's storage |
-//! | `error_log` | panics and errors of the visit |
 //! | `live_view` | the picture in the window and its texture in egui |
 //! | `small_pictures` | small pictures of the interface, drawn when the view rests |
 //! | `async_compile` | pipelines compiled while the page goes on |
@@ -60,6 +61,7 @@ mod live_view;
 mod mailbox;
 mod opening;
 mod page;
+mod scene_watch;
 mod sequence_export;
 mod sequence_file;
 mod session;

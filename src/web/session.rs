@@ -14,7 +14,7 @@ use super::{
     files::{self, FilePicker},
     gallery,
     mailbox::{Mailbox, Message},
-    page, stored,
+    page, scene_watch, stored,
 };
 use crate::{
     gpu::Gpu,
@@ -62,14 +62,21 @@ pub struct Session {
     safe_mode: SafeMode,
     /// The scene in which drawing is paused.
     paused_scene: Option<Scene>,
-    /// The project that lost the GPU several times, so that the visit began with another one.
-    offered: Option<Project>,
+    /// The project of which earlier visits had trouble, so that this one began with another.
+    offered: Option<Offered>,
     /// Time of this visit's last loss of the GPU, in seconds since 1970.
     lost_at_secs: Option<f64>,
     /// Whether the scene in view is the one that lost the GPU.
     has_lost_scene: bool,
     /// Whether a picture of this visit has been complete.
     has_completed: bool,
+}
+
+/// A project that is offered instead of opened.
+struct Offered {
+    project: Project,
+    /// Whether the page ended with it; otherwise it lost the GPU.
+    has_ended: bool,
 }
 
 /// The app's status, for the interface and the tests.
@@ -100,11 +107,15 @@ impl Session {
         let known_formulas = settings.formulas.clone();
         let opening = Project::from(presets::opening());
         let named = opened.project.unwrap_or_else(|| opening.clone());
-        let start = device_loss::start(&named.scene);
+        let has_ended = named != opening && scene_watch::has_ended_with(&named.scene);
+        let start = if has_ended { Start::Offer } else { device_loss::start(&named.scene) };
         let (project, offered) = match start {
-            Start::Offer if named != opening => (opening, Some(named)),
+            Start::Offer if named != opening => {
+                (opening, Some(Offered { project: named, has_ended }))
+            }
             _ => (named, None),
         };
+        scene_watch::watch(&project.scene);
         let safe_mode = match (start, &offered) {
             (Start::Open(safe_mode), _) => safe_mode,
             // The offer has a notice of its own.
@@ -153,39 +164,55 @@ impl Session {
 
     /// Saves the session whenever the visitor may be about to leave the page.
     pub fn save_on_leave(session: &Rc<RefCell<Self>>) {
-        let save = || {
+        let save_and = |watch: fn()| {
             let session = session.clone();
-            // Within a frame the session is borrowed; autosave then writes after the frame.
+            // Within a frame the session is borrowed, and after a panic for good; autosave writes after a frame.
             move || {
                 if let Ok(mut session) = session.try_borrow_mut() {
                     session.save();
+                    watch();
                 }
             }
         };
         if let Some(window) = page::window() {
-            page::listen(&window, "pagehide", save());
+            page::listen(&window, "pagehide", save_and(scene_watch::leave));
+            page::listen(&window, "pageshow", save_and(scene_watch::come_back));
         }
         if let Some(document) = page::document() {
-            page::listen(&document, "visibilitychange", save());
+            let watch = || match page::is_hidden() {
+                true => scene_watch::leave(),
+                false => scene_watch::come_back(),
+            };
+            page::listen(&document, "visibilitychange", save_and(watch));
         }
     }
 
-    /// Shows the notice that offers the scene which lost the GPU, if there is one.
+    /// Shows the notice that offers the scene of which earlier visits had trouble, if there is one.
     fn show_offer(&mut self) {
-        if self.offered.is_some() {
-            let text = "The graphics card stopped several times while drawing this visit's scene, so the opening scene is shown instead.";
+        if let Some(offered) = &self.offered {
+            let text = match offered.has_ended {
+                true => {
+                    "The page stopped while this visit's scene was in view, so the opening scene is shown instead."
+                }
+                false => {
+                    "The graphics card stopped several times while drawing this visit's scene, so the opening scene is shown instead."
+                }
+            };
             let offer = Some("Open the scene anyway");
             self.show(Notice { text: text.into(), is_error: true, offer }, f64::INFINITY);
         }
     }
 
-    /// Opens the offered scene, with a smaller picture until one is complete.
+    /// Opens the offered scene; one that lost the GPU with a smaller picture until one is complete.
     pub fn take_offer(&mut self) {
         self.toast.take();
-        if let Some(project) = self.offered.take() {
+        if let Some(Offered { project, has_ended }) = self.offered.take() {
+            scene_watch::watch(&project.scene);
             self.interface.replace_project(project);
-            self.has_lost_scene = true;
-            self.enter_safe_mode(SafeMode::Reduced);
+            if !has_ended {
+                self.has_lost_scene = true;
+                self.enter_safe_mode(SafeMode::Reduced);
+            }
             self.report_missing_environment_map();
         }
     }
@@ -307,6 +334,8 @@ impl Session {
                 }
                 Message::Fragment(fragment) => match link::project_from_fragment(&fragment) {
                     Ok(project) => {
+                        // The address names it already, before autosave writes it.
+                        scene_watch::watch(&project.scene);
                         self.interface.replace_project(project);
                         self.report_missing_environment_map();
                     }

@@ -6,6 +6,7 @@
 use std::cell::Cell;
 
 use super::page::{describe, window};
+use crate::scene::{Scene, document, link};
 
 /// The scene in view, as a document.
 pub const SCENE: StorageKey =
@@ -29,6 +30,15 @@ pub const STEPS: StorageKey = StorageKey { name: "mandelight.steps", lifetime: L
 /// The times of GPU losses and the scene of the last one, as JSON.
 pub const LOSSES: StorageKey =
     StorageKey { name: "mandelight.losses", lifetime: Lifetime::Permanent };
+
+/// The scenes on their way to a sharp picture, as JSON.
+pub const OPENING: StorageKey =
+    StorageKey { name: "mandelight.opening", lifetime: Lifetime::Permanent };
+
+/// A scene as text, by which stored lists know it: its link, or its document if too large for one.
+pub fn scene_text(scene: &Scene) -> String {
+    link::to_fragment(scene).unwrap_or_else(|_| document::to_json_compact(scene))
+}
 
 /// A key of the browser's storage.
 #[derive(Clone, Copy)]
