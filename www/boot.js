@@ -9,6 +9,9 @@ import * as share from "./share.js";
 /** The module's size in bytes, set by the build: a compressed response does not contain it. */
 const WASM_BYTES = 0;
 
+/** What the notice says until the page draws. */
+let loadingText = "Opening the scene…";
+
 const element = (id) => document.getElementById(id);
 
 /**
@@ -48,6 +51,7 @@ function showOpening() {
     // Without storage, each visit is a first one.
   }
   element("opening").hidden = false;
+  loadingText = "Loading…";
 }
 
 const showLoading = (text, progress) => showNotice("Mandelight", text, { again: false, progress });
@@ -96,11 +100,12 @@ async function fetchModule(url) {
   if (!response?.ok) {
     const kept = await window.caches?.match(url.href);
     if (kept) return kept;
-    const reason = response ? `${response.status} ${response.statusText}` : "no connection";
-    throw new TypeError(`${url}: ${reason}`);
+    const reason = response ? `${response.status} ${response.statusText}`.trim() : "no connection";
+    throw new TypeError(`${url.pathname.split("/").pop()}: ${reason}`);
   }
   // The module is compiled from the response itself, for which the browser keeps the compiled code.
-  showProgress(response.clone().body);
+  // If it breaks off, the compilation fails too.
+  showProgress(response.clone().body).catch(() => {});
   return response;
 }
 
@@ -113,7 +118,7 @@ async function showProgress(body) {
   const reader = body.getReader();
   for (let part = await reader.read(); !part.done; part = await reader.read()) {
     bytes += part.value.byteLength;
-    if (isLoading && bytes < WASM_BYTES) showLoading("Loading…", bytes / WASM_BYTES);
+    if (isLoading && bytes < WASM_BYTES) showLoading(loadingText, bytes / WASM_BYTES);
   }
 }
 
@@ -172,8 +177,8 @@ function explainLoading(error) {
   // Browsers report a lost connection as a TypeError, whose message is for programmers.
   if (error instanceof TypeError) {
     return (
-      "Check the internet connection, then try again. If that does not help, update the browser.\n\n" +
-      `A part of the page did not arrive. (${error.message})`
+      "A part of the page did not arrive. Check the internet connection, then try again. If that does not " +
+      `help, update the browser.\n\n${error.message}`
     );
   }
   const detail = error instanceof Error ? error.message : String(error);
@@ -187,8 +192,10 @@ function explainLoading(error) {
 }
 
 async function boot() {
+  // The document's own words, for where this script does not arrive.
+  element("notice-late").remove();
   showOpening();
-  showLoading("Loading…", NaN);
+  showLoading(loadingText, NaN);
   const obstacle = await findObstacle();
   if (obstacle) {
     showNotice(obstacle.text, obstacle.detail);
@@ -202,13 +209,15 @@ async function boot() {
     const module = new URL("./mandelight_bg.wasm", import.meta.url);
     await mandelight.default({ module_or_path: fetchModule(module) });
   } catch (error) {
+    // The rest of the module may still be on its way.
+    isLoading = false;
     console.error(error);
     showNotice("Mandelight could not be loaded", explainLoading(error));
     return;
   }
   isLoading = false;
   try {
-    showLoading("Starting…", NaN);
+    showLoading(loadingText, NaN);
     await pixelsFixed;
     await mandelight.start(element("mandelight"));
     showNotice("");
@@ -242,8 +251,14 @@ window.mandelightAccessibility = accessibility;
 window.mandelightDecoder = decoder;
 window.mandelightGallery = gallery;
 window.mandelightShare = share;
-window.mandelightCodecs = () => import("./codecs.js");
-window.mandelightVideo = () => import("./video.js");
+
+/** A part that is loaded when it is first used; a failure says what helps. */
+const part = (loading) =>
+  loading.catch((error) => {
+    throw new Error(`a part of the page did not arrive (load the page again): ${error.message}`);
+  });
+window.mandelightCodecs = () => part(import("./codecs.js"));
+window.mandelightVideo = () => part(import("./video.js"));
 window.mandelightNotice = (text, detail) => {
   hasModuleNotice = true;
   showNotice(text, detail);

@@ -18,9 +18,11 @@ self.addEventListener("install", (event) => {
 
 self.addEventListener("activate", (event) => {
   const purge = async () => {
+    // In the order in which they were made.
     const names = await caches.keys();
     const old = names.filter((name) => name.startsWith(PREFIX) && name !== CACHE);
-    await Promise.all(old.map((name) => caches.delete(name)));
+    // Tabs that show the version before this one may still load parts of it.
+    await Promise.all(old.slice(0, -1).map((name) => caches.delete(name)));
     await self.clients.claim();
   };
   event.waitUntil(purge());
@@ -43,7 +45,8 @@ self.addEventListener("fetch", (event) => {
     const cache = await caches.open(CACHE);
     const found = await cache.match(request);
     // Any other address of the folder is the document's, whatever its query.
-    return found || (isDocument && (await cache.match(DOCUMENT))) || fetch(request);
+    if (isDocument) return found || (await cache.match(DOCUMENT)) || fetch(request);
+    return found || (await caches.match(request)) || fetch(request);
   };
   event.respondWith(kept());
 });

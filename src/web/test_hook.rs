@@ -1,7 +1,7 @@
 //! `window.mandelight`: the object by which browser tests drive the page, with `?test` only.
 //!
-//! In: calls from JavaScript. Out: plain objects. Except for losing the device and failing decoders,
-//! a visitor can do all that the hook does. egui has no accessibility tree on the web, so the hook locates the widgets.
+//! In: calls from JavaScript. Out: plain objects. Except for losing the device, failing decoders and
+//! ending the program, a visitor can do all that the hook does. egui has no accessibility tree on the web, so the hook locates the widgets.
 
 use std::{cell::RefCell, rc::Rc};
 
@@ -119,6 +119,13 @@ impl TestHook {
         if let Some(gpu) = gpu {
             gpu.device.destroy();
         }
+    }
+
+    /// Ends the program within a frame, as an error in it would.
+    #[wasm_bindgen(js_name = endProgram)]
+    pub fn end_program(&self) {
+        let _frame = self.session.borrow_mut();
+        panic!("a panic of the test");
     }
 
     /// Whether the page has a device: not after a loss, until the restart.

@@ -105,6 +105,13 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
     return Array.from(new Uint8Array(await (await item.getType("image/png")).arrayBuffer()));
   });
   await writeFile(join(v.out, "copied.png"), Buffer.from(copied));
+  await v.tab.keyboard.press("j");
+  v.seen.code = await page.rested("the code", () => page.rect("QR code"));
+  await v.screenshot("shared-720x420");
+  await v.tab.mouse.click(...(await page.middle("Copy link")));
+  await page.says("Link copied");
+  v.seen.link = await v.tab.evaluate(() => navigator.clipboard.readText());
+  await v.tab.keyboard.press("Escape");
   v.seen.used_dispatches = (await page.report()).dispatches - dispatches;
 
   // A kept view has a picture, and is stored.
@@ -135,4 +142,8 @@ await visit({ context: { viewport: { width: 1280, height: 720 } } }, async (v) =
   scenes.revisited = await page.scene();
   await page.open(process.env.MANDELIGHT_LINK);
   scenes.linked = await page.scene();
+  await v.tab.goto("about:blank");
+  await v.tab.goto(v.seen.link);
+  await page.firstPicture();
+  scenes.copied = await page.scene();
 });

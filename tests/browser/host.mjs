@@ -25,13 +25,14 @@ const PICTURES = "/pictures/";
  * Serves `folder`, and `pictures` beside it.
  * @param {string} folder
  * @param {string} [pictures]
- * @returns {Promise<{address: string, requests: string[], isDown: boolean, edits: Object<string, (text: string) => string>, close: () => Promise<void>}>}
- *   the page's address; the files requested so far; whether it refuses connections; edits of
- *   files, by their names; a function that stops the host
+ * @returns {Promise<{address: string, requests: string[], isDown: boolean, moved: Object<string, string?>, edits: Object<string, (text: string) => string>, close: () => Promise<void>}>}
+ *   the page's address; the files requested so far; whether it refuses connections; the files that stand for
+ *   others, by the requested names, null for none; edits of files, by the requested names; a function that stops
+ *   the host
  */
 export async function host(folder, pictures) {
   const requests = [];
-  const state = { isDown: false, edits: {} };
+  const state = { isDown: false, moved: {}, edits: {} };
   const server = createServer(async (request, response) => {
     if (state.isDown) return request.socket.destroy();
     const { pathname } = new URL(request.url, "http://127.0.0.1");
@@ -39,7 +40,7 @@ export async function host(folder, pictures) {
     requests.push(name ?? pathname);
     const isPicture = pictures && pathname.startsWith(PICTURES);
     const root = isPicture ? pictures : folder;
-    const below = isPicture ? decodeURIComponent(pathname.slice(PICTURES.length)) : name;
+    const below = isPicture ? decodeURIComponent(pathname.slice(PICTURES.length)) : name in state.moved ? state.moved[name] : name;
     const file = below && normalize(join(root, below));
     try {
       if (!file?.startsWith(root + sep)) throw new Error("outside the folder");

@@ -87,12 +87,13 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await v.tab.reload();
     await page.firstPicture();
     await page.show(JSON.stringify(quick));
+    const underWay = () => v.until("saving to be under way", async () => {
+      const { exporting, exported } = await page.report();
+      return exporting && exported > 0.3;
+    }, 120);
     const interrupted = async (name, button) => {
       const saved = page.keepDownload(name, button);
-      await v.until("saving to be under way", async () => {
-        const { exporting, exported } = await page.report();
-        return exporting && exported > 0.3;
-      }, 120);
+      await underWay();
       await forget();
       await lose();
       // The notice gives way to that of the saved file.
@@ -107,6 +108,17 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
       return saved;
     };
     await page.keepDownload("whole.png", "save picture");
+    // What is edited meanwhile is of no account.
+    const edited = page.keepDownload("edited.png", "save picture");
+    await underWay();
+    v.seen.edited_while_saving = await v.tab.evaluate(() => {
+      const document = JSON.parse(window.mandelight.scene());
+      document.scene.fractal.power = 5;
+      window.mandelight.setScene(JSON.stringify(document));
+      return window.mandelight.report().exporting;
+    });
+    await edited;
+    await page.show(JSON.stringify(quick));
     await interrupted("resumed.png", "save picture");
     await page.settled();
 
@@ -165,7 +177,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
       await v.tab.reload();
       await page.says("several times");
       // A visitor who wants the scene opens it, and it is lost again.
-      await openOffered();
+      await page.openOffered();
     }
     await v.tab.reload();
     await page.firstPicture();
@@ -174,15 +186,9 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     v.seen.opened_instead = await page.scene();
     v.seen.kept_losses = JSON.parse(await stored(LOSSES)).since_picture;
     await v.screenshot("offer-720x420");
-    await openOffered();
+    await page.openOffered();
     await page.settled();
     v.seen.taken = await page.scene();
     await v.until("the losses to be cleared", async () => JSON.parse(await stored(LOSSES)).since_picture === 0, 60);
   });
-
-  async function openOffered() {
-    const button = v.tab.getByRole("button", { name: "Open the scene anyway", exact: true });
-    await button.evaluate((it) => it.click());
-    await v.until("the offer to be taken", async () => (await button.count()) === 0, 30);
-  }
 });

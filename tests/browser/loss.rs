@@ -26,6 +26,8 @@ fn a_lost_gpu_comes_back_with_the_same_scene() {
     // Files are those of a visit without a loss.
     let file = |name: &str| fs::read(visit.folder.join(name)).unwrap();
     assert!(file("resumed.png") == file("whole.png"), "the picture is another one");
+    assert_eq!(visit.seen["edited_while_saving"], true);
+    assert!(file("edited.png") == file("whole.png"), "an edit changed the picture being saved");
     assert_eq!(visit.number("/still_saving"), 2.0);
     assert_eq!(visit.seen["offered_notice"], true);
     assert_eq!(visit.seen["frames"].as_array().unwrap().len(), 3);

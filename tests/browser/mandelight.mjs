@@ -119,6 +119,13 @@ export class Mandelight {
     return this.visit.until(`the text ${text}`, isSaid, 60);
   }
 
+  /** Opens the scene that a notice offers. */
+  async openOffered() {
+    const button = this.tab.getByRole("button", { name: "Open the scene anyway", exact: true });
+    await button.evaluate((it) => it.click());
+    await this.visit.until("the offer to be taken", async () => (await button.count()) === 0, 30);
+  }
+
   /** A widget's rectangle in CSS pixels, or null while the widget is not shown. */
   rect(name) {
     return this.tab.evaluate((widget) => window.mandelight.uiRects()[widget] ?? null, name);

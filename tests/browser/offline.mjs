@@ -1,7 +1,11 @@
 // A visit without a connection after one with, and a new version that is offered.
 
+import { readdir } from "node:fs/promises";
 import { Mandelight } from "./mandelight.mjs";
 import { visit } from "./visit.mjs";
+
+/** What the build puts into the names of files that browsers keep. */
+const HASH = /-[0-9a-f]{12}\./;
 
 await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) => {
   const page = new Mandelight(v);
@@ -35,18 +39,42 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
   await other.close();
   v.server.isDown = false;
 
-  // Another version waits until the visitor takes it.
+  // Another version, under other names; the host has the old files no more. It waits until the visitor takes it.
+  v.provoked = /404/;
+  const names = (await readdir(process.env.MANDELIGHT_DIST)).filter((name) => HASH.test(name));
+  const next = (name) => name.replace(HASH, "-next.");
+  const renamed = (text) => names.reduce((all, name) => all.replaceAll(name, next(name)), text);
+  for (const name of names) {
+    v.server.moved[name] = null;
+    v.server.moved[next(name)] = name;
+    if (/\.(js|css|webmanifest)$/.test(name)) v.server.edits[next(name)] = renamed;
+  }
+  v.server.edits["index.html"] = renamed;
   const version = /^const VERSION = ".*";$/m;
-  v.server.edits["service-worker.js"] = (text) => text.replace(version, 'const VERSION = "another";');
+  v.server.edits["service-worker.js"] = (text) => renamed(text).replace(version, 'const VERSION = "another";');
   await v.tab.reload();
   await page.firstPicture();
+  const script = () => v.tab.evaluate(() => document.querySelector("script").src);
   const offered = () => v.tab.evaluate(() => !document.getElementById("update").hidden);
   v.seen.offered = await v.until("the offer of a new version", offered);
   await v.screenshot("update-480x320");
+  await v.tab.click("#update-later");
+  v.seen.put_off = !(await offered()) && !(await script()).includes("-next.");
+  await v.tab.reload();
+  await page.firstPicture();
+  await v.until("the offer to come again", offered);
+
+  // Another tab stays with the version that it shows, and still loads parts of it.
+  const second = await v.context.newPage();
+  await second.goto(v.address);
+  await v.until("the second tab", () => second.evaluate(() => document.getElementById("notice").hidden));
+  await v.tab.bringToFront();
   await v.tab.evaluate(() => (window.isOldPage = true));
   await v.tab.click("#update-now");
   v.seen.reloaded = await v.until("the new version", () =>
     v.tab.evaluate(() => window.isOldPage === undefined).catch(() => false));
   await page.firstPicture();
+  v.seen.renewed = (await script()).includes("-next.");
+  v.seen.second = await second.evaluate(() => window.mandelightCodecs().then(() => true, String));
   v.seen.purged = await cached();
 });

@@ -23,17 +23,37 @@ await visit({ context: SIZE }, async (v) => {
   });
   await page.changed("another scene", () => v.tab.keyboard.press("2"));
   v.seen.cameras = await v.tab.evaluate(() => window.cameras.size);
+
+  // A link has another picture than the document: words stand there until it is drawn.
+  await v.openAnew(SIZE);
+  const release = await holdModule(v);
+  await v.tab.goto(`${v.address}?test#${process.env.MANDELIGHT_LINK}`);
+  v.seen.linked = await v.until("the notice", async () => {
+    const notice = await v.notice();
+    return notice?.detail && notice;
+  });
+  v.seen.covered = await v.tab.evaluate(() => !document.getElementById("opening").hidden);
+  await v.screenshot("linked-640x400");
+  release();
+  await new Mandelight(v).firstPicture();
+  v.seen.scenes = { linked: await new Mandelight(v).scene() };
 });
 
-/** Loads the page as at a first visit, the module only once the opening picture has been photographed. */
-async function watched(v, name) {
-  const page = new Mandelight(v);
+/** Holds the module back until the returned function is called. */
+async function holdModule(v) {
   let release;
   const released = new Promise((resolve) => (release = resolve));
   await v.context.route(/\.wasm$/, async (route) => {
     await released;
     await route.continue();
   });
+  return release;
+}
+
+/** Loads the page as at a first visit, the module only once the opening picture has been photographed. */
+async function watched(v, name) {
+  const page = new Mandelight(v);
+  const release = await holdModule(v);
   await v.tab.goto(`${v.address}?test`);
   const motion = await v.until("the opening picture", () => v.tab.evaluate(async () => {
     const [frame, picture] = ["opening", "opening-picture"].map((id) => document.getElementById(id));

@@ -1,5 +1,7 @@
 //! The picture of the document, and what takes its place.
 
+use mandelight::scene::{link, presets};
+
 use crate::{picture::Picture, visit::Visit};
 
 /// Pixels across and down that are compared as one: a view of few pixels has coarser details.
@@ -13,7 +15,9 @@ const MOVES: [i32; 5] = [-6, -3, 0, 3, 6];
 
 #[test]
 fn the_opening_picture_is_there_at_once_and_the_view_takes_its_place() {
-    let visit = Visit::run("opening");
+    let linked = (presets::opening_scenes()[3].scene)();
+    let fragment = link::to_fragment(&linked).unwrap();
+    let visit = Visit::run_with("opening", [("MANDELIGHT_LINK", fragment)]);
     for name in ["normal", "reduced"] {
         let seen = &visit.seen[name];
         assert_eq!(seen["isModuleThere"], false, "{name}: the picture came with the module");
@@ -49,4 +53,8 @@ fn the_opening_picture_is_there_at_once_and_the_view_takes_its_place() {
         assert_eq!(seen, motion, "{name}");
     }
     assert_eq!(visit.number("/cameras"), 2.0, "the view flew despite reduced motion");
+
+    assert_eq!(visit.text("/linked/detail"), "Opening the scene…");
+    assert_eq!(visit.seen["covered"], false, "a link opened on the picture of another scene");
+    assert_eq!(visit.scene("linked"), linked);
 }

@@ -17,7 +17,7 @@ const WINDOWS = [
 const STATES = [
   { name: "timeline", key: "t", rect: "timeline", isToggle: true },
   { name: "share", key: "j", rect: "share window" },
-  { name: "mutate", key: "m", rect: "variations", small: 8 },
+  { name: "mutate", key: "m", rect: "variations", small: 9 },
   { name: "find", key: "Control+k", rect: "find window", words: "light" },
   { name: "help", key: "Shift+?", rect: "help window" },
   { name: "compare", key: "Shift+C", rect: "compare" },

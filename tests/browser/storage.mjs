@@ -10,7 +10,13 @@ const DAMAGED = [
   (text) => text.slice(0, text.length / 2),
 ];
 
-const PERMANENT = ["mandelight.scene", "mandelight.settings", "mandelight.favourites", "mandelight.losses"];
+const PERMANENT = [
+  "mandelight.scene",
+  "mandelight.settings",
+  "mandelight.favourites",
+  "mandelight.losses",
+  "mandelight.opening",
+];
 const OF_TAB = ["mandelight.tab", "mandelight.steps"];
 
 await visit({ context: { viewport: { width: 800, height: 480 } } }, async (v) => {

@@ -140,6 +140,14 @@ export class Visit {
     await this.open();
   }
 
+  /** The final notice: the one that has the "Try again" button. */
+  finalNotice() {
+    return this.until("a notice", async () => {
+      const notice = await this.notice();
+      return notice?.again && notice;
+    }, 60);
+  }
+
   /** The notice over the page, or null while none is shown. */
   notice() {
     return this.tab.evaluate(() => {

@@ -9,7 +9,7 @@ use std::{
 
 use mandelight::{
     export::{ExportError, StillJob, StillOptions, StillStatus},
-    render::Pace,
+    render::{Pace, Region, View},
     scene::{Bloom, BloomOrder, Indirect, IndirectKind, Scene, presets},
 };
 use mandelight_test_support::{
@@ -121,6 +121,30 @@ fn a_picture_may_be_one_pixel_wide_or_high() {
         let rgb = still(&Scene::default(), options(size_px, 1, [16, 16]));
         assert_eq!(rgb.len(), (size_px[0] * size_px[1] * 3) as usize);
     }
+}
+
+#[test]
+fn edits_and_views_that_are_drawn_meanwhile_leave_a_still_as_it_was() {
+    let mut scene = Scene::default();
+    scene.tone.auto_exposure = true;
+    let start = |scene: &Scene| {
+        StillJob::new(pipelines(), scene, options([101, 67], 2, [32, 24]), Vec::new()).unwrap()
+    };
+    let whole = start(&scene).run(|_| ControlFlow::Continue(())).unwrap();
+    let mut job = start(&scene);
+    let mut view = View::new(pipelines(), Region::whole([64, 48]), Pace::Interactive);
+    let others = presets::opening_scenes();
+    let mut steps = 0;
+    while !matches!(job.step(0.0).unwrap(), StillStatus::Done { .. }) {
+        scene.fractal.set("power", 3.0 + (steps % 5) as f64);
+        let other = (others[steps % others.len()].scene)();
+        view.set_scene(if steps % 2 == 0 { &scene } else { &other }, false);
+        view.pump(0.0);
+        pipelines().gpu.wait();
+        steps += 1;
+    }
+    assert!(steps > 5, "{steps} edits");
+    assert!(job.finish().unwrap() == whole, "another file after {steps} edits");
 }
 
 #[test]
