@@ -7,6 +7,8 @@ import { Visit, visit } from "./visit.mjs";
 await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
   const scenes = (v.seen.scenes = {});
+  // Browsers ask for it where a page links no icon.
+  await v.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
   const stored = (key) => v.tab.evaluate((name) => localStorage.getItem(name) ?? "", key);
   /** How many scenes are on their way to a picture, or were when their visit ended. */
   const marks = async () => JSON.parse((await stored("mandelight.opening")) || "[]").length;

