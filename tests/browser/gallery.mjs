@@ -15,6 +15,8 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
     await page.firstPicture();
   };
 
+  const warnings = [];
+  v.tab.on("console", (message) => message.type() === "warning" && warnings.push(message.text()));
   await open("../../pictures/");
   const card = (index) => page.rested(`card ${index}`, () => page.rect(`gallery ${index}`));
   v.seen.cards = [await card(0), await card(1)];
@@ -30,6 +32,9 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   v.seen.scenes.opened = await page.changed("a card", async () => v.tab.mouse.click(...(await page.middle("gallery 0"))));
   await v.tab.mouse.click(...(await page.middle("gallery 2")));
   v.seen.missing = await page.says("missing could not be opened: its host answers 404");
+
+  v.seen.huge = await v.until("the refusal of a picture", async () =>
+    warnings.find((text) => text.includes("huge.png")), 60);
 
   await open("../../pictures/broken.json");
   v.seen.broken = await page.says("the list cannot be read");

@@ -188,9 +188,14 @@ fn a_gallery_of_the_address_is_shown_and_opened() {
     {
         let mut png = PngStream::new(Vec::new(), [48, 30], &document::to_json(scene)).unwrap();
         png.write_pixels(&rgb.repeat(48 * 30)).unwrap();
-        fs::write(folder.join(name), png.finish().unwrap()).unwrap();
+        let png = png.finish().unwrap();
+        // The same file as the header of a picture that would fill gigabytes.
+        let mut huge = png.clone();
+        huge.splice(16..24, [23_000_u32.to_be_bytes(); 2].concat());
+        fs::write(folder.join("huge.png"), huge).unwrap();
+        fs::write(folder.join(name), png).unwrap();
     }
-    let files = ["first one.png", "b.png", "missing.png"].map(str::to_owned);
+    let files = ["first one.png", "b.png", "missing.png", "huge.png"].map(str::to_owned);
     let list = Gallery::new("Two of a host", files).unwrap().to_json();
     fs::write(folder.join("gallery.json"), list).unwrap();
     fs::write(folder.join("broken.json"), "[1, 2").unwrap();
@@ -209,6 +214,8 @@ fn a_gallery_of_the_address_is_shown_and_opened() {
     for name in ["missing", "broken", "nowhere", "refused"] {
         assert_eq!(visit.seen[name], true, "{name}");
     }
+    let warned = visit.text("/huge");
+    assert!(warned.contains("huge.png could not be decoded: it has 23000 x 23000 pixels"), "{warned}");
 
     let opened = visit.scene("opened_elsewhere");
     assert_eq!(Scene { quality: second.quality.clone(), ..opened }, second);
