@@ -188,6 +188,7 @@ impl Engine {
             dispatches: self.view.dispatches(),
             frames: session.status.frames,
             small_pictures: self.small_pictures.textures().by_id.len(),
+            has_small_pictures_left: self.small_pictures.has_work(),
             ui_textures: self.context.tex_manager().read().num_allocated(),
             exported: self.exporter.progress().map(|progress| progress.done),
         };

@@ -92,6 +92,8 @@ pub struct AppStatus {
     pub frames: u64,
     /// The small pictures on the GPU.
     pub small_pictures: usize,
+    /// Whether small pictures are missing.
+    pub has_small_pictures_left: bool,
     /// egui's own textures.
     pub ui_textures: usize,
     /// The finished part of the export in progress, 0 to 1; none without one.

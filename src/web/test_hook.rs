@@ -59,6 +59,7 @@ impl TestHook {
         set(&object, "exporting", status.exported.is_some());
         set(&object, "exported", status.exported.unwrap_or(0.0));
         set(&object, "smallPictures", status.small_pictures as f64);
+        set(&object, "smallPicturesLeft", status.has_small_pictures_left);
         set(&object, "uiTextures", status.ui_textures as f64);
         set(&object, "reading", session.decoder.is_busy());
         set(&object, "memoryBytes", memory_bytes());

@@ -109,14 +109,26 @@ export class Mandelight {
     }, 60);
   }
 
-  /** Waits until the interface shows `text`, as a screen reader reads it. */
-  says(text) {
-    const isSaid = () => this.tab.evaluate((part) => {
+  /** Whether the interface shows `text`, as a screen reader reads it. */
+  isSaid(text) {
+    return this.tab.evaluate((part) => {
       const page = document.getElementById("accessible-page");
       const labels = [...page.querySelectorAll("[aria-label]")].map((it) => it.getAttribute("aria-label"));
       return [page.textContent, ...labels].some((said) => said.includes(part));
     }, text);
-    return this.visit.until(`the text ${text}`, isSaid, 60);
+  }
+
+  /** Waits until the interface shows `text`. */
+  says(text) {
+    return this.visit.until(`the text ${text}`, () => this.isSaid(text), 60);
+  }
+
+  /** Waits until the small pictures that the interface shows are there. */
+  smallPictures() {
+    return this.visit.until("the small pictures", async () => {
+      const { smallPictures, smallPicturesLeft } = await this.report();
+      return smallPictures > 0 && !smallPicturesLeft && !(await this.isSaid("Looking for places"));
+    }, PICTURE_LIMIT_SECS);
   }
 
   /** Opens the scene that a notice offers. */

@@ -12,16 +12,16 @@ const WINDOWS = [
 
 /**
  * The states of keys: a name, the key that opens it, what is there then, whether the key ends it, too, and
- * how many small pictures it shows.
+ * whether it shows small pictures of its own.
  */
 const STATES = [
   { name: "timeline", key: "t", rect: "timeline", isToggle: true },
   { name: "share", key: "j", rect: "share window" },
-  { name: "mutate", key: "m", rect: "variations", small: 9 },
+  { name: "mutate", key: "m", rect: "variations", hasPictures: true },
   { name: "find", key: "Control+k", rect: "find window", words: "light" },
   { name: "help", key: "Shift+?", rect: "help window" },
   { name: "compare", key: "Shift+C", rect: "compare" },
-  { name: "pins", key: "n", rect: "first place", small: 1 },
+  { name: "pins", key: "n", rect: "first place", hasPictures: true },
   { name: "fly", key: "f", rect: "fly keys" },
 ];
 
@@ -136,15 +136,35 @@ async function photograph(v, { viewport: { width, height }, hasTouch }) {
     await v.until("the panel to be hidden", isHidden, 60);
   }
 
-  for (const { name, key, rect, words, isToggle, small } of STATES) {
+  for (const { name, key, rect, words, isToggle, hasPictures } of STATES) {
     await v.tab.keyboard.press(key);
     await page.rested(name, () => page.rect(rect));
     if (words) await v.tab.keyboard.type(words);
-    if (small) await v.until(`${small} small pictures`, async () => (await page.report()).smallPictures >= small);
+    if (hasPictures) await page.smallPictures();
     await shootSettled(name);
     await v.tab.keyboard.press(isToggle ? key : "Escape");
     await v.until(`${name} to be gone`, async () => !(await page.rect(rect)), 60);
   }
 
   if (!hasTouch) await formula();
+
+  // What the document shows over the interface.
+  await v.tab.evaluate(() => (document.getElementById("update").hidden = false));
+  await shoot("update");
+  await v.tab.evaluate(() => {
+    document.getElementById("update").hidden = true;
+    window.mandelightNotice("Mandelight stopped because of an error in the program", "Your scene is saved.");
+  });
+  await shoot("stopped");
+
+  // One of its pictures is missing.
+  v.provoked = /404/;
+  await v.tab.goto("about:blank");
+  await v.tab.goto(`${v.address}?test&gallery=${encodeURIComponent("../../pictures/")}`);
+  await page.firstPicture();
+  await sampled(1);
+  if (await isHidden()) await click("panel toggle");
+  await page.rested("a card", () => page.rect("gallery 0"));
+  await shootSettled("gallery");
+  v.provoked = null;
 }

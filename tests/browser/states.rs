@@ -1,19 +1,25 @@
 //! The states of the interface in windows of three sizes.
 
+use std::ffi::OsString;
+
 use mandelight::scene::{document, presets};
 
-use crate::{picture::Picture, visit::Visit};
+use crate::{gallery, picture::Picture, visit::Visit};
 
 #[test]
 fn each_state_of_the_interface_fits_the_window() {
     let quaternions = presets::formulas().iter().find(|it| it.id() == "quaternion-julia");
     let mut formula = (quaternions.expect("a scene of a formula with a text").scene)();
     formula.quality.samples = 1;
-    let variables = [("MANDELIGHT_FORMULA", document::to_json(&formula))];
-    let visit = Visit::run_with("states", variables);
+    let (pictures, _) = gallery::pictures();
+    let formula = document::to_json(&formula);
+    let visit = Visit::run_with(
+        "states",
+        [("MANDELIGHT_FORMULA", OsString::from(formula)), ("MANDELIGHT_PICTURES", pictures.into())],
+    );
     let states = visit.seen["states"].as_array().unwrap();
     // Six more of the panel at the side.
-    assert_eq!(states.len(), 3 * 10 + 6);
+    assert_eq!(states.len(), 3 * 13 + 6);
     for state in states {
         let name = state["name"].as_str().unwrap();
         let size_px = [0, 1].map(|i| state["size"][i].as_u64().unwrap() as u32);
