@@ -1,7 +1,8 @@
 //! Pictures of random views against brackets from a fine march with numbers of 256 bits.
 //!
 //! `cargo test --release --test gpu random_views -- --ignored --nocapture` draws 200 other views each run and prints its
-//! seed; `MANDELIGHT_SEED` draws those of a run again, and `MANDELIGHT_VIEWS` sets their number.
+//! seed; `MANDELIGHT_SEED` draws those of a run again, and `MANDELIGHT_VIEWS` sets their number. `MANDELIGHT_VIEW=FILE`
+//! judges the scene of one file instead, such as a view that a run has stored.
 
 use std::{
     fs,
@@ -202,6 +203,12 @@ fn random_views_are_true() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse().ok());
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let seed = number("MANDELIGHT_SEED").unwrap_or(now.map_or(1, |time| time.as_micros() as u64));
+    if let Some(file) = std::env::var_os("MANDELIGHT_VIEW") {
+        let text = fs::read_to_string(&file).expect("a file");
+        let judged = judge(&document::from_json(&text).expect("a scene"), SIZE);
+        println!("{}: {judged:?}", file.display());
+        return;
+    }
     let broken = judge_views(seed | 1, number("MANDELIGHT_VIEWS").unwrap_or(200) as usize);
     assert!(broken.is_empty(), "{broken:#?}");
 }
