@@ -72,6 +72,7 @@ await visit({ context: { viewport: { width: 720, height: 420 } } }, async (v) =>
   const hide = (isHidden) => v.tab.evaluate((value) => {
     Object.defineProperty(document, "hidden", { value, configurable: true });
     document.dispatchEvent(new Event("visibilitychange"));
+    delete document.hidden;
   }, isHidden);
   await hide(true);
   v.seen.hidden = await marks();
