@@ -220,6 +220,7 @@ async function boot() {
     showLoading(loadingText, NaN);
     await pixelsFixed;
     await mandelight.start(element("mandelight"));
+    noteEnd = mandelight.note_end;
     showNotice("");
     keepOffline().catch((error) => console.warn("the page is not kept for visits offline:", error));
   } catch (error) {
@@ -235,9 +236,22 @@ async function boot() {
 /** Whether the module has shown a notice of its own, which says more than a trap's message. */
 let hasModuleNotice = false;
 
+/** Notes in the storage that the scene in view ended the program. */
+let noteEnd = () => {};
+
+/** Whether the module's code threw `error`: a trap, or a stack that is too deep. */
+const isTrap = (error) =>
+  error instanceof WebAssembly.RuntimeError ||
+  (error instanceof RangeError && Boolean(error.stack?.includes("wasm")));
+
 // A trap ends the module for good; without a notice the picture would just freeze.
 const reportTrap = (error) => {
-  if (error instanceof WebAssembly.RuntimeError && !hasModuleNotice) {
+  if (isTrap(error) && !hasModuleNotice) {
+    try {
+      noteEnd();
+    } catch {
+      // The module is beyond that.
+    }
     showNotice(
       "Mandelight stopped because of an error in the program",
       `Your scene is saved. Press “Try again” to continue.\n\n${error.message}`,

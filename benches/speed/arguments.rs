@@ -32,6 +32,9 @@ pub struct Arguments {
     /// Also write both sides' pictures as PNG files to this folder
     #[arg(long, value_name = "FOLDER")]
     pub pictures: Option<PathBuf>,
+    /// Also write the scenes of `pieces` to this folder, for benches/page/pieces.mjs
+    #[arg(long, value_name = "FOLDER")]
+    pub keep_scenes: Option<PathBuf>,
     /// Also write all results as JSON to this file, or to standard output for -
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,

@@ -201,6 +201,9 @@ fn measure_tables(
         feel.print();
         report.feel = Some(feel);
     }
+    if let Some(folder) = &arguments.keep_scenes {
+        pieces::keep_scenes(folder)?;
+    }
     if arguments.wants(pieces::NAME) {
         report.pieces = pieces::measure(pipelines, size);
         pieces::print(&report.pieces);

@@ -6,13 +6,15 @@
 //! size is that of the picture.
 
 use std::{
+    fs, io,
+    path::Path,
     sync::Arc,
     time::{Duration, Instant},
 };
 
 use mandelight::{
     render::{Pace, Pipelines, Region, View, schedule::Work, view::PieceTime},
-    scene::{EnvironmentMap, MAX_LIGHTS, Scene, param, presets},
+    scene::{EnvironmentMap, MAX_LIGHTS, Scene, document, param, presets},
 };
 use mandelight_test_support::hostile::{HostileScene, HostileScenes};
 use serde::Serialize;
@@ -90,6 +92,44 @@ impl Watched {
     }
 }
 
+/// A set of scenes of one row.
+struct Scenes {
+    name: &'static str,
+    /// The scenes by name, with the environment maps that lights are made of.
+    scenes: Vec<HostileScene>,
+}
+
+/// All sets of scenes.
+fn all_scenes() -> Vec<Scenes> {
+    let plain = |(name, scene)| HostileScene { name, scene, environment_map: None };
+    let gallery = presets::all().map(|preset| plain((preset.name.to_owned(), (preset.scene)())));
+    let mut generator = HostileScenes::new(SEED);
+    vec![
+        Scenes { name: "gallery", scenes: gallery.collect() },
+        Scenes {
+            name: "random",
+            scenes: (0..RANDOM_SCENES).map(|_| generator.next_scene()).collect(),
+        },
+        Scenes { name: "expensive", scenes: expensive_scenes().into_iter().map(plain).collect() },
+    ]
+}
+
+/// Writes all scenes to `folder` as documents, a folder for each set, numbered in order: for `benches/page/pieces.mjs`.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn keep_scenes(folder: &Path) -> io::Result<()> {
+    for Scenes { name, scenes } in all_scenes() {
+        let folder = folder.join(name);
+        fs::create_dir_all(&folder)?;
+        for (index, it) in scenes.iter().enumerate() {
+            let file = folder.join(format!("{index:02}.json"));
+            fs::write(file, document::to_json(&it.scene))?;
+        }
+    }
+    Ok(())
+}
+
 /// Measures all sets of scenes.
 pub fn measure(pipelines: &Arc<Pipelines>, size_px: Option<[u32; 2]>) -> Vec<Row> {
     let _poller = Poller::new(&pipelines.gpu);
@@ -97,28 +137,16 @@ pub fn measure(pipelines: &Arc<Pipelines>, size_px: Option<[u32; 2]>) -> Vec<Row
     let view = View::new(pipelines, region, Pace::Interactive);
     let mut watched = Watched { view, start: Instant::now() };
     watched.view.watch_piece_times(true);
-    let mut gallery = Vec::new();
-    let mut scenes = 0;
-    for preset in presets::all() {
-        gallery.extend(watched.draw(preset.name, &(preset.scene)(), None));
-        scenes += 1;
-    }
-    let mut expensive = Vec::new();
-    for (name, scene) in &expensive_scenes() {
-        expensive.extend(watched.draw(name, scene, None));
-    }
-    let mut random = Vec::new();
-    let mut generator = HostileScenes::new(SEED);
-    for _ in 0..RANDOM_SCENES {
-        let HostileScene { name, scene, environment_map } = generator.next_scene();
-        random.extend(watched.draw(&name, &scene, environment_map.as_ref()));
-    }
+    let rows = all_scenes().into_iter().map(|Scenes { name, scenes }| {
+        let mut pieces = Vec::new();
+        for HostileScene { name, scene, environment_map } in &scenes {
+            pieces.extend(watched.draw(name, scene, environment_map.as_ref()));
+        }
+        row(name, scenes.len(), pieces)
+    });
+    let rows = rows.collect();
     pipelines.gpu.wait();
-    vec![
-        row("gallery", scenes, gallery),
-        row("random", RANDOM_SCENES, random),
-        row("expensive", EXPENSIVE_POWERS.len(), expensive),
-    ]
+    rows
 }
 
 /// A view filled with surface in as many lights as there may be, all with shadows, at the finest detail and with the

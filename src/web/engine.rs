@@ -182,6 +182,9 @@ impl Engine {
             busy
         };
         self.show_gpu_errors(session);
+        if let Some(times) = &mut session.piece_times {
+            times.extend(self.view.take_piece_times());
+        }
         session.status = AppStatus {
             report: self.view.report(),
             texture: self.view.texture().cloned(),

@@ -9,7 +9,7 @@ use eframe::egui_wgpu::RenderState;
 
 use crate::{
     fractal::SharedModel,
-    render::{Activity, Pace, Pipelines, Region, Report, View},
+    render::{Activity, Pace, Pipelines, Region, Report, View, view::PieceTime},
     scene::{EnvironmentMap, Scene},
     ui,
 };
@@ -102,6 +102,13 @@ impl LiveView {
         let report = view.report();
         let is_at_rest = matches!(report.activity, Activity::Idle | Activity::Refining);
         is_at_rest && report.samples_done > 0 && !view.has_pending_scene()
+    }
+
+    /// The GPU times of the pieces of work that have finished since the last call, once this has been called.
+    pub fn take_piece_times(&mut self) -> Vec<PieceTime> {
+        let Some(view) = &mut self.view else { return Vec::new() };
+        view.watch_piece_times(true);
+        view.take_piece_times()
     }
 
     /// Compute dispatches so far.

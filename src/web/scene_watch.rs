@@ -2,11 +2,13 @@
 //! frame without end or a killed tab, the next visit offers the scene instead of opening it.
 //!
 //! In: scenes that the next visit would open, sharp pictures, the page's end. Out: the list of [`EndedScenes`]. A page
-//! that is left or hidden in good order is taken off the list, for browsers end hidden tabs at will. A visit that ends
-//! without a panic after the sharp picture is not noted: its scene opens once more, and is offered if it ends that
+//! that is left or hidden in good order is taken off the list, for browsers end hidden tabs at will. A visit that
+//! hangs or is killed after the sharp picture is not noted: its scene opens once more, and is offered if it ends that
 //! visit too. State is thread-local, since panic hooks are global.
 
 use std::cell::RefCell;
+
+use wasm_bindgen::prelude::*;
 
 use super::{
     page,
@@ -76,7 +78,8 @@ pub fn come_back() {
     });
 }
 
-/// The program has ended by a panic.
+/// The program has ended: by a panic, or by a trap, of which the page's script knows.
+#[wasm_bindgen]
 pub fn note_end() {
     update(|watch| {
         watch.has_ended = true;
