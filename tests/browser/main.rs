@@ -4,6 +4,7 @@
 //! visit leaves (observations, downloads, screenshots to look at) is in `target/browser/`.
 
 mod files;
+mod headers;
 mod loss;
 mod opening;
 mod picture;
