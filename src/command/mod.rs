@@ -44,7 +44,7 @@ mod look;
 mod output;
 mod places;
 mod render;
-mod scene;
+pub mod scene;
 mod stereo;
 mod stream;
 
@@ -69,12 +69,14 @@ pub struct CommandLine {
     /// Prints the licences of the software and fonts that this program contains
     #[arg(long)]
     licenses: bool,
+    /// What to do; none with `licenses` alone.
     #[command(subcommand)]
-    command: Option<Command>,
+    pub command: Option<Command>,
 }
 
+/// A command with its arguments.
 #[derive(Subcommand)]
-enum Command {
+pub enum Command {
     /// Renders a scene to a PNG that carries the scene
     Render(render::RenderArguments),
     /// Renders the frames of a scene's camera path to a folder of PNGs
@@ -95,7 +97,7 @@ enum Command {
 
 /// Why a command failed.
 #[derive(Debug)]
-enum Failure {
+pub enum Failure {
     /// Wrong arguments or an invalid scene: exit code 2. The same call can never succeed.
     Usage(String),
     /// A failure of the machine, such as a full disk or a lost GPU: exit code 1.
@@ -133,7 +135,7 @@ pub fn run() -> ExitCode {
     let outcome = match command {
         Command::Render(arguments) => render::run(arguments),
         Command::Frames(arguments) => frames::run(arguments),
-        Command::Scene(arguments) => scene::run(arguments),
+        Command::Scene(arguments) => scene::run(&arguments),
         Command::Formulas(arguments) => formulas::list(arguments),
         Command::Formula(arguments) => formulas::run(arguments),
         Command::Places(arguments) => places::run(arguments),

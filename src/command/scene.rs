@@ -48,17 +48,22 @@ pub struct SceneArguments {
 }
 
 /// Prints the scene document, or the list of presets or looks.
-pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
+pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
+    print(&text(arguments)?)
+}
+
+/// The scene document, or the list of presets or looks.
+pub fn text(arguments: &SceneArguments) -> Result<String, Failure> {
     if arguments.list_looks {
-        return print(&look::list());
+        return Ok(look::list());
     }
     if arguments.list_presets {
         let names: Vec<String> = presets::all().map(Preset::id).collect();
         let width = names.iter().map(String::len).max().unwrap_or(0);
         let lines = names.iter().zip(presets::all());
-        let list: String =
+        let list =
             lines.map(|(name, preset)| format!("{name:width$}  {}\n", preset.blurb)).collect();
-        return print(&list);
+        return Ok(list);
     }
     let wanted = arguments.preset.as_deref().map(Preset::id_of);
     let preset = presets::all()
@@ -79,7 +84,7 @@ pub fn run(arguments: SceneArguments) -> Result<(), Failure> {
         Some(secs) => Path::turntable(&scene, secs, Path::default().frames_per_second),
         None => Path::default(),
     };
-    print(&document::project_to_json(&Project { scene, path }))
+    Ok(document::project_to_json(&Project { scene, path }))
 }
 
 /// Parses a path's length.

@@ -4,6 +4,7 @@
 //! store, and the document of the opened view. What cannot be read of a stored list is stored again as it is.
 
 use std::{
+    collections::HashSet,
     hash::{DefaultHasher, Hash as _, Hasher as _},
     sync::Arc,
 };
@@ -88,7 +89,7 @@ pub struct Favourites {
     is_changed: bool,
     /// The list as it was last read or stored, without this tab's edits.
     known: Vec<Favourite>,
-    /// Entries of the stored list that cannot be read.
+    /// Entries of the stored list that cannot be read, or for which there is no room.
     unread: Vec<Value>,
     /// Addresses of pictures that are shown no more.
     dropped: Vec<String>,
@@ -97,16 +98,18 @@ pub struct Favourites {
 impl Favourites {
     /// The views of an earlier visit; those that cannot be read are kept for the program that can.
     ///
+    /// Views beyond [`MAX_FAVOURITES`] are kept likewise until there is room.
+    ///
     /// # Errors
     /// A text that is no list at all.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         let stored: Vec<Value> = serde_json::from_str(text)?;
-        let (mut list, mut unread) = (Vec::<Favourite>::new(), Vec::new());
+        let (mut list, mut unread, mut ids) = (Vec::new(), Vec::new(), HashSet::new());
         for entry in stored {
             match serde_json::from_value::<Favourite>(entry.clone()) {
-                Ok(favourite) if list.iter().any(|other| other.id == favourite.id) => {}
-                Ok(favourite) => list.push(favourite),
-                Err(_) => unread.push(entry),
+                Ok(favourite) if !ids.insert(favourite.id) => {}
+                Ok(favourite) if list.len() < MAX_FAVOURITES => list.push(favourite),
+                Ok(_) | Err(_) => unread.push(entry),
             }
         }
         Ok(Self { known: list.clone(), list, unread, ..Self::default() })
@@ -270,6 +273,23 @@ mod tests {
         assert_eq!(again.as_array().map(Vec::len), Some(5));
         assert_eq!(again[1]["stars"], 5);
         assert_eq!(again[4]["title"], "of another version");
+    }
+
+    #[test]
+    fn views_beyond_the_limit_stay_stored_until_there_is_room() {
+        let views: Vec<_> = (0..MAX_FAVOURITES + 3).map(|i| favourite(&format!("{i}"))).collect();
+        let twice = [&views[..], &views].concat();
+        let mut favourites =
+            Favourites::from_json(&serde_json::to_string(&twice).unwrap()).unwrap();
+        assert_eq!(favourites.list(), &views[..MAX_FAVOURITES]);
+        let stored = |favourites: &Favourites| -> Vec<Favourite> {
+            serde_json::from_str(&favourites.to_json()).unwrap()
+        };
+        assert_eq!(stored(&favourites), views, "each is stored once");
+        favourites.remove(0);
+        assert_eq!(stored(&favourites), views[1..]);
+        favourites.merge(&favourites.to_json()).unwrap();
+        assert_eq!(favourites.list(), &views[1..=MAX_FAVOURITES]);
     }
 
     #[test]

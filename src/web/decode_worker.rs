@@ -21,7 +21,9 @@ use crate::{
 };
 
 /// Most memory that the decoding of a file may take, in bytes.
-pub const MAX_MEMORY_BYTES: usize = 256 << 20;
+///
+/// No file is known to take as much: a reader takes at most 64 MiB, and the buffer of the largest document 32 MiB.
+pub const MAX_MEMORY_BYTES: usize = 128 << 20;
 
 /// Bytes of a file in memory at a time.
 const CHUNK_BYTES: u64 = 1 << 20;

@@ -31,7 +31,7 @@ extern "C" {
     fn cancel();
 }
 
-/// Seconds after which a file is given up.
+/// Seconds after which a file is given up: far more than the largest takes, for slow devices.
 const MAX_SECS: f64 = 60.0;
 
 /// A fault of the worker, for tests.

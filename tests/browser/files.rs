@@ -46,7 +46,7 @@ fn openexr() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Bytes by which the page's memory may grow beside a decoder that takes 256 MiB: texts and glyphs.
+/// Bytes by which the page's memory may grow beside a decoder that takes 128 MiB: texts and glyphs.
 const MAX_GROWTH_BYTES: f64 = (8 << 20) as f64;
 
 #[test]

@@ -1,4 +1,4 @@
-// A static host for a built folder, on a free port of 127.0.0.1.
+// A static host for a built folder, on a free port of 127.0.0.1. It sends the headers of the folder's `_headers`.
 
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
@@ -22,6 +22,23 @@ const BASE = "/shared/page/";
 const PICTURES = "/pictures/";
 
 /**
+ * The headers that a static host sends.
+ * @param {string} folder a built folder with its `_headers`
+ * @returns {Promise<(name: string) => Object<string, string>>} the headers of a file, by its path in the folder
+ */
+async function headersOf(folder) {
+  const rules = {};
+  let rule;
+  for (const line of (await readFile(join(folder, "_headers"), "utf8")).trimEnd().split("\n")) {
+    const [, header, value] = /^ +([^:]+): (.+)$/.exec(line) ?? [];
+    if (line.startsWith("/")) rule = rules[line] = {};
+    else if (header && rule) rule[header] = value;
+    else throw new Error(`_headers: "${line}" is neither a path nor a header`);
+  }
+  return (name) => ({ ...rules["/*"], ...rules[`/${name}`] });
+}
+
+/**
  * Serves `folder`, and `pictures` beside it.
  * @param {string} folder
  * @param {string} [pictures]
@@ -31,6 +48,7 @@ const PICTURES = "/pictures/";
  *   the host
  */
 export async function host(folder, pictures) {
+  const headers = await headersOf(folder);
   const requests = [];
   const state = { isDown: false, moved: {}, edits: {} };
   const server = createServer(async (request, response) => {
@@ -45,7 +63,10 @@ export async function host(folder, pictures) {
     try {
       if (!file?.startsWith(root + sep)) throw new Error("outside the folder");
       const body = await readFile(file);
-      response.writeHead(200, { "Content-Type": MIME[extname(file)] ?? "application/octet-stream" });
+      response.writeHead(200, {
+        "Content-Type": MIME[extname(file)] ?? "application/octet-stream",
+        ...(isPicture ? {} : headers(name)),
+      });
       response.end(state.edits[name]?.(body.toString()) ?? body);
     } catch {
       response.writeHead(404).end("no such file\n");

@@ -7,6 +7,7 @@ mod ended;
 mod files;
 mod formats;
 mod gallery;
+mod headers;
 mod loss;
 mod missing;
 mod opening;

@@ -143,16 +143,15 @@ export class Mandelight {
     return this.tab.evaluate((widget) => window.mandelight.uiRects()[widget] ?? null, name);
   }
 
-  /** The middle of a widget at rest, in CSS pixels. A row that holds it aside of the window scrolls to it first. */
+  /** The middle of a widget at rest, in CSS pixels. A row that has it partly aside of the window scrolls to it first. */
   async middle(name) {
     for (;;) {
       const { x, y, width, height } = await this.rested(`the widget ${name}`, () => this.rect(name));
       const middle = [x + width / 2, y + height / 2];
       const window = this.tab.viewportSize();
-      const aside = middle[0] - window.width / 2;
-      if (Math.abs(aside) < window.width / 2) return middle;
+      if (x > -1 && x + width < window.width + 1) return middle;
       await this.tab.mouse.move(window.width / 2, middle[1]);
-      await this.tab.mouse.wheel(0, aside);
+      await this.tab.mouse.wheel(0, middle[0] - window.width / 2);
       await this.visit.until("the row to scroll", async () => (await this.rect(name)).x !== x, 60);
     }
   }

@@ -22,7 +22,9 @@ await visit({ context: { viewport: { width: 480, height: 320 } } }, async (v) =>
     return isControlled && seen.files > 5 && seen;
   });
 
-  // Without the host, the page opens and draws.
+  // Without the host and without the browser's own cache, the page opens and draws.
+  const devtools = await v.context.newCDPSession(v.tab);
+  await devtools.send("Network.clearBrowserCache");
   v.server.isDown = true;
   await v.tab.reload();
   await page.firstPicture();

@@ -19,7 +19,7 @@ use std::{
 use cap::Cap;
 use fastrand::Rng;
 use mandelight_fuzzing::{
-    FuzzTarget, Outcome, TARGETS,
+    FuzzTarget, Outcome, TARGETS, long_arguments,
     meter::{Allocations, MAX_HELD_BYTES, measured},
     mutated,
 };
@@ -192,6 +192,22 @@ macro_rules! targets {
 
 targets! {
     document link formula png jpeg webp openexr radiance gradient gallery command_line
+}
+
+#[test]
+fn every_argument_of_the_command_line_is_in_a_seed() {
+    let _alone = alone();
+    let seeds = (mandelight_fuzzing::target("command_line").seeds)();
+    let lines: BTreeSet<String> = seeds
+        .iter()
+        .flat_map(|seed| {
+            String::from_utf8_lossy(seed).lines().map(str::to_owned).collect::<Vec<_>>()
+        })
+        .collect();
+    let arguments = long_arguments();
+    assert!(arguments.len() > 30 && arguments.contains("--size"), "{arguments:?}");
+    let missing: Vec<_> = arguments.difference(&lines).collect();
+    assert!(missing.is_empty(), "in no seed: {missing:?}");
 }
 
 /// The corpus is small, and each of its folders belongs to a target that the fuzzer has too.

@@ -12,7 +12,7 @@ use mandelight::{
 use super::{alone, measured};
 
 /// A document with this text in place of its scene and path.
-fn document(scene: &str, path: &str) -> String {
+pub fn document(scene: &str, path: &str) -> String {
     format!("{{\"mandelight\":\"scene\",\"version\":2,\"scene\":{scene},\"path\":{path}}}")
 }
 
@@ -23,7 +23,7 @@ fn filled(first: &str, entry: &str) -> String {
 }
 
 /// The longest light: 90 digits in each coordinate.
-fn long_light() -> String {
+pub fn long_light() -> String {
     let digits = format!("\"0.{}\"", "1".repeat(89));
     format!("{{\"position\":[{digits},{digits},{digits}]}}")
 }

@@ -3,6 +3,7 @@
 //! The files under attack are generated here: each is as long as its limits allow, or longer.
 
 mod documents;
+mod growth;
 mod pictures;
 
 use std::{
@@ -37,5 +38,6 @@ fn measured<T>(_alone: &MutexGuard<'_, ()>, read: impl FnOnce() -> T) -> (T, usi
     set_limit(ALLOCATOR.allocated() + MAX_BYTES);
     let result = read();
     set_limit(usize::MAX);
-    (result, ALLOCATOR.total_allocated() - before)
+    // On 32 bits the sum starts again after 4 GiB.
+    (result, ALLOCATOR.total_allocated().wrapping_sub(before))
 }

@@ -59,19 +59,78 @@ fn declared_sizes_allocate_at_most_a_map() {
 }
 
 /// The largest Radiance picture, each row a pixel and its repetitions.
-#[test]
-fn the_largest_radiance_picture_is_read_row_by_row() {
-    let alone = alone();
+pub fn largest_radiance() -> Vec<u8> {
     let mut bytes = b"#?RADIANCE\n\n-Y 4096 +X 8192\n".to_vec();
     // 1 + 255 + 31 · 256 pixels.
     bytes.extend([9, 8, 7, 130, 1, 1, 1, 255, 1, 1, 1, 31].repeat(4096));
+    bytes
+}
+
+#[test]
+fn the_largest_radiance_picture_is_read_row_by_row() {
+    let alone = alone();
+    let bytes = largest_radiance();
     let (result, total) = measured(&alone, || decode("a", &bytes));
     assert_eq!(result.expect("a picture").size_px(), [2048, 1024]);
     // Each row allocates a short list of its own.
     assert!(total < 2 * MAP_BYTES, "{total} bytes");
 }
 
-fn exr_file(size: [usize; 2], compression: Compression) -> Vec<u8> {
+/// The header of an OpenEXR file of rows, uncompressed, with channels of 32 bits.
+pub fn exr_header([width, height]: [u32; 2], channels: usize) -> Vec<u8> {
+    let mut list = Vec::new();
+    for index in 0..channels {
+        let name =
+            ["B", "G", "R"].get(index).map_or(format!("a{index}"), |name| (*name).to_owned());
+        list.extend([name.as_bytes(), b"\0\x02\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0"].concat());
+    }
+    list.push(0);
+    let window = [0, 0, width - 1, height - 1].map(u32::to_le_bytes).concat();
+    let mut header = b"\x76\x2f\x31\x01\x02\0\0\0".to_vec();
+    for (name, kind, value) in [
+        ("channels", "chlist", &list),
+        ("compression", "compression", &vec![0]),
+        ("dataWindow", "box2i", &window),
+    ] {
+        let size = (value.len() as u32).to_le_bytes();
+        header.extend([name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &size, value].concat());
+    }
+    header.push(0);
+    header
+}
+
+/// An OpenEXR file as of [`exr_header`]. Where blocks overlap, all of their headers precede the pixels of the last.
+pub fn exr_rows(size_px: [u32; 2], channels: usize, blocks_overlap: bool) -> Vec<u8> {
+    let [width, height] = size_px;
+    let row_bytes = 4 * width * channels as u32;
+    let mut bytes = exr_header(size_px, channels);
+    let first = bytes.len() as u64 + 8 * u64::from(height);
+    let step = if blocks_overlap { 8 } else { 8 + u64::from(row_bytes) };
+    bytes.extend((0..u64::from(height)).flat_map(|row| (first + row * step).to_le_bytes()));
+    for row in 0..height {
+        bytes.extend([row, row_bytes].map(u32::to_le_bytes).concat());
+        if !blocks_overlap || row + 1 == height {
+            bytes.resize(bytes.len() + row_bytes as usize, 0);
+        }
+    }
+    bytes
+}
+
+/// With 64 channels, blocks within their limit would be 8 GiB in all.
+#[test]
+fn too_many_bytes_of_pixels_are_refused_by_the_header() {
+    let alone = alone();
+    for (channels, part) in [(5, "the pixels have 671088640 bytes unpacked"), (4, "the file ends")]
+    {
+        let bytes = exr_header([8192, 4096], channels);
+        let (result, total) = measured(&alone, || decode("a", &bytes));
+        let error = result.expect_err("refused").to_string();
+        assert!(error.contains(part), "{error}");
+        assert!(total < 1 << 20, "{error}: {total} bytes");
+    }
+}
+
+pub fn exr_file(size: [usize; 2], compression: Compression) -> Vec<u8> {
     let noise = |at: Vec2<usize>, k: usize| {
         let index = (at.0 * 7919 + at.1 * 104_729 + k * 1_299_709) as u64;
         let bits = index.wrapping_mul(0x9e37_79b9_7f4a_7c15);

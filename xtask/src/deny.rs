@@ -40,7 +40,11 @@ pub fn packages() -> Result<()> {
 
 /// Checks the packages' security advisories; fails if the database cannot be fetched.
 pub fn advisories() -> Result<()> {
-    shell::run(check()?.arg("advisories"))
+    shell::run(check()?.arg("advisories"))?;
+    // The fuzzer is a workspace of its own.
+    let mut fuzzer = Command::new(program()?);
+    fuzzer.current_dir(shell::root()?).args(["--locked", "--manifest-path", "fuzz/Cargo.toml"]);
+    shell::run(fuzzer.args(["check", "advisories"]))
 }
 
 /// Checks the packages' security advisories, or says in one line that the database is out of reach.
@@ -52,7 +56,7 @@ pub fn advisories_if_reachable() -> Result<()> {
     Ok(())
 }
 
-/// The beginning of a cargo-deny command over the whole workspace.
+/// The beginning of a cargo-deny command over the whole workspace, which leaves out the fuzzer.
 fn check() -> Result<Command> {
     let mut check = Command::new(program()?);
     check.current_dir(shell::root()?).args(["--locked", "--workspace", "check"]);
@@ -116,7 +120,36 @@ fn program() -> Result<PathBuf> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+
+    /// Licences and origins of the fuzzer's other packages are those of the workspace, which cargo-deny checks.
+    #[test]
+    fn the_fuzzer_adds_two_packages_of_the_same_registry() {
+        let packages = |lock: &str| -> BTreeSet<[String; 4]> {
+            let lock: toml::Table = lock.parse().unwrap();
+            let text = |package: &toml::Value, field| {
+                package.get(field).and_then(toml::Value::as_str).unwrap_or_default().to_owned()
+            };
+            let fields = |package| {
+                ["name", "version", "source", "checksum"].map(|field| text(package, field))
+            };
+            lock["package"].as_array().unwrap().iter().map(fields).collect()
+        };
+        let workspace = packages(include_str!("../../Cargo.lock"));
+        let fuzzer = packages(include_str!("../../fuzz/Cargo.lock"));
+        let registry = &workspace.iter().find(|package| package[0] == "serde").unwrap()[2];
+        let added: Vec<_> = fuzzer.difference(&workspace).collect();
+        let origins: Vec<_> =
+            added.iter().map(|[name, _, source, _]| (&**name, &**source)).collect();
+        assert_eq!(
+            origins,
+            [("arbitrary", &**registry), ("libfuzzer-sys", registry), ("mandelight-fuzz", "")],
+            "after a change of packages, copy Cargo.lock to fuzz/ and run `cargo update --workspace` there"
+        );
+        assert!(added[..2].iter().all(|package| package[3].len() == 64), "hashes");
+    }
 
     #[test]
     fn the_list_of_files_is_that_of_the_version() {

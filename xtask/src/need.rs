@@ -178,7 +178,11 @@ pub fn node_packages() -> Result<()> {
         return Ok(());
     }
     let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
-    shell::run(Command::new(npm).args(["ci", "--no-fund", "--no-audit"]).current_dir(&root))?;
+    shell::run(
+        Command::new(npm)
+            .args(["ci", "--no-fund", "--no-audit", "--ignore-scripts"])
+            .current_dir(&root),
+    )?;
     fs::write(&installed, lock).with_context(|| installed.display().to_string())
 }
 

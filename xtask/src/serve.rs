@@ -212,7 +212,8 @@ mod tests {
         write!(stream, "GET / HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n").unwrap();
         let mut answer = String::new();
         stream.read_to_string(&mut answer).unwrap();
-        for (name, value) in headers::ALL {
+        let document = [("Cache-Control", "no-cache")];
+        for (name, value) in headers::ALL.into_iter().chain(document) {
             assert!(answer.contains(&format!("{name}: {value}\r\n")), "{name}: {answer}");
         }
     }

@@ -18,7 +18,7 @@ use error::unreadable;
 mod tests;
 
 pub use error::{DecodeError, MAX_FILE_BYTES, MAX_SOURCE_PIXELS, MAX_SOURCE_PX};
-pub use openexr::{MAX_BLOCK_BYTES, MAX_BLOCKS, MAX_CHANNELS, MIN_TILE_PX};
+pub use openexr::{MAX_BLOCK_BYTES, MAX_BLOCKS, MAX_CHANNELS, MAX_PIXEL_BYTES, MIN_TILE_PX};
 pub use radiance::MAX_HEADER_BYTES;
 
 const RADIANCE_SIGNATURE: &[u8] = b"#?";

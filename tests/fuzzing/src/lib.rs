@@ -29,6 +29,7 @@ mod png;
 mod radiance;
 mod webp;
 
+pub use command_line::long_arguments;
 pub use mutate::{InputFormat, mutated};
 pub use openexr::COMPRESSIONS as OPENEXR_COMPRESSIONS;
 

@@ -16,7 +16,7 @@ use std::io::{Read, Seek};
 use super::error::DecodeError;
 use crate::{reading::source::Source, scene::environment_map::downsample::Downsampler};
 
-pub use blocks::{MAX_BLOCK_BYTES, MAX_BLOCKS, MIN_TILE_PX};
+pub use blocks::{MAX_BLOCK_BYTES, MAX_BLOCKS, MAX_PIXEL_BYTES, MIN_TILE_PX};
 pub use header::MAX_CHANNELS;
 
 /// Reads the largest level of the first part with the channels R, G and B.

@@ -340,3 +340,21 @@ fn sizes_within_dwa_blocks_are_checked() {
         }
     }
 }
+
+#[test]
+fn the_documentation_has_the_limits() {
+    let text = include_str!("../../../../docs/scene.md");
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let [width, height] = [MAX_SOURCE_PX[0], MAX_SOURCE_PIXELS as u32 / MAX_SOURCE_PX[0]];
+    for limit in [
+        format!("at most {width} × {height} pixels and {} MiB", MAX_FILE_BYTES >> 20),
+        format!("at most {} KiB", MAX_HEADER_BYTES >> 10),
+        format!("at most {MAX_CHANNELS} channels"),
+        format!("{MAX_ATTRIBUTES} attributes"),
+        format!("{MAX_BLOCKS} blocks of {} MiB", MAX_BLOCK_BYTES >> 20),
+        format!("at most {} MiB unpacked", MAX_PIXEL_BYTES >> 20),
+        format!("tiles at least {MIN_TILE_PX} × {MIN_TILE_PX} pixels"),
+    ] {
+        assert!(text.contains(&limit), "docs/scene.md does not say {limit}");
+    }
+}

@@ -28,6 +28,8 @@ use crate::MAX_INPUT_BYTES;
 pub enum InputFormat {
     /// Words, numbers and lines.
     Words,
+    /// Lines, each an argument.
+    Arguments,
     /// JSON values.
     Json,
     /// Deflated JSON as base64.
@@ -51,6 +53,7 @@ pub fn mutated(format: InputFormat, rng: &mut Rng, input: &[u8], other: &[u8]) -
     } else {
         match format {
             InputFormat::Words => words::mutated(rng, input, other),
+            InputFormat::Arguments => arguments(rng, input, other),
             InputFormat::Json => json::mutated(rng, input, other),
             InputFormat::Link => link(rng, input, other),
             InputFormat::Png => pictures::png(rng, input, other),
@@ -62,6 +65,19 @@ pub fn mutated(format: InputFormat, rng: &mut Rng, input: &[u8], other: &[u8]) -
     };
     changed.truncate(MAX_INPUT_BYTES);
     changed
+}
+
+/// Arguments in another order, more or fewer, or with a word changed.
+fn arguments(rng: &mut Rng, input: &[u8], other: &[u8]) -> Vec<u8> {
+    if rng.bool() {
+        return words::mutated(rng, input, other);
+    }
+    let lines = |text: &'_ [u8]| text.split(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
+    let (mut list, others): (Vec<Vec<u8>>, Vec<_>) = (lines(input), lines(other));
+    for _ in 0..few(rng) {
+        reordered(rng, &mut list, &others);
+    }
+    list.join(&b'\n')
 }
 
 /// A link whose JSON is changed.

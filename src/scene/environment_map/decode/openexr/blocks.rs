@@ -20,7 +20,7 @@ use super::header::Part;
 use crate::{
     reading::source::Source,
     scene::environment_map::{
-        decode::error::{DecodeError, unreadable},
+        decode::error::{DecodeError, MAX_SOURCE_PIXELS, unreadable},
         downsample::Downsampler,
     },
 };
@@ -31,6 +31,8 @@ pub const MAX_BLOCKS: u64 = 8192;
 pub const MIN_TILE_PX: u32 = 32;
 /// Most bytes of a block's pixels.
 pub const MAX_BLOCK_BYTES: u64 = 8 << 20;
+/// Most bytes of all pixels together: those of the largest picture with four channels of 32 bits.
+pub const MAX_PIXEL_BYTES: u64 = 16 * MAX_SOURCE_PIXELS;
 
 /// Reads the part's pixels.
 pub fn read(file: &mut Source<impl Read + Seek>, part: &Part) -> Result<Downsampler, DecodeError> {
@@ -40,6 +42,7 @@ pub fn read(file: &mut Source<impl Read + Seek>, part: &Part) -> Result<Downsamp
     let table = file.bytes(8 * count as usize, "the table of offsets")?;
     let mut downsampler = Downsampler::new(part.size_px);
     let mut block = BlockReader { part, header: None };
+    let mut packed_bytes = 0;
     for (index, offset) in (0..).zip(table.chunks_exact(8)) {
         let offset = offset.try_into().map_or(0, u64::from_le_bytes);
         if offset == 0 {
@@ -48,6 +51,11 @@ pub fn read(file: &mut Source<impl Read + Seek>, part: &Part) -> Result<Downsamp
         file.go_to(offset, "a block of pixels")?;
         let [column, row] = [index % layout.count[0], index / layout.count[0]];
         let bytes = layout.packed(file, part, [column, row])?;
+        packed_bytes += bytes.len() as u64;
+        // Otherwise a short file could contain the same bytes in thousands of blocks.
+        if packed_bytes > file.length() {
+            return Err(unreadable("blocks of pixels overlap"));
+        }
         let position = [column as u32 * layout.block_px[0], row as u32 * layout.block_px[1]];
         let size = std::array::from_fn(|i| layout.block_px[i].min(part.size_px[i] - position[i]));
         block.read(bytes, position, size, &mut downsampler)?;
@@ -85,6 +93,13 @@ impl Layout {
         }
         let sizes = part.channels.iter().map(|channel| channel.sample_type.bytes_per_sample());
         let pixel_bytes = sizes.sum::<usize>() as u64;
+        let all_bytes = part.size_px.map(u64::from).iter().product::<u64>() * pixel_bytes;
+        if all_bytes > MAX_PIXEL_BYTES {
+            return Err(unreadable(format!(
+                "the pixels have {all_bytes} bytes unpacked, and at most {MAX_PIXEL_BYTES} are read: save the picture \
+                 with R, G and B alone"
+            )));
+        }
         let block_bytes = block_px.map(u64::from).iter().product::<u64>() * pixel_bytes;
         if block_bytes > MAX_BLOCK_BYTES {
             return Err(unreadable(format!(
